@@ -1,0 +1,1 @@
+"""Kinematics, harmonics, phasors and inertia: numpy in, numpy out."""

@@ -1,0 +1,44 @@
+"""The errors a user can cause, and the exit codes."""
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import IntEnum
+
+
+class Exit(IntEnum):
+    """Exit statuses of every command."""
+
+    DONE = 0
+    DIFFERENCE = 1
+    BAD_INPUT = 2
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One mistake: where in the file (`rod.length`, `shaft.2.ratio`; empty: the file as a whole) and what would be right."""
+
+    path: str
+    message: str
+
+    def __str__(self) -> str:
+        return f"{self.path}: {self.message}" if self.path else self.message
+
+
+class BalcliError(Exception):
+    """Anything a user can mend; `cli.py` prints its text and exits with status 2."""
+
+
+class InputError(BalcliError):
+    """All mistakes of one input file at once."""
+
+    def __init__(self, problems: Iterable[Problem], file: str = "") -> None:
+        self.problems = tuple(problems)
+        self.file = file
+        super().__init__(file, self.problems)
+
+    def __str__(self) -> str:
+        head = self.file or "engine"
+        if len(self.problems) == 1:
+            return f"{head}: {self.problems[0]}"
+        return "\n".join([f"{head}: {len(self.problems)} mistakes", *(f"  {p}" for p in self.problems)])
