@@ -1,0 +1,123 @@
+"""The closed forms against mpmath with 50 digits, where every difference is taken as it stands."""
+from __future__ import annotations
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+from balcli.core import slidercrank as sc
+
+RELATIVE = 1e-14
+LAMBDAS = [1e-12, 1e-6, 0.01, 0.2, 0.2632, 0.3, 1 / 3, 0.5, 0.75, 0.9, 0.99, 0.999]
+TINY = [1e-150, 1e-12, 1e-9, 1e-6, 1e-4, 1e-3, 0.01]
+ANGLES = np.concatenate([
+    np.radians(np.arange(-180.0, 541.0, 7.5)), TINY, -np.array(TINY), np.pi - np.array(TINY), np.pi / 2 + np.array(TINY),
+])
+OFFSETS = [(0.28, 0.01), (0.3, -0.05), (0.5, 0.3), (0.25, 0.74)]
+
+
+@pytest.fixture(autouse=True)
+def digits():
+    with mp.workdps(50):
+        yield
+
+
+def s(psi, lam, eps):
+    return mp.cos(psi) + mp.sqrt(1 - (lam * mp.sin(psi) - eps) ** 2) / lam
+
+
+def rod(psi, lam, eps):
+    sine = lam * mp.sin(psi) - eps
+    return sine, mp.sqrt(1 - sine**2)
+
+
+def oracle(name, psi, lam, eps=0.0):
+    """The textbook form, evaluated with 50 digits at exactly the given floating-point arguments."""
+    if abs(psi) < mp.mpf(10) ** -20:
+        mp.mp.dps = 400
+    psi, lam, eps = mp.mpf(float(psi)), mp.mpf(float(lam)), mp.mpf(float(eps))
+    sine, cosine = rod(psi, lam, eps)
+    rate = lam * mp.cos(psi) / cosine
+    return {
+        "displacement": lambda: mp.sqrt((1 + 1 / lam) ** 2 - (eps / lam) ** 2) - s(psi, lam, eps),
+        "velocity": lambda: mp.sin(psi) + mp.cos(psi) * sine / cosine,
+        "acceleration": lambda: mp.cos(psi) - mp.sin(psi) * sine / cosine + lam * mp.cos(psi) ** 2 / cosine**3,
+        "rod_rate": lambda: rate,
+        "rod_acceleration": lambda: -lam * mp.sin(psi) / cosine + rate**2 * sine / cosine,
+    }[name]()
+
+
+@pytest.mark.parametrize("name", ["displacement", "velocity", "rod_rate", "rod_acceleration"])
+@pytest.mark.parametrize("lam", LAMBDAS)
+def test_centred_is_accurate_relative_to_its_value_at_every_angle(name, lam):
+    for psi, got in zip(ANGLES, getattr(sc, name)(ANGLES, lam), strict=True):
+        want = oracle(name, psi, lam)
+        assert abs(mp.mpf(float(got)) - want) <= RELATIVE * abs(want), (psi, got)
+
+
+@pytest.mark.parametrize("lam", LAMBDAS)
+def test_centred_acceleration_is_accurate_relative_to_its_value_except_at_its_zeros(lam):
+    """Near a zero the absolute error stays below 1e-14; everywhere else the relative one."""
+    for psi, got in zip(ANGLES, sc.acceleration(ANGLES, lam), strict=True):
+        want = oracle("acceleration", psi, lam)
+        error = abs(mp.mpf(float(got)) - want)
+        assert error <= RELATIVE * abs(want) or (error < 1e-14 and abs(want) < 0.1 * lam), (psi, got)
+
+
+def test_acceleration_at_the_lower_dead_centre_of_a_nearly_equal_rod_and_crank():
+    """Exactly -(1 - lambda): the difference of two numbers near 1."""
+    assert sc.acceleration(np.pi, 0.999) == pytest.approx(-(1 - 0.999), rel=RELATIVE)
+
+
+@pytest.mark.parametrize("name", ["displacement", "velocity", "acceleration", "rod_rate", "rod_acceleration"])
+@pytest.mark.parametrize(("lam", "eps"), OFFSETS)
+def test_offset(name, lam, eps):
+    psi = np.radians(np.arange(0.0, 360.0, 7.5))
+    for angle, got in zip(psi, getattr(sc, name)(psi, lam, eps), strict=True):
+        want = oracle(name, angle, lam, eps)
+        assert abs(mp.mpf(float(got)) - want) <= 1e-15 * (1 + abs(want)) * 10, (angle, got)
+
+
+@pytest.mark.parametrize(("lam", "eps"), OFFSETS)
+@pytest.mark.parametrize("delta", [1e-3, 1e-2])
+def test_offset_travel_near_its_own_top_dead_centre(lam, eps, delta):
+    """tau itself is good to an ulp, so the travel, which grows as (psi - tau)^2, is good to 2 ulp / delta."""
+    tau = np.arcsin(eps / (1 + lam))
+    got = sc.displacement(tau + delta, lam, eps)
+    want = oracle("displacement", tau + delta, lam, eps)
+    assert abs(mp.mpf(float(got)) - want) <= 1e-15 / delta * want
+
+
+def test_offset_velocity_vanishes_at_both_dead_centres():
+    lam, eps = 0.3, 0.1
+    top, bottom = np.arcsin(eps / (1 + lam)), np.pi + np.arcsin(eps / (1 - lam))
+    assert np.abs(sc.velocity([top, bottom], lam, eps)).max() < 1e-15
+
+
+def test_arguments_broadcast():
+    psi, lam, eps = np.zeros((5, 1, 1)), np.full((4, 1), 0.3), np.zeros(3)
+    sine, cosine = sc.rod_angle(psi, lam, eps)
+    assert sine.shape == cosine.shape == sc.displacement(psi, lam, eps).shape == (5, 4, 3)
+    assert sc.acceleration(0.0, 0.25) == 1.25
+
+
+@pytest.mark.parametrize("lam", [0.05, 0.2, 0.32, 0.5, 0.9])
+def test_two_term_errors_are_the_largest_over_a_revolution(lam):
+    psi = np.radians(np.arange(0.0, 360.0, 0.01))
+    for name, bound in sc.two_term_errors(lam)._asdict().items():
+        sampled = np.abs(getattr(sc, name)(psi, lam) - getattr(sc, f"{name}_two_term")(psi, lam)).max()
+        assert bound * (1 - 1e-6) <= sampled <= bound + 1e-15, name
+
+
+@pytest.mark.parametrize("lam", [1e-6, 0.1, 0.25, 1 / 3, 0.6, 0.9, 0.99])
+def test_the_fastest_point(lam):
+    psi, value = sc.fastest(lam)
+    assert abs(sc.acceleration(psi, lam)) < 1e-14
+    assert value == pytest.approx(sc.velocity(np.linspace(0, np.pi, 20001), lam).max(), rel=1e-6)
+
+
+@pytest.mark.parametrize("lam", [1e-6, 0.25, 1 / 3, 0.9])
+def test_the_fastest_point_of_the_two_term_form(lam):
+    psi, value = sc.fastest_two_term(lam)
+    assert abs(sc.acceleration_two_term(psi, lam)) < 1e-15
+    assert value == sc.velocity_two_term(psi, lam)
