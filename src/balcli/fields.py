@@ -107,8 +107,7 @@ class Number(_Field):
             raise ValueError(f"{shorten(value)} is too large a number; {wanted(self.dimension)}") from None
 
     def json(self) -> dict[str, Any]:
-        bounds = {"exclusiveMinimum": self.above, "minimum": self.least, "exclusiveMaximum": self.below,
-                  "maximum": None if math.isinf(self.most) else self.most}
+        bounds = {"exclusiveMinimum": self.above, "minimum": self.least, "exclusiveMaximum": self.below}
         limits = {key: bound for key, bound in bounds.items() if bound is not None}
         if self.dimension is PLAIN:
             return {"type": "number", **limits}
