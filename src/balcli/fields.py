@@ -1,10 +1,9 @@
-"""The figures of an engine file as pydantic types: how one is read, which are refused in which words, and its JSON schema."""
+"""The figures of an engine file as pydantic types: how one is read, how refused, and its JSON schema."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
 from .units import PLAIN, Dimension, convert, wanted
@@ -33,6 +32,14 @@ def shorten(value: object) -> str:
         text = f"[{items}{', ...' if len(value) > 8 else ''}]"
         return text if len(text) <= SHOWN else f"a list of {len(value)}"
     return f"{value:.15g}" if isinstance(value, float) else str(value)[:SHOWN]
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """The known word that was probably meant; empty if none is near."""
+    from difflib import get_close_matches
+
+    near = get_close_matches(word.lower(), list(known), 1) if len(word) < 100 else []
+    return near[0] if near else ""
 
 
 class _Field:
@@ -67,18 +74,24 @@ class Number(_Field):
         number = self._number(value)
         if not math.isfinite(number):
             raise ValueError(f"{shorten(value)} is no finite number; {wanted(self.dimension)}")
-        least = -self.most if self.least is None and self.above is None else self.least
-        if self.above is not None and number <= self.above:
-            raise ValueError(f"{shorten(value)} is not above {self.above:g}; {wanted(self.dimension)}, above {self.above:g}")
-        if least is not None and number < least:
-            raise ValueError(f"{shorten(value)} is less than {least:g}; {wanted(self.dimension)}, {least:g} or more")
-        if self.above == 0 and number < TINY:
-            raise ValueError(f"{shorten(value)} is too small; {wanted(self.dimension)}, at least {TINY:g}")
-        if self.below is not None and number >= self.below:
-            raise ValueError(f"{shorten(value)} is not below {self.below:g}; {wanted(self.dimension)}, below {self.below:g}")
-        if number > self.most:
-            raise ValueError(f"{shorten(value)} is more than {self.most:g}; {wanted(self.dimension)}, up to {self.most:g}")
+        if fault := self._fault(number):
+            raise ValueError(f"{shorten(value)} is {fault[0]}; {wanted(self.dimension)}, {fault[1]}")
         return number
+
+    def _fault(self, number: float) -> tuple[str, str] | None:
+        """How a number is out of bounds, and what bounds it has; None if it is within."""
+        least = -self.most if self.least is None else self.least
+        if self.above is not None and number <= self.above:
+            return f"not above {self.above:g}", f"above {self.above:g}"
+        if self.above == 0 and number < TINY:
+            return "too small", f"at least {TINY:g}"
+        if number < least:
+            return f"less than {least:g}", f"{least:g} or more"
+        if self.below is not None and number >= self.below:
+            return f"not below {self.below:g}", f"below {self.below:g}"
+        if number > self.most:
+            return f"more than {self.most:g}", f"up to {self.most:g}"
+        return None
 
     def _number(self, value: object) -> float:
         if isinstance(value, str):
@@ -94,8 +107,7 @@ class Number(_Field):
             raise ValueError(f"{shorten(value)} is too large a number; {wanted(self.dimension)}") from None
 
     def json(self) -> dict[str, Any]:
-        bounds = {"exclusiveMinimum": self.above, "minimum": self.least, "exclusiveMaximum": self.below,
-                  "maximum": None if math.isinf(self.most) else self.most}
+        bounds = {"exclusiveMinimum": self.above, "minimum": self.least, "exclusiveMaximum": self.below}
         limits = {key: bound for key, bound in bounds.items() if bound is not None}
         if self.dimension is PLAIN:
             return {"type": "number", **limits}
@@ -136,8 +148,8 @@ class OneOf(_Field):
         for option in self.options:
             if type(value) is not bool and value == option:
                 return option
-        near = get_close_matches(value, [str(o) for o in self.options], 1) if isinstance(value, str) and len(value) < 100 else []
-        hint = f"; did you mean {near[0]}?" if near else ""
+        near = nearest(value, [str(o) for o in self.options]) if isinstance(value, str) else ""
+        hint = f"; did you mean {near}?" if near else ""
         raise ValueError(f"{shorten(value)} is not {' or '.join(map(shorten, self.options))}{hint}")
 
     def json(self) -> dict[str, Any]:

@@ -1,18 +1,18 @@
-"""What an engine file may say: one pydantic table per part, in the units of the file (mm, kg, degrees, rpm, kg mm^2, g mm, s).
+"""What an engine file may say: one pydantic table per part, in its units (mm, kg, degrees, rpm, kg mm^2, g mm, s).
 
-The tables check and never derive: what follows from the figures (rod length from its ratio, inertia from a pendulum) is the
-business of `engine.py`. A validator is built only for a table that a file has.
+The tables check and never derive: what follows from the figures (rod length from its ratio, inertia from a pendulum) is
+the business of `engine.py`. A validator is built only for a table that a file has.
 """
 from __future__ import annotations
 
 import math
-from collections import Counter
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterator
 from itertools import chain
-from typing import Annotated, ClassVar, Literal, NamedTuple
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from .choices import Choice, repeated
 from .fields import Number, OneOf, Whole
 from .units import ANGLE, INERTIA, LENGTH, MASS, PLAIN, SPEED, TIME, UNBALANCE
 
@@ -34,43 +34,12 @@ RodRatio = Annotated[float, Number(PLAIN, above=0, below=1)]
 Share = Annotated[float, Number(PLAIN, least=-1, most=1)]
 Count = Annotated[int, Whole(least=1, most=MOST)]
 ShaftRatio = Annotated[int, Whole(least=-1000, most=1000, zero=False)]
+Angles = Annotated[tuple[Angle, ...], Field(min_length=1, max_length=MOST)]
+Lengths = Annotated[tuple[Length, ...], Field(min_length=1, max_length=MOST)]
+Intervals = Annotated[tuple[Interval, ...], Field(min_length=1, max_length=MOST)]
+Numbers = Annotated[tuple[Count, ...], Field(min_length=1, max_length=MOST)]
 Place = Annotated[tuple[Length, ...], Field(min_length=2, max_length=2)]
 Point = Annotated[tuple[Length, ...], Field(min_length=3, max_length=3)]
-
-
-class Choice(NamedTuple):
-    """Keys of which only one group may be given; `needs` names the groups of which one must be complete."""
-
-    groups: tuple[tuple[str, ...], ...]
-    required: bool = False
-    complete: bool = False       # a group that is begun must be finished
-
-    def mistakes(self, given: Collection[str]) -> Iterator[str]:
-        begun = [[key for key in group if key in given] for group in self.groups]
-        chosen = [keys for keys in begun if keys]
-        if len(chosen) > 1:
-            yield f"has {_words([k for keys in chosen for k in keys])}; give {self.text()}"
-        elif not chosen and self.required:
-            yield f"has neither {' nor '.join(_words(group) for group in self.groups)}; give {self.text()}"
-        elif chosen and self.complete:
-            group = next(g for g, keys in zip(self.groups, begun, strict=True) if keys)
-            missing = [key for key in group if key not in given]
-            if missing:
-                yield f"has {_words(chosen[0])} without {_words(missing)}; give {self.text()}"
-
-    def text(self) -> str:
-        return f"either {' or '.join(_words(group) for group in self.groups)}"
-
-
-def _words(keys: Collection[str]) -> str:
-    *front, last = keys
-    return f"{', '.join(front)} and {last}" if front else last
-
-
-def repeated(numbers: Iterable[int]) -> str:
-    """The numbers that occur more than once, in words (the first five); empty if none does."""
-    twice = [str(number) for number, times in Counter(numbers).items() if times > 1]
-    return _words(twice[:5]) if twice else ""
 
 
 class Table(BaseModel):
@@ -102,14 +71,15 @@ class Crank(Table):
     choices = (Choice((("spacing",), ("positions",))),)
 
     stroke: Size = Field(description="twice the crank radius", examples=[90])
-    throws: tuple[Angle, ...] | None = Field(
-        None, min_length=1, max_length=MOST, examples=[[0, 180, 180, 0]],
+    throws: Angles | None = Field(
+        None, examples=[[0, 180, 180, 0]],
         description="angle of every throw, free end to flywheel end; may be left out where firing_order fixes them")
     spacing: Distance | None = Field(None, description="axial distance of neighbouring throws", examples=[100])
-    positions: tuple[Length, ...] | None = Field(
-        None, min_length=1, max_length=MOST, description="axial place of every throw, instead of spacing", examples=[[-150, -50, 50, 150]])
+    positions: Lengths | None = Field(
+        None, description="axial place of every throw, instead of spacing", examples=[[-150, -50, 50, 150]])
     throw_mass: Mass = Field(
-        0.0, description="unbalanced mass of one whole throw, referred to the crank radius; its pins share it equally", examples=[0.8])
+        0.0, examples=[0.8],
+        description="unbalanced mass of one whole throw, referred to the crank radius; its pins share it equally")
     splay: Angle = Field(
         0.0, description="split pins: angle by which each further bank's pin leads the one before it", examples=[-30])
 
@@ -136,37 +106,37 @@ class Rod(Table):
     )
 
     length: Size | None = Field(None, description="distance of the two centres", examples=[160])
-    ratio: RodRatio | None = Field(None, description="crank radius over rod length (lambda), instead of length", examples=[0.28])
+    ratio: RodRatio | None = Field(
+        None, description="crank radius over rod length (lambda), instead of length", examples=[0.28])
     mass: Mass | None = Field(None, description="mass of the whole rod with bearing and bolts", examples=[0.6])
     cg: Length | None = Field(None, description="from the big-end centre to the centre of mass", examples=[45])
-    small_end: Mass | None = Field(None, description="mass weighed at the small end, instead of mass and cg", examples=[0.17])
-    big_end: Mass | None = Field(None, description="mass weighed at the big end, instead of mass and cg", examples=[0.43])
+    small_end: Mass | None = Field(
+        None, description="mass weighed at the small end, instead of mass and cg", examples=[0.17])
+    big_end: Mass | None = Field(
+        None, description="mass weighed at the big end, instead of mass and cg", examples=[0.43])
     inertia: Inertia | None = Field(
-        None, description="moment of inertia about the centre of mass; left out: two masses at the ends", examples=[2300])
+        None, examples=[2300],
+        description="moment of inertia about the centre of mass; left out: two masses at the ends")
     pendulum: Pendulum | None = Field(None, description="a pendulum test, instead of inertia")
 
     def contradictions(self) -> Iterator[str]:
-        yield from half_a_rod(self.small_end, self.big_end)
-        if self.pendulum and self.length is not None and self.mass is not None:
-            yield from too_quick(self.pendulum, self.length, self.cg or 0.0)
-        if self.pendulum and self.length is not None and self.small_end and self.big_end:
-            yield from too_quick(self.pendulum, self.length, self.length * self.small_end / (self.small_end + self.big_end))
-
-
-def half_a_rod(small_end: object, big_end: object) -> Iterator[str]:
-    """A rod weighed at one end only."""
-    if (small_end is None) != (big_end is None):
-        there, missing = ("big_end", "small_end") if small_end is None else ("small_end", "big_end")
-        yield f"has {there} without {missing}; weigh the rod at both ends, or give mass and cg"
+        ends, length, pendulum = (self.small_end, self.big_end), self.length, self.pendulum
+        if None in ends and ends != (None, None) and self.mass is self.cg is None:
+            there, missing = ("big_end", "small_end") if self.small_end is None else ("small_end", "big_end")
+            yield f"has {there} without {missing}; weigh the rod at both ends, or give mass and cg"
+        if pendulum and length is not None:
+            total = sum(end or 0.0 for end in ends)
+            cg = length * (self.small_end or 0.0) / total if total else self.cg or 0.0
+            yield from too_quick(pendulum, length, cg)
 
 
 def too_quick(pendulum: Pendulum, length: float, cg: float) -> Iterator[str]:
-    """A period shorter than that of all the rod's mass in one point: the moment of inertia would not be positive."""
+    """A period no longer than that of a point mass at the centre of mass (lengths in mm): no inertia would be left."""
     arm = cg if pendulum.pivot == "big_end" else length - cg
-    shortest = 2 * math.pi * math.sqrt(abs(arm) * 1e-3 / GRAVITY)
-    if pendulum.period <= shortest or arm <= 0:
-        yield (f"pendulum.period {pendulum.period:g} s is too quick: with the centre of mass {arm:g} mm from the pivot it must be "
-               f"longer than {shortest:.4g} s (full swing)")
+    shortest = 2 * math.pi * math.sqrt(max(arm, 0.0) * 1e-3 / GRAVITY)
+    if pendulum.period <= shortest:
+        yield (f"pendulum.period {pendulum.period:g} s is too quick: with the centre of mass {arm:g} mm from the pivot "
+               f"a full swing takes more than {shortest:.4g} s")
 
 
 class Piston(Table):
@@ -184,21 +154,22 @@ class Layout(Table):
 
     choices = (Choice((("bank_angle",), ("banks",), ("radial",))),)
 
-    bank_angle: Angle | None = Field(None, description="a vee: banks at minus and plus half of this angle", examples=[90])
-    banks: tuple[Angle, ...] | None = Field(None, min_length=1, max_length=MOST, description="angle of every bank", examples=[[-90, 90]])
+    bank_angle: Angle | None = Field(
+        None, description="a vee: banks at minus and plus half of this angle", examples=[90])
+    banks: Angles | None = Field(None, description="angle of every bank", examples=[[-90, 90]])
     radial: Count | None = Field(None, description="number of banks, evenly round the crank", examples=[9])
     rods: Annotated[Literal["shared", "alternating"], OneOf("shared", "alternating")] = Field(
         "shared", examples=["alternating"],
         description="shared: every throw carries one rod of each bank; alternating: the throws take the banks in turn")
     stagger: Length = Field(
-        0.0, description="axial distance of neighbouring rods on one throw, first bank towards the free end", examples=[22])
-    firing_order: tuple[Count, ...] | None = Field(
-        None, min_length=1, max_length=MOST, description="numbers of the cylinders as they fire", examples=[[1, 3, 4, 2]])
-    firing_intervals: tuple[Interval, ...] | None = Field(
-        None, min_length=1, max_length=MOST, description="from each firing to the next; left out: from the throws, or even", examples=[[405, 315]])
+        0.0, description="axial distance of adjacent rods on a throw, first bank towards the free end", examples=[22])
+    firing_order: Numbers | None = Field(
+        None, description="numbers of the cylinders as they fire", examples=[[1, 3, 4, 2]])
+    firing_intervals: Intervals | None = Field(
+        None, description="from each firing to the next; left out: from the throws, or even", examples=[[405, 315]])
     strokes: Annotated[Literal[2, 4], OneOf(2, 4)] = Field(4, description="two-stroke or four-stroke", examples=[4])
-    numbering: tuple[tuple[Count, ...], ...] | None = Field(
-        None, min_length=1, max_length=MOST, description="numbers of the cylinders of each bank, free end to flywheel end", examples=[[[1, 3], [2, 4]]])
+    numbering: Annotated[tuple[Numbers, ...], Field(min_length=1, max_length=MOST)] | None = Field(
+        None, description="cylinder numbers of each bank, free end to flywheel end", examples=[[[1, 3], [2, 4]]])
 
     def contradictions(self) -> Iterator[str]:
         for key, numbers in (("firing_order", self.firing_order or ()), ("numbering", chain(*self.numbering or ()))):
@@ -211,8 +182,8 @@ class Layout(Table):
         if self.firing_order is None:
             yield "firing_intervals is given without firing_order; give both, or neither"
         elif len(intervals) != len(self.firing_order):
-            yield (f"firing_intervals has {len(intervals)} intervals for {len(self.firing_order)} firings; give one for each, "
-                   "the last one back to the first cylinder")
+            yield (f"firing_intervals has {len(intervals)} intervals for {len(self.firing_order)} firings; "
+                   "give one for each, the last one back to the first cylinder")
         elif abs(sum(intervals) - 180 * self.strokes) > INTERVAL_TOLERANCE_DEG:
             yield (f"firing_intervals add up to {sum(intervals):g} degrees; the cycle of a {self.strokes}-stroke has "
                    f"{180 * self.strokes} (within {INTERVAL_TOLERANCE_DEG:g})")
@@ -255,7 +226,8 @@ class ArticulatedRod(Table):
     length: Size = Field(description="from the knuckle pin to the piston pin", examples=[200])
     mass: Mass = Field(0.0, description="mass of the whole rod", examples=[0.5])
     cg: Length = Field(0.0, description="from the knuckle pin to the centre of mass", examples=[100])
-    inertia: Inertia | None = Field(None, description="about the centre of mass; left out: two masses at the ends", examples=[3500])
+    inertia: Inertia | None = Field(
+        None, description="about the centre of mass; left out: two masses at the ends", examples=[3500])
 
 
 class Articulation(Table):
@@ -263,9 +235,9 @@ class Articulation(Table):
 
     master: Count = Field(1, description="number of the bank that carries the master rod", examples=[1])
     knuckle_radius: Size = Field(description="from the crank pin to the knuckle pins", examples=[55])
-    knuckle_angles: tuple[Angle, ...] | None = Field(
-        None, min_length=1, max_length=MOST, examples=[[0, 72, 144, 216, 288]],
-        description="one for each bank, from the master rod's axis (its own is 0); left out: the bank angles from the master's")
+    knuckle_angles: Angles | None = Field(
+        None, examples=[[0, 72, 144, 216, 288]],
+        description="one for each bank, from the master rod's axis (its own is 0); left out: bank angles from it")
     rod: ArticulatedRod = Field(description="the articulated rods")
 
 
@@ -323,7 +295,8 @@ class Slider(Device):
 
     order: Count = Field(description="strokes for each turn of the crank", examples=[2])
     direction: Angle = Field(description="of its path, from the x axis", examples=[90])
-    angle: Angle = Field(0.0, description="phase at crank angle 0: displacement ~ cos(order * theta + angle)", examples=[180])
+    angle: Angle = Field(
+        0.0, description="phase at crank angle 0: displacement ~ cos(order * theta + angle)", examples=[180])
     at: Place = Field((0.0, 0.0), description="x, y of its middle", examples=[[0, 0]])
 
 
@@ -331,7 +304,8 @@ class EngineFile(Table):
     """One engine: crank, rods, pistons, layout, and the devices that balance it."""
 
     name: str = Field("", description="what the engine is called", examples=["in-line four"])
-    source: str = Field("", description="where the figures come from, and what is assumed", examples=["weighed, May 2024"])
+    source: str = Field(
+        "", description="where the figures come from, and what is assumed", examples=["weighed, May 2024"])
     crank: Crank
     rod: Rod
     piston: Piston

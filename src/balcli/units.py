@@ -1,7 +1,7 @@
 """Figures with a unit, as an engine file may give them: "3.5 in", "1/7 turn", "8.1 lb in^2".
 
-A figure is matched by a regular expression first and nothing is ever evaluated. The arithmetic is exact (fractions), so that
-a figure is rounded once. The commonest units are in a table here; any other is asked of pint, which is imported only then.
+A figure is matched by a regular expression first and nothing is ever evaluated. The arithmetic is exact (fractions), so
+that a figure is rounded once. The commonest units are in a table here; pint is imported only for any other.
 """
 from __future__ import annotations
 
@@ -66,12 +66,13 @@ _DIMENSIONS = (LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PLAIN)
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
 _FACTOR = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[²³])?"
 _JOINT = r"\s*[*·⋅/]\s*|\s+"
-FIGURE = re.compile(rf"\s*([+-]?{_NUMBER})(?:\s*/\s*({_NUMBER}))?\s*({_FACTOR}(?:(?:{_JOINT}){_FACTOR})*)?\s*", re.ASCII)
+_UNIT = rf"{_FACTOR}(?:(?:{_JOINT}){_FACTOR})*"
+FIGURE = re.compile(rf"\s*([+-]?{_NUMBER})(?:\s*/\s*({_NUMBER}))?\s*({_UNIT})?\s*", re.ASCII)
 _PART = re.compile(r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([²³]))?", re.ASCII)
 
 
 def convert(text: str, dimension: Dimension) -> float:
-    """The figure in the bare unit of `dimension`, correctly rounded. ValueError says what is wrong and what would be right."""
+    """The figure in the bare unit of `dimension`, correctly rounded. ValueError: what is wrong, what would be right."""
     match = FIGURE.fullmatch(text) if len(text) <= LONGEST else None
     if match is None:
         raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
