@@ -20,7 +20,7 @@ ROD_LIGHT, ROD_HEAVY = 0.1, 8.0                  # rod mass / piston mass: engin
 INERTIA_LOW, INERTIA_HIGH = 0.02, 0.4
 PISTON_SPEED = 40.0                              # m/s, mean; racing engines stay below 30
 OFFSET_SHARE = 0.1                               # of the stroke; engines have up to 0.1
-UNBALANCE_SHARE = 5.0                            # of all moving masses x crank radius; balancing needs no more than 1 or 2
+UNBALANCE_SHARE = 5.0                            # of all moving masses x crank radius; balancing needs 1 or 2
 RIPPLE = 0.5                                     # of the mean speed; the slowest idling engines reach 0.2
 
 
@@ -55,7 +55,7 @@ def _proportions(model: EngineFile) -> Iterator[str]:
 def _rod(model: EngineFile) -> Iterator[str]:
     rod, mass, length, cg = model.rod, _rod_mass(model), _rod_length(model), model.rod.cg
     if mass and model.piston.mass and not ROD_LIGHT <= mass / model.piston.mass <= ROD_HEAVY:
-        yield (f"the rod weighs {mass:.4g} kg, {mass / model.piston.mass:.2g} times the piston, where {ROD_LIGHT:g} to "
+        yield (f"the rod weighs {mass:.4g} kg, {mass / model.piston.mass:.3g} times the piston, where {ROD_LIGHT:g} to "
                f"{ROD_HEAVY:g} times is usual; are both in the same unit?")
     if rod.mass and cg is None:
         yield "rod.cg is not given: all of the rod counts at the crank pin; measure it from the big-end centre"
