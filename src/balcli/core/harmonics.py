@@ -34,7 +34,7 @@ class Series:
         return Series(self.c + other.c, self.noise + other.noise)
 
     def __rmul__(self, factor: Array) -> Series:
-        return Series(factor * self.c, np.abs(factor) * self.noise)
+        return Series(factor * self.c, abs(factor) * self.noise)
 
 
 @dataclass(frozen=True)
@@ -204,26 +204,26 @@ def _binomials(count: int) -> tuple[Array, Array]:
     return np.array(half), np.array(minus)
 
 
-def _G(m: Array, z: Any) -> Array:
+def _G(m: Array, z: Any) -> Any:
     """Gauss's `F(-1/2, m-1/2; m+1; z)` for m = 0, 1 .. as a column, shape (m, *z.shape), by Horner's rule.
 
     All terms after the first have one sign, and each is less than z times the one before.
     """
-    largest = max(float(np.max(z)), 1e-300)
-    terms = 2 + int(math.log(EPS / 64) / math.log(largest))
-    total = np.ones(np.broadcast_shapes(m.shape, np.shape(z)))
-    for ratio in reversed(_ratios(terms, len(m))):
-        total *= ratio.reshape(m.shape)
-        total *= z
-        total += 1
+    single = isinstance(z, float)
+    largest = max(z if single else z.max(initial=0.0), 1e-300)
+    ratios = _ratios(2 + int(math.log(EPS / 64) / math.log(largest)), m.shape)
+    total: Any = 1.0
+    for ratio in ratios * z if single else (ratio * z for ratio in ratios):
+        total = 1 + ratio * total
     return total
 
 
 @lru_cache(maxsize=8)
-def _ratios(terms: int, count: int) -> list[Array]:
-    """What makes each coefficient of G_m from the one before, for m = 0 .. count-1."""
-    m = np.arange(float(count))
-    return [(j - 1.5) / j * ((m + j - 1.5) / (m + j)) for j in range(1, terms + 1)]
+def _ratios(terms: int, shape: tuple[int, ...]) -> Array:
+    """What makes each coefficient of G_m from the one before, last term first, shape (terms, *shape of the column m)."""
+    m = np.arange(float(shape[0])).reshape(shape)
+    j = np.arange(terms, 0.0, -1).reshape(-1, *(1,) * m.ndim)
+    return (j - 1.5) / j * ((m + j - 1.5) / (m + j))
 
 
 def _residual(lam: Any, x: Any) -> Any:

@@ -92,21 +92,25 @@ class Loads:
         self._orders, self._square = orders, square
         self._n = orders.reshape(-1, *(1,) * cylinders.pin_deg.ndim)
         self._once = np.ones((cylinders.count, *(1,) * (cylinders.pin_deg.ndim - 1)))
+        self._turned = unit(self._n * cylinders.pin_deg)                    # e^{i n pin}, (orders, cylinders, *trailing)
+        self._apart = self._n * (cylinders.axis_deg - cylinders.axis_deg[cylinders.first])      # (orders, banks, *trailing)
+        self._rounding = cylinders.count * _SUM + _TURN * self._n           # of a sum over cylinders, relative to its terms
+        self._of_devices = [self._of_device(device) for device in devices]
 
-    @cached_property
+    @property
     def force(self) -> Phasors:
         """N; `F = m_rec r (cos psi + ...) + m_rot r e^{i psi}` of each cylinder, turned by its axis."""
         return sum(self._of_devices, self._forces(self._turned, self._once))
 
-    @cached_property
+    @property
     def moment(self) -> Phasors:
         """N m as `M_x + i M_y = i sum (z - z_ref) F`."""
         z = self._cylinders.z
-        of_cylinders = self._forces((z - self._z_ref) * self._turned, np.abs(z) + np.abs(self._z_ref))
+        of_cylinders = self._forces((z - self._z_ref) * self._turned, np.abs(z) + abs(self._z_ref))
         arms = (device.z - self._z_ref for device in self._devices)
         return 1j * sum((z * f for z, f in zip(arms, self._of_devices, strict=True)), of_cylinders)
 
-    @cached_property
+    @property
     def couple(self) -> Phasors:
         """Free transverse couple about z, N m: `H sum D_k sin k psi - m_rec e (-s'')` and the forces' arms in x and y."""
         c, nothing = self._cylinders, np.zeros(self._n.shape[:1] + self._n.shape[2:])
@@ -119,11 +123,11 @@ class Loads:
             total += self._forces(self._turned, self._once).about(-self._place)
         return sum((f.about(d.place - self._place) for d, f in zip(self._devices, self._of_devices, strict=True)), total)
 
-    @cached_property
+    @property
     def torque(self) -> Phasors:
         """Inertia torque on the crank, N m: `-1/2 dI/dtheta`, `I = m_rec s'^2 + m_rot r^2 - H beta'^2`."""
         rate = -0.5j * self._n
-        return self._about_z(Series(rate * self._inertia.c, np.abs(rate) * self._inertia.noise))
+        return self._about_z(Series(rate * self._inertia.c, abs(rate) * self._inertia.noise))
 
     @property
     def mean_inertia(self) -> Array:
@@ -143,27 +147,13 @@ class Loads:
         own = (c.reciprocating * c.radius**2 * self._square) * h.kinetic
         return own + -(c.couple * self._square) * h.rod_kinetic if np.count_nonzero(c.couple) else own
 
-    @cached_property
-    def _of_devices(self) -> list[Phasors]:
-        """Force of each device."""
-        def rows(device: Device, vector: complex) -> Complex:
-            return np.where(self._n[:, 0] == device.order, device.order**2 * self._square * np.asarray(vector), 0)
-        return [Phasors(self._orders, a := rows(d, d.forward), b := rows(d, d.backward), _SUM * (np.abs(a) + np.abs(b)))
-                for d in self._devices]
+    def _of_device(self, d: Device) -> Phasors:
+        """Its force."""
+        size = (self._n[:, 0] == d.order) * (d.order**2 * self._square)
+        forward, backward = size * d.forward, size * d.backward
+        return Phasors(self._orders, forward, backward, _SUM * (np.abs(forward) + np.abs(backward)))
 
     # -------------------------------------------------------------- sums over the cylinders
-    @cached_property
-    def _turned(self) -> Complex:
-        """e^{i n pin}, shape (orders, cylinders, *trailing)."""
-        return unit(self._n * self._cylinders.pin_deg)
-
-    @cached_property
-    def _apart(self) -> Array:
-        """n times the angle of each bank after cylinder 1's, deg, shape (orders, banks, *trailing)."""
-        c = self._cylinders
-        apart: Array = self._n * (c.axis_deg - c.axis_deg[c.first])
-        return apart
-
     @cached_property
     def _ahead_and_astern(self) -> Complex:
         """Turn of each bank's forward and backward vectors: `e^{i (axis -+ n (axis - axis_1))}`, shape (2, *that of `_apart`)."""
@@ -178,13 +168,8 @@ class Loads:
         """
         c = self._cylinders
         along = (c.reciprocating * c.radius * self._square / 2) * self._harmonics.piston
-        turning = np.where(self._n == 1, c.rotating * (c.radius * self._square), 0)
+        turning = (self._n == 1) * (c.rotating * (c.radius * self._square))
         return along.c + turning, along.c.conj(), self._rounding * (np.abs(along.c) + turning) + along.noise
-
-    @cached_property
-    def _rounding(self) -> Array:
-        """Rounding error of a sum over the cylinders, relative to the size of its terms, by order."""
-        return self._cylinders.count * _SUM + _TURN * self._n
 
     def _forces(self, turned: Complex, size: Array) -> Phasors:
         """Sum over the cylinders of their forces, with the weights that `turned` bears and `size` bounds."""

@@ -81,7 +81,7 @@ class Phasors:
 
     def __rmul__(self, factor: ArrayLike) -> Phasors:
         """Scaled, or scaled and turned where the factor is complex."""
-        return Phasors(self.orders, factor * self.forward, factor * self.backward, np.abs(factor) * self.noise)
+        return Phasors(self.orders, factor * self.forward, factor * self.backward, abs(factor) * self.noise)
 
     def about(self, p: ArrayLike) -> Phasors:
         """Moment about z of this force acting at the point p = x + iy: `Im(conj(p) F)`, a scalar."""
