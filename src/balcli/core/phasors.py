@@ -1,0 +1,136 @@
+"""One representation for everything that shakes: each order is two rotating vectors.
+
+`F(theta) = sum over n of forward_n e^{i n theta} + backward_n e^{-i n theta}`, planar vectors being complex numbers x + iy.
+A scalar (couple, torque, roll) is the special case `backward = conj(forward)`. Order 0 holds its mean in `forward`.
+Arrays have the orders first, then any trailing axes (crank angles, variants of a sweep).
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+EPS = float(np.finfo(float).eps)
+_STEP = 15                                                              # degrees
+_COSINES = (1, (6**0.5 + 2**0.5) / 4, 0.75**0.5, 0.5**0.5, 0.5, (6**0.5 - 2**0.5) / 4, 0)
+
+
+def _cosine(k: int) -> float:
+    """cos of k times 15 degrees."""
+    k = min(k % 24, -k % 24)
+    return _COSINES[k] if k <= 6 else -_COSINES[12 - k]
+
+
+_UNITS = np.array([complex(_cosine(k), _cosine(k - 6)) for k in range(24)])
+
+
+def unit(degrees: ArrayLike) -> Complex:
+    """e^{i x} for x in degrees, any shape, within 2 ulp; exact at multiples of 30 and 45 degrees, however many turns.
+
+    The nearest multiple of 15 degrees is taken from a table (the remainder is exact in floating point), the rest turned on.
+    """
+    x = np.asarray(degrees, float)
+    steps = np.rint(x / _STEP)
+    rest = np.radians(x - _STEP * steps)
+    turned: Complex = _UNITS[np.asarray(steps % 24, int)] * np.exp(1j * rest)
+    return turned
+
+
+@dataclass(frozen=True)
+class Phasors:
+    """Rotating vectors by order, and the rounding error that they may carry.
+
+    Attributes:
+        orders: shape (orders,), not negative, any real numbers.
+        forward, backward: shape (orders, *trailing); with the crank, against it.
+        noise: bound of the rounding error of either, same shape (or one that broadcasts to it).
+    """
+
+    orders: Array
+    forward: Complex
+    backward: Complex
+    noise: Array
+
+    @classmethod
+    def real(cls, orders: Array, coefficients: Complex, noise: Array) -> Phasors:
+        """The scalar `Re sum c_n e^{i n theta}`; a mean (order 0) is its own conjugate and stands in `forward` alone."""
+        mean = _column(orders, coefficients) == 0
+        return cls(orders, np.where(mean, coefficients.real, coefficients / 2),
+                   np.where(mean, 0, np.conj(coefficients) / 2), noise)
+
+    def __add__(self, other: Phasors) -> Phasors:
+        return Phasors(self.orders, self.forward + other.forward, self.backward + other.backward, self.noise + other.noise)
+
+    def __sub__(self, other: Phasors) -> Phasors:
+        return self + -1.0 * other
+
+    def __rmul__(self, factor: ArrayLike) -> Phasors:
+        """Scaled, or scaled and turned where the factor is complex."""
+        return Phasors(self.orders, factor * self.forward, factor * self.backward, np.abs(factor) * self.noise)
+
+    def about(self, p: ArrayLike) -> Phasors:
+        """Moment about z of this force acting at the point p = x + iy: `Im(conj(p) F)`, a scalar."""
+        moment = np.conj(p) * self.forward - p * np.conj(self.backward)      # times i/... of a real quantity's coefficient
+        return Phasors.real(self.orders, -1j * moment, 2 * np.abs(p) * self.noise)
+
+    def settled(self) -> Phasors:
+        """The same with whatever lies within its rounding error set to exactly 0, each of both vectors for itself."""
+        return Phasors(self.orders, np.where(np.abs(self.forward) <= self.noise, 0, self.forward),
+                       np.where(np.abs(self.backward) <= self.noise, 0, self.backward), self.noise)
+
+    def at(self, orders: ArrayLike) -> Phasors:
+        """The rows of these orders (each must be there)."""
+        rows = np.searchsorted(self.orders, np.asarray(orders, float))
+        noise = np.broadcast_to(self.noise, self.forward.shape)
+        return Phasors(self.orders[rows], self.forward[rows], self.backward[rows], noise[rows])
+
+    # -------------------------------------------------------------- what a reader asks of an order
+    @property
+    def balanced(self) -> NDArray[np.bool_]:
+        return np.asarray((self.forward == 0) & (self.backward == 0))
+
+    @property
+    def major(self) -> Array:
+        """Longer semi-axis of the ellipse; the amplitude of a scalar."""
+        return np.abs(self.forward) + np.abs(self.backward)
+
+    @property
+    def minor(self) -> Array:
+        """Shorter semi-axis of the ellipse."""
+        return np.abs(np.abs(self.forward) - np.abs(self.backward))
+
+    @property
+    def axis_deg(self) -> Array:
+        """Direction of the major axis from x in (-90, 90]; nan for a circle, a balanced order and a mean."""
+        angle = np.degrees((np.angle(self.forward) + np.angle(self.backward)) / 2)
+        turned = 90 - (90 - angle) % 180
+        there = (self.forward != 0) & (self.backward != 0)
+        return np.where(there, turned, np.nan)
+
+    @property
+    def x(self) -> Complex:
+        """Components along x as `Re(c_n e^{i n theta})`."""
+        mean = _column(self.orders, self.forward) == 0
+        return np.where(mean, self.forward.real, self.forward + np.conj(self.backward))
+
+    @property
+    def y(self) -> Complex:
+        """Components along y as `Re(c_n e^{i n theta})`."""
+        mean = _column(self.orders, self.forward) == 0
+        return np.where(mean, self.forward.imag, -1j * (self.forward - np.conj(self.backward)))
+
+    def values(self, theta: ArrayLike) -> Complex:
+        """The curve at crank angles (radians): the sum over all orders, shape of theta, for phasors without trailing axes."""
+        angles = np.asarray(theta, float)
+        turning = np.exp(1j * np.multiply.outer(angles, self.orders))
+        curve: Complex = turning @ self.forward + np.conj(turning) @ self.backward
+        return curve
+
+
+def _column(orders: Array, like: NDArray[np.generic]) -> Array:
+    """Orders shaped to stand before the trailing axes of `like`."""
+    return orders.reshape(-1, *(1,) * (like.ndim - 1))
