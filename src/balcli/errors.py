@@ -16,7 +16,7 @@ class Exit(IntEnum):
 
 @dataclass(frozen=True)
 class Problem:
-    """One mistake: where in the file (`rod.length`, `shaft.2.ratio`; empty: the file as a whole) and what would be right."""
+    """One mistake: where in the file (`rod.length`, `shaft.2.ratio`; empty: the file), and what would be right."""
 
     path: str
     message: str
@@ -30,15 +30,18 @@ class BalcliError(Exception):
 
 
 class InputError(BalcliError):
-    """All mistakes of one input file at once."""
+    """All mistakes of one input file at once; `more` is the number of those that are not listed."""
 
-    def __init__(self, problems: Iterable[Problem], file: str = "") -> None:
+    def __init__(self, problems: Iterable[Problem], file: str = "", more: int = 0) -> None:
         self.problems = tuple(problems)
         self.file = file
-        super().__init__(file, self.problems)
+        self.more = more
+        super().__init__(file, self.problems, more)
 
     def __str__(self) -> str:
         head = self.file or "engine"
         if len(self.problems) == 1:
             return f"{head}: {self.problems[0]}"
-        return "\n".join([f"{head}: {len(self.problems)} mistakes", *(f"  {p}" for p in self.problems)])
+        last = [f"  and {self.more} more"] if self.more else []
+        count = len(self.problems) + self.more
+        return "\n".join([f"{head}: {count} mistakes", *(f"  {p}" for p in self.problems), *last])

@@ -21,10 +21,11 @@ EPS = float(np.finfo(float).eps)
 
 @dataclass(frozen=True)
 class Series:
-    """Coefficients c_n, shape (orders, cylinders or any axes), and their own error bound, shape of one row (0: some ulp)."""
+    """Coefficients c_n, shape (orders, cylinders or any axes), and their own error bound, which broadcasts to it (0: some ulp)."""
 
     c: NDArray[np.complex128]
     noise: Array | float = 0.0
+    __array_ufunc__ = None              # array * series is ours to answer
 
     def __add__(self, other: Series) -> Series:
         return Series(self.c + other.c, self.noise + other.noise)

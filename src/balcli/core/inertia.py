@@ -194,9 +194,14 @@ class Loads:
         if z is not None:
             arms = self._arms(z)
             turned, size = arms * turned, np.abs(z) + abs(self._z_ref)
-        parts = np.abs(series.c) * size
-        scale = parts.sum(axis=1) * (c.count / parts.shape[1])
-        noise = (c.count * _SUM + _TURN * self._n[:, 0]) * scale + (np.broadcast_to(series.noise * size, parts.shape[1:]).sum(axis=0) * (c.count / parts.shape[1]))
+        shape = np.broadcast_shapes(series.c.shape, (1, *np.shape(size)))
+
+        def total(parts: Array) -> Array:
+            summed: Array = np.broadcast_to(parts, shape).sum(axis=1) * (c.count / shape[1])
+            return summed
+        noise = (c.count * _SUM + _TURN * self._n[:, 0]) * total(np.abs(series.c) * size)
+        if np.any(series.noise):
+            noise = noise + total(series.noise * size)
         if series.c.shape[1] == 1:                                          # equal cylinders: their phases are summed once
             return series.c * np.add.reduceat(turned, c.starts, axis=1), noise
         return np.add.reduceat(series.c * turned, c.starts, axis=1), noise

@@ -54,6 +54,7 @@ class Phasors:
     forward: Complex
     backward: Complex
     noise: Array
+    __array_ufunc__ = None              # array * phasors is ours to answer
 
     @classmethod
     def real(cls, orders: Array, coefficients: Complex, noise: Array) -> Phasors:

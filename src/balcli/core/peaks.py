@@ -1,0 +1,67 @@
+"""The largest absolute value of a curve given by its phasors, found on the curve itself and not on a grid of samples."""
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .phasors import Array, Phasors
+
+
+class Peak(NamedTuple):
+    """Largest absolute value over a revolution, and one crank angle (rad, in [0, 2 pi)) at which it is reached."""
+
+    value: float
+    theta: float
+
+
+def peak(curve: Phasors) -> Peak:
+    """The global maximum of |F|, to rounding.
+
+    |F|^2 is a trigonometric polynomial of degree 2n, n the highest order that is there. Between samples at 16n points it
+    exceeds the largest of them by less than a factor 1/cos(pi/8) (Ehlich and Zeller 1964), so that the highest peak is among
+    the samples within 8 % of the top; from each of those Newton's method climbs the curve.
+    """
+    there = np.flatnonzero(curve.major)
+    if not len(there):
+        return Peak(0.0, 0.0)
+    curve = Phasors(curve.orders[there], curve.forward[there], curve.backward[there], np.zeros(1))
+    theta = candidates(curve)
+    step = np.pi / (8 * max(curve.orders[-1], 1))
+    theta = climb(curve, theta, step)
+    values = np.abs(curve.values(theta))
+    best = int(values.argmax())
+    return Peak(float(values[best]), float(theta[best] % (2 * np.pi)))
+
+
+def candidates(curve: Phasors, most: int = 64) -> Array:
+    """Angles of the samples that may lie beside the highest peak."""
+    highest = int(curve.orders[-1])
+    count = 16 * max(highest, 1)
+    spectrum = np.zeros(count, complex)
+    spectrum[curve.orders.astype(int)] += curve.forward
+    spectrum[-curve.orders.astype(int)] += curve.backward
+    power = np.abs(np.fft.ifft(spectrum, norm="forward")) ** 2
+    top = (power >= np.roll(power, 1)) & (power >= np.roll(power, -1)) & (power >= 0.92 * power.max())
+    found = np.flatnonzero(top)
+    return found[np.argsort(-power[found], kind="stable")[:most]] * (2 * np.pi / count)
+
+
+def climb(curve: Phasors, theta: Array, step: float, rounds: int = 12) -> Array:
+    """Newton's method for the maxima of |F|^2 beside the given angles, in steps of at most `step`."""
+    first, second = _derivative(curve), _derivative(_derivative(curve))
+    for _ in range(rounds):
+        f, f1, f2 = curve.values(theta), first.values(theta), second.values(theta)
+        slope = (np.conj(f) * f1).real
+        bend = np.abs(f1) ** 2 + (np.conj(f) * f2).real
+        steep = np.where(bend < 0, -slope / np.where(bend < 0, bend, -1), np.sign(slope) * step / 2)
+        move = np.clip(steep, -step, step)
+        theta = theta + move
+        if np.max(np.abs(move)) < 1e-10:
+            break
+    return theta
+
+
+def _derivative(curve: Phasors) -> Phasors:
+    rate = 1j * curve.orders
+    return Phasors(curve.orders, rate * curve.forward, -rate * curve.backward, curve.noise)

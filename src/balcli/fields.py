@@ -1,0 +1,156 @@
+"""The figures of an engine file as pydantic types: how one is read, how refused, and its JSON schema."""
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from .units import PLAIN, Dimension, convert, wanted
+
+if TYPE_CHECKING:
+    from pydantic_core import CoreSchema
+
+TINY = 1e-12                     # below this, what must be above 0 is no figure of an engine in any of the file's units
+STRING_PATTERN = r"^\s*[+-]?[0-9.].*[A-Za-z°µμ²³0-9]\s*$"
+SHOWN = 60                       # characters of a value shown in a message
+
+
+def shorten(value: object) -> str:
+    """A value as a reader may recognise it, cut to about 60 characters; never the whole of a huge one."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int) and value.bit_length() > 200:
+        return f"an integer of about {int(value.bit_length() * math.log10(2)) + 1} digits"
+    if isinstance(value, str):
+        text = '"' + value[:SHOWN] + ('..."' if len(value) > SHOWN else '"')
+        return text.replace("\n", " ")
+    if isinstance(value, dict):
+        return "a table"
+    if isinstance(value, (list, tuple)):
+        items = ", ".join(shorten(v) for v in value[:8])
+        text = f"[{items}{', ...' if len(value) > 8 else ''}]"
+        return text if len(text) <= SHOWN else f"a list of {len(value)}"
+    return f"{value:.15g}" if isinstance(value, float) else str(value)[:SHOWN]
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """The known word that was probably meant; empty if none is near."""
+    from difflib import get_close_matches
+
+    near = get_close_matches(word.lower(), list(known), 1) if len(word) < 100 else []
+    return near[0] if near else ""
+
+
+class _Field:
+    """A type of field: `read` gives the value or raises ValueError, `json` describes it."""
+
+    def read(self, value: object) -> object:
+        raise NotImplementedError
+
+    def json(self) -> dict[str, Any]:
+        raise NotImplementedError
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
+        from pydantic_core import core_schema
+
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: Callable[[CoreSchema], Any]) -> dict[str, Any]:
+        return self.json()
+
+
+@dataclass(frozen=True)
+class Number(_Field):
+    """A figure of some dimension: a bare number in the file's unit, or a string with its own."""
+
+    dimension: Dimension
+    above: float | None = None
+    least: float | None = None
+    below: float | None = None
+    most: float = math.inf
+
+    def read(self, value: object) -> float:
+        number = self._number(value)
+        if not math.isfinite(number):
+            raise ValueError(f"{shorten(value)} is no finite number; {wanted(self.dimension)}")
+        if fault := self._fault(number):
+            raise ValueError(f"{shorten(value)} is {fault[0]}; {wanted(self.dimension)}, {fault[1]}")
+        return number
+
+    def _fault(self, number: float) -> tuple[str, str] | None:
+        """How a number is out of bounds, and what bounds it has; None if it is within."""
+        least = -self.most if self.least is None else self.least
+        if self.above is not None and number <= self.above:
+            return f"not above {self.above:g}", f"above {self.above:g}"
+        if self.above == 0 and number < TINY:
+            return "too small", f"at least {TINY:g}"
+        if number < least:
+            return f"less than {least:g}", f"{least:g} or more"
+        if self.below is not None and number >= self.below:
+            return f"not below {self.below:g}", f"below {self.below:g}"
+        if number > self.most:
+            return f"more than {self.most:g}", f"up to {self.most:g}"
+        return None
+
+    def _number(self, value: object) -> float:
+        if isinstance(value, str):
+            try:
+                return convert(value, self.dimension)
+            except ValueError as error:
+                raise ValueError(f"{shorten(value)} {error}") from None
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise ValueError(f"{shorten(value)} is not a number; {wanted(self.dimension)}")
+        try:
+            return float(value)
+        except OverflowError:
+            raise ValueError(f"{shorten(value)} is too large a number; {wanted(self.dimension)}") from None
+
+    def json(self) -> dict[str, Any]:
+        bounds = {"exclusiveMinimum": self.above, "minimum": self.least, "exclusiveMaximum": self.below}
+        limits = {key: bound for key, bound in bounds.items() if bound is not None}
+        if self.dimension is PLAIN:
+            return {"type": "number", **limits}
+        return {"type": ["number", "string"], "unit": self.dimension.unit, "pattern": STRING_PATTERN, **limits}
+
+
+@dataclass(frozen=True)
+class Whole(_Field):
+    """A whole number; 4.0 counts as 4."""
+
+    least: int
+    most: int
+    zero: bool = True
+
+    def read(self, value: object) -> int:
+        whole = isinstance(value, int) or (isinstance(value, float) and value.is_integer())
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not whole:
+            raise ValueError(f"{shorten(value)} is not a whole number; {self._wanted()}")
+        if not self.least <= value <= self.most or (value == 0 and not self.zero):
+            raise ValueError(f"{shorten(value)} is out of range; {self._wanted()}")
+        return int(value)
+
+    def _wanted(self) -> str:
+        return f"a whole number from {self.least} to {self.most}{'' if self.zero else ', not 0,'} is wanted"
+
+    def json(self) -> dict[str, Any]:
+        limits = {"type": "integer", "minimum": self.least, "maximum": self.most}
+        return limits if self.zero else limits | {"not": {"const": 0}}
+
+
+class OneOf(_Field):
+    """One of a few words or numbers."""
+
+    def __init__(self, *options: str | int) -> None:
+        self.options = options
+
+    def read(self, value: object) -> str | int:
+        for option in self.options:
+            if type(value) is not bool and value == option:
+                return option
+        near = nearest(value, [str(o) for o in self.options]) if isinstance(value, str) else ""
+        hint = f"; did you mean {near}?" if near else ""
+        raise ValueError(f"{shorten(value)} is not {' or '.join(map(shorten, self.options))}{hint}")
+
+    def json(self) -> dict[str, Any]:
+        return {"enum": list(self.options)}

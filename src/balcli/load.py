@@ -1,0 +1,160 @@
+"""Engine file -> model: every mistake at once, each by its path in the file and with what would be right."""
+from __future__ import annotations
+
+import re
+import sys
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+from pydantic import ValidationError
+
+from .errors import BalcliError, InputError, Problem
+from .fields import shorten
+from .mistakes import DEVICES, INNER, KNOWN, TABLES, TEXTS, path_of, plain, unknown_key
+from .model import EngineFile, Override, Table, mistakes_of_choice
+
+LARGEST = 16_000_000             # bytes of an engine file
+MOST_SHOWN = 20                  # mistakes of one file
+DEEPEST = 32                     # parts of a dotted key; tomllib's memory grows with their square
+REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5"}
+
+T = TypeVar("T", bound=Table)
+_KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
+_DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST}}}""")
+
+
+def read(source: str | Path) -> EngineFile:
+    """The engine file at a path, or from standard input for "-".
+
+    Raises BalcliError if there is nothing to read, InputError with every mistake that the text has.
+    """
+    if str(source) == "-":
+        return parse(sys.stdin.buffer.read(LARGEST + 1), "standard input")
+    try:
+        with Path(source).open("rb") as stream:
+            text = stream.read(LARGEST + 1)
+    except IsADirectoryError:
+        raise BalcliError(f"{source}: is a folder; name an engine file in it") from None
+    except FileNotFoundError:
+        raise BalcliError(f"{source}: no such file") from None
+    except (OSError, ValueError) as error:           # ValueError: a zero byte in the name
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise BalcliError(f"{str(source)[:200]!r}: cannot be read ({reason})") from None
+    return parse(text, str(source))
+
+
+def parse(text: str | bytes, file: str = "") -> EngineFile:
+    """The engine that a TOML text describes; `file` is its name in messages. Raises InputError with every mistake."""
+    reader = _Reader()
+    engine = reader.engine(_tables(text, file))
+    if engine is None:
+        raise reader.error(file)
+    return engine
+
+
+def _tables(text: str | bytes, file: str) -> dict[str, Any]:
+    """TOML -> nested dicts; whatever tomllib raises becomes an InputError."""
+    if len(text) > LARGEST:
+        raise InputError([Problem("", f"has more than {LARGEST // 1_000_000} MB; no engine file needs that")], file)
+    try:
+        return _decode(text)
+    except tomllib.TOMLDecodeError as error:
+        message = f"is not valid TOML: {str(error)[:300]}"
+    except RecursionError:
+        message = "lists or tables are nested too deeply; an engine file needs no more than four levels"
+    except UnicodeDecodeError as error:
+        line = error.object[:error.start].count(b"\n") + 1
+        message = f"is not UTF-8 text (line {line}); save it as UTF-8"
+    except ValueError as error:                      # int() of very many digits
+        message = f"a number cannot be read: {str(error).split(';')[0][:300]}"
+    raise InputError([Problem("", message)], file)
+
+
+def _decode(text: str | bytes) -> dict[str, Any]:
+    if isinstance(text, bytes):
+        text = text.decode("utf-8-sig")
+    if _DEEP_KEY.search(text):
+        raise RecursionError
+    return tomllib.loads(text)
+
+
+class _Reader:
+    """Reads table after table and collects the mistakes."""
+
+    def __init__(self) -> None:
+        self._found: list[Problem] = []
+        self._unknown: list[tuple[str, str, type[Table] | None]] = []        # path of the table, key, table
+
+    def engine(self, data: Mapping[str, Any]) -> EngineFile | None:
+        """The model, or None if there are mistakes. Tables that the file does not have are not even compiled."""
+        self._unknown += [("", key, None) for key in data if key not in KNOWN]
+        for key, example in REQUIRED.items():
+            if key not in data:
+                self._add(key, f'is missing; an engine needs it, such as "[{key}]" and "{example}" below it')
+        parts: dict[str, Any] = {key: self._text(key, data[key]) for key in TEXTS if key in data}
+        parts |= {key: self._table(key, data[key], table) for key, table in TABLES.items() if key in data}
+        parts |= {key: self._devices(key, data[key], table) for key, table in DEVICES.items() if key in data}
+        if "cylinder" in data:
+            parts["cylinder"] = self._cylinders(data["cylinder"])
+        return None if self._found or self._unknown else EngineFile.model_construct(set(parts), **parts)
+
+    def error(self, file: str) -> InputError:
+        """The first mistakes, misspelt keys before the others, and how many more there are."""
+        shown = [unknown_key(*unknown) for unknown in self._unknown[:MOST_SHOWN]]
+        meant = {path for _, path in shown if path}
+        rest = [p for p in self._found if not (p.path in meant and p.message.startswith("is missing"))]
+        problems = [problem for problem, _ in shown] + rest
+        more = len(self._unknown) + len(rest) - MOST_SHOWN
+        return InputError(problems[:MOST_SHOWN], file, max(more, 0))
+
+    def _add(self, path: str, message: str) -> None:
+        self._found.append(Problem(path, message))
+
+    def _text(self, key: str, value: object) -> object:
+        if not isinstance(value, str):
+            self._add(key, f"{shorten(value)} is not text; write it in quotes")
+        return value
+
+    def _table(self, path: str, value: object, table: type[T]) -> T | None:
+        if not isinstance(value, Mapping):
+            self._add(path, f"{shorten(value)} stands where a table belongs; write [{path}] and its keys below it")
+            return None
+        try:
+            return table.model_validate(value)
+        except ValidationError as error:
+            self._translate(path, error, value, table)
+            return None
+
+    def _devices(self, key: str, value: object, table: type[T]) -> tuple[T | None, ...]:
+        if not isinstance(value, list):
+            self._add(key, f"is one of several; write [[{key}]] in double brackets, once for each {key}")
+            return ()
+        return tuple(self._table(f"{key}.{number}", item, table) for number, item in enumerate(value, 1))
+
+    def _cylinders(self, value: object) -> dict[int, Override | None]:
+        if not isinstance(value, Mapping):
+            value = {"": value}
+        found = {}
+        for key, part in value.items():
+            if re.fullmatch(r"[1-9][0-9]{0,4}", key):
+                found[int(key)] = self._table(f"cylinder.{key}", part, Override)
+            else:
+                self._add(f"cylinder.{key[:60]}".rstrip("."),
+                          "does not name a cylinder; write [cylinder.3] for what differs in cylinder 3")
+        return found
+
+    def _translate(self, path: str, error: ValidationError, value: Mapping[str, Any], table: type[Table]) -> None:
+        """pydantic's findings, and the keys that exclude each other, which it looks at only where all else is right."""
+        findings = error.errors(include_url=False)
+        if any(finding["loc"] for finding in findings):
+            for mistake in mistakes_of_choice(table, value):
+                self._add(path, mistake)
+        for finding in findings:
+            *parents, last = finding["loc"] or ("",)
+            if finding["type"] == "extra_forbidden":
+                inner = INNER.get(str(parents[0])) if parents else table
+                self._unknown.append((path_of(path, parents), str(last), inner))
+            else:
+                self._found.append(plain(path, finding))

@@ -1,0 +1,82 @@
+"""Engine -> free forces and moments by order, computing only the quantities and orders that are asked for."""
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .core import harmonics, ripple
+from .core.inertia import Loads
+from .core.phasors import Array, Phasors
+from .engine import Engine
+
+SPECTRAL = ("force", "moment", "couple", "torque", "roll")
+_CLOSED_FORM = 256              # highest order at which closed forms are cheaper than sampling and transforming
+
+
+@dataclass(frozen=True)
+class Spectra:
+    """Phasors by order: force (N), moment, couple, inertia torque on the crank and roll (N m); None: not asked for."""
+
+    orders: Array
+    force: Phasors | None = None
+    moment: Phasors | None = None
+    couple: Phasors | None = None
+    torque: Phasors | None = None
+    roll: Phasors | None = None
+
+    def at(self, orders: ArrayLike) -> Spectra:
+        """Only these orders."""
+        rows = {q: phasors.at(orders) for q, phasors in self.items()}
+        return Spectra(np.asarray(orders, float), **rows)
+
+    def items(self) -> list[tuple[str, Phasors]]:
+        """Name and phasors of everything that was asked for."""
+        return [(q, phasors) for q in SPECTRAL if (phasors := getattr(self, q)) is not None]
+
+
+def spectra(engine: Engine, orders: ArrayLike, quantities: Collection[str] = SPECTRAL) -> Spectra:
+    """Free forces and moments of an engine.
+
+    Args:
+        engine: the engine; trailing axes of its arrays become those of the phasors.
+        orders: shape (orders,), ascending, not negative.
+        quantities: any of SPECTRAL.
+    """
+    wanted = np.asarray(orders, float)
+    needed = {*quantities, *(("couple", "torque") if "roll" in quantities else ())}
+    found = _uneven(engine, wanted, needed) if engine.ripple else _steady(engine, wanted, needed)[0]
+    if "roll" in quantities:
+        found["roll"] = found["couple"] - found["torque"]
+    return Spectra(wanted, **{q: phasors.settled() for q, phasors in found.items() if q in quantities})
+
+
+def relevant_orders(engine: Engine) -> Array:
+    """The orders 1 .. n (0 .. n under uneven speed) beyond which nothing exceeds rounding errors."""
+    c = engine.cylinders
+    highest = max([harmonics.points(c.lam, c.eps) // 2, *(d.order for d in engine.devices)])
+    if not engine.ripple:
+        return np.arange(1.0, highest + 1)
+    return np.arange(0.0, highest + 2 * max(line.order for line in engine.ripple) + 1)
+
+
+def _steady(engine: Engine, orders: Array, quantities: Collection[str]) -> tuple[dict[str, Phasors], Loads]:
+    c = engine.cylinders
+    find = harmonics.of if orders.max(initial=0) <= _CLOSED_FORM else harmonics.sampled
+    x, y, z = engine.reference_m
+    loads = Loads(c, engine.devices, (x + 1j * y, z), orders,
+                  find(orders, c.lam, c.eps, rod=bool(np.any(c.couple)), energy="torque" in quantities))
+    return {q: engine.omega**2 * getattr(loads, q) for q in SPECTRAL[:4] if q in quantities}, loads
+
+
+def _uneven(engine: Engine, orders: Array, quantities: Collection[str]) -> dict[str, Phasors]:
+    w = ripple.speed((line.order, line.amplitude, line.angle_deg) for line in engine.ripple)
+    dense = np.arange(0.0, orders.max(initial=0) + len(w))
+    steady, loads = _steady(engine, dense, quantities)
+    means = {"couple": loads.mean_momentum} if "couple" in quantities else {}
+    if "torque" in quantities:
+        means["torque"] = loads.mean_inertia
+    return {q: (ripple.torque if q == "torque" else ripple.force)(phasors.settled(), w, float(engine.omega**2 * means.get(q, 0.0))).at(orders)
+            for q, phasors in steady.items()}
