@@ -22,7 +22,7 @@ def examples(printed: Print, options: Options) -> Table:
     exact = (*_first(), *_second(GRAVITY), *_third())
     margin = [words[:-1] for words in printed.rows]
     rows = [(*words, answer) for words, answer in zip(margin, exact, strict=True)]
-    return printed.table(printed.columns, rows, stub=3, explanations=[
+    return printed.table(printed.columns, rows, stub=4, explanations=[
         _instead("author's approximation: omega taken as 418 rad/s", 1, _three_digits(_acceleration(418.0))),
         _instead("follows from the rounded figures 1.79 and 37400, g = 32.2", 2, _three_digits(1.79 * 37400 / 32.2)),
         _instead("author's approximation: g taken as 32.2 ft/s^2", 7, _second(32.2)[-1]),

@@ -65,7 +65,8 @@ def _half_cycle(lam: float) -> Row:
     i, j = np.unravel_index(peaks.argmin(), peaks.shape)
     at = np.abs(force[i, j]).argmax()
     worst = force[i, j, at]
-    return tuple(cells(map(float, (peaks[i, j], k[i], alpha[j], np.degrees(np.arctan(worst.imag / worst.real)), theta[at]))))
+    phi = np.degrees(np.arctan(worst.imag / worst.real))
+    return tuple(cells(map(float, (peaks[i, j], k[i], alpha[j], phi, theta[at]))))
 
 
 def _force(lam: float, k: Real, alpha: Real, theta: Real) -> NDArray[np.complex128]:
