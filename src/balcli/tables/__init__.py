@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from .options import Options
-from .registry import NAMES, all_errata, recompute
+from .registry import NAMES, recompute, select
 from .table import Erratum, Table
 
-__all__ = ["NAMES", "Erratum", "Options", "Table", "all_errata", "recompute"]
+__all__ = ["NAMES", "Erratum", "Options", "Table", "recompute", "select"]

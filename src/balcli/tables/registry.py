@@ -1,15 +1,16 @@
 """Which tables there are, and what each may be asked."""
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from difflib import get_close_matches
 
 from ..errors import BalcliError
-from . import kvasnikov, liang, liu, series, tsinghua, wang
+from . import kvasnikov, layouts, liang, liu, series, tsinghua, wang
 from .options import Options
 from .printed import Print, load
-from .table import Erratum, Table
+from .ranges import crank_ratios, headings
+from .table import Table
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,7 @@ REGISTRY: dict[str, Entry] = {
     "kvasnikov-2": Entry(kvasnikov.rod, ("lambda",)),
     "liang-examples": Entry(liang.examples),
     "series": Entry(series.coefficients, ("power",)),
+    "layouts": Entry(layouts.textbook),
 }
 NAMES = tuple(REGISTRY)
 
@@ -57,6 +59,18 @@ def recompute(name: str, options: Options | None = None) -> Table:
     return entry.compute(load(name), asked)
 
 
-def all_errata() -> Iterator[tuple[str, Erratum]]:
-    """Every erratum of every table, with the table's name."""
-    return ((name, erratum) for name in NAMES for erratum in recompute(name).errata)
+def select(name: str | None, lam: str | None = None, angle: str | None = None, power: int | None = None) -> list[Table]:
+    """The table of this name, or all of them; ranges as text (`0.20:0.40:0.01`).
+
+    Raises:
+        BalcliError: no such table or range, an option that the table does not take, or a range without a name.
+    """
+    options = Options(crank_ratios(lam) if lam else None, headings(angle, "--angle") if angle else None, power)
+    if name is None and options.given():
+        some = ", ".join(_taking(options)) or "these do not go together"
+        raise BalcliError(f"--{options.given()[0]}: name the table that it is for ({some})")
+    return [recompute(name, options)] if name else [recompute(each) for each in NAMES]
+
+
+def _taking(options: Options) -> list[str]:
+    return [name for name, entry in REGISTRY.items() if set(options.given()) <= set(entry.takes)]
