@@ -1,8 +1,8 @@
 """Curves over the crank angle by direct evaluation: nothing here is a sum of orders.
 
-Source: momentum and kinetic energy of each cylinder (THEORY, section 4). With crank speed omega and acceleration xi, and a
-prime for the derivative with respect to the crank angle: force -(omega^2 G' + xi G), couple -(omega^2 h' + xi h), inertia
-torque -(1/2 I' omega^2 + xi I).
+From momentum G, moment of momentum h and inertia I of each cylinder at crank speed 1. With crank speed omega, crank
+acceleration xi and a prime for the derivative with respect to the crank angle: force -(omega^2 G' + xi G), couple
+-(omega^2 h' + xi h), inertia torque -(1/2 I' omega^2 + xi I).
 """
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def crank_angles(step: float = 1.0) -> Array:
     """
     if not FINEST <= step <= 360:
         raise BalcliError(f"--step {step:g}: give a step of the crank angle from {FINEST:g} to 360 degrees")
-    return np.arange(np.ceil(360 / step - 1e-9)) * step
+    return np.arange(0.0, np.ceil(360 / step - 1e-9)) * step
 
 
 def engine_curves(engine: Engine, crank_deg: Array) -> Curves:
@@ -72,7 +72,8 @@ def cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:
     motion, row = _Motion(engine, crank_deg), engine.numbers.index(number)
     lam, eps, psi = motion.lam[row], motion.eps[row], motion.psi[row]
     r, v = motion.radius, motion.v[row]
-    return _curves(engine, crank_deg, travel_m=r * sc.displacement(psi, lam, eps), velocity_m_per_s=r * motion.omega * v,
+    return _curves(engine, crank_deg, travel_m=r * sc.displacement(psi, lam, eps),
+                   velocity_m_per_s=r * motion.omega * v,
                    acceleration_m_per_s2=r * (motion.omega**2 * motion.a[row] + motion.xi * v),
                    rod_angle_deg=np.degrees(np.arctan2(*sc.rod_angle(psi, lam, eps))))
 
@@ -112,8 +113,8 @@ def _forces(engine: Engine, motion: _Motion) -> tuple[Complex, Array]:
     rows = [*(piston + pins)]
     for d in engine.devices:
         ahead = unit(d.order * motion.crank_deg)
-        n = d.order
-        rows.append(d.forward * ahead * (n * n * w2 - 1j * n * xi) + d.backward * np.conj(ahead) * (n * n * w2 + 1j * n * xi))
+        radial, along = d.order**2 * w2, 1j * d.order * xi
+        rows.append(d.forward * ahead * (radial - along) + d.backward * np.conj(ahead) * (radial + along))
     return np.array(rows), np.concatenate([np.ravel(c.z), [d.z for d in engine.devices]])
 
 

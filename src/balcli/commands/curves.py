@@ -1,14 +1,12 @@
 """`balcli curves`: numbers over the crank angle."""
 from __future__ import annotations
 
-from dataclasses import replace
 from enum import StrEnum
 from typing import Annotated
 
 import typer
 
 from .options import EngineFile, Output, Speed, checked_speed
-from .output import emit
 
 
 class CurveFormat(StrEnum):
@@ -28,11 +26,11 @@ def curves(file: EngineFile, cylinder: Cylinder = None, step: Step = 1.0, speed:
            form: Form = CurveFormat.CSV, output: Output = None) -> None:
     """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston."""
     from ..curves import crank_angles, cylinder_curves, engine_curves
-    from ..load import load
     from ..render.curves import curves_csv, curves_json
+    from .output import emit
+    from .several import engine_of
+
     angles = crank_angles(step)
-    engine = load(file)
-    if (rpm := checked_speed(speed)) is not None:
-        engine = replace(engine, speed_rpm=rpm)
+    _, engine = engine_of(file, checked_speed(speed))
     found = engine_curves(engine, angles) if cylinder is None else cylinder_curves(engine, cylinder, angles)
     emit(curves_json(found) if form is CurveFormat.JSON else curves_csv(found), output)

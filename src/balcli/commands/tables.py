@@ -1,17 +1,12 @@
 """`balcli tables`: the printed coefficient tables, recomputed."""
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
-from typing import TYPE_CHECKING, Annotated, assert_never
+from typing import Annotated
 
 import typer
 
-from .options import Format, FormatOption, Output
-from .output import emit
-
-if TYPE_CHECKING:
-    from ..render.sheet import Sheet
+from ..render.formats import Format
+from .options import FormatOption, Output
 
 Name = Annotated[str | None, typer.Argument(help="Which table; without it, all are listed.", show_default=False)]
 Errata = Annotated[bool, typer.Option("--errata", help="List every printed figure that is not the exact one rounded.")]
@@ -30,32 +25,13 @@ def tables(name: Name = None, errata: Errata = False, lam: Lam = None, angle: An
     """The printed coefficient tables of five books and papers, recomputed, and every misprint in them."""
     from ..render import printed
     from ..tables import select
-    shown = select(name, lam, angle, power)
-    if name and not errata:
-        as_json, as_csv = partial(printed.table_json, shown[0]), partial(printed.table_csv, shown[0], digits)
-        as_sheet = partial(printed.table_sheet, shown[0], digits)
-    elif errata:
-        as_json, as_csv = partial(printed.errata_json, shown), partial(printed.errata_csv, shown)
-        as_sheet = partial(printed.errata_sheet, shown)
+    from .output import emit
+
+    shown, into_file = select(name, lam, angle, power), output is not None
+    if errata:
+        text = printed.errata(shown, form, into_file=into_file)
+    elif name:
+        text = printed.table(shown[0], form, digits, into_file=into_file)
     else:
-        as_json, as_csv = partial(printed.names_json, shown), partial(printed.names_csv, shown)
-        as_sheet = partial(printed.names_sheet, shown)
-    emit(_text(form, as_json, as_csv, as_sheet, output is not None), output)
-
-
-def _text(form: Format, as_json: Callable[[], str], as_csv: Callable[[], str], as_sheet: Callable[[], Sheet],
-          into_file: bool) -> str:
-    """One of three ways to write a result."""
-    match form:
-        case Format.JSON:
-            return as_json()
-        case Format.CSV:
-            return as_csv()
-        case Format.MARKDOWN:
-            from ..render.markdown import markdown
-            return markdown([as_sheet()])
-        case Format.TABLE:
-            from ..render.table import terminal
-            return terminal([as_sheet()], into_file=into_file)
-        case _:
-            assert_never(form)
+        text = printed.names(shown, form, into_file=into_file)
+    emit(text, output)

@@ -5,33 +5,49 @@ print deviates it follows: `.4313 ≠ .4312`. JSON and CSV hold full precision.
 """
 from __future__ import annotations
 
-import csv
-import io
-import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict
+from typing import Any
 
 from ..tables.table import Cell, Erratum, Table, deviates, figure, rational, rounded
+from .csv import write
+from .formats import Format, render
 from .sheet import Facts, Grid, Sheet
 
 ERRATA = ("table", "row", "column", "printed", "exact", "kind")
 NAMES = ("name", "title", "source", "errata")
 
 
-def table_json(table: Table) -> str:
-    """One table: recomputed and printed rows, errata."""
-    return _json({
-        "format": "balcli.table/1", "name": table.name, "title": table.title, "source": table.source,
-        "columns": table.columns, "rows": table.rows, "printed": table.printed,
-        "errata": [asdict(e) for e in table.errata],
-    })
-
-
-def table_csv(table: Table, digits: int | None = None) -> str:
-    """Headings and recomputed rows, in full precision unless digits are asked for."""
+def table(result: Table, form: Format, digits: int | None = None, *, into_file: bool = False) -> str:
+    """One table."""
     def text(value: Cell) -> Cell:
         return value if digits is None or not isinstance(value, float) else f"{value:.{digits}f}"
-    return _csv([table.columns, *([text(value) for value in row] for row in table.rows)])
+    return render(form, sheets=lambda: [table_sheet(result, digits)], documents=lambda: [_document(result)],
+                  rows=lambda: write(result.columns, ([text(value) for value in row] for row in result.rows)),
+                  into_file=into_file)
+
+
+def errata(results: Sequence[Table], form: Format, *, into_file: bool = False) -> str:
+    """The errata of some tables; JSON is one list, each item with its table's name."""
+    return render(form, sheets=lambda: [errata_sheet(results)],
+                  documents=lambda: [[{"name": t.name, **asdict(e)} for t in results for e in t.errata]],
+                  rows=lambda: write(ERRATA, _errata(results)), into_file=into_file)
+
+
+def names(results: Sequence[Table], form: Format, *, into_file: bool = False) -> str:
+    """Which tables there are, and how many errata each has."""
+    lines = [(t.name, t.title, t.source, len(t.errata)) for t in results]
+    return render(form, sheets=lambda: [names_sheet(results)], rows=lambda: write(NAMES, lines), into_file=into_file,
+                  documents=lambda: [[dict(zip(NAMES, line, strict=True)) for line in lines]])
+
+
+# ------------------------------------------------------------------ sheets and documents
+def _document(result: Table) -> dict[str, Any]:
+    return {
+        "format": "balcli.table/1", "name": result.name, "title": result.title, "source": result.source,
+        "columns": result.columns, "rows": result.rows, "printed": result.printed,
+        "errata": [asdict(e) for e in result.errata],
+    }
 
 
 def table_sheet(table: Table, digits: int | None = None) -> Sheet:
@@ -48,35 +64,16 @@ def count(table: Table) -> str:
     printed, wrong = sum(figure(text) is not None or rational(text) is not None for text in words), len(table.errata)
     if not printed:
         return "nothing printed to compare with"
-    return f"{wrong} of {printed} printed figures deviate (exact ≠ printed)" if wrong else f"all {printed} figures agree"
-
-
-# ------------------------------------------------------------------ lists over tables
-def errata_json(tables: Iterable[Table]) -> str:
-    """One list over all tables, each item with its table's name."""
-    return _json([{"name": table.name, **asdict(e)} for table in tables for e in table.errata])
-
-
-def errata_csv(tables: Iterable[Table]) -> str:
-    """One line an erratum."""
-    return _csv([ERRATA, *_errata(tables)])
+    if not wrong:
+        return f"all {printed} printed figures agree"
+    return f"{wrong} of {printed} printed figures deviate (exact ≠ printed)"
 
 
 def errata_sheet(tables: Iterable[Table]) -> Sheet:
-    """The same, and their number."""
+    """All errata, and their number."""
     rows = tuple(_errata(tables))
     note = f"{len(rows)} printed figures are not the exact ones rounded"
     return Sheet("Errata", (Grid("", ERRATA, rows, note=note),))
-
-
-def names_json(tables: Iterable[Table]) -> str:
-    """Name, title, source and number of errata of each table."""
-    return _json([dict(zip(NAMES, (t.name, t.title, t.source, len(t.errata)), strict=True)) for t in tables])
-
-
-def names_csv(tables: Iterable[Table]) -> str:
-    """The same, one line a table."""
-    return _csv([NAMES, *((t.name, t.title, t.source, str(len(t.errata))) for t in tables)])
 
 
 def names_sheet(tables: Iterable[Table]) -> Sheet:
@@ -88,8 +85,8 @@ def names_sheet(tables: Iterable[Table]) -> Sheet:
 
 
 # ------------------------------------------------------------------ cells
-def _errata(tables: Iterable[Table]) -> list[tuple[str, ...]]:
-    return [(t.name, t.label(e.row), e.column, e.printed, _exact(e), e.kind) for t in tables for e in t.errata]
+def _errata(tables: Iterable[Table]) -> Iterator[tuple[str, ...]]:
+    return ((t.name, t.label(e.row), e.column, e.printed, _exact(e), e.kind) for t in tables for e in t.errata)
 
 
 def _exact(erratum: Erratum) -> str:
@@ -115,13 +112,3 @@ def _cell(value: Cell, text: str | None, digits: int | None) -> str:
     shown = f"{rounded(value, like):f}"
     shown = shown.replace("0.", ".", 1) if text.lstrip("+-").startswith(".") and abs(value) < 1 else shown
     return f"+{shown}" if text.startswith("+") else shown
-
-
-def _json(document: object) -> str:
-    return json.dumps(document, ensure_ascii=False, allow_nan=False)
-
-
-def _csv(rows: Iterable[Sequence[Cell]]) -> str:
-    out = io.StringIO()
-    csv.writer(out, lineterminator="\n").writerows(rows)
-    return out.getvalue()

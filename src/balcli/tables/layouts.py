@@ -1,7 +1,7 @@
 """Free forces and moments of the common layouts in textbook units, computed from the example engines.
 
-What the textbook leaves out is taken off each engine: rotating masses, rods' inertia, pin offsets, stagger of the banks,
-balancing devices. F_n = m_rec r omega^2 A_n is the force of order n of one cylinder (F_1 with A_1 = 1), a the distance
+What the textbook leaves out is taken off each engine: rotating masses, rods' inertia, pin offsets, stagger of the
+banks, balancing devices. F_n = m_rec r omega^2 A_n is the force of order n of one cylinder (F_1 with A_1 = 1), a the distance
 of neighbouring throws; moments are about the middle of the crankshaft.
 """
 from __future__ import annotations
@@ -39,12 +39,11 @@ def _row(name: str) -> Row:
     from ..spectrum import spectra
     file = parse((_folder() / f"{name}.toml").read_text(encoding="utf-8"), name)
     engine = build(_bare(file))
-    found = spectra(engine, ORDERS, ("force", "moment"))
+    found = dict(spectra(engine, ORDERS, ("force", "moment")).items())
     c = engine.cylinders
     unit = engine.omega**2 * float(c.reciprocating.ravel()[0] * c.radius.ravel()[0])
     each = unit * harmonics.piston(ORDERS, c.lam.ravel()[:1]).ravel()
-    assert found.force is not None and found.moment is not None
-    axes = np.stack([found.force.major, found.force.minor, found.moment.major, found.moment.minor], axis=-1).reshape(4, 4)
+    axes = np.stack([axis.ravel() for q in ("force", "moment") for axis in (found[q].major, found[q].minor)], axis=-1)
     scale = np.abs(each)[:, None] * np.array([1, 1, _distance(engine), _distance(engine)])
     return (name, file.name, float(len(engine.numbers)), *(axes / scale).ravel().tolist())
 
