@@ -180,8 +180,8 @@ def _rod(file: EngineFile, number: int) -> _Parts:
     own = file.cylinder.get(number)
     figures = _overridden(file.rod, own)
     length = figures["length"] / 1e3 if "length" in figures else file.crank.stroke / 2e3 / figures["ratio"]
-    if "small_end" in figures:
-        small, big = figures["small_end"], figures["big_end"]
+    if "small_end" in figures or "big_end" in figures:
+        small, big = figures.get("small_end", 0.0), figures.get("big_end", 0.0)
     else:
         mass, from_big_end = figures.get("mass", 0.0), figures.get("cg", 0.0) / 1e3
         small, big = mass * (from_big_end / length), mass * ((length - from_big_end) / length)
@@ -264,7 +264,8 @@ def _pins(file: EngineFile, layout: Plan, top: Mapping[int, Any]) -> tuple[dict[
     relative = {n: angle - pin[1] for n, angle in pin.items()}
     if not fires:
         found = intervals or firing.from_pins(order, relative, top, cycle(file.layout))
-        _refuse([found] if isinstance(found, Problem) else [])
+        if isinstance(found, Problem):
+            raise InputError([found])
         fires = firing.instants(order, found, cycle(file.layout))
     off = firing.disagreement(fires, relative, top)
     _refuse([off] if off else [])

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .phasors import EPS, Array, Complex, Phasors, unit
+from .phasors import EPS, Complex, Phasors, unit
 
 
 def speed(lines: Iterable[tuple[int, Any, Any]]) -> Complex:
