@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import TypeVar
 
 import typer
@@ -13,6 +14,7 @@ from ..errors import BalcliError, Exit, InputError
 from ..load import read
 from ..model import EngineFile
 
+F = TypeVar("F")
 T = TypeVar("T")
 
 
@@ -32,18 +34,35 @@ def engine_of(file: str, speed_rpm: float | None = None) -> tuple[EngineFile, En
     return model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)
 
 
-def each_engine(files: Sequence[str], speed_rpm: float | None, work: Callable[[Engine], T]) -> tuple[list[T], Callable[[], None]]:
-    """Results of all good files, in order, and what to call at the end: it exits with status 2 if there was a bad one."""
+def each(files: Sequence[F], work: Callable[[F], T]) -> tuple[list[T], list[str]]:
+    """Results of all good files, in order, and the messages of the bad ones."""
     results, errors = [], []
     for file in files:
         try:
-            results.append(work(engine_of(file, speed_rpm)[1]))
+            results.append(work(file))
         except BalcliError as error:
             errors.append(str(error))
+    return results, errors
 
-    def finish() -> None:
-        for text in errors:
-            typer.echo(f"balcli: {text}", err=True)
-        if errors:
-            raise typer.Exit(Exit.BAD_INPUT)
-    return results, finish
+
+def tell(errors: Sequence[str]) -> None:
+    """Messages on standard error and exit status 2, if there are any."""
+    for text in errors:
+        typer.echo(f"balcli: {text}", err=True)
+    if errors:
+        raise typer.Exit(Exit.BAD_INPUT)
+
+
+def engine_files(paths: Sequence[Path]) -> list[Path]:
+    """Engine files as named, and all that are in a folder.
+
+    Raises:
+        BalcliError: a path that is not there, a folder without engine files.
+    """
+    files: list[Path] = []
+    for path in paths:
+        found = sorted(path.glob("*.toml")) if path.is_dir() else [path]
+        if not found or not path.exists():
+            raise BalcliError(f"{path}: {'has no engine files (*.toml)' if path.is_dir() else 'no such file or folder'}")
+        files += found
+    return files
