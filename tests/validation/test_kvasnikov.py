@@ -84,7 +84,7 @@ def test_v_pair_of_90_degrees():
 
 
 def test_in_line_engines():
-    """(84), (85): with even crank spacing the lowest order is i (i even) or 2 i (i odd); fours and sixes repeat cranks."""
+    """(84), (85): with even crank spacing the lowest order is i (i even) or 2 i (i odd); fours, sixes repeat cranks."""
     assert (layout("i3")["F2_major"], layout("i3")["F6_major"]) == pytest.approx((0, 3), abs=1e-12)
     assert layout("i4")["F2_major"] == pytest.approx(4, rel=1e-14)
     assert (layout("i6")["F4_major"], layout("i6")["F6_major"]) == pytest.approx((0, 6), abs=1e-12)

@@ -74,7 +74,7 @@ def test_relative_extreme_of_the_slider_force_along():
 
 
 def test_second_derivatives_at_the_extreme():
-    """12/(3 sqrt3) by gamma, 32/(3 sqrt3) by alpha; their product is 128/9 (print: 22 and 16, and the right product)."""
+    """12/(3 sqrt3) by gamma, 32/(3 sqrt3) by alpha; their product is 128/9 (print: 22, 16, and the right product)."""
     g, h = 2 * atan(sqrt(2)), 1e-4
     by_gamma = (z_x(g + h) - 2 * z_x(g) + z_x(g - h)) / h**2
     assert by_gamma == pytest.approx(12 / (3 * sqrt(3)), rel=1e-6)

@@ -45,7 +45,7 @@ def _row(name: str) -> Row:
     each = unit * harmonics.piston(ORDERS, c.lam.ravel()[:1]).ravel()
     axes = np.stack([axis.ravel() for q in ("force", "moment") for axis in (found[q].major, found[q].minor)], axis=-1)
     scale = np.abs(each)[:, None] * np.array([1, 1, _distance(engine), _distance(engine)])
-    return (name, file.name, float(len(engine.numbers)), *(axes / scale).ravel().tolist())
+    return (name, file.name, len(engine.numbers), *(axes / scale).ravel().tolist())
 
 
 def _bare(file: EngineFile) -> EngineFile:
