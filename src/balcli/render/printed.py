@@ -81,7 +81,7 @@ def names_sheet(tables: Iterable[Table]) -> Sheet:
     listed = list(tables)
     rows = tuple((t.name, str(len(t.errata)), t.title, t.source) for t in listed)
     note = f"{sum(len(t.errata) for t in listed)} errata; balcli tables NAME shows a table, --errata lists them"
-    return Sheet("Printed tables, recomputed", (Grid("", ("name", "errata", "title", "source"), rows, note=note),))
+    return Sheet("Printed tables, recomputed", (Grid("", ("name", "errata", "title", "source"), rows, note=note, words=(0, 2, 3)),))
 
 
 # ------------------------------------------------------------------ cells
