@@ -92,7 +92,7 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
         InputError: what does not fit together, by its path in the file.
     """
     layout = plan(file.crank, file.layout)
-    _refuse(_articulation(file) + _strangers(layout, file.cylinder))
+    _refuse(_articulation(file) + _strangers(layout, file.cylinder) + _half_rods(file))
     radius = file.crank.stroke / 2e3
     rods = [_rod(file, number) for number in layout.numbers]
     _refuse(p for number, rod in zip(layout.numbers, rods, strict=True) for p in _mistakes(file, number, rod, radius))
@@ -150,7 +150,9 @@ def _slider(d: Slider) -> Device:
 
 def _unbalance(d: Counterweight | Shaft | Slider) -> Any:
     """kg m"""
-    return d.unbalance / 1e6 if d.unbalance is not None else d.mass * d.radius / 1e3
+    if d.unbalance is not None:
+        return d.unbalance / 1e6
+    return (d.mass or 0.0) * (d.radius or 0.0) / 1e3
 
 
 def _place(at: Sequence[Any]) -> Any:
@@ -180,8 +182,8 @@ def _rod(file: EngineFile, number: int) -> _Parts:
     own = file.cylinder.get(number)
     figures = _overridden(file.rod, own)
     length = figures["length"] / 1e3 if "length" in figures else file.crank.stroke / 2e3 / figures["ratio"]
-    if "small_end" in figures or "big_end" in figures:
-        small, big = figures.get("small_end", 0.0), figures.get("big_end", 0.0)
+    if "small_end" in figures:
+        small, big = figures["small_end"], figures["big_end"]
     else:
         mass, from_big_end = figures.get("mass", 0.0), figures.get("cg", 0.0) / 1e3
         small, big = mass * (from_big_end / length), mass * ((length - from_big_end) / length)
@@ -300,6 +302,14 @@ def _by_axis(layout: Plan, axis: Mapping[int, Any]) -> list[int]:
 def _strangers(layout: Plan, own: Mapping[int, Override]) -> list[Problem]:
     return [Problem(f"cylinder.{n}", f"there is no cylinder {n}; this engine has cylinders 1 to {len(layout.cells)}")
             for n in own if n not in layout.numbers]
+
+
+def _half_rods(file: EngineFile) -> list[Problem]:
+    """Cylinders whose own rod is weighed at one end only, where the engine's rod does not give the other."""
+    ends = ("small_end", "big_end")
+    return [Problem(f"cylinder.{n}.rod_{here}", f"needs rod_{missing} beside it: weigh the rod at both ends")
+            for n, own in file.cylinder.items() for here, missing in (ends, ends[::-1])
+            if getattr(own, f"rod_{here}") is not None and getattr(own, f"rod_{missing}") is None and getattr(file.rod, missing) is None]
 
 
 def _articulation(file: EngineFile) -> list[Problem]:
