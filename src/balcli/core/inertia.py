@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .harmonics import Harmonics, Series
+from .linkage import Linkage
 from .phasors import EPS, Array, Complex, Phasors, unit
 
 _SUM = 8 * EPS              # rounding error of a sum, per term and size of the terms
@@ -38,6 +39,7 @@ class Cylinders:
         lam, eps: shape (cylinders or 1, *trailing), crank radius and offset over rod length.
         reciprocating, rotating: masses at the piston pin and at the crank pin, kg.
         couple: `H` of the rods, kg m2 (THEORY: what two point masses lack of the rod's moment of inertia, with the sign changed).
+        linkage: of cylinders that are more than slider-cranks; its masses come on top of these.
     """
 
     axis_deg: Array
@@ -51,10 +53,17 @@ class Cylinders:
     reciprocating: Array
     rotating: Array
     couple: Array
+    linkage: Linkage | None = None
 
     @property
     def count(self) -> int:
         return len(self.pin_deg)
+
+    @property
+    def angle_deg(self) -> Array:
+        """Each cylinder's own crank angle at crank angle 0 (`phi` in THEORY 1), deg, shape (cylinders, *trailing)."""
+        axis = np.repeat(self.axis_deg, np.diff([*self.starts, self.count]), axis=0)
+        return np.asarray(self.axis_deg[self.first] + self.pin_deg - axis)
 
     @property
     def offset(self) -> Array:
@@ -106,6 +115,8 @@ class Loads:
         """Free transverse couple about z, N m s2: `H sum D_k sin k psi - m_rec e (-s'')` and the forces' arms in x and y."""
         c = self._cylinders
         own = c.couple * self._harmonics.rod + -(c.reciprocating * c.offset * c.radius) * self._harmonics.piston
+        if (curve := self._harmonics.curve) is not None:
+            own += (self._curving * c.radius) * curve.couple
         total = self._about_z(own)
         if self._place:
             total += self._forces(None).about(-self._place)
@@ -120,20 +131,26 @@ class Loads:
     @property
     def mean_inertia(self) -> Array:
         """Mean over a revolution of I, kg m2 (needs order 0)."""
-        c = self._cylinders
-        zero = np.broadcast_to(self._inertia.c[self._orders == 0].real[0], np.broadcast_shapes(c.pin_deg.shape, self._inertia.c.shape[1:]))
-        return np.asarray(zero.sum(axis=0)) + self.mean_momentum
+        return self._total(self._inertia.c[self._orders == 0].real[0] + self._cylinders.rotating * self._cylinders.radius**2)
 
     @property
     def mean_momentum(self) -> Array:
-        """Mean moment of momentum of the cylinders about z at speed 1, kg m2: that of the rotating masses."""
-        c = self._cylinders
-        return np.asarray((np.broadcast_to(c.rotating, c.pin_deg.shape) * c.radius**2).sum(axis=0))
+        """Mean moment of momentum of the cylinders about z at speed 1, kg m2: that of masses and rods that turn."""
+        c, h = self._cylinders, self._harmonics
+        mean = c.rotating * c.radius**2 - c.couple * h.turns
+        return self._total(mean if h.curve is None else mean + self._curving * c.radius * h.curve.momentum)
 
     @cached_property
     def _inertia(self) -> Series:
         c, h = self._cylinders, self._harmonics
-        return (c.reciprocating * c.radius**2) * h.kinetic + -c.couple * h.rod_kinetic
+        own = (c.reciprocating * c.radius**2) * h.kinetic + -c.couple * h.rod_kinetic
+        return own if h.curve is None else own + (self._curving * c.radius) * h.curve.kinetic
+
+    @property
+    def _curving(self) -> Array:
+        """Masses on the linkage's curves times crank radius."""
+        c = self._cylinders
+        return np.zeros(1) if c.linkage is None else c.linkage.mass * c.radius
 
     @cached_property
     def _of_devices(self) -> list[Phasors]:
@@ -158,10 +175,17 @@ class Loads:
     def _forces(self, z: Array | None) -> Phasors:
         """Forces of all cylinders, or with their arms along z."""
         c = self._cylinders
-        banks, noise = self._bank_sums((c.reciprocating * c.radius) * self._harmonics.piston, z)
-        ahead = self._n * c.axis_deg[c.first]
-        forward = (unit(ahead + (1 - self._n) * c.axis_deg) * banks).sum(axis=1) / 2
-        backward = (unit((1 + self._n) * c.axis_deg - ahead) * np.conj(banks)).sum(axis=1) / 2
+        along = (c.reciprocating * c.radius) * self._harmonics.piston
+        if (curve := self._harmonics.curve) is not None:
+            along += self._curving * curve.along
+        banks, noise = self._bank_sums(along, z)
+        ahead = astern = banks
+        if curve is not None:
+            across, more = self._bank_sums(self._curving * curve.across, z)
+            ahead, astern, noise = banks + 1j * across, banks - 1j * across, noise + more
+        lead = self._n * c.axis_deg[c.first]
+        forward = (unit(lead + (1 - self._n) * c.axis_deg) * ahead).sum(axis=1) / 2
+        backward = (unit((1 + self._n) * c.axis_deg - lead) * np.conj(astern)).sum(axis=1) / 2
         turning, error = self._rotating(z)
         return Phasors(self._orders, forward + turning, backward, noise / 2 + error)
 
@@ -183,6 +207,11 @@ class Loads:
         banks, noise = self._bank_sums(series, None)
         total = (unit(self._n * (c.axis_deg[c.first] - c.axis_deg)) * banks).sum(axis=1)
         return Phasors.real(self._orders, total, noise)
+
+    def _total(self, values: Array) -> Array:
+        """Sum over the cylinders of one value each."""
+        shape = np.broadcast_shapes(self._cylinders.pin_deg.shape, values.shape)
+        return np.asarray(np.broadcast_to(values, shape).sum(axis=0))
 
     def _arms(self, z: Array) -> Array:
         return z - self._z_ref
