@@ -1,4 +1,5 @@
 """What several tests need: a good engine file, and the same with some text replaced."""
+
 from __future__ import annotations
 
 GOOD = """\

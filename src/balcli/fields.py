@@ -107,8 +107,10 @@ class Number(_Field):
             raise ValueError(f"{shorten(value)} is too large a number; {wanted(self.dimension)}") from None
 
     def json(self) -> dict[str, Any]:
-        bounds = {"exclusiveMinimum": self.above, "minimum": self.least, "exclusiveMaximum": self.below}
-        limits = {key: bound for key, bound in bounds.items() if bound is not None}
+        least = -self.most if self.above is self.least is None else self.least
+        bounds = {"exclusiveMinimum": self.above, "minimum": least,
+                  "exclusiveMaximum": self.below, "maximum": self.most}
+        limits = {key: bound for key, bound in bounds.items() if bound is not None and math.isfinite(bound)}
         if self.dimension is PLAIN:
             return {"type": "number", **limits}
         return {"type": ["number", "string"], "unit": self.dimension.unit, "pattern": STRING_PATTERN, **limits}

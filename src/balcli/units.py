@@ -123,7 +123,7 @@ def _ask_pint(name: str) -> Unit | None:
     try:
         scale, _ = registry.get_base_units(name)     # in m, kg, s, rad
         parts = dict(registry.get_dimensionality(name))
-    except (AttributeError, KeyError, TypeError, ValueError):        # unknown, or no unit that can be multiplied (degC)
+    except (AttributeError, KeyError, TypeError, ValueError):        # pint has no common base class for these
         return None
     powers = [parts.pop(key, 0) for key in ("[length]", "[mass]", "[time]", "[angle]")]
     if parts or any(p != int(p) for p in powers):

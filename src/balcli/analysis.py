@@ -1,0 +1,135 @@
+"""Engine -> Analysis: free forces and moments by order, peaks and sizing, computing only what was asked."""
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .core import harmonics
+from .core.peaks import Peak, peak
+from .core.phasors import Array, Phasors
+from .engine import Engine
+from .errors import BalcliError
+from .sizing import Remedy, auto, fitted
+from .spectrum import SPECTRAL, Spectra, relevant_orders, spectra
+
+QUANTITIES = (*SPECTRAL, "peak", "sizing")
+SHOWN = 1e-6                    # an order is shown if something in it exceeds this share of its own largest order
+HIGHEST = 4096                  # order that may be asked for
+
+
+@dataclass(frozen=True)
+class Sizing:
+    """The devices that a scheme fits, and what is left with them."""
+
+    remedy: Remedy
+    after: Analysis
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """What an engine does to its frame. Whatever was not asked for is None.
+
+    Attributes:
+        engine: as analysed.
+        spectra: phasors of the orders shown.
+        force, moment: largest value over a revolution (N, N m), of all orders, and its crank angle (rad).
+        sizing: devices of the scheme `auto`, and the analysis with them.
+        cylinders: phasors of each cylinder alone (no devices), by cylinder number.
+    """
+
+    engine: Engine
+    spectra: Spectra
+    force: Peak | None = None
+    moment: Peak | None = None
+    sizing: Sizing | None = None
+    cylinders: tuple[tuple[int, Spectra], ...] = ()
+
+    @property
+    def orders(self) -> Array:
+        return self.spectra.orders
+
+
+def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collection[str] | None = None,
+            by_cylinder: bool = False) -> Analysis:
+    """Free forces and moments of an engine, order by order.
+
+    Args:
+        engine: without trailing axes.
+        orders: which orders to show; default: 1 and 2 (0 too under uneven speed) and all in which a quantity that was asked
+            for exceeds 1e-6 of its own largest order.
+        only: any of QUANTITIES; default: all.
+        by_cylinder: also the phasors of every cylinder alone.
+
+    Raises:
+        BalcliError: an unknown quantity, an order that is negative or above HIGHEST.
+    """
+    wanted = set(QUANTITIES if only is None else only)
+    if strangers := sorted(wanted - set(QUANTITIES)):
+        raise BalcliError(f"there is no quantity {', '.join(strangers)}: choose from {', '.join(QUANTITIES)}")
+    asked = None if orders is None else _checked(orders)
+    curves = {"force", "moment"} if "peak" in wanted else set()
+    shown = wanted.intersection(SPECTRAL)
+    whole = relevant_orders(engine) if asked is None or curves else np.empty(0)
+    everything = spectra(engine, np.union1d(whole, [1, 2] if asked is None else asked), shown | curves)
+    visible = Spectra(everything.orders, **{q: p for q, p in everything.items() if q in shown})
+    visible = visible.at(_default_orders(visible, engine) if asked is None else asked)
+    peaks = {q: peak(getattr(everything, q)) for q in curves}
+    return Analysis(
+        engine, visible, **peaks,
+        sizing=_sized(engine, asked, wanted) if "sizing" in wanted else None,
+        cylinders=tuple((n, spectra(alone(engine, n), visible.orders, shown)) for n in sorted(engine.numbers)) if by_cylinder else (),
+    )
+
+
+def alone(engine: Engine, number: int) -> Engine:
+    """The engine with only this cylinder's masses moving, and no devices."""
+    here = np.array([n == number for n in engine.numbers], float)
+    c = engine.cylinders
+    masses = {key: here.reshape(-1, *(1,) * (c.pin_deg.ndim - 1)) * getattr(c, key) for key in ("reciprocating", "rotating", "couple")}
+    return replace(engine, cylinders=replace(c, **masses), devices=())
+
+
+@dataclass(frozen=True)
+class Textbook:
+    """Units of textbooks: `F1 = m_rec r omega^2` of cylinder 1 (N), throw spacing a (m, nan for one throw), and A_n."""
+
+    force: float
+    arm: float
+    ratios: Array
+    equal: bool
+
+
+def textbook(engine: Engine, orders: Array) -> Textbook:
+    """What forces and moments are multiples of, with `F_n = A_n F1` for each order."""
+    c, row = engine.cylinders, engine.numbers.index(1)
+
+    def own(values: Array) -> Array:
+        return values[row:row + 1] if len(values) > 1 else values
+    series = harmonics.of(orders, own(c.lam), own(c.eps), rod=False, energy=False).piston
+    throws = engine.throws_m
+    return Textbook(
+        float(own(c.reciprocating)[0] * c.radius * engine.omega**2),
+        float(np.ptp(throws) / (len(throws) - 1)) if len(throws) > 1 else float("nan"),
+        np.abs(series.c[:, 0]), engine.equal,
+    )
+
+
+def _sized(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizing:
+    remedy = auto(engine)
+    return Sizing(remedy, analyze(fitted(engine, remedy), asked, {*wanted, "force", "moment", "peak"} - {"sizing"}))
+
+
+def _checked(orders: Iterable[float]) -> Array:
+    asked = np.unique(np.asarray(list(orders), float))
+    if not len(asked) or asked[0] < 0 or asked[-1] > HIGHEST or np.any(asked % 1):
+        raise BalcliError(f"orders must be whole numbers from 0 to {HIGHEST}, not {', '.join(f'{n:g}' for n in asked[:8]) or 'none'}")
+    return asked
+
+
+def _default_orders(found: Spectra, engine: Engine) -> Array:
+    due = np.isin(found.orders, [0, 1, 2] if engine.ripple else [1, 2])
+    for _, phasors in found.items():
+        due |= phasors.major > SHOWN * phasors.major.max(initial=0)
+    return found.orders[due]

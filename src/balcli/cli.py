@@ -1,0 +1,66 @@
+"""The command line: which commands there are, and the one place where errors become text and exit codes.
+
+Only the module of the command that is called is imported; what a command does is in `commands/`.
+"""
+from __future__ import annotations
+
+import os
+import sys
+from importlib import import_module
+from typing import Annotated, Any
+
+import typer
+from typer.core import TyperGroup
+from typer.main import get_command
+
+from . import __version__
+from .errors import BalcliError, Exit
+
+COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "plot", "report", "sweep", "search", "scatter",
+            "compare", "bench")
+
+
+class _OnDemand(TyperGroup):
+    """Commands by name; the module of one is imported when it is needed."""
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        return list(COMMANDS)
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        if cmd_name not in COMMANDS:
+            return None
+        single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+        single.command(cmd_name)(getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name))
+        return get_command(single)
+
+
+app = typer.Typer(cls=_OnDemand, no_args_is_help=True, pretty_exceptions_enable=False, context_settings={"help_option_names": ["-h", "--help"]})
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"balcli {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Say which version this is.")] = False) -> None:
+    """Engine balance: which free forces and moments an engine makes, order by order, and what cancels them.
+
+    Describe the engine in a TOML file (`balcli new inline i4.toml` writes one to start from), then `balcli analyze i4.toml`.
+    """
+
+
+def main() -> None:
+    """Entry point: runs the command; whatever a user can mend becomes a message on standard error and exit status 2."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(encoding="utf-8", errors="replace")
+    try:
+        app()
+    except BalcliError as error:
+        typer.echo(f"balcli: {error}", err=True)
+        sys.exit(Exit.BAD_INPUT)
+    except BrokenPipeError:                             # `| head`: what is not read need not be written
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(Exit.DONE)

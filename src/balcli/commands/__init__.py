@@ -1,0 +1,1 @@
+"""One module a command: load, compute, render, print once. Heavy imports stand inside the functions."""

@@ -1,0 +1,34 @@
+"""`balcli analyze`"""
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from .options import EngineFiles, Format, FormatOption, Only, Orders, Output, Speed, Units, UnitsOption, checked_speed, order_list
+
+
+def analyze(
+    files: EngineFiles,
+    format: FormatOption = Format.TABLE,                                    # noqa: A002 (the option's name)
+    speed: Speed = None,
+    orders: Orders = None,
+    only: Only = None,
+    by: Annotated[str, typer.Option("--by", metavar="cylinder", help="cylinder: also each cylinder's share.", show_default=False)] = "",
+    units: UnitsOption = Units.SI,
+    output: Output = None,
+) -> None:
+    """Free forces and moments by order, couple, inertia torque and roll, peaks, and what would balance them."""
+    from ..analysis import analyze as analyzed
+    from ..render.formats import analyses
+    from .output import emit
+    from .several import each, engine_of
+
+    if by not in ("", "cylinder"):
+        raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")
+    chosen = None if only is None else [word.strip() for word in only.split(",")]
+    asked, rpm = order_list(orders), checked_speed(speed)
+    results, finish = each(files, lambda file: analyzed(engine_of(file, rpm)[1], asked, chosen, by_cylinder=bool(by)))
+    if results:
+        emit(analyses(results, format, units, into_file=output is not None), output)
+    finish()

@@ -1,0 +1,34 @@
+"""`balcli check`"""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def check(
+    paths: Annotated[list[Path], typer.Argument(metavar="PATH...", help="Engine files, or folders of them.", show_default=False)],
+    update: Annotated[bool, typer.Option("--update", help="Record the present results in expected/ beside the engines.")] = False,
+) -> None:
+    """Recompute engines and compare with their recorded results; exit status 1 if anything moved."""
+    from ..errors import Exit
+    from ..regression import Difference, differences, record, recorded_at
+    from .output import write
+    from .several import each, engine_files, engine_of
+
+    def compared(file: Path) -> list[Difference]:
+        _, engine = engine_of(str(file))
+        target = recorded_at(file)
+        if not update:
+            return differences(file.stem, engine, target)
+        target.parent.mkdir(exist_ok=True)
+        write(record(engine), target)
+        return []
+    results, finish = each(engine_files(paths), compared)
+    moved = [difference for found in results for difference in found]
+    done = "recorded" if update else "engines"
+    typer.echo("\n".join([*map(str, moved), f"{len(results)} {done}, {len(moved)} differences"]))
+    finish()
+    if moved:
+        raise typer.Exit(Exit.DIFFERENCE)

@@ -1,0 +1,23 @@
+"""`balcli new`"""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Optional
+
+import typer
+
+
+def new(
+    kind: Annotated[str, typer.Argument(metavar="KIND", help="single, inline, vee, boxer, radial or w.", show_default=False)],
+    file: Annotated[Optional[Path], typer.Argument(metavar="[FILE]", help="Where to write it; default: standard output.", show_default=False)] = None,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
+) -> None:
+    """Write a commented, valid engine file to start from."""
+    from ..errors import BalcliError
+    from ..new import template
+    from .output import emit
+
+    text = template(kind)
+    if file is not None and file.exists() and not force:
+        raise BalcliError(f"{file}: is there already; choose another name, or --force to overwrite it")
+    emit(text, file)

@@ -1,0 +1,53 @@
+"""Options that several commands share."""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Optional
+
+import typer
+
+from ..errors import BalcliError
+from ..render.formats import Format, Units
+
+
+EngineFile = Annotated[str, typer.Argument(metavar="FILE", help="Engine file (TOML); - reads standard input.", show_default=False)]
+EngineFiles = Annotated[list[str], typer.Argument(metavar="FILE...", help="Engine files (TOML); - reads standard input.", show_default=False)]
+FormatOption = Annotated[Format, typer.Option("--format", "-f", help="How to write the result.")]
+UnitsOption = Annotated[Units, typer.Option("--units", help="imperial: lbf, lbf·ft, oz·in; JSON stays SI.")]
+Output = Annotated[Optional[Path], typer.Option("--output", "-o", metavar="FILE", help="Write into this file instead.", show_default=False)]
+Speed = Annotated[Optional[float], typer.Option("--speed", metavar="RPM", help="Crank speed instead of the file's.", show_default=False)]
+Orders = Annotated[Optional[str], typer.Option("--orders", metavar="1-8|1,2,4", show_default=False,
+                                               help="Orders to show; default: 1, 2 and all that are not negligible.")]
+Only = Annotated[Optional[str], typer.Option("--only", metavar="WHAT,...", show_default=False,
+                                             help="Compute only some of force, moment, couple, torque, roll, peak, sizing.")]
+
+
+def order_list(text: str | None) -> list[int] | None:
+    """Orders as in `1-8`, `1,2,4` or `1-4,8`.
+
+    Raises:
+        BalcliError: anything else, with the text.
+    """
+    if text is None:
+        return None
+    orders: list[int] = []
+    for part in text.split(","):
+        first, dash, last = part.strip().partition("-")
+        if not (first.isascii() and first.isdigit() and (not dash or (last.isascii() and last.isdigit()))) or len(first + last) > 12:
+            raise BalcliError(f'--orders "{text}": give whole numbers such as 1-8 or 1,2,4')
+        low, high = int(first), int(last or first)
+        if low > high or high > 4096:
+            raise BalcliError(f'--orders "{text}": {part.strip()} must rise and end at 4096 at most')
+        orders += range(low, high + 1)
+    return orders
+
+
+def checked_speed(speed: float | None) -> float | None:
+    """The speed of `--speed`, rpm.
+
+    Raises:
+        BalcliError: unless it is positive and finite.
+    """
+    if speed is not None and not 0 < speed < 1e9:
+        raise BalcliError(f"--speed {speed:g}: the crank speed must be a positive number of rpm, below 1e9")
+    return speed

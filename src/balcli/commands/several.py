@@ -1,0 +1,66 @@
+"""Several engine files: what is good is reported, what is bad is named."""
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TypeVar
+
+import typer
+
+from ..checks import suspicious
+from ..engine import Engine, build
+from ..errors import BalcliError, Exit, InputError
+from ..load import read
+from ..model import EngineFile
+
+F = TypeVar("F")
+T = TypeVar("T")
+
+
+def engine_of(file: str, speed_rpm: float | None = None) -> tuple[EngineFile, Engine]:
+    """Model and engine of one file, with warnings about suspicious values on standard error.
+
+    Raises:
+        BalcliError: all mistakes of the file.
+    """
+    model = read(file)
+    try:
+        engine = build(model)
+    except InputError as error:
+        raise InputError(error.problems, file) from None
+    for warning in suspicious(model):
+        typer.echo(f"warning: {file}: {warning}", err=True)
+    return model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)
+
+
+def each(files: Sequence[F], work: Callable[[F], T]) -> tuple[list[T], Callable[[], None]]:
+    """Results of all good files, in order, and what to call at the end: it exits with status 2 if there was a bad one."""
+    results, errors = [], []
+    for file in files:
+        try:
+            results.append(work(file))
+        except BalcliError as error:
+            errors.append(str(error))
+
+    def finish() -> None:
+        for text in errors:
+            typer.echo(f"balcli: {text}", err=True)
+        if errors:
+            raise typer.Exit(Exit.BAD_INPUT)
+    return results, finish
+
+
+def engine_files(paths: Sequence[Path]) -> list[Path]:
+    """Engine files as named, and all that are in a folder.
+
+    Raises:
+        BalcliError: a path that is not there, a folder without engine files.
+    """
+    files: list[Path] = []
+    for path in paths:
+        found = sorted(path.glob("*.toml")) if path.is_dir() else [path]
+        if not found or not path.exists():
+            raise BalcliError(f"{path}: {'has no engine files (*.toml)' if path.is_dir() else 'no such file or folder'}")
+        files += found
+    return files

@@ -1,0 +1,99 @@
+"""Recorded results of engines against what is computed now."""
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from .analysis import analyze
+from .engine import Engine
+from .render import json as documents
+from .render.figures import KEYS
+from .spectrum import SPECTRAL
+
+TOLERANCE = 1e-9                # of a quantity's largest order
+RECORDED = (*SPECTRAL, "peak")
+_PARTS = ("forward", "backward", "cos", "sin")
+_UNITS = {"force": "N"}
+
+
+@dataclass(frozen=True)
+class Difference:
+    """A figure that moved, or a reason why it could not be compared."""
+
+    engine: str
+    figure: str
+    recorded: float | None = None
+    now: float | None = None
+    share: float | None = None
+
+    def __str__(self) -> str:
+        if self.recorded is None or self.now is None:
+            return f"{self.engine}: {self.figure}"
+        return f"{self.engine}: {self.figure}: {self.recorded:.10g} -> {self.now:.10g} ({self.share:.1e} of the largest)"
+
+
+def recorded_at(engine_file: Path) -> Path:
+    """Where the result of an engine file is recorded."""
+    return engine_file.parent / "expected" / f"{engine_file.stem}.json"
+
+
+def record(engine: Engine) -> str:
+    """What `check --update` writes."""
+    return json.dumps(documents.analysis(analyze(engine, only=RECORDED)), indent=1, ensure_ascii=False) + "\n"
+
+
+def differences(name: str, engine: Engine, file: Path) -> list[Difference]:
+    """All figures of an engine that are not those of its recorded result."""
+    if not file.exists():
+        return [Difference(name, f"no result is recorded in {file.parent.name}/{file.name}; check --update records it")]
+    try:
+        recorded = json.loads(file.read_text(encoding="utf-8"))
+        orders = [entry["order"] for entry in recorded["orders"]]
+        old = dict(_figures(recorded))
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        return [Difference(name, f"the result recorded in {file.parent.name}/{file.name} cannot be read "
+                                 f"({type(error).__name__}: {error}); check --update records it anew")]
+    shown = analyze(engine, only=RECORDED)
+    now = documents.analysis(analyze(engine, {*orders, *shown.orders}, RECORDED))
+    return [*_plain(name, recorded, now), *_moved(name, old, dict(_figures(now)))]
+
+
+def _plain(name: str, recorded: dict[str, Any], now: dict[str, Any]) -> Iterator[Difference]:
+    pairs = (("number of cylinders", recorded.get("engine", {}).get("cylinders"), now["engine"]["cylinders"]),
+             ("speed, rpm", recorded.get("speed_rpm"), now["speed_rpm"]))
+    for what, old, new in pairs:
+        if old != new:
+            yield Difference(name, f"{what}: {old} -> {new}")
+
+
+def _moved(name: str, old: dict[tuple[str, str, str], float], new: dict[tuple[str, str, str], float]) -> Iterator[Difference]:
+    scale: dict[str, float] = {}
+    for figures in (old, new):
+        for (quantity, _, _), value in figures.items():
+            scale[quantity] = max(scale.get(quantity, 0.0), abs(value))
+    for key in sorted(old.keys() | new.keys()):
+        before, after = old.get(key, 0.0), new.get(key, 0.0)
+        if not abs(after - before) <= TOLERANCE * scale[key[0]]:
+            yield Difference(name, " ".join(filter(None, key)), before, after, abs(after - before) / scale[key[0]])
+
+
+def _figures(document: dict[str, Any]) -> Iterator[tuple[tuple[str, str, str], float]]:
+    """(quantity, order, part) and value of everything that is compared."""
+    for entry in document["orders"]:
+        for quantity, key in KEYS.items():
+            for part in _PARTS:
+                value = entry[key].get(part)
+                if isinstance(value, list):
+                    for axis, component in zip("xy", value, strict=True):
+                        yield (quantity, f"order {entry['order']}", f"{part} {axis}, {_unit(quantity)}"), float(component)
+                elif value is not None:
+                    yield (quantity, f"order {entry['order']}", f"{part}, {_unit(quantity)}"), float(value)
+    yield ("force", "peak", "N"), float(document["peak"]["force_N"])
+    yield ("moment", "peak", "N·m"), float(document["peak"]["moment_Nm"])
+
+
+def _unit(quantity: str) -> str:
+    return _UNITS.get(quantity, "N·m")

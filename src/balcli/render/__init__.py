@@ -1,0 +1,1 @@
+"""A result in, text out. One file a format; nothing here computes."""

@@ -1,0 +1,193 @@
+"""What a person reads of an analysis."""
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+
+from ..analysis import Analysis, Sizing, Textbook, textbook
+from ..core.peaks import Peak
+from ..core.phasors import Phasors
+from ..engine import Engine
+from ..spectrum import Spectra
+from .devices import device_grid
+from .figures import order_number, peak_deg
+from .sheet import Facts, Grid, Sheet, Text, degrees, number
+from .units import System, Unit
+from .verdict import verdict
+
+_SCALARS = {"couple": "couple C", "torque": "inertia torque T", "roll": "roll C − T"}
+
+
+def sheet(result: Analysis, system: System) -> Sheet:
+    """The whole analysis: what the engine is, what it does order by order, peaks, verdict, sizing."""
+    engine, spectra = result.engine, result.spectra
+    parts: list[Grid | Facts | Text] = [facts(engine, system)]
+    parts += _spectra(spectra, system)
+    if spectra.force is not None or spectra.moment is not None:
+        parts += [_directions(spectra, system), _textbook(spectra, textbook(engine, spectra.orders), system)]
+    if result.force is not None:
+        parts.append(_peaks(result, system, "Largest over a revolution, all orders"))
+    parts += [_share(n, share, system) for n, share in result.cylinders]
+    if found := verdict(spectra, system):
+        parts.append(Text("Verdict", found))
+    if result.sizing is not None:
+        parts += _sizing(result.sizing, system)
+    return Sheet(engine.name or "engine without a name", tuple(parts))
+
+
+# ------------------------------------------------------------------ what it is
+def facts(engine: Engine, system: System) -> Facts:
+    """The engine in a few lines, with the masses that the figures include."""
+    c, length, mass = engine.cylinders, system.length, system.mass
+    first = engine.numbers.index(1)
+
+    def of_first(values: np.ndarray) -> float:
+        return float(values[first if len(values) > 1 else 0])
+    unequal = "" if engine.equal else " (cylinder 1; others differ)"
+    bore = f", bore × stroke {number(length.of(engine.bore_m))} × {number(length.of(2 * float(c.radius)))} {length.name}" \
+        f", {number(system.volume.of(engine.displacement_m3), 4)} {system.volume.name}" if engine.bore_m == engine.bore_m else ""
+    lam = of_first(c.lam)
+    pairs = [
+        ("cylinders", f"{c.count}{_banks(engine)}{bore}"),
+        ("crank", f"r = {number(length.of(float(c.radius)))} {length.name}, rod {number(length.of(float(c.radius) / lam))} {length.name}, "
+                  f"λ = {number(lam, 4)}{unequal}"),
+        ("firing", _firing(engine)),
+        ("speed", f"{number(engine.speed_rpm, 6)} rpm{', uneven: figures are those of the uneven speed' if engine.ripple else ''}"),
+        ("masses", f"reciprocating {number(mass.of(of_first(c.reciprocating)), 4)} {mass.name} a cylinder (piston, rod's share at its pin), "
+                   f"rotating {number(mass.of(of_first(c.rotating)), 4)} {mass.name} a pin (rod's share, throw){unequal}"),
+        ("reference", f"moments about x, y, z = {', '.join(number(length.of(float(v))) for v in engine.reference_m)} {length.name}"),
+        ("devices", _counted(engine)),
+        ("source", engine.source),
+    ]
+    return Facts(tuple((name, value) for name, value in pairs if value))
+
+
+def _banks(engine: Engine) -> str:
+    axes = np.ravel(engine.cylinders.axis_deg)
+    if len(axes) == 1:
+        return " in line"
+    return f", banks at {', '.join(f'{a:.4g}' for a in axes[:9])}{' …' if len(axes) > 9 else ''} deg"
+
+
+def _firing(engine: Engine) -> str:
+    if not engine.fires_deg:
+        return ""
+    order = list(engine.fires_deg)
+    instants = [*engine.fires_deg.values(), 180.0 * engine.strokes]
+    gaps = [b - a for a, b in pairwise(instants)]
+    even = max(gaps) - min(gaps) < 0.05
+    return f"{'-'.join(map(str, order))}, {f'every {gaps[0]:.4g}' if even else 'after ' + ', '.join(f'{g:.4g}' for g in gaps)} deg"
+
+
+def _counted(engine: Engine) -> str:
+    return f"{len(engine.devices)} of the file are included" if engine.devices else ""
+
+
+# ------------------------------------------------------------------ order by order
+def _spectra(spectra: Spectra, system: System) -> Iterator[Grid]:
+    for quantity, unit in (("force", system.force), ("moment", system.moment)):
+        phasors = getattr(spectra, quantity)
+        if phasors is not None:
+            yield _vectors(f"Free {quantity} by order, {unit.name}", phasors, unit)
+    scalars = {q: p for q, p in spectra.items() if q in _SCALARS}
+    if scalars:
+        yield _scalars(scalars, spectra, system.moment)
+
+
+def _vectors(title: str, phasors: Phasors, unit: Unit) -> Grid:
+    def row(k: int) -> tuple[str, ...]:
+        name = f"{order_number(phasors.orders[k])}"
+        if phasors.balanced[k]:
+            return name, "balanced", "", "", "", ""
+        sizes = (phasors.major[k], phasors.minor[k], abs(phasors.forward[k]), abs(phasors.backward[k]))
+        largest, smallest, ahead, against = (number(unit.of(float(v))) for v in sizes)
+        return name, largest, smallest, degrees(float(phasors.axis_deg[k])), ahead, against
+    return Grid(title, ("order", "largest", "smallest", "axis, deg", "with crank", "against"), tuple(row(k) for k in range(len(phasors.orders))))
+
+
+def _scalars(scalars: dict[str, Phasors], spectra: Spectra, unit: Unit) -> Grid:
+    def row(k: int) -> tuple[str, ...]:
+        cells = [f"{order_number(spectra.orders[k])}"]
+        for phasors in scalars.values():
+            c = phasors.x[k]
+            at = peak_deg(c, spectra.orders[k])
+            cells += ["balanced", ""] if c == 0 else [number(unit.of(abs(c))), "–" if at is None else degrees(at)]
+        return tuple(cells)
+    heads = [head for q in scalars for head in (_SCALARS[q], "peak, deg")]
+    return Grid(f"About the crank axis, {unit.name}", ("order", *heads), tuple(row(k) for k in range(len(spectra.orders))))
+
+
+def _directions(spectra: Spectra, system: System) -> Grid:
+    """Vertical and horizontal, as builders state them."""
+    quantities = [(q, unit) for q, unit in (("force", system.force), ("moment", system.moment)) if getattr(spectra, q) is not None]
+
+    def row(k: int) -> tuple[str, ...]:
+        cells = [f"{order_number(spectra.orders[k])}"]
+        for q, unit in quantities:
+            phasors = getattr(spectra, q)
+            for c in (phasors.x[k], phasors.y[k]):
+                cells += ["0", "–"] if c == 0 else [number(unit.of(abs(c)), 4), degrees(float(-np.degrees(np.angle(c))))]
+        return tuple(cells)
+    names = {"force": ("Fx", "Fy"), "moment": ("Mx", "My")}
+    heads = [head for q, _ in quantities for axis in names[q] for head in (axis, "deg")]
+    return Grid(f"Along x (vertical) and y (horizontal), {', '.join(unit.name for _, unit in quantities)}", ("order", *heads),
+                tuple(row(k) for k in range(len(spectra.orders))),
+                note="Value = amplitude · cos(order · θ − angle). The moment about y is that of the forces along x.")
+
+
+def _textbook(spectra: Spectra, units: Textbook, system: System) -> Grid:
+    quantities = [(q, size, arm) for q, size, arm in (("force", units.force, ""), ("moment", units.force * units.arm, "·a"))
+                  if getattr(spectra, q) is not None and size == size]
+
+    def row(k: int) -> tuple[str, ...]:
+        cells = [f"{order_number(spectra.orders[k])}"]
+        for q, size, _ in quantities:
+            phasors, ratio = getattr(spectra, q), units.ratios[k]
+            parts = (phasors.major[k], abs(phasors.forward[k]), abs(phasors.backward[k]))
+            cells += [number(float(p) / size, 4) if size else "–" for p in parts]
+            cells.append(number(float(parts[0]) / (size * ratio), 4) if size and ratio > 1e-12 else "–")
+        return tuple(cells)
+    heads = [head for _, _, arm in quantities for head in (f"× F1{arm}", "with", "against", f"× Fn{arm}")]
+    arm = f", a = {number(system.length.of(units.arm), 4)} {system.length.name} (distance of neighbouring throws)" if units.arm == units.arm else ""
+    return Grid("In textbook units", ("order", *heads), tuple(row(k) for k in range(len(spectra.orders))),
+                note=f"F1 = m r ω² = {number(system.force.of(units.force))} {system.force.name} (reciprocating mass of "
+                     f"{'one cylinder' if units.equal else 'cylinder 1'}), Fn = A_n F1 its n-th order{arm}.")
+
+
+def _peaks(result: Analysis, system: System, title: str) -> Facts:
+    pairs = (("force", result.force, system.force), ("moment", result.moment, system.moment))
+    return Facts(tuple((name, _peak(peak, unit)) for name, peak, unit in pairs if peak is not None), title)
+
+
+def _peak(peak: Peak, unit: Unit) -> str:
+    if not peak.value:
+        return "none"
+    return f"{number(unit.of(peak.value))} {unit.name} at crank angle {degrees(float(np.degrees(peak.theta)))} deg"
+
+
+def _share(cylinder: int, share: Spectra, system: System) -> Grid:
+    """Each cylinder's part, the lecturer's table: vectors as size and angle."""
+    def cell(v: complex, unit: Unit) -> str:
+        return "0" if v == 0 else f"{number(unit.of(abs(v)), 4)} ∠ {degrees(float(np.degrees(np.angle(v))))}"
+    quantities = [(q, unit) for q, unit in (("force", system.force), ("moment", system.moment)) if getattr(share, q) is not None]
+
+    def row(k: int) -> tuple[str, ...]:
+        cells = [f"{order_number(share.orders[k])}"]
+        for q, unit in quantities:
+            phasors = getattr(share, q)
+            cells += [cell(phasors.forward[k], unit), cell(phasors.backward[k], unit)]
+        return tuple(cells)
+    heads = [f"{q} {way}, {unit.name}" for q, unit in quantities for way in ("with", "against")]
+    return Grid(f"Cylinder {cylinder} alone", ("order", *heads), tuple(row(k) for k in range(len(share.orders))))
+
+
+def _sizing(sizing: Sizing, system: System) -> Iterator[Grid | Text | Facts]:
+    remedy, after = sizing.remedy, sizing.after
+    if not (remedy.counterweights or remedy.shafts or remedy.sliders):
+        yield Text("Sizing", ("Orders 1 and 2 need no counterweight and no shaft.",))
+        return
+    yield Text("Sizing: what leaves no free force or moment of orders 1 and 2", tuple(remedy.reasons))
+    yield device_grid(remedy, system)
+    yield _peaks(after, system, "Largest with these devices")

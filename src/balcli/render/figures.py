@@ -1,0 +1,114 @@
+"""The figures of a result by name, as JSON nests them and CSV lists them."""
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..analysis import Analysis
+from ..core.peaks import Peak
+from ..core.phasors import Phasors
+from ..spectrum import Spectra
+from .units import System, Unit
+
+KEYS = {"force": "force_N", "moment": "moment_Nm", "couple": "couple_Nm", "torque": "inertia_torque_Nm", "roll": "roll_Nm"}
+VECTORS = ("force", "moment")
+
+
+class Row(NamedTuple):
+    """One figure of a result; `cylinder` 0 is the engine, order None the whole curve."""
+
+    cylinder: int
+    quantity: str
+    order: float | None
+    figure: str
+    value: float | bool | None
+    unit: str
+
+
+def order_number(order: float) -> int | float:
+    return int(order) if order == int(order) else float(order)
+
+
+def clean(value: Any) -> float | None:
+    """A plain float; None for nan, and no negative zero."""
+    number = float(value)
+    return None if number != number else number + 0.0
+
+
+def vector(phasors: Phasors, k: int) -> dict[str, Any]:
+    """Force or moment of the k-th order."""
+    forward, backward = phasors.forward[k], phasors.backward[k]
+    return {
+        "forward": [clean(forward.real), clean(forward.imag)],
+        "backward": [clean(backward.real), clean(backward.imag)],
+        "major": clean(phasors.major[k]), "minor": clean(phasors.minor[k]), "axis_deg": clean(phasors.axis_deg[k]),
+        "x": _component(phasors.x[k], phasors.orders[k]), "y": _component(phasors.y[k], phasors.orders[k]),
+        "balanced": bool(phasors.balanced[k]),
+    }
+
+
+def scalar(phasors: Phasors, k: int) -> dict[str, Any]:
+    """Couple, torque or roll of the k-th order."""
+    c, order = phasors.x[k], phasors.orders[k]
+    return {"cos": clean(c.real), "sin": clean(-c.imag), "amplitude": clean(abs(c)), "peak_deg": peak_deg(c, order),
+            "balanced": bool(phasors.balanced[k])}
+
+
+def peak_deg(c: complex, order: float) -> float | None:
+    """First crank angle in [0, 360/order) at which `Re(c e^{i n theta})` is largest; None if it vanishes or is a mean."""
+    if c == 0 or order == 0:
+        return None
+    angle = float(np.degrees(-np.angle(c)) % 360 / order)
+    return clean(angle if angle < 360 / order else 0.0)
+
+
+def _component(c: complex, order: float) -> dict[str, float | None]:
+    """`amplitude cos(n theta - phase)`."""
+    return {"amplitude": clean(abs(c)), "phase_deg": None if c == 0 or order == 0 else clean(-np.degrees(np.angle(c)))}
+
+
+def entries(spectra: Spectra, k: int) -> dict[str, dict[str, Any]]:
+    """All quantities of the k-th order by their JSON keys."""
+    return {KEYS[q]: (vector if q in VECTORS else scalar)(phasors, k) for q, phasors in spectra.items()}
+
+
+def peaks(analysis: Analysis) -> dict[str, float | None]:
+    """The largest force and moment over a revolution."""
+    found: dict[str, float | None] = {}
+    for name, unit, peak in (("force", "N", analysis.force), ("moment", "Nm", analysis.moment)):
+        if peak is not None:
+            found |= {f"{name}_{unit}": clean(peak.value), f"{name}_deg": clean(np.degrees(peak.theta)) if peak.value else None}
+    return found
+
+
+# ------------------------------------------------------------------ as a list
+def rows(analysis: Analysis, system: System) -> Iterator[Row]:
+    """Every figure of an analysis, one a row."""
+    for cylinder, spectra in ((0, analysis.spectra), *analysis.cylinders):
+        for k, order in enumerate(spectra.orders):
+            for q, phasors in spectra.items():
+                unit = system.force if q == "force" else system.moment
+                entry = (vector if q in VECTORS else scalar)(phasors, k)
+                yield from (Row(cylinder, q, order_number(order), *figure) for figure in _flat(entry, unit))
+    pair: tuple[tuple[str, Unit, Peak | None], ...] = (("force", system.force, analysis.force), ("moment", system.moment, analysis.moment))
+    for q, unit, peak in pair:
+        if peak is not None:
+            yield Row(0, q, None, "peak", clean(unit.of(peak.value)), unit.name)
+            yield Row(0, q, None, "peak_deg", clean(np.degrees(peak.theta)) if peak.value else None, "deg")
+
+
+def _flat(entry: dict[str, Any], unit: Unit, prefix: str = "") -> Iterator[tuple[str, float | bool | None, str]]:
+    for name, value in entry.items():
+        if isinstance(value, dict):
+            yield from _flat(value, unit, f"{prefix}{name}_")
+        elif isinstance(value, list):
+            for axis, part in zip("xy", value, strict=True):
+                yield f"{prefix}{name}_{axis}", unit.of(part), unit.name
+        elif name == "balanced":
+            yield name, value, ""
+        elif name.endswith("_deg"):
+            yield f"{prefix}{name}", value, "deg"
+        else:
+            yield f"{prefix}{name}", None if value is None else unit.of(value), unit.name

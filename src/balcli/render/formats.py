@@ -1,0 +1,59 @@
+"""Which formats there are, and which renderer makes each."""
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from enum import StrEnum
+from typing import TYPE_CHECKING, Any, assert_never
+
+if TYPE_CHECKING:
+    from ..analysis import Analysis
+    from .sheet import Sheet
+
+
+class Format(StrEnum):
+    """How a result is written."""
+
+    TABLE = "table"
+    JSON = "json"
+    CSV = "csv"
+    MARKDOWN = "markdown"
+
+
+class Units(StrEnum):
+    """Units of tables, CSV and Markdown; JSON stays SI."""
+
+    SI = "si"
+    IMPERIAL = "imperial"
+
+
+def render(form: Format, *, sheets: Callable[[], list[Sheet]], documents: Callable[[], Sequence[Any]], rows: Callable[[], str],
+           into_file: bool = False) -> str:
+    """Text of a result in one format; only what that format needs is made (JSON imports no table)."""
+    match form:
+        case Format.TABLE:
+            from .table import terminal
+            return terminal(sheets(), into_file=into_file)
+        case Format.MARKDOWN:
+            from .markdown import markdown
+            return markdown(sheets())
+        case Format.CSV:
+            return rows()
+        case Format.JSON:
+            from .json import dumps
+            return "\n".join(map(dumps, documents()))
+        case _:
+            assert_never(form)
+
+
+def analyses(results: Sequence[Analysis], form: Format, units: Units, *, into_file: bool = False) -> str:
+    """Analyses, one after the other; JSON is one document a line."""
+    from . import csv, json
+    from .units import SYSTEMS
+
+    system = SYSTEMS[units]
+
+    def sheets() -> list[Sheet]:
+        from .analysis import sheet
+        return [sheet(result, system) for result in results]
+    return render(form, sheets=sheets, documents=lambda: [json.analysis(r) for r in results],
+                  rows=lambda: csv.analyses(results, system), into_file=into_file)

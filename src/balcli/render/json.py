@@ -1,0 +1,58 @@
+"""Results as JSON (SI units, names carry them)."""
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from .figures import clean, entries, order_number, peaks
+
+if TYPE_CHECKING:
+    from ..analysis import Analysis
+    from ..sizing import Remedy
+    from ..spectrum import Spectra
+
+
+def dumps(document: Any) -> str:
+    """One document on one line; a nan or infinity in it is a fault of ours and raises ValueError."""
+    return json.dumps(document, ensure_ascii=False, allow_nan=False)
+
+
+def analysis(result: Analysis) -> dict[str, Any]:
+    """`balcli.analysis/1`."""
+    engine = result.engine
+    document: dict[str, Any] = {
+        "format": "balcli.analysis/1",
+        "engine": {"name": engine.name, "cylinders": engine.cylinders.count, "displacement_m3": clean(engine.displacement_m3)},
+        "speed_rpm": clean(engine.speed_rpm),
+        "reference_mm": [clean(v * 1e3) for v in engine.reference_m],
+        "orders": orders(result.spectra),
+    }
+    if found := peaks(result):
+        document["peak"] = found
+    if result.sizing is not None:
+        document["sizing"] = {"scheme": result.sizing.remedy.scheme, **devices(result.sizing.remedy), "after": after(result.sizing.after)}
+    if result.cylinders:
+        document["cylinders"] = [{"cylinder": number, "orders": orders(spectra)} for number, spectra in result.cylinders]
+    return document
+
+
+def orders(spectra: Spectra) -> list[dict[str, Any]]:
+    """One entry an order."""
+    return [{"order": order_number(order), **entries(spectra, k)} for k, order in enumerate(spectra.orders)]
+
+
+def after(result: Analysis) -> dict[str, Any]:
+    """What an analysis says of the engine, without the engine."""
+    return {"peak": peaks(result), "orders": orders(result.spectra)}
+
+
+def devices(remedy: Remedy) -> dict[str, list[dict[str, Any]]]:
+    """New devices, as an engine file would describe them."""
+    return {
+        "counterweights": [{"unbalance_kg_m": d.unbalance / 1e6, "angle_deg": d.angle, "position_mm": d.position}
+                           for d in remedy.counterweights],
+        "shafts": [{"ratio": d.ratio, "unbalance_kg_m": d.unbalance / 1e6, "angle_deg": d.angle, "at_mm": list(d.at), "position_mm": d.position}
+                   for d in remedy.shafts],
+        "sliders": [{"order": d.order, "unbalance_kg_m": d.unbalance / 1e6, "direction_deg": d.direction, "angle_deg": d.angle,
+                     "at_mm": list(d.at), "position_mm": d.position} for d in remedy.sliders],
+    }

@@ -1,0 +1,65 @@
+"""A sheet: what a person reads, before it is known where. Terminal, Markdown and HTML are made of it."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A table. Cells are text; the first column is a heading of its row. Cells in `marked` (row, column) stand out."""
+
+    title: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    note: str = ""
+    marked: frozenset[tuple[int, int]] = frozenset()
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Names and what they are."""
+
+    pairs: tuple[tuple[str, str], ...]
+    title: str = ""
+
+
+@dataclass(frozen=True)
+class Text:
+    """Paragraphs under a title."""
+
+    title: str
+    paragraphs: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A title and its parts, in order."""
+
+    title: str
+    parts: tuple[Grid | Facts | Text, ...]
+
+
+def number(value: float, digits: int = 5) -> str:
+    """A number for people: that many significant digits, no exponent between 0.001 and a million, a plain 0."""
+    if value != value:
+        return "–"
+    if value == 0:
+        return "0"
+    text = f"{value:.{digits}g}"
+    if "e" not in text:
+        return text
+    if 1e-4 <= abs(value) < 10 ** max(digits + 2, 6):
+        return f"{value:.0f}" if abs(value) >= 1 else f"{value:.{digits + 3}f}".rstrip("0")
+    mantissa, exponent = text.split("e")
+    return f"{mantissa}e{int(exponent)}"
+
+
+def degrees(value: float) -> str:
+    """An angle to a tenth of a degree, or a dash where there is none."""
+    return "–" if value != value else f"{value + 0.0:.1f}".replace("-0.0", "0.0")
+
+
+def columns(cells: Sequence[Sequence[str]]) -> tuple[tuple[str, ...], ...]:
+    """Rows as a Grid wants them."""
+    return tuple(tuple(row) for row in cells)

@@ -1,0 +1,38 @@
+"""Units on the way out."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+POUND = 0.45359237                      # kg, by definition (1959)
+INCH = 0.0254                           # m, by definition (1959)
+POUND_FORCE = POUND * 9.80665           # N
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A name, and how many SI units it is."""
+
+    name: str
+    size: float
+
+    def of(self, value: float) -> float:
+        """A value in SI units in this unit."""
+        return value / self.size
+
+
+@dataclass(frozen=True)
+class System:
+    """The units in which people read a result."""
+
+    force: Unit
+    moment: Unit
+    unbalance: Unit
+    mass: Unit
+    length: Unit
+    volume: Unit
+
+
+SI = System(Unit("N", 1), Unit("N·m", 1), Unit("g·mm", 1e-6), Unit("kg", 1), Unit("mm", 1e-3), Unit("cm³", 1e-6))
+IMPERIAL = System(Unit("lbf", POUND_FORCE), Unit("lbf·ft", POUND_FORCE * 12 * INCH), Unit("oz·in", POUND / 16 * INCH),
+                  Unit("lb", POUND), Unit("in", INCH), Unit("in³", INCH**3))
+SYSTEMS = {"si": SI, "imperial": IMPERIAL}

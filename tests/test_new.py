@@ -1,0 +1,77 @@
+"""Starting files are valid, also with their optional keys switched on, and tell the truth about alternatives."""
+
+from __future__ import annotations
+
+import math
+import re
+import tomllib
+
+import pytest
+
+from balcli.errors import BalcliError
+from balcli.load import parse
+from balcli.new import KINDS, template
+
+OPTION = re.compile(r"^# *((?:\[+[a-z.0-9]+\]+)|(?:[a-z_]+ *= .*))")
+CYLINDERS = {"single": (1, 1), "inline": (4, 1), "vee": (4, 2), "boxer": (4, 2), "radial": (1, 9), "w": (4, 3)}
+INSTEAD = ("or instead of", "# big_end")
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_it_is_the_engine_that_it_says(kind):
+    engine = parse(template(kind), kind)
+    layout = engine.layout
+    banks = 2 if layout.bank_angle else layout.radial or len(layout.banks or (0,))
+    assert (len(engine.crank.throws or (0,)), banks) == CYLINDERS[kind]
+    assert engine.name
+    assert engine.source.endswith("replace every figure by your own")
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_optional_key_can_be_switched_on(kind):
+    """All of them at once, but for those that stand instead of others."""
+    lines = [line for line in template(kind).splitlines() if not any(mark in line for mark in INSTEAD)]
+    engine = parse("\n".join(OPTION.sub(r"\1", line) for line in lines), kind)
+    assert engine.shaft
+    assert engine.slider
+    assert engine.counterweight
+    assert engine.cylinder
+    assert engine.bobweight
+    assert engine.frame.reference == (0.0, 0.0, 0.0)
+    assert engine.operation.speed_ripple
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_alternatives_say_the_same(kind):
+    text = template(kind)
+    engine = parse(text)
+    rod, given = engine.rod, {}
+    for line in text.partition("[rod]")[2].partition("[piston]")[0].splitlines():
+        if line.startswith("#"):
+            given |= tomllib.loads(OPTION.sub(r"\1", line))
+    inertia = given.get("inertia", rod.inertia)
+    arm = (rod.length - rod.cg) * 1e-3
+    swing = 2 * math.pi * math.sqrt((inertia * 1e-6 + rod.mass * arm**2) / (rod.mass * 9.80665 * arm))
+    assert given["ratio"] == pytest.approx(engine.crank.stroke / 2 / rod.length, abs=1e-4)
+    assert given["small_end"] == pytest.approx(rod.mass * rod.cg / rod.length, abs=1e-4)
+    assert given["small_end"] + given["big_end"] == pytest.approx(rod.mass, abs=1e-4)
+    assert given["pendulum"] == {"pivot": "small_end", "period": pytest.approx(swing, abs=1e-4)}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_key_is_explained_and_lines_are_short(kind):
+    lines = template(kind).splitlines()
+    assert max(map(len, lines)) <= 120
+    assert lines[0].startswith("# ")
+    keys = [line for line in lines if re.match(r"(# )?[a-z_]+ += ", line)]
+    assert [line for line in keys if " # " not in line] == keys[:2]  # name and source
+
+
+def test_unknown_kinds():
+    with pytest.raises(BalcliError) as caught:
+        template("boxxer")
+    assert str(caught.value) == (
+        '"boxxer" is no kind of engine; there are single, inline, vee, boxer, radial, w. Did you mean boxer?'
+    )
+    with pytest.raises(BalcliError, match=r"there are single, inline, vee, boxer, radial, w\.$"):
+        template("q" * 10_000)
