@@ -1,8 +1,8 @@
 """Articulated rods: hinged to the big end of a master rod, as in radials and some V engines (THEORY 8).
 
 In crank radii, with the master rod at the angle -beta_m in its own frame, the knuckle pin moves on
-`K = e^{i psi_m} + k e^{-i beta_m}`; turned into the articulated cylinder's frame, its rod hangs on K as a plain one hangs on
-the crank pin. A master rod is the case k = 0.
+`K = e^{i psi_m} + k e^{-i beta_m}`; turned into the articulated cylinder's frame, its rod hangs on K as a plain one
+hangs on the crank pin. A master rod is the case k = 0.
 """
 from __future__ import annotations
 

@@ -75,7 +75,7 @@ def of(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: b
         series: list[Series] = [getattr(one, name) for one in each]
         noise = np.concatenate([np.broadcast_to(s.noise, s.c.shape[1:]) for s in series])
         return Series(np.concatenate([s.c for s in series], axis=1)[:, which], noise[which])
-    return Harmonics(*map(gather, ("piston", "rod", "kinetic", "rod_kinetic")))
+    return Harmonics(gather("piston"), gather("rod"), gather("kinetic"), gather("rod_kinetic"))
 
 
 def _of_distinct(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> Harmonics:

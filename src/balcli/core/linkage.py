@@ -1,4 +1,4 @@
-"""Mechanisms whose masses move on planar curves, sampled over a revolution: what articulated rods and rotary engines share.
+"""Mechanisms with masses on planar curves, sampled over a revolution: what articulated rods and rotary engines share.
 
 A plain slider-crank needs no more than its piston's motion along the cylinder's axis. Here another mass moves on a closed
 curve `z(psi)` (complex, in crank radii, in the cylinder's frame): the knuckle pin of an articulated rod, the piston of a
@@ -46,7 +46,7 @@ class Linkage(ABC):
         """The cylinders at their own crank angles psi, shape (samples,); lam and eps as in `inertia.Cylinders`."""
 
     def harmonics(self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: bool = True) -> Harmonics:
-        """Harmonics of all cylinders for whole orders. Accelerations are sampled as such, so that no order's error grows."""
+        """Harmonics of all cylinders for whole orders; accelerations are sampled as such, so that no order's error grows."""
         m = self._sampled(lam, eps)
         swirl = np.conj(m.z) * m.z1
         return Harmonics(
@@ -64,16 +64,21 @@ class Linkage(ABC):
 
     def highest(self, lam: Array, eps: Array) -> int:
         """The order beyond which nothing exceeds rounding errors."""
-        return self._sampled(lam, eps).z.shape[-1] // 2
+        return int(self._sampled(lam, eps).z.shape[-1]) // 2
 
     def _sampled(self, lam: Array, eps: Array) -> Motion:
         """A revolution on as many points (a power of two) as leave neither alias nor tail above rounding."""
         count = FEWEST
         while True:
-            motion = self.motion(np.arange(count) * (2 * np.pi / count), lam, eps)
+            motion = self.motion(revolution(count), lam, eps)
             if count >= MOST or all(map(_resolved, (motion.acceleration, motion.spin_rate, motion.z2))):
                 return motion
             count *= 2
+
+
+def revolution(count: int) -> Array:
+    """Crank angles of so many samples."""
+    return np.arange(count, dtype=float) * (2 * np.pi / count)
 
 
 def _resolved(samples: NDArray[np.generic]) -> bool:

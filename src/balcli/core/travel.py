@@ -8,6 +8,7 @@ import numpy as np
 from .articulated import Articulated
 from .harmonics import Array
 from .inertia import Cylinders
+from .linkage import revolution
 
 _STEPS = 720
 
@@ -28,11 +29,12 @@ def travel(c: Cylinders) -> Travel:
     top, bottom = c.eps / (1 + c.lam), c.eps / (1 - c.lam)
     reach = (1 + c.lam) * np.sqrt((1 - top) * (1 + top)) - (1 - c.lam) * np.sqrt((1 - bottom) * (1 + bottom))
     shape = np.broadcast_shapes(c.pin_deg.shape, reach.shape)
-    return Travel(*(np.broadcast_to(a, shape) for a in (c.radius / c.lam * reach, np.degrees(np.arcsin(top)), np.degrees(np.arcsin(bottom)))))
+    found = c.radius / c.lam * reach, np.degrees(np.arcsin(top)), np.degrees(np.arcsin(bottom))
+    return Travel(*(np.broadcast_to(a, shape) for a in found))
 
 
 def _articulated(c: Cylinders, linkage: Articulated) -> Travel:
-    psi = np.arange(_STEPS) * (2 * np.pi / _STEPS)
+    psi = revolution(_STEPS)
     place = linkage.travel(psi, c.lam, c.eps)
     top = _refined(c, linkage, psi[place.argmax(axis=-1)])
     bottom = _refined(c, linkage, psi[place.argmin(axis=-1)])
