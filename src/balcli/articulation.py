@@ -23,7 +23,7 @@ def masters(file: EngineFile, layout: Plan) -> dict[int, int]:
     if file.articulation is None:
         return {}
     chief = {c.throw: c.number for c in layout.cells if c.bank == file.articulation.master - 1}
-    return {c.number: chief[c.throw] for c in layout.cells if c.number != chief[c.throw]}
+    return {c.number: chief[c.throw] for c in layout.cells if chief.get(c.throw, c.number) != c.number}
 
 
 def mistakes(file: EngineFile, layout: Plan) -> Iterator[Problem]:
