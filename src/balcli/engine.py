@@ -110,7 +110,7 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
         InputError: what does not fit together, by its path in the file.
     """
     layout = plan(file.crank, file.layout)
-    _refuse(_articulation(file) + _strangers(layout, file.cylinder))
+    _refuse(_articulation(file) + _strangers(layout, file.cylinder) + _half_rods(file))
     radius = file.crank.stroke / 2e3
     rods = [_rod(file, number) for number in layout.numbers]
     _refuse(p for number, rod in zip(layout.numbers, rods, strict=True) for p in _mistakes(file, number, rod, radius))
@@ -169,7 +169,9 @@ def _slider(d: Slider) -> Device:
 
 def _unbalance(d: Counterweight | Shaft | Slider) -> Any:
     """kg m"""
-    return d.unbalance / 1e6 if d.unbalance is not None else d.mass * d.radius / 1e3
+    if d.unbalance is not None:
+        return d.unbalance / 1e6
+    return (d.mass or 0.0) * (d.radius or 0.0) / 1e3
 
 
 def _place(at: Sequence[Any]) -> Any:
@@ -289,7 +291,8 @@ def _pins(file: EngineFile, layout: Plan, top: Mapping[int, Any]) -> tuple[dict[
     relative = {n: angle - pin[1] for n, angle in pin.items()}
     if not fires:
         found = intervals or firing.from_pins(order, relative, top, cycle(file.layout))
-        _refuse([found] if isinstance(found, Problem) else [])
+        if isinstance(found, Problem):
+            raise InputError([found])
         fires = firing.instants(order, found, cycle(file.layout))
     off = firing.disagreement(fires, relative, top)
     _refuse([off] if off else [])
@@ -324,6 +327,14 @@ def _by_axis(layout: Plan, axis: Mapping[int, Any]) -> list[int]:
 def _strangers(layout: Plan, own: Mapping[int, Override]) -> list[Problem]:
     return [Problem(f"cylinder.{n}", f"there is no cylinder {n}; this engine has cylinders 1 to {len(layout.cells)}")
             for n in own if n not in layout.numbers]
+
+
+def _half_rods(file: EngineFile) -> list[Problem]:
+    """Cylinders whose own rod is weighed at one end only, where the engine's rod does not give the other."""
+    ends = ("small_end", "big_end")
+    return [Problem(f"cylinder.{n}.rod_{here}", f"needs rod_{missing} beside it: weigh the rod at both ends")
+            for n, own in file.cylinder.items() for here, missing in (ends, ends[::-1])
+            if getattr(own, f"rod_{here}") is not None and getattr(own, f"rod_{missing}") is None and getattr(file.rod, missing) is None]
 
 
 def _articulation(file: EngineFile) -> list[Problem]:

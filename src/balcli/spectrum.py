@@ -13,6 +13,7 @@ from .core.phasors import Array, Phasors
 from .engine import Engine
 
 SPECTRAL = ("force", "moment", "couple", "torque", "roll")
+_ONLY_FORCES = {"force", "moment"}
 _CLOSED_FORM = 256              # highest order at which closed forms are cheaper than sampling and transforming
 
 
@@ -66,9 +67,10 @@ def _steady(engine: Engine, orders: Array, quantities: Collection[str]) -> tuple
     c = engine.cylinders
     find = harmonics.of if orders.max(initial=0) <= _CLOSED_FORM else harmonics.sampled
     x, y, z = engine.reference_m
+    rod = bool(np.count_nonzero(c.couple)) and not _ONLY_FORCES.issuperset(quantities)
     loads = Loads(c, engine.devices, (x + 1j * y, z), orders,
-                  find(orders, c.lam, c.eps, rod=bool(np.any(c.couple)), energy="torque" in quantities))
-    return {q: engine.omega**2 * getattr(loads, q) for q in SPECTRAL[:4] if q in quantities}, loads
+                  find(orders, c.lam, c.eps, rod=rod, energy="torque" in quantities), engine.omega**2)
+    return {q: getattr(loads, q) for q in SPECTRAL[:4] if q in quantities}, loads
 
 
 def _uneven(engine: Engine, orders: Array, quantities: Collection[str]) -> dict[str, Phasors]:
@@ -78,5 +80,5 @@ def _uneven(engine: Engine, orders: Array, quantities: Collection[str]) -> dict[
     means = {"couple": loads.mean_momentum} if "couple" in quantities else {}
     if "torque" in quantities:
         means["torque"] = loads.mean_inertia
-    return {q: (ripple.torque if q == "torque" else ripple.force)(phasors.settled(), w, float(engine.omega**2 * means.get(q, 0.0))).at(orders)
+    return {q: (ripple.torque if q == "torque" else ripple.force)(phasors.settled(), w, means.get(q, 0.0)).at(orders)
             for q, phasors in steady.items()}
