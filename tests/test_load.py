@@ -244,6 +244,29 @@ def test_huge_values_are_not_repeated_whole():
     assert len(refusal(changed(("[layout]", f"[layout]\n{'k' * 100_000} = 1")))) < 300
 
 
+def test_messages_carry_no_control_characters():
+    text = changed(("stroke = 90", '"st\\u001b[31mroke" = "9\\n0"\nstroke = "\\u001b]0;x"'))
+    assert (
+        refusal(text)
+        == f"""2 mistakes
+  crank.st?[31mroke: is no key of [crank]; did you mean stroke?
+  crank.stroke: "?]0;x" is not a number followed by a unit; {LENGTH}"""
+    )
+
+
+def test_more_devices_than_an_engine_can_have():
+    text = GOOD + "[[shaft]]\nratio = 1\nunbalance = 1\n" * 10_001
+    assert refusal(text) == "shaft: stands 10001 times; no engine has more than 10000"
+
+
+def test_enormous_lists_are_refused_whole():
+    """One by one, their mistakes would take gigabytes."""
+    flood = changed(("[0, 180, 180, 0]", "[" + "[]," * 1_000_000 + "]"))
+    assert refusal(flood) == "crank.throws: holds 1000001 values; no engine needs more than 20000"
+    nested = changed(("[layout]", "[layout]\nnumbering = [" + f"[{'0.5,' * 300}]," * 300 + "]"))
+    assert refusal(nested) == "layout.numbering: holds 90301 values; no engine needs more than 20000"
+
+
 def test_what_cannot_be_read(tmp_path):
     missing, folder = tmp_path / "none.toml", tmp_path
     for path, message in (

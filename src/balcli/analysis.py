@@ -72,7 +72,7 @@ def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collect
     curves = {"force", "moment"} if "peak" in wanted else set()
     shown = wanted.intersection(SPECTRAL)
     whole = relevant_orders(engine) if asked is None or curves else np.empty(0)
-    everything = spectra(engine, np.union1d(whole, [1, 2] if asked is None else asked), shown | curves)
+    everything = spectra(engine, sorted({*whole, *([1.0, 2.0] if asked is None else asked)}), shown | curves)
     visible = Spectra(everything.orders, **{q: p for q, p in everything.items() if q in shown})
     visible = visible.at(_default_orders(visible, engine) if asked is None else asked)
     peaks = {q: peak(getattr(everything, q)) for q in curves}
@@ -122,14 +122,14 @@ def _sized(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizi
 
 
 def _checked(orders: Iterable[float]) -> Array:
-    asked = np.unique(np.asarray(list(orders), float))
+    asked = np.array(sorted(set(orders)), float)
     if not len(asked) or asked[0] < 0 or asked[-1] > HIGHEST or np.any(asked % 1):
         raise BalcliError(f"orders must be whole numbers from 0 to {HIGHEST}, not {', '.join(f'{n:g}' for n in asked[:8]) or 'none'}")
     return asked
 
 
 def _default_orders(found: Spectra, engine: Engine) -> Array:
-    due = np.isin(found.orders, [0, 1, 2] if engine.ripple else [1, 2])
+    due = found.orders <= 2
     for _, phasors in found.items():
         due |= phasors.major > SHOWN * phasors.major.max(initial=0)
     return found.orders[due]

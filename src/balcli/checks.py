@@ -19,7 +19,7 @@ ROD_LIGHT, ROD_HEAVY = 0.1, 8.0                  # rod mass / piston mass: engin
 # between its two centres can have more; bosses and bolts beyond them add a little.
 INERTIA_LOW, INERTIA_HIGH = 0.02, 0.4
 PISTON_SPEED = 40.0                              # m/s, mean; racing engines stay below 30
-OFFSET_SHARE = 0.1                               # of the stroke; engines have up to 0.1
+OFFSET_SHARE = 0.2                               # of the stroke; pin offsets have up to 0.05, narrow-angle vees up to 0.15
 UNBALANCE_SHARE = 5.0                            # of all moving masses x crank radius; balancing needs 1 or 2
 RIPPLE = 0.5                                     # of the mean speed; the slowest idling engines reach 0.2
 

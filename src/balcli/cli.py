@@ -16,8 +16,7 @@ from typer.main import get_command
 from . import __version__
 from .errors import BalcliError, Exit
 
-COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "plot", "report", "sweep", "search", "scatter",
-            "compare", "bench")
+COMMANDS = ("analyze", "tables", "check", "new", "curves", "schema")
 
 
 class _OnDemand(TyperGroup):
@@ -53,6 +52,7 @@ def _options(version: Annotated[bool, typer.Option("--version", callback=_versio
 
 def main() -> None:
     """Entry point: runs the command; whatever a user can mend becomes a message on standard error and exit status 2."""
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")              # looking for plugins takes longer than an analysis
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(encoding="utf-8", errors="replace")

@@ -16,6 +16,12 @@ STRING_PATTERN = r"^\s*[+-]?[0-9.].*[A-Za-z°µμ²³0-9]\s*$"
 SHOWN = 60                       # characters of a value shown in a message
 
 
+def printable(text: str) -> str:
+    """The first 60 characters; what would move the cursor or colour a terminal becomes a question mark."""
+    cut = text[:SHOWN] + ("..." if len(text) > SHOWN else "")
+    return "".join(letter if letter.isprintable() else "?" for letter in cut)
+
+
 def shorten(value: object) -> str:
     """A value as a reader may recognise it, cut to about 60 characters; never the whole of a huge one."""
     if isinstance(value, bool):
@@ -23,8 +29,7 @@ def shorten(value: object) -> str:
     if isinstance(value, int) and value.bit_length() > 200:
         return f"an integer of about {int(value.bit_length() * math.log10(2)) + 1} digits"
     if isinstance(value, str):
-        text = '"' + value[:SHOWN] + ('..."' if len(value) > SHOWN else '"')
-        return text.replace("\n", " ")
+        return f'"{printable(value)}"'
     if isinstance(value, dict):
         return "a table"
     if isinstance(value, (list, tuple)):

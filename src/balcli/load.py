@@ -11,13 +11,14 @@ from typing import Any, TypeVar
 from pydantic import ValidationError
 
 from .errors import BalcliError, InputError, Problem
-from .fields import shorten
+from .fields import printable, shorten
 from .mistakes import DEVICES, INNER, KNOWN, TABLES, TEXTS, path_of, plain, unknown_key
-from .model import EngineFile, Override, Table, mistakes_of_choice
+from .model import MOST, EngineFile, Override, Table, mistakes_of_choice
 
 LARGEST = 16_000_000             # bytes of an engine file
 MOST_SHOWN = 20                  # mistakes of one file
 DEEPEST = 32                     # parts of a dotted key; tomllib's memory grows with their square
+MOST_VALUES = 2 * MOST           # of one key, inner lists included; to refuse millions one by one takes gigabytes
 REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5"}
 
 T = TypeVar("T", bound=Table)
@@ -80,6 +81,12 @@ def _decode(text: str | bytes) -> dict[str, Any]:
     return tomllib.loads(text)
 
 
+def _count(value: object) -> int:
+    """How many values a value holds, itself included."""
+    parts = value.values() if isinstance(value, Mapping) else value if isinstance(value, list) else ()
+    return 1 + sum(map(_count, parts))
+
+
 class _Reader:
     """Reads table after table and collects the mistakes."""
 
@@ -121,15 +128,25 @@ class _Reader:
         if not isinstance(value, Mapping):
             self._add(path, f"{shorten(value)} stands where a table belongs; write [{path}] and its keys below it")
             return None
+        self._unknown += [(path, key, table) for key in value if key not in table.model_fields]
+        known = {key: part for key, part in value.items() if key in table.model_fields}
+        huge = {key: count for key, part in known.items() if (count := _count(part)) > MOST_VALUES}
+        for key, count in huge.items():
+            self._add(f"{path}.{key}", f"holds {count} values; no engine needs more than {MOST_VALUES}")
+        if huge:
+            return None
         try:
-            return table.model_validate(value)
+            return table.model_validate(known)
         except ValidationError as error:
-            self._translate(path, error, value, table)
+            self._translate(path, error, known, table)
             return None
 
     def _devices(self, key: str, value: object, table: type[T]) -> tuple[T | None, ...]:
         if not isinstance(value, list):
             self._add(key, f"is one of several; write [[{key}]] in double brackets, once for each {key}")
+            return ()
+        if len(value) > MOST:
+            self._add(key, f"stands {len(value)} times; no engine has more than {MOST}")
             return ()
         return tuple(self._table(f"{key}.{number}", item, table) for number, item in enumerate(value, 1))
 
@@ -141,7 +158,7 @@ class _Reader:
             if re.fullmatch(r"[1-9][0-9]{0,4}", key):
                 found[int(key)] = self._table(f"cylinder.{key}", part, Override)
             else:
-                self._add(f"cylinder.{key[:60]}".rstrip("."),
+                self._add(f"cylinder.{printable(key)}".rstrip("."),
                           "does not name a cylinder; write [cylinder.3] for what differs in cylinder 3")
         return found
 
@@ -152,9 +169,8 @@ class _Reader:
             for mistake in mistakes_of_choice(table, value):
                 self._add(path, mistake)
         for finding in findings:
-            *parents, last = finding["loc"] or ("",)
-            if finding["type"] == "extra_forbidden":
-                inner = INNER.get(str(parents[0])) if parents else table
-                self._unknown.append((path_of(path, parents), str(last), inner))
+            if finding["type"] == "extra_forbidden":         # in a table within the table
+                *parents, last = finding["loc"]
+                self._unknown.append((path_of(path, parents), str(last), INNER[str(parents[0])]))
             else:
                 self._found.append(plain(path, finding))

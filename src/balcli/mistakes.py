@@ -6,7 +6,7 @@ from typing import Any
 
 from . import model
 from .errors import Problem
-from .fields import nearest, shorten
+from .fields import nearest, printable, shorten
 
 TEXTS = ("name", "source")
 TABLES: dict[str, type[model.Table]] = {
@@ -30,7 +30,7 @@ WORDS = {
 
 def path_of(start: str, loc: Iterable[int | str]) -> str:
     """`operation`, ("speed_ripple", 0, "order") -> `operation.speed_ripple.1.order`: people count from 1."""
-    return ".".join([start, *(str(part + 1) if isinstance(part, int) else part[:60] for part in loc)])
+    return ".".join([start, *(str(part + 1) if isinstance(part, int) else printable(part) for part in loc)])
 
 
 def plain(path: str, finding: Mapping[str, Any]) -> Problem:
@@ -65,7 +65,7 @@ def unknown_key(path: str, key: str, table: type[model.Table] | None) -> tuple[P
     """An unknown key in a table (None: the file itself), and the path of the key probably meant, or ""."""
     own = list(table.model_fields) if table else KNOWN
     place = f"of [{path.partition('.')[0]}]" if path else "of an engine file"
-    full = f"{path}.{key[:60]}" if path else key[:60]
+    full = f"{path}.{printable(key)}" if path else printable(key)
     if near := nearest(key, own):
         return Problem(full, f"is no key {place}; did you mean {near}?"), f"{path}.{near}" if path else near
     hint = next(_homes(key), f"it has {', '.join(own)}")

@@ -22,13 +22,13 @@ def analyze(
     from ..analysis import analyze as analyzed
     from ..render.formats import analyses
     from .output import emit
-    from .several import each, engine_of
+    from .several import each, engine_of, tell
 
     if by not in ("", "cylinder"):
         raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")
     chosen = None if only is None else [word.strip() for word in only.split(",")]
     asked, rpm = order_list(orders), checked_speed(speed)
-    results, finish = each(files, lambda file: analyzed(engine_of(file, rpm)[1], asked, chosen, by_cylinder=bool(by)))
-    if results:
+    results, errors = each(files, lambda file: analyzed(engine_of(file, rpm)[1], asked, chosen, by_cylinder=bool(by)))
+    if results and not (errors and output):             # a file gets all of them or is left as it was
         emit(analyses(results, format, units, into_file=output is not None), output)
-    finish()
+    tell(errors)

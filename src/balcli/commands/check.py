@@ -15,7 +15,7 @@ def check(
     from ..errors import Exit
     from ..regression import Difference, differences, record, recorded_at
     from .output import write
-    from .several import each, engine_files, engine_of
+    from .several import each, engine_files, engine_of, tell
 
     def compared(file: Path) -> list[Difference]:
         _, engine = engine_of(str(file))
@@ -25,10 +25,10 @@ def check(
         target.parent.mkdir(exist_ok=True)
         write(record(engine), target)
         return []
-    results, finish = each(engine_files(paths), compared)
+    results, errors = each(engine_files(paths), compared)
     moved = [difference for found in results for difference in found]
     done = "recorded" if update else "engines"
     typer.echo("\n".join([*map(str, moved), f"{len(results)} {done}, {len(moved)} differences"]))
-    finish()
+    tell(errors)
     if moved:
         raise typer.Exit(Exit.DIFFERENCE)

@@ -34,21 +34,23 @@ def engine_of(file: str, speed_rpm: float | None = None) -> tuple[EngineFile, En
     return model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)
 
 
-def each(files: Sequence[F], work: Callable[[F], T]) -> tuple[list[T], Callable[[], None]]:
-    """Results of all good files, in order, and what to call at the end: it exits with status 2 if there was a bad one."""
+def each(files: Sequence[F], work: Callable[[F], T]) -> tuple[list[T], list[str]]:
+    """Results of all good files, in order, and the messages of the bad ones."""
     results, errors = [], []
     for file in files:
         try:
             results.append(work(file))
         except BalcliError as error:
             errors.append(str(error))
+    return results, errors
 
-    def finish() -> None:
-        for text in errors:
-            typer.echo(f"balcli: {text}", err=True)
-        if errors:
-            raise typer.Exit(Exit.BAD_INPUT)
-    return results, finish
+
+def tell(errors: Sequence[str]) -> None:
+    """Messages on standard error and exit status 2, if there are any."""
+    for text in errors:
+        typer.echo(f"balcli: {text}", err=True)
+    if errors:
+        raise typer.Exit(Exit.BAD_INPUT)
 
 
 def engine_files(paths: Sequence[Path]) -> list[Path]:

@@ -57,9 +57,10 @@ def of(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: b
     """
     if lam.ndim > 1 or lam.size * eps.size == 1:
         return _of_distinct(orders, lam, eps, rod=rod, energy=energy)
-    both = np.stack(np.broadcast_arrays(lam, eps))
-    distinct, which = np.unique(both, axis=1, return_inverse=True)
-    each = [_of_distinct(orders, *pair, rod=rod, energy=energy) for pair in distinct.T[:, :, None]]
+    pairs = list(zip(*(v.tolist() for v in np.broadcast_arrays(lam, eps)), strict=True))
+    distinct = list(dict.fromkeys(pairs))
+    which = [distinct.index(pair) for pair in pairs]
+    each = [_of_distinct(orders, *np.array([pair]).T, rod=rod, energy=energy) for pair in distinct]
 
     def gather(name: str) -> Series:
         series: list[Series] = [getattr(one, name) for one in each]

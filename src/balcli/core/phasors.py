@@ -110,8 +110,9 @@ class Phasors:
 
     @property
     def minor(self) -> Array:
-        """Shorter semi-axis of the ellipse."""
-        return np.abs(np.abs(self.forward) - np.abs(self.backward))
+        """Shorter semi-axis of the ellipse; 0 for a straight line within its rounding error."""
+        minor = np.abs(np.abs(self.forward) - np.abs(self.backward))
+        return np.where(minor <= 2 * self.noise, 0, minor)
 
     @property
     def axis_deg(self) -> Array:
@@ -123,15 +124,15 @@ class Phasors:
 
     @property
     def x(self) -> Complex:
-        """Components along x as `Re(c_n e^{i n theta})`."""
+        """Components along x as `Re(c_n e^{i n theta})`, exactly 0 within their rounding error."""
         mean = _column(self.orders, self.forward) == 0
-        return np.where(mean, self.forward.real, self.forward + np.conj(self.backward))
+        return _settled(np.where(mean, self.forward.real, self.forward + np.conj(self.backward)), 2 * self.noise)
 
     @property
     def y(self) -> Complex:
-        """Components along y as `Re(c_n e^{i n theta})`."""
+        """Components along y as `Re(c_n e^{i n theta})`, exactly 0 within their rounding error."""
         mean = _column(self.orders, self.forward) == 0
-        return np.where(mean, self.forward.imag, -1j * (self.forward - np.conj(self.backward)))
+        return _settled(np.where(mean, self.forward.imag, -1j * (self.forward - np.conj(self.backward))), 2 * self.noise)
 
     def values(self, theta: ArrayLike) -> Complex:
         """The curve at crank angles (radians): the sum over all orders, shape of theta, for phasors without trailing axes."""

@@ -20,4 +20,4 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
     rows += [("slider", str(d.order), unbalance(d.unbalance), f"{degrees(d.angle)} along {degrees(d.direction)}",
               f"{length(d.at[0])}, {length(d.at[1])}", length(d.position)) for d in remedy.sliders]
     return Grid("", ("device", "turns", f"{system.unbalance.name}", "angle, deg", f"x, y, {system.length.name}", f"z, {system.length.name}"),
-                tuple(rows))
+                tuple(rows), words=(0, 3, 4))

@@ -52,7 +52,7 @@ def _grid(grid: Grid) -> Table:
 
     table = Table(box=box.SIMPLE_HEAD, padding=(0, 1), pad_edge=False, show_edge=False)
     for k, column in enumerate(grid.columns):
-        table.add_column(column, justify="left" if k == 0 else "right", overflow="fold", style="bold" if k == 0 else "")
+        table.add_column(column, justify="left" if k in grid.words else "right", overflow="fold", style="bold" if k == 0 else "")
     for i, row in enumerate(grid.rows):
         table.add_row(*(Cell(cell, style="bold red" if (i, k) in grid.marked else "") for k, cell in enumerate(row)))
     return table
