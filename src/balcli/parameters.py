@@ -42,7 +42,7 @@ def numeric(file: EngineFile) -> dict[str, Number]:
     """All numbers that an engine file has or might have, by dotted name; members of lists count from 1."""
     found: dict[str, Number] = {}
     for key, table in TABLES.items():
-        if key != "bobweight":                                              # which moves nothing
+        if key != "bobweight" and getattr(file, key) is not None:            # bobweights move nothing
             found |= _numbers(key, table, getattr(file, key))
     for key, table in DEVICES.items():
         for k, device in enumerate(getattr(file, key), 1):
@@ -111,7 +111,8 @@ def parse(text: str, file: EngineFile) -> Parameter:
 
 def _unknown(path: str, known: Mapping[str, Number]) -> str:
     near = nearest(path, known)
-    hint = f"did you mean {near}?" if near else f"it has such as {', '.join(sorted(known)[:6])}"
+    table = [name for name in known if name.split(".")[0] == path.split(".")[0]] or list(known)
+    hint = f"did you mean {near}?" if near else f"there are {', '.join(table[:6])}{' ...' if len(table) > 6 else ''}"
     return f"{path} is no number of this engine file; {hint}"
 
 
