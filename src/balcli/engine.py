@@ -158,19 +158,19 @@ def devices(file: EngineFile, first_axis_deg: Any) -> tuple[Device, ...]:
 
 
 def _counterweight(d: Counterweight, first_axis_deg: Any) -> Device:
-    return Device(1, _unbalance(d) * unit(d.angle + first_axis_deg), 0j, 0j, d.position / 1e3)
+    return Device(1, _unbalance(d) * unit(d.angle + first_axis_deg), 0j, 0j, d.position / 1e3, 0)
 
 
 def _shaft(d: Shaft) -> Device:
     turning = _unbalance(d) * unit(d.angle)
     forward, backward = (turning, 0j) if d.ratio > 0 else (0j, turning)
-    return Device(abs(d.ratio), forward, backward, _place(d.at), d.position / 1e3)
+    return Device(abs(d.ratio), forward, backward, _place(d.at), d.position / 1e3, 1)
 
 
 def _slider(d: Slider) -> Device:
     """Its displacement `U cos(n theta + angle)` is two vectors of half the size, turning against each other."""
     half, direction, phase = _unbalance(d) / 2, unit(d.direction), unit(d.angle)
-    return Device(d.order, half * direction * phase, half * direction * np.conj(phase), _place(d.at), d.position / 1e3)
+    return Device(d.order, half * direction * phase, half * direction * np.conj(phase), _place(d.at), d.position / 1e3, 2)
 
 
 def _unbalance(d: Counterweight | Shaft | Slider) -> Any:

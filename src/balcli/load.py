@@ -31,11 +31,16 @@ def read(source: str | Path) -> EngineFile:
 
     Raises BalcliError if there is nothing to read, InputError with every mistake that the text has.
     """
+    return parse(text_of(source), name_of(source))
+
+
+def text_of(source: str | Path) -> bytes:
+    """The text of a file (or of standard input) as it is; BalcliError if it cannot be read."""
     if str(source) == "-":
-        return parse(sys.stdin.buffer.read(LARGEST + 1), "standard input")
+        return sys.stdin.buffer.read(LARGEST + 1)
     try:
         with Path(source).open("rb") as stream:
-            text = stream.read(LARGEST + 1)
+            return stream.read(LARGEST + 1)
     except IsADirectoryError:
         raise BalcliError(f"{source}: is a folder; name an engine file in it") from None
     except FileNotFoundError:
@@ -43,7 +48,11 @@ def read(source: str | Path) -> EngineFile:
     except (OSError, ValueError) as error:           # ValueError: a zero byte in the name
         reason = error.strerror if isinstance(error, OSError) else error
         raise BalcliError(f"{str(source)[:200]!r}: cannot be read ({reason})") from None
-    return parse(text, str(source))
+
+
+def name_of(source: str | Path) -> str:
+    """What messages call it."""
+    return "standard input" if str(source) == "-" else str(source)
 
 
 def parse(text: str | bytes, file: str = "") -> EngineFile:
