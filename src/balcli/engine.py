@@ -14,7 +14,7 @@ from .core.inertia import Cylinders, Device
 from .core.phasors import unit
 from .errors import InputError, Problem
 from .layout import Plan, cycle, plan
-from .model import ArticulatedRod, Counterweight, EngineFile, Override, Rod, Shaft, Slider
+from .model import ArticulatedRod, Bobweight, Counterweight, EngineFile, Override, Rod, Shaft, Slider
 
 STANDARD_GRAVITY = 9.80665          # m/s2, by definition (CGPM 1901)
 NEAREST_TO_LOCK = 1e-6              # how far lambda + |offset| / rod length must stay below 1
@@ -30,6 +30,22 @@ class Ripple:
 
 
 @dataclass(frozen=True)
+class Weighed:
+    """Masses of one cylinder as a shop weighs them, kg, and on which throw (from 0) its rod runs.
+
+    `share` is the pin's share of the throw mass; bearing and oil count on the bobweight card only.
+    """
+
+    throw: int
+    piston: Any
+    small_end: Any
+    big_end: Any
+    share: Any
+    rod_bearing: Any
+    oil: Any
+
+
+@dataclass(frozen=True)
 class Engine:
     """An engine, SI except where a name says otherwise; arrays may have a trailing axis of variants.
 
@@ -38,6 +54,7 @@ class Engine:
         fires_deg: firing angle by cylinder number, where the file gives a firing order.
         throws_m: place of each throw along the crank.
         reference_m: point about which moments are taken.
+        weighed: masses behind each row of `cylinders`.
         devices: counterweights, shafts and sliders of the file, in this order.
     """
 
@@ -53,6 +70,7 @@ class Engine:
     ripple: tuple[Ripple, ...]
     reference_m: tuple[Any, Any, Any]
     devices: tuple[Device, ...]
+    weighed: tuple[Weighed, ...]
 
     @property
     def omega(self) -> Any:
@@ -128,6 +146,7 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
         throws_m=throws, speed_rpm=file.operation.speed,
         ripple=tuple(Ripple(line.order, line.amplitude, line.angle) for line in file.operation.speed_ripple),
         reference_m=_reference(file, throws), devices=devices(file, axis[1]),
+        weighed=tuple(_weighed(file, layout, layout.cells[row].throw, rod) for row, rod in zip(order, rods, strict=True)),
     )
 
 
@@ -138,19 +157,19 @@ def devices(file: EngineFile, first_axis_deg: Any) -> tuple[Device, ...]:
 
 
 def _counterweight(d: Counterweight, first_axis_deg: Any) -> Device:
-    return Device(1, _unbalance(d) * unit(d.angle + first_axis_deg), 0j, 0j, d.position / 1e3)
+    return Device(1, _unbalance(d) * unit(d.angle + first_axis_deg), 0j, 0j, d.position / 1e3, 0)
 
 
 def _shaft(d: Shaft) -> Device:
     turning = _unbalance(d) * unit(d.angle)
     forward, backward = (turning, 0j) if d.ratio > 0 else (0j, turning)
-    return Device(abs(d.ratio), forward, backward, _place(d.at), d.position / 1e3)
+    return Device(abs(d.ratio), forward, backward, _place(d.at), d.position / 1e3, 1)
 
 
 def _slider(d: Slider) -> Device:
     """Its displacement `U cos(n theta + angle)` is two vectors of half the size, turning against each other."""
     half, direction, phase = _unbalance(d) / 2, unit(d.direction), unit(d.angle)
-    return Device(d.order, half * direction * phase, half * direction * np.conj(phase), _place(d.at), d.position / 1e3)
+    return Device(d.order, half * direction * phase, half * direction * np.conj(phase), _place(d.at), d.position / 1e3, 2)
 
 
 def _unbalance(d: Counterweight | Shaft | Slider) -> Any:
@@ -205,6 +224,12 @@ def _rod(file: EngineFile, number: int, articulated: bool) -> _Parts:
     return _Parts(length, _own(file, number, "piston_offset", file.piston.offset) / 1e3,
                   _own(file, number, "piston_mass", file.piston.mass), small, big, spin,
                   whole * share * (1 - share) * length**2 - spin)
+
+
+def _weighed(file: EngineFile, layout: Plan, throw: int, rod: _Parts) -> Weighed:
+    extra = file.bobweight or Bobweight.model_construct()
+    return Weighed(throw, rod.piston, rod.small_end, rod.big_end, file.crank.throw_mass / layout.rods_on_throw,
+                   extra.rod_bearing, extra.oil)
 
 
 _GROUPS = (({"length"}, {"ratio"}), ({"mass", "cg"}, {"small_end", "big_end"}), ({"inertia"}, {"pendulum"}))

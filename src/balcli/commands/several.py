@@ -11,7 +11,7 @@ import typer
 from ..checks import suspicious
 from ..engine import Engine, build
 from ..errors import BalcliError, Exit, InputError
-from ..load import read
+from ..load import name_of, parse, text_of
 from ..model import EngineFile
 
 F = TypeVar("F")
@@ -24,7 +24,16 @@ def engine_of(file: str, speed_rpm: float | None = None) -> tuple[EngineFile, En
     Raises:
         BalcliError: all mistakes of the file.
     """
-    model = read(file)
+    return _built(parse(text_of(file), name_of(file)), file, speed_rpm)
+
+
+def engine_and_text(file: str, speed_rpm: float | None = None) -> tuple[bytes, Engine]:
+    """The text of one file, too, for what is written from it."""
+    text = text_of(file)
+    return text, _built(parse(text, name_of(file)), file, speed_rpm)[1]
+
+
+def _built(model: EngineFile, file: str, speed_rpm: float | None) -> tuple[EngineFile, Engine]:
     try:
         engine = build(model)
     except InputError as error:

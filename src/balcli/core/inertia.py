@@ -74,13 +74,17 @@ class Cylinders:
 
 @dataclass(frozen=True)
 class Device:
-    """Counterweight, balancer shaft or slider: mass x radius (kg m) that turns at `order`, with and against the crank."""
+    """Counterweight, balancer shaft or slider: mass x radius (kg m) that turns at `order`, with and against the crank.
+
+    `rank` is the order in which devices are summed: 0 counterweights, 1 shafts, 2 sliders, as an engine file has them.
+    """
 
     order: int
     forward: Any            # complex, or arrays of variants
     backward: Any
     place: Any              # x + iy of its axis, m
     z: Any                  # m
+    rank: int = 3
 
 
 class Loads:
