@@ -130,7 +130,7 @@ class _Layout:
             return
         arms = self._arms if quantity == "moment" else np.ones(self._c.count)
         for rows in self._families(self._figures(), there):
-            yield from (_Sum(rows, self._grams("reciprocating") * arms, order, side) for side in (1, -1))
+            yield from (_Sum(rows, self._moving() * arms, order, side) for side in (1, -1))
         if order == 1:
             yield _Sum(list(range(self._c.count)), self._grams("rotating") * arms, 1, 1)
 
@@ -176,6 +176,11 @@ class _Layout:
         for row in map(int, np.flatnonzero(there)):
             found[figures(row)].append(row)
         return list(found.values())
+
+    def _moving(self) -> Array:
+        """What moves with each piston, g: on its axis, or on the curve of a linkage (whose cylinders count as equal or not)."""
+        linkage = self._c.linkage
+        return self._grams("reciprocating") + (0 if linkage is None else linkage.mass * 1e3)
 
     def _grams(self, key: str) -> Array:
         return np.broadcast_to(getattr(self._c, key) * 1e3, (self._c.count,))
