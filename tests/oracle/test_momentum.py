@@ -69,6 +69,10 @@ CASES = {
                                   "more": ARTICULATED + "[cylinder.4]\nrod_length = 180\npiston_mass = 1.5"},
     "vee with articulated rods": {"layout": "bank_angle = 60", "crank": "throws = [0, 120, 240, 240, 120, 0]\nspacing = 160",
                                   "more": ARTICULATED.replace("knuckle", "master = 2\nknuckle_angles = [-66.5, 0]\nknuckle")},
+    "rotary": {"layout": "radial = 5\nrotary = true"},
+    "rotary in two rows, offset": {"layout": "radial = 3\nrotary = true\nstagger = 3", "piston": "offset = 11",
+                                   "crank": "throws = [0, 175]\nspacing = 160", "more": DISPLACED},
+    "rotary, one cylinder, uneven speed": {"layout": "rotary = true", "piston": "offset = -5", "operation": RIPPLE, "more": DISPLACED},
     "articulated, uneven, displaced": {"layout": "radial = 5", "piston": "offset = 8", "operation": RIPPLE, "more": ARTICULATED + DISPLACED},
 }
 

@@ -15,6 +15,7 @@ def analyze(
     orders: Orders = None,
     only: Only = None,
     by: Annotated[str, typer.Option("--by", metavar="cylinder", help="cylinder: also each cylinder's share.", show_default=False)] = "",
+    why: Annotated[bool, typer.Option("--why", help="Also say whether each order is balanced by symmetry.")] = False,
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
@@ -28,7 +29,7 @@ def analyze(
         raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")
     chosen = None if only is None else [word.strip() for word in only.split(",")]
     asked, rpm = order_list(orders), checked_speed(speed)
-    results, errors = each(files, lambda file: analyzed(engine_of(file, rpm)[1], asked, chosen, by_cylinder=bool(by)))
+    results, errors = each(files, lambda file: analyzed(engine_of(file, rpm)[1], asked, chosen, by_cylinder=bool(by), reasons=why))
     if results and not (errors and output):             # a file gets all of them or is left as it was
         emit(analyses(results, format, units, into_file=output is not None), output)
     tell(errors)

@@ -32,6 +32,8 @@ def sheet(result: Analysis, system: System) -> Sheet:
     parts += [_share(n, share, system) for n, share in result.cylinders]
     if found := verdict(spectra, system):
         parts.append(Text("Verdict", found))
+    if result.why is not None:
+        parts.append(Text("Why", result.why.sentences))
     if result.sizing is not None:
         parts += _sizing(result.sizing, system)
     return Sheet(engine.name or "engine without a name", tuple(parts))
