@@ -4,7 +4,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import typer
 
@@ -13,6 +13,9 @@ from ..engine import Engine, build
 from ..errors import BalcliError, Exit, InputError
 from ..load import read
 from ..model import EngineFile
+
+if TYPE_CHECKING:
+    from ..analysis import Analysis
 
 F = TypeVar("F")
 T = TypeVar("T")
@@ -32,6 +35,22 @@ def engine_of(file: str, speed_rpm: float | None = None) -> tuple[EngineFile, En
     for warning in suspicious(model):
         typer.echo(f"warning: {file}: {warning}", err=True)
     return model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)
+
+
+def before_and_after(engine: Engine, scheme: str | None, orders: Sequence[int] | None = None) -> tuple[Analysis, Analysis | None]:
+    """All spectra and peaks of an engine, and those with the devices of a scheme, if one is named.
+
+    Raises:
+        BalcliError: an unknown scheme.
+    """
+    from ..analysis import QUANTITIES, analyze
+    from ..sizing import auto, fitted
+
+    only = set(QUANTITIES) - {"sizing"}
+    if scheme not in (None, "auto"):
+        raise BalcliError(f'--scheme "{scheme}": there is only auto')
+    after = None if scheme is None else analyze(fitted(engine, auto(engine)), orders, only)
+    return analyze(engine, orders, only), after
 
 
 def each(files: Sequence[F], work: Callable[[F], T]) -> tuple[list[T], list[str]]:

@@ -1,0 +1,39 @@
+"""`balcli plot`"""
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from .options import EngineFile, Orders, Scheme, Speed, Units, UnitsOption, checked_speed, order_list
+
+
+class What(StrEnum):
+    """Which page."""
+
+    ALL = "all"
+    POLAR = "polar"
+    ORDERS = "orders"
+    SPECTRUM = "spectrum"
+    CURVES = "curves"
+
+
+Picture = Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="Write here; .svg, .png or .pdf.", show_default=False)]
+Page = Annotated[What, typer.Option("--what", help="Loci of force and moment; vectors of each order; bars by order; curves over the crank angle.")]
+
+
+def plot(file: EngineFile, output: Picture, what: Page = What.ALL, scheme: Scheme = None, speed: Speed = None, orders: Orders = None,
+         units: UnitsOption = Units.SI) -> None:
+    """Draw free forces and moments: loci over a revolution, order by order, and over the crank angle."""
+    from ..render.plot.pages import Subject, form_of, picture
+    from ..render.units import SYSTEMS
+    from .output import write
+    from .several import before_and_after, engine_of
+
+    form = form_of(output)
+    _, engine = engine_of(file, checked_speed(speed))
+    before, after = before_and_after(engine, scheme, order_list(orders))
+    subject = Subject(before, None, SYSTEMS[units]) if after is None else Subject(after, before, SYSTEMS[units])
+    write(picture(subject, what, form), output)
