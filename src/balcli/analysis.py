@@ -8,7 +8,7 @@ import numpy as np
 
 from .core import harmonics
 from .core.peaks import Peak, peak
-from .core.phasors import Array, Phasors
+from .core.phasors import Array
 from .engine import Engine
 from .errors import BalcliError
 from .sizing import Remedy, auto, fitted

@@ -14,7 +14,7 @@ from .core.inertia import Cylinders, Device
 from .core.phasors import unit
 from .errors import InputError, Problem
 from .layout import Plan, cycle, plan
-from .model import Counterweight, EngineFile, Override, Rod, Shaft, Slider
+from .model import Bobweight, Counterweight, EngineFile, Override, Rod, Shaft, Slider
 
 STANDARD_GRAVITY = 9.80665          # m/s2, by definition (CGPM 1901)
 NEAREST_TO_LOCK = 1e-6              # how far lambda + |offset| / rod length must stay below 1
@@ -30,6 +30,22 @@ class Ripple:
 
 
 @dataclass(frozen=True)
+class Weighed:
+    """Masses of one cylinder as a shop weighs them, kg, and on which throw (from 0) its rod runs.
+
+    `share` is the pin's share of the throw mass; bearing and oil count on the bobweight card only.
+    """
+
+    throw: int
+    piston: Any
+    small_end: Any
+    big_end: Any
+    share: Any
+    rod_bearing: Any
+    oil: Any
+
+
+@dataclass(frozen=True)
 class Engine:
     """An engine, SI except where a name says otherwise; arrays may have a trailing axis of variants.
 
@@ -38,6 +54,7 @@ class Engine:
         fires_deg: firing angle by cylinder number, where the file gives a firing order.
         throws_m: place of each throw along the crank.
         reference_m: point about which moments are taken.
+        weighed: masses behind each row of `cylinders`.
         devices: counterweights, shafts and sliders of the file, in this order.
     """
 
@@ -53,6 +70,7 @@ class Engine:
     ripple: tuple[Ripple, ...]
     reference_m: tuple[Any, Any, Any]
     devices: tuple[Device, ...]
+    weighed: tuple[Weighed, ...]
 
     @property
     def omega(self) -> Any:
@@ -92,7 +110,7 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
         InputError: what does not fit together, by its path in the file.
     """
     layout = plan(file.crank, file.layout)
-    _refuse(_articulation(file) + _strangers(layout, file.cylinder))
+    _refuse(_articulation(file) + _strangers(layout, file.cylinder) + _half_rods(file))
     radius = file.crank.stroke / 2e3
     rods = [_rod(file, number) for number in layout.numbers]
     _refuse(p for number, rod in zip(layout.numbers, rods, strict=True) for p in _mistakes(file, number, rod, radius))
@@ -123,6 +141,7 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
         throws_m=throws, speed_rpm=file.operation.speed,
         ripple=tuple(Ripple(line.order, line.amplitude, line.angle) for line in file.operation.speed_ripple),
         reference_m=_reference(file, throws), devices=devices(file, axis[1]),
+        weighed=tuple(_weighed(file, layout, layout.cells[row].throw, rod) for row, rod in zip(order, rods, strict=True)),
     )
 
 
@@ -150,7 +169,9 @@ def _slider(d: Slider) -> Device:
 
 def _unbalance(d: Counterweight | Shaft | Slider) -> Any:
     """kg m"""
-    return d.unbalance / 1e6 if d.unbalance is not None else d.mass * d.radius / 1e3
+    if d.unbalance is not None:
+        return d.unbalance / 1e6
+    return (d.mass or 0.0) * (d.radius or 0.0) / 1e3
 
 
 def _place(at: Sequence[Any]) -> Any:
@@ -198,6 +219,12 @@ def _rod(file: EngineFile, number: int) -> _Parts:
     return _Parts(length, _own(file, number, "piston_offset", file.piston.offset) / 1e3,
                   _own(file, number, "piston_mass", file.piston.mass), small, big, spin,
                   whole * share * (1 - share) * length**2 - spin)
+
+
+def _weighed(file: EngineFile, layout: Plan, throw: int, rod: _Parts) -> Weighed:
+    extra = file.bobweight or Bobweight.model_construct()
+    return Weighed(throw, rod.piston, rod.small_end, rod.big_end, file.crank.throw_mass / layout.rods_on_throw,
+                   extra.rod_bearing, extra.oil)
 
 
 _GROUPS = (({"length"}, {"ratio"}), ({"mass", "cg"}, {"small_end", "big_end"}), ({"inertia"}, {"pendulum"}))
@@ -264,7 +291,8 @@ def _pins(file: EngineFile, layout: Plan, top: Mapping[int, Any]) -> tuple[dict[
     relative = {n: angle - pin[1] for n, angle in pin.items()}
     if not fires:
         found = intervals or firing.from_pins(order, relative, top, cycle(file.layout))
-        _refuse([found] if isinstance(found, Problem) else [])
+        if isinstance(found, Problem):
+            raise InputError([found])
         fires = firing.instants(order, found, cycle(file.layout))
     off = firing.disagreement(fires, relative, top)
     _refuse([off] if off else [])
@@ -299,6 +327,14 @@ def _by_axis(layout: Plan, axis: Mapping[int, Any]) -> list[int]:
 def _strangers(layout: Plan, own: Mapping[int, Override]) -> list[Problem]:
     return [Problem(f"cylinder.{n}", f"there is no cylinder {n}; this engine has cylinders 1 to {len(layout.cells)}")
             for n in own if n not in layout.numbers]
+
+
+def _half_rods(file: EngineFile) -> list[Problem]:
+    """Cylinders whose own rod is weighed at one end only, where the engine's rod does not give the other."""
+    ends = ("small_end", "big_end")
+    return [Problem(f"cylinder.{n}.rod_{here}", f"needs rod_{missing} beside it: weigh the rod at both ends")
+            for n, own in file.cylinder.items() for here, missing in (ends, ends[::-1])
+            if getattr(own, f"rod_{here}") is not None and getattr(own, f"rod_{missing}") is None and getattr(file.rod, missing) is None]
 
 
 def _articulation(file: EngineFile) -> list[Problem]:

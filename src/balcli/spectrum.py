@@ -67,7 +67,7 @@ def _steady(engine: Engine, orders: Array, quantities: Collection[str]) -> tuple
     c = engine.cylinders
     find = harmonics.of if orders.max(initial=0) <= _CLOSED_FORM else harmonics.sampled
     x, y, z = engine.reference_m
-    rod = np.count_nonzero(c.couple) > 0 and not _ONLY_FORCES.issuperset(quantities)
+    rod = bool(np.count_nonzero(c.couple)) and not _ONLY_FORCES.issuperset(quantities)
     loads = Loads(c, engine.devices, (x + 1j * y, z), orders,
                   find(orders, c.lam, c.eps, rod=rod, energy="torque" in quantities), engine.omega**2)
     return {q: getattr(loads, q) for q in SPECTRAL[:4] if q in quantities}, loads

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import slidercrank
 
-Array = NDArray[np.float64]
+Array = NDArray[Any]
 EPS = float(np.finfo(float).eps)
 
 
@@ -26,7 +26,7 @@ class Series:
     """Coefficients c_n (real: of cosines alone), shape (orders, cylinders or any axes), and their own error bound, which
     broadcasts to it (0: some ulp)."""
 
-    c: NDArray[np.complex128] | Array
+    c: Array
     noise: Array | float = 0.0
     __array_ufunc__ = None              # array * series is ours to answer
 

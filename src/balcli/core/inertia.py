@@ -192,9 +192,4 @@ class Loads:
 
 def _total(values: Array, size: Array) -> Array:
     """Sum over the cylinders of `values * size`, shape (orders, *trailing); a single row of values stands for all cylinders."""
-    total: Array
-    if values.shape[1] == 1:
-        total = values[:, 0] * np.add.reduce(size, axis=0)
-    else:
-        total = np.add.reduce(values * size, axis=1)
-    return total
+    return values[:, 0] * np.add.reduce(size, axis=0) if values.shape[1] == 1 else np.add.reduce(values * size, axis=1)

@@ -7,12 +7,13 @@ Arrays have the orders first, then any trailing axes (crank angles, variants of 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+Array = NDArray[Any]              # of real numbers
+Complex = NDArray[Any]            # of complex ones
 
 EPS = float(np.finfo(float).eps)
 _STEP = 15                                                              # degrees

@@ -12,16 +12,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .phasors import EPS, Array, Complex, Phasors, unit
+from .phasors import EPS, Complex, Phasors, unit
 
 
 def speed(lines: Iterable[tuple[int, Any, Any]]) -> Complex:
     """Two-sided coefficients of W for lines (order, amplitude, angle in degrees), orders -k .. k, before any trailing axes."""
-    lines = [(order, amplitude / 2 * unit(-angle)) for order, amplitude, angle in lines]
-    highest = max(order for order, _ in lines)
-    w = np.zeros((2 * highest + 1, *np.broadcast_shapes(*(half.shape for _, half in lines))), complex)
+    halves = [(order, amplitude / 2 * unit(-angle)) for order, amplitude, angle in lines]
+    highest = max(order for order, _ in halves)
+    w: Complex = np.zeros((2 * highest + 1, *np.broadcast_shapes(*(half.shape for _, half in halves))), complex)
     w[highest] = 1
-    for order, half in lines:
+    for order, half in halves:
         w[highest + order] += half
         w[highest - order] += half.conj()
     return w
@@ -45,7 +45,8 @@ def torque(steady: Phasors, w: Complex, mean: Any) -> Phasors:
 def _transformed(steady: Phasors, w: Complex, mean: Any, shake: Callable[[Complex, Complex, Complex], Complex]) -> Phasors:
     n = len(steady.orders) - 1
     forces = _two_sided(steady)
-    noise = _two_sided(Phasors(steady.orders, *2 * [np.broadcast_to(steady.noise, steady.forward.shape) + 0j], steady.noise)).real
+    both = np.broadcast_to(steady.noise, steady.forward.shape)
+    noise = _two_sided(Phasors(steady.orders, both, both, steady.noise)).real
     order = np.arange(-n, n + 1.0).reshape(-1, *(1,) * (forces.ndim - 1))
     divisor = np.where(order, order, 1)
     shape = np.broadcast_shapes(forces.shape[1:], np.shape(mean))

@@ -3,7 +3,6 @@ from __future__ import annotations
 
 from ..core.phasors import Phasors
 from ..spectrum import Spectra
-from .figures import order_number
 from .sheet import degrees, number
 from .units import System, Unit
 
@@ -22,7 +21,7 @@ def verdict(spectra: Spectra, system: System) -> tuple[str, ...]:
 
 
 def _name(order: float) -> str:
-    return f"{_NAMES.get(order_number(order)) or f'{order:g}th'} order"
+    return f"{_NAMES.get(int(order)) or f'{order:g}th'} order"
 
 
 def _low(k: int, order: int, found: list[tuple[str, Phasors, Unit]]) -> str:

@@ -1,8 +1,8 @@
 """Free forces and moments of the common layouts in textbook units, computed from the example engines.
 
 What the textbook leaves out is taken off each engine: rotating masses, rods' inertia, pin offsets, stagger of the
-banks, balancing devices. F_n = m_rec r omega^2 A_n is the force of order n of one cylinder (F_1 with A_1 = 1), a the distance
-of neighbouring throws; moments are about the middle of the crankshaft.
+banks, balancing devices. F_n = m_rec r omega^2 A_n is the force of order n of one cylinder (F_1 with A_1 = 1), a the
+distance of neighbouring throws; moments are about the middle of the crankshaft.
 """
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def _row(name: str) -> Row:
     each = unit * harmonics.piston(ORDERS, c.lam.ravel()[:1]).ravel()
     axes = np.stack([axis.ravel() for q in ("force", "moment") for axis in (found[q].major, found[q].minor)], axis=-1)
     scale = np.abs(each)[:, None] * np.array([1, 1, _distance(engine), _distance(engine)])
-    return (name, file.name, float(len(engine.numbers)), *(axes / scale).ravel().tolist())
+    return (name, file.name, len(engine.numbers), *(axes / scale).ravel().tolist())
 
 
 def _bare(file: EngineFile) -> EngineFile:

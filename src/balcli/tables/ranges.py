@@ -1,13 +1,15 @@
 """Ranges on the command line: `0.20:0.40:0.01`, `0.24,0.28,1/3`."""
 from __future__ import annotations
 
+import re
 from decimal import Decimal
 from fractions import Fraction
 
 from ..errors import BalcliError
 from .printed import number
 
-MOST = 100_000
+MOST, LARGEST = 100_000, 10**9
+_PLAIN = re.compile(r"[-+.\d/]{1,30}(e-?\d{1,2})?", re.IGNORECASE)
 
 
 def headings(text: str, option: str) -> tuple[str, ...]:
@@ -37,14 +39,20 @@ def crank_ratios(text: str) -> tuple[str, ...]:
         BalcliError: as in `headings`, or a mechanism of the range cannot turn.
     """
     found = headings(text, "--lambda")
-    bad = next((heading for heading in found if not 0 < number(heading) < 1), None)
+    bad = next((heading for heading in found if not 0 < float(number(heading)) < 1), None)
     if bad is not None:
         raise BalcliError(f"--lambda {text!r}: lambda = {bad}, but a crank turns only with 0 < lambda < 1")
     return found
 
 
 def _exact(text: str) -> tuple[str, Fraction]:
-    return text.strip(), number(text)
+    """The text and its number, as long as that can be an angle or a ratio."""
+    if not _PLAIN.fullmatch(text.strip()):
+        raise ValueError(text)
+    value = number(text)
+    if abs(value) > LARGEST:
+        raise ValueError(text)
+    return text.strip(), value
 
 
 def _run(start: tuple[str, Fraction], stop: tuple[str, Fraction] | None = None,

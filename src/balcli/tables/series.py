@@ -45,7 +45,7 @@ def _beside(shown: list[Words]) -> Iterator[tuple[Row, Words]]:
         generate = {**GENERATED, **PRINTED}[function or ""]
         n, p = int(order or 0), int(power or 0)
         exact = generate(n, p).get(p, 0)
-        yield (function, _number(order), float(p), str(exact), source, equation), words
+        yield (function, None if order is None else n, p, str(exact), source, equation), words
 
 
 def _unprinted(shown: list[Words], power: int) -> Iterator[tuple[Row, Words]]:
@@ -54,14 +54,10 @@ def _unprinted(shown: list[Words], power: int) -> Iterator[tuple[Row, Words]]:
         for n in range(power + 2):
             for p, c in generate(n, power).items():
                 if (function, str(n), str(p)) not in known:
-                    yield (function, float(n), float(p), str(c), None, None), (None,) * len(COLUMNS)
+                    yield (function, n, p, str(c), None, None), (None,) * len(COLUMNS)
 
 
 def _place(row: Row) -> tuple[int, float, float]:
     functions = [*GENERATED, *PRINTED]
     function, order, power = row[:3]
     return functions.index(str(function)), float(order or 0), float(power or 0)
-
-
-def _number(text: str | None) -> float | None:
-    return None if text is None else float(text)

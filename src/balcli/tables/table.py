@@ -52,7 +52,7 @@ class Table:
 
     def label(self, row: int) -> str:
         """What names a row: the cells of its stub."""
-        shown = [shortest(c) if isinstance(c, float) else c for c in self.rows[row][:self.stub]]
+        shown = [shortest(c) if isinstance(c, (int, float)) else c for c in self.rows[row][:self.stub]]
         return ", ".join(text for text in shown if text)
 
     def _errata(self) -> Iterator[Erratum]:
