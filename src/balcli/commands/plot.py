@@ -7,7 +7,8 @@ from typing import Annotated
 
 import typer
 
-from .options import EngineFile, Orders, Scheme, Speed, Units, UnitsOption, checked_speed, order_list
+from ..render.formats import Units
+from .options import EngineFile, Orders, Scheme, Speed, UnitsOption, checked_speed, order_list
 
 
 class What(StrEnum):
@@ -21,7 +22,8 @@ class What(StrEnum):
 
 
 Picture = Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="Write here; .svg, .png or .pdf.", show_default=False)]
-Page = Annotated[What, typer.Option("--what", help="Loci of force and moment; vectors of each order; bars by order; curves over the crank angle.")]
+Page = Annotated[What, typer.Option("--what",
+                                    help="polar: loci; orders: the two vectors of each; spectrum: bars; curves: over the crank angle.")]
 
 
 def plot(file: EngineFile, output: Picture, what: Page = What.ALL, scheme: Scheme = None, speed: Speed = None, orders: Orders = None,

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 SHARE = 1e-3                    # orders below this share of the largest are too small to be seen
-FINE = np.radians(np.arange(0, 360.25, 0.5))
+FINE = np.radians(np.arange(0, 360.5, 1))
 _PREFIXES = {"N": "kN", "N·m": "kN·m"}
 
 
@@ -58,14 +58,15 @@ def locus(ax: Axes, curve: Phasors, what: str, unit: Unit, before: Phasors | Non
 
 def _once(curve: Phasors) -> Complex:
     """The locus, no part of it twice (dashes drawn over one another would make a full line)."""
-    return curve.values(FINE[FINE <= 2 * np.pi / repeats(curve) + 1e-9])
+    return curve.values(FINE[:360 // repeats(curve) + 1])
 
 
 def _plane(ax: Axes, curves: Sequence[Complex | None], what: str, s: Scale) -> float:
     """A square with the origin in its middle, x up."""
     largest = max(np.abs(c).max(initial=0) for c in curves if c is not None) / s.size
     limit = float(largest or 1) * 1.25
-    ax.set(xlim=(-limit, limit), ylim=(-limit, limit), aspect="equal", xlabel=f"{what} along y, {s.name}", ylabel=f"{what} along x, {s.name}")
+    ax.set(xlim=(-limit, limit), ylim=(-limit, limit), aspect="equal",
+           xlabel=f"{what} along y, {s.name}", ylabel=f"{what} along x, {s.name}")
     ax.locator_params(nbins=5)
     ax.axhline(0, color=SOFT, linewidth=0.7)
     ax.axvline(0, color=SOFT, linewidth=0.7)
@@ -94,7 +95,7 @@ def _arrow(ax: Axes, step: Complex, limit: float) -> None:
     way = step[1] - step[0]
     if abs(way) > 1e-4 * limit:
         tip = step[0] + way / abs(way) * 0.02 * limit
-        ax.annotate("", (tip.imag, tip.real), (step[0].imag, step[0].real), 
+        ax.annotate("", (tip.imag, tip.real), (step[0].imag, step[0].real),
                     arrowprops={"arrowstyle": "-|>", "color": BLUE, "linewidth": 1.2, "mutation_scale": 13})
 
 
@@ -152,7 +153,8 @@ def vector_spectrum(ax: Axes, curve: Phasors, what: str, unit: Unit, before: Pha
     s = scale(unit, max([float(p.major.max(initial=0)) for p in (curve, before) if p is not None]))
     ahead, against, places = np.abs(curve.forward[shown]) / s.size, np.abs(curve.backward[shown]) / s.size, np.arange(len(shown))
     if before is not None:
-        ax.bar(places, _rows(before, curve.orders[shown]) / s.size, 0.72, facecolor="none", edgecolor=SOFT, linestyle=(0, (3, 2)), label="before")
+        old = _rows(before, curve.orders[shown]) / s.size
+        ax.bar(places, old, 0.72, facecolor="none", edgecolor=SOFT, linestyle=(0, (3, 2)), label="before")
     ax.bar(places, ahead, 0.56, color=BLUE, label="with the crank")
     ax.bar(places, against, 0.56, bottom=ahead, color=RED, hatch="////", label="against it")
     _bars(ax, curve.orders[shown], ahead + against, f"{what}, {s.name}")

@@ -14,6 +14,7 @@ from . import draw
 from .style import FORMS, Form, figure, inline, plain, saved
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 SCALARS = {"couple": "couple C", "torque": "torque T", "roll": "roll C − T"}
@@ -73,11 +74,13 @@ def panel(subject: Subject, what: str, quantity: str) -> str:
 
 # ------------------------------------------------------------------ layouts
 def _all(fig: Figure, subject: Subject) -> None:
-    upper, lower = fig.subfigures(2, 1, height_ratios=(1.25, 1))
-    polar, spectrum = upper.subfigures(1, 2, width_ratios=(2, 1))
-    _polar(polar, subject)
-    _spectrum(spectrum, subject, short=True)
-    _curves(lower, subject, across=True)
+    grid = fig.add_gridspec(2, 3, height_ratios=(1.25, 1))
+    bars = grid[0, 2].subgridspec(3, 1)
+    for k, quantity in enumerate(VECTORS):
+        _locus(fig.add_subplot(grid[0, k]), subject, quantity)
+    for k, quantity in enumerate(ALL):
+        _bars(fig.add_subplot(bars[k]), subject, quantity)
+        _over_crank(fig.add_subplot(grid[1, k]), subject, quantity)
 
 
 def _polar(fig: Figure, subject: Subject) -> None:
@@ -85,19 +88,15 @@ def _polar(fig: Figure, subject: Subject) -> None:
         _locus(ax, subject, quantity)
 
 
-def _spectrum(fig: Figure, subject: Subject, short: bool = False) -> None:
+def _spectrum(fig: Figure, subject: Subject) -> None:
     for ax, quantity in zip(fig.subplots(3, 1), ALL, strict=True):
         _bars(ax, subject, quantity)
-        if short and quantity != "about":
-            ax.set_xlabel("")
 
 
-def _curves(fig: Figure, subject: Subject, across: bool = False) -> None:
-    axes = fig.subplots(1, 3) if across else fig.subplots(3, 1, sharex=True)
-    for ax, quantity in zip(axes, ALL, strict=True):
+def _curves(fig: Figure, subject: Subject) -> None:
+    for ax, quantity in zip(fig.subplots(3, 1, sharex=True), ALL, strict=True):
         _over_crank(ax, subject, quantity)
-        if not across and quantity != "about":
-            ax.set_xlabel("")
+        ax.label_outer()
 
 
 def _orders(fig: Figure, subject: Subject) -> None:
@@ -119,13 +118,13 @@ def _orders(fig: Figure, subject: Subject) -> None:
 
 
 # ------------------------------------------------------------------ panels
-def _locus(ax: draw.Axes, subject: Subject, quantity: str) -> None:
+def _locus(ax: Axes, subject: Subject, quantity: str) -> None:
     curve, before = subject.phasors(quantity)
     draw.locus(ax, curve, quantity, subject.unit(quantity), before)
-    ax.set_title(f"Free {quantity}")
+    ax.set_title(f"Free {quantity}", pad=6 if before is None else None)
 
 
-def _bars(ax: draw.Axes, subject: Subject, quantity: str) -> None:
+def _bars(ax: Axes, subject: Subject, quantity: str) -> None:
     if quantity == "about":
         draw.scalar_spectrum(ax, subject.scalars, subject.system.moment)
         ax.set_title("About the crank")
@@ -135,7 +134,7 @@ def _bars(ax: draw.Axes, subject: Subject, quantity: str) -> None:
     ax.set_title(f"Free {quantity}")
 
 
-def _over_crank(ax: draw.Axes, subject: Subject, quantity: str) -> None:
+def _over_crank(ax: Axes, subject: Subject, quantity: str) -> None:
     if quantity == "about":
         draw.scalar_curves(ax, subject.scalars, subject.system.moment, subject.phasors("roll")[1])
         ax.set_title("About the crank")

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from io import BytesIO
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -21,13 +21,16 @@ INK, SOFT, FAINT, PAPER = "#1a1a1a", "#6b6b6b", "#d4d4d4", "#ffffff"
 BLUE, RED, GREEN = "#0072b2", "#d55e00", "#009e73"
 NAMES = {INK: "ink", SOFT: "soft", FAINT: "faint", PAPER: "paper", BLUE: "blue", RED: "red", GREEN: "green"}
 
-STYLE = {
-    "font.size": 9, "axes.titlesize": 9.5, "axes.titleweight": "bold", "axes.labelsize": 8.5, "legend.fontsize": 8,
+STYLE: Any = {
+    "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial"], "font.size": 9,
+    "axes.titlesize": 9.5, "axes.titleweight": "bold", "axes.labelsize": 8.5, "legend.fontsize": 8,
     "xtick.labelsize": 8, "ytick.labelsize": 8, "figure.titlesize": 12, "figure.titleweight": "bold",
     "text.parse_math": False, "axes.unicode_minus": True, "axes.formatter.use_mathtext": False,
-    "text.color": INK, "axes.labelcolor": INK, "axes.titlecolor": INK, "axes.edgecolor": SOFT, "xtick.color": SOFT, "ytick.color": SOFT,
+    "text.color": INK, "axes.labelcolor": INK, "axes.titlecolor": INK, "axes.edgecolor": SOFT,
+    "xtick.color": SOFT, "ytick.color": SOFT,
     "xtick.labelcolor": INK, "ytick.labelcolor": INK, "legend.labelcolor": INK, "grid.color": FAINT, "grid.linewidth": 0.6,
-    "axes.grid": True, "axes.axisbelow": True, "axes.spines.top": False, "axes.spines.right": False, "axes.titlelocation": "left", "axes.titlepad": 17,
+    "axes.grid": True, "axes.axisbelow": True, "axes.spines.top": False, "axes.spines.right": False,
+    "axes.titlelocation": "left", "axes.titlepad": 17,
     "lines.linewidth": 1.6, "legend.frameon": False, "hatch.linewidth": 0.6, "hatch.color": PAPER,
     "figure.facecolor": PAPER, "axes.facecolor": "none", "savefig.facecolor": PAPER, "savefig.dpi": 160,
     "svg.fonttype": "none", "svg.hashsalt": "balcli", "pdf.fonttype": 42,
@@ -48,12 +51,17 @@ def figure(width: float, height: float, form: Form) -> Iterator[Figure]:
     with warnings.catch_warnings(), matplotlib.rc_context():
         warnings.filterwarnings("ignore", message="Glyph .* missing from")
         matplotlib.rcdefaults()                                     # whatever the user's own matplotlibrc says
-        matplotlib.rcParams.update(STYLE | {"font.family": ["DejaVu Sans", *(_eastern() if form != "svg" else ("sans-serif",))]})
+        matplotlib.rcParams.update(STYLE | {"font.family": ["sans-serif", *(_eastern() if form != "svg" else ())]})
         yield Page(figsize=(width, height), layout="constrained")
 
 
 def saved(figure: Figure, form: Form) -> bytes:
     """The picture as a file's content; the same figure gives the same bytes."""
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    for ax in figure.axes:                              # the solver of the layout is exact to the last bits only
+        left, bottom, width, height = (round(edge, 5) for edge in ax.get_position().bounds)
+        ax.set_position((left, bottom, width, height))
     buffer = BytesIO()
     figure.savefig(buffer, format=form, metadata=_UNDATED[form])
     return buffer.getvalue()
