@@ -85,10 +85,11 @@ def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collect
 
 def alone(engine: Engine, number: int) -> Engine:
     """The engine with only this cylinder's masses moving, and no devices."""
-    here = np.array([n == number for n in engine.numbers], float)
     c = engine.cylinders
-    masses = {key: here.reshape(-1, *(1,) * (c.pin_deg.ndim - 1)) * getattr(c, key) for key in ("reciprocating", "rotating", "couple")}
-    return replace(engine, cylinders=replace(c, **masses), devices=())
+    here = np.array([n == number for n in engine.numbers], float).reshape(-1, *(1,) * (c.pin_deg.ndim - 1))
+    masses = {key: here * getattr(c, key) for key in ("reciprocating", "rotating", "couple")}
+    linkage = c.linkage and replace(c.linkage, mass=here * c.linkage.mass)
+    return replace(engine, cylinders=replace(c, linkage=linkage, **masses), devices=())
 
 
 @dataclass(frozen=True)

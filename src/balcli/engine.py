@@ -2,19 +2,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import firing
+from . import articulation, firing
 from .core.inertia import Cylinders, Device
 from .core.phasors import unit
 from .errors import InputError, Problem
 from .layout import Plan, cycle, plan
-from .model import Bobweight, Counterweight, EngineFile, Override, Rod, Shaft, Slider
+from .model import ArticulatedRod, Bobweight, Counterweight, EngineFile, Override, Rod, Shaft, Slider
 
 STANDARD_GRAVITY = 9.80665          # m/s2, by definition (CGPM 1901)
 NEAREST_TO_LOCK = 1e-6              # how far lambda + |offset| / rod length must stay below 1
@@ -91,7 +91,7 @@ class Engine:
     def equal(self) -> bool:
         """Whether all cylinders have one mechanism and one set of reciprocating masses."""
         c = self.cylinders
-        return len(c.lam) == len(c.eps) == len(c.reciprocating) == 1
+        return len(c.lam) == len(c.eps) == len(c.reciprocating) == 1 and c.linkage is None
 
     @property
     def pins_deg(self) -> dict[int, Any]:
@@ -103,21 +103,24 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
     """The engine that a file describes.
 
     Args:
-        file: a checked model; numbers in it may have been replaced by arrays of variants, shape (variants,).
-        rank: 1 if so, else 0.
+        file: a checked model; numbers in it may have been replaced by arrays of variants.
+        rank: number of axes of those arrays, which broadcast against each other; what does not vary along an axis has length 1
+            there, here and in all that is computed.
 
     Raises:
         InputError: what does not fit together, by its path in the file.
     """
     layout = plan(file.crank, file.layout)
-    _refuse(_articulation(file) + _strangers(layout, file.cylinder) + _half_rods(file))
+    masters = articulation.masters(file, layout)
+    _refuse([*articulation.mistakes(file, layout), *_strangers(layout, file.cylinder), *_half_rods(file, masters)])
     radius = file.crank.stroke / 2e3
-    rods = [_rod(file, number) for number in layout.numbers]
-    _refuse(p for number, rod in zip(layout.numbers, rods, strict=True) for p in _mistakes(file, number, rod, radius))
+    rods = [_rod(file, number, number in masters) for number in layout.numbers]
+    _refuse(p for number, rod in zip(layout.numbers, rods, strict=True) for p in _mistakes(file, number, rod, radius, number in masters))
     axis = {c.number: _own(file, c.number, "bank", layout.banks[c.bank]) for c in layout.cells}
     top = {n: axis[n] + rod.top_deg(radius) for n, rod in zip(layout.numbers, rods, strict=True)}
+    top |= {n: axis[n] for n in masters}                # nominal: an articulated piston's dead centre is off by some degrees
     pin, fires = _pins(file, layout, top)
-    places, throws = _places(file, layout)
+    places, throws = _places(file, layout, rank)
     order = _by_axis(layout, axis)
     rods = [rods[row] for row in order]
     numbers = tuple(layout.numbers[row] for row in order)
@@ -132,9 +135,12 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
         lam=_shared([radius / rod.length for rod in rods], rank),
         eps=_shared([rod.offset / rod.length for rod in rods], rank),
         reciprocating=_shared([rod.piston + rod.small_end for rod in rods], rank),
-        rotating=_shared([rod.big_end + file.crank.throw_mass / layout.rods_on_throw for rod in rods], rank),
+        rotating=_shared([(0.0 if n in masters else rod.big_end) + file.crank.throw_mass / layout.rods_on_throw
+                          for n, rod in zip(numbers, rods, strict=True)], rank),
         couple=_shared([rod.couple for rod in rods], rank),
+        linkage=articulation.linkage(file, layout, numbers, axis, [rod.big_end for rod in rods], rank),
     )
+    _refuse(articulation.locked(file, cylinders, numbers))
     return Engine(
         name=file.name, source=file.source, numbers=numbers, cylinders=cylinders, fires_deg=fires, strokes=file.layout.strokes,
         bore_m=math.nan if file.piston.bore is None else file.piston.bore / 1e3,
@@ -152,19 +158,19 @@ def devices(file: EngineFile, first_axis_deg: Any) -> tuple[Device, ...]:
 
 
 def _counterweight(d: Counterweight, first_axis_deg: Any) -> Device:
-    return Device(1, _unbalance(d) * unit(d.angle + first_axis_deg), 0j, 0j, d.position / 1e3)
+    return Device(1, _unbalance(d) * unit(d.angle + first_axis_deg), 0j, 0j, d.position / 1e3, 0)
 
 
 def _shaft(d: Shaft) -> Device:
     turning = _unbalance(d) * unit(d.angle)
     forward, backward = (turning, 0j) if d.ratio > 0 else (0j, turning)
-    return Device(abs(d.ratio), forward, backward, _place(d.at), d.position / 1e3)
+    return Device(abs(d.ratio), forward, backward, _place(d.at), d.position / 1e3, 1)
 
 
 def _slider(d: Slider) -> Device:
     """Its displacement `U cos(n theta + angle)` is two vectors of half the size, turning against each other."""
     half, direction, phase = _unbalance(d) / 2, unit(d.direction), unit(d.angle)
-    return Device(d.order, half * direction * phase, half * direction * np.conj(phase), _place(d.at), d.position / 1e3)
+    return Device(d.order, half * direction * phase, half * direction * np.conj(phase), _place(d.at), d.position / 1e3, 2)
 
 
 def _unbalance(d: Counterweight | Shaft | Slider) -> Any:
@@ -196,10 +202,10 @@ class _Parts:
         return np.degrees(np.arcsin(self.offset / (radius + self.length)))
 
 
-def _rod(file: EngineFile, number: int) -> _Parts:
+def _rod(file: EngineFile, number: int, articulated: bool) -> _Parts:
     """Piston and rod of a cylinder: the engine's, with what its own table says otherwise (THEORY 3)."""
     own = file.cylinder.get(number)
-    figures = _overridden(file.rod, own)
+    figures = _overridden(file.articulation.rod if articulated and file.articulation else file.rod, own)
     length = figures["length"] / 1e3 if "length" in figures else file.crank.stroke / 2e3 / figures["ratio"]
     if "small_end" in figures:
         small, big = figures["small_end"], figures["big_end"]
@@ -230,12 +236,12 @@ def _weighed(file: EngineFile, layout: Plan, throw: int, rod: _Parts) -> Weighed
 _GROUPS = (({"length"}, {"ratio"}), ({"mass", "cg"}, {"small_end", "big_end"}), ({"inertia"}, {"pendulum"}))
 
 
-def _overridden(rod: Rod, own: Override | None) -> dict[str, Any]:
+def _overridden(rod: Rod | ArticulatedRod, own: Override | None) -> dict[str, Any]:
     """Figures of a rod; a figure of the cylinder's own displaces those of the engine that say the same otherwise."""
     figures = {key: value for key in type(rod).model_fields if (value := getattr(rod, key)) is not None}
     if own is None:
         return figures
-    mine = {key: value for key in type(rod).model_fields if (value := getattr(own, f"rod_{key}")) is not None}
+    mine = {key: value for key in Rod.model_fields if (value := getattr(own, f"rod_{key}")) is not None}
     for ways in _GROUPS:
         for way in ways:
             if way & mine.keys():
@@ -250,7 +256,7 @@ def _own(file: EngineFile, number: int, key: str, default: Any) -> Any:
     return default if value is None else value
 
 
-def _mistakes(file: EngineFile, number: int, rod: _Parts, radius: Any) -> list[Problem]:
+def _mistakes(file: EngineFile, number: int, rod: _Parts, radius: Any, articulated: bool) -> list[Problem]:
     """What keeps a mechanism from turning, or a pendulum test from being one."""
     own = file.cylinder.get(number)
 
@@ -265,7 +271,7 @@ def _mistakes(file: EngineFile, number: int, rod: _Parts, radius: Any) -> list[P
         return [Problem(path("pendulum"), "the period is too quick for the distance of its pivot from the centre of mass: the moment of inertia "
                                           f"about it would be {np.min(rod.spin) * 1e6:g} kg mm2 (period: a full swing, in seconds)")]
     lam, eps = np.max(radius / rod.length), np.max(np.abs(rod.offset / rod.length))
-    if lam + eps <= 1 - NEAREST_TO_LOCK:
+    if articulated or lam + eps <= 1 - NEAREST_TO_LOCK:                     # what an articulated rod can do depends on its master
         return []
     offset = f", with the piston offset of {np.max(np.abs(rod.offset)) * 1e3:g} mm lambda + |offset|/length = {lam + eps:.9g}" if eps else ""
     return [Problem(path("length", "ratio"), f"the crank cannot turn: crank radius {np.max(radius) * 1e3:g} mm over rod length "
@@ -299,7 +305,7 @@ def _pins(file: EngineFile, layout: Plan, top: Mapping[int, Any]) -> tuple[dict[
     return pin, fires
 
 
-def _places(file: EngineFile, layout: Plan) -> tuple[dict[int, Any], NDArray[np.float64]]:
+def _places(file: EngineFile, layout: Plan, rank: int) -> tuple[dict[int, Any], NDArray[np.float64]]:
     """Place of every cylinder and of every throw along the crank, m (a throw stands in the middle of its rods)."""
     crank = file.crank
     along = crank.positions or [(t - (layout.throws - 1) / 2) * (crank.spacing or 0.0) for t in range(layout.throws)]
@@ -308,7 +314,7 @@ def _places(file: EngineFile, layout: Plan) -> tuple[dict[int, Any], NDArray[np.
     place = {c.number: _own(file, c.number, "position", along[c.throw] + lean[c.number]) / 1e3 for c in layout.cells}
     throws = [sum(place[c.number] - lean[c.number] / 1e3 for c in layout.cells if c.throw == t) / layout.rods_on_throw
               for t in range(layout.throws)]
-    return place, np.array(throws)
+    return place, _column(throws, rank)
 
 
 def _reference(file: EngineFile, throws: NDArray[np.float64]) -> tuple[Any, Any, Any]:
@@ -329,18 +335,13 @@ def _strangers(layout: Plan, own: Mapping[int, Override]) -> list[Problem]:
             for n in own if n not in layout.numbers]
 
 
-def _half_rods(file: EngineFile) -> list[Problem]:
+def _half_rods(file: EngineFile, articulated: Collection[int]) -> list[Problem]:
     """Cylinders whose own rod is weighed at one end only, where the engine's rod does not give the other."""
     ends = ("small_end", "big_end")
     return [Problem(f"cylinder.{n}.rod_{here}", f"needs rod_{missing} beside it: weigh the rod at both ends")
             for n, own in file.cylinder.items() for here, missing in (ends, ends[::-1])
-            if getattr(own, f"rod_{here}") is not None and getattr(own, f"rod_{missing}") is None and getattr(file.rod, missing) is None]
-
-
-def _articulation(file: EngineFile) -> list[Problem]:
-    if file.articulation is None:
-        return []
-    return [Problem("articulation", "articulated rods cannot be computed yet; without this table all rods are taken as equal, on one pin")]
+            if getattr(own, f"rod_{here}") is not None and getattr(own, f"rod_{missing}") is None
+            and (n in articulated or getattr(file.rod, missing) is None)]
 
 
 def _refuse(problems: Iterable[Problem]) -> None:

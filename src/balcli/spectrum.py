@@ -57,7 +57,8 @@ def spectra(engine: Engine, orders: ArrayLike, quantities: Collection[str] = SPE
 def relevant_orders(engine: Engine) -> Array:
     """The orders 1 .. n (0 .. n under uneven speed) beyond which nothing exceeds rounding errors."""
     c = engine.cylinders
-    highest = max([harmonics.points(c.lam, c.eps) // 2, *(d.order for d in engine.devices)])
+    own = c.linkage.highest(c.lam, c.eps) if c.linkage else harmonics.points(c.lam, c.eps) // 2
+    highest = max([own, *(d.order for d in engine.devices)])
     if not engine.ripple:
         return np.arange(1.0, highest + 1)
     return np.arange(0.0, highest + 2 * max(line.order for line in engine.ripple) + 1)
@@ -65,7 +66,8 @@ def relevant_orders(engine: Engine) -> Array:
 
 def _steady(engine: Engine, orders: Array, quantities: Collection[str]) -> tuple[dict[str, Phasors], Loads]:
     c = engine.cylinders
-    find = harmonics.of if orders.max(initial=0) <= _CLOSED_FORM else harmonics.sampled
+    plain = harmonics.of if orders.max(initial=0) <= _CLOSED_FORM else harmonics.sampled
+    find = c.linkage.harmonics if c.linkage else plain
     x, y, z = engine.reference_m
     rod = bool(np.count_nonzero(c.couple)) and not _ONLY_FORCES.issuperset(quantities)
     loads = Loads(c, engine.devices, (x + 1j * y, z), orders,

@@ -32,10 +32,8 @@ def plot(file: EngineFile, output: Picture, what: Page = What.ALL, scheme: Schem
     from ..render.plot.pages import Subject, form_of, picture
     from ..render.units import SYSTEMS
     from .output import write
-    from .several import before_and_after, engine_of
+    from .several import engine_of
 
-    form = form_of(output)
+    form, asked = form_of(output), order_list(orders)
     _, engine = engine_of(file, checked_speed(speed))
-    before, after = before_and_after(engine, scheme, order_list(orders))
-    subject = Subject(before, None, SYSTEMS[units]) if after is None else Subject(after, before, SYSTEMS[units])
-    write(picture(subject, what, form), output)
+    write(picture(Subject.of(engine, asked, scheme, SYSTEMS[units]), what, form), output)

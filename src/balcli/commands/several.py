@@ -4,18 +4,15 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 import typer
 
 from ..checks import suspicious
 from ..engine import Engine, build
 from ..errors import BalcliError, Exit, InputError
-from ..load import read
+from ..load import name_of, parse, text_of
 from ..model import EngineFile
-
-if TYPE_CHECKING:
-    from ..analysis import Analysis
 
 F = TypeVar("F")
 T = TypeVar("T")
@@ -27,7 +24,16 @@ def engine_of(file: str, speed_rpm: float | None = None) -> tuple[EngineFile, En
     Raises:
         BalcliError: all mistakes of the file.
     """
-    model = read(file)
+    return _built(parse(text_of(file), name_of(file)), file, speed_rpm)
+
+
+def engine_and_text(file: str, speed_rpm: float | None = None) -> tuple[bytes, Engine]:
+    """The text of one file, too, for what is written from it."""
+    text = text_of(file)
+    return text, _built(parse(text, name_of(file)), file, speed_rpm)[1]
+
+
+def _built(model: EngineFile, file: str, speed_rpm: float | None) -> tuple[EngineFile, Engine]:
     try:
         engine = build(model)
     except InputError as error:
@@ -35,22 +41,6 @@ def engine_of(file: str, speed_rpm: float | None = None) -> tuple[EngineFile, En
     for warning in suspicious(model):
         typer.echo(f"warning: {file}: {warning}", err=True)
     return model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)
-
-
-def before_and_after(engine: Engine, scheme: str | None, orders: Sequence[int] | None = None) -> tuple[Analysis, Analysis | None]:
-    """All spectra and peaks of an engine, and those with the devices of a scheme, if one is named.
-
-    Raises:
-        BalcliError: an unknown scheme.
-    """
-    from ..analysis import QUANTITIES, analyze
-    from ..sizing import auto, fitted
-
-    only = set(QUANTITIES) - {"sizing"}
-    if scheme not in (None, "auto"):
-        raise BalcliError(f'--scheme "{scheme}": there is only auto')
-    after = None if scheme is None else analyze(fitted(engine, auto(engine)), orders, only)
-    return analyze(engine, orders, only), after
 
 
 def each(files: Sequence[F], work: Callable[[F], T]) -> tuple[list[T], list[str]]:

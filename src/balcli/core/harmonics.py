@@ -38,6 +38,17 @@ class Series:
 
 
 @dataclass(frozen=True)
+class Curve:
+    """What unit mass does on a closed curve z(psi) (complex, in crank radii, x along the cylinder's axis)."""
+
+    along: Series                       # -Re z''
+    across: Series                      # -Im z''
+    couple: Series                      # -Im(conj(z) z''): minus the rate of its moment of momentum
+    kinetic: Series                     # |z'|^2
+    momentum: Array                     # mean of Im(conj(z) z'), shape (cylinders, *trailing)
+
+
+@dataclass(frozen=True)
 class Harmonics:
     """The Fourier series of a mechanism (or many); those of rod and energy may be left out."""
 
@@ -45,6 +56,8 @@ class Harmonics:
     rod: Series                         # -beta'': angular acceleration of the rod, in the crank's sense
     kinetic: Series                     # (s'/r)^2
     rod_kinetic: Series                 # beta'^2
+    curve: Curve | None = None          # of a further mass, where a mechanism has one that moves in the plane
+    turns: Array | float = 0.0          # of the rod for each of the crank
 
 
 NONE = Series(np.zeros((1, 1)))
@@ -66,7 +79,7 @@ def of(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: b
         series: list[Series] = [getattr(one, name) for one in each]
         noise = np.concatenate([np.broadcast_to(s.noise, s.c.shape[1:]) for s in series])
         return Series(np.concatenate([s.c for s in series], axis=1)[:, which], noise[which])
-    return Harmonics(*map(gather, ("piston", "rod", "kinetic", "rod_kinetic")))
+    return Harmonics(gather("piston"), gather("rod"), gather("kinetic"), gather("rod_kinetic"))
 
 
 def _of_distinct(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> Harmonics:
@@ -256,27 +269,28 @@ def sampled(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, ener
 
     Accelerations are sampled as such, not differentiated, so that no order's error grows.
     """
-    n = np.asarray(orders)
     psi = np.arange(count := points(lam, eps)) * (2 * np.pi / count)
     arguments = psi, np.asarray(lam)[..., None], np.asarray(eps)[..., None]
-
-    def series(samples: Array) -> Series:
-        spectrum = np.moveaxis(np.fft.rfft(samples) / count, -1, 0)
-        spectrum[1:] *= 2
-        inside = (n % 1 == 0) & (n < count // 2)
-        rows = spectrum[np.where(inside, n, 0).astype(int)]
-        c = np.where(inside.reshape(-1, *(1,) * (rows.ndim - 1)), rows, 0)
-        return Series(c, SAMPLING * np.abs(spectrum).max(axis=0))
-
     return Harmonics(
-        piston=series(slidercrank.acceleration(*arguments)),
-        rod=series(-slidercrank.rod_acceleration(*arguments)) if rod else NONE,
-        kinetic=series(slidercrank.velocity(*arguments) ** 2) if energy else NONE,
-        rod_kinetic=series(slidercrank.rod_rate(*arguments) ** 2) if energy and rod else NONE,
+        piston=from_samples(slidercrank.acceleration(*arguments), orders),
+        rod=from_samples(-slidercrank.rod_acceleration(*arguments), orders) if rod else NONE,
+        kinetic=from_samples(slidercrank.velocity(*arguments) ** 2, orders) if energy else NONE,
+        rod_kinetic=from_samples(slidercrank.rod_rate(*arguments) ** 2, orders) if energy and rod else NONE,
     )
 
 
 SAMPLING = 16 * EPS         # error of a sampled coefficient, in units of the largest
+
+
+def from_samples(samples: Array, orders: ArrayLike) -> Series:
+    """Coefficients of whole orders from one revolution of samples (last axis), shape (orders, *the other axes)."""
+    n, count = np.asarray(orders), samples.shape[-1]
+    spectrum = np.moveaxis(np.fft.rfft(samples) / count, -1, 0)
+    spectrum[1:] *= 2
+    inside = (n % 1 == 0) & (n < count // 2)
+    rows = spectrum[np.where(inside, n, 0).astype(int)]
+    c = np.where(inside.reshape(-1, *(1,) * (rows.ndim - 1)), rows, 0)
+    return Series(c, SAMPLING * np.abs(spectrum).max(axis=0))
 
 
 def points(lam: ArrayLike, eps: ArrayLike) -> int:

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .harmonics import Harmonics, Series
+from .linkage import Linkage
 from .phasors import EPS, Array, Complex, Phasors, unit
 
 _SUM = 8 * EPS              # rounding error of a sum, per term and size of the terms
@@ -39,6 +40,7 @@ class Cylinders:
         lam, eps: shape (cylinders or 1, *trailing), crank radius and offset over rod length.
         reciprocating, rotating: masses at the piston pin and at the crank pin, kg.
         couple: `H` of the rods, kg m2 (THEORY: what two point masses lack of the rod's moment of inertia, with the sign changed).
+        linkage: of cylinders that are more than slider-cranks; its masses come on top of these.
     """
 
     axis_deg: Array
@@ -52,10 +54,17 @@ class Cylinders:
     reciprocating: Array
     rotating: Array
     couple: Array
+    linkage: Linkage | None = None
 
     @property
     def count(self) -> int:
         return len(self.pin_deg)
+
+    @property
+    def angle_deg(self) -> Array:
+        """Each cylinder's own crank angle at crank angle 0 (`phi` in THEORY 1), deg, shape (cylinders, *trailing)."""
+        axis = np.repeat(self.axis_deg, np.diff([*self.starts, self.count]), axis=0)
+        return np.asarray(self.axis_deg[self.first] + self.pin_deg - axis)
 
     @property
     def offset(self) -> Array:
@@ -65,13 +74,17 @@ class Cylinders:
 
 @dataclass(frozen=True)
 class Device:
-    """Counterweight, balancer shaft or slider: mass x radius (kg m) that turns at `order`, with and against the crank."""
+    """Counterweight, balancer shaft or slider: mass x radius (kg m) that turns at `order`, with and against the crank.
+
+    `rank` is the order in which devices are summed: 0 counterweights, 1 shafts, 2 sliders, as an engine file has them.
+    """
 
     order: int
     forward: Any            # complex, or arrays of variants
     backward: Any
     place: Any              # x + iy of its axis, m
     z: Any                  # m
+    rank: int = 3
 
 
 class Loads:
@@ -119,6 +132,8 @@ class Loads:
             total += self._about_z((c.couple * self._square) * self._harmonics.rod)
         if np.count_nonzero(c.eps):
             total += self._about_z(-(c.reciprocating * c.offset * c.radius * self._square) * self._harmonics.piston)
+        if (curve := self._harmonics.curve) is not None:
+            total += self._about_z((self._on_curve * c.radius) * curve.couple)
         if np.count_nonzero(self._place):
             total += self._forces(self._turned, self._once).about(-self._place)
         return sum((f.about(d.place - self._place) for d, f in zip(self._devices, self._of_devices, strict=True)), total)
@@ -132,20 +147,30 @@ class Loads:
     @property
     def mean_inertia(self) -> Array:
         """Mean over a revolution of I (needs order 0) times the square of the speed, N m."""
-        mean = self._inertia.c[self._orders == 0].real[0]
-        return _total(mean[None], self._once)[0] + self.mean_momentum
+        c = self._cylinders
+        mean = self._inertia.c[self._orders == 0].real[0] + c.rotating * c.radius**2 * self._square
+        return _total(mean[None], self._once)[0]
 
     @property
     def mean_momentum(self) -> Array:
-        """Mean moment of momentum of the cylinders about z times the speed, N m: that of the rotating masses."""
-        c = self._cylinders
-        return _total((c.rotating * c.radius**2 * self._square)[None], self._once)[0]
+        """Mean moment of momentum of the cylinders about z times the speed, N m: that of masses and rods that turn."""
+        c, h = self._cylinders, self._harmonics
+        mean = (c.rotating * c.radius**2 - c.couple * h.turns) * self._square
+        return _total((mean if h.curve is None else mean + self._on_curve * c.radius * h.curve.momentum)[None], self._once)[0]
 
     @cached_property
     def _inertia(self) -> Series:
         c, h = self._cylinders, self._harmonics
         own = (c.reciprocating * c.radius**2 * self._square) * h.kinetic
+        if h.curve is not None:
+            own += (self._on_curve * c.radius) * h.curve.kinetic
         return own + -(c.couple * self._square) * h.rod_kinetic if np.count_nonzero(c.couple) else own
+
+    @property
+    def _on_curve(self) -> Array:
+        """What a linkage's masses on their curves weigh in forces: mass x radius x square of the speed, N."""
+        c = self._cylinders
+        return np.zeros(1) if c.linkage is None else c.linkage.mass * c.radius * self._square
 
     def _of_device(self, d: Device) -> Phasors:
         """Its force."""
@@ -169,7 +194,13 @@ class Loads:
         c = self._cylinders
         along = (c.reciprocating * c.radius * self._square / 2) * self._harmonics.piston
         turning = (self._n == 1) * (c.rotating * (c.radius * self._square))
-        return along.c + turning, along.c.conj(), self._rounding * (np.abs(along.c) + turning) + along.noise
+        forward, backward = along.c + turning, along.c.conj()
+        error = self._rounding * (np.abs(along.c) + turning) + along.noise
+        if (curve := self._harmonics.curve) is None:
+            return forward, backward, error
+        x, y = (self._on_curve / 2) * curve.along, (self._on_curve / 2) * curve.across
+        error = error + self._rounding * (np.abs(x.c) + np.abs(y.c)) + (x.noise + y.noise)
+        return forward + (x.c + 1j * y.c), backward + (x.c - 1j * y.c).conj(), error
 
     def _forces(self, turned: Complex, size: Array) -> Phasors:
         """Sum over the cylinders of their forces, with the weights that `turned` bears and `size` bounds."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, assert_never
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
+    from ..balance import Balance
     from .sheet import Sheet
 
 
@@ -59,3 +60,16 @@ def analyses(results: Sequence[Analysis], form: Format, units: Units, *, into_fi
         return [sheet(result, system, pictures=pictures) for result in results]
     return render(form, sheets=sheets, documents=lambda: [json.analysis(r) for r in results],
                   rows=lambda: csv.analyses(results, system), into_file=into_file)
+
+
+def balances(result: Balance, form: Format, units: Units, *, into_file: bool = False) -> str:
+    """One balance."""
+    from . import csv, json
+    from .units import SYSTEMS
+
+    system = SYSTEMS[units]
+
+    def sheets() -> list[Sheet]:
+        from .balance import sheet
+        return [sheet(result, system)]
+    return render(form, sheets=sheets, documents=lambda: [json.balance(result)], rows=lambda: csv.balances(result, system), into_file=into_file)

@@ -7,9 +7,10 @@ from ..engine import Engine
 from . import crank, shafts, single
 from .auto import auto
 from .remedy import Remedy, fitted
-from .wish import Wish, options
+from .shop import Practical, Tools, practical
+from .wish import Nothing, Wish, options
 
-__all__ = ["SCHEMES", "Remedy", "Wish", "auto", "fitted", "remedy_for"]
+__all__ = ["SCHEMES", "Practical", "Remedy", "Tools", "Wish", "auto", "fitted", "practical", "remedy_for"]
 
 _Scheme = tuple[Callable[[Engine, Wish], Remedy], tuple[str, ...]]
 
@@ -29,7 +30,7 @@ SCHEMES: dict[str, _Scheme] = {
 
 
 def remedy_for(engine: Engine, scheme: str = "auto", wish: Wish | None = None) -> Remedy:
-    """The devices that a scheme fits.
+    """The devices that a scheme fits; none, with a note in the details, where there is nothing to balance.
 
     Raises:
         BalcliError: an unknown scheme, an option that it does not have, or a wish that cannot be met, with the reason.
@@ -37,4 +38,7 @@ def remedy_for(engine: Engine, scheme: str = "auto", wish: Wish | None = None) -
     asked = wish or Wish()
     accepted = options({name: takes for name, (_, takes) in SCHEMES.items()}, scheme)
     asked.check(scheme, accepted)
-    return SCHEMES[scheme][0](engine, asked)
+    try:
+        return SCHEMES[scheme][0](engine, asked)
+    except Nothing as reason:
+        return Remedy(scheme, asked.order, details={"note": str(reason)})

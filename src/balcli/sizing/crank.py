@@ -20,7 +20,7 @@ from .auto import why_weights
 from .fitting import FORWARD, SAME_PLACE, Fitting
 from .remedy import Remedy, fitted
 from .solver import Part, Slot, solve, steady
-from .wish import Wish
+from .wish import Nothing, Wish
 
 DEFINITION = ("bobweight of a crank pin = rotating mass + factor x reciprocating mass of the rods on that pin; rotating: rod big ends, "
               "rod bearings, oil; reciprocating: pistons with rings, pins and clips, rod small ends")
@@ -33,7 +33,7 @@ def counterweights(engine: Engine, wish: Wish) -> Remedy:
     fitting = Fitting.of(engine, "counterweights", 1)
     left = fitting.rest(1)
     if not any(left.at(*part) for part in FORWARD):
-        raise BalcliError("there is no free force or moment of order 1 turning with the crank: no counterweight is needed")
+        raise Nothing("there is no free force or moment of order 1 turning with the crank: no counterweight is needed")
     where = _planes(engine, wish) if wish.planes is not None else _own_planes(engine, fitting)
     slots = [Slot("counterweight", 1, 1, z) for z in where]
     if len(set(where)) > 1 or len(where) > 1:
@@ -159,11 +159,12 @@ def minimax(engine: Engine, wish: Wish) -> Remedy:
     else:
         slots, unbalances = _split(engine, wish, fitting, unbalance)
     if abs(found.centre) <= fitting.rest(1).noise[Part("force", 1)] * newton and wish.planes is None:
-        raise BalcliError("no counterweight makes the largest force smaller than it is: "
+        raise Nothing("no counterweight makes the largest force smaller than it is: "
                           f"{found.radius:.5g} N, which has no part of order 1 turning with the crank")
     fitting = fitting.add(slots, unbalances, reason)
     half = _peaks(replace(fitting.engine, devices=_off_crank(engine)), 0.5)["peak_force_N"]
-    return fitting.note(peak_force_N=found.radius, reached_deg=[float(d) for d in np.degrees(found.theta)], relative_error_bound=found.excess / found.radius if found.radius else 0.0,
+    return fitting.note(peak_force_N=found.radius, reached_deg=[round(float(d), 9) % 360 for d in np.degrees(found.theta)],
+                        relative_error_bound=found.excess / found.radius if found.radius else 0.0,
                         factor_half_peak_N=half, improvement=1 - found.radius / half if half else 0.0).remedy
 
 

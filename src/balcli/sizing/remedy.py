@@ -38,9 +38,10 @@ class Remedy:
 
 
 def fitted(engine: Engine, remedy: Remedy) -> Engine:
-    """The engine with the devices of a remedy added to its own."""
+    """The engine with the devices of a remedy added to its own, in the order in which its file would have them."""
     tables = EngineFile.model_construct(counterweight=remedy.counterweights, shaft=remedy.shafts, slider=remedy.sliders)
-    return replace(engine, devices=(*engine.devices, *devices(tables, engine.first_axis_deg), *remedy.beyond))
+    everything = (*engine.devices, *devices(tables, engine.first_axis_deg), *remedy.beyond)
+    return replace(engine, devices=tuple(sorted(everything, key=lambda device: device.rank)))
 
 
 # ------------------------------------------------------------------ unbalance (kg m, complex) -> table

@@ -13,7 +13,7 @@ from .auto import size_of, why_shaft, why_weights
 from .fitting import BACKWARD, FORWARD, SAME_PLACE, Fitting
 from .remedy import Remedy, degrees
 from .solver import Part, Rest, Slot, solve
-from .wish import Wish, chosen
+from .wish import Nothing, Wish, chosen
 
 ROLL = Part("roll", 0)
 
@@ -49,7 +49,7 @@ def four_shaft(engine: Engine, wish: Wish) -> Remedy:
     fitting = Fitting.of(engine, "four-shaft")
     there = [left for left in map(fitting.rest, (1, 2)) if any(left.at("force", s) for s in (1, -1))]
     if not there:
-        raise BalcliError("there is no free force of orders 1 and 2: nothing to balance; couple-shaft takes moments")
+        raise Nothing("there is no free force of orders 1 and 2: nothing to balance; couple-shaft takes moments")
     for left in there:
         fitting = _pair(fitting, left, wish)
     return fitting.remedy
@@ -190,7 +190,7 @@ def _along(engine: Engine, wish: Wish, left: Rest, sense: int) -> float:
         return found
     force = left.at("force", sense)
     z = left.arm[1] + ((left.at("moment", sense) / force).real if force else 0.0)
-    return min(max(z, bounds[0]), bounds[1])
+    return round(min(max(z, bounds[0]), bounds[1]), 9)
 
 
 def _distance(left: Rest, z: float) -> float:

@@ -12,6 +12,10 @@ HIGHEST = 8                     # order up to which something to balance is look
 STRONGEST = 1000                # order that a shaft may be asked for
 
 
+class Nothing(Exception):
+    """There is nothing to balance, as its text says: a scheme then fits no device."""
+
+
 @dataclass(frozen=True)
 class Wish:
     """Options of the schemes; what is None was not asked for. Lengths in m.
@@ -45,17 +49,17 @@ class Wish:
 
 
 def lowest(engine: Engine, quantity: str, senses: Sequence[int] = (1, -1)) -> Rest:
-    """The lowest order at which a free force (or moment) is left; BalcliError if there is none."""
+    """The lowest order at which a free force (or moment) is left; Nothing if there is none."""
     for order in range(1, HIGHEST + 1):
         found = rest(engine, order)
         if any(found.at(quantity, sense) for sense in senses):
             return found
     turning = {(1,): " turning with the crank", (-1,): " turning against the crank"}.get(tuple(senses), "")
-    raise BalcliError(f"there is no free {quantity}{turning} of orders 1 to {HIGHEST}: nothing to balance; --order names a higher one")
+    raise Nothing(f"there is no free {quantity}{turning} of orders 1 to {HIGHEST}: nothing to balance; --order names a higher one")
 
 
 def chosen(engine: Engine, wish: Wish, quantity: str, senses: Sequence[int] = (1, -1)) -> Rest:
-    """What is left of the order asked for, or of the lowest that has something; BalcliError if there is nothing."""
+    """What is left of the order asked for, or of the lowest that has something; Nothing if there is nothing."""
     if wish.order is None:
         return lowest(engine, quantity, senses)
     found = rest(engine, wish.order)
@@ -64,7 +68,7 @@ def chosen(engine: Engine, wish: Wish, quantity: str, senses: Sequence[int] = (1
     turning = {(1,): " turning with the crank", (-1,): " turning against the crank"}.get(tuple(senses), "")
     other = next((q for q in ("force", "moment") if q != quantity and any(found.at(q, s) for s in senses)), None)
     hint = {"moment": "; it has a free moment: couple-shaft", "force": "; it has a free force: two-shaft", None: ""}[other]
-    raise BalcliError(f"order {wish.order} has no free {quantity}{turning}: nothing to balance{hint}")
+    raise Nothing(f"order {wish.order} has no free {quantity}{turning}: nothing to balance{hint}")
 
 
 def options(accepted: Mapping[str, Sequence[str]], scheme: str) -> Sequence[str]:

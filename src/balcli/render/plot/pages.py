@@ -1,14 +1,17 @@
 """Which pictures there are, and how each page is laid out."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...analysis import Analysis
+from ...analysis import Analysis, analyze
+from ...balance import balance
 from ...core.phasors import Phasors
+from ...engine import Engine
 from ...errors import BalcliError
+from ...spectrum import SPECTRAL
 from ..units import SI, System, Unit
 from . import draw
 from .style import FORMS, Form, figure, inline, plain, saved
@@ -29,6 +32,18 @@ class Subject:
     now: Analysis
     before: Analysis | None = None
     system: System = SI
+
+    @classmethod
+    def of(cls, engine: Engine, orders: Iterable[int] | None, scheme: str | None, system: System) -> Subject:
+        """An engine, and what a balance scheme makes of it if one is named.
+
+        Raises:
+            BalcliError: an unknown scheme, or one that cannot be fitted.
+        """
+        if scheme is None:
+            return cls(analyze(engine, orders, SPECTRAL), None, system)
+        found = balance(engine, scheme, orders=orders)
+        return cls(found.after, found.before, system)
 
     def phasors(self, quantity: str) -> tuple[Phasors, Phasors | None]:
         old = None if self.before is None else getattr(self.before.spectra, quantity)
