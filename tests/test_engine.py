@@ -23,7 +23,8 @@ def only(values: np.ndarray) -> float:
 def test_si_values_of_a_whole_file():
     e = engine(name="x", source="y",
                crank={"stroke": 90, "throws": [0, 180], "spacing": 110, "throw_mass": 1.2},
-               rod={"length": 150, "mass": 0.6, "cg": 50, "inertia": 2500}, piston={"mass": 0.5, "bore": 80, "offset": 3},
+               rod={"length": 150, "mass": 0.6, "cg": 50, "inertia": 2500},
+               piston={"mass": 0.5, "bore": 80, "offset": 3},
                layout={"bank_angle": 60}, operation={"speed": 3000})
     c = e.cylinders
     assert (e.name, e.source, e.numbers, e.strokes, c.count) == ("x", "y", (1, 2, 3, 4), 4, 4)
