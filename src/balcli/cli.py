@@ -16,7 +16,8 @@ from typer.main import get_command
 from . import __version__
 from .errors import BalcliError, Exit
 
-COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "plot", "report", "sweep", "search", "scatter", "compare")
+COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "plot", "report", "sweep", "search", "scatter", "compare",
+            "engines")
 
 
 class _OnDemand(TyperGroup):
