@@ -210,7 +210,7 @@ def _two_planes(engine: Engine, wish: Wish) -> tuple[float, float]:
     else:
         raise BalcliError("--planes: opposite eccentrics stand in two planes; give ends, or two places along z in mm, such as -200,200")
     if low == high:
-        raise BalcliError(SAME_PLACE)
+        raise BalcliError(f"--planes: {SAME_PLACE}")
     return low, high
 
 
