@@ -34,6 +34,8 @@ def mistakes(file: EngineFile, layout: Plan) -> Iterator[Problem]:
     if fault:
         yield fault
         return
+    if file.layout.rotary:
+        yield Problem("articulation", "the rods of a rotary engine are taken as equal, all on one pin: leave this table out")
     yield from _wrong_angles(file.articulation, len(layout.banks))
     if np.any(np.asarray(file.crank.splay) != 0):
         yield Problem("crank.splay", "articulated rods hang on the master rod and have no crank pins to split: "
@@ -92,7 +94,8 @@ def locked(file: EngineFile, c: Cylinders, numbers: Sequence[int]) -> Iterator[P
     """Articulated cylinders whose rod cannot follow its knuckle pin all the way round."""
     if not isinstance(c.linkage, Articulated):
         return
-    leans = np.abs(c.linkage.lean(revolution(_STEPS), c.lam, c.eps)).reshape(len(numbers), -1, _STEPS).max(axis=1)
+    with np.errstate(invalid="ignore"):                                     # beyond 1 there is no angle
+        leans = np.abs(c.linkage.motion(revolution(_STEPS), c.lam, c.eps).lean).reshape(len(numbers), -1, _STEPS).max(axis=1)
     turned = c.angle_deg.reshape(len(numbers), -1)[:, 0]
     for row, number in enumerate(numbers):
         worst = int(leans[row].argmax())

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from . import load, quantity
+from . import enginefile, quantity
 from .choices import repeated
 from .engine import Engine, build
 from .errors import BalcliError, InputError
@@ -74,7 +74,7 @@ def ask(file: str, vary: Sequence[str], quantities: str) -> Sweep:
     Raises:
         BalcliError: what is wrong with the file, a parameter or a quantity, or if one of the variants cannot be.
     """
-    model = load.read(file)
+    model = enginefile.read(file)
     parameters = tuple(parse(text, model) for text in vary)
     if twice := repeated(p.path for p in parameters):
         raise BalcliError(f"{twice} is varied twice; give all its values at once")

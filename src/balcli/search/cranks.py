@@ -5,7 +5,6 @@ the crank is dropped as soon as nothing that may follow can bring its sum below 
 """
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterator
 from functools import lru_cache
 
