@@ -11,11 +11,11 @@ import pytest
 from kit import GOOD, changed
 from typer.testing import CliRunner
 
-from balcli.balance import balance
+from balcli.balancing import balance
 from balcli.cli import app
 from balcli.engine import build
+from balcli.enginefile import parse
 from balcli.errors import BalcliError
-from balcli.load import parse
 from balcli.sizing import SCHEMES, Remedy, Tools, Wish, practical
 from balcli.sizing.shop import STEEL, drill_depth
 
@@ -64,7 +64,8 @@ def test_tables_fit_eighty_columns(monkeypatch):
 
 def test_json_has_devices_reasons_and_both_analyses(file):
     doc = document(file, "--scheme", "two-shaft", "--at=-40,60", "--order", "2")
-    assert list(doc) == ["format", "scheme", "order", "counterweights", "shafts", "sliders", "reasons", "practical", "details", "before", "after"]
+    assert list(doc) == ["format", "scheme", "order", "counterweights", "shafts", "sliders", "reasons", "practical", "details",
+                         "before", "after"]
     assert [s["ratio"] for s in doc["shafts"]] == [-2, 2]
     assert doc["shafts"][0]["at_mm"] == [-40, 60]
     assert doc["shafts"][1]["at_mm"] == pytest.approx([-40, -60])

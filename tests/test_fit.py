@@ -8,9 +8,9 @@ from kit import GOOD, changed
 
 from balcli.analysis import analyze
 from balcli.engine import build
+from balcli.enginefile import parse
 from balcli.errors import BalcliError
 from balcli.fit import fit
-from balcli.load import parse
 from balcli.sizing import SCHEMES, Remedy, Wish, fitted, remedy_for
 
 SINGLE = changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4"))
@@ -32,7 +32,9 @@ def test_every_written_engine_reads_back_to_exactly_what_was_promised(path, sche
 
 @pytest.mark.parametrize("scheme", ["auto", "minimax", "two-shaft", "slider", "factor"])
 def test_devices_of_the_file_stay(scheme):
-    own = '[[shaft]]\nratio = 1\nunbalance = 700\nangle = 33\n[[slider]]\norder = 2\nunbalance = "3 kg*mm"\ndirection = 20\n[[counterweight]]\nmass = 0.3\nradius = 50\n'
+    own = ("[[shaft]]\nratio = 1\nunbalance = 700\nangle = 33\n"
+           '[[slider]]\norder = 2\nunbalance = "3 kg*mm"\ndirection = 20\n'
+           "[[counterweight]]\nmass = 0.3\nradius = 50\n")
     engine = build(parse(SINGLE + own))
     remedy = remedy_for(engine, scheme)
     assert figures(build(parse(fit((SINGLE + own).encode(), remedy)))) == figures(fitted(engine, remedy))

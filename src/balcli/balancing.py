@@ -10,7 +10,6 @@ from .analysis import QUANTITIES, Analysis, analyze
 from .engine import Engine
 from .sizing import Practical, Remedy, Tools, Wish, fitted, practical, remedy_for
 
-
 _UNEVEN = "sized for steady mean speed; before and after are those of the uneven one"
 
 

@@ -13,7 +13,7 @@ from kit import engine_text
 from balcli.core import circle
 from balcli.core.phasors import Phasors
 from balcli.engine import build
-from balcli.load import parse
+from balcli.enginefile import parse
 from balcli.spectrum import relevant_orders, spectra
 
 TRUE = 1e-10                            # relative to the true optimum

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from kit import engine_text
 
 from balcli.engine import Engine, build
+from balcli.enginefile import parse
 from balcli.errors import BalcliError
-from balcli.load import parse
 from balcli.sizing import SCHEMES, Wish, auto, fitted, remedy_for
 from balcli.spectrum import spectra
 
@@ -114,7 +114,8 @@ def test_hopeless_planes_are_refused_with_their_condition_number():
 def test_remedies_grow_with_the_masses(scale):
     """Unbalance is linear in mass."""
     def weights(mass):
-        text = engine_text(crank=f"stroke = 100\nthrows = [0, 90, 250]\nspacing = 100\nthrow_mass = {2 * mass!r}", piston=f"mass = {mass!r}")
+        crank = f"stroke = 100\nthrows = [0, 90, 250]\nspacing = 100\nthrow_mass = {2 * mass!r}"
+        text = engine_text(crank=crank, piston=f"mass = {mass!r}")
         return np.array([d.unbalance for d in auto(build(parse(text))).devices])
     assert weights(scale) == pytest.approx(scale * weights(1.0), rel=1e-12)
 

@@ -11,8 +11,8 @@ from kit import engine_text
 from balcli.analysis import analyze
 from balcli.core import harmonics
 from balcli.engine import Engine, build
+from balcli.enginefile import parse
 from balcli.errors import BalcliError
-from balcli.load import parse
 from balcli.sizing import Wish, auto, fitted, remedy_for
 from balcli.spectrum import spectra
 

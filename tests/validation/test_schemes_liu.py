@@ -14,7 +14,7 @@ from kit import engine_text
 
 from balcli.core import harmonics
 from balcli.engine import Engine, build
-from balcli.load import parse
+from balcli.enginefile import parse
 from balcli.sizing import Wish, fitted, remedy_for
 from balcli.spectrum import spectra
 

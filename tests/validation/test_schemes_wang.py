@@ -14,8 +14,8 @@ from kit import engine_text
 from balcli.analysis import analyze
 from balcli.core import harmonics
 from balcli.engine import Engine, build
+from balcli.enginefile import parse
 from balcli.errors import BalcliError
-from balcli.load import parse
 from balcli.sizing import Wish, eccentric, fitted, remedy_for
 from balcli.spectrum import spectra
 
@@ -173,7 +173,8 @@ def test_eccentric_slider_refuses_an_offset():
 def test_overbalance_figures_are_those_of_the_ellipse():
     """(31)-(32) for order 1: P_max = [1 + sqrt(1 - 4k cos a + 4k^2)] J/2, at any overbalance."""
     for k, alpha in ((0.3, 20), (0.6, 0), (0.8, 35)):
-        weight = f"[[counterweight]]\nunbalance = {1e6 * (0.7 * R)}\nangle = 180\n[[counterweight]]\nunbalance = {1e6 * k * R}\nangle = {180 + alpha}\n"
+        weight = (f"[[counterweight]]\nunbalance = {1e6 * (0.7 * R)}\nangle = 180\n"
+                  f"[[counterweight]]\nunbalance = {1e6 * k * R}\nangle = {180 + alpha}\n")
         force = spectra(single(more=weight), [1], ("force",)).force
         wanted = (1 + math.sqrt(1 - 4 * k * math.cos(math.radians(alpha)) + 4 * k * k)) / 2
         assert force.major[0] / (M * R * single().omega**2) == pytest.approx(wanted, rel=1e-13)
