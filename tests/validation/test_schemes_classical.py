@@ -213,6 +213,8 @@ def test_eccentric_stands_where_the_force_acts():
     ("magic", Wish(), "there is no scheme 'magic': choose from auto, counterweights"),
     ("mini-max", Wish(), "did you mean minimax"),
     ("two-shaft", Wish(order=6, roll="nought"), 'only "zero" can be asked for'),
+    ("two-shaft", Wish(order=3, roll="zero"), "order 3 has no free force.*shafts without unbalance can do nothing about the roll"),
+    ("two-shaft", Wish(order=6, roll="zero", at=(0.1j, 0.2j)), "fixes the place of the second shaft"),
     ("factor", Wish(factor=(math.nan,)), "give a share of the reciprocating mass"),
 ])
 def test_infeasible_wishes_are_told_why(scheme, wish, reason):

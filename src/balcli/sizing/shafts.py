@@ -39,7 +39,12 @@ def single_shaft(engine: Engine, wish: Wish) -> Remedy:
 
 def two_shaft(engine: Engine, wish: Wish) -> Remedy:
     """Shafts at +N and -N for the force of order N, placed such that no roll is added, or such that none is left (`roll`)."""
-    left = chosen(engine, wish, "force")
+    try:
+        left = chosen(engine, wish, "force")
+    except NoNeedError as reason:
+        if wish.roll:
+            raise BalcliError(f"{reason}; shafts without unbalance can do nothing about the roll") from None
+        raise
     return _pair(Fitting.of(engine, "two-shaft", left.order), left, wish).remedy
 
 
