@@ -4,12 +4,12 @@ from __future__ import annotations
 import math
 
 import pytest
+from kit import GOOD, changed
 
 from balcli.compare import compare
 from balcli.engine import build
 from balcli.errors import BalcliError
 from balcli.load import parse
-from kit import GOOD, changed
 
 
 def test_force_of_order_2_goes_with_the_square_of_the_speed() -> None:

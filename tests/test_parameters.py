@@ -5,11 +5,11 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from kit import GOOD, changed
 
 from balcli.errors import BalcliError
 from balcli.load import parse as load
 from balcli.parameters import ladder, parse, varied
-from kit import GOOD, changed
 
 DEVICES = """
 [[shaft]]
@@ -98,7 +98,7 @@ def test_what_says_the_same_gives_way() -> None:
 
 
 def test_half_of_an_alternative_is_refused() -> None:
-    with pytest.raises(BalcliError, match="rod.small_end: the file gives mass and cg instead"):
+    with pytest.raises(BalcliError, match=r"rod\.small_end: the file gives mass and cg instead"):
         varied(load(GOOD), {"rod.small_end": 0.2})
 
 

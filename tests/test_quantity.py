@@ -3,13 +3,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from kit import changed
 
 from balcli.analysis import analyze
 from balcli.engine import build
 from balcli.errors import BalcliError
 from balcli.load import parse as load
 from balcli.quantity import evaluate, parse
-from kit import changed
 
 UNEVEN = changed(("[0, 180, 180, 0]", "[0, 100, 250, 190]"), ('firing_order = [1, 3, 4, 2]', 'bank_angle = 70\nstagger = 20'))
 

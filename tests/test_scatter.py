@@ -5,16 +5,17 @@ import math
 
 import numpy as np
 import pytest
+from kit import GOOD, changed
 
 from balcli.engine import build
 from balcli.errors import BalcliError
 from balcli.load import parse as load
 from balcli.quantity import evaluate, parse
 from balcli.scatter import Tolerances, scatter, tolerances
-from kit import GOOD, changed
 
 FORCES = parse("force.1.major,force.2.major,moment.1.major")
-TWIN = changed(("[0, 180, 180, 0]", "[0, 180]"), ("throw_mass = 0.8", ""), ("mass = 0.6\ncg = 45\n", ""), ("[layout]\nfiring_order = [1, 3, 4, 2]\n", ""))
+TWIN = changed(("[0, 180, 180, 0]", "[0, 180]"), ("throw_mass = 0.8", ""), ("mass = 0.6\ncg = 45\n", ""),
+               ("[layout]\nfiring_order = [1, 3, 4, 2]\n", ""))
 
 
 def test_two_pistons_alone_have_a_triangular_difference() -> None:

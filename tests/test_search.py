@@ -5,6 +5,7 @@ from itertools import permutations
 
 import numpy as np
 import pytest
+from kit import GOOD, changed
 
 from balcli.engine import build
 from balcli.errors import BalcliError
@@ -15,7 +16,6 @@ from balcli.quantity import evaluate, parse
 from balcli.search import fires_evenly, objective, search
 from balcli.search.cranks import best
 from balcli.search.write import arranged
-from kit import GOOD, changed
 
 NO_ORDER = ("[layout]\nfiring_order = [1, 3, 4, 2]\n", "")
 SHUFFLED = changed(("[0, 180, 180, 0]", "[0, 0, 180, 180]"), NO_ORDER)
@@ -140,7 +140,7 @@ def test_mistakes_of_objectives(minimise: str, limits: tuple[str, ...], message:
 
 
 def test_peaks_do_not_add_up() -> None:
-    with pytest.raises(BalcliError, match="which peak.force does not allow"):
+    with pytest.raises(BalcliError, match=r"which peak\.force does not allow"):
         search(load(SHUFFLED), "throws", objective("peak.force"))
 
 

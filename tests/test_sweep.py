@@ -6,6 +6,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from kit import GOOD, changed
 
 from balcli.engine import build
 from balcli.errors import BalcliError, InputError
@@ -15,11 +16,11 @@ from balcli.quantity import evaluate
 from balcli.quantity import parse as quantities
 from balcli.render.variants import csv_text, json_text
 from balcli.sweep import Sweep, boxes, check, chunks, columns, grid
-from kit import GOOD, changed
 
 SAME = 1e-12                    # of the largest value of a column
 VEE = changed(("[0, 180, 180, 0]", "[0, 100, 250, 190]"), ("firing_order = [1, 3, 4, 2]", "bank_angle = 70\nstagger = 20"))
-EVERYTHING = quantities("force.1.major,force.2.minor,moment.1.backward,moment.4.x,couple.3.amplitude,torque.2.amplitude,roll.4.amplitude,peak.force")
+EVERYTHING = quantities("force.1.major,force.2.minor,moment.1.backward,moment.4.x,"
+                        "couple.3.amplitude,torque.2.amplitude,roll.4.amplitude,peak.force")
 MORE = """
 [[shaft]]
 ratio = -2
@@ -58,8 +59,9 @@ def asked(engine: str, *vary: str, of: str = "") -> Sweep:
 def test_every_variant_is_the_engine_alone(engine: str, vary: tuple[str, ...]) -> None:
     sweep = asked(engine, *vary)
     found = grid(sweep)
-    alone = [[float(v) for v in evaluate(build(varied(sweep.file, dict(zip((p.path for p in sweep.parameters), values, strict=True)))), EVERYTHING)]
-             for values in product(*(p.values.tolist() for p in sweep.parameters))]
+    paths = [p.path for p in sweep.parameters]
+    variants = [dict(zip(paths, values, strict=True)) for values in product(*(p.values.tolist() for p in sweep.parameters))]
+    alone = [[float(v) for v in evaluate(build(varied(sweep.file, one)), EVERYTHING)] for one in variants]
     for quantity, values, expected in zip(EVERYTHING, found, np.array(alone).T, strict=True):
         assert values.ravel() == pytest.approx(expected, abs=SAME * max(np.abs(expected).max(), 1e-9)), quantity.name
 

@@ -102,8 +102,7 @@ def from_coefficients(find: Coefficients) -> Vectors:
 def of_engine(engine: Engine, orders: list[int]) -> Complex:
     """balcli itself."""
     found = spectra(engine, orders, ("force", "moment"))
-    assert found.force is not None and found.moment is not None
-    return np.array([(p.forward.T, p.backward.T) for p in (found.force, found.moment)]).transpose(0, 2, 1)
+    return np.array([(p.forward, p.backward) for _, p in found.items()]).transpose(0, 2, 1)
 
 
 def sampled(points: int) -> Vectors:

@@ -16,8 +16,8 @@ def bench(
     from .output import emit, write
 
     found = measured()
-    picture = output is not None and output.suffix == ".svg"
-    if picture:
+    if output is not None and output.suffix == ".svg":
         write(rendered.draw(found), output)
+        output = None
     emit(render(format, sheets=lambda: [rendered.sheet(found)], documents=lambda: [rendered.document(found)],
-                rows=lambda: rendered.rows(found), into_file=output is not None and not picture), None if picture else output)
+                rows=lambda: rendered.rows(found), into_file=output is not None), output)

@@ -4,7 +4,7 @@ from __future__ import annotations
 from contextlib import nullcontext
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Optional
+from typing import Annotated
 
 import typer
 
@@ -29,7 +29,7 @@ def sweep(
     format: Annotated[Form, typer.Option("--format", "-f", help="How to write the variants.")] = Form.CSV,   # noqa: A002
     output: Output = None,
     progress: Annotated[bool, typer.Option("--progress", help="Show a bar on standard error.")] = False,
-    plot: Annotated[Optional[Path], typer.Option("--plot", metavar="X.svg", show_default=False, help=(
+    plot: Annotated[Path | None, typer.Option("--plot", metavar="X.svg", show_default=False, help=(
         "Also draw the quantities over one parameter (curves) or two (contours)."))] = None,
     dask: Annotated[str, typer.Option("--dask", metavar="ADDRESS|local", show_default=False, help="Compute on a dask cluster.")] = "",
 ) -> None:

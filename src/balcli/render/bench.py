@@ -23,7 +23,8 @@ def document(result: Bench) -> dict[str, Any]:
 def rows(result: Bench) -> str:
     """CSV: run times and errors, then ratios."""
     return write(("task", "method", "seconds", "error", "ratio"), [
-        *((r.task, r.method, r.seconds, r.error, None) for r in result.rows), *(("ratio", r.what, None, None, r.value) for r in result.ratios)])
+        *((r.task, r.method, r.seconds, r.error, None) for r in result.rows),
+        *(("ratio", r.what, None, None, r.value) for r in result.ratios)])
 
 
 def sheet(result: Bench) -> Sheet:
