@@ -1,6 +1,11 @@
-"""What several tests need: a good engine file, and the same with some text replaced."""
+"""What several tests need: a good engine file, the same with some text replaced, and small engines."""
 
 from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from balcli.engine import Engine
 
 GOOD = """\
 name = "in-line four"
@@ -31,3 +36,32 @@ def changed(*replacements: tuple[str, str], more: str = "") -> str:
             raise AssertionError(f"{old!r} is not in the good engine file")
         text = text.replace(old, new)
     return text + more
+
+
+def tables(**parts: dict[str, Any] | list[dict[str, Any]]) -> dict[str, Any]:
+    """A plain engine of one cylinder (lambda 1/4, 1 kg piston, rod without mass, 60 rpm) with some tables changed."""
+    plain: dict[str, Any] = {
+        "crank": {"stroke": 100}, "rod": {"length": 200}, "piston": {"mass": 1}, "operation": {"speed": 60}}
+    return plain | {name: plain.get(name, {}) | part if isinstance(part, dict) else part
+                    for name, part in parts.items()}
+
+
+def engine(**parts: dict[str, Any] | list[dict[str, Any]]) -> Engine:
+    """The same, built: through TOML and the loader, as a user's file would be."""
+    import tomli_w
+
+    from balcli.engine import build
+    from balcli.enginefile import parse
+
+    return build(parse(tomli_w.dumps(tables(**parts))))
+
+
+def refused(**parts: dict[str, Any] | list[dict[str, Any]]) -> str:
+    """All of what is said against such an engine."""
+    import pytest
+
+    from balcli.errors import InputError
+
+    with pytest.raises(InputError) as caught:
+        engine(**parts)
+    return str(caught.value)

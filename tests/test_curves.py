@@ -8,8 +8,8 @@ import pytest
 
 from balcli.curves import crank_angles, cylinder_curves, engine_curves
 from balcli.engine import build
+from balcli.enginefile import parse
 from balcli.errors import BalcliError
-from balcli.load import parse
 from balcli.spectrum import relevant_orders, spectra
 
 ENGINES = Path(__file__).parents[1] / "engines"

@@ -34,7 +34,7 @@ def from_pins(order: Sequence[int], pin: Mapping[int, Any], top: Mapping[int, An
     """Intervals of a firing order on a given crank: from each firing to the next, the shortest that the pins allow.
 
     Turns that are left over (an even parallel twin fires after 360 and 360 degrees, its pins only say 0) go to the
-    intervals that become the least uneven by them. A Problem if the order takes more than a cycle.
+    intervals that become the least uneven by them, of equal ones to the last. A Problem if the order takes more than a cycle.
     """
     ready = {i: float(np.remainder(sense * ((top[i] - top[1]) - pin[i]), 360.0)) for i in order}      # at top dead centre, modulo a turn
     following = [*order[1:], order[0]]
@@ -43,7 +43,7 @@ def from_pins(order: Sequence[int], pin: Mapping[int, Any], top: Mapping[int, An
     if total > cycle:
         return _impossible(order, ready, total, cycle)
     for _ in range(int(cycle - total) // 360):
-        shortest = intervals.index(min(intervals))
+        shortest = min(reversed(range(len(intervals))), key=intervals.__getitem__)
         intervals[shortest] += 360.0
     return intervals
 

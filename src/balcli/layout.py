@@ -47,12 +47,14 @@ def plan(crank: Crank, layout: Layout) -> Plan:
     banks = bank_angles(layout)
     shared = layout.rods == "shared" or len(banks) == 1
     throws, problems = _throws(crank, layout, len(banks) if shared else 1)
+    if problems:                                        # all else counts throws
+        raise InputError(problems)
     places = [(b, t) for b in range(len(banks)) for t in range(throws) if shared or t % len(banks) == b]
     numbers, misnumbered = _numbers(layout, places, len(banks))
-    problems += misnumbered + (_positions(crank, throws) if not problems else [])
+    problems += misnumbered + _positions(crank, throws)
     if not shared and throws < len(banks):
-        problems.append(Problem("layout.rods", f'"alternating" gives each of the {throws} throws one rod, so that banks '
-                                               f"{throws + 1} to {len(banks)} stay empty: give more throws, or \"shared\""))
+        problems.append(Problem("layout.rods", f'"alternating" gives every throw one rod, but there are {len(banks)} banks and only '
+                                               f'{throws} throw{"s" * (throws > 1)}: give more throws, or "shared"'))
     problems += _firing(layout, sorted(numbers))
     if problems:
         raise InputError(problems)

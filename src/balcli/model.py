@@ -3,7 +3,6 @@
 The tables check and never derive: what follows from the figures (rod length from its ratio, inertia from a pendulum) is
 the business of `engine.py`. A validator is built only for a table that a file has.
 """
-from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator
@@ -49,7 +48,7 @@ class Table(BaseModel):
     choices: ClassVar[tuple[Choice, ...]] = ()
 
     @model_validator(mode="after")
-    def _consistent(self) -> Table:
+    def _consistent(self) -> "Table":
         found = [*mistakes_of_choice(type(self), self.model_fields_set), *self.contradictions()]
         if found:
             raise ValueError("; ".join(found))

@@ -7,7 +7,7 @@ import momentum
 import numpy as np
 import pytest
 
-from balcli import analysis, engine, load, spectrum
+from balcli import analysis, engine, enginefile, spectrum
 
 TOLERANCE = 1e-11           # of the largest first-order amplitude of one cylinder
 ORDERS = np.arange(0.0, 11.0)
@@ -81,7 +81,7 @@ def compare(text: str) -> None:
     """Every order of every quantity, in units of what one cylinder does."""
     oracle = momentum.Engine.read(text)
     curves, scales = oracle.curves(), oracle.scales()
-    found = spectrum.spectra(engine.build(load.parse(text)), ORDERS)
+    found = spectrum.spectra(engine.build(enginefile.parse(text)), ORDERS)
     for quantity, phasors in found.items():
         for row, n in enumerate(ORDERS):
             forward, backward = curves.order(quantity, int(n))
@@ -103,7 +103,7 @@ def test_every_engine_that_comes_with_balcli(path):
 def test_one_cylinder_of_an_articulated_engine_alone():
     """The share of a master and of an articulated cylinder in what the engine does (`--by cylinder`)."""
     text = BASE.format(crank="", piston="", layout="radial = 5", operation="", more=ARTICULATED)
-    oracle, whole = momentum.Engine.read(text), engine.build(load.parse(text))
+    oracle, whole = momentum.Engine.read(text), engine.build(enginefile.parse(text))
     for number in (1, 3):
         curves = oracle.curves([number])
         force = spectrum.spectra(analysis.alone(whole, number), ORDERS, ["force"]).force

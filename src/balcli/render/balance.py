@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..balance import Balance
+from ..balancing import Balance
 from ..core.peaks import Peak
 from .devices import device_grid
 from .figures import order_number
@@ -80,7 +80,7 @@ def _peak(peak: Peak | None, unit: Unit) -> tuple[str, str]:
 # ------------------------------------------------------------------ details
 def _details(details: Mapping[str, Any], system: System) -> Iterator[Grid | Facts | Text]:
     """Figures of a scheme that are no device."""
-    plain = [fact for key, value in details.items() if key != "note" and not isinstance(value, list) or key == "reached_deg"
+    plain = [fact for key, value in details.items() if (key != "note" and not isinstance(value, list)) or key == "reached_deg"
              for fact in _facts(key, value, system)]
     if plain:
         yield Facts(tuple(plain), "Details")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, assert_never
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
-    from ..balance import Balance
+    from ..balancing import Balance
     from .sheet import Sheet
 
 

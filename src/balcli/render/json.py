@@ -10,7 +10,7 @@ from .figures import clean, entries, order_number, peaks
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
-    from ..balance import Balance
+    from ..balancing import Balance
     from ..sizing import Practical, Remedy
     from ..spectrum import Spectra
 

@@ -5,11 +5,10 @@ import cmath
 import math
 from typing import Any
 
-from ..core.phasors import unit
 from ..engine import Engine
 from ..errors import BalcliError
 from . import planes
-from .auto import size_of, why_shaft, why_weights
+from .auto import why_shaft, why_weights
 from .fitting import BACKWARD, FORWARD, SAME_PLACE, Fitting
 from .remedy import Remedy, degrees
 from .solver import Part, Rest, Slot, solve

@@ -1,0 +1,201 @@
+"""The harmonics against two computations in mpmath that share nothing with the closed forms.
+
+Up to lambda = 0.3 the power series in lambda (binomial series of `cos beta` and `arcsin`, powers of the sine as
+multiple angles), whose terms have one sign; above, the trapezoidal rule over a revolution of the textbook's own
+expressions, which converges geometrically for a periodic analytic function. At 0.3 the two are compared.
+"""
+from __future__ import annotations
+
+from functools import lru_cache
+from math import comb
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+from balcli.core import harmonics
+
+RELATIVE = 2e-14                # of each coefficient of the centred mechanism, where it is above 1e-290
+ABSOLUTE = 1e-15                # of the offset mechanism, in units of the first order
+SMALLEST = 1e-290
+ORDERS = np.arange(1, 65)
+SMALL = [1e-6, 3.7e-5, 1e-3, 0.01, 0.05, 0.1, 0.2, 0.2632, 0.3]
+LARGE = [0.3, 0.32, 1 / 3, 0.4, 0.5, 0.6180339887, 0.75, 0.9, 0.95, 0.99, 0.999]
+SERIES = ("piston", "rod", "kinetic", "rod_kinetic")
+OFFSETS = [(0.2632, 0.01), (0.25, -0.08), (0.3, 0.002), (0.45, 0.3), (0.3, 0.65), (1e-3, 0.5)]   # lam + |eps| <= 0.95
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _digits():
+    with mp.workdps(110):                               # order 64 at lambda = 0.3 is 1e-52 of what is summed
+        yield
+
+
+# ------------------------------------------------------------------ power series in lambda
+@lru_cache
+def of_power_series(lam: float) -> dict[str, list[mp.mpf]]:
+    """Coefficients for the orders 0, 1, 2, ... by their own series."""
+    highest, terms = 64 + 44, 64 + 60
+    square = mp.mpf(lam) ** 2
+    cosine = [mp.mpf(0)] * (highest + 1)                # of cos beta, by cos n psi
+    angle = [mp.mpf(0)] * (highest + 1)                 # of beta, by sin k psi
+    for n in range(2, highest + 1, 2):
+        cosine[n] = mp.fsum(_half(j) * (-1) ** (j + n // 2) * 2 * comb(2 * j, j - n // 2) * square**j / 4**j
+                            for j in range(n // 2, terms))
+    for k in range(1, highest + 1, 2):
+        angle[k] = lam * mp.fsum(mp.mpf(comb(2 * j, j)) / (4**j * (2 * j + 1)) * square**j
+                                 * (-1) ** (k // 2) * comb(2 * j + 1, j - k // 2) / mp.mpf(4) ** j
+                                 for j in range(k // 2, terms))
+    speed = [n * c / lam for n, c in enumerate(cosine)]                         # -s'/r, by sin n psi
+    speed[1] += 1
+    piston = [n * c for n, c in enumerate(speed)]
+    rate = [k * c for k, c in enumerate(angle)]                                 # beta', by cos k psi
+    return {"piston": piston, "rod": [k * c for k, c in enumerate(rate)],
+            "kinetic": squared(speed, -1), "rod_kinetic": squared(rate, 1)}
+
+
+@lru_cache(maxsize=256)
+def _half(j: int) -> mp.mpf:
+    return mp.binomial(mp.mpf(1) / 2, j)
+
+
+def squared(a: list[mp.mpf], sign: int) -> list[mp.mpf]:
+    """Cosine series of (sum a_n sin n psi)^2 (sign -1) or of (sum a_n cos n psi)^2 (sign 1), a_0 = 0."""
+    there = [n for n, c in enumerate(a) if c]
+    found = [mp.mpf(0)] * len(a)
+    for i in there:
+        for j in there:
+            found[abs(i - j)] += a[i] * a[j] / 2
+            if i + j < len(a):
+                found[i + j] += sign * a[i] * a[j] / 2
+    return found
+
+
+# ------------------------------------------------------------------ trapezoidal rule
+@lru_cache
+def of_revolution(lam: float, eps: float = 0.0, highest: int = 64, digits: int = 25) -> dict[str, list[mp.mpc]]:
+    """Coefficients c_n of `Re c_n e^{i n psi}` for the orders 0 .. highest, by sampling one revolution."""
+    steep = mp.mpf(lam) / (1 - abs(mp.mpf(eps)))
+    decay = mp.log10((1 + mp.sqrt(1 - steep**2)) / steep)
+    count = 4 * (int((2 * highest + digits / decay) / 4) + 8)   # aliases are below 10^-digits of order `highest`
+    turn = [mp.expjpi(mp.mpf(-2 * k) / count) for k in range(count)]
+    samples: dict[str, list[mp.mpf]] = {name: [] for name in SERIES}
+    for e in turn:
+        for name, value in zip(SERIES, motion(-e.imag, e.real, mp.mpf(lam), mp.mpf(eps)), strict=True):
+            samples[name].append(value)
+    return {name: [(1 if n == 0 else 2) * mp.fsum(v * turn[n * k % count] for k, v in enumerate(values)) / count
+                   for n in range(highest + 1)] for name, values in samples.items()}
+
+
+def motion(sine: mp.mpf, cosine: mp.mpf, lam: mp.mpf, eps: mp.mpf) -> tuple[mp.mpf, ...]:
+    """-s''/r, -beta'', (s'/r)^2 and beta'^2 as THEORY 2 has them."""
+    sin_beta = lam * sine - eps
+    cos_beta = mp.sqrt(1 - sin_beta**2)
+    tangent, rate = sin_beta / cos_beta, lam * cosine / cos_beta
+    return (cosine - sine * tangent + lam * cosine**2 / cos_beta**3,
+            lam * sine / cos_beta - rate**2 * tangent,
+            (sine + cosine * tangent) ** 2, rate**2)
+
+
+def worst(got: np.ndarray, want: list[mp.mpf]) -> float:
+    """Largest relative error over the orders; what must be 0 has to be 0."""
+    errors = [0.0]
+    for n, value in zip(ORDERS, got, strict=True):
+        exact = want[n]
+        if abs(exact) > SMALLEST:
+            errors.append(float(abs((mp.mpf(float(value)) - exact) / exact)))
+        else:
+            assert abs(value) <= SMALLEST, (n, value)
+    return max(errors)
+
+
+@pytest.mark.parametrize("lam", SMALL)
+def test_centred_against_the_power_series(lam):
+    want = of_power_series(lam)
+    for name in SERIES:
+        assert worst(getattr(harmonics, name)(ORDERS, lam), want[name]) < RELATIVE, name
+
+
+@pytest.mark.parametrize("lam", LARGE)
+def test_centred_against_the_trapezoidal_rule(lam):
+    want = of_revolution(lam)
+    for name in SERIES:
+        exact = [c if name != "rod" else -c.imag for c in want[name]]
+        exact = [c.real if abs(c) > mp.mpf(10) ** -80 else mp.mpf(0) for c in exact]
+        assert worst(getattr(harmonics, name)(ORDERS, lam), exact) < RELATIVE, name
+
+
+def test_the_two_oracles_agree():
+    series, revolution = of_power_series(0.3), of_revolution(0.3)
+    for name in SERIES:
+        for n in ORDERS:
+            scalar = -revolution[name][n].imag if name == "rod" else revolution[name][n].real
+            assert abs(series[name][n] - scalar) < mp.mpf(10) ** -75, (name, n)
+
+
+@pytest.mark.parametrize("lam", [1e-3, 0.3, 0.999])
+def test_means_of_the_squares(lam):
+    """Order 0 enters the mean inertia under uneven speed."""
+    want = of_power_series(lam) if lam < 0.3 else of_revolution(lam)
+    for name in ("kinetic", "rod_kinetic"):
+        assert getattr(harmonics, name)([0], lam)[0] == pytest.approx(float(mp.re(want[name][0])), rel=RELATIVE)
+
+
+def test_first_coefficients_are_those_of_the_books():
+    """A_2 = lambda + lambda^3/4 + 15 lambda^5/128, A_4 = -(lambda^3/4 + 3 lambda^5/16), A_6 = 9 lambda^5/128,
+    A_8 = -5 lambda^7/256; D_1 = lambda (1 + lambda^2/8), D_3 = -3 lambda^3/8, each up to its next term."""
+    lam = 1e-4
+    a = harmonics.piston([1, 2, 3, 4, 6, 8], lam)
+    assert list(a[[0, 2]]) == [1, 0]
+    assert a[1] == pytest.approx(lam + lam**3 / 4 + 15 * lam**5 / 128, rel=1e-14)
+    assert a[3:] == pytest.approx([-(lam**3 / 4 + 3 * lam**5 / 16), 9 * lam**5 / 128, -5 * lam**7 / 256], rel=1e-7)
+    assert harmonics.rod([1, 3], lam) == pytest.approx([lam + lam**3 / 8, -3 * lam**3 / 8], rel=1e-7)
+
+
+def test_shapes_and_orders_in_any_number():
+    lam = np.array([[0.2, 0.3, 0.4]])
+    found = harmonics.centred([0, 1, 2, 7], lam)
+    for name in SERIES:
+        assert getattr(found, name).c.shape == (4, 1, 3)
+        alone = getattr(harmonics, name)([7], 0.3)[0]
+        assert getattr(harmonics, name)([0, 1, 2, 7], lam)[3, 0, 1] == pytest.approx(alone, rel=1e-15, abs=0)
+
+
+# ------------------------------------------------------------------ offset
+@pytest.mark.parametrize(("lam", "eps"), OFFSETS)
+def test_offset_against_the_trapezoidal_rule(lam, eps):
+    orders = np.arange(0, 25)
+    with mp.workdps(30):
+        want = of_revolution(lam, eps, 24, 22)
+        found = harmonics.of(orders, np.array([lam]), np.array([eps]))
+        for name in SERIES:
+            first = float(abs(want[name][1]))
+            largest = max(float(abs(c)) for c in want[name])
+            got = getattr(found, name)
+            for n in orders:
+                error = float(abs(mp.mpmathify(complex(got.c[n, 0])) - want[name][n]))
+                assert error <= ABSOLUTE * (first if name == "piston" else largest), (name, n)
+                assert error <= float(got.noise[0]), (name, n, "beyond its own bound")
+
+
+def test_sampling_agrees_with_the_closed_form_where_there_is_no_offset():
+    orders, lam, eps = np.arange(0, 40), np.array([0.25, 0.31]), np.zeros(1)
+    closed, sampled = harmonics.centred(orders, lam), harmonics.sampled(orders, lam, eps)
+    for name in SERIES:
+        assert np.abs(getattr(closed, name).c - getattr(sampled, name).c).max() < ABSOLUTE, name
+
+
+def test_equal_mechanisms_are_gathered_in_their_places():
+    """Of three cylinders the middle one has an offset; the outer two keep their closed form."""
+    lam, eps = np.array([0.3, 0.3, 0.3]), np.array([0.0, 0.02, 0.0])
+    found = harmonics.of([1, 2, 3, 4], lam, eps).piston
+    assert np.array_equal(found.c[:, 0], harmonics.piston([1, 2, 3, 4], 0.3) + 0j)
+    assert np.array_equal(found.c[:, 0], found.c[:, 2])
+    assert found.c[2, 1] != 0
+    assert list(found.noise[[0, 2]]) == [0, 0]
+    assert found.noise[1] > 0
+
+
+def test_orders_beyond_the_samples_vanish():
+    """Order 4096 of a mild offset is far below every number that could be sampled; it must not be an alias."""
+    assert harmonics.of([4096], np.array([0.25]), np.array([0.01])).piston.c == 0

@@ -1,0 +1,75 @@
+"""The largest value over a revolution, on the curve and not on a grid."""
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from balcli.core.peaks import peak
+from balcli.core.phasors import Phasors
+
+RELATIVE = 1e-14
+
+
+def curve(*terms: tuple[float, complex, complex]) -> Phasors:
+    """Phasors of (order, forward, backward)."""
+    orders, forward, backward = zip(*terms, strict=True)
+    return Phasors(np.array(orders, float), np.array(forward, complex), np.array(backward, complex), np.zeros(1))
+
+
+def test_nothing_has_no_peak():
+    assert tuple(peak(curve((1, 0, 0), (2, 0, 0)))) == (0, 0)
+
+
+@pytest.mark.parametrize("order", [1, 2, 7, 40, 300])
+@pytest.mark.parametrize(("forward", "backward"), [(3 + 4j, 1 - 2j), (1, 1), (0.2j, 1)])
+def test_of_one_order_it_is_the_longer_semi_axis(order, forward, backward):
+    found = peak(curve((order, forward, backward)))
+    assert found.value == pytest.approx(abs(forward) + abs(backward), rel=RELATIVE)
+    assert 0 <= found.theta < 2 * np.pi
+
+
+def test_of_a_circle_every_angle_will_do():
+    found = peak(curve((1, 3 + 4j, 0)))
+    assert found.value == pytest.approx(5, rel=RELATIVE)
+
+
+def test_piston_acceleration_of_two_terms():
+    """cos t + lambda cos 2t: 1 + lambda at top dead centre; without the first, the second alone."""
+    found = peak(curve((1, 0.5, 0.5), (2, 0.125, 0.125)))
+    assert found.value == pytest.approx(1.25, rel=RELATIVE)
+    assert np.cos(found.theta) == pytest.approx(1)
+
+
+def test_beside_top_dead_centre():
+    """|cos t - lambda cos 2t| is largest where cos t = 1/(4 lambda) if lambda > 1/4: lambda + 1/(8 lambda); but
+    at pi it is 1 + lambda, which is more."""
+    found = peak(curve((1, 0.5, 0.5), (2, -0.25, -0.25)))
+    assert found.value == pytest.approx(1.5, rel=RELATIVE)
+    assert found.theta == pytest.approx(np.pi, abs=1e-7)
+
+
+def test_a_mean_counts():
+    found = peak(curve((0, 2, 0), (1, 0.5, 0.5)))
+    assert found.value == pytest.approx(3, rel=RELATIVE)
+    assert tuple(peak(curve((0, -2j, 0)))) == pytest.approx((2, 0))
+
+
+def test_a_narrow_peak_between_samples():
+    """All orders in step at an angle that no regular sampling meets: their sum there, and the angle itself."""
+    orders, at = np.arange(1, 41), 1.2345678
+    found = peak(curve(*[(n, 0.5 * np.exp(-1j * n * at), 0.5 * np.exp(1j * n * at)) for n in orders]))
+    assert found.value == pytest.approx(40, rel=RELATIVE)
+    assert found.theta == pytest.approx(at, abs=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_random_curves_against_many_samples(seed):
+    random = np.random.default_rng(seed)
+    orders = np.arange(0 if seed % 2 else 1, 3 + 4 * seed)
+    vectors = (random.normal(size=(4, len(orders))) * 0.7**orders).astype(complex)
+    backward = np.where(orders > 0, vectors[2] + 1j * vectors[3], 0)
+    phasors = Phasors(orders.astype(float), vectors[0] + 1j * vectors[1], backward, np.zeros(1))
+    found = peak(phasors)
+    sampled = np.abs(phasors.values(np.linspace(0, 2 * np.pi, 40_001))).max()
+    assert sampled * (1 - 1e-15) <= found.value <= sampled * (1 + 1e-5)
+    assert abs(phasors.values(found.theta)) == pytest.approx(found.value, rel=RELATIVE)

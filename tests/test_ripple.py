@@ -1,0 +1,116 @@
+"""Uneven crank speed against the time domain: momentum on a dense grid, differentiated numerically.
+
+`tests/oracle/test_momentum.py` does the same with whole engines; here are the rules by themselves.
+"""
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from balcli.core import ripple
+from balcli.core.phasors import Phasors
+
+RELATIVE = 1e-9                 # central differences of sixth order at STEP
+STEP = 2e-3
+THETA = np.linspace(0, 2 * np.pi, 97)
+LINES = {
+    "one": [(2, 0.05, 40.0)],
+    "two": [(1, 0.2, 0.0), (3, 0.1, -120.0)],
+    "none worth naming": [(4, 0.0, 10.0)],
+    "the same twice": [(2, 0.05, 0.0), (2, 0.05, 90.0)],
+}
+ORDERS = np.arange(0.0, 15.0)
+RANDOM = np.random.default_rng(4)
+FORWARD, BACKWARD = (RANDOM.normal(size=(2, 15)) + 1j * RANDOM.normal(size=(2, 15))) * 0.5**ORDERS
+FORWARD, BACKWARD = (np.where((ORDERS > 0) & (ORDERS <= 8), v, 0) for v in (FORWARD, BACKWARD))    # then room for W^2
+
+
+def speed(lines, theta):
+    """W at some crank angles, as the engine file defines it."""
+    return 1 + sum(a * np.cos(n * theta - np.radians(angle)) for n, a, angle in lines)
+
+
+def rate(function, theta):
+    """Derivative by the sixth-order central difference."""
+    weights = {1: 3 / 4, 2: -3 / 20, 3: 1 / 60}
+    return sum(w * (function(theta + k * STEP) - function(theta - k * STEP)) for k, w in weights.items()) / STEP
+
+
+def momentum(theta, backward=BACKWARD):
+    """G of a steady force F = -G': every order divided by -i n."""
+    n = np.where(ORDERS, ORDERS, 1)
+    return Phasors(ORDERS, FORWARD / (-1j * n), backward / (1j * n), np.zeros(15)).values(theta)
+
+
+def integral(theta):
+    """The same of the scalar."""
+    return momentum(theta, np.conj(FORWARD)).real
+
+
+def steady(scalar=False):
+    backward = np.conj(FORWARD) if scalar else BACKWARD
+    return Phasors(ORDERS, FORWARD, backward, np.full(15, 1e-15))
+
+
+@pytest.mark.parametrize("lines", LINES.values(), ids=LINES.keys())
+def test_two_sided_coefficients_of_the_speed(lines):
+    w = ripple.speed(lines)
+    highest = len(w) // 2
+    found = sum(c * np.exp(1j * (k - highest) * THETA) for k, c in enumerate(w))
+    assert found == pytest.approx(speed(lines, THETA) + 0j, abs=1e-14)
+
+
+@pytest.mark.parametrize("lines", LINES.values(), ids=LINES.keys())
+def test_force(lines):
+    """-W (W G)'."""
+    want = -speed(lines, THETA) * rate(lambda t: speed(lines, t) * momentum(t), THETA)
+    found = ripple.force(steady(), ripple.speed(lines)).values(THETA)
+    assert np.abs(found - want).max() < RELATIVE * np.abs(want).max()
+
+
+@pytest.mark.parametrize("lines", LINES.values(), ids=LINES.keys())
+def test_couple_with_the_mean_moment_of_momentum_of_the_rotating_masses(lines):
+    """-W (W (h_0 + h))': what is constant at steady speed shakes as well."""
+    mean = 3.0
+
+    def h(theta):
+        return mean + integral(theta)
+    want = -speed(lines, THETA) * rate(lambda t: speed(lines, t) * h(t), THETA)
+    found = ripple.force(steady(scalar=True), ripple.speed(lines), mean).values(THETA)
+    assert np.abs(found - want).max() < RELATIVE * np.abs(want).max()
+
+
+@pytest.mark.parametrize("lines", LINES.values(), ids=LINES.keys())
+def test_torque(lines):
+    """-(1/2 I W^2)', with I = I_0 + twice what the steady torque T = -1/2 I' tells."""
+    mean = 5.0
+
+    def half_inertia(theta):
+        return mean / 2 + integral(theta)
+    want = -rate(lambda t: half_inertia(t) * speed(lines, t) ** 2, THETA)
+    found = ripple.torque(steady(scalar=True), ripple.speed(lines), mean).values(THETA)
+    assert np.abs(found - want).max() < RELATIVE * np.abs(want).max()
+    assert abs(ripple.torque(steady(scalar=True), ripple.speed(lines), mean).forward[0]) < 1e-15      # T has no mean
+
+
+def test_an_amplitude_of_zero_changes_nothing():
+    found = ripple.force(steady(), ripple.speed([(4, 0.0, 10.0)]))
+    assert found.forward == pytest.approx(FORWARD, rel=1e-15)
+    assert found.backward == pytest.approx(BACKWARD, rel=1e-15)
+
+
+def test_a_mean_force_is_a_mean_and_stands_in_forward_alone():
+    """A first-order vector under a first-order ripple pushes to one side: the mean of -W W' G."""
+    found = ripple.force(steady(), ripple.speed(LINES["two"]))
+    theta = np.arange(64) * 2 * np.pi / 64
+    assert found.backward[0] == 0
+    assert found.forward[0] == pytest.approx(found.values(theta).mean(), rel=1e-12)
+    assert abs(found.forward[0]) > 1e-3
+
+
+def test_the_rounding_error_grows_with_the_parts_and_never_vanishes_where_they_do_not():
+    w = ripple.speed(LINES["one"])
+    small, large = (ripple.force(Phasors(ORDERS, FORWARD, BACKWARD, np.full(15, size)), w).noise
+                    for size in (1e-16, 1e-14))
+    assert np.all(small > 0)
+    assert large == pytest.approx(100 * small)
