@@ -41,7 +41,9 @@ class Quantity:
     def of(self, phasors: Phasors) -> Array:
         """Its value by the phasors of its kind, shape (*trailing): sizes of vectors, amplitudes along x and y, degrees."""
         row = int(np.searchsorted(phasors.orders, self.order))
-        own = Phasors(phasors.orders[row:row + 1], phasors.forward[row:row + 1], phasors.backward[row:row + 1], phasors.noise)
+        only = slice(row, row + 1)
+        noise = np.broadcast_to(phasors.noise, np.broadcast_shapes(phasors.noise.shape, (len(phasors.orders), *(1,) * (phasors.forward.ndim - 1))))
+        own = Phasors(phasors.orders[only], phasors.forward[only], phasors.backward[only], noise[only])
         name = {"amplitude": "major", "axis": "axis_deg"}.get(self.part, self.part)
         value: Array = getattr(own, name)[0]
         return value if self.part in ("major", "minor", "axis", "amplitude") else np.abs(value)

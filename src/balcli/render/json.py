@@ -56,8 +56,8 @@ def devices(remedy: Remedy) -> dict[str, list[dict[str, Any]]]:
     return {
         "counterweights": [{"unbalance_kg_m": (d.unbalance or 0.0) / 1e6, "angle_deg": d.angle, "position_mm": d.position}
                            for d in remedy.counterweights],
-        "shafts": [{"ratio": d.ratio, "unbalance_kg_m": (d.unbalance or 0.0) / 1e6, "angle_deg": d.angle, "at_mm": list(d.at), "position_mm": d.position}
-                   for d in remedy.shafts],
+        "shafts": [{"ratio": d.ratio, "unbalance_kg_m": (d.unbalance or 0.0) / 1e6, "angle_deg": d.angle,
+                    "at_mm": list(d.at), "position_mm": d.position} for d in remedy.shafts],
         "sliders": [{"order": d.order, "unbalance_kg_m": (d.unbalance or 0.0) / 1e6, "direction_deg": d.direction, "angle_deg": d.angle,
                      "at_mm": list(d.at), "position_mm": d.position} for d in remedy.sliders],
     }

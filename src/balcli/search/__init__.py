@@ -9,8 +9,9 @@ from typing import Literal as OneOf
 import numpy as np
 from numpy.typing import NDArray
 
+from ..analysis import Textbook, textbook
 from ..engine import Engine, build
-from ..errors import BalcliError, InputError
+from ..errors import BalcliError
 from ..fields import nearest
 from ..firing import TOLERANCE
 from ..layout import cycle, plan
@@ -18,8 +19,10 @@ from ..model import EngineFile
 from ..parameters import varied
 from ..quantity import evaluate
 from . import angles, cranks
-from .objective import Array, Objective
+from .objective import Array, Objective, objective
 from .orders import Firing, Slots
+
+__all__ = ["Found", "Search", "fires_evenly", "objective", "search"]
 
 What = OneOf["throws", "firing_order", "bank_angle", "splay"]
 IMAGES = 8                      # candidates kept for each that is asked for, as many are mirror images
@@ -38,12 +41,13 @@ class Found:
 
 @dataclass(frozen=True)
 class Search:
-    """The best arrangements, best first."""
+    """The best arrangements, best first; `scale` is what textbooks measure forces and moments by."""
 
     file: EngineFile
     over: What
     objective: Objective
     results: tuple[Found, ...]
+    scale: Textbook
 
 
 def search(file: EngineFile, over: str, objective: Objective, top: int = 10, even_firing: bool = False) -> Search:
@@ -60,25 +64,12 @@ def search(file: EngineFile, over: str, objective: Objective, top: int = 10, eve
     if over not in get_args(What):
         near = nearest(over, get_args(What))
         raise BalcliError(f'--over "{over}": choose from {", ".join(get_args(What))}{f"; did you mean {near}?" if near else ""}')
-    build(file)                                                             # whose mistakes are those of the file
+    engine = build(file)
     candidates = _SEARCHES[over](file, objective, top, even_firing)
     found = list(_distinct(_figures(file, candidates, objective), _mirrored(file)))[:top]
     if not found:
         raise BalcliError(f"no {over.replace('_', ' ')} keeps these limits{' and fires evenly' if even_firing else ''}")
-    return Search(file, over, objective, tuple(found))      # type: ignore[arg-type]  # checked above
-
-
-def arranged(file: EngineFile, arrangement: Mapping[str, Any]) -> EngineFile:
-    """The file with an arrangement; a firing order that no longer fits its throws is left out."""
-    crank = {key: arrangement[key] for key in ("throws", "splay") if key in arrangement}
-    layout = {key: arrangement[key] for key in ("firing_order", "bank_angle") if key in arrangement}
-    new = file.model_copy(update={"crank": file.crank.model_copy(update=crank), "layout": file.layout.model_copy(update=layout)})
-    try:
-        build(new)
-    except InputError:
-        free = {"firing_order": None, "firing_intervals": None}
-        new = new.model_copy(update={"layout": new.layout.model_copy(update=free)})
-    return new
+    return Search(file, over, objective, tuple(found), textbook(engine, np.array([1.0])))   # type: ignore[arg-type]  # checked above
 
 
 # ------------------------------------------------------------------ the four searches: candidates as the columns of arrays
