@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from . import articulation, firing
 from .core.inertia import Cylinders, Device
 from .core.phasors import unit
+from .core.rotary import Rotary
 from .errors import InputError, Problem
 from .layout import Plan, cycle, plan
 from .model import ArticulatedRod, Bobweight, Counterweight, EngineFile, Override, Rod, Shaft, Slider
@@ -117,28 +118,32 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
     rods = [_rod(file, number, number in masters) for number in layout.numbers]
     _refuse(p for number, rod in zip(layout.numbers, rods, strict=True) for p in _mistakes(file, number, rod, radius, number in masters))
     axis = {c.number: _own(file, c.number, "bank", layout.banks[c.bank]) for c in layout.cells}
-    top = {n: axis[n] + rod.top_deg(radius) for n, rod in zip(layout.numbers, rods, strict=True)}
+    sense = -1 if file.layout.rotary else 1             # in which the crank turns, seen from a cylinder
+    top = {n: axis[n] + sense * rod.top_deg(radius) for n, rod in zip(layout.numbers, rods, strict=True)}
     top |= {n: axis[n] for n in masters}                # nominal: an articulated piston's dead centre is off by some degrees
     pin, fires = _pins(file, layout, top)
     places, throws = _places(file, layout, rank)
-    order = _by_axis(layout, axis)
+    still, turning = axis, {n: pin[n] - pin[1] for n in layout.numbers}
+    if file.layout.rotary:                              # cylinders turn about pins that stand still (core.rotary)
+        still, turning = _shared_objects({n: axis[1] + turning[n] for n in axis}), {n: axis[n] - axis[1] for n in axis}
+    order = _by_axis(layout, still)
     rods = [rods[row] for row in order]
     numbers = tuple(layout.numbers[row] for row in order)
-    starts = [k for k, n in enumerate(numbers) if k == 0 or axis[n] is not axis[numbers[k - 1]]]
+    starts = [k for k, n in enumerate(numbers) if k == 0 or still[n] is not still[numbers[k - 1]]]
     cylinders = Cylinders(
-        axis_deg=_column([axis[numbers[row]] for row in starts], rank),
-        pin_deg=_column([pin[n] - pin[1] for n in numbers], rank),
+        axis_deg=_column([still[numbers[row]] for row in starts], rank),
+        pin_deg=_column([turning[n] for n in numbers], rank),
         starts=np.array(starts),
         first=int(np.searchsorted(starts, numbers.index(1), side="right")) - 1,
         z=_column([places[n] for n in numbers], rank),
         radius=_column([radius], rank)[0],
         lam=_shared([radius / rod.length for rod in rods], rank),
         eps=_shared([rod.offset / rod.length for rod in rods], rank),
-        reciprocating=_shared([rod.piston + rod.small_end for rod in rods], rank),
-        rotating=_shared([(0.0 if n in masters else rod.big_end) + file.crank.throw_mass / layout.rods_on_throw
-                          for n, rod in zip(numbers, rods, strict=True)], rank),
+        reciprocating=_shared([0.0 if file.layout.rotary else rod.piston + rod.small_end for rod in rods], rank),
+        rotating=_shared([_at_pin(file, layout, rod, n in masters) for n, rod in zip(numbers, rods, strict=True)], rank),
         couple=_shared([rod.couple for rod in rods], rank),
-        linkage=articulation.linkage(file, layout, numbers, axis, [rod.big_end for rod in rods], rank),
+        linkage=Rotary(_shared([rod.piston + rod.small_end for rod in rods], rank)) if file.layout.rotary else
+        articulation.linkage(file, layout, numbers, axis, [rod.big_end for rod in rods], rank),
     )
     _refuse(articulation.locked(file, cylinders, numbers))
     return Engine(
@@ -236,6 +241,13 @@ def _weighed(file: EngineFile, layout: Plan, throw: int, rod: _Parts) -> Weighed
 _GROUPS = (({"length"}, {"ratio"}), ({"mass", "cg"}, {"small_end", "big_end"}), ({"inertia"}, {"pendulum"}))
 
 
+def _at_pin(file: EngineFile, layout: Plan, rod: _Parts, articulated: bool) -> Any:
+    """What turns with a crank pin because of one cylinder, kg; the pins of a rotary engine stand still."""
+    if file.layout.rotary:
+        return 0.0
+    return (0.0 if articulated else rod.big_end) + file.crank.throw_mass / layout.rods_on_throw
+
+
 def _overridden(rod: Rod | ArticulatedRod, own: Override | None) -> dict[str, Any]:
     """Figures of a rod; a figure of the cylinder's own displaces those of the engine that say the same otherwise."""
     figures = {key: value for key in type(rod).model_fields if (value := getattr(rod, key)) is not None}
@@ -283,10 +295,11 @@ def _mistakes(file: EngineFile, number: int, rod: _Parts, radius: Any, articulat
 def _pins(file: EngineFile, layout: Plan, top: Mapping[int, Any]) -> tuple[dict[int, Any], dict[int, Any]]:
     """Crank pin and firing angle of every cylinder, deg; the firing angles are empty where the file says nothing of them."""
     order, intervals = file.layout.firing_order, file.layout.firing_intervals
+    sense = -1 if file.layout.rotary else 1
     splay = {c.number: c.bank * file.crank.splay for c in layout.cells}
     if file.crank.throws is None and order is not None:
         fires = firing.instants(order, intervals, cycle(file.layout))
-        wanted = firing.pins(fires, top)
+        wanted = firing.pins(fires, top, sense)
         throw = {c.throw: wanted[c.number] - splay[c.number] for c in reversed(layout.cells)}
     else:
         fires = {}
@@ -296,11 +309,11 @@ def _pins(file: EngineFile, layout: Plan, top: Mapping[int, Any]) -> tuple[dict[
         return pin, fires
     relative = {n: angle - pin[1] for n, angle in pin.items()}
     if not fires:
-        found = intervals or firing.from_pins(order, relative, top, cycle(file.layout))
+        found = intervals or firing.from_pins(order, relative, top, cycle(file.layout), sense)
         if isinstance(found, Problem):
             raise InputError([found])
         fires = firing.instants(order, found, cycle(file.layout))
-    off = firing.disagreement(fires, relative, top)
+    off = firing.disagreement(fires, relative, top, sense)
     _refuse([off] if off else [])
     return pin, fires
 
@@ -308,7 +321,7 @@ def _pins(file: EngineFile, layout: Plan, top: Mapping[int, Any]) -> tuple[dict[
 def _places(file: EngineFile, layout: Plan, rank: int) -> tuple[dict[int, Any], NDArray[np.float64]]:
     """Place of every cylinder and of every throw along the crank, m (a throw stands in the middle of its rods)."""
     crank = file.crank
-    along = crank.positions or [(t - (layout.throws - 1) / 2) * (0.0 if crank.spacing is None else crank.spacing) for t in range(layout.throws)]
+    along = crank.positions or [(t - (layout.throws - 1) / 2) * (crank.spacing or 0.0) for t in range(layout.throws)]
     middle = (layout.rods_on_throw - 1) / 2
     lean = {c.number: (c.bank - middle) * file.layout.stagger if layout.rods_on_throw > 1 else 0.0 for c in layout.cells}
     place = {c.number: _own(file, c.number, "position", along[c.throw] + lean[c.number]) / 1e3 for c in layout.cells}
@@ -322,6 +335,12 @@ def _reference(file: EngineFile, throws: NDArray[np.float64]) -> tuple[Any, Any,
         x, y, z = file.frame.reference
         return x / 1e3, y / 1e3, z / 1e3
     return 0.0, 0.0, (throws.min(axis=0) + throws.max(axis=0)) / 2
+
+
+def _shared_objects(angles: Mapping[int, Any]) -> dict[int, Any]:
+    """Equal angles as one object."""
+    known: dict[bytes, Any] = {}
+    return {n: known.setdefault(np.asarray(angle, float).tobytes(), angle) for n, angle in angles.items()}
 
 
 def _by_axis(layout: Plan, axis: Mapping[int, Any]) -> list[int]:
