@@ -16,7 +16,7 @@ from typer.main import get_command
 from . import __version__
 from .errors import BalcliError, Exit
 
-COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "plot", "sweep",
+COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "plot", "report", "sweep",
             "search", "scatter", "compare", "sum", "bench")
 
 
