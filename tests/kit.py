@@ -54,7 +54,7 @@ def engine(**parts: dict[str, Any] | list[dict[str, Any]]) -> Engine:
     import tomli_w
 
     from balcli.engine import build
-    from balcli.load import parse
+    from balcli.enginefile import parse
 
     return build(parse(tomli_w.dumps(tables(**parts))))
 

@@ -7,7 +7,7 @@ from kit import GOOD, changed
 
 from balcli import new
 from balcli.checks import suspicious
-from balcli.load import parse
+from balcli.enginefile import parse
 
 
 @pytest.mark.parametrize("text", [GOOD, *map(new.template, new.KINDS)], ids=["good", *new.KINDS])
@@ -80,8 +80,8 @@ def test_ordinary_engines_pass(text):
             ),
         ),
         (
-            changed(("bore = 86", "bore = 86\noffset = -12")),
-            "piston.offset is -12 mm, more than 10% of the stroke (9 mm); is it in mm?",
+            changed(("bore = 86", "bore = 86\noffset = -20")),
+            "piston.offset is -20 mm, more than 20% of the stroke (18 mm); is it in mm?",
         ),
         (
             changed(("speed = 3000", "speed = 3000\nspeed_ripple = [{ order = 2, amplitude = -0.9 }]")),

@@ -16,7 +16,7 @@ from typer.main import get_command
 from . import __version__
 from .errors import BalcliError, Exit
 
-COMMANDS = ("analyze", "check", "new", "schema")
+COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "plot", "sweep", "search", "scatter", "compare")
 
 
 class _OnDemand(TyperGroup):
@@ -33,7 +33,8 @@ class _OnDemand(TyperGroup):
         return get_command(single)
 
 
-app = typer.Typer(cls=_OnDemand, no_args_is_help=True, pretty_exceptions_enable=False, context_settings={"help_option_names": ["-h", "--help"]})
+app = typer.Typer(cls=_OnDemand, no_args_is_help=True, pretty_exceptions_enable=False,
+                  context_settings={"help_option_names": ["-h", "--help"]})
 
 
 def _version(wanted: bool) -> None:
@@ -43,7 +44,9 @@ def _version(wanted: bool) -> None:
 
 
 @app.callback()
-def _options(version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Say which version this is.")] = False) -> None:
+def _options(
+    version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Say which version this is.")] = False,
+) -> None:
     """Engine balance: which free forces and moments an engine makes, order by order, and what cancels them.
 
     Describe the engine in a TOML file (`balcli new inline i4.toml` writes one to start from), then `balcli analyze i4.toml`.

@@ -2,19 +2,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import firing
+from . import articulation, firing
 from .core.inertia import Cylinders, Device
 from .core.phasors import unit
+from .core.rotary import Rotary
 from .errors import InputError, Problem
 from .layout import Plan, cycle, plan
-from .model import Counterweight, EngineFile, Override, Rod, Shaft, Slider
+from .model import ArticulatedRod, Bobweight, Counterweight, EngineFile, Override, Rod, Shaft, Slider
 
 STANDARD_GRAVITY = 9.80665          # m/s2, by definition (CGPM 1901)
 NEAREST_TO_LOCK = 1e-6              # how far lambda + |offset| / rod length must stay below 1
@@ -30,6 +31,22 @@ class Ripple:
 
 
 @dataclass(frozen=True)
+class Weighed:
+    """Masses of one cylinder as a shop weighs them, kg, and on which throw (from 0) its rod runs.
+
+    `share` is the pin's share of the throw mass; bearing and oil count on the bobweight card only.
+    """
+
+    throw: int
+    piston: Any
+    small_end: Any
+    big_end: Any
+    share: Any
+    rod_bearing: Any
+    oil: Any
+
+
+@dataclass(frozen=True)
 class Engine:
     """An engine, SI except where a name says otherwise; arrays may have a trailing axis of variants.
 
@@ -38,6 +55,7 @@ class Engine:
         fires_deg: firing angle by cylinder number, where the file gives a firing order.
         throws_m: place of each throw along the crank.
         reference_m: point about which moments are taken.
+        weighed: masses behind each row of `cylinders`.
         devices: counterweights, shafts and sliders of the file, in this order.
     """
 
@@ -53,6 +71,7 @@ class Engine:
     ripple: tuple[Ripple, ...]
     reference_m: tuple[Any, Any, Any]
     devices: tuple[Device, ...]
+    weighed: tuple[Weighed, ...]
 
     @property
     def omega(self) -> Any:
@@ -73,7 +92,7 @@ class Engine:
     def equal(self) -> bool:
         """Whether all cylinders have one mechanism and one set of reciprocating masses."""
         c = self.cylinders
-        return len(c.lam) == len(c.eps) == len(c.reciprocating) == 1
+        return len(c.lam) == len(c.eps) == len(c.reciprocating) == 1 and c.linkage is None
 
     @property
     def pins_deg(self) -> dict[int, Any]:
@@ -92,37 +111,47 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
         InputError: what does not fit together, by its path in the file.
     """
     layout = plan(file.crank, file.layout)
-    _refuse(_articulation(file) + _strangers(layout, file.cylinder))
+    masters = articulation.masters(file, layout)
+    _refuse([*articulation.mistakes(file, layout), *_strangers(layout, file.cylinder), *_half_rods(file, masters)])
     radius = file.crank.stroke / 2e3
-    rods = [_rod(file, number) for number in layout.numbers]
-    _refuse(p for number, rod in zip(layout.numbers, rods, strict=True) for p in _mistakes(file, number, rod, radius))
+    rods = [_rod(file, number, number in masters) for number in layout.numbers]
+    _refuse(p for number, rod in zip(layout.numbers, rods, strict=True) for p in _mistakes(file, number, rod, radius, number in masters))
     axis = {c.number: _own(file, c.number, "bank", layout.banks[c.bank]) for c in layout.cells}
-    top = {n: axis[n] + rod.top_deg(radius) for n, rod in zip(layout.numbers, rods, strict=True)}
+    sense = -1 if file.layout.rotary else 1             # in which the crank turns, seen from a cylinder
+    top = {n: axis[n] + sense * rod.top_deg(radius) for n, rod in zip(layout.numbers, rods, strict=True)}
+    top |= {n: axis[n] for n in masters}                # nominal: an articulated piston's dead centre is off by some degrees
     pin, fires = _pins(file, layout, top)
     places, throws = _places(file, layout)
-    order = _by_axis(layout, axis)
+    still, turning = axis, {n: pin[n] - pin[1] for n in layout.numbers}
+    if file.layout.rotary:                              # cylinders turn about pins that stand still (core.rotary)
+        still, turning = _shared_objects({n: axis[1] + turning[n] for n in axis}), {n: axis[n] - axis[1] for n in axis}
+    order = _by_axis(layout, still)
     rods = [rods[row] for row in order]
     numbers = tuple(layout.numbers[row] for row in order)
-    starts = [k for k, n in enumerate(numbers) if k == 0 or axis[n] is not axis[numbers[k - 1]]]
+    starts = [k for k, n in enumerate(numbers) if k == 0 or still[n] is not still[numbers[k - 1]]]
     cylinders = Cylinders(
-        axis_deg=_column([axis[numbers[row]] for row in starts], rank),
-        pin_deg=_column([pin[n] - pin[1] for n in numbers], rank),
+        axis_deg=_column([still[numbers[row]] for row in starts], rank),
+        pin_deg=_column([turning[n] for n in numbers], rank),
         starts=np.array(starts),
         first=int(np.searchsorted(starts, numbers.index(1), side="right")) - 1,
         z=_column([places[n] for n in numbers], rank),
         radius=_column([radius], rank)[0],
         lam=_shared([radius / rod.length for rod in rods], rank),
         eps=_shared([rod.offset / rod.length for rod in rods], rank),
-        reciprocating=_shared([rod.piston + rod.small_end for rod in rods], rank),
-        rotating=_shared([rod.big_end + file.crank.throw_mass / layout.rods_on_throw for rod in rods], rank),
+        reciprocating=_shared([0.0 if file.layout.rotary else rod.piston + rod.small_end for rod in rods], rank),
+        rotating=_shared([_at_pin(file, layout, rod, n in masters) for n, rod in zip(numbers, rods, strict=True)], rank),
         couple=_shared([rod.couple for rod in rods], rank),
+        linkage=Rotary(_shared([rod.piston + rod.small_end for rod in rods], rank)) if file.layout.rotary else
+        articulation.linkage(file, layout, numbers, axis, [rod.big_end for rod in rods], rank),
     )
+    _refuse(articulation.locked(file, cylinders, numbers))
     return Engine(
         name=file.name, source=file.source, numbers=numbers, cylinders=cylinders, fires_deg=fires, strokes=file.layout.strokes,
         bore_m=math.nan if file.piston.bore is None else file.piston.bore / 1e3,
         throws_m=throws, speed_rpm=file.operation.speed,
         ripple=tuple(Ripple(line.order, line.amplitude, line.angle) for line in file.operation.speed_ripple),
         reference_m=_reference(file, throws), devices=devices(file, axis[1]),
+        weighed=tuple(_weighed(file, layout, layout.cells[row].throw, rod) for row, rod in zip(order, rods, strict=True)),
     )
 
 
@@ -133,24 +162,26 @@ def devices(file: EngineFile, first_axis_deg: Any) -> tuple[Device, ...]:
 
 
 def _counterweight(d: Counterweight, first_axis_deg: Any) -> Device:
-    return Device(1, _unbalance(d) * unit(d.angle + first_axis_deg), 0j, 0j, d.position / 1e3)
+    return Device(1, _unbalance(d) * unit(d.angle + first_axis_deg), 0j, 0j, d.position / 1e3, 0)
 
 
 def _shaft(d: Shaft) -> Device:
     turning = _unbalance(d) * unit(d.angle)
     forward, backward = (turning, 0j) if d.ratio > 0 else (0j, turning)
-    return Device(abs(d.ratio), forward, backward, _place(d.at), d.position / 1e3)
+    return Device(abs(d.ratio), forward, backward, _place(d.at), d.position / 1e3, 1)
 
 
 def _slider(d: Slider) -> Device:
     """Its displacement `U cos(n theta + angle)` is two vectors of half the size, turning against each other."""
     half, direction, phase = _unbalance(d) / 2, unit(d.direction), unit(d.angle)
-    return Device(d.order, half * direction * phase, half * direction * np.conj(phase), _place(d.at), d.position / 1e3)
+    return Device(d.order, half * direction * phase, half * direction * np.conj(phase), _place(d.at), d.position / 1e3, 2)
 
 
 def _unbalance(d: Counterweight | Shaft | Slider) -> Any:
     """kg m"""
-    return d.unbalance / 1e6 if d.unbalance is not None else d.mass * d.radius / 1e3
+    if d.unbalance is not None:
+        return d.unbalance / 1e6
+    return (d.mass or 0.0) * (d.radius or 0.0) / 1e3
 
 
 def _place(at: Sequence[Any]) -> Any:
@@ -175,10 +206,10 @@ class _Parts:
         return np.degrees(np.arcsin(self.offset / (radius + self.length)))
 
 
-def _rod(file: EngineFile, number: int) -> _Parts:
+def _rod(file: EngineFile, number: int, articulated: bool) -> _Parts:
     """Piston and rod of a cylinder: the engine's, with what its own table says otherwise (THEORY 3)."""
     own = file.cylinder.get(number)
-    figures = _overridden(file.rod, own)
+    figures = _overridden(file.articulation.rod if articulated and file.articulation else file.rod, own)
     length = figures["length"] / 1e3 if "length" in figures else file.crank.stroke / 2e3 / figures["ratio"]
     if "small_end" in figures:
         small, big = figures["small_end"], figures["big_end"]
@@ -200,15 +231,28 @@ def _rod(file: EngineFile, number: int) -> _Parts:
                   whole * share * (1 - share) * length**2 - spin)
 
 
+def _weighed(file: EngineFile, layout: Plan, throw: int, rod: _Parts) -> Weighed:
+    extra = file.bobweight or Bobweight.model_construct()
+    return Weighed(throw, rod.piston, rod.small_end, rod.big_end, file.crank.throw_mass / layout.rods_on_throw,
+                   extra.rod_bearing, extra.oil)
+
+
 _GROUPS = (({"length"}, {"ratio"}), ({"mass", "cg"}, {"small_end", "big_end"}), ({"inertia"}, {"pendulum"}))
 
 
-def _overridden(rod: Rod, own: Override | None) -> dict[str, Any]:
+def _at_pin(file: EngineFile, layout: Plan, rod: _Parts, articulated: bool) -> Any:
+    """What turns with a crank pin because of one cylinder, kg; the pins of a rotary engine stand still."""
+    if file.layout.rotary:
+        return 0.0
+    return (0.0 if articulated else rod.big_end) + file.crank.throw_mass / layout.rods_on_throw
+
+
+def _overridden(rod: Rod | ArticulatedRod, own: Override | None) -> dict[str, Any]:
     """Figures of a rod; a figure of the cylinder's own displaces those of the engine that say the same otherwise."""
     figures = {key: value for key in type(rod).model_fields if (value := getattr(rod, key)) is not None}
     if own is None:
         return figures
-    mine = {key: value for key in type(rod).model_fields if (value := getattr(own, f"rod_{key}")) is not None}
+    mine = {key: value for key in Rod.model_fields if (value := getattr(own, f"rod_{key}")) is not None}
     for ways in _GROUPS:
         for way in ways:
             if way & mine.keys():
@@ -223,7 +267,7 @@ def _own(file: EngineFile, number: int, key: str, default: Any) -> Any:
     return default if value is None else value
 
 
-def _mistakes(file: EngineFile, number: int, rod: _Parts, radius: Any) -> list[Problem]:
+def _mistakes(file: EngineFile, number: int, rod: _Parts, radius: Any, articulated: bool) -> list[Problem]:
     """What keeps a mechanism from turning, or a pendulum test from being one."""
     own = file.cylinder.get(number)
 
@@ -238,7 +282,7 @@ def _mistakes(file: EngineFile, number: int, rod: _Parts, radius: Any) -> list[P
         return [Problem(path("pendulum"), "the period is too quick for the distance of its pivot from the centre of mass: the moment of inertia "
                                           f"about it would be {np.min(rod.spin) * 1e6:g} kg mm2 (period: a full swing, in seconds)")]
     lam, eps = np.max(radius / rod.length), np.max(np.abs(rod.offset / rod.length))
-    if lam + eps <= 1 - NEAREST_TO_LOCK:
+    if articulated or lam + eps <= 1 - NEAREST_TO_LOCK:                     # what an articulated rod can do depends on its master
         return []
     offset = f", with the piston offset of {np.max(np.abs(rod.offset)) * 1e3:g} mm lambda + |offset|/length = {lam + eps:.9g}" if eps else ""
     return [Problem(path("length", "ratio"), f"the crank cannot turn: crank radius {np.max(radius) * 1e3:g} mm over rod length "
@@ -250,10 +294,11 @@ def _mistakes(file: EngineFile, number: int, rod: _Parts, radius: Any) -> list[P
 def _pins(file: EngineFile, layout: Plan, top: Mapping[int, Any]) -> tuple[dict[int, Any], dict[int, Any]]:
     """Crank pin and firing angle of every cylinder, deg; the firing angles are empty where the file says nothing of them."""
     order, intervals = file.layout.firing_order, file.layout.firing_intervals
+    sense = -1 if file.layout.rotary else 1
     splay = {c.number: c.bank * file.crank.splay for c in layout.cells}
     if file.crank.throws is None and order is not None:
         fires = firing.instants(order, intervals, cycle(file.layout))
-        wanted = firing.pins(fires, top)
+        wanted = firing.pins(fires, top, sense)
         throw = {c.throw: wanted[c.number] - splay[c.number] for c in reversed(layout.cells)}
     else:
         fires = {}
@@ -263,10 +308,11 @@ def _pins(file: EngineFile, layout: Plan, top: Mapping[int, Any]) -> tuple[dict[
         return pin, fires
     relative = {n: angle - pin[1] for n, angle in pin.items()}
     if not fires:
-        found = intervals or firing.from_pins(order, relative, top, cycle(file.layout))
-        _refuse([found] if isinstance(found, Problem) else [])
+        found = intervals or firing.from_pins(order, relative, top, cycle(file.layout), sense)
+        if isinstance(found, Problem):
+            raise InputError([found])
         fires = firing.instants(order, found, cycle(file.layout))
-    off = firing.disagreement(fires, relative, top)
+    off = firing.disagreement(fires, relative, top, sense)
     _refuse([off] if off else [])
     return pin, fires
 
@@ -290,6 +336,12 @@ def _reference(file: EngineFile, throws: NDArray[np.float64]) -> tuple[Any, Any,
     return 0.0, 0.0, (throws.min(axis=0) + throws.max(axis=0)) / 2
 
 
+def _shared_objects(angles: Mapping[int, Any]) -> dict[int, Any]:
+    """Equal angles as one object."""
+    known: dict[bytes, Any] = {}
+    return {n: known.setdefault(np.asarray(angle, float).tobytes(), angle) for n, angle in angles.items()}
+
+
 def _by_axis(layout: Plan, axis: Mapping[int, Any]) -> list[int]:
     """Rows of the cells such that cylinders on one axis stand together."""
     seen: dict[int, int] = {}
@@ -301,10 +353,13 @@ def _strangers(layout: Plan, own: Mapping[int, Override]) -> list[Problem]:
             for n in own if n not in layout.numbers]
 
 
-def _articulation(file: EngineFile) -> list[Problem]:
-    if file.articulation is None:
-        return []
-    return [Problem("articulation", "articulated rods cannot be computed yet; without this table all rods are taken as equal, on one pin")]
+def _half_rods(file: EngineFile, articulated: Collection[int]) -> list[Problem]:
+    """Cylinders whose own rod is weighed at one end only, where the engine's rod does not give the other."""
+    ends = ("small_end", "big_end")
+    return [Problem(f"cylinder.{n}.rod_{here}", f"needs rod_{missing} beside it: weigh the rod at both ends")
+            for n, own in file.cylinder.items() for here, missing in (ends, ends[::-1])
+            if getattr(own, f"rod_{here}") is not None and getattr(own, f"rod_{missing}") is None
+            and (n in articulated or getattr(file.rod, missing) is None)]
 
 
 def _refuse(problems: Iterable[Problem]) -> None:

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,6 +13,7 @@ from .core.phasors import Array, Phasors
 from .engine import Engine
 
 SPECTRAL = ("force", "moment", "couple", "torque", "roll")
+_ONLY_FORCES = {"force", "moment"}
 _CLOSED_FORM = 256              # highest order at which closed forms are cheaper than sampling and transforming
 
 
@@ -56,19 +57,31 @@ def spectra(engine: Engine, orders: ArrayLike, quantities: Collection[str] = SPE
 def relevant_orders(engine: Engine) -> Array:
     """The orders 1 .. n (0 .. n under uneven speed) beyond which nothing exceeds rounding errors."""
     c = engine.cylinders
-    highest = max([harmonics.points(c.lam, c.eps) // 2, *(d.order for d in engine.devices)])
+    own = c.linkage.highest(c.lam, c.eps) if c.linkage else harmonics.points(c.lam, c.eps) // 2
+    highest = max([own, *(d.order for d in engine.devices)])
     if not engine.ripple:
         return np.arange(1.0, highest + 1)
     return np.arange(0.0, highest + 2 * max(line.order for line in engine.ripple) + 1)
 
 
+def alone(engine: Engine, number: int) -> Engine:
+    """The engine with only this cylinder's masses moving, and no devices."""
+    c = engine.cylinders
+    here = np.array([n == number for n in engine.numbers], float).reshape(-1, *(1,) * (c.pin_deg.ndim - 1))
+    masses = {key: here * getattr(c, key) for key in ("reciprocating", "rotating", "couple")}
+    linkage = c.linkage and replace(c.linkage, mass=here * c.linkage.mass)
+    return replace(engine, cylinders=replace(c, linkage=linkage, **masses), devices=())
+
+
 def _steady(engine: Engine, orders: Array, quantities: Collection[str]) -> tuple[dict[str, Phasors], Loads]:
     c = engine.cylinders
-    find = harmonics.of if orders.max(initial=0) <= _CLOSED_FORM else harmonics.sampled
+    plain = harmonics.of if orders.max(initial=0) <= _CLOSED_FORM else harmonics.sampled
+    find = c.linkage.harmonics if c.linkage else plain
     x, y, z = engine.reference_m
+    rod = bool(np.count_nonzero(c.couple)) and not _ONLY_FORCES.issuperset(quantities)
     loads = Loads(c, engine.devices, (x + 1j * y, z), orders,
-                  find(orders, c.lam, c.eps, rod=bool(np.any(c.couple)), energy="torque" in quantities))
-    return {q: engine.omega**2 * getattr(loads, q) for q in SPECTRAL[:4] if q in quantities}, loads
+                  find(orders, c.lam, c.eps, rod=rod, energy="torque" in quantities), engine.omega**2)
+    return {q: getattr(loads, q) for q in SPECTRAL[:4] if q in quantities}, loads
 
 
 def _uneven(engine: Engine, orders: Array, quantities: Collection[str]) -> dict[str, Phasors]:
@@ -78,5 +91,5 @@ def _uneven(engine: Engine, orders: Array, quantities: Collection[str]) -> dict[
     means = {"couple": loads.mean_momentum} if "couple" in quantities else {}
     if "torque" in quantities:
         means["torque"] = loads.mean_inertia
-    return {q: (ripple.torque if q == "torque" else ripple.force)(phasors.settled(), w, float(engine.omega**2 * means.get(q, 0.0))).at(orders)
+    return {q: (ripple.torque if q == "torque" else ripple.force)(phasors.settled(), w, means.get(q, 0.0)).at(orders)
             for q, phasors in steady.items()}

@@ -10,9 +10,8 @@ from balcli.core import slidercrank as sc
 RELATIVE = 1e-14
 LAMBDAS = [1e-12, 1e-6, 0.01, 0.2, 0.2632, 0.3, 1 / 3, 0.5, 0.75, 0.9, 0.99, 0.999]
 TINY = [1e-150, 1e-12, 1e-9, 1e-6, 1e-4, 1e-3, 0.01]
-ANGLES = np.concatenate([
-    np.radians(np.arange(-180.0, 541.0, 7.5)), TINY, -np.array(TINY), np.pi - np.array(TINY), np.pi / 2 + np.array(TINY),
-])
+NEAR = np.concatenate([TINY, -np.array(TINY)])
+ANGLES = np.concatenate([np.radians(np.arange(-180.0, 541.0, 7.5)), NEAR, np.pi + NEAR, np.pi / 2 + NEAR])
 OFFSETS = [(0.28, 0.01), (0.3, -0.05), (0.5, 0.3), (0.25, 0.74)]
 
 

@@ -2,14 +2,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Optional
+from typing import Annotated
 
 import typer
 
 
 def new(
     kind: Annotated[str, typer.Argument(metavar="KIND", help="single, inline, vee, boxer, radial or w.", show_default=False)],
-    file: Annotated[Optional[Path], typer.Argument(metavar="[FILE]", help="Where to write it; default: standard output.", show_default=False)] = None,
+    file: Annotated[Path | None, typer.Argument(metavar="[FILE]", help="Where to write it; default: standard output.", show_default=False)] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
 ) -> None:
     """Write a commented, valid engine file to start from."""

@@ -2,24 +2,27 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Optional
+from typing import Annotated
 
 import typer
 
 from ..errors import BalcliError
-from ..render.formats import Format, Units
-
+from ..render.formats import Format as Format
+from ..render.formats import Units as Units
 
 EngineFile = Annotated[str, typer.Argument(metavar="FILE", help="Engine file (TOML); - reads standard input.", show_default=False)]
-EngineFiles = Annotated[list[str], typer.Argument(metavar="FILE...", help="Engine files (TOML); - reads standard input.", show_default=False)]
+EngineFiles = Annotated[list[str], typer.Argument(metavar="FILE...", show_default=False,
+                                                  help="Engine files (TOML); - reads standard input.")]
 FormatOption = Annotated[Format, typer.Option("--format", "-f", help="How to write the result.")]
 UnitsOption = Annotated[Units, typer.Option("--units", help="imperial: lbf, lbf·ft, oz·in; JSON stays SI.")]
-Output = Annotated[Optional[Path], typer.Option("--output", "-o", metavar="FILE", help="Write into this file instead.", show_default=False)]
-Speed = Annotated[Optional[float], typer.Option("--speed", metavar="RPM", help="Crank speed instead of the file's.", show_default=False)]
-Orders = Annotated[Optional[str], typer.Option("--orders", metavar="1-8|1,2,4", show_default=False,
+Output = Annotated[Path | None, typer.Option("--output", "-o", metavar="FILE", help="Write into this file instead.", show_default=False)]
+Speed = Annotated[float | None, typer.Option("--speed", metavar="RPM", help="Crank speed instead of the file's.", show_default=False)]
+Orders = Annotated[str | None, typer.Option("--orders", metavar="1-8|1,2,4", show_default=False,
                                                help="Orders to show; default: 1, 2 and all that are not negligible.")]
-Only = Annotated[Optional[str], typer.Option("--only", metavar="WHAT,...", show_default=False,
+Only = Annotated[str | None, typer.Option("--only", metavar="WHAT,...", show_default=False,
                                              help="Compute only some of force, moment, couple, torque, roll, peak, sizing.")]
+Scheme = Annotated[str | None, typer.Option("--scheme", metavar="NAME", show_default=False,
+                                               help="Also with the devices of a balance scheme, such as auto: before and after.")]
 
 
 def order_list(text: str | None) -> list[int] | None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 import os
 import sys
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from ..errors import BalcliError
@@ -25,19 +27,32 @@ def emit(text: str, output: Path | None = None) -> None:
 def write(content: str | bytes, target: Path) -> None:
     """Replace a file in one step."""
     data = content.encode() if isinstance(content, str) else content
+    with beside(target) as place:
+        place.write_bytes(data)
+
+
+@contextmanager
+def beside(target: Path) -> Iterator[Path]:
+    """A new file beside the target, which replaces it when all has gone well and is gone otherwise.
+
+    Raises:
+        BalcliError: if it cannot be written; an older one is left as it was.
+    """
     if target.is_dir():
         raise BalcliError(f"{target}: is a folder, so no file can be written there")
-    beside = None
+    place = None
     try:
-        handle, beside = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:40]}.")
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-        os.chmod(beside, _mode(target))
-        os.replace(beside, target)
+        handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:40]}.")
+        os.close(handle)
+        place = Path(name)
+        yield place
+        place.chmod(_mode(target))
+        place.replace(target)
     except OSError as error:
-        if beside is not None and os.path.exists(beside):
-            os.unlink(beside)
         raise BalcliError(f"{target}: cannot be written ({error.strerror or error})") from None
+    finally:
+        if place is not None:
+            place.unlink(missing_ok=True)
 
 
 def _mode(target: Path) -> int:

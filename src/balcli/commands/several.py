@@ -9,9 +9,9 @@ from typing import TypeVar
 import typer
 
 from ..checks import suspicious
-from ..engine import Engine, build
-from ..errors import BalcliError, Exit, InputError
-from ..load import read
+from ..engine import Engine
+from ..enginefile import built, name_of, parse, text_of
+from ..errors import BalcliError, Exit
 from ..model import EngineFile
 
 F = TypeVar("F")
@@ -24,11 +24,17 @@ def engine_of(file: str, speed_rpm: float | None = None) -> tuple[EngineFile, En
     Raises:
         BalcliError: all mistakes of the file.
     """
-    model = read(file)
-    try:
-        engine = build(model)
-    except InputError as error:
-        raise InputError(error.problems, file) from None
+    return _built(parse(text_of(file), name_of(file)), file, speed_rpm)
+
+
+def engine_and_text(file: str, speed_rpm: float | None = None) -> tuple[bytes, Engine]:
+    """The text of one file, too, for what is written from it."""
+    text = text_of(file)
+    return text, _built(parse(text, name_of(file)), file, speed_rpm)[1]
+
+
+def _built(model: EngineFile, file: str, speed_rpm: float | None) -> tuple[EngineFile, Engine]:
+    engine = built(model, file)
     for warning in suspicious(model):
         typer.echo(f"warning: {file}: {warning}", err=True)
     return model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)

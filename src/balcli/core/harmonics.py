@@ -6,24 +6,27 @@ order and for every lambda in (0, 1); offset ones are sampled, which is good to 
 """
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from math import comb
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import slidercrank
 
-Array = NDArray[np.float64]
+Array = NDArray[Any]
 EPS = float(np.finfo(float).eps)
 
 
 @dataclass(frozen=True)
 class Series:
-    """Coefficients c_n, shape (orders, cylinders or any axes), and their own error bound, which broadcasts to it (0: some ulp)."""
+    """Coefficients c_n (real: of cosines alone), shape (orders, cylinders or any axes), and their own error bound, which
+    broadcasts to it (0: some ulp)."""
 
-    c: NDArray[np.complex128]
+    c: Array
     noise: Array | float = 0.0
     __array_ufunc__ = None              # array * series is ours to answer
 
@@ -31,7 +34,18 @@ class Series:
         return Series(self.c + other.c, self.noise + other.noise)
 
     def __rmul__(self, factor: Array) -> Series:
-        return Series(factor * self.c, np.abs(factor) * self.noise)
+        return Series(factor * self.c, abs(factor) * self.noise)
+
+
+@dataclass(frozen=True)
+class Curve:
+    """What unit mass does on a closed curve z(psi) (complex, in crank radii, x along the cylinder's axis)."""
+
+    along: Series                       # -Re z''
+    across: Series                      # -Im z''
+    couple: Series                      # -Im(conj(z) z''): minus the rate of its moment of momentum
+    kinetic: Series                     # |z'|^2
+    momentum: Array                     # mean of Im(conj(z) z'), shape (cylinders, *trailing)
 
 
 @dataclass(frozen=True)
@@ -42,9 +56,11 @@ class Harmonics:
     rod: Series                         # -beta'': angular acceleration of the rod, in the crank's sense
     kinetic: Series                     # (s'/r)^2
     rod_kinetic: Series                 # beta'^2
+    curve: Curve | None = None          # of a further mass, where a mechanism has one that moves in the plane
+    turns: Array | float = 0.0          # of the rod for each of the crank
 
 
-NONE = Series(np.zeros((1, 1), complex))
+NONE = Series(np.zeros((1, 1)))
 
 
 def of(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: bool = True) -> Harmonics:
@@ -63,7 +79,7 @@ def of(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: b
         series: list[Series] = [getattr(one, name) for one in each]
         noise = np.concatenate([np.broadcast_to(s.noise, s.c.shape[1:]) for s in series])
         return Series(np.concatenate([s.c for s in series], axis=1)[:, which], noise[which])
-    return Harmonics(*map(gather, ("piston", "rod", "kinetic", "rod_kinetic")))
+    return Harmonics(gather("piston"), gather("rod"), gather("kinetic"), gather("rod_kinetic"))
 
 
 def _of_distinct(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> Harmonics:
@@ -74,9 +90,9 @@ def _of_distinct(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy
 def piston(orders: ArrayLike, lam: ArrayLike) -> Array:
     """A_n of `-s''/r = sum A_n cos n psi`, shape (orders, *lam.shape): A_1 = 1, other odd orders 0.
 
-    `A_2m = (2m)^2 binom(1/2, m) x^(2m-1) G_m`, x = tan(arcsin(lambda)/2); see `_Modulus`.
+    `A_2m = (2m)^2 binom(1/2, m) x^(2m-1) G_m`, x = tan(arcsin(lambda)/2); see `_Ladder`.
     """
-    return _piston(*_column(orders, lam))
+    return _Ladder(orders, lam).piston()
 
 
 def rod(orders: ArrayLike, lam: ArrayLike) -> Array:
@@ -85,7 +101,7 @@ def rod(orders: ArrayLike, lam: ArrayLike) -> Array:
     From `-beta'' = lambda w^2 sin psi / cos^3 beta`; Euler's transformation turns the series of `cos^-3 beta` into that of
     `cos beta`: `D_k = lambda (1+w)/2 (f_(k-1)/2 - f_(k+1)/2)`, `f_m = binom(-3/2, m) x^2m G_m`. The f alternate: no cancellation.
     """
-    return _rod(*_column(orders, lam))
+    return _Ladder(orders, lam).rod()
 
 
 def kinetic(orders: ArrayLike, lam: ArrayLike) -> Array:
@@ -94,93 +110,107 @@ def kinetic(orders: ArrayLike, lam: ArrayLike) -> Array:
     Odd orders are the product of `sin psi` with the even part of s': `K_n = A_(n+1)/(n+1) - A_(n-1)/(n-1)`; even ones are
     `cos^2 psi / cos^2 beta - cos 2 psi`, a geometric series.
     """
-    return _kinetic(*_column(orders, lam))
+    return _Ladder(orders, lam).kinetic()
 
 
 def rod_kinetic(orders: ArrayLike, lam: ArrayLike) -> Array:
     """B_n of `beta'^2 = sum B_n cos n psi` (`= (lambda cos psi / cos beta)^2`), shape (orders, *lam.shape), odd orders 0."""
-    n, q = _column(orders, lam)
-    return q.lam**2 * _square(n, q)
+    return _Ladder(orders, lam).rod_kinetic()
 
 
 def centred(orders: ArrayLike, lam: ArrayLike, *, rod: bool = True, energy: bool = True) -> Harmonics:
     """All coefficients of centred mechanisms for orders >= 0, each of shape (orders, *lam.shape)."""
-    n, q = _column(orders, lam)
+    ladder = _Ladder(orders, lam)
     return Harmonics(
-        piston=Series(_piston(n, q) + 0j),
-        rod=Series(-1j * _rod(n, q)) if rod else NONE,
-        kinetic=Series(_kinetic(n, q) + 0j) if energy else NONE,
-        rod_kinetic=Series(q.lam**2 * _square(n, q) + 0j) if energy and rod else NONE,
+        piston=Series(ladder.piston()),
+        rod=Series(-1j * ladder.rod()) if rod else NONE,
+        kinetic=Series(ladder.kinetic()) if energy else NONE,
+        rod_kinetic=Series(ladder.rod_kinetic()) if energy and rod else NONE,
     )
 
 
-class _Modulus:
-    """What all series share: `x = tan(arcsin(lambda)/2)`, `w = cos(arcsin lambda)`, powers of x and the functions G_m.
+class _Ladder:
+    """The terms of which all series are made, for m = 0 .. (highest order)/2 + 1.
 
-    x is the nome-like argument in which `cos beta = (1+w)/2 |1 + x^2 e^{2 i psi}|` has its binomial series. `x` as computed
-    is off by some ulp, which the 2m-th power would multiply; one Newton step on `lambda (1 + x^2) = 2x`, with the residual in
-    twice the working precision, gives that error (`slip`), and powers are corrected for it.
+    With `w = cos(arcsin lambda)` and `x = tan(arcsin(lambda)/2)`, `cos beta = (1+w)/2 |1 + x^2 e^{2 i psi}|` has its binomial
+    series in powers of x^2, with Gauss's functions `G_m(x^4)`. `x` as computed is off by some ulp, which the 2m-th power would
+    multiply; one Newton step on `lambda (1 + x^2) = 2x`, with the residual in twice the working precision, gives that error
+    (`slip`), and powers are corrected for it. A single lambda is a plain float here, which is quicker than numpy's arrays.
     """
 
-    def __init__(self, lam: Array, highest: int) -> None:
-        self.lam = lam
-        self.w = np.sqrt((1 - lam) * (1 + lam))
-        self.x = lam / (1 + self.w)
-        self.slip = _residual(lam, self.x) / (2 * self.w * self.x)
-        self.G = _G(highest, self.x**4 * (1 + 4 * self.slip))
+    def __init__(self, orders: ArrayLike, lam: ArrayLike) -> None:
+        ratio = np.asarray(lam, float)
+        self._rows = _rows(np.asarray(orders, float).tobytes(), ratio.ndim)
+        self._lam: Any = ratio.item() if ratio.size == 1 else ratio
+        sqrt: Any = math.sqrt if ratio.size == 1 else np.sqrt
+        self._w = sqrt((1 - self._lam) * (1 + self._lam))
+        x = self._lam / (1 + self._w)
+        slip = _residual(self._lam, x) / (2 * self._w * x)
+        self._x = x * (1 + slip)
+        twice = 2 * self._rows.m
+        self._power = x**twice * (1 + twice * slip)                        # x^2m, a few ulp for any m
+        self._gauss = self._power * _G(self._rows.m, x**4 * (1 + 4 * slip))
 
-    def power(self, n: Array | int) -> Array:
-        """x^n, relative error of a few ulp for any n."""
-        raised: Array = self.x**n * (1 + n * self.slip)
-        return raised
+    def piston(self) -> Array:
+        rows = self._rows
+        return rows.n_if_even * self._over_order[rows.half] + rows.first
 
+    def rod(self) -> Array:
+        rows = self._rows
+        f = rows.minus_three_halves * self._gauss
+        return rows.odd * (self._lam * (1 + self._w) / 2 * (f[rows.half] - f[rows.half_up]))
 
-def _column(orders: ArrayLike, lam: ArrayLike) -> tuple[Array, _Modulus]:
-    """Orders as a column before the axes of lambda."""
-    ratio = np.asarray(lam, float)
-    n = np.asarray(orders, float)
-    return n.reshape(-1, *(1,) * ratio.ndim), _Modulus(ratio, int(n.max(initial=0)) // 2 + 1)
+    def kinetic(self) -> Array:
+        rows, a = self._rows, self._over_order
+        odd = rows.odd * (a[rows.half_up] - a[rows.half])
+        return odd + np.where(rows.second, -(1 + self._w**2) / (1 + self._w) ** 2, self._square)
 
+    def rod_kinetic(self) -> Array:
+        return self._lam**2 * self._square
 
-def _piston(n: Array, q: _Modulus) -> Array:
-    even = (n % 2 == 0) & (n > 0)
-    m = np.where(even, n, 2) / 2
-    value = (2 * m) ** 2 * _take(_binomials(q.G.shape[0])[0], m) * q.power(2 * m - 1) * _take(q.G, m)
-    return np.where(even, value, n == 1)
+    @cached_property
+    def _over_order(self) -> Array:
+        """A_2m / 2m"""
+        return self._rows.one_half * self._gauss / self._x
 
-
-def _rod(n: Array, q: _Modulus) -> Array:
-    odd = n % 2 == 1
-    m = (np.where(odd, n, 1) - 1) / 2
-    binomial = _binomials(q.G.shape[0])[1]
-
-    def f(m: Array) -> Array:
-        return _take(binomial, m) * q.power(2 * m) * _take(q.G, m)
-    return np.where(odd, q.lam * (1 + q.w) / 2 * (f(m) - f(m + 1)), 0)
-
-
-def _kinetic(n: Array, q: _Modulus) -> Array:
-    below, above = np.where(n > 1, n - 1, 1), n + 1
-    odd = _piston(above, q) / above - np.where(n > 1, _piston(below, q) / below, 0)
-    even = np.where(n == 2, -(1 + q.w**2) / (1 + q.w) ** 2, _square(n, q))
-    return np.where(n % 2 == 1, odd, even)
+    @cached_property
+    def _square(self) -> Array:
+        """Coefficients of `cos^2 psi / cos^2 beta` by order: 1/(1+w), then `2w/(1+w)^2 (-1)^(m-1) x^(2m-2)`."""
+        rows, lead = self._rows, 2 * self._w / (1 + self._w) ** 2
+        return rows.sign_if_even * (lead * self._power[rows.half_down]) + rows.zeroth / (1 + self._w)
 
 
-def _square(n: Array, q: _Modulus) -> Array:
-    """Coefficients of `cos^2 psi / cos^2 beta`."""
-    even = n % 2 == 0
-    m = np.where(even & (n > 0), n, 2) / 2
-    value = 2 * q.w / (1 + q.w) ** 2 * (1 - 2 * ((m - 1) % 2)) * q.power(2 * m - 2)
-    return np.where(even, np.where(n > 0, value, 1 / (1 + q.w)), 0)
+class _Rows(NamedTuple):
+    """What the series need of the orders alone, columns before the axes of lambda."""
+
+    half: NDArray[np.intp]              # rows of the ladder: n/2 or (n-1)/2, the next one, the one before
+    half_up: NDArray[np.intp]
+    half_down: NDArray[np.intp]
+    n_if_even: Array
+    sign_if_even: Array                 # (-1)^(m-1) for n = 2m > 0
+    odd: NDArray[np.bool_]
+    zeroth: NDArray[np.bool_]
+    first: NDArray[np.bool_]
+    second: NDArray[np.bool_]
+    m: Array                            # the ladder
+    one_half: Array                     # 2m binom(1/2, m)
+    minus_three_halves: Array           # binom(-3/2, m)
 
 
-def _take(table: Array, m: Array) -> Array:
-    """Rows of a table by the orders of a column."""
-    rows: Array = table[m.astype(int).ravel()]
-    return rows.reshape(-1, *(m.shape[1:] if rows.ndim < m.ndim or rows.ndim == 1 else rows.shape[1:]))
+@lru_cache(maxsize=64)
+def _rows(orders: bytes, axes: int) -> _Rows:
+    def column(values: ArrayLike) -> Array:
+        return np.asarray(values).reshape(-1, *(1,) * axes)
+
+    n = np.frombuffer(orders)
+    even, half = (n % 2 == 0) & (n > 0), (n // 2).astype(int)
+    m = np.arange(half.max(initial=0) + 2)
+    one_half, minus = _binomials(len(m))
+    signs = column(np.where(even, 2 * (half % 2) - 1, 0))
+    return _Rows(half, half + 1, np.maximum(half - 1, 0), column(np.where(even, n, 0)), signs,
+                 *map(column, (n % 2 == 1, n == 0, n == 1, n == 2, m.astype(float), 2 * m * one_half, minus)))
 
 
-@lru_cache(maxsize=32)
 def _binomials(count: int) -> tuple[Array, Array]:
     """binom(1/2, m) and binom(-3/2, m) for m = 0 .. count-1, each correctly rounded."""
     half = [-(-1) ** m * comb(2 * m, m) / (4**m * (2 * m - 1)) for m in range(count)]
@@ -188,21 +218,29 @@ def _binomials(count: int) -> tuple[Array, Array]:
     return np.array(half), np.array(minus)
 
 
-def _G(highest: int, z: Array) -> Array:
-    """Gauss's `F(-1/2, m-1/2; m+1; z)` for m = 0 .. highest, shape (highest+1, *z.shape), by Horner's rule.
+def _G(m: Array, z: Any) -> Any:
+    """Gauss's `F(-1/2, m-1/2; m+1; z)` for m = 0, 1 .. as a column, shape (m, *z.shape), by Horner's rule.
 
     All terms after the first have one sign, and each is less than z times the one before.
     """
-    largest = float(z.max(initial=0.0))
-    terms = 2 + int(np.log(EPS / 64) / np.log(max(largest, 1e-300)))
-    m = np.arange(highest + 1.0).reshape(-1, *(1,) * z.ndim)
-    total = np.ones((highest + 1, *z.shape))
-    for j in range(terms, 0, -1):
-        total = 1 + (j - 1.5) / j * ((m + j - 1.5) / (m + j)) * z * total
+    single = isinstance(z, float)
+    largest = max(z if single else z.max(initial=0.0), 1e-300)
+    ratios = _ratios(2 + int(math.log(EPS / 64) / math.log(largest)), m.shape)
+    total: Any = 1.0
+    for ratio in ratios * z if single else (ratio * z for ratio in ratios):
+        total = 1 + ratio * total
     return total
 
 
-def _residual(lam: Array, x: Array) -> Array:
+@lru_cache(maxsize=8)
+def _ratios(terms: int, shape: tuple[int, ...]) -> Array:
+    """What makes each coefficient of G_m from the one before, last term first, shape (terms, *shape of the column m)."""
+    m = np.arange(float(shape[0])).reshape(shape)
+    j = np.arange(terms, 0.0, -1).reshape(-1, *(1,) * m.ndim)
+    return (j - 1.5) / j * ((m + j - 1.5) / (m + j))
+
+
+def _residual(lam: Any, x: Any) -> Any:
     """`lambda (1 + x^2) - 2x = lambda - x (2 - lambda x)` to twice the working precision."""
     p, p_low = _product(lam, x)
     s = 2 - p
@@ -211,7 +249,7 @@ def _residual(lam: Array, x: Array) -> Array:
     return (lam - t) - t_low - x * s_low
 
 
-def _product(a: Array, b: Array) -> tuple[Array, Array]:
+def _product(a: Any, b: Any) -> tuple[Any, Any]:
     """a b as an unevaluated sum of two floats (Dekker's product)."""
     p = a * b
     a_high, a_low = _split(a)
@@ -219,7 +257,7 @@ def _product(a: Array, b: Array) -> tuple[Array, Array]:
     return p, ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low
 
 
-def _split(a: Array) -> tuple[Array, Array]:
+def _split(a: Any) -> tuple[Any, Any]:
     c = 134217729.0 * a                     # 2^27 + 1
     high = c - (c - a)
     return high, a - high
@@ -231,27 +269,28 @@ def sampled(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, ener
 
     Accelerations are sampled as such, not differentiated, so that no order's error grows.
     """
-    n = np.asarray(orders)
     psi = np.arange(count := points(lam, eps)) * (2 * np.pi / count)
     arguments = psi, np.asarray(lam)[..., None], np.asarray(eps)[..., None]
-
-    def series(samples: Array) -> Series:
-        spectrum = np.moveaxis(np.fft.rfft(samples) / count, -1, 0)
-        spectrum[1:] *= 2
-        inside = (n % 1 == 0) & (n < count // 2)
-        rows = spectrum[np.where(inside, n, 0).astype(int)]
-        c = np.where(inside.reshape(-1, *(1,) * (rows.ndim - 1)), rows, 0)
-        return Series(c, SAMPLING * np.abs(spectrum).max(axis=0))
-
     return Harmonics(
-        piston=series(slidercrank.acceleration(*arguments)),
-        rod=series(-slidercrank.rod_acceleration(*arguments)) if rod else NONE,
-        kinetic=series(slidercrank.velocity(*arguments) ** 2) if energy else NONE,
-        rod_kinetic=series(slidercrank.rod_rate(*arguments) ** 2) if energy and rod else NONE,
+        piston=from_samples(slidercrank.acceleration(*arguments), orders),
+        rod=from_samples(-slidercrank.rod_acceleration(*arguments), orders) if rod else NONE,
+        kinetic=from_samples(slidercrank.velocity(*arguments) ** 2, orders) if energy else NONE,
+        rod_kinetic=from_samples(slidercrank.rod_rate(*arguments) ** 2, orders) if energy and rod else NONE,
     )
 
 
 SAMPLING = 16 * EPS         # error of a sampled coefficient, in units of the largest
+
+
+def from_samples(samples: Array, orders: ArrayLike) -> Series:
+    """Coefficients of whole orders from one revolution of samples (last axis), shape (orders, *the other axes)."""
+    n, count = np.asarray(orders), samples.shape[-1]
+    spectrum = np.moveaxis(np.fft.rfft(samples) / count, -1, 0)
+    spectrum[1:] *= 2
+    inside = (n % 1 == 0) & (n < count // 2)
+    rows = spectrum[np.where(inside, n, 0).astype(int)]
+    c = np.where(inside.reshape(-1, *(1,) * (rows.ndim - 1)), rows, 0)
+    return Series(c, SAMPLING * np.abs(spectrum).max(axis=0))
 
 
 def points(lam: ArrayLike, eps: ArrayLike) -> int:

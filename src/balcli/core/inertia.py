@@ -1,4 +1,4 @@
-"""Cylinders and balancing devices -> free forces and moments by order, at a steady crank speed of 1 rad/s.
+"""Cylinders and balancing devices -> free forces and moments by order, at a steady crank speed.
 
 Cylinder i of bank b has its pin at `pin_i` (degrees after cylinder 1's pin) and its axis at `axis_b`. A local harmonic
 `Re c e^{i n psi}`, `psi = theta + axis_1 + pin_i - axis_b`, of a force along the axis gives
@@ -13,11 +13,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .harmonics import Harmonics, Series
+from .linkage import Linkage
 from .phasors import EPS, Array, Complex, Phasors, unit
 
 _SUM = 8 * EPS              # rounding error of a sum, per term and size of the terms
@@ -38,6 +40,7 @@ class Cylinders:
         lam, eps: shape (cylinders or 1, *trailing), crank radius and offset over rod length.
         reciprocating, rotating: masses at the piston pin and at the crank pin, kg.
         couple: `H` of the rods, kg m2 (THEORY: what two point masses lack of the rod's moment of inertia, with the sign changed).
+        linkage: of cylinders that are more than slider-cranks; its masses come on top of these.
     """
 
     axis_deg: Array
@@ -51,10 +54,17 @@ class Cylinders:
     reciprocating: Array
     rotating: Array
     couple: Array
+    linkage: Linkage | None = None
 
     @property
     def count(self) -> int:
         return len(self.pin_deg)
+
+    @property
+    def angle_deg(self) -> Array:
+        """Each cylinder's own crank angle at crank angle 0 (`phi` in THEORY 1), deg, shape (cylinders, *trailing)."""
+        axis = np.repeat(self.axis_deg, np.diff([*self.starts, self.count]), axis=0)
+        return np.asarray(self.axis_deg[self.first] + self.pin_deg - axis)
 
     @property
     def offset(self) -> Array:
@@ -64,144 +74,153 @@ class Cylinders:
 
 @dataclass(frozen=True)
 class Device:
-    """Counterweight, balancer shaft or slider: mass x radius (kg m) that turns at `order`, with and against the crank."""
+    """Counterweight, balancer shaft or slider: mass x radius (kg m) that turns at `order`, with and against the crank.
+
+    `rank` is the order in which devices are summed: 0 counterweights, 1 shafts, 2 sliders, as an engine file has them.
+    """
 
     order: int
-    forward: complex
-    backward: complex
-    place: complex          # x + iy of its axis, m
-    z: float                # m
+    forward: Any            # complex, or arrays of variants
+    backward: Any
+    place: Any              # x + iy of its axis, m
+    z: Any                  # m
+    rank: int = 3
 
 
 class Loads:
-    """Free forces and moments of cylinders and devices per square of the crank speed, each computed when it is asked for.
+    """Free forces and moments of cylinders and devices at a steady crank speed, each computed when it is asked for.
 
     Args:
         cylinders, devices: what moves.
         reference: x + iy (m) and z (m) of the point of reference.
         orders: shape (orders,), ascending.
         harmonics: of the cylinders' mechanisms for these orders.
+        square: of the crank speed, rad2/s2.
     """
 
-    def __init__(self, cylinders: Cylinders, devices: tuple[Device, ...], reference: tuple[complex, float],
-                 orders: Array, harmonics: Harmonics) -> None:
+    def __init__(self, cylinders: Cylinders, devices: tuple[Device, ...], reference: tuple[Any, Any],
+                 orders: Array, harmonics: Harmonics, square: Any = 1.0) -> None:
         self._cylinders, self._devices, self._harmonics = cylinders, devices, harmonics
         self._place, self._z_ref = reference
-        self._orders = orders
+        self._orders, self._square = orders, square
         self._n = orders.reshape(-1, *(1,) * cylinders.pin_deg.ndim)
+        self._once = np.ones((cylinders.count, *(1,) * (cylinders.pin_deg.ndim - 1)))
+        self._turned = unit(self._n * cylinders.pin_deg)                    # e^{i n pin}, (orders, cylinders, *trailing)
+        self._apart = self._n * (cylinders.axis_deg - cylinders.axis_deg[cylinders.first])      # (orders, banks, *trailing)
+        self._rounding = cylinders.count * _SUM + _TURN * self._n           # of a sum over cylinders, relative to its terms
+        self._of_devices = [self._of_device(device) for device in devices]
 
-    @cached_property
+    @property
     def force(self) -> Phasors:
-        """N s2; `F = m_rec r (cos psi + ...) + m_rot r e^{i psi}` of each cylinder, turned by its axis."""
-        return self._add(self._forces(None), *self._of_devices)
+        """N; `F = m_rec r (cos psi + ...) + m_rot r e^{i psi}` of each cylinder, turned by its axis."""
+        return sum(self._of_devices, self._forces(self._turned, self._once))
 
-    @cached_property
+    @property
     def moment(self) -> Phasors:
-        """N m s2 as `M_x + i M_y = i sum (z - z_ref) F`."""
+        """N m as `M_x + i M_y = i sum (z - z_ref) F`."""
+        z = self._cylinders.z
+        of_cylinders = self._forces((z - self._z_ref) * self._turned, np.abs(z) + abs(self._z_ref))
         arms = (device.z - self._z_ref for device in self._devices)
-        return 1j * self._add(self._forces(self._cylinders.z), *(z * f for z, f in zip(arms, self._of_devices, strict=True)))
+        return 1j * sum((z * f for z, f in zip(arms, self._of_devices, strict=True)), of_cylinders)
 
-    @cached_property
+    @property
     def couple(self) -> Phasors:
-        """Free transverse couple about z, N m s2: `H sum D_k sin k psi - m_rec e (-s'')` and the forces' arms in x and y."""
-        c = self._cylinders
-        own = c.couple * self._harmonics.rod + -(c.reciprocating * c.offset * c.radius) * self._harmonics.piston
-        total = self._about_z(own)
-        if self._place:
-            total += self._forces(None).about(-self._place)
-        return self._add(total, *(f.about(d.place - self._place) for d, f in zip(self._devices, self._of_devices, strict=True)))
+        """Free transverse couple about z, N m: `H sum D_k sin k psi - m_rec e (-s'')` and the forces' arms in x and y."""
+        c, nothing = self._cylinders, np.zeros(self._n.shape[:1] + self._n.shape[2:])
+        total = Phasors(self._orders, nothing, nothing, nothing)
+        if np.count_nonzero(c.couple):
+            total += self._about_z((c.couple * self._square) * self._harmonics.rod)
+        if np.count_nonzero(c.eps):
+            total += self._about_z(-(c.reciprocating * c.offset * c.radius * self._square) * self._harmonics.piston)
+        if (curve := self._harmonics.curve) is not None:
+            total += self._about_z((self._on_curve * c.radius) * curve.couple)
+        if np.count_nonzero(self._place):
+            total += self._forces(self._turned, self._once).about(-self._place)
+        return sum((f.about(d.place - self._place) for d, f in zip(self._devices, self._of_devices, strict=True)), total)
 
-    @cached_property
+    @property
     def torque(self) -> Phasors:
-        """Inertia torque on the crank, N m s2: `-1/2 dI/dtheta`, `I = m_rec s'^2 + m_rot r^2 - H beta'^2`."""
+        """Inertia torque on the crank, N m: `-1/2 dI/dtheta`, `I = m_rec s'^2 + m_rot r^2 - H beta'^2`."""
         rate = -0.5j * self._n
-        return self._about_z(Series(rate * self._inertia.c, np.abs(rate) * self._inertia.noise))
+        return self._about_z(Series(rate * self._inertia.c, abs(rate) * self._inertia.noise))
 
     @property
     def mean_inertia(self) -> Array:
-        """Mean over a revolution of I, kg m2 (needs order 0)."""
+        """Mean over a revolution of I (needs order 0) times the square of the speed, N m."""
         c = self._cylinders
-        zero = np.broadcast_to(self._inertia.c[self._orders == 0].real[0], np.broadcast_shapes(c.pin_deg.shape, self._inertia.c.shape[1:]))
-        return np.asarray(zero.sum(axis=0)) + self.mean_momentum
+        mean = self._inertia.c[self._orders == 0].real[0] + c.rotating * c.radius**2 * self._square
+        return _total(mean[None], self._once)[0]
 
     @property
     def mean_momentum(self) -> Array:
-        """Mean moment of momentum of the cylinders about z at speed 1, kg m2: that of the rotating masses."""
-        c = self._cylinders
-        return np.asarray((np.broadcast_to(c.rotating, c.pin_deg.shape) * c.radius**2).sum(axis=0))
+        """Mean moment of momentum of the cylinders about z times the speed, N m: that of masses and rods that turn."""
+        c, h = self._cylinders, self._harmonics
+        mean = (c.rotating * c.radius**2 - c.couple * h.turns) * self._square
+        return _total((mean if h.curve is None else mean + self._on_curve * c.radius * h.curve.momentum)[None], self._once)[0]
 
     @cached_property
     def _inertia(self) -> Series:
         c, h = self._cylinders, self._harmonics
-        return (c.reciprocating * c.radius**2) * h.kinetic + -c.couple * h.rod_kinetic
+        own = (c.reciprocating * c.radius**2 * self._square) * h.kinetic
+        if h.curve is not None:
+            own += (self._on_curve * c.radius) * h.curve.kinetic
+        return own + -(c.couple * self._square) * h.rod_kinetic if np.count_nonzero(c.couple) else own
 
-    @cached_property
-    def _of_devices(self) -> list[Phasors]:
-        """Force of each device."""
-        def rows(device: Device, vector: complex) -> Complex:
-            return np.where(self._n[:, 0] == device.order, device.order**2 * np.asarray(vector), 0)
-        return [Phasors(self._orders, a := rows(d, d.forward), b := rows(d, d.backward), _SUM * (np.abs(a) + np.abs(b)))
-                for d in self._devices]
+    @property
+    def _on_curve(self) -> Array:
+        """What a linkage's masses on their curves weigh in forces: mass x radius x square of the speed, N."""
+        c = self._cylinders
+        return np.zeros(1) if c.linkage is None else c.linkage.mass * c.radius * self._square
 
-    @staticmethod
-    def _add(total: Phasors, *more: Phasors) -> Phasors:
-        for one in more:
-            total += one
-        return total
+    def _of_device(self, d: Device) -> Phasors:
+        """Its force."""
+        size = (self._n[:, 0] == d.order) * (d.order**2 * self._square)
+        forward, backward = size * d.forward, size * d.backward
+        return Phasors(self._orders, forward, backward, _SUM * (np.abs(forward) + np.abs(backward)))
 
     # -------------------------------------------------------------- sums over the cylinders
     @cached_property
-    def _turned(self) -> Complex:
-        """e^{i n pin}, shape (orders, cylinders, *trailing)."""
-        return unit(self._n * self._cylinders.pin_deg)
+    def _ahead_and_astern(self) -> Complex:
+        """Turn of each bank's forward and backward vectors: `e^{i (axis -+ n (axis - axis_1))}`, shape (2, *that of `_apart`)."""
+        axis = self._cylinders.axis_deg
+        return unit(np.array((axis - self._apart, axis + self._apart)))
 
-    def _forces(self, z: Array | None) -> Phasors:
-        """Forces of all cylinders, or with their arms along z."""
-        c = self._cylinders
-        banks, noise = self._bank_sums((c.reciprocating * c.radius) * self._harmonics.piston, z)
-        ahead = self._n * c.axis_deg[c.first]
-        forward = (unit(ahead + (1 - self._n) * c.axis_deg) * banks).sum(axis=1) / 2
-        backward = (unit((1 + self._n) * c.axis_deg - ahead) * np.conj(banks)).sum(axis=1) / 2
-        turning, error = self._rotating(z)
-        return Phasors(self._orders, forward + turning, backward, noise / 2 + error)
+    @cached_property
+    def _pull(self) -> tuple[Complex, Complex, Array]:
+        """Forward and backward vectors of each cylinder's force in its own frame, N, and their rounding error.
 
-    def _rotating(self, z: Array | None) -> tuple[Complex, Array]:
-        """Forward vectors of the masses at the crank pins, which are all of order 1."""
+        Shapes (orders, cylinders or 1, *trailing).
+        """
         c = self._cylinders
-        first = self._n == 1
-        if not first.any() or not np.any(c.rotating):
-            return np.zeros(1, complex), np.zeros(1)
-        vectors = c.rotating * c.radius * np.where(first, self._turned, 0)
-        if z is not None:
-            vectors = self._arms(z) * vectors
-        scale = np.abs(vectors).sum(axis=1)
-        return (unit(c.axis_deg[c.first]) * vectors.sum(axis=1)), (c.count * _SUM + _TURN) * scale
+        along = (c.reciprocating * c.radius * self._square / 2) * self._harmonics.piston
+        turning = (self._n == 1) * (c.rotating * (c.radius * self._square))
+        forward, backward = along.c + turning, along.c.conj()
+        error = self._rounding * (np.abs(along.c) + turning) + along.noise
+        if (curve := self._harmonics.curve) is None:
+            return forward, backward, error
+        x, y = (self._on_curve / 2) * curve.along, (self._on_curve / 2) * curve.across
+        error = error + self._rounding * (np.abs(x.c) + np.abs(y.c)) + (x.noise + y.noise)
+        return forward + (x.c + 1j * y.c), backward + (x.c - 1j * y.c).conj(), error
+
+    def _forces(self, turned: Complex, size: Array) -> Phasors:
+        """Sum over the cylinders of their forces, with the weights that `turned` bears and `size` bounds."""
+        forward, backward, error = self._pull
+        ahead, astern = self._ahead_and_astern
+        return Phasors(self._orders, self._sum(forward, turned, ahead), self._sum(backward, turned.conj(), astern),
+                       _total(error, size))
 
     def _about_z(self, series: Series) -> Phasors:
         """Sum over the cylinders of scalars."""
-        c = self._cylinders
-        banks, noise = self._bank_sums(series, None)
-        total = (unit(self._n * (c.axis_deg[c.first] - c.axis_deg)) * banks).sum(axis=1)
-        return Phasors.real(self._orders, total, noise)
+        error = self._rounding * np.abs(series.c) + series.noise
+        return Phasors.real(self._orders, self._sum(series.c, self._turned, unit(-self._apart)), _total(error, self._once))
 
-    def _arms(self, z: Array) -> Array:
-        return z - self._z_ref
+    def _sum(self, vectors: Complex | Array, turned: Complex, axes: Complex) -> Complex:
+        """`sum over banks of axes * sum over cylinders of vectors * turned`; the phases of equal cylinders are summed once."""
+        banks: Complex = np.add.reduceat(turned if vectors.shape[1] == 1 else vectors * turned, self._cylinders.starts, axis=1)
+        summed: Complex = np.add.reduce(axes * banks, axis=1)
+        return vectors[:, 0] * summed if vectors.shape[1] == 1 else summed
 
-    def _bank_sums(self, series: Series, z: Array | None) -> tuple[Complex, Array]:
-        """S_b, shape (orders, banks, *trailing), and the rounding error of their sum, shape (orders, *trailing)."""
-        c = self._cylinders
-        turned, size = self._turned, np.ones(1)
-        if z is not None:
-            arms = self._arms(z)
-            turned, size = arms * turned, np.abs(z) + abs(self._z_ref)
-        shape = np.broadcast_shapes(series.c.shape, (1, *np.shape(size)))
 
-        def total(parts: Array) -> Array:
-            summed: Array = np.broadcast_to(parts, shape).sum(axis=1) * (c.count / shape[1])
-            return summed
-        noise = (c.count * _SUM + _TURN * self._n[:, 0]) * total(np.abs(series.c) * size)
-        if np.any(series.noise):
-            noise = noise + total(series.noise * size)
-        if series.c.shape[1] == 1:                                          # equal cylinders: their phases are summed once
-            return series.c * np.add.reduceat(turned, c.starts, axis=1), noise
-        return np.add.reduceat(series.c * turned, c.starts, axis=1), noise
+def _total(values: Array, size: Array) -> Array:
+    """Sum over the cylinders of `values * size`, shape (orders, *trailing); a single row of values stands for all cylinders."""
+    return values[:, 0] * np.add.reduce(size, axis=0) if values.shape[1] == 1 else np.add.reduce(values * size, axis=1)

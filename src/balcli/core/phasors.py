@@ -7,12 +7,13 @@ Arrays have the orders first, then any trailing axes (crank angles, variants of 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+Array = NDArray[Any]              # of real numbers
+Complex = NDArray[Any]            # of complex ones
 
 EPS = float(np.finfo(float).eps)
 _STEP = 15                                                              # degrees
@@ -35,9 +36,17 @@ def unit(degrees: ArrayLike) -> Complex:
     """
     x = np.asarray(degrees, float)
     steps = np.rint(x / _STEP)
-    rest = np.radians(x - _STEP * steps)
-    turned: Complex = _UNITS[np.asarray(steps % 24, int)] * np.exp(1j * rest)
-    return turned
+    rest = x - _STEP * steps
+    turned: Complex = _UNITS.take((steps - 24 * np.floor(steps / 24)).astype(np.intp))
+    return turned * _turn(rest * (np.pi / 180)) if np.count_nonzero(rest) else turned
+
+
+def _turn(radians: Array) -> Complex:
+    """e^{i x}: cosine and sine of real numbers are quicker than the complex exponential."""
+    result = np.empty(radians.shape, complex)
+    np.cos(radians, out=result.real)
+    np.sin(radians, out=result.imag)
+    return result
 
 
 @dataclass(frozen=True)
@@ -59,19 +68,21 @@ class Phasors:
     @classmethod
     def real(cls, orders: Array, coefficients: Complex, noise: Array) -> Phasors:
         """The scalar `Re sum c_n e^{i n theta}`; a mean (order 0) is its own conjugate and stands in `forward` alone."""
-        mean = _column(orders, coefficients) == 0
-        return cls(orders, np.where(mean, coefficients.real, coefficients / 2),
-                   np.where(mean, 0, np.conj(coefficients) / 2), noise)
+        half = coefficients / 2
+        if np.count_nonzero(orders) == len(orders):
+            return cls(orders, half, half.conj(), noise)
+        mean = _column(orders, half) == 0
+        return cls(orders, np.where(mean, coefficients.real, half), np.where(mean, 0, half.conj()), noise)
 
     def __add__(self, other: Phasors) -> Phasors:
         return Phasors(self.orders, self.forward + other.forward, self.backward + other.backward, self.noise + other.noise)
 
     def __sub__(self, other: Phasors) -> Phasors:
-        return self + -1.0 * other
+        return Phasors(self.orders, self.forward - other.forward, self.backward - other.backward, self.noise + other.noise)
 
     def __rmul__(self, factor: ArrayLike) -> Phasors:
         """Scaled, or scaled and turned where the factor is complex."""
-        return Phasors(self.orders, factor * self.forward, factor * self.backward, np.abs(factor) * self.noise)
+        return Phasors(self.orders, factor * self.forward, factor * self.backward, abs(factor) * self.noise)
 
     def about(self, p: ArrayLike) -> Phasors:
         """Moment about z of this force acting at the point p = x + iy: `Im(conj(p) F)`, a scalar."""
@@ -80,8 +91,7 @@ class Phasors:
 
     def settled(self) -> Phasors:
         """The same with whatever lies within its rounding error set to exactly 0, each of both vectors for itself."""
-        return Phasors(self.orders, np.where(np.abs(self.forward) <= self.noise, 0, self.forward),
-                       np.where(np.abs(self.backward) <= self.noise, 0, self.backward), self.noise)
+        return Phasors(self.orders, _settled(self.forward, self.noise), _settled(self.backward, self.noise), self.noise)
 
     def at(self, orders: ArrayLike) -> Phasors:
         """The rows of these orders (each must be there)."""
@@ -101,8 +111,9 @@ class Phasors:
 
     @property
     def minor(self) -> Array:
-        """Shorter semi-axis of the ellipse."""
-        return np.abs(np.abs(self.forward) - np.abs(self.backward))
+        """Shorter semi-axis of the ellipse; 0 for a straight line within its rounding error."""
+        minor = np.abs(np.abs(self.forward) - np.abs(self.backward))
+        return np.where(minor <= 2 * self.noise, 0, minor)
 
     @property
     def axis_deg(self) -> Array:
@@ -114,15 +125,15 @@ class Phasors:
 
     @property
     def x(self) -> Complex:
-        """Components along x as `Re(c_n e^{i n theta})`."""
+        """Components along x as `Re(c_n e^{i n theta})`, exactly 0 within their rounding error."""
         mean = _column(self.orders, self.forward) == 0
-        return np.where(mean, self.forward.real, self.forward + np.conj(self.backward))
+        return _settled(np.where(mean, self.forward.real, self.forward + np.conj(self.backward)), 2 * self.noise)
 
     @property
     def y(self) -> Complex:
-        """Components along y as `Re(c_n e^{i n theta})`."""
+        """Components along y as `Re(c_n e^{i n theta})`, exactly 0 within their rounding error."""
         mean = _column(self.orders, self.forward) == 0
-        return np.where(mean, self.forward.imag, -1j * (self.forward - np.conj(self.backward)))
+        return _settled(np.where(mean, self.forward.imag, -1j * (self.forward - np.conj(self.backward))), 2 * self.noise)
 
     def values(self, theta: ArrayLike) -> Complex:
         """The curve at crank angles (radians): the sum over all orders, shape of theta, for phasors without trailing axes."""
@@ -130,6 +141,11 @@ class Phasors:
         turning = np.exp(1j * np.multiply.outer(angles, self.orders))
         curve: Complex = turning @ self.forward + np.conj(turning) @ self.backward
         return curve
+
+
+def _settled(vectors: Complex, noise: Array) -> Complex:
+    nothing = np.abs(vectors) <= noise
+    return np.where(nothing, 0, vectors) if np.count_nonzero(nothing) else vectors
 
 
 def _column(orders: Array, like: NDArray[np.generic]) -> Array:

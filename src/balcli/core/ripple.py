@@ -7,53 +7,65 @@ coefficients all of these are short convolutions, so that every order stays as e
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .phasors import EPS, Array, Complex, Phasors, unit
+from .phasors import EPS, Complex, Phasors, unit
 
 
-def speed(lines: Iterable[tuple[int, float, float]]) -> Complex:
-    """Two-sided coefficients of W for lines (order, amplitude, angle in degrees), orders -k .. k."""
-    lines = list(lines)
-    highest = max(order for order, _, _ in lines)
-    w = np.zeros(2 * highest + 1, complex)
+def speed(lines: Iterable[tuple[int, Any, Any]]) -> Complex:
+    """Two-sided coefficients of W for lines (order, amplitude, angle in degrees), orders -k .. k, before any trailing axes."""
+    halves = [(order, amplitude / 2 * unit(-angle)) for order, amplitude, angle in lines]
+    highest = max(order for order, _ in halves)
+    w: Complex = np.zeros((2 * highest + 1, *np.broadcast_shapes(*(half.shape for _, half in halves))), complex)
     w[highest] = 1
-    for order, amplitude, angle in lines:
-        half = amplitude / 2 * unit(-angle)
+    for order, half in halves:
         w[highest + order] += half
-        w[highest - order] += np.conj(half)
+        w[highest - order] += half.conj()
     return w
 
 
-def force(steady: Phasors, w: Complex, mean: float = 0.0) -> Phasors:
+def force(steady: Phasors, w: Complex, mean: Any = 0.0) -> Phasors:
     """Force (or moment, or couple) under W, from that at steady speed for the dense orders 0 .. n; correct up to order
     n - 2k. `mean` is the mean momentum (for the couple: of the rotating masses), which a steady speed does not show."""
     def shake(momentum: Complex, w: Complex, rate: Complex) -> Complex:
-        return -np.convolve(rate * np.convolve(momentum, w, "same"), w, "same")
+        return -_convolved(rate * _convolved(momentum, w), w)
     return _transformed(steady, w, mean, shake)
 
 
-def torque(steady: Phasors, w: Complex, mean: float) -> Phasors:
+def torque(steady: Phasors, w: Complex, mean: Any) -> Phasors:
     """Inertia torque under W likewise; `mean` is the mean inertia I_0 (kg m2)."""
     def shake(momentum: Complex, w: Complex, rate: Complex) -> Complex:
-        return -rate * np.convolve(np.convolve(momentum, w, "same"), w, "same")
+        return -rate * _convolved(_convolved(momentum, w), w)
     return _transformed(steady, w, mean / 2, shake)
 
 
-def _transformed(steady: Phasors, w: Complex, mean: float, shake: Callable[[Complex, Complex, Complex], Complex]) -> Phasors:
+def _transformed(steady: Phasors, w: Complex, mean: Any, shake: Callable[[Complex, Complex, Complex], Complex]) -> Phasors:
     n = len(steady.orders) - 1
-    order = np.arange(-n, n + 1.0)
-    momentum = 1j * _two_sided(steady) / np.where(order, order, 1)          # steady force = -i n momentum
+    forces = _two_sided(steady)
+    both = np.broadcast_to(steady.noise, steady.forward.shape)
+    noise = _two_sided(Phasors(steady.orders, both, both, steady.noise)).real
+    order = np.arange(-n, n + 1.0).reshape(-1, *(1,) * (forces.ndim - 1))
+    divisor = np.where(order, order, 1)
+    shape = np.broadcast_shapes(forces.shape[1:], np.shape(mean))
+    momentum = np.broadcast_to(1j * forces / divisor, (2 * n + 1, *shape)).copy()       # steady force = -i n momentum
     momentum[n] = mean
-    noise = np.abs(_two_sided(Phasors(steady.orders, *2 * [np.broadcast_to(steady.noise, steady.forward.shape) + 0j], steady.noise)))
-    scale = noise / EPS                                                     # sizes of the parts, as their noise tells them
-    scale[n] = max(scale[n], abs(mean))
+    scale = np.broadcast_to(noise / EPS / np.abs(divisor), momentum.shape).copy()      # sizes of the parts, as their noise tells them
+    scale[n] = np.maximum(scale[n], np.abs(mean))
     result = shake(momentum, w, 1j * order)
-    error = EPS * np.abs(shake(scale / np.where(order, np.abs(order), 1) + 0j, np.abs(w) + 0j, np.abs(order) + 0j))
-    backward = np.where(steady.orders > 0, result[n::-1], 0)
+    error = EPS * np.abs(shake(scale + 0j, np.abs(w) + 0j, np.abs(order) + 0j))
+    backward = np.where(order[n:] > 0, result[n::-1], 0)
     return Phasors(steady.orders, result[n:], backward, np.maximum(error[n:], error[n::-1]))
+
+
+def _convolved(series: Complex, w: Complex) -> Complex:
+    """Sum over k of w_k series_(n-k), cut to the orders of `series`; `w` is short."""
+    reach = len(w) // 2
+    ends = np.zeros((reach, *series.shape[1:]), complex)
+    padded = np.concatenate([ends, series, ends])
+    return np.asarray(sum(w[reach + k] * padded[reach - k:len(padded) - reach - k] for k in range(-reach, reach + 1) if np.any(w[reach + k])))
 
 
 def _two_sided(phasors: Phasors) -> NDArray[np.complex128]:

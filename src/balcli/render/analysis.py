@@ -1,18 +1,18 @@
 """What a person reads of an analysis."""
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 
 import numpy as np
 
 from ..analysis import Analysis, Sizing, Textbook, textbook
 from ..core.peaks import Peak
-from ..core.phasors import Phasors
+from ..core.phasors import Array, Phasors
 from ..engine import Engine
 from ..spectrum import Spectra
 from .devices import device_grid
-from .figures import order_number, peak_deg
+from .figures import order_number, peak_deg, phase_deg
 from .sheet import Facts, Grid, Sheet, Text, degrees, number
 from .units import System, Unit
 from .verdict import verdict
@@ -20,20 +20,25 @@ from .verdict import verdict
 _SCALARS = {"couple": "couple C", "torque": "inertia torque T", "roll": "roll C − T"}
 
 
-def sheet(result: Analysis, system: System) -> Sheet:
-    """The whole analysis: what the engine is, what it does order by order, peaks, verdict, sizing."""
+def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
+    """The whole analysis: what the engine is, what it does order by order, peaks, verdict, sizing; pictures of characters."""
     engine, spectra = result.engine, result.spectra
     parts: list[Grid | Facts | Text] = [facts(engine, system)]
     parts += _spectra(spectra, system)
     if spectra.force is not None or spectra.moment is not None:
-        parts += [_directions(spectra, system), _textbook(spectra, textbook(engine, spectra.orders), system)]
+        parts += [_directions(spectra, system), *_textbook(spectra, textbook(engine, spectra.orders), system)]
     if result.force is not None:
         parts.append(_peaks(result, system, "Largest over a revolution, all orders"))
     parts += [_share(n, share, system) for n, share in result.cylinders]
     if found := verdict(spectra, system):
         parts.append(Text("Verdict", found))
+    if result.why is not None:
+        parts.append(Text("Why", result.why.sentences))
     if result.sizing is not None:
         parts += _sizing(result.sizing, system)
+    if pictures:
+        from .sketch import sketches
+        parts += sketches(result, system)
     return Sheet(engine.name or "engine without a name", tuple(parts))
 
 
@@ -86,6 +91,11 @@ def _counted(engine: Engine) -> str:
 
 
 # ------------------------------------------------------------------ order by order
+def _rows(orders: Array, phasors: list[Phasors], row: Callable[[int], tuple[str, ...]]) -> tuple[tuple[str, ...], ...]:
+    """Orders up to 2, and those in which one of these quantities is not balanced."""
+    return tuple(row(k) for k, order in enumerate(orders) if order <= 2 or not all(p.balanced[k] for p in phasors))
+
+
 def _spectra(spectra: Spectra, system: System) -> Iterator[Grid]:
     for quantity, unit in (("force", system.force), ("moment", system.moment)):
         phasors = getattr(spectra, quantity)
@@ -104,7 +114,8 @@ def _vectors(title: str, phasors: Phasors, unit: Unit) -> Grid:
         sizes = (phasors.major[k], phasors.minor[k], abs(phasors.forward[k]), abs(phasors.backward[k]))
         largest, smallest, ahead, against = (number(unit.of(float(v))) for v in sizes)
         return name, largest, smallest, degrees(float(phasors.axis_deg[k])), ahead, against
-    return Grid(title, ("order", "largest", "smallest", "axis, deg", "with crank", "against"), tuple(row(k) for k in range(len(phasors.orders))))
+    return Grid(title, ("order", "largest", "smallest", "axis, deg", "with crank", "against"),
+                _rows(phasors.orders, [phasors], row))
 
 
 def _scalars(scalars: dict[str, Phasors], spectra: Spectra, unit: Unit) -> Grid:
@@ -116,7 +127,7 @@ def _scalars(scalars: dict[str, Phasors], spectra: Spectra, unit: Unit) -> Grid:
             cells += ["balanced", ""] if c == 0 else [number(unit.of(abs(c))), "–" if at is None else degrees(at)]
         return tuple(cells)
     heads = [head for q in scalars for head in (_SCALARS[q], "peak, deg")]
-    return Grid(f"About the crank axis, {unit.name}", ("order", *heads), tuple(row(k) for k in range(len(spectra.orders))))
+    return Grid(f"About the crank axis, {unit.name}", ("order", *heads), _rows(spectra.orders, list(scalars.values()), row))
 
 
 def _directions(spectra: Spectra, system: System) -> Grid:
@@ -128,32 +139,34 @@ def _directions(spectra: Spectra, system: System) -> Grid:
         for q, unit in quantities:
             phasors = getattr(spectra, q)
             for c in (phasors.x[k], phasors.y[k]):
-                cells += ["0", "–"] if c == 0 else [number(unit.of(abs(c)), 4), degrees(float(-np.degrees(np.angle(c))))]
+                cells += ["0", "–"] if c == 0 else [number(unit.of(abs(c)), 4), degrees(phase_deg(c))]
         return tuple(cells)
     names = {"force": ("Fx", "Fy"), "moment": ("Mx", "My")}
     heads = [head for q, _ in quantities for axis in names[q] for head in (axis, "deg")]
     return Grid(f"Along x (vertical) and y (horizontal), {', '.join(unit.name for _, unit in quantities)}", ("order", *heads),
-                tuple(row(k) for k in range(len(spectra.orders))),
+                _rows(spectra.orders, [getattr(spectra, q) for q, _ in quantities], row),
                 note="Value = amplitude · cos(order · θ − angle). The moment about y is that of the forces along x.")
 
 
-def _textbook(spectra: Spectra, units: Textbook, system: System) -> Grid:
-    quantities = [(q, size, arm) for q, size, arm in (("force", units.force, ""), ("moment", units.force * units.arm, "·a"))
-                  if getattr(spectra, q) is not None and size == size]
+def _textbook(spectra: Spectra, units: Textbook, system: System) -> Iterator[Grid]:
+    cylinder = "one cylinder" if units.equal else "cylinder 1"
+    if spectra.force is not None:
+        note = f"F1 = m r ω² = {number(system.force.of(units.force))} {system.force.name} (reciprocating mass of {cylinder}), Fn = A_n F1 its n-th order."
+        yield _multiples("force", spectra.force, units.force, units.ratios, note)
+    if spectra.moment is not None and units.arm == units.arm:
+        note = f"a = {number(system.length.of(units.arm), 4)} {system.length.name}, the distance of neighbouring throws."
+        yield _multiples("moment", spectra.moment, units.force * units.arm, units.ratios, note)
 
+
+def _multiples(quantity: str, phasors: Phasors, size: float, ratios: Array, note: str) -> Grid:
     def row(k: int) -> tuple[str, ...]:
-        cells = [f"{order_number(spectra.orders[k])}"]
-        for q, size, _ in quantities:
-            phasors, ratio = getattr(spectra, q), units.ratios[k]
-            parts = (phasors.major[k], abs(phasors.forward[k]), abs(phasors.backward[k]))
-            cells += [number(float(p) / size, 4) if size else "–" for p in parts]
-            cells.append(number(float(parts[0]) / (size * ratio), 4) if size and ratio > 1e-12 else "–")
-        return tuple(cells)
-    heads = [head for _, _, arm in quantities for head in (f"× F1{arm}", "with", "against", f"× Fn{arm}")]
-    arm = f", a = {number(system.length.of(units.arm), 4)} {system.length.name} (distance of neighbouring throws)" if units.arm == units.arm else ""
-    return Grid("In textbook units", ("order", *heads), tuple(row(k) for k in range(len(spectra.orders))),
-                note=f"F1 = m r ω² = {number(system.force.of(units.force))} {system.force.name} (reciprocating mass of "
-                     f"{'one cylinder' if units.equal else 'cylinder 1'}), Fn = A_n F1 its n-th order{arm}.")
+        parts = [float(v) for v in (phasors.major[k], abs(phasors.forward[k]), abs(phasors.backward[k]))]
+        own = size * ratios[k]
+        return (f"{order_number(phasors.orders[k])}", *(number(p / size, 4) if size else "–" for p in parts),
+                number(parts[0] / own, 4) if ratios[k] > 1e-12 and size else "–")
+    unit = "F1" if quantity == "force" else "F1·a"
+    return Grid(f"Free {quantity} in textbook units", ("order", f"largest, {unit}", "with crank", "against", f"largest, {unit.replace('1', 'n')}"),
+                _rows(phasors.orders, [phasors], row), note)
 
 
 def _peaks(result: Analysis, system: System, title: str) -> Facts:
@@ -188,6 +201,6 @@ def _sizing(sizing: Sizing, system: System) -> Iterator[Grid | Text | Facts]:
     if not (remedy.counterweights or remedy.shafts or remedy.sliders):
         yield Text("Sizing", ("Orders 1 and 2 need no counterweight and no shaft.",))
         return
-    yield Text("Sizing: what leaves no free force or moment of orders 1 and 2", tuple(remedy.reasons))
+    yield Text("Sizing: what leaves no free force or moment of orders 1 and 2", tuple(dict.fromkeys(remedy.reasons)))
     yield device_grid(remedy, system)
     yield _peaks(after, system, "Largest with these devices")

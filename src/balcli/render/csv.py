@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
+    from ..balancing import Balance
     from .units import System
 
 
@@ -26,3 +27,22 @@ def analyses(results: Sequence[Analysis], system: System) -> str:
 
     return write(("engine", "cylinder", "quantity", "order", "figure", "value", "unit"),
                  ((result.engine.name, *row) for result in results for row in rows(result, system)))
+
+
+def balances(result: Balance, system: System) -> str:
+    """One figure a row: those of the devices, then those of the engine without and with them."""
+    from .figures import rows
+
+    remedy = result.remedy
+    figures: list[Sequence[Any]] = []
+    for kind, tables in (("counterweight", remedy.counterweights), ("shaft", remedy.shafts), ("slider", remedy.sliders)):
+        for number, device in enumerate(tables, 1):
+            entries = [(name, getattr(device, name), unit) for name, unit in _DEVICE if hasattr(device, name)]
+            entries += [(f"at_{axis}", place, "mm") for axis, place in zip("xy", getattr(device, "at", ()), strict=False)]
+            figures += [(f"{kind} {number}", "", "", name, value, unit) for name, value, unit in entries]
+    for state, analysis in (("before", result.before), ("after", result.after)):
+        figures += [(state, row.quantity, row.order, row.figure, row.value, row.unit) for row in rows(analysis, system)]
+    return write(("part", "quantity", "order", "figure", "value", "unit"), figures)
+
+
+_DEVICE = (("ratio", ""), ("order", ""), ("unbalance", "g·mm"), ("angle", "deg"), ("direction", "deg"), ("position", "mm"))

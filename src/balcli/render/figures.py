@@ -66,7 +66,13 @@ def peak_deg(c: complex, order: float) -> float | None:
 
 def _component(c: complex, order: float) -> dict[str, float | None]:
     """`amplitude cos(n theta - phase)`."""
-    return {"amplitude": clean(abs(c)), "phase_deg": None if c == 0 or order == 0 else clean(-np.degrees(np.angle(c)))}
+    return {"amplitude": clean(abs(c)), "phase_deg": phase_deg(c) if c and order else None}
+
+
+def phase_deg(c: complex) -> float:
+    """Angle in (-180, 180] of the amplitude in `amplitude cos(n theta - angle)`."""
+    angle = -float(np.degrees(np.angle(c)))
+    return angle + 360 if angle <= -180 else angle + 0.0
 
 
 def entries(spectra: Spectra, k: int) -> dict[str, dict[str, Any]]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, assert_never
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
+    from ..balancing import Balance
     from .sheet import Sheet
 
 
@@ -45,8 +46,8 @@ def render(form: Format, *, sheets: Callable[[], list[Sheet]], documents: Callab
             assert_never(form)
 
 
-def analyses(results: Sequence[Analysis], form: Format, units: Units, *, into_file: bool = False) -> str:
-    """Analyses, one after the other; JSON is one document a line."""
+def analyses(results: Sequence[Analysis], form: Format, units: Units, *, into_file: bool = False, plot: bool = False) -> str:
+    """Analyses, one after the other; JSON is one document a line. `plot`: with pictures, if a person looks at a terminal."""
     from . import csv, json
     from .units import SYSTEMS
 
@@ -54,6 +55,21 @@ def analyses(results: Sequence[Analysis], form: Format, units: Units, *, into_fi
 
     def sheets() -> list[Sheet]:
         from .analysis import sheet
-        return [sheet(result, system) for result in results]
+        from .table import seen
+        pictures = plot and form is Format.TABLE and seen(into_file)
+        return [sheet(result, system, pictures=pictures) for result in results]
     return render(form, sheets=sheets, documents=lambda: [json.analysis(r) for r in results],
                   rows=lambda: csv.analyses(results, system), into_file=into_file)
+
+
+def balances(result: Balance, form: Format, units: Units, *, into_file: bool = False) -> str:
+    """One balance."""
+    from . import csv, json
+    from .units import SYSTEMS
+
+    system = SYSTEMS[units]
+
+    def sheets() -> list[Sheet]:
+        from .balance import sheet
+        return [sheet(result, system)]
+    return render(form, sheets=sheets, documents=lambda: [json.balance(result)], rows=lambda: csv.balances(result, system), into_file=into_file)

@@ -2,13 +2,16 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from .figures import clean, entries, order_number, peaks
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
-    from ..sizing import Remedy
+    from ..balancing import Balance
+    from ..sizing import Practical, Remedy
     from ..spectrum import Spectra
 
 
@@ -33,6 +36,8 @@ def analysis(result: Analysis) -> dict[str, Any]:
         document["sizing"] = {"scheme": result.sizing.remedy.scheme, **devices(result.sizing.remedy), "after": after(result.sizing.after)}
     if result.cylinders:
         document["cylinders"] = [{"cylinder": number, "orders": orders(spectra)} for number, spectra in result.cylinders]
+    if result.why is not None:
+        document["why"] = {"reasons": [asdict(reason) for reason in result.why.reasons], "firing": result.why.firing}
     return document
 
 
@@ -49,10 +54,33 @@ def after(result: Analysis) -> dict[str, Any]:
 def devices(remedy: Remedy) -> dict[str, list[dict[str, Any]]]:
     """New devices, as an engine file would describe them."""
     return {
-        "counterweights": [{"unbalance_kg_m": d.unbalance / 1e6, "angle_deg": d.angle, "position_mm": d.position}
+        "counterweights": [{"unbalance_kg_m": (d.unbalance or 0.0) / 1e6, "angle_deg": d.angle, "position_mm": d.position}
                            for d in remedy.counterweights],
-        "shafts": [{"ratio": d.ratio, "unbalance_kg_m": d.unbalance / 1e6, "angle_deg": d.angle, "at_mm": list(d.at), "position_mm": d.position}
-                   for d in remedy.shafts],
-        "sliders": [{"order": d.order, "unbalance_kg_m": d.unbalance / 1e6, "direction_deg": d.direction, "angle_deg": d.angle,
+        "shafts": [{"ratio": d.ratio, "unbalance_kg_m": (d.unbalance or 0.0) / 1e6, "angle_deg": d.angle,
+                    "at_mm": list(d.at), "position_mm": d.position} for d in remedy.shafts],
+        "sliders": [{"order": d.order, "unbalance_kg_m": (d.unbalance or 0.0) / 1e6, "direction_deg": d.direction, "angle_deg": d.angle,
                      "at_mm": list(d.at), "position_mm": d.position} for d in remedy.sliders],
     }
+
+
+def balance(result: Balance) -> dict[str, Any]:
+    """`balcli.balance/1`."""
+    remedy = result.remedy
+    return {"format": "balcli.balance/1", "scheme": remedy.scheme, "order": remedy.order, **devices(remedy),
+            "reasons": list(remedy.reasons), "practical": [_practical(p) for p in result.practical], "details": _plain(remedy.details),
+            "before": after(result.before), "after": after(result.after)}
+
+
+def _practical(p: Practical) -> dict[str, float | None]:
+    figures = {"unbalance_kg_m": p.unbalance, "mass_kg": p.mass, "radius_mm": p.radius * 1e3, "force_N": p.force, "speed_rpm": p.speed_rpm,
+               "disc_radius_mm": p.disc_radius * 1e3, "disc_thickness_mm": p.disc_thickness * 1e3}
+    return {key: clean(value) for key, value in figures.items()} | ({} if p.depth is None else {"drill_depth_mm": clean(p.depth * 1e3)})
+
+
+def _plain(value: Any) -> Any:
+    """The same with clean numbers."""
+    if isinstance(value, Mapping):
+        return {key: _plain(part) for key, part in value.items()}
+    if isinstance(value, list):
+        return [_plain(part) for part in value]
+    return clean(value) if isinstance(value, float) else value

@@ -7,13 +7,15 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Grid:
-    """A table. Cells are text; the first column is a heading of its row. Cells in `marked` (row, column) stand out."""
+    """A table. Cells are text; the first column is a heading of its row. Cells in `marked` (row, column) stand out, and
+    the columns in `words` are read, not compared: they stand to the left."""
 
     title: str
     columns: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     note: str = ""
     marked: frozenset[tuple[int, int]] = frozenset()
+    words: tuple[int, ...] = (0,)
 
 
 @dataclass(frozen=True)

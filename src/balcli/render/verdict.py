@@ -3,7 +3,6 @@ from __future__ import annotations
 
 from ..core.phasors import Phasors
 from ..spectrum import Spectra
-from .figures import order_number
 from .sheet import degrees, number
 from .units import System, Unit
 
@@ -15,43 +14,44 @@ def verdict(spectra: Spectra, system: System) -> tuple[str, ...]:
     """A sentence for every order that matters; empty if neither forces nor moments were asked for."""
     found = [(name, phasors, unit) for name, phasors, unit in
              (("force", spectra.force, system.force), ("moment", spectra.moment, system.moment)) if phasors is not None]
-    rows = [k for k, order in enumerate(spectra.orders) if order >= 1]
-    return tuple(_order(k, spectra.orders[k], found) for k in rows if found and _matters(k, spectra.orders[k], found))
+    if not found:
+        return ()
+    told = (_low(k, int(order), found) if order <= 2 else _high(k, order, found) for k, order in enumerate(spectra.orders) if order >= 1)
+    return tuple(filter(None, told))
 
 
-def _matters(k: int, order: float, found: list[tuple[str, Phasors, Unit]]) -> bool:
-    return order <= 2 or any(p.major[k] > NEGLIGIBLE * p.major.max() for _, p, _ in found)
+def _name(order: float) -> str:
+    return f"{_NAMES.get(int(order)) or f'{order:g}th'} order"
 
 
-def _order(k: int, order: float, found: list[tuple[str, Phasors, Unit]]) -> str:
-    name = _NAMES.get(int(order), f"{order:g}th")
-    there = [(what, p, unit) for what, p, unit in found if not p.balanced[k]]
+def _low(k: int, order: int, found: list[tuple[str, Phasors, Unit]]) -> str:
+    """Orders 1 and 2: what is there, which way it turns, and what meets it."""
+    there = [_vector(k, order, *one) for one in found if not one[1].balanced[k]]
     free = [what for what, p, _ in found if p.balanced[k]]
     if not there:
-        return f"{name} order: free of {' and '.join(free)}."
-    told = [_vector(k, order, what, p, unit) for what, p, unit in there]
-    if free:
-        told.append(f"No {free[0]}.")
-    return f"{name} order: " + " ".join(text[0].upper() + text[1:] for text in told)
+        return f"{_name(order)}: free of {' and '.join(free)}."
+    rest = [f"no {what}." for what in free]
+    return f"{_name(order)}: " + " ".join([there[0], *(text[0].upper() + text[1:] for text in [*there[1:], *rest])])
 
 
-def _vector(k: int, order: float, what: str, p: Phasors, unit: Unit) -> str:
+def _high(k: int, order: float, found: list[tuple[str, Phasors, Unit]]) -> str:
+    """Higher orders: their size, if it is worth a word."""
+    sizes = [f"{what} up to {number(unit.of(float(p.major[k])), 4)} {unit.name}" for what, p, unit in found
+             if p.major[k] > NEGLIGIBLE * p.major.max()]
+    return f"{_name(order)}: {', '.join(sizes)}; rarely balanced, it would take shafts at {order:g} times crank speed." if sizes else ""
+
+
+def _vector(k: int, order: int, what: str, p: Phasors, unit: Unit) -> str:
     forward, backward = abs(p.forward[k]), abs(p.backward[k])
-    n = order_number(order)
-    size = f"{what} of {number(unit.of(float(p.major[k])), 4)} {unit.name}"
+    size = f"{number(unit.of(float(p.major[k])), 4)} {unit.name}"
     if backward == 0:
-        return f"{size}, turning with the crank: {'counterweights on the crankshaft cancel it' if n == 1 else _shafts(f'at +{n}')}."
+        return f"{what} of {size}, turning with the crank: {'counterweights on the crankshaft cancel it' if order == 1 else _shafts(f'at +{order}')}."
     if forward == 0:
-        return f"{size}, turning against the crank: {_shafts(f'at −{n}')}."
-    shape = f"up to {size[len(what) + 4:]} along {degrees(float(p.axis_deg[k]))} deg"
+        return f"{what} of {size}, turning against the crank: {_shafts(f'at −{order}')}."
     parts = f"{number(unit.of(forward), 4)} turns with the crank, {number(unit.of(backward), 4)} against it"
-    return f"{what} {shape} ({parts}): {_both(n)}."
-
-
-def _both(n: float) -> str:
-    if n == 1:
-        return "counterweights cancel the first part, a shaft at −1 the second"
-    return _shafts(f"at +{n} for the first part and at −{n} for the second")
+    means = "counterweights cancel the first part, a shaft at −1 the second" if order == 1 else \
+        _shafts(f"at +{order} for the first part and at −{order} for the second")
+    return f"{what} of up to {size} along {degrees(float(p.axis_deg[k]))} deg ({parts}): {means}."
 
 
 def _shafts(where: str) -> str:

@@ -38,9 +38,10 @@ class Remedy:
 
 
 def fitted(engine: Engine, remedy: Remedy) -> Engine:
-    """The engine with the devices of a remedy added to its own."""
+    """The engine with the devices of a remedy added to its own, in the order in which its file would have them."""
     tables = EngineFile.model_construct(counterweight=remedy.counterweights, shaft=remedy.shafts, slider=remedy.sliders)
-    return replace(engine, devices=(*engine.devices, *devices(tables, engine.first_axis_deg), *remedy.beyond))
+    everything = (*engine.devices, *devices(tables, engine.first_axis_deg), *remedy.beyond)
+    return replace(engine, devices=tuple(sorted(everything, key=lambda device: device.rank)))
 
 
 # ------------------------------------------------------------------ unbalance (kg m, complex) -> table
@@ -59,7 +60,8 @@ def shaft(unbalance: complex, ratio: int, z: float, place: complex = 0j) -> Shaf
 def slider(amplitude: complex, order: int, direction_deg: float, z: float, place: complex = 0j) -> Slider:
     """A reciprocating mass whose displacement is the real part of `amplitude e^{i n theta}` along its direction."""
     size, angle = _polar(amplitude)
-    return Slider.model_construct(order=order, unbalance=size, direction=direction_deg, angle=angle, at=_at(place), position=_millimetres(z))
+    return Slider.model_construct(order=order, unbalance=size, direction=direction_deg, angle=angle, at=_at(place),
+                                  position=_millimetres(z))
 
 
 def degrees(vector: complex, origin_deg: float = 0.0) -> float:

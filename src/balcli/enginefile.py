@@ -10,10 +10,11 @@ from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
+from .engine import Engine, build
 from .errors import BalcliError, InputError, Problem
 from .fields import printable, shorten
 from .mistakes import DEVICES, INNER, KNOWN, TABLES, TEXTS, path_of, plain, unknown_key
-from .model import MOST, EngineFile, Override, Table, mistakes_of_choice
+from .model import MOST, EngineFile, Override, Piston, Rod, Table, mistakes_of_choice
 
 LARGEST = 16_000_000             # bytes of an engine file
 MOST_SHOWN = 20                  # mistakes of one file
@@ -26,16 +27,37 @@ _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
 _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST}}}""")
 
 
+def load(source: str | Path) -> Engine:
+    """The engine that a file describes, ready to analyse; "-" reads standard input.
+
+    Raises BalcliError if there is nothing to read, InputError with every mistake of the file.
+    """
+    return built(read(source), name_of(source))
+
+
+def built(model: EngineFile, file: str) -> Engine:
+    """The engine of a model. Raises InputError with what does not fit together in the file of that name."""
+    try:
+        return build(model)
+    except InputError as error:
+        raise InputError(error.problems, file) from None
+
+
 def read(source: str | Path) -> EngineFile:
     """The engine file at a path, or from standard input for "-".
 
     Raises BalcliError if there is nothing to read, InputError with every mistake that the text has.
     """
+    return parse(text_of(source), name_of(source))
+
+
+def text_of(source: str | Path) -> bytes:
+    """The text of a file (or of standard input) as it is; BalcliError if it cannot be read."""
     if str(source) == "-":
-        return parse(sys.stdin.buffer.read(LARGEST + 1), "standard input")
+        return sys.stdin.buffer.read(LARGEST + 1)
     try:
         with Path(source).open("rb") as stream:
-            text = stream.read(LARGEST + 1)
+            return stream.read(LARGEST + 1)
     except IsADirectoryError:
         raise BalcliError(f"{source}: is a folder; name an engine file in it") from None
     except FileNotFoundError:
@@ -43,7 +65,11 @@ def read(source: str | Path) -> EngineFile:
     except (OSError, ValueError) as error:           # ValueError: a zero byte in the name
         reason = error.strerror if isinstance(error, OSError) else error
         raise BalcliError(f"{str(source)[:200]!r}: cannot be read ({reason})") from None
-    return parse(text, str(source))
+
+
+def name_of(source: str | Path) -> str:
+    """What messages call it."""
+    return "standard input" if str(source) == "-" else str(source)
 
 
 def parse(text: str | bytes, file: str = "") -> EngineFile:
@@ -87,6 +113,21 @@ def _count(value: object) -> int:
     return 1 + sum(map(_count, parts))
 
 
+def misfits(parts: Mapping[str, Any]) -> tuple[Problem, ...]:
+    """What the tables that could be read say against each other; those that could not are taken as harmless."""
+    whole = {key: part for key, part in parts.items() if part is not None and key not in TEXTS and key not in DEVICES}
+    if "crank" not in whole:
+        return ()
+    if None in whole.get("cylinder", {}).values() or parts.get("layout", True) is None:
+        whole = {key: part for key, part in whole.items() if key in ("crank", "rod", "piston", "layout")}
+    harmless = {"rod": Rod.model_construct(length=1e3 * whole["crank"].stroke), "piston": Piston.model_construct(mass=0.0)}
+    try:
+        build(EngineFile.model_construct(**harmless | whole))
+    except InputError as error:
+        return error.problems
+    return ()
+
+
 class _Reader:
     """Reads table after table and collects the mistakes."""
 
@@ -105,7 +146,10 @@ class _Reader:
         parts |= {key: self._devices(key, data[key], table) for key, table in DEVICES.items() if key in data}
         if "cylinder" in data:
             parts["cylinder"] = self._cylinders(data["cylinder"])
-        return None if self._found or self._unknown else EngineFile.model_construct(set(parts), **parts)
+        if self._found or self._unknown:
+            self._found += misfits(parts)
+            return None
+        return EngineFile.model_construct(set(parts), **parts)
 
     def error(self, file: str) -> InputError:
         """The first mistakes, misspelt keys before the others, and how many more there are."""

@@ -1,0 +1,125 @@
+"""Articulated rods of an engine file: which cylinders hang on which master rod, where their knuckle pins are."""
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from .core.articulated import Articulated
+from .core.inertia import Cylinders
+from .core.linkage import revolution
+from .core.phasors import unit
+from .errors import Problem
+from .layout import Plan
+from .model import Articulation, EngineFile
+
+NEAREST_TO_LOCK = 1e-6              # how far the sine of an articulated rod's angle must stay below 1
+_STEPS = 1440
+
+
+def masters(file: EngineFile, layout: Plan) -> dict[int, int]:
+    """Number of the cylinder with the master rod, by number of each articulated cylinder; empty without the table."""
+    if file.articulation is None:
+        return {}
+    chief = {c.throw: c.number for c in layout.cells if c.bank == file.articulation.master - 1}
+    return {c.number: chief[c.throw] for c in layout.cells if chief.get(c.throw, c.number) != c.number}
+
+
+def mistakes(file: EngineFile, layout: Plan) -> Iterator[Problem]:
+    """What does not fit together in [articulation] and the tables that it concerns."""
+    if file.articulation is None:
+        return
+    fault = _no_place(file.articulation.master, layout)
+    if fault:
+        yield fault
+        return
+    if file.layout.rotary:
+        yield Problem("articulation", "the rods of a rotary engine are taken as equal, all on one pin: leave this table out")
+    yield from _wrong_angles(file.articulation, len(layout.banks))
+    if np.any(np.asarray(file.crank.splay) != 0):
+        yield Problem("crank.splay", "articulated rods hang on the master rod and have no crank pins to split: "
+                                     "leave splay out, or [articulation]")
+    for number in masters(file, layout):
+        if (own := file.cylinder.get(number)) is not None and own.throw is not None:
+            yield Problem(f"cylinder.{number}.throw", f"cylinder {number} has an articulated rod, which hangs on the "
+                                                      "master rod and not on a crank pin: leave this out")
+
+
+def _no_place(master: int, layout: Plan) -> Problem | None:
+    banks = len(layout.banks)
+    if banks < 2:
+        return Problem("articulation", "needs a throw that carries the rods of several banks; this engine has 1 bank: "
+                                       "give bank_angle, banks or radial")
+    if layout.rods_on_throw < banks:
+        return Problem("articulation", f"needs a throw that carries the rods of several banks; this engine has {banks} "
+                                       'banks with rods = "alternating", one rod a throw: give rods = "shared"')
+    if master > banks:
+        return Problem("articulation.master", f"there is no bank {master}; this engine has banks 1 to {banks}")
+    return None
+
+
+def _wrong_angles(table: Articulation, banks: int) -> Iterator[Problem]:
+    path, angles, own = "articulation.knuckle_angles", table.knuckle_angles, table.master - 1
+    if angles is not None and len(angles) != banks:
+        yield Problem(path, f"has {len(angles)} angles for {banks} banks: give one for each, the master's own is 0")
+    elif angles is not None and np.any(np.asarray(angles[own]) != 0):
+        yield Problem(path, f"has {angles[own]:g} for bank {own + 1}, which carries the master rod: its own is 0")
+
+
+def linkage(file: EngineFile, layout: Plan, numbers: Sequence[int], axis: Mapping[int, Any],
+            on_knuckle: Sequence[Any], rank: int = 0) -> Articulated | None:
+    """The mechanism, with a row for each of `numbers`; `on_knuckle`: what the lower end of each rod weighs, kg;
+    `rank` as in `engine.build`."""
+    table = file.articulation
+    if table is None:
+        return None
+    chief = masters(file, layout)
+    bank = {c.number: c.bank for c in layout.cells}
+
+    def pin(n: int) -> Any:
+        if n not in chief:
+            return 0j
+        angle = table.knuckle_angles[bank[n]] if table.knuckle_angles else axis[n] - axis[chief[n]]
+        return table.knuckle_radius / (file.crank.stroke / 2) * unit(angle)
+
+    return Articulated(
+        mass=_rows([m if n in chief else 0.0 for n, m in zip(numbers, on_knuckle, strict=True)], rank),
+        master=np.array([numbers.index(chief.get(n, n)) for n in numbers]),
+        knuckle=_rows([pin(n) for n in numbers], rank),
+        lead_deg=_rows([axis[n] - axis[chief.get(n, n)] for n in numbers], rank))
+
+
+def locked(file: EngineFile, c: Cylinders, numbers: Sequence[int]) -> Iterator[Problem]:
+    """Articulated cylinders whose rod cannot follow its knuckle pin all the way round."""
+    if not isinstance(c.linkage, Articulated):
+        return
+    with np.errstate(invalid="ignore"):                                     # beyond 1 there is no angle
+        leans = np.abs(c.linkage.motion(revolution(_STEPS), c.lam, c.eps).lean).reshape(len(numbers), -1, _STEPS).max(axis=1)
+    turned = c.angle_deg.reshape(len(numbers), -1)[:, 0]
+    for row, number in enumerate(numbers):
+        worst = int(leans[row].argmax())
+        if c.linkage.master[row] != row and leans[row, worst] + _rise(leans[row], worst) > 1 - NEAREST_TO_LOCK:
+            yield _lock(file, number, leans[row, worst], (360 / _STEPS * worst - turned[row]) % 360)
+
+
+def _lock(file: EngineFile, number: int, lean: float, crank: float) -> Problem:
+    own = file.cylinder.get(number)
+    general = own is None or own.rod_length is None is own.rod_ratio
+    return Problem("articulation.rod.length" if general else f"cylinder.{number}.rod_length",
+                   f"the crank cannot turn: at crank angle {crank:.4g} deg the knuckle pin of cylinder {number} stands "
+                   f"{lean:.9g} rod lengths beside the path of its piston pin; at most 1 - {NEAREST_TO_LOCK:g} is "
+                   "allowed: make the articulated rod longer or the knuckle radius smaller")
+
+
+def _rise(values: Any, top: int) -> float:
+    """How far a parabola through a sampled maximum and its neighbours rises above it."""
+    before, at, after = values[top - 1], values[top], values[(top + 1) % len(values)]
+    bend = 2 * at - before - after
+    return float((after - before) ** 2 / (8 * bend)) if bend > 0 else 0.0
+
+
+def _rows(values: Sequence[Any], rank: int) -> Any:
+    """One row each; scalars get trailing axes of length 1."""
+    rows = np.stack(np.broadcast_arrays(*map(np.asarray, values)))
+    return rows.reshape(len(values), *rows.shape[1:] or (1,) * rank)

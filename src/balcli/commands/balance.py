@@ -1,0 +1,42 @@
+"""`balcli balance`"""
+from __future__ import annotations
+
+from . import wishes
+from .options import EngineFile, Format, FormatOption, Orders, Output, Speed, Units, UnitsOption, checked_speed, order_list
+
+
+def balance(
+    file: EngineFile,
+    scheme: wishes.Scheme = "auto",
+    order: wishes.Order = None,
+    at: wishes.At = None,
+    position: wishes.Position = None,
+    planes: wishes.Planes = None,
+    factor: wishes.Factor = None,
+    roll: wishes.Roll = None,
+    radius: wishes.Radius = None,
+    thickness: wishes.Thickness = None,
+    disc: wishes.Disc = None,
+    drill: wishes.Drill = None,
+    write: wishes.Write = None,
+    speed: Speed = None,
+    orders: Orders = None,
+    format: FormatOption = Format.TABLE,                                    # noqa: A002 (the option's name)
+    units: UnitsOption = Units.SI,
+    output: Output = None,
+) -> None:
+    """Size counterweights, balancer shafts or sliders, and show what is left with them."""
+    from ..balance import balance as balanced
+    from ..render.formats import balances
+    from .output import emit
+    from .several import engine_and_text
+    from .writing import write_fitted
+
+    wish, tools = wishes.wish_of(order, at, position, planes, factor, roll), wishes.shop_tools(radius, thickness, disc, drill)
+    asked = order_list(orders)
+    text, engine = engine_and_text(file, checked_speed(speed))
+    result = balanced(engine, scheme, wish, asked, tools)
+    shown = balances(result, format, units, into_file=output is not None)
+    if write is not None:
+        write_fitted(file, text, result.remedy, write)
+    emit(shown, output)

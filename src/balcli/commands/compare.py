@@ -1,0 +1,30 @@
+"""`balcli compare`"""
+from __future__ import annotations
+
+from ..render.formats import Format, Units
+from .options import EngineFiles, FormatOption, Only, Orders, Output, Speed, UnitsOption, checked_speed, order_list
+
+
+def compare(
+    files: EngineFiles,
+    format: FormatOption = Format.TABLE,                                    # noqa: A002 (the option's name)
+    speed: Speed = None,
+    orders: Orders = None,
+    only: Only = None,
+    units: UnitsOption = Units.SI,
+    output: Output = None,
+) -> None:
+    """Engines side by side: free forces and moments by order, peaks, and their ratios to the first engine's."""
+    from ..compare import compare as compared
+    from ..render import compare as rendered
+    from ..render.formats import render
+    from ..render.units import SYSTEMS
+    from .output import emit
+    from .several import engine_of
+
+    rpm, asked = checked_speed(speed), order_list(orders)
+    engines = [engine_of(file, rpm)[1] for file in files]
+    chosen = None if only is None else [word.strip() for word in only.split(",")]
+    found = compared(engines, [engine.name or file for engine, file in zip(engines, files, strict=True)], asked, chosen)
+    emit(render(format, sheets=lambda: [rendered.sheet(found, SYSTEMS[units])], documents=lambda: [rendered.document(found)],
+                rows=lambda: rendered.rows(found, SYSTEMS[units]), into_file=output is not None), output)

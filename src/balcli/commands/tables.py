@@ -1,0 +1,37 @@
+"""`balcli tables`: the printed coefficient tables, recomputed."""
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from ..render.formats import Format
+from .options import FormatOption, Output
+
+Name = Annotated[str | None, typer.Argument(help="Which table; without it, all are listed.", show_default=False)]
+Errata = Annotated[bool, typer.Option("--errata", help="List every printed figure that is not the exact one rounded.")]
+Lam = Annotated[str | None, typer.Option("--lambda", metavar="0.20:0.40:0.01", show_default=False,
+                                            help="Other crank ratios than the printed ones; or a list 0.25,1/3.")]
+Angle = Annotated[str | None, typer.Option("--angle", metavar="0:180:5", show_default=False,
+                                              help="Other crank angles (degrees).")]
+Power = Annotated[int | None, typer.Option(min=0, max=200, show_default=False,
+                                              help="Highest power of lambda in `series`; default 12.")]
+Digits = Annotated[int | None, typer.Option(min=0, max=17, show_default=False,
+                                               help="Decimals; default: as printed (JSON and CSV: all).")]
+
+
+def tables(name: Name = None, errata: Errata = False, lam: Lam = None, angle: Angle = None, power: Power = None,
+           digits: Digits = None, form: FormatOption = Format.TABLE, output: Output = None) -> None:
+    """The printed coefficient tables of five books and papers, recomputed, and every misprint in them."""
+    from ..render import printed
+    from ..tables import select
+    from .output import emit
+
+    shown, into_file = select(name, lam, angle, power), output is not None
+    if errata:
+        text = printed.errata(shown, form, into_file=into_file)
+    elif name:
+        text = printed.table(shown[0], form, digits, into_file=into_file)
+    else:
+        text = printed.names(shown, form, into_file=into_file)
+    emit(text, output)

@@ -1,0 +1,87 @@
+"""Options of `balance`, and what the schemes understand of them (SI)."""
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..errors import BalcliError
+
+if TYPE_CHECKING:
+    from ..sizing import Tools, Wish
+
+MOST_FACTORS = 1000
+
+Scheme = Annotated[str, typer.Option("--scheme", "--with", metavar="NAME", help="auto, counterweights, factor, minimax, single-shaft, "
+                                     "two-shaft, four-shaft, couple-shaft, slider, eccentric-slider or oldham.")]
+Order = Annotated[int | None, typer.Option(metavar="N", show_default=False, help="Order to balance; default: the lowest that is free.")]
+At = Annotated[list[str] | None, typer.Option(metavar="X,Y", show_default=False,
+                                              help="Place in mm of the shaft turning against the crank; given twice: of both.")]
+Position = Annotated[str | None, typer.Option(metavar="Z", show_default=False, help="Axial place of new devices, mm.")]
+Planes = Annotated[str | None, typer.Option(metavar="ends|throws|Z,Z...", show_default=False, help="Axial places of several devices, mm.")]
+Factor = Annotated[str | None, typer.Option(metavar="K|K:K:STEP", show_default=False, help="Share of the reciprocating mass; default 0.5.")]
+Roll = Annotated[str | None, typer.Option(metavar="zero", show_default=False, help="Place a pair of shafts such that no roll is left.")]
+Radius = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help="Where masses are stated; default: crank radius.")]
+Thickness = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help="Of a semicircular steel disc; default 20.")]
+Disc = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help="Radius of that disc, instead of its thickness.")]
+Drill = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help="Drill for a radial hole from --radius inwards.")]
+Write = Annotated[Path | None, typer.Option("--write", metavar="OUT.toml", show_default=False,
+                                            help="Write the engine with the devices fitted.")]
+
+
+def wish_of(order: int | None, at: Sequence[str] | None, position: str | None, planes: str | None, factor: str | None,
+            roll: str | None) -> Wish:
+    """The wish; BalcliError for a text that says nothing, with the text."""
+    from ..sizing import Wish
+
+    return Wish(
+        order=order,
+        at=tuple(map(_place, at)) if at else None,
+        position=None if position is None else _numbers("--position", position, "one place along z in mm, such as 40", 1)[0] / 1e3,
+        planes=None if planes is None else _planes(planes),
+        factor=None if factor is None else _factors(factor),
+        roll=roll,
+    )
+
+
+def shop_tools(radius: float | None, thickness: float | None, disc: float | None, drill: float | None) -> Tools:
+    """mm -> m."""
+    from ..sizing import Tools
+
+    return Tools(*(None if length is None else length / 1e3 for length in (radius, thickness, disc, drill)))
+
+
+def _place(text: str) -> complex:
+    x, y = _numbers("--at", text, "x,y of a shaft in mm, such as -40,60", 2)
+    return complex(x / 1e3, y / 1e3)
+
+
+def _planes(text: str) -> str | tuple[float, ...]:
+    if text in ("ends", "throws"):
+        return text
+    return tuple(z / 1e3 for z in _numbers("--planes", text, "ends, throws, or places along z in mm, such as -200,200"))
+
+
+def _factors(text: str) -> tuple[float, ...]:
+    """`0.5`, `0.4,0.5` or `0:1:0.1` (ends included)."""
+    wanted = "a share of the reciprocating mass such as 0.5, or a range such as 0:1:0.1"
+    if ":" not in text:
+        return _numbers("--factor", text, wanted)
+    parts = [_numbers("--factor", part, wanted, 1)[0] for part in text.split(":")]
+    if len(parts) != 3 or parts[2] <= 0 or parts[1] < parts[0] or (parts[1] - parts[0]) / parts[2] > MOST_FACTORS:
+        raise BalcliError(f'--factor "{text}": a range is first:last:step, rising, with at most {MOST_FACTORS} steps; give {wanted}')
+    first, last, step = parts
+    return tuple(round(first + k * step, 12) for k in range(int((last - first) / step + 1e-9) + 1))
+
+
+def _numbers(option: str, text: str, wanted: str, count: int | None = None) -> tuple[float, ...]:
+    try:
+        found = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        found = ()
+    if not found or not all(map(math.isfinite, found)) or (count is not None and len(found) != count):
+        raise BalcliError(f'{option} "{text[:60]}": give {wanted}')
+    return found

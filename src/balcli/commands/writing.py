@@ -1,0 +1,21 @@
+"""`--write`: the engine with its devices, as a new file."""
+from __future__ import annotations
+
+from pathlib import Path
+
+from ..enginefile import name_of
+from ..errors import BalcliError
+from ..fit import fit
+from ..sizing import Remedy
+from .output import write
+
+
+def write_fitted(source: str, text: bytes, remedy: Remedy, target: Path) -> None:
+    """Write the engine file with these devices; never over the file that it was read from.
+
+    Raises:
+        BalcliError: the target is the source, or cannot be written, or the devices cannot be described.
+    """
+    if source != "-" and target.exists() and target.samefile(source):
+        raise BalcliError(f"--write {target}: this is the engine file itself, which stays as it is; choose another name")
+    write(fit(text, remedy, name_of(source)), target)

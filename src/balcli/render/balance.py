@@ -1,0 +1,137 @@
+"""What a person reads of a balance: devices, their practical figures, and what shakes before and after."""
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from ..balance import Balance
+from ..core.peaks import Peak
+from .devices import device_grid
+from .figures import order_number
+from .sheet import Facts, Grid, Sheet, Text, degrees, number
+from .units import System, Unit
+
+_UNITS = {"N": "force", "Nm": "moment", "kg_m": "unbalance", "mm": "length"}
+_CARD = ("piston_g", "small_end_g", "big_end_g", "rod_bearing_g", "oil_g", "rotating_g", "reciprocating_g", "bobweight_g")
+
+
+def sheet(result: Balance, system: System) -> Sheet:
+    """Why and what, the workshop's figures, and both analyses side by side."""
+    remedy = result.remedy
+    order = "" if remedy.order is None else f", order {remedy.order}"
+    parts: list[Grid | Facts | Text] = []
+    if remedy.reasons:
+        parts.append(Text("What is fitted, and why", tuple(dict.fromkeys(remedy.reasons))))
+        parts += [device_grid(remedy, system), _practical(result, system)]
+    else:
+        parts.append(Text("Nothing is fitted", () if "note" in remedy.details else ("Orders 1 and 2 are balanced.",)))
+    if "note" in remedy.details:
+        parts.append(Text("Note", (str(remedy.details["note"]),)))
+    parts += _details(remedy.details, system)
+    parts += [_orders(result, system), _peaks(result, system)]
+    return Sheet(f"{result.before.engine.name or 'engine without a name'}: {remedy.scheme}{order}", tuple(parts))
+
+
+def _practical(result: Balance, system: System) -> Grid:
+    rows = []
+    first = result.practical[0]
+    drilled = first.depth is not None
+    for k, p in enumerate(result.practical, 1):
+        depth = [] if p.depth is None else ["too small" if math.isnan(p.depth) else number(system.length.of(p.depth), 3)]
+        rows.append((str(k), f"{p.speed_rpm:.0f}", number(system.force.of(p.force)), number(system.mass.of(p.mass), 4),
+                     number(system.length.of(p.disc_radius), 3), number(system.length.of(p.disc_thickness), 3), *depth))
+    names = ("device", "rpm", f"pulls, {system.force.name}", f"mass, {system.mass.name}", f"disc r, {system.length.name}",
+             f"thick, {system.length.name}", *([f"drill, {system.length.name}"] if drilled else []))
+    hole = "; drill: depth of a radial hole from that radius inwards that removes as much" if drilled else ""
+    return Grid("Practical figures", names, tuple(rows),
+                note=f"Mass at a radius of {number(system.length.of(first.radius), 4)} {system.length.name}; "
+                     f"disc: a semicircular one of steel{hole}.")
+
+
+# ------------------------------------------------------------------ before and after
+def _orders(result: Balance, system: System) -> Grid:
+    columns = (("force", system.force), ("moment", system.moment), ("roll", system.moment))
+
+    def row(k: int) -> tuple[str, ...]:
+        cells = [f"{order_number(result.before.orders[k])}"]
+        for quantity, unit in columns:
+            for analysis in (result.before, result.after):
+                phasors = getattr(analysis.spectra, quantity)
+                cells.append("balanced" if phasors.balanced[k] else number(unit.of(float(phasors.major[k])), 4))
+        return tuple(cells)
+    heads = [f"{name}, {unit.name}" if n == 0 else "after" for name, unit in columns for n in (0, 1)]
+    return Grid("Largest value by order, before and after", ("order", *heads), tuple(map(row, range(len(result.before.orders)))))
+
+
+def _peaks(result: Balance, system: System) -> Grid:
+    before, after = result.before, result.after
+    pairs = (("force", before.force, after.force, system.force), ("moment", before.moment, after.moment, system.moment))
+    rows = [(f"{name}, {unit.name}", *(cell for peak in peaks for cell in _peak(peak, unit))) for name, *peaks, unit in pairs]
+    note = "Sized for steady mean speed; both columns are those of the uneven speed." if result.before.engine.ripple else ""
+    return Grid("Largest over a revolution, all orders", ("", "before", "at, deg", "after", "at, deg"), tuple(rows), note=note)
+
+
+def _peak(peak: Peak | None, unit: Unit) -> tuple[str, str]:
+    if peak is None or not peak.value:
+        return "none", "–"
+    return number(unit.of(peak.value)), degrees(float(np.degrees(peak.theta)))
+
+
+# ------------------------------------------------------------------ details
+def _details(details: Mapping[str, Any], system: System) -> Iterator[Grid | Facts | Text]:
+    """Figures of a scheme that are no device."""
+    plain = [fact for key, value in details.items() if key == "reached_deg" or (key != "note" and not isinstance(value, list))
+             for fact in _facts(key, value, system)]
+    if plain:
+        yield Facts(tuple(plain), "Details")
+    if "card" in details:
+        yield _card(details["card"])
+    if "sweep" in details:
+        yield _sweep(details["sweep"], system)
+    if "optima" in details:
+        yield _optima(details["optima"])
+
+
+def _facts(key: str, value: Any, system: System) -> Iterator[tuple[str, str]]:
+    if isinstance(value, Mapping):
+        for name, part in value.items():
+            yield from _facts(f"{key} {name}", part, system)
+        return
+    words = key.replace("_", " ")
+    if isinstance(value, list):
+        yield words, ", ".join(degrees(v) for v in value)
+    elif isinstance(value, float):
+        ending = next((e for e in _UNITS if key.endswith(f"_{e}")), "")
+        unit = getattr(system, _UNITS[ending]) if ending else Unit("", 1.0)
+        si = value / 1e3 if ending == "mm" else value
+        yield words.removesuffix(ending.replace("_", " ")).strip(), f"{number(unit.of(si))} {unit.name}".strip()
+    else:
+        yield words, str(value)
+
+
+def _card(card: list[dict[str, Any]]) -> Grid:
+    """Grams are what a balancing shop's scales show, in either system; equal pins stand in one column."""
+    equal: dict[tuple[float, ...], list[dict[str, Any]]] = {}
+    for entry in card:
+        equal.setdefault(tuple(entry[key] for key in _CARD), []).append(entry)
+    rows = [(key.removesuffix("_g").replace("_", " "), *(number(entries[0][key], 5) for entries in equal.values())) for key in _CARD]
+    heads = [f"cylinders {', '.join(str(n) for entry in entries for n in entry['cylinders'])}" for entries in equal.values()]
+    pins = "each pin" if len(equal) < len(card) else "pin"
+    return Grid(f"Bobweight card, g for {pins}", ("", *heads), tuple(rows))
+
+
+def _sweep(sweep: list[dict[str, float]], system: System) -> Grid:
+    unit = system.force
+    rows = [(f"{row['factor']:g}", *(number(unit.of(row[key])) for key in ("peak_force_N", "along_N", "across_N")),
+             number(system.moment.of(row["peak_moment_Nm"]))) for row in sweep]
+    heads = ("factor", f"force, {unit.name}", "along 1st bank", "across it", f"moment, {system.moment.name}")
+    return Grid("Largest values by factor", heads, tuple(rows))
+
+
+def _optima(optima: list[dict[str, Any]]) -> Grid:
+    rows = [(o["design"], o["criterion"], o["engine_force"], f"{o['k']:.5f}",
+             f"{o['mu']:.6f}", f"{o['largest']:.6f}", f"{o['mean']:.6f}") for o in optima]
+    return Grid("Optima of both designs", ("design", "criterion", "engine force", "k", "μ", "largest/J", "mean/J"), tuple(rows))

@@ -1,0 +1,45 @@
+"""The best value of one angle: a grid for the valleys, then ever finer grids in each."""
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from .objective import Array
+
+STEP = 0.5                      # deg
+FINER = 20                      # times, from one grid to the next
+ROUNDS = 6
+ROUND = (1.0, 0.1, 0.01, 0.001, 1e-4)    # deg: the roundest angle that is as good is taken
+
+
+def valleys(value: Callable[[Array], Array], low: float, high: float, count: int) -> Array:
+    """The lowest places of a function of an angle in [low, high], at most `count`, lowest first; inf is no value."""
+    x = np.linspace(low, high, round((high - low) / STEP) + 1)
+    y = value(x)
+    padded = np.concatenate([[np.inf], y, [np.inf]])
+    deep = np.isfinite(y) & (y <= padded[:-2]) & (y <= padded[2:])
+    deep[1:] &= ~(deep[:-1] & (y[1:] == y[:-1]))                            # a level stretch is one valley
+    best = np.flatnonzero(deep)[np.argsort(y[deep], kind="stable")][:count]
+    found = _deepened(value, x[best], low, high)
+    return np.unique(found)[np.argsort(value(np.unique(found)), kind="stable")]
+
+
+def _deepened(value: Callable[[Array], Array], x: Array, low: float, high: float) -> Array:
+    width = STEP
+    for _ in range(ROUNDS):
+        around = np.clip(x[:, None] + np.linspace(-width, width, 2 * FINER + 1), low, high)
+        y = value(around.ravel()).reshape(around.shape)
+        x = around[np.arange(len(x)), y.argmin(axis=1)]
+        width /= FINER
+    return _rounded(value, x)
+
+
+def _rounded(value: Callable[[Array], Array], x: Array) -> Array:
+    """The same angles, or rounder ones that are as good but for rounding errors."""
+    y = value(x)
+    slack = 1e-9 * np.abs(y) + 1e-9 * value(np.clip(x + STEP, None, x.max(initial=0) + STEP))
+    for grain in reversed(ROUND):
+        rounder = np.round(x / grain) * grain
+        x = np.where(value(rounder) <= y + slack, rounder, x)
+    return x

@@ -1,0 +1,52 @@
+"""Kvasnikov, Determination of the unbalance of piston engines, Tomsk 1920: Tables I and II.
+
+A_n of the piston's and D_k of the rod's acceleration. The errata are recomputed from one and two terms of the series.
+"""
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+import numpy as np
+
+from ..core import harmonics, series
+from ..core.slidercrank import Real
+from .options import Options
+from .printed import Print, cells
+from .ranges import values
+from .table import Explanation, Row, Table
+
+Exact: TypeAlias = Callable[[list[int], Real], Real]
+Terms: TypeAlias = Callable[[int, int], series.Series]
+
+
+def piston(printed: Print, options: Options) -> Table:
+    """Table I: A_n."""
+    return _table(printed, options, harmonics.piston, series.piston)
+
+
+def rod(printed: Print, options: Options) -> Table:
+    """Table II: D_k."""
+    return _table(printed, options, harmonics.rod, series.rod)
+
+
+def _table(printed: Print, options: Options, exact: Exact, terms: Terms) -> Table:
+    headings = options.lam or printed.headings()
+    lam = np.array(values(headings))
+    stub = [label or "" for label in printed.column("coefficient")]
+    orders = [int(label.partition("_")[2]) for label in stub]
+    columns = (printed.columns[0], *headings)
+
+    def rows(body: Real) -> tuple[Row, ...]:
+        return tuple((label, *cells(line)) for label, line in zip(stub, body, strict=True))
+
+    def first(count: int) -> tuple[Row, ...]:
+        return rows(np.array([_sum(terms(n, n + 2 * count), lam, count) for n in orders]))
+    return printed.table(columns, rows(exact(orders, lam)), printed.aligned(stub, columns), [
+        Explanation("author's approximation: first term of the series alone", first(1)),
+        Explanation("author's approximation: two terms of the series", first(2)),
+    ])
+
+
+def _sum(terms: series.Series, lam: Real, count: int) -> Real:
+    return np.asarray(sum(float(terms[p]) * lam**p for p in sorted(terms)[:count]))

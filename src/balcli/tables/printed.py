@@ -1,0 +1,89 @@
+"""The printed figures: package data, one CSV file a table, headed by its source."""
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from importlib.resources import files
+from typing import TypeAlias
+
+from .table import Cell, Explanation, Row, Table, Words
+
+Key: TypeAlias = Fraction | str
+
+
+@dataclass(frozen=True)
+class Print:
+    """A table as printed; cells that are not printed are None."""
+
+    name: str
+    source: str
+    title: str
+    columns: tuple[str, ...]
+    rows: tuple[Words, ...]
+
+    def column(self, heading: str) -> Words:
+        return tuple(row[self.columns.index(heading)] for row in self.rows)
+
+    def numbers(self, heading: str) -> list[float]:
+        """A column all of whose cells are numbers."""
+        return [float(number(text or "")) for text in self.column(heading)]
+
+    def headings(self) -> tuple[str, ...]:
+        """The headings that are numbers: 0.24, 1/4.5."""
+        return tuple(c for c in self.columns if isinstance(key(c), Fraction))
+
+    def aligned(self, stub: Sequence[str], columns: Sequence[str]) -> tuple[Words, ...]:
+        """The printed cells of these rows (found by the first column) and columns; None where nothing is printed."""
+        rows = {key(row[0] or ""): row for row in self.rows}
+        places = {key(c): j for j, c in enumerate(self.columns)}
+
+        def cell(row: Words | None, column: str) -> str | None:
+            place = places.get(key(column))
+            return None if row is None or place is None else row[place]
+        return tuple(tuple(cell(rows.get(key(s)), c) for c in columns) for s in stub)
+
+    def table(self, columns: Sequence[str], rows: Sequence[Row], printed: Sequence[Words] | None = None,
+              explanations: Sequence[Explanation] = (), stub: int = 1) -> Table:
+        """The recomputed rows beside the print; without `printed`, row by row, further columns having no print."""
+        if printed is None:
+            printed = [words + (None,) * (len(columns) - len(words)) for words in self.rows]
+        return Table(self.name, self.title, self.source, tuple(columns), tuple(rows), tuple(printed),
+                     tuple(explanations), stub)
+
+
+def load(name: str) -> Print:
+    """The print of a table: `# source:` and `# title:` lines, headings, rows."""
+    text = files(__package__).joinpath("data", f"{name}.csv").read_text(encoding="utf-8")
+    lines = text.splitlines()
+    notes = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
+    head, *body = csv.reader(line for line in lines if not line.startswith("# "))
+    rows = tuple(tuple(cell or None for cell in row) for row in body)
+    return Print(name, notes["source"], notes["title"], tuple(head), rows)
+
+
+def number(text: str) -> Fraction:
+    """`0.24`, `1/4.5`, `.0048` or `-1.6`, exactly.
+
+    Raises:
+        ValueError: the text is no number.
+    """
+    above, _, below = text.strip().partition("/")
+    try:
+        return Fraction(above) / Fraction(below or 1)
+    except ZeroDivisionError:
+        raise ValueError(text) from None
+
+
+def key(text: str) -> Key:
+    """What identifies a row or column: its number where it is one (so that 0.3 is 0.30), or else its text."""
+    try:
+        return number(text)
+    except ValueError:
+        return text
+
+
+def cells(values: Iterable[float]) -> list[Cell]:
+    """Numbers of any kind as plain floats; minus zero as zero."""
+    return [float(v) + 0.0 for v in values]

@@ -1,0 +1,72 @@
+"""Ranges on the command line: `0.20:0.40:0.01`, `0.24,0.28,1/3`."""
+from __future__ import annotations
+
+import re
+from decimal import Decimal
+from fractions import Fraction
+
+from ..errors import BalcliError
+from .printed import number
+
+MOST, LARGEST = 100_000, 10**9
+_PLAIN = re.compile(r"[-+.\d/]{1,30}(e-?\d{1,2})?", re.IGNORECASE)
+
+
+def headings(text: str, option: str) -> tuple[str, ...]:
+    """The numbers of a range as they would be printed; both ends of START:STOP:STEP are included.
+
+    Raises:
+        BalcliError: it is neither a range nor a list of numbers, or too long.
+    """
+    try:
+        parts = [list(map(_exact, item.split(":"))) for item in text.split(",")]
+        found = [heading for part in parts for heading in _run(*part)]
+    except (ValueError, TypeError, ArithmeticError):
+        hint = "give START:STOP:STEP (0.20:0.40:0.01) or a list (0.24,0.28,1/3)"
+        raise BalcliError(f"{option} {text!r} is no range: {hint}") from None
+    return tuple(dict.fromkeys(found))
+
+
+def values(found: tuple[str, ...]) -> list[float]:
+    """The numbers themselves."""
+    return [float(number(heading)) for heading in found]
+
+
+def crank_ratios(text: str) -> tuple[str, ...]:
+    """A range of lambda = crank radius / rod length.
+
+    Raises:
+        BalcliError: as in `headings`, or a mechanism of the range cannot turn.
+    """
+    found = headings(text, "--lambda")
+    bad = next((heading for heading in found if not 0 < float(number(heading)) < 1), None)
+    if bad is not None:
+        raise BalcliError(f"--lambda {text!r}: lambda = {bad}, but a crank turns only with 0 < lambda < 1")
+    return found
+
+
+def _exact(text: str) -> tuple[str, Fraction]:
+    """The text and its number, as long as that can be an angle or a ratio."""
+    if not _PLAIN.fullmatch(text.strip()):
+        raise ValueError(text)
+    value = number(text)
+    if abs(value) > LARGEST:
+        raise ValueError(text)
+    return text.strip(), value
+
+
+def _run(start: tuple[str, Fraction], stop: tuple[str, Fraction] | None = None,
+         step: tuple[str, Fraction] | None = None) -> list[str]:
+    if stop is None:
+        return [start[0]]
+    stride = step[1] if step else Fraction(1)
+    count = (stop[1] - start[1]) / stride
+    if not 0 <= count < MOST:
+        raise ValueError(count)
+    return [_heading(start[1] + i * stride) for i in range(int(count) + 1)]
+
+
+def _heading(value: Fraction) -> str:
+    """0.24 for 6/25; a fraction that ends in no decimal stays one."""
+    decimal = Decimal(value.numerator) / value.denominator
+    return f"{decimal.normalize():f}" if Fraction(decimal) == value else str(value)

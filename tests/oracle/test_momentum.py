@@ -1,0 +1,111 @@
+"""balcli against a momentum calculation on a grid that shares nothing with it (see momentum.py)."""
+from __future__ import annotations
+
+from pathlib import Path
+
+import momentum
+import numpy as np
+import pytest
+
+from balcli import analysis, engine, enginefile, spectrum
+
+TOLERANCE = 1e-11           # of the largest first-order amplitude of one cylinder
+ORDERS = np.arange(0.0, 11.0)
+ENGINES = sorted((Path(__file__).parents[2] / "engines").glob("*.toml"))
+
+BASE = """\
+[crank]
+stroke = 120
+throw_mass = 2.0
+{crank}
+[rod]
+length = 240
+mass = 1.9
+cg = 55
+inertia = 21000
+[piston]
+mass = 1.3
+{piston}
+[layout]
+{layout}
+[operation]
+speed = 2300
+{operation}
+{more}
+"""
+ARTICULATED = """
+[articulation]
+knuckle_radius = 52
+rod = { length = 188, mass = 0.62, cg = 90, inertia = 3500 }
+"""
+RIPPLE = "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }, { order = 3, amplitude = 0.02, angle = -75 }]"
+DISPLACED = """
+[frame]
+reference = [70, -40, 25]
+[[counterweight]]
+unbalance = 690000
+angle = 170
+position = 12
+[[shaft]]
+ratio = -2
+unbalance = 9000
+angle = 35
+at = [-40, 60]
+position = -30
+[[slider]]
+order = 3
+unbalance = 2000
+direction = 50
+angle = 15
+at = [12, 9]
+"""
+CASES = {
+    "centred": {"layout": "bank_angle = 70\nstagger = 20", "crank": "throws = [0, 130, 265]\nspacing = 110"},
+    "offset": {"layout": "banks = [-30, 35]", "crank": "throws = [0, 130]\nspacing = 110\nsplay = 12", "piston": "offset = 9"},
+    "displaced reference": {"layout": "bank_angle = 70", "piston": "offset = -7", "more": DISPLACED},
+    "uneven speed": {"layout": "bank_angle = 70", "piston": "offset = -7", "operation": RIPPLE, "more": DISPLACED},
+    "radial with master rod": {"layout": "radial = 7", "more": ARTICULATED},
+    "two rows with master rods": {"layout": "radial = 5\nstagger = 4", "crank": "throws = [0, 180]\nspacing = 160", "piston": "offset = 6",
+                                  "more": ARTICULATED + "[cylinder.4]\nrod_length = 180\npiston_mass = 1.5"},
+    "vee with articulated rods": {"layout": "bank_angle = 60", "crank": "throws = [0, 120, 240, 240, 120, 0]\nspacing = 160",
+                                  "more": ARTICULATED.replace("knuckle", "master = 2\nknuckle_angles = [-66.5, 0]\nknuckle")},
+    "rotary": {"layout": "radial = 5\nrotary = true"},
+    "rotary in two rows, offset": {"layout": "radial = 3\nrotary = true\nstagger = 3", "piston": "offset = 11",
+                                   "crank": "throws = [0, 175]\nspacing = 160", "more": DISPLACED},
+    "rotary, one cylinder, uneven speed": {"layout": "rotary = true", "piston": "offset = -5", "operation": RIPPLE, "more": DISPLACED},
+    "articulated, uneven, displaced": {"layout": "radial = 5", "piston": "offset = 8", "operation": RIPPLE, "more": ARTICULATED + DISPLACED},
+}
+
+
+def compare(text: str) -> None:
+    """Every order of every quantity, in units of what one cylinder does."""
+    oracle = momentum.Engine.read(text)
+    curves, scales = oracle.curves(), oracle.scales()
+    found = spectrum.spectra(engine.build(enginefile.parse(text)), ORDERS)
+    for quantity, phasors in found.items():
+        for row, n in enumerate(ORDERS):
+            forward, backward = curves.order(quantity, int(n))
+            error = max(abs(phasors.forward[row] - forward), abs(phasors.backward[row] - backward)) / scales[quantity]
+            assert error < TOLERANCE, f"{quantity} of order {n:g}: off by {error:.2e}"
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_mechanisms(name):
+    parts = {"crank": "", "piston": "", "layout": "", "operation": "", "more": ""} | CASES[name]
+    compare(BASE.format(**parts))
+
+
+@pytest.mark.parametrize("path", ENGINES, ids=lambda path: path.stem)
+def test_every_engine_that_comes_with_balcli(path):
+    compare(path.read_text(encoding="utf-8"))
+
+
+def test_one_cylinder_of_an_articulated_engine_alone():
+    """The share of a master and of an articulated cylinder in what the engine does (`--by cylinder`)."""
+    text = BASE.format(crank="", piston="", layout="radial = 5", operation="", more=ARTICULATED)
+    oracle, whole = momentum.Engine.read(text), engine.build(enginefile.parse(text))
+    for number in (1, 3):
+        curves = oracle.curves([number])
+        force = spectrum.spectra(analysis.alone(whole, number), ORDERS, ["force"]).force
+        for row, n in enumerate(ORDERS):
+            assert abs(force.forward[row] - curves.order("force", int(n))[0]) < TOLERANCE * oracle.scales()["force"]

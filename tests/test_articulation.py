@@ -1,0 +1,147 @@
+"""Articulated rods: what the file may say, strokes and dead centres, and what distinguishes them from equal rods."""
+from __future__ import annotations
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from balcli import engine, enginefile, spectrum
+from balcli.core.travel import travel
+from balcli.errors import InputError
+
+RADIAL = """\
+[crank]
+stroke = 120
+[rod]
+length = 240
+mass = 1.9
+cg = 55
+[piston]
+mass = 1.3
+[layout]
+radial = 7
+[articulation]
+knuckle_radius = 52
+rod = { length = 188, mass = 0.62, cg = 90 }
+"""
+
+
+def built(*changes: tuple[str, str], more: str = "") -> engine.Engine:
+    text = RADIAL
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    return engine.build(enginefile.parse(text + more))
+
+
+def mistakes(*changes: tuple[str, str], more: str = "") -> list[str]:
+    with pytest.raises(InputError) as caught:
+        built(*changes, more=more)
+    return [str(problem) for problem in caught.value.problems]
+
+
+# ------------------------------------------------------------------ the file
+@pytest.mark.parametrize(("changes", "more", "message"), [
+    ([("radial = 7", "")], "", "articulation: needs a throw that carries the rods of several banks; this engine has 1 bank: "
+                               "give bank_angle, banks or radial"),
+    ([("radial = 7", 'bank_angle = 60\nrods = "alternating"'), ("stroke = 120", "stroke = 120\nthrows = [0, 90]")], "",
+     "articulation: needs a throw that carries the rods of several banks; this engine has 2 banks with rods = \"alternating\", "
+     "one rod a throw: give rods = \"shared\""),
+    ([("[articulation]", "[articulation]\nmaster = 8")], "", "articulation.master: there is no bank 8; this engine has banks 1 to 7"),
+    ([("[articulation]", "[articulation]\nknuckle_angles = [0, 72]")], "",
+     "articulation.knuckle_angles: has 2 angles for 7 banks: give one for each, the master's own is 0"),
+    ([("[articulation]", "[articulation]\nknuckle_angles = [3, 50, 100, 150, 200, 250, 300]")], "",
+     "articulation.knuckle_angles: has 3 for bank 1, which carries the master rod: its own is 0"),
+    ([("stroke = 120", "stroke = 120\nsplay = 10")], "",
+     "crank.splay: articulated rods hang on the master rod and have no crank pins to split: leave splay out, or [articulation]"),
+    ([], "[cylinder.3]\nthrow = 20\n", "cylinder.3.throw: cylinder 3 has an articulated rod, which hangs on the master rod and not on "
+                                       "a crank pin: leave this out"),
+])
+def test_what_does_not_fit_together(changes, more, message):
+    assert mistakes(*changes, more=more) == [message]
+
+
+def test_a_rod_that_cannot_follow_names_the_cylinder_and_the_crank_angle():
+    """Cylinder 3's knuckle pin, on a grid of a quarter of a degree, leaves the cylinder's axis by more than its rod is long."""
+    degrees = np.arange(0, 360, 0.25)
+    theta, bank = np.radians(degrees), math.radians(720 / 7)
+    lean = np.arcsin(60 / 240 * np.sin(theta))
+    beside = np.abs(((60 * np.exp(1j * theta) + 52 * np.exp(1j * (bank - lean))) * np.exp(-1j * bank)).imag)
+    first, *rest = mistakes(("length = 188", "length = 60"), ("cg = 90", "cg = 30"))
+    found = re.fullmatch(r"articulation\.rod\.length: the crank cannot turn: at crank angle ([\d.]+) deg the knuckle pin of cylinder 3 "
+                         r"stands ([\d.]+) rod lengths beside the path of its piston pin; at most 1 - 1e-06 is allowed: "
+                         r"make the articulated rod longer or the knuckle radius smaller", first)
+    assert found
+    assert np.interp(float(found[1]), degrees, beside) == pytest.approx(beside.max(), rel=1e-5)
+    assert float(found[2]) == pytest.approx(beside.max() / 60, rel=1e-5)
+    assert [problem.split("cylinder ")[1][0] for problem in rest] == ["4", "5", "6"]
+
+
+def test_one_cylinder_with_too_short_a_rod_of_its_own():
+    (only,) = mistakes(more="[cylinder.5]\nrod_length = 59\nrod_cg = 30\n")
+    assert only.startswith("cylinder.5.rod_length: the crank cannot turn: at crank angle ")
+
+
+# ------------------------------------------------------------------ strokes and dead centres
+def test_strokes_and_dead_centres_against_fine_sampling():
+    """Places straight from THEORY 8, on a grid of 0.001 degrees."""
+    psi = np.radians(np.arange(0, 360, 0.001))
+    lean = np.arcsin(60 / 240 * np.sin(psi))
+    found = travel(built().cylinders)
+    for k in range(7):
+        bank = 2 * math.pi * k / 7
+        knuckle = (60 * np.exp(1j * psi) + 52 * (k > 0) * np.exp(1j * (bank - lean))) * np.exp(-1j * bank)
+        place = knuckle.real + np.sqrt((188 if k else 240) ** 2 - knuckle.imag**2)
+        assert found.stroke[k] * 1e3 == pytest.approx(np.ptp(place), abs=1e-7)
+        top = (math.degrees(psi[place.argmax()] - bank) + 180) % 360 - 180
+        assert found.top_deg[k] == pytest.approx(top, abs=1e-3)
+
+
+def test_an_offset_slider_crank_has_its_stroke_in_closed_form():
+    """Stroke sqrt((l+r)^2 - e^2) - sqrt((l-r)^2 - e^2), dead centres where crank and rod are in line."""
+    text = "[crank]\nstroke = 80\n[rod]\nlength = 140\n[piston]\nmass = 1\noffset = 10\n"
+    found = travel(engine.build(enginefile.parse(text)).cylinders)
+    assert found.stroke[0] * 1e3 == pytest.approx(math.sqrt(180**2 - 100) - math.sqrt(100**2 - 100), rel=1e-14)
+    assert found.top_deg[0] == pytest.approx(math.degrees(math.asin(10 / 180)), rel=1e-14)
+    assert found.bottom_deg[0] == pytest.approx(math.degrees(math.asin(10 / 100)), rel=1e-14)
+
+
+# ------------------------------------------------------------------ forces
+def test_a_radial_with_a_master_rod_shakes_forward_in_the_second_order():
+    """Equal rods on one pin: no second order at all. A master rod: a vector that turns with the crank, and little against it."""
+    equal = RADIAL[:RADIAL.index("[articulation]")]
+    before, after = (spectrum.spectra(e, [2.0], ["force"]).force for e in (engine.build(enginefile.parse(equal)), built()))
+    assert before is not None
+    assert after is not None
+    assert before.balanced[0]
+    assert abs(after.forward[0]) > 50 * abs(after.backward[0]) > 0
+
+
+def test_knuckle_pins_on_the_crank_pin_are_equal_rods():
+    """With a vanishing knuckle radius and equal rods nothing is left of the articulation."""
+    articulated = built(("knuckle_radius = 52", "knuckle_radius = 1e-11"), ("length = 188, mass = 0.62, cg = 90", "length = 240, mass = 1.9, cg = 55"))
+    plain = engine.build(enginefile.parse(RADIAL[:RADIAL.index("[articulation]")]))
+    orders = np.arange(1.0, 9.0)
+    one, other = spectrum.spectra(articulated, orders), spectrum.spectra(plain, orders)
+    for (quantity, a), (_, b) in zip(one.items(), other.items(), strict=True):
+        assert np.abs(a.forward - b.forward).max() < 1e-8 + 1e-12 * np.abs(b.forward).max(), quantity
+
+
+def test_variants_on_a_trailing_axis():
+    """A sweep of knuckle radius and rod length gives what each variant alone gives."""
+    file = enginefile.parse(RADIAL)
+    table = file.articulation
+    assert table is not None
+    radii, lengths = np.array([40.0, 52.0, 60.0]), np.array([180.0, 188.0, 230.0])
+    def variant(radius, length):
+        rod = table.rod.model_copy(update={"length": length})
+        return file.model_copy(update={"articulation": table.model_copy(update={"knuckle_radius": radius, "rod": rod})})
+    orders = np.arange(1.0, 7.0)
+    together = spectrum.spectra(engine.build(variant(radii, lengths), rank=1), orders)
+    for k in range(3):
+        alone = spectrum.spectra(engine.build(variant(radii[k], lengths[k])), orders)
+        for (quantity, many), (_, one) in zip(together.items(), alone.items(), strict=True):
+            difference = np.abs(np.broadcast_to(many.forward, (6, 3))[:, k] - one.forward).max()
+            assert difference <= 1e-12 * np.abs(one.forward).max(initial=1e-9), quantity

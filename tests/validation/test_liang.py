@@ -1,0 +1,65 @@
+"""Liang Shoupan: Engine Dynamics (in Chinese), Commercial Press, 1948: section 1-2, and the worked examples.
+
+p = r/l; weights in lb, lengths in in, g = 32.174 ft/s^2.
+"""
+from __future__ import annotations
+
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+
+from balcli.core import harmonics, series
+from balcli.tables import recompute
+
+P = 2 / 7
+OMEGA = 4000 * 2 * pi / 60
+G = 9.80665 / 0.3048
+
+
+def answers():
+    table = recompute("liang-examples")
+    return [row[table.columns.index("answer")] for row in table.rows]
+
+
+def test_small_coefficients_at_p_0_3():
+    """a_6 = 0.00019 (0.000190081 in two terms, 0.000191937 in all), a_8 = -4.27e-6 in one term, -5.027e-6 in all."""
+    a6, a8 = harmonics.piston([6, 8], 0.3)
+    assert float(a6) == pytest.approx(1.91937e-4, rel=1e-5)
+    assert float(a8) == pytest.approx(-5.0272e-6, rel=1e-5)
+    assert sum(float(c) * 0.3**p for p, c in series.piston(6, 7).items()) == pytest.approx(1.90081e-4, rel=1e-5)
+    assert float(series.piston(8, 7)[7]) * 0.3**7 == pytest.approx(-4.27148e-6, rel=1e-5)
+
+
+def test_example_1():
+    """Reciprocating weight 1 + 2.75 (2/7) lb; r omega^2 (1 + p); their product over g."""
+    weight, acceleration = 1 + 2.75 * P, 2 / 12 * OMEGA**2 * (1 + P)
+    assert answers()[:3] == pytest.approx([weight, acceleration, weight * acceleration / G], rel=1e-12)
+
+
+def test_example_2():
+    """Triangular rod: hk = 2/9, q^2 = 1/18; the residual couple has the factor 1/sqrt(1 - p^2) (print: 1.036)."""
+    factor = 1 / sqrt(1 - P**2)
+    couple = 2.75 / G * (1 / 6) * (7 / 12) * (2 / 12) * OMEGA**2 * factor
+    assert answers()[3:8] == pytest.approx([2 / 9, 1 / 18, 1 / 6, factor, couple], rel=1e-12)
+
+
+def test_example_3():
+    """Rotating 1 + 3 lb, reciprocating 2 + 6 lb; (4 + 8/2) 3/3.5 lb."""
+    assert answers()[8:] == pytest.approx([4, 8, 8 * 3 / 3.5], rel=1e-14)
+
+
+def test_answers_that_follow_from_rounded_figures():
+    kinds = {e.printed: e.kind for e in recompute("liang-examples").errata}
+    assert kinds == {
+        "37400": "author's approximation: omega taken as 418 rad/s",
+        "2080": "follows from the rounded figures 1.79 and 37400, g = 32.2",
+        "1.036": "misprint",
+        "253": "author's approximation: g taken as 32.2 ft/s^2",
+    }
+
+
+def test_half_overbalance_leaves_half_the_first_order_turning_backward():
+    """Section 2-1: cos th - e^{i th}/2 = e^{-i th}/2."""
+    th = np.linspace(0, 2 * pi, 50)
+    assert np.cos(th) - np.exp(1j * th) / 2 == pytest.approx(np.exp(-1j * th) / 2, abs=1e-15)

@@ -1,0 +1,132 @@
+"""Lu Jiqing, Meng Sizong: Automobile Engine Design, vol. 1 (in Chinese), Tsinghua University Press, 1990, sec. 1.1.1.
+
+Statements of the text in figures, each test named after what is stated; the tables themselves are in the package.
+"""
+from __future__ import annotations
+
+from math import acos, degrees, pi, radians, sqrt
+
+import numpy as np
+import pytest
+
+from balcli.core import slidercrank as sc
+from balcli.tables import recompute
+
+LAM = 0.32                                              # the largest ratio of the tables
+PSI = np.radians(np.arange(0.5, 180.0, 0.01))
+
+
+def relative(name):
+    """Error of the two-term form relative to the exact value, and where it is largest (degrees)."""
+    exact, two = getattr(sc, name)(PSI, LAM), getattr(sc, f"{name}_two_term")(PSI, LAM)
+    error = np.abs(two / exact - 1)
+    return error.max(), degrees(PSI[error.argmax()])
+
+
+def test_displacement_error_is_at_most_0_0043_r():
+    assert round(float(sc.two_term_errors(LAM).displacement), 4) == 0.0043
+
+
+def test_displacement_error_at_90_degrees_is_0_37_percent_but_the_largest_is_0_42_at_73_6():
+    """The book takes the error at 90 degrees for the largest."""
+    at_90 = 1 - float(sc.displacement_two_term(pi / 2, LAM) / sc.displacement(pi / 2, LAM))
+    assert round(100 * at_90, 2) == 0.37
+    largest, where = relative("displacement")
+    assert round(100 * largest, 4) == 0.4194
+    assert where == pytest.approx(73.56, abs=0.02)
+
+
+def test_velocity_error_is_at_most_0_0057_r_omega_and_0_83_percent():
+    assert round(float(sc.two_term_errors(LAM).velocity), 4) == 0.0057
+    largest, where = relative("velocity")
+    assert 0.0082 < largest < 0.0083
+    assert where == pytest.approx(127.55, abs=0.02)
+
+
+def test_velocity_is_exact_at_the_quarters():
+    quarters = np.array([0, pi / 2, pi, 3 * pi / 2])
+    assert sc.velocity_two_term(quarters, LAM) == pytest.approx(sc.velocity(quarters, LAM), abs=1e-15)
+
+
+def test_acceleration_error_is_0_0178_r_omega2_at_90_degrees_which_is_5_3_percent():
+    error = float(sc.two_term_errors(LAM).acceleration)
+    assert round(error, 4) == 0.0178
+    at_90 = sc.acceleration_two_term(pi / 2, LAM) - sc.acceleration(pi / 2, LAM)
+    assert error == pytest.approx(float(at_90), rel=1e-12)
+    assert round(100 * error / abs(float(sc.acceleration(pi / 2, LAM))), 1) == 5.3
+
+
+def test_errors_are_smaller_for_smaller_lambda():
+    for bounds in sc.two_term_errors(np.linspace(0.01, LAM, 50)):
+        assert (np.diff(bounds) > 0).all()
+
+
+def test_linear_interpolation_between_the_columns_of_table_1_2():
+    """Half-way between two columns the error is largest: less than 4e-6."""
+    lam = np.arange(0.24, 0.32, 0.01)
+    between = (sc.displacement(PSI[:, None], lam) + sc.displacement(PSI[:, None], lam + 0.01)) / 2
+    assert np.abs(between - sc.displacement(PSI[:, None], lam + 0.005)).max() < 4e-6
+
+
+def test_fastest_point_of_the_two_term_form():
+    """arccos((sqrt(1 + 8 lambda^2) - 1)/(4 lambda))."""
+    expected = acos((sqrt(1 + 8 * LAM**2) - 1) / (4 * LAM))
+    assert float(sc.fastest_two_term(LAM).psi) == pytest.approx(expected, rel=1e-13)
+
+
+def test_the_true_fastest_point_comes_0_29_to_0_52_degrees_earlier():
+    lam = np.array([1 / 4, 1 / 3])
+    earlier = np.degrees(sc.fastest_two_term(lam).psi - sc.fastest(lam).psi)
+    assert earlier.round(2).tolist() == [0.29, 0.52]
+
+
+def test_at_the_fastest_point_crank_and_rod_stand_nearly_at_right_angles():
+    """90.80 degrees at 1/4 to 91.78 at 1/3."""
+    lam = np.array([1 / 4, 1 / 3])
+    psi = sc.fastest(lam).psi
+    both = np.degrees(psi + np.arctan2(*sc.rod_angle(psi, lam)))
+    assert both.round(2).tolist() == [90.80, 91.78]
+
+
+@pytest.mark.parametrize("lam", [0.26, 0.28, 0.32])
+def test_extremes_of_the_two_term_acceleration(lam):
+    """1 + lambda at 0, -(1 - lambda) at 180 degrees, lambda > 1/4: -(lambda + 1/(8 lambda)) at arccos(-1/4 lambda)."""
+    lowest = -(lam + 1 / (8 * lam))
+    assert float(sc.acceleration_two_term(0, lam)) == 1 + lam
+    assert float(sc.acceleration_two_term(pi, lam)) == pytest.approx(-(1 - lam), rel=1e-15)
+    assert float(sc.acceleration_two_term(acos(-1 / (4 * lam)), lam)) == pytest.approx(lowest, rel=1e-15)
+    assert sc.acceleration_two_term(PSI, lam).min() == pytest.approx(lowest, rel=1e-6)
+
+
+@pytest.mark.parametrize(("lam", "dips"), [(0.2637, False), (0.2639, True)])
+def test_the_exact_acceleration_dips_below_its_value_at_180_degrees_above_lambda_0_263763(lam, dips):
+    """Its curvature at 180 degrees changes sign where 4 lambda - 3 lambda^3 = 1."""
+    assert (4 * lam - 3 * lam**3 > 1) is dips
+    near = sc.acceleration(np.radians(np.arange(170, 180, 0.1)), lam)
+    assert bool((near < -(1 - lam)).any()) is dips
+
+
+def test_the_acceleration_dip_at_lambda_0_32():
+    """-0.70089 at 141.329 degrees; the two-term form has -0.71063 at 141.375."""
+    psi = np.radians(np.arange(140, 143, 0.001))
+    a = sc.acceleration(psi, LAM)
+    assert round(float(a.min()), 5) == -0.70089
+    assert degrees(psi[a.argmin()]) == pytest.approx(141.329, abs=1e-3)
+
+
+def test_mean_piston_speed():
+    """S n/30 = (2/pi) r omega."""
+    stroke, rpm = 0.09, 4400
+    assert stroke * rpm / 30 == pytest.approx(2 / pi * stroke / 2 * rpm * pi / 30, rel=1e-15)
+    index = recompute("tsinghua-1-1").columns.index("Cm_m_per_s")
+    assert min(row[index] for row in recompute("tsinghua-1-1").rows) > 9
+
+
+def test_table_1_4_follows_the_two_term_formula():
+    """36 of its 42 figures; the exact extremes stand beside."""
+    table = recompute("tsinghua-1-4")
+    assert len(table.errata) == 6
+    exact = [row[table.columns.index("exact 1/3")] for row in table.rows]
+    assert exact[0] == pytest.approx(73.1752966362, abs=1e-9)
+    assert exact[5] == pytest.approx(1.05463954654, abs=1e-10)
+    assert radians(exact[0]) == pytest.approx(float(sc.fastest(1 / 3).psi), rel=1e-15)
