@@ -12,8 +12,8 @@ from kit import engine
 from balcli.analysis import HIGHEST, QUANTITIES, SHOWN, Analysis, alone, analyze, textbook
 from balcli.core import harmonics
 from balcli.engine import Engine, build
+from balcli.enginefile import read
 from balcli.errors import BalcliError
-from balcli.load import read
 from balcli.spectrum import SPECTRAL, relevant_orders, spectra
 
 FOLDER = Path(__file__).parents[1] / "engines"
