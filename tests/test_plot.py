@@ -14,7 +14,7 @@ from kit import GOOD, changed
 from balcli.analysis import analyze
 from balcli.engine import build
 from balcli.errors import BalcliError
-from balcli.load import parse
+from balcli.enginefile import parse
 from balcli.render.plot import draw, style
 from balcli.render.plot.pages import PAGES, Subject, form_of, picture
 from balcli.render.units import IMPERIAL, SI
