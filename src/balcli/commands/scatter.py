@@ -32,7 +32,7 @@ def scatter(
     output: Output = None,
 ) -> None:
     """How free forces and moments spread when masses (rod lengths, throw angles) vary, and which tolerance matters most."""
-    from .. import load
+    from .. import enginefile
     from .. import quantity as quantities
     from .. import scatter as scatters
     from ..render import scatter as rendered
@@ -40,6 +40,6 @@ def scatter(
     from .output import emit
 
     tolerances = scatters.tolerances(mass, length, angle)
-    found = scatters.scatter(load.read(file), tolerances, quantities.parse(quantity), samples, seed, distribution.value)
+    found = scatters.scatter(enginefile.read(file), tolerances, quantities.parse(quantity), samples, seed, distribution.value)
     emit(render(format, sheets=lambda: [rendered.sheet(found)], documents=lambda: [rendered.document(found)],
                 rows=lambda: rendered.rows(found), into_file=output is not None), output)
