@@ -42,8 +42,11 @@ def tables(**parts: dict[str, Any] | list[dict[str, Any]]) -> dict[str, Any]:
     """A plain engine of one cylinder (lambda 1/4, 1 kg piston, rod without mass, 60 rpm) with some tables changed."""
     plain: dict[str, Any] = {
         "crank": {"stroke": 100}, "rod": {"length": 200}, "piston": {"mass": 1}, "operation": {"speed": 60}}
-    return plain | {name: plain.get(name, {}) | part if isinstance(part, dict) else part
-                    for name, part in parts.items()}
+    found = plain | {name: plain.get(name, {}) | part if isinstance(part, dict) else part
+                     for name, part in parts.items()}
+    if "ratio" in found["rod"]:
+        found["rod"].pop("length")
+    return found
 
 
 def engine(**parts: dict[str, Any] | list[dict[str, Any]]) -> Engine:
@@ -51,7 +54,7 @@ def engine(**parts: dict[str, Any] | list[dict[str, Any]]) -> Engine:
     import tomli_w
 
     from balcli.engine import build
-    from balcli.load import parse
+    from balcli.enginefile import parse
 
     return build(parse(tomli_w.dumps(tables(**parts))))
 

@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 
-from balcli import engine, load, spectrum
+from balcli import engine, enginefile, spectrum
 from balcli.core.travel import travel
 from balcli.errors import InputError
 
@@ -33,7 +33,7 @@ def built(*changes: tuple[str, str], more: str = "") -> engine.Engine:
     for old, new in changes:
         assert old in text
         text = text.replace(old, new)
-    return engine.build(load.parse(text + more))
+    return engine.build(enginefile.parse(text + more))
 
 
 def mistakes(*changes: tuple[str, str], more: str = "") -> list[str]:
@@ -102,7 +102,7 @@ def test_strokes_and_dead_centres_against_fine_sampling():
 def test_an_offset_slider_crank_has_its_stroke_in_closed_form():
     """Stroke sqrt((l+r)^2 - e^2) - sqrt((l-r)^2 - e^2), dead centres where crank and rod are in line."""
     text = "[crank]\nstroke = 80\n[rod]\nlength = 140\n[piston]\nmass = 1\noffset = 10\n"
-    found = travel(engine.build(load.parse(text)).cylinders)
+    found = travel(engine.build(enginefile.parse(text)).cylinders)
     assert found.stroke[0] * 1e3 == pytest.approx(math.sqrt(180**2 - 100) - math.sqrt(100**2 - 100), rel=1e-14)
     assert found.top_deg[0] == pytest.approx(math.degrees(math.asin(10 / 180)), rel=1e-14)
     assert found.bottom_deg[0] == pytest.approx(math.degrees(math.asin(10 / 100)), rel=1e-14)
@@ -112,7 +112,7 @@ def test_an_offset_slider_crank_has_its_stroke_in_closed_form():
 def test_a_radial_with_a_master_rod_shakes_forward_in_the_second_order():
     """Equal rods on one pin: no second order at all. A master rod: a vector that turns with the crank, and little against it."""
     equal = RADIAL[:RADIAL.index("[articulation]")]
-    before, after = (spectrum.spectra(e, [2.0], ["force"]).force for e in (engine.build(load.parse(equal)), built()))
+    before, after = (spectrum.spectra(e, [2.0], ["force"]).force for e in (engine.build(enginefile.parse(equal)), built()))
     assert before is not None
     assert after is not None
     assert before.balanced[0]
@@ -122,7 +122,7 @@ def test_a_radial_with_a_master_rod_shakes_forward_in_the_second_order():
 def test_knuckle_pins_on_the_crank_pin_are_equal_rods():
     """With a vanishing knuckle radius and equal rods nothing is left of the articulation."""
     articulated = built(("knuckle_radius = 52", "knuckle_radius = 1e-11"), ("length = 188, mass = 0.62, cg = 90", "length = 240, mass = 1.9, cg = 55"))
-    plain = engine.build(load.parse(RADIAL[:RADIAL.index("[articulation]")]))
+    plain = engine.build(enginefile.parse(RADIAL[:RADIAL.index("[articulation]")]))
     orders = np.arange(1.0, 9.0)
     one, other = spectrum.spectra(articulated, orders), spectrum.spectra(plain, orders)
     for (quantity, a), (_, b) in zip(one.items(), other.items(), strict=True):
@@ -131,7 +131,7 @@ def test_knuckle_pins_on_the_crank_pin_are_equal_rods():
 
 def test_variants_on_a_trailing_axis():
     """A sweep of knuckle radius and rod length gives what each variant alone gives."""
-    file = load.parse(RADIAL)
+    file = enginefile.parse(RADIAL)
     table = file.articulation
     assert table is not None
     radii, lengths = np.array([40.0, 52.0, 60.0]), np.array([180.0, 188.0, 230.0])

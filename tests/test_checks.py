@@ -7,7 +7,7 @@ from kit import GOOD, changed
 
 from balcli import new
 from balcli.checks import suspicious
-from balcli.load import parse
+from balcli.enginefile import parse
 
 
 @pytest.mark.parametrize("text", [GOOD, *map(new.template, new.KINDS)], ids=["good", *new.KINDS])

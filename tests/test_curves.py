@@ -8,8 +8,8 @@ import pytest
 
 from balcli.curves import crank_angles, cylinder_curves, engine_curves
 from balcli.engine import build
+from balcli.enginefile import parse
 from balcli.errors import BalcliError
-from balcli.load import parse
 from balcli.spectrum import relevant_orders, spectra
 
 ENGINES = Path(__file__).parents[1] / "engines"
@@ -27,8 +27,15 @@ slider = [{ order = 2, unbalance = 300, direction = 30, angle = 10, at = [5, 9],
 """
 
 
+ARTICULATED = UNEVEN.replace("piston =", """layout = { banks = [0, 75, -80] }
+articulation = { knuckle_radius = 35, rod = { length = 105, mass = 0.4, cg = 50, inertia = 900 } }
+piston =""")
+ROTARY = UNEVEN.replace("piston =", "layout = { banks = [0, 100, -80], rotary = true }\npiston =")
+TEXTS = {"uneven": UNEVEN, "articulated": ARTICULATED, "rotary": ROTARY}
+
+
 def engine(name):
-    text = UNEVEN if name == "uneven" else (ENGINES / f"{name}.toml").read_text(encoding="utf-8")
+    text = TEXTS[name] if name in TEXTS else (ENGINES / f"{name}.toml").read_text(encoding="utf-8")
     return build(parse(text, name))
 
 
@@ -46,13 +53,14 @@ def summed(subject, crank_deg):
 def scale(subject):
     """Size of what is added up: force of one cylinder times their number; times a length for moments."""
     c = subject.cylinders
-    force = c.count * float(subject.omega) ** 2 * float(np.max(c.radius)) * float(np.max(c.reciprocating + c.rotating))
+    moving = c.reciprocating + c.rotating + (0 if c.linkage is None else c.linkage.mass / c.lam)
+    force = c.count * float(subject.omega) ** 2 * float(np.max(c.radius)) * float(np.max(moving))
     arms = float(np.ptp(c.z)) + float(np.max(np.abs(subject.reference_m))) + float(np.max(c.radius))
     return {True: force, False: force * arms}
 
 
 @pytest.mark.parametrize("name", ["single", "i3", "i4_shafts", "v6_90_split", "v8_crossplane", "vr6", "boxer6",
-                                  "radial7", "single_shaft", "uneven"])
+                                  "radial7", "single_shaft", *TEXTS])
 def test_direct_evaluation_is_the_sum_of_all_orders(name):
     subject, angles = engine(name), crank_angles(7.5)
     direct, orders = engine_curves(subject, angles).values, summed(engine(name), angles)
@@ -105,3 +113,19 @@ def test_crank_angles():
 def test_an_unknown_cylinder():
     with pytest.raises(BalcliError, match=r"--cylinder 9: in-line four, 2 litres has the cylinders 1, 2, 3, 4"):
         cylinder_curves(engine("i4"), 9, crank_angles(90))
+
+
+@pytest.mark.parametrize("name", ["articulated", "rotary"])
+def test_other_mechanisms_by_differences(name):
+    """Velocity and acceleration are the slopes of the travel, which is 0 at the top and nowhere less."""
+    text = TEXTS[name].replace(", speed_ripple = [{ order = 2, amplitude = 0.02, angle = 40 }]", "")
+    subject, fine = build(parse(text)), crank_angles(0.05)
+    omega, step = float(subject.omega), np.radians(0.05)
+    for number in (1, 6):
+        curve = cylinder_curves(subject, number, fine).values
+        travel = curve["travel_m"]
+        assert 0 <= travel.min() < 1e-7
+        slope = (np.roll(travel, -1) - np.roll(travel, 1)) / (2 * step) * omega
+        bend = (np.roll(travel, -1) - 2 * travel + np.roll(travel, 1)) / step**2 * omega**2
+        assert np.abs(slope - curve["velocity_m_per_s"]).max() < 1e-6 * np.abs(slope).max()
+        assert np.abs(bend - curve["acceleration_m_per_s2"]).max() < 1e-5 * np.abs(bend).max()

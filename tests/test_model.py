@@ -9,8 +9,8 @@ from kit import GOOD, changed
 from pydantic import ValidationError
 
 from balcli import model
+from balcli.enginefile import parse
 from balcli.errors import InputError
-from balcli.load import parse
 
 
 def refusal(text: str) -> str:

@@ -8,8 +8,8 @@ import tomllib
 
 import pytest
 
+from balcli.enginefile import parse
 from balcli.errors import BalcliError
-from balcli.load import parse
 from balcli.new import KINDS, template
 
 OPTION = re.compile(r"^# *((?:\[+[a-z.0-9]+\]+)|(?:[a-z_]+ *= .*))")

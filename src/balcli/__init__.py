@@ -1,2 +1,32 @@
-"""Engine balance: free forces and moments of reciprocating engines, order by order, and what cancels them."""
+"""Engine balance: free forces and moments of reciprocating engines, order by order, and what cancels them.
+
+    from balcli import load, analyze, balance
+
+    engine = load("v8.toml")
+    print(analyze(engine).spectra.moment.major)
+"""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .analysis import Analysis, analyze
+    from .balancing import Balance, balance
+    from .engine import Engine
+    from .enginefile import load
+    from .errors import BalcliError, InputError
+
 __version__ = "0.1.0"
+__all__ = ["Analysis", "Balance", "BalcliError", "Engine", "InputError", "__version__", "analyze", "balance", "load"]
+
+_ROOMS = {"Analysis": "analysis", "analyze": "analysis", "Balance": "balancing", "balance": "balancing",
+          "Engine": "engine", "load": "enginefile", "BalcliError": "errors", "InputError": "errors"}
+
+
+def __getattr__(name: str) -> Any:
+    """The library's door: what is behind it is imported when it is first asked for."""
+    if name not in _ROOMS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    return getattr(import_module(f".{_ROOMS[name]}", __name__), name)

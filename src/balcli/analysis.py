@@ -2,7 +2,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,7 +13,10 @@ from .core.phasors import Array
 from .engine import Engine
 from .errors import BalcliError
 from .sizing import Remedy, auto, fitted
-from .spectrum import SPECTRAL, Spectra, relevant_orders, spectra
+from .spectrum import SPECTRAL, Spectra, alone, relevant_orders, spectra
+
+if TYPE_CHECKING:
+    from .why import Why
 
 QUANTITIES = (*SPECTRAL, "peak", "sizing")
 SHOWN = 1e-6                    # an order is shown if something in it exceeds this share of its own largest order
@@ -37,6 +41,7 @@ class Analysis:
         force, moment: largest value over a revolution (N, N m), of all orders, and its crank angle (rad).
         sizing: devices of the scheme `auto`, and the analysis with them.
         cylinders: phasors of each cylinder alone (no devices), by cylinder number.
+        why: whether the orders shown are balanced by symmetry.
     """
 
     engine: Engine
@@ -45,6 +50,7 @@ class Analysis:
     moment: Peak | None = None
     sizing: Sizing | None = None
     cylinders: tuple[tuple[int, Spectra], ...] = ()
+    why: Why | None = None
 
     @property
     def orders(self) -> Array:
@@ -52,7 +58,7 @@ class Analysis:
 
 
 def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collection[str] | None = None,
-            by_cylinder: bool = False) -> Analysis:
+            by_cylinder: bool = False, reasons: bool = False) -> Analysis:
     """Free forces and moments of an engine, order by order.
 
     Args:
@@ -61,6 +67,7 @@ def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collect
             for exceeds 1e-6 of its own largest order.
         only: any of QUANTITIES; default: all.
         by_cylinder: also the phasors of every cylinder alone.
+        reasons: also why each order is balanced, or is not.
 
     Raises:
         BalcliError: an unknown quantity, an order that is negative or above HIGHEST.
@@ -80,16 +87,8 @@ def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collect
         engine, visible, **peaks,
         sizing=_sized(engine, asked, wanted) if "sizing" in wanted else None,
         cylinders=tuple((n, spectra(alone(engine, n), visible.orders, shown)) for n in sorted(engine.numbers)) if by_cylinder else (),
+        why=_explained(engine, visible.orders, shown) if reasons else None,
     )
-
-
-def alone(engine: Engine, number: int) -> Engine:
-    """The engine with only this cylinder's masses moving, and no devices."""
-    c = engine.cylinders
-    here = np.array([n == number for n in engine.numbers], float).reshape(-1, *(1,) * (c.pin_deg.ndim - 1))
-    masses = {key: here * getattr(c, key) for key in ("reciprocating", "rotating", "couple")}
-    linkage = c.linkage and replace(c.linkage, mass=here * c.linkage.mass)
-    return replace(engine, cylinders=replace(c, linkage=linkage, **masses), devices=())
 
 
 @dataclass(frozen=True)
@@ -115,6 +114,13 @@ def textbook(engine: Engine, orders: Array) -> Textbook:
         float(np.ptp(throws) / (len(throws) - 1)) if len(throws) > 1 else float("nan"),
         np.abs(series.c[:, 0]), engine.equal,
     )
+
+
+def _explained(engine: Engine, orders: Array, quantities: Collection[str]) -> Why:
+    from .why import QUANTITIES, why
+
+    turning = not {"couple", "torque", "roll"}.isdisjoint(quantities)
+    return why(engine, orders[orders > 0], [q for q in QUANTITIES if q in quantities or (q == "turning" and turning)])
 
 
 def _sized(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizing:

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from .arrays import column
 from .core.articulated import Articulated
 from .core.inertia import Cylinders
 from .core.linkage import revolution
@@ -34,6 +35,8 @@ def mistakes(file: EngineFile, layout: Plan) -> Iterator[Problem]:
     if fault:
         yield fault
         return
+    if file.layout.rotary:
+        yield Problem("articulation", "the rods of a rotary engine are taken as equal, all on one pin: leave this table out")
     yield from _wrong_angles(file.articulation, len(layout.banks))
     if np.any(np.asarray(file.crank.splay) != 0):
         yield Problem("crank.splay", "articulated rods hang on the master rod and have no crank pins to split: "
@@ -82,17 +85,18 @@ def linkage(file: EngineFile, layout: Plan, numbers: Sequence[int], axis: Mappin
         return table.knuckle_radius / (file.crank.stroke / 2) * unit(angle)
 
     return Articulated(
-        mass=_rows([m if n in chief else 0.0 for n, m in zip(numbers, on_knuckle, strict=True)], rank),
+        mass=column([m if n in chief else 0.0 for n, m in zip(numbers, on_knuckle, strict=True)], rank),
         master=np.array([numbers.index(chief.get(n, n)) for n in numbers]),
-        knuckle=_rows([pin(n) for n in numbers], rank),
-        lead_deg=_rows([axis[n] - axis[chief.get(n, n)] for n in numbers], rank))
+        knuckle=column([pin(n) for n in numbers], rank),
+        lead_deg=column([axis[n] - axis[chief.get(n, n)] for n in numbers], rank))
 
 
 def locked(file: EngineFile, c: Cylinders, numbers: Sequence[int]) -> Iterator[Problem]:
     """Articulated cylinders whose rod cannot follow its knuckle pin all the way round."""
     if not isinstance(c.linkage, Articulated):
         return
-    leans = np.abs(c.linkage.lean(revolution(_STEPS), c.lam, c.eps)).reshape(len(numbers), -1, _STEPS).max(axis=1)
+    with np.errstate(invalid="ignore"):                                     # beyond 1 there is no angle
+        leans = np.abs(c.linkage.motion(revolution(_STEPS), c.lam, c.eps).lean).reshape(len(numbers), -1, _STEPS).max(axis=1)
     turned = c.angle_deg.reshape(len(numbers), -1)[:, 0]
     for row, number in enumerate(numbers):
         worst = int(leans[row].argmax())
@@ -114,9 +118,3 @@ def _rise(values: Any, top: int) -> float:
     before, at, after = values[top - 1], values[top], values[(top + 1) % len(values)]
     bend = 2 * at - before - after
     return float((after - before) ** 2 / (8 * bend)) if bend > 0 else 0.0
-
-
-def _rows(values: Sequence[Any], rank: int) -> Any:
-    """One row each; scalars get trailing axes of length 1."""
-    rows = np.stack(np.broadcast_arrays(*map(np.asarray, values)))
-    return rows.reshape(len(values), *rows.shape[1:] or (1,) * rank)

@@ -16,7 +16,7 @@ from typer.main import get_command
 from . import __version__
 from .errors import BalcliError, Exit
 
-COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "sweep", "search", "scatter", "compare", "bench")
+COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "plot", "sweep", "search", "scatter", "compare", "bench")
 
 
 class _OnDemand(TyperGroup):

@@ -14,6 +14,7 @@ import numpy as np
 
 from .core import slidercrank as sc
 from .core.phasors import Array, Complex, unit
+from .core.travel import travel as dead_centres
 from .engine import Engine
 from .errors import BalcliError
 
@@ -70,12 +71,11 @@ def cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:
         some = ", ".join(map(str, sorted(engine.numbers)))
         raise BalcliError(f"--cylinder {number}: {engine.name or 'the engine'} has the cylinders {some}")
     motion, row = _Motion(engine, crank_deg), engine.numbers.index(number)
-    lam, eps, psi = motion.lam[row], motion.eps[row], motion.psi[row]
     r, v = motion.radius, motion.v[row]
-    return _curves(engine, crank_deg, travel_m=r * sc.displacement(psi, lam, eps),
+    return _curves(engine, crank_deg, travel_m=r * motion.travel()[row],
                    velocity_m_per_s=r * motion.omega * v,
                    acceleration_m_per_s2=r * (motion.omega**2 * motion.a[row] + motion.xi * v),
-                   rod_angle_deg=np.degrees(np.arctan2(*sc.rod_angle(psi, lam, eps))))
+                   rod_angle_deg=np.degrees(motion.beta()[row]))
 
 
 class _Motion:
@@ -91,8 +91,31 @@ class _Motion:
         self.pin = crank_deg + float(np.ravel(c.axis_deg)[c.first]) + _column(c.pin_deg)        # from x
         self.psi = np.radians(np.remainder(self.pin - axes + 180, 360) - 180)
         self.axis = unit(axes)
-        self.v, self.a = sc.velocity(self.psi, self.lam, self.eps), sc.acceleration(self.psi, self.lam, self.eps)
         self.omega, self.xi = _speed(engine, crank_deg)
+        self.cylinders, mechanism = c, (self.psi, self.lam, self.eps)
+        self.linkage = c.linkage
+        if c.linkage is None:
+            self.linked = None
+            self.v, self.a = sc.velocity(*mechanism), sc.acceleration(*mechanism)
+            self.spin, self.spin_rate = -sc.rod_rate(*mechanism), -sc.rod_acceleration(*mechanism)
+        else:
+            self.linked = m = c.linkage.motion(self.psi, np.ravel(c.lam), np.ravel(c.eps))
+            self.v, self.a, self.spin, self.spin_rate = -m.velocity, -m.acceleration, m.spin, m.spin_rate
+            self.mass = _column(c.linkage.mass)                             # what moves on the curve z
+
+    def travel(self) -> Array:
+        """Of the pistons, from their top dead centres, in crank radii."""
+        if self.linkage is None or self.linked is None:
+            return sc.displacement(self.psi, self.lam, self.eps)
+        top = np.radians(dead_centres(self.cylinders).top_deg).reshape(-1, 1)
+        highest = self.linkage.motion(top, np.ravel(self.cylinders.lam), np.ravel(self.cylinders.eps)).place
+        return np.asarray(highest - self.linked.place)
+
+    def beta(self) -> Array:
+        """Angles of the rods, rad."""
+        if self.linked is None:
+            return np.asarray(np.arctan2(*sc.rod_angle(self.psi, self.lam, self.eps)))
+        return np.asarray(np.arcsin(self.linked.lean))
 
 
 def _speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
@@ -108,8 +131,10 @@ def _forces(engine: Engine, motion: _Motion) -> tuple[Complex, Array]:
     """Force of each cylinder and device, shape (cylinders + devices, angles), and its place along z."""
     c, w2, xi, r = engine.cylinders, motion.omega**2, motion.xi, motion.radius
     crank = unit(motion.pin)
-    piston = _column(c.reciprocating) * r * (w2 * motion.a + xi * motion.v) * motion.axis
+    piston: Complex = _column(c.reciprocating) * r * (w2 * motion.a + xi * motion.v) * motion.axis
     pins = _column(c.rotating) * r * (w2 - 1j * xi) * crank
+    if (m := motion.linked) is not None:
+        piston = piston - motion.mass * r * (w2 * m.z2 + xi * m.z1) * motion.axis
     rows = [*(piston + pins)]
     for d in engine.devices:
         ahead = unit(d.order * motion.crank_deg)
@@ -119,22 +144,26 @@ def _forces(engine: Engine, motion: _Motion) -> tuple[Complex, Array]:
 
 
 def _couple(engine: Engine, motion: _Motion) -> Array:
-    """Free transverse couple about the crank's axis: h = -m_rec e s' + m_rot r^2 + H beta', s' = -r v, s'' = -r a."""
+    """Free transverse couple about the crank's axis: h = -m_rec e s' + m_rot r^2 - H spin (+ the masses on curves), s' = -r v."""
     c, r = engine.cylinders, motion.radius
     pull = _column(c.reciprocating) * (motion.eps * r / motion.lam) * r
-    rate, swing = (f(motion.psi, motion.lam, motion.eps) for f in (sc.rod_rate, sc.rod_acceleration))
-    h = pull * motion.v + _column(c.rotating) * r**2 + _column(c.couple) * rate
-    slope = pull * motion.a + _column(c.couple) * swing
+    h = pull * motion.v + _column(c.rotating) * r**2 - _column(c.couple) * motion.spin
+    slope = pull * motion.a - _column(c.couple) * motion.spin_rate
+    if (m := motion.linked) is not None:
+        h = h + motion.mass * r**2 * (np.conj(m.z) * m.z1).imag
+        slope = slope + motion.mass * r**2 * (np.conj(m.z) * m.z2).imag
     return np.asarray(-(motion.omega**2 * slope + motion.xi * h).sum(axis=0))
 
 
 def _torque(engine: Engine, motion: _Motion) -> Array:
-    """Inertia torque on the crank: I = m_rec s'^2 + m_rot r^2 - H beta'^2."""
+    """Inertia torque on the crank: I = m_rec s'^2 + m_rot r^2 - H spin^2 (+ the masses on curves)."""
     c, r = engine.cylinders, motion.radius
     mass, couple = _column(c.reciprocating) * r**2, _column(c.couple)
-    rate, swing = (f(motion.psi, motion.lam, motion.eps) for f in (sc.rod_rate, sc.rod_acceleration))
-    inertia = mass * motion.v**2 + _column(c.rotating) * r**2 - couple * rate**2
-    half_slope = mass * motion.v * motion.a - couple * rate * swing
+    inertia = mass * motion.v**2 + _column(c.rotating) * r**2 - couple * motion.spin**2
+    half_slope = mass * motion.v * motion.a - couple * motion.spin * motion.spin_rate
+    if (m := motion.linked) is not None:
+        inertia = inertia + motion.mass * r**2 * np.abs(m.z1) ** 2
+        half_slope = half_slope + motion.mass * r**2 * (np.conj(m.z1) * m.z2).real
     return np.asarray(-(half_slope * motion.omega**2 + motion.xi * inertia).sum(axis=0))
 
 

@@ -145,6 +145,18 @@ class Whole(_Field):
         return limits if self.zero else limits | {"not": {"const": 0}}
 
 
+class Flag(_Field):
+    """true or false."""
+
+    def read(self, value: object) -> bool:
+        if not isinstance(value, bool):
+            raise ValueError(f"{shorten(value)} is neither true nor false; write one of these, without quotes")
+        return value
+
+    def json(self) -> dict[str, Any]:
+        return {"type": "boolean"}
+
+
 class OneOf(_Field):
     """One of a few words or numbers."""
 

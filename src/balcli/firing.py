@@ -22,18 +22,21 @@ def instants(order: Sequence[int], intervals: Sequence[Any] | None, cycle: float
     return dict(zip(order, angles, strict=False))
 
 
-def pins(fires: Mapping[int, Any], top: Mapping[int, Any]) -> dict[int, Any]:
-    """Crank pin that each cylinder needs, after cylinder 1's; `top` is `g_i + tau_i` by cylinder."""
-    return {i: np.remainder((top[i] - top[1]) - (f - fires[1]), 360.0) for i, f in fires.items()}
+def pins(fires: Mapping[int, Any], top: Mapping[int, Any], sense: int = 1) -> dict[int, Any]:
+    """Crank pin that each cylinder needs, after cylinder 1's; `top` is `g_i + tau_i` by cylinder.
+
+    `sense` is -1 where the cylinders turn and the pins stand still, and `top` then `g_i - tau_i`."""
+    return {i: np.remainder((top[i] - top[1]) - sense * (f - fires[1]), 360.0) for i, f in fires.items()}
 
 
-def from_pins(order: Sequence[int], pin: Mapping[int, Any], top: Mapping[int, Any], cycle: float) -> list[float] | Problem:
+def from_pins(order: Sequence[int], pin: Mapping[int, Any], top: Mapping[int, Any], cycle: float,
+              sense: int = 1) -> list[float] | Problem:
     """Intervals of a firing order on a given crank: from each firing to the next, the shortest that the pins allow.
 
     Turns that are left over (an even parallel twin fires after 360 and 360 degrees, its pins only say 0) go to the
     intervals that become the least uneven by them, of equal ones to the last. A Problem if the order takes more than a cycle.
     """
-    ready = {i: float(np.remainder((top[i] - top[1]) - pin[i], 360.0)) for i in order}      # at top dead centre, modulo a turn
+    ready = {i: float(np.remainder(sense * ((top[i] - top[1]) - pin[i]), 360.0)) for i in order}      # at top dead centre, modulo a turn
     following = [*order[1:], order[0]]
     intervals = [_positive(ready[b] - ready[a]) for a, b in zip(order, following, strict=True)]
     total = round(sum(intervals) / 360) * 360
@@ -45,9 +48,9 @@ def from_pins(order: Sequence[int], pin: Mapping[int, Any], top: Mapping[int, An
     return intervals
 
 
-def disagreement(fires: Mapping[int, Any], pin: Mapping[int, Any], top: Mapping[int, Any]) -> Problem | None:
+def disagreement(fires: Mapping[int, Any], pin: Mapping[int, Any], top: Mapping[int, Any], sense: int = 1) -> Problem | None:
     """The first cylinder that is not at top dead centre when it fires; pins are counted from cylinder 1's."""
-    wanted = pins(fires, top)
+    wanted = pins(fires, top, sense)
     for i in fires:
         off = float(np.max(np.abs(_centred(pin[i] - wanted[i]))))
         if off > TOLERANCE:

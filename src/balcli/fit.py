@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from typing import Any
 
 from .engine import build
+from .enginefile import parse
 from .errors import BalcliError, InputError
-from .load import parse
 from .model import Counterweight, Shaft, Slider
 from .sizing import Remedy, fitted
 

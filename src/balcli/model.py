@@ -12,7 +12,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from .choices import Choice, repeated
-from .fields import Number, OneOf, Whole
+from .fields import Flag, Number, OneOf, Whole
 from .units import ANGLE, INERTIA, LENGTH, MASS, PLAIN, SPEED, TIME, UNBALANCE
 
 GRAVITY = 9.80665                # m/s^2, standard
@@ -166,6 +166,8 @@ class Layout(Table):
         None, description="numbers of the cylinders as they fire", examples=[[1, 3, 4, 2]])
     firing_intervals: Intervals | None = Field(
         None, description="from each firing to the next; left out: from the throws, or even", examples=[[405, 315]])
+    rotary: Annotated[bool, Flag()] = Field(
+        False, description="the crank stands still and the cylinders turn about it", examples=[True])
     strokes: Annotated[Literal[2, 4], OneOf(2, 4)] = Field(4, description="two-stroke or four-stroke", examples=[4])
     numbering: Annotated[tuple[Numbers, ...], Field(min_length=1, max_length=MOST)] | None = Field(
         None, description="cylinder numbers of each bank, free end to flywheel end", examples=[[[1, 3], [2, 4]]])

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -62,6 +62,15 @@ def relevant_orders(engine: Engine) -> Array:
     if not engine.ripple:
         return np.arange(1.0, highest + 1)
     return np.arange(0.0, highest + 2 * max(line.order for line in engine.ripple) + 1)
+
+
+def alone(engine: Engine, number: int) -> Engine:
+    """The engine with only this cylinder's masses moving, and no devices."""
+    c = engine.cylinders
+    here = np.array([n == number for n in engine.numbers], float).reshape(-1, *(1,) * (c.pin_deg.ndim - 1))
+    masses = {key: here * getattr(c, key) for key in ("reciprocating", "rotating", "couple")}
+    linkage = c.linkage and replace(c.linkage, mass=here * c.linkage.mass)
+    return replace(engine, cylinders=replace(c, linkage=linkage, **masses), devices=())
 
 
 def _steady(engine: Engine, orders: Array, quantities: Collection[str]) -> tuple[dict[str, Phasors], Loads]:

@@ -1,13 +1,13 @@
-"""Why an engine is balanced: sums of e^{i(n phi +- gamma)} decided exactly where the angles are fractions of a turn.
+"""Why an engine is balanced: sums of e^{i(n phi +- gamma)} decided exactly where angles are fractions of a turn.
 
-Cylinders with one mechanism share their Fourier coefficients, so an order vanishes if its sum over each such family does
-(THEORY 5): for the force `sum m e^{i(n phi +- g)}`, for the moment the same with z, for couple, torque and roll
+Cylinders with one mechanism share their Fourier coefficients, so an order vanishes if its sum over each such family
+does (THEORY 5): for the force `sum m e^{i(n phi +- g)}`, for the moment the same with z, for couple, torque and roll
 `sum e^{i n phi}`. Families of different mechanisms may still cancel each other by their figures; that is no symmetry.
 """
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
@@ -16,12 +16,11 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .analysis import alone
 from .core.articulated import Articulated
 from .core.phasors import Array
 from .core.unity import even, rational, turns, vanishes
 from .engine import Engine
-from .spectrum import SPECTRAL, spectra
+from .spectrum import SPECTRAL, alone, spectra
 
 Verdict = Literal["none", "exact", "rounding", "nearly", "free"]
 Quantity = Literal["force", "moment", "turning"]        # turning: couple, torque and roll
@@ -63,16 +62,16 @@ class Why:
         return (*(reason.sentence for reason in self.reasons), *([self.firing] if self.firing else []))
 
 
-def why(engine: Engine, orders: Iterable[int]) -> Why:
+def why(engine: Engine, orders: Iterable[float], quantities: Collection[Quantity] = QUANTITIES) -> Why:
     """The conditions of self-balance for whole orders from 1, at steady speed, of the cylinders alone: no devices.
 
-    The moment is that about the engine's point of reference; in couple, torque and roll the displacement of this point is
-    left out. The engine has no trailing axes.
+    The moment is that about the engine's point of reference; in couple, torque and roll the displacement of this point
+    is left out. The engine has no trailing axes.
     """
     asked = np.unique(np.fromiter(orders, float))
     bare = replace(engine, devices=(), ripple=(), reference_m=(0.0, 0.0, engine.reference_m[2]))
     layout = _Layout(bare, asked)
-    return Why(tuple(layout.reason(row, q) for row in range(len(asked)) for q in QUANTITIES), firing(engine))
+    return Why(tuple(layout.reason(row, q) for row in range(len(asked)) for q in quantities), firing(engine))
 
 
 def firing(engine: Engine) -> str:
@@ -100,7 +99,7 @@ class _Sum(NamedTuple):
 
 
 class _Layout:
-    """Angles and weights of an engine's cylinders, as fractions where they are some, and the forces of whole and parts."""
+    """Angles and weights of an engine's cylinders, as fractions where they are some; forces of the whole and its parts."""
 
     def __init__(self, engine: Engine, orders: Array) -> None:
         self._c = c = engine.cylinders
@@ -112,12 +111,12 @@ class _Layout:
 
     def reason(self, row: int, quantity: Quantity) -> Reason:
         order, names = int(self._orders[row]), ("couple", "torque") if quantity == "turning" else (quantity,)
-        alone = {name: np.array([getattr(one, name).major[row] for one in self._each]) for name in names}
+        single = {name: np.array([getattr(one, name).major[row] for one in self._each]) for name in names}
         whole = {name: getattr(self._whole, name).major[row] for name in names}
-        sizes = [whole[name] / alone[name].max() for name in names if alone[name].any()]
+        sizes = [whole[name] / single[name].max() for name in names if single[name].any()]
         if not sizes:
             return Reason(order, quantity, "none", 0.0)
-        there = np.any([one > 0 for one in alone.values()], axis=0)
+        there = np.any([one > 0 for one in single.values()], axis=0)
         if all(map(self._exactly_zero, self._sums(order, quantity, there))):
             return Reason(order, quantity, "exact", 0.0)
         verdict: Verdict = "rounding" if max(sizes) == 0 else "nearly" if max(sizes) < NEARLY else "free"
@@ -130,23 +129,35 @@ class _Layout:
                 yield _Sum(rows, np.ones(self._c.count), order, 0)
             return
         arms = self._arms if quantity == "moment" else np.ones(self._c.count)
-        families = self._families(self._figures(), there)
-        for rows in families:
-            yield from (_Sum(rows, self._grams("reciprocating") * arms, order, side) for side in (1, -1))
-        if order == 1:                                      # the rotating masses are alike, whatever hangs on the pins
-            comparable = _fractions(self._c.pin_deg + self._c.axis_deg[:1] * 0) is not None
-            for rows in [list(range(self._c.count))] if comparable else families:
-                yield _Sum(rows, self._grams("rotating") * arms, 1, 0)
+        for rows in self._families(self._figures(), there):
+            yield from (_Sum(rows, self._moving() * arms, order, side) for side in (1, -1))
+        if order == 1:
+            yield _Sum(list(range(self._c.count)), self._grams("rotating") * arms, 1, 1)
 
     # -------------------------------------------------------------- one sum
     def _exactly_zero(self, s: _Sum) -> bool:
-        """Only the angles between the cylinders matter."""
-        weights = [_decimals(s.weights)[row] for row in s.rows]
-        pins, axes = (_fractions(angles[s.rows]) for angles in (self._c.pin_deg, self._axis_deg))
-        if None in weights or pins is None or axes is None:
-            return False
-        angles = [(s.order * (pin - axis) + s.side * axis) % 1 for pin, axis in zip(pins, axes, strict=True)]
-        return vanishes([w for w in weights if w is not None], angles)
+        """Whether the sum vanishes, each set of cylinders that stand fractions of a turn apart for itself."""
+        weights = _decimals(s.weights)
+        for angles in self._commensurable(s):
+            terms = [(w, angle) for row, angle in angles.items() if (w := weights[row]) is not None]
+            if len(terms) < len(angles) or not vanishes(*zip(*terms, strict=True)):
+                return False
+        return True
+
+    def _commensurable(self, s: _Sum) -> list[dict[int, Fraction]]:
+        """Sets of rows whose angles differ by fractions of a turn, with these differences from the first of each."""
+        pin, axis = self._c.pin_deg, self._axis_deg if s.side != s.order else np.zeros(self._c.count)
+        sets: list[dict[int, Fraction]] = []
+        for row in s.rows:
+            for known in sets:
+                first = next(iter(known))
+                turned, leaned = turns(float(pin[row] - pin[first])), turns(float(axis[row] - axis[first]))
+                if turned is not None and leaned is not None:
+                    known[row] = (s.order * turned + (s.side - s.order) * leaned) % 1
+                    break
+            else:
+                sets.append({row: Fraction(0)})
+        return sets
 
     # -------------------------------------------------------------- which cylinders are alike
     def _figures(self, *more: str) -> Callable[[int], tuple[Any, ...]]:
@@ -166,14 +177,13 @@ class _Layout:
             found[figures(row)].append(row)
         return list(found.values())
 
+    def _moving(self) -> Array:
+        """What moves with each piston, g: on its axis, or on the curve of a linkage (whose cylinders count as equal or not)."""
+        linkage = self._c.linkage
+        return self._grams("reciprocating") + (0 if linkage is None else linkage.mass * 1e3)
+
     def _grams(self, key: str) -> Array:
         return np.broadcast_to(getattr(self._c, key) * 1e3, (self._c.count,))
-
-
-def _fractions(degrees: Array) -> list[Fraction] | None:
-    """Angles from the first of them as fractions of a turn; None if one is none."""
-    found = [turns(float(angle)) for angle in degrees - degrees[0]]
-    return None if None in found else [x for x in found if x is not None]
 
 
 def _decimals(values: Array) -> list[Fraction | None]:

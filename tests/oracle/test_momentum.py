@@ -7,7 +7,7 @@ import momentum
 import numpy as np
 import pytest
 
-from balcli import analysis, engine, load, spectrum
+from balcli import analysis, engine, enginefile, spectrum
 
 TOLERANCE = 1e-11           # of the largest first-order amplitude of one cylinder
 ORDERS = np.arange(0.0, 11.0)
@@ -69,6 +69,10 @@ CASES = {
                                   "more": ARTICULATED + "[cylinder.4]\nrod_length = 180\npiston_mass = 1.5"},
     "vee with articulated rods": {"layout": "bank_angle = 60", "crank": "throws = [0, 120, 240, 240, 120, 0]\nspacing = 160",
                                   "more": ARTICULATED.replace("knuckle", "master = 2\nknuckle_angles = [-66.5, 0]\nknuckle")},
+    "rotary": {"layout": "radial = 5\nrotary = true"},
+    "rotary in two rows, offset": {"layout": "radial = 3\nrotary = true\nstagger = 3", "piston": "offset = 11",
+                                   "crank": "throws = [0, 175]\nspacing = 160", "more": DISPLACED},
+    "rotary, one cylinder, uneven speed": {"layout": "rotary = true", "piston": "offset = -5", "operation": RIPPLE, "more": DISPLACED},
     "articulated, uneven, displaced": {"layout": "radial = 5", "piston": "offset = 8", "operation": RIPPLE, "more": ARTICULATED + DISPLACED},
 }
 
@@ -77,7 +81,7 @@ def compare(text: str) -> None:
     """Every order of every quantity, in units of what one cylinder does."""
     oracle = momentum.Engine.read(text)
     curves, scales = oracle.curves(), oracle.scales()
-    found = spectrum.spectra(engine.build(load.parse(text)), ORDERS)
+    found = spectrum.spectra(engine.build(enginefile.parse(text)), ORDERS)
     for quantity, phasors in found.items():
         for row, n in enumerate(ORDERS):
             forward, backward = curves.order(quantity, int(n))
@@ -99,7 +103,7 @@ def test_every_engine_that_comes_with_balcli(path):
 def test_one_cylinder_of_an_articulated_engine_alone():
     """The share of a master and of an articulated cylinder in what the engine does (`--by cylinder`)."""
     text = BASE.format(crank="", piston="", layout="radial = 5", operation="", more=ARTICULATED)
-    oracle, whole = momentum.Engine.read(text), engine.build(load.parse(text))
+    oracle, whole = momentum.Engine.read(text), engine.build(enginefile.parse(text))
     for number in (1, 3):
         curves = oracle.curves([number])
         force = spectrum.spectra(analysis.alone(whole, number), ORDERS, ["force"]).force

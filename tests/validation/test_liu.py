@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from balcli.engine import build
-from balcli.load import parse
+from balcli.enginefile import parse
 from balcli.spectrum import spectra
 from balcli.tables import recompute
 

@@ -15,7 +15,9 @@ def analyze(
     orders: Orders = None,
     only: Only = None,
     by: Annotated[str, typer.Option("--by", metavar="cylinder", help="cylinder: also each cylinder's share.", show_default=False)] = "",
+    why: Annotated[bool, typer.Option("--why", help="Also say whether each order is balanced by symmetry.")] = False,
     units: UnitsOption = Units.SI,
+    plot: Annotated[bool, typer.Option("--plot", help="In a terminal: also bars by order and the loci of force and moment.")] = False,
     output: Output = None,
 ) -> None:
     """Free forces and moments by order, couple, inertia torque and roll, peaks, and what would balance them."""
@@ -28,7 +30,7 @@ def analyze(
         raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")
     chosen = None if only is None else [word.strip() for word in only.split(",")]
     asked, rpm = order_list(orders), checked_speed(speed)
-    results, errors = each(files, lambda file: analyzed(engine_of(file, rpm)[1], asked, chosen, by_cylinder=bool(by)))
+    results, errors = each(files, lambda file: analyzed(engine_of(file, rpm)[1], asked, chosen, by_cylinder=bool(by), reasons=why))
     if results and not (errors and output):             # a file gets all of them or is left as it was
-        emit(analyses(results, format, units, into_file=output is not None), output)
+        emit(analyses(results, format, units, into_file=output is not None, plot=plot), output)
     tell(errors)

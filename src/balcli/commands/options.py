@@ -21,6 +21,8 @@ Orders = Annotated[str | None, typer.Option("--orders", metavar="1-8|1,2,4", sho
                                                help="Orders to show; default: 1, 2 and all that are not negligible.")]
 Only = Annotated[str | None, typer.Option("--only", metavar="WHAT,...", show_default=False,
                                              help="Compute only some of force, moment, couple, torque, roll, peak, sizing.")]
+Scheme = Annotated[str | None, typer.Option("--scheme", metavar="NAME", show_default=False,
+                                               help="Also with the devices of a balance scheme, such as auto: before and after.")]
 
 
 def order_list(text: str | None) -> list[int] | None:

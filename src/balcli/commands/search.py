@@ -27,7 +27,7 @@ def search(
         "Write the engine file with the best one."))] = None,
 ) -> None:
     """The best crank, firing order, bank angle or splay; mirror images and rotations once."""
-    from .. import load
+    from .. import enginefile
     from .. import search as searches
     from ..render import search as rendered
     from ..render.formats import render
@@ -37,8 +37,8 @@ def search(
 
     if require not in ("", "even-firing"):
         raise typer.BadParameter(f'"{require}": only even-firing can be required', param_hint="--require")
-    text = load.text_of(file)
-    found = searches.search(load.parse(text, file), over, searches.objective(minimise, limit or ()), top, bool(require))
+    text = enginefile.text_of(file)
+    found = searches.search(enginefile.parse(text, file), over, searches.objective(minimise, limit or ()), top, bool(require))
     emit(render(format, sheets=lambda: [rendered.sheet(found)], documents=lambda: [rendered.document(found)],
                 rows=lambda: rendered.rows(found), into_file=output is not None), output)
     if write is not None:

@@ -9,9 +9,9 @@ from typing import TypeVar
 import typer
 
 from ..checks import suspicious
-from ..engine import Engine, build
-from ..errors import BalcliError, Exit, InputError
-from ..load import name_of, parse, text_of
+from ..engine import Engine
+from ..enginefile import built, name_of, parse, text_of
+from ..errors import BalcliError, Exit
 from ..model import EngineFile
 
 F = TypeVar("F")
@@ -34,10 +34,7 @@ def engine_and_text(file: str, speed_rpm: float | None = None) -> tuple[bytes, E
 
 
 def _built(model: EngineFile, file: str, speed_rpm: float | None) -> tuple[EngineFile, Engine]:
-    try:
-        engine = build(model)
-    except InputError as error:
-        raise InputError(error.problems, file) from None
+    engine = built(model, file)
     for warning in suspicious(model):
         typer.echo(f"warning: {file}: {warning}", err=True)
     return model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)

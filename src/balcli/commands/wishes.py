@@ -1,9 +1,12 @@
-"""Options of `balance` -> what the schemes understand (SI)."""
+"""Options of `balance`, and what the schemes understand of them (SI)."""
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
 
 from ..errors import BalcliError
 
@@ -12,8 +15,25 @@ if TYPE_CHECKING:
 
 MOST_FACTORS = 1000
 
+Scheme = Annotated[str, typer.Option("--scheme", "--with", metavar="NAME", help="auto, counterweights, factor, minimax, single-shaft, "
+                                     "two-shaft, four-shaft, couple-shaft, slider, eccentric-slider or oldham.")]
+Order = Annotated[int | None, typer.Option(metavar="N", show_default=False, help="Order to balance; default: the lowest that is free.")]
+At = Annotated[list[str] | None, typer.Option(metavar="X,Y", show_default=False,
+                                              help="Place in mm of the shaft turning against the crank; given twice: of both.")]
+Position = Annotated[str | None, typer.Option(metavar="Z", show_default=False, help="Axial place of new devices, mm.")]
+Planes = Annotated[str | None, typer.Option(metavar="ends|throws|Z,Z...", show_default=False, help="Axial places of several devices, mm.")]
+Factor = Annotated[str | None, typer.Option(metavar="K|K:K:STEP", show_default=False, help="Share of the reciprocating mass; default 0.5.")]
+Roll = Annotated[str | None, typer.Option(metavar="zero", show_default=False, help="Place a pair of shafts such that no roll is left.")]
+Radius = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help="Where masses are stated; default: crank radius.")]
+Thickness = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help="Of a semicircular steel disc; default 20.")]
+Disc = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help="Radius of that disc, instead of its thickness.")]
+Drill = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help="Drill for a radial hole from --radius inwards.")]
+Write = Annotated[Path | None, typer.Option("--write", metavar="OUT.toml", show_default=False,
+                                            help="Write the engine with the devices fitted.")]
 
-def wish_of(order: int | None, at: Sequence[str] | None, position: str | None, planes: str | None, factor: str | None, roll: str | None) -> Wish:
+
+def wish_of(order: int | None, at: Sequence[str] | None, position: str | None, planes: str | None, factor: str | None,
+            roll: str | None) -> Wish:
     """The wish; BalcliError for a text that says nothing, with the text."""
     from ..sizing import Wish
 

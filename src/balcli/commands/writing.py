@@ -3,9 +3,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ..enginefile import name_of
 from ..errors import BalcliError
 from ..fit import fit
-from ..load import name_of
 from ..sizing import Remedy
 from .output import write
 

@@ -32,29 +32,19 @@ class Articulated(Linkage):
     lead_deg: Array
 
     def motion(self, psi: Array, lam: Array, eps: Array) -> Motion:
-        lam, eps = (_rows(a, len(self.master))[..., None] for a in (lam, eps))
+        lam, eps = (np.broadcast_to(a, (len(self.master), *a.shape[1:]))[..., None] for a in (lam, eps))
         k, k1, k2 = self._knuckles(psi, lam, eps)
         sine = lam * k.imag - eps
         cosine = np.sqrt((1 - sine) * (1 + sine))
         tangent, rate = sine / cosine, lam * k1.imag / cosine
         return Motion(
+            lean=sine,
+            place=k.real + cosine / lam,
             velocity=k1.real - tangent * k1.imag,
             acceleration=k2.real - tangent * k2.imag - rate * k1.imag / cosine**2,
             spin=-rate,
             spin_rate=-(lam * k2.imag / cosine + rate**2 * tangent),
             z=k, z1=k1, z2=k2)
-
-    def travel(self, psi: Array, lam: Array, eps: Array) -> Array:
-        """Place s of the pistons in crank radii, shape (cylinders, *trailing, samples)."""
-        lam, eps = (_rows(a, len(self.master))[..., None] for a in (lam, eps))
-        k = self._knuckles(psi, lam, eps)[0]
-        sine = lam * k.imag - eps
-        return np.asarray(k.real + np.sqrt((1 - sine) * (1 + sine)) / lam)
-
-    def lean(self, psi: Array, lam: Array, eps: Array) -> Array:
-        """Sine of each rod's angle; the mechanism turns if it stays within -1 .. 1."""
-        lam, eps = (_rows(a, len(self.master))[..., None] for a in (lam, eps))
-        return np.asarray(lam * self._knuckles(psi, lam, eps)[0].imag - eps)
 
     def _knuckles(self, psi: Array, lam: Array, eps: Array) -> tuple[Complex, Complex, Complex]:
         """K and its two derivatives in each cylinder's frame."""
@@ -67,7 +57,3 @@ class Articulated(Linkage):
         arm = np.conj(lead) * self.knuckle[..., None] * (cosine - 1j * sine)
         return crank + arm, 1j * (crank - rate * arm), -crank - (rate**2 + 1j * bend) * arm
 
-
-def _rows(values: Array, count: int) -> Array:
-    """One row for each cylinder, also where all are equal."""
-    return np.broadcast_to(values, (count, *values.shape[1:]))

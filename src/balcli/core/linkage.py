@@ -20,9 +20,11 @@ FEWEST, MOST = 64, 1 << 18          # samples
 
 
 class Motion(NamedTuple):
-    """One revolution of a mechanism; each of shape (cylinders or 1, *trailing, samples), lengths in crank radii."""
+    """A mechanism in motion; each of shape (cylinders, *trailing, samples), lengths in crank radii."""
 
-    velocity: Array                     # s' of the piston along its axis
+    lean: Array                         # sine of the rod's angle beta to the cylinder's axis
+    place: Array                        # s of the piston along its axis
+    velocity: Array                     # s'
     acceleration: Array                 # s''
     spin: Array                         # angular velocity of the rod, in the crank's sense
     spin_rate: Array
@@ -43,7 +45,7 @@ class Linkage(ABC):
 
     @abstractmethod
     def motion(self, psi: Array, lam: Array, eps: Array) -> Motion:
-        """The cylinders at their own crank angles psi, shape (samples,); lam and eps as in `inertia.Cylinders`."""
+        """The cylinders at their own crank angles psi, shape (samples,) or one row each; lam and eps as in `Cylinders`."""
 
     def harmonics(self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: bool = True) -> Harmonics:
         """Harmonics of all cylinders for whole orders; accelerations are sampled as such, so that no order's error grows."""

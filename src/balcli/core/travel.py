@@ -5,10 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .articulated import Articulated
 from .harmonics import Array
 from .inertia import Cylinders
-from .linkage import revolution
+from .linkage import Linkage, revolution
 
 _STEPS = 720
 
@@ -22,28 +21,29 @@ class Travel(NamedTuple):
 
 
 def travel(c: Cylinders) -> Travel:
-    """Strokes and dead centres: closed form for plain slider-cranks (`sin tau = e/(l + r)`, `e/(l - r)` below), found on the
-    curve for articulated ones."""
-    if isinstance(c.linkage, Articulated):
-        return _articulated(c, c.linkage)
+    """Strokes and dead centres: in closed form for plain slider-cranks (`sin tau = e/(l + r)`, below `e/(l - r)`), found
+    on the curve for others."""
+    found = _plain(c) if c.linkage is None else _sampled(c, c.linkage)
+    return Travel(*(np.broadcast_to(values, np.broadcast_shapes(c.pin_deg.shape, values.shape)) for values in found))
+
+
+def _plain(c: Cylinders) -> tuple[Array, ...]:
     top, bottom = c.eps / (1 + c.lam), c.eps / (1 - c.lam)
     reach = (1 + c.lam) * np.sqrt((1 - top) * (1 + top)) - (1 - c.lam) * np.sqrt((1 - bottom) * (1 + bottom))
-    shape = np.broadcast_shapes(c.pin_deg.shape, reach.shape)
-    found = c.radius / c.lam * reach, np.degrees(np.arcsin(top)), np.degrees(np.arcsin(bottom))
-    return Travel(*(np.broadcast_to(a, shape) for a in found))
+    return c.radius / c.lam * reach, np.degrees(np.arcsin(top)), np.degrees(np.arcsin(bottom))
 
 
-def _articulated(c: Cylinders, linkage: Articulated) -> Travel:
+def _sampled(c: Cylinders, linkage: Linkage) -> tuple[Array, ...]:
     psi = revolution(_STEPS)
-    place = linkage.travel(psi, c.lam, c.eps)
+    place = linkage.motion(psi, c.lam, c.eps).place
     top = _refined(c, linkage, psi[place.argmax(axis=-1)])
     bottom = _refined(c, linkage, psi[place.argmin(axis=-1)])
-    reach = [linkage.travel(at[..., None], c.lam, c.eps)[..., 0] for at in (top, bottom)]
+    high, low = (linkage.motion(at[..., None], c.lam, c.eps).place[..., 0] for at in (top, bottom))
     centred = np.remainder(np.degrees(top) + 180, 360) - 180
-    return Travel(np.asarray(c.radius * (reach[0] - reach[1])), centred, np.remainder(np.degrees(bottom), 360) - 180)
+    return c.radius * (high - low), centred, np.remainder(np.degrees(bottom), 360) - 180
 
 
-def _refined(c: Cylinders, linkage: Articulated, psi: Array) -> Array:
+def _refined(c: Cylinders, linkage: Linkage, psi: Array) -> Array:
     """Newton's method for the zeros of the piston's velocity beside these angles, one each cylinder."""
     for _ in range(6):
         motion = linkage.motion(psi[..., None], c.lam, c.eps)

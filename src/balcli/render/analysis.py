@@ -20,8 +20,8 @@ from .verdict import verdict
 _SCALARS = {"couple": "couple C", "torque": "inertia torque T", "roll": "roll C − T"}
 
 
-def sheet(result: Analysis, system: System) -> Sheet:
-    """The whole analysis: what the engine is, what it does order by order, peaks, verdict, sizing."""
+def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
+    """The whole analysis: what the engine is, what it does order by order, peaks, verdict, sizing; pictures of characters."""
     engine, spectra = result.engine, result.spectra
     parts: list[Grid | Facts | Text] = [facts(engine, system)]
     parts += _spectra(spectra, system)
@@ -32,8 +32,13 @@ def sheet(result: Analysis, system: System) -> Sheet:
     parts += [_share(n, share, system) for n, share in result.cylinders]
     if found := verdict(spectra, system):
         parts.append(Text("Verdict", found))
+    if result.why is not None:
+        parts.append(Text("Why", result.why.sentences))
     if result.sizing is not None:
         parts += _sizing(result.sizing, system)
+    if pictures:
+        from .sketch import sketches
+        parts += sketches(result, system)
     return Sheet(engine.name or "engine without a name", tuple(parts))
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..balance import Balance
+from ..balancing import Balance
 from ..core.peaks import Peak
 from .devices import device_grid
 from .figures import order_number
@@ -27,7 +27,9 @@ def sheet(result: Balance, system: System) -> Sheet:
         parts.append(Text("What is fitted, and why", tuple(dict.fromkeys(remedy.reasons))))
         parts += [device_grid(remedy, system), _practical(result, system)]
     else:
-        parts.append(Text("Nothing is fitted", (str(remedy.details.get("note", "Orders 1 and 2 are balanced.")),)))
+        parts.append(Text("Nothing is fitted", () if "note" in remedy.details else ("Orders 1 and 2 are balanced.",)))
+    if "note" in remedy.details:
+        parts.append(Text("Note", (str(remedy.details["note"]),)))
     parts += _details(remedy.details, system)
     parts += [_orders(result, system), _peaks(result, system)]
     return Sheet(f"{result.before.engine.name or 'engine without a name'}: {remedy.scheme}{order}", tuple(parts))
@@ -45,27 +47,28 @@ def _practical(result: Balance, system: System) -> Grid:
              f"thick, {system.length.name}", *([f"drill, {system.length.name}"] if drilled else []))
     hole = "; drill: depth of a radial hole from that radius inwards that removes as much" if drilled else ""
     return Grid("Practical figures", names, tuple(rows),
-                note=f"Mass at a radius of {number(system.length.of(first.radius), 4)} {system.length.name}; disc: a semicircular one of steel{hole}.")
+                note=f"Mass at a radius of {number(system.length.of(first.radius), 4)} {system.length.name}; "
+                     f"disc: a semicircular one of steel{hole}.")
 
 
 # ------------------------------------------------------------------ before and after
 def _orders(result: Balance, system: System) -> Grid:
-    columns = [(name, q, unit) for name, q, unit in (("force", "force", system.force), ("moment", "moment", system.moment),
-                                                    ("roll", "roll", system.moment))]
+    columns = (("force", system.force), ("moment", system.moment), ("roll", system.moment))
 
     def row(k: int) -> tuple[str, ...]:
         cells = [f"{order_number(result.before.orders[k])}"]
-        for _, quantity, unit in columns:
+        for quantity, unit in columns:
             for analysis in (result.before, result.after):
                 phasors = getattr(analysis.spectra, quantity)
                 cells.append("balanced" if phasors.balanced[k] else number(unit.of(float(phasors.major[k])), 4))
         return tuple(cells)
-    heads = [f"{name}, {unit.name}" if n == 0 else "after" for name, _, unit in columns for n in (0, 1)]
+    heads = [f"{name}, {unit.name}" if n == 0 else "after" for name, unit in columns for n in (0, 1)]
     return Grid("Largest value by order, before and after", ("order", *heads), tuple(map(row, range(len(result.before.orders)))))
 
 
 def _peaks(result: Balance, system: System) -> Grid:
-    pairs = (("force", result.before.force, result.after.force, system.force), ("moment", result.before.moment, result.after.moment, system.moment))
+    before, after = result.before, result.after
+    pairs = (("force", before.force, after.force, system.force), ("moment", before.moment, after.moment, system.moment))
     rows = [(f"{name}, {unit.name}", *(cell for peak in peaks for cell in _peak(peak, unit))) for name, *peaks, unit in pairs]
     note = "Sized for steady mean speed; both columns are those of the uneven speed." if result.before.engine.ripple else ""
     return Grid("Largest over a revolution, all orders", ("", "before", "at, deg", "after", "at, deg"), tuple(rows), note=note)
@@ -80,14 +83,14 @@ def _peak(peak: Peak | None, unit: Unit) -> tuple[str, str]:
 # ------------------------------------------------------------------ details
 def _details(details: Mapping[str, Any], system: System) -> Iterator[Grid | Facts | Text]:
     """Figures of a scheme that are no device."""
-    plain = [fact for key, value in details.items() if key != "note" and not isinstance(value, list) or key == "reached_deg"
+    plain = [fact for key, value in details.items() if key == "reached_deg" or (key != "note" and not isinstance(value, list))
              for fact in _facts(key, value, system)]
     if plain:
         yield Facts(tuple(plain), "Details")
     if "card" in details:
         yield _card(details["card"])
     if "sweep" in details:
-        yield _sweep(details["sweep"], system.force)
+        yield _sweep(details["sweep"], system)
     if "optima" in details:
         yield _optima(details["optima"])
 
@@ -110,17 +113,25 @@ def _facts(key: str, value: Any, system: System) -> Iterator[tuple[str, str]]:
 
 
 def _card(card: list[dict[str, Any]]) -> Grid:
-    """Grams are what a balancing shop's scales show, in either system."""
-    rows = [(f"{entry['throw']}", ", ".join(map(str, entry["cylinders"])), *(number(entry[key], 5) for key in _CARD)) for entry in card]
-    heads = tuple(key.removesuffix("_g").replace("_", " ").replace("reciprocating", "recip.").replace("rod bearing", "bearing") for key in _CARD)
-    return Grid("Bobweight card, g a crank pin", ("throw", "cyl.", *heads), tuple(rows))
+    """Grams are what a balancing shop's scales show, in either system; equal pins stand in one column."""
+    equal: dict[tuple[float, ...], list[dict[str, Any]]] = {}
+    for entry in card:
+        equal.setdefault(tuple(entry[key] for key in _CARD), []).append(entry)
+    rows = [(key.removesuffix("_g").replace("_", " "), *(number(entries[0][key], 5) for entries in equal.values())) for key in _CARD]
+    heads = [f"cylinders {', '.join(str(n) for entry in entries for n in entry['cylinders'])}" for entries in equal.values()]
+    pins = "each pin" if len(equal) < len(card) else "pin"
+    return Grid(f"Bobweight card, g for {pins}", ("", *heads), tuple(rows))
 
 
-def _sweep(sweep: list[dict[str, float]], unit: Unit) -> Grid:
-    rows = [(f"{row['factor']:g}", *(number(unit.of(row[key])) for key in ("peak_force_N", "along_N", "across_N"))) for row in sweep]
-    return Grid(f"Largest force by factor, {unit.name}", ("factor", "any direction", "along first bank", "across it"), tuple(rows))
+def _sweep(sweep: list[dict[str, float]], system: System) -> Grid:
+    unit = system.force
+    rows = [(f"{row['factor']:g}", *(number(unit.of(row[key])) for key in ("peak_force_N", "along_N", "across_N")),
+             number(system.moment.of(row["peak_moment_Nm"]))) for row in sweep]
+    heads = ("factor", f"force, {unit.name}", "along 1st bank", "across it", f"moment, {system.moment.name}")
+    return Grid("Largest values by factor", heads, tuple(rows))
 
 
 def _optima(optima: list[dict[str, Any]]) -> Grid:
-    rows = [(o["design"], o["criterion"], o["engine_force"], f"{o['k']:.5f}", f"{o['mu']:.6f}", f"{o['largest']:.6f}", f"{o['mean']:.6f}") for o in optima]
+    rows = [(o["design"], o["criterion"], o["engine_force"], f"{o['k']:.5f}",
+             f"{o['mu']:.6f}", f"{o['largest']:.6f}", f"{o['mean']:.6f}") for o in optima]
     return Grid("Optima of both designs", ("design", "criterion", "engine force", "k", "μ", "largest/J", "mean/J"), tuple(rows))

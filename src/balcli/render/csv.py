@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
-    from ..balance import Balance
+    from ..balancing import Balance
     from .units import System
 
 

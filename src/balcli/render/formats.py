@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, assert_never
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
-    from ..balance import Balance
+    from ..balancing import Balance
     from .sheet import Sheet
 
 
@@ -46,8 +46,8 @@ def render(form: Format, *, sheets: Callable[[], list[Sheet]], documents: Callab
             assert_never(form)
 
 
-def analyses(results: Sequence[Analysis], form: Format, units: Units, *, into_file: bool = False) -> str:
-    """Analyses, one after the other; JSON is one document a line."""
+def analyses(results: Sequence[Analysis], form: Format, units: Units, *, into_file: bool = False, plot: bool = False) -> str:
+    """Analyses, one after the other; JSON is one document a line. `plot`: with pictures, if a person looks at a terminal."""
     from . import csv, json
     from .units import SYSTEMS
 
@@ -55,7 +55,9 @@ def analyses(results: Sequence[Analysis], form: Format, units: Units, *, into_fi
 
     def sheets() -> list[Sheet]:
         from .analysis import sheet
-        return [sheet(result, system) for result in results]
+        from .table import seen
+        pictures = plot and form is Format.TABLE and seen(into_file)
+        return [sheet(result, system, pictures=pictures) for result in results]
     return render(form, sheets=sheets, documents=lambda: [json.analysis(r) for r in results],
                   rows=lambda: csv.analyses(results, system), into_file=into_file)
 

@@ -3,13 +3,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from .figures import clean, entries, order_number, peaks
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
-    from ..balance import Balance
+    from ..balancing import Balance
     from ..sizing import Practical, Remedy
     from ..spectrum import Spectra
 
@@ -35,6 +36,8 @@ def analysis(result: Analysis) -> dict[str, Any]:
         document["sizing"] = {"scheme": result.sizing.remedy.scheme, **devices(result.sizing.remedy), "after": after(result.sizing.after)}
     if result.cylinders:
         document["cylinders"] = [{"cylinder": number, "orders": orders(spectra)} for number, spectra in result.cylinders]
+    if result.why is not None:
+        document["why"] = {"reasons": [asdict(reason) for reason in result.why.reasons], "firing": result.why.firing}
     return document
 
 
@@ -53,8 +56,8 @@ def devices(remedy: Remedy) -> dict[str, list[dict[str, Any]]]:
     return {
         "counterweights": [{"unbalance_kg_m": (d.unbalance or 0.0) / 1e6, "angle_deg": d.angle, "position_mm": d.position}
                            for d in remedy.counterweights],
-        "shafts": [{"ratio": d.ratio, "unbalance_kg_m": (d.unbalance or 0.0) / 1e6, "angle_deg": d.angle, "at_mm": list(d.at), "position_mm": d.position}
-                   for d in remedy.shafts],
+        "shafts": [{"ratio": d.ratio, "unbalance_kg_m": (d.unbalance or 0.0) / 1e6, "angle_deg": d.angle,
+                    "at_mm": list(d.at), "position_mm": d.position} for d in remedy.shafts],
         "sliders": [{"order": d.order, "unbalance_kg_m": (d.unbalance or 0.0) / 1e6, "direction_deg": d.direction, "angle_deg": d.angle,
                      "at_mm": list(d.at), "position_mm": d.position} for d in remedy.sliders],
     }

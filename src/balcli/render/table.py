@@ -13,12 +13,17 @@ if TYPE_CHECKING:
 UNLIMITED = 100_000
 
 
+def seen(into_file: bool) -> bool:
+    """Whether a person looks at a terminal."""
+    return sys.stdout.isatty() and not into_file
+
+
 def terminal(sheets: list[Sheet], *, into_file: bool = False) -> str:
     """All sheets as text: with colours and folded to the width where a person looks at a terminal, else plain and unfolded."""
     from rich.console import Console
     from rich.text import Text as Line
 
-    person = sys.stdout.isatty() and not into_file
+    person = seen(into_file)
     buffer = StringIO()
     console = Console(file=buffer, highlight=False, emoji=False, markup=False, soft_wrap=not person,
                       **({"force_terminal": True} if person else {"width": UNLIMITED, "no_color": True}))

@@ -8,7 +8,7 @@ from . import crank, shafts, single
 from .auto import auto
 from .remedy import Remedy, fitted
 from .shop import Practical, Tools, practical
-from .wish import Nothing, Wish, options
+from .wish import NoNeedError, Wish, options
 
 __all__ = ["SCHEMES", "Practical", "Remedy", "Tools", "Wish", "auto", "fitted", "practical", "remedy_for"]
 
@@ -40,5 +40,5 @@ def remedy_for(engine: Engine, scheme: str = "auto", wish: Wish | None = None) -
     asked.check(scheme, accepted)
     try:
         return SCHEMES[scheme][0](engine, asked)
-    except Nothing as reason:
+    except NoNeedError as reason:
         return Remedy(scheme, asked.order, details={"note": str(reason)})

@@ -20,7 +20,7 @@ from .auto import why_weights
 from .fitting import FORWARD, SAME_PLACE, Fitting
 from .remedy import Remedy, fitted
 from .solver import Part, Slot, solve, steady
-from .wish import Nothing, Wish
+from .wish import NoNeedError, Wish
 
 DEFINITION = ("bobweight of a crank pin = rotating mass + factor x reciprocating mass of the rods on that pin; rotating: rod big ends, "
               "rod bearings, oil; reciprocating: pistons with rings, pins and clips, rod small ends")
@@ -29,21 +29,23 @@ DEFINITION = ("bobweight of a crank pin = rotating mass + factor x reciprocating
 def counterweights(engine: Engine, wish: Wish) -> Remedy:
     """All of the forward part of order 1, force and moment, in the planes asked for; in a single plane as well as it can be done."""
     if wish.order not in (None, 1):
-        raise BalcliError(f"order {wish.order} cannot be cancelled by anything on the crankshaft, which turns at order 1: use a shaft scheme")
+        raise BalcliError(f"order {wish.order} cannot be cancelled by anything on the crankshaft, which turns at order 1: "
+                          "use a shaft scheme")
     fitting = Fitting.of(engine, "counterweights", 1)
     left = fitting.rest(1)
     if not any(left.at(*part) for part in FORWARD):
-        raise Nothing("there is no free force or moment of order 1 turning with the crank: no counterweight is needed")
+        raise NoNeedError("there is no free force or moment of order 1 turning with the crank: no counterweight is needed")
     where = _planes(engine, wish) if wish.planes is not None else _own_planes(engine, fitting)
     slots = [Slot("counterweight", 1, 1, z) for z in where]
     if len(set(where)) > 1 or len(where) > 1:
         return fitting.cancel(slots, FORWARD, why_weights(left)).remedy
     fit = solve(slots, left, FORWARD)
-    fitting = fitting.add(slots, fit.unbalances, "One plane takes the force and moment of order 1 turning with the crank as well as one can "
-                                                 "(least squares of force, and of moment over its arm)")
+    fitting = fitting.add(slots, fit.unbalances, "One plane takes the force and moment of order 1 turning with the crank as well as "
+                                                 "one can (least squares of force, and of moment over its arm)")
     rest = fitting.rest(1)
-    return fitting.note(left_force_N=abs(rest.at("force", 1)) * rest.newton, left_moment_Nm=abs(rest.at("moment", 1)) * rest.newton,
-                        reason=SAME_PLACE if rest.at("moment", 1) else "nothing is left").remedy
+    why = {"note": SAME_PLACE} if rest.at("moment", 1) else {}
+    return fitting.note(left_force_N=abs(rest.at("force", 1)) * rest.newton,
+                        left_moment_Nm=abs(rest.at("moment", 1)) * rest.newton, **why).remedy
 
 
 def _own_planes(engine: Engine, fitting: Fitting) -> tuple[float, ...]:
@@ -66,13 +68,13 @@ def _planes(engine: Engine, wish: Wish) -> tuple[float, ...]:
 def factor(engine: Engine, wish: Wish) -> Remedy:
     """At every throw all rotating mass plus the factor times the reciprocating mass of its rods, opposite the pin.
 
-    Of several factors, peaks of all are in the details, and the one of the smallest peak force is fitted.
+    Of several factors, peaks of all are in the details, and the one of the smallest peak force (among equals, moment) is fitted.
     """
     wanted = wish.factor or (0.5,)
     if not all(math.isfinite(k) and -10 <= k <= 10 for k in wanted):
         raise BalcliError("--factor: give a share of the reciprocating mass such as 0.5, or a range such as 0:1:0.1")
     rows = [_peaks(engine, k) for k in wanted]
-    best = min(rows, key=lambda row: row["peak_force_N"])["factor"]
+    best = min(rows, key=lambda row: (round(row["peak_force_N"], 6), row["peak_moment_Nm"]))["factor"]
     fitting = _weights(Fitting.of(engine, "factor", 1), best)
     sweep = {"sweep": rows} if len(rows) > 1 else {}
     own = sum(d.order == 1 and d.forward != 0 for d in engine.devices)
@@ -113,7 +115,8 @@ def _weights(fitting: Fitting, share: float) -> Fitting:
         z = float(masses @ engine.cylinders.z[rows]) / total
         pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
         names = ", ".join(str(n) for n in sorted(engine.numbers[row] for row in rows))
-        reason = f"Opposite the pin of cylinder{'s' if len(rows) > 1 else ''} {names}: all rotating mass and {share:g} of the reciprocating mass"
+        reason = (f"Opposite the pin of cylinder{'s' if len(rows) > 1 else ''} {names}: all rotating mass and {share:g} "
+                  "of the reciprocating mass")
         fitting = fitting.add([Slot("counterweight", 1, 1, z)], [-total * float(engine.cylinders.radius) * pin], reason)
     return fitting
 
@@ -123,10 +126,12 @@ def _counted(masses: Weighed, share: float) -> float:
 
 
 def _peaks(engine: Engine, share: float) -> dict[str, float]:
-    """Largest force with this factor, and its components along and across the first bank."""
-    curve = _force(fitted(steady(engine), _weights(Fitting.of(engine, "factor"), share).remedy))
+    """Largest force and moment with this factor, and components of the force along and across the first bank."""
+    new = fitted(steady(engine), _weights(Fitting.of(engine, "factor"), share).remedy)
+    curve = _curve(new, "force")
     along = complex(unit(float(engine.cylinders.axis_deg[0])))
-    return {"factor": share, "peak_force_N": peak(curve).value, "along_N": _component(curve, along), "across_N": _component(curve, 1j * along)}
+    return {"factor": share, "peak_force_N": peak(curve).value, "along_N": _component(curve, along),
+            "across_N": _component(curve, 1j * along), "peak_moment_Nm": peak(_curve(new, "moment")).value}
 
 
 def _component(curve: Phasors, direction: complex) -> float:
@@ -135,10 +140,9 @@ def _component(curve: Phasors, direction: complex) -> float:
     return peak(Phasors.real(curve.orders, c, np.zeros(1))).value
 
 
-def _force(engine: Engine) -> Phasors:
-    found = spectra(engine, np.union1d([1.0], relevant_orders(engine)), ("force",)).force
-    if found is None:
-        raise AssertionError("the force was asked for")
+def _curve(engine: Engine, quantity: str) -> Phasors:
+    """Force or moment, all orders."""
+    found: Phasors = getattr(spectra(engine, np.union1d([1.0], relevant_orders(engine)), (quantity,)), quantity)
     return found
 
 
@@ -149,19 +153,15 @@ def minimax(engine: Engine, wish: Wish) -> Remedy:
     One weight in the middle of the throws, or in the planes asked for such that the moment turning with the crank vanishes too.
     """
     fitting = Fitting.of(engine, "minimax", 1)
-    found = circle.enclosing(_force(fitting.engine))
+    found = circle.enclosing(_curve(fitting.engine, "force"))
     newton = float(engine.omega) ** 2
     unbalance = -found.centre / newton
     reason = (f"The largest force over a revolution, all orders, becomes {found.radius:.5g} N: no weight on the crankshaft "
               "can make it smaller (smallest circle around the force as seen from the crank)")
-    if wish.planes is None:
-        slots, unbalances = [Slot("counterweight", 1, 1, planes.middle(engine) if wish.position is None else wish.position)], (unbalance,)
-    else:
-        slots, unbalances = _split(engine, wish, fitting, unbalance)
     if abs(found.centre) <= fitting.rest(1).noise[Part("force", 1)] * newton and wish.planes is None:
-        raise Nothing("no counterweight makes the largest force smaller than it is: "
+        raise NoNeedError("no counterweight makes the largest force smaller than it is: "
                           f"{found.radius:.5g} N, which has no part of order 1 turning with the crank")
-    fitting = fitting.add(slots, unbalances, reason)
+    fitting = fitting.add(*_split(engine, wish, fitting, unbalance), reason)
     half = _peaks(replace(fitting.engine, devices=_off_crank(engine)), 0.5)["peak_force_N"]
     return fitting.note(peak_force_N=found.radius, reached_deg=[round(float(d), 9) % 360 for d in np.degrees(found.theta)],
                         relative_error_bound=found.excess / found.radius if found.radius else 0.0,
@@ -174,7 +174,9 @@ def _off_crank(engine: Engine) -> tuple[Any, ...]:
 
 
 def _split(engine: Engine, wish: Wish, fitting: Fitting, unbalance: complex) -> tuple[Sequence[Slot], Iterable[complex]]:
-    """That unbalance in several planes, such that no forward moment of order 1 is left."""
+    """That unbalance in one plane, or in several such that no forward moment of order 1 is left."""
+    if wish.planes is None:
+        return [Slot("counterweight", 1, 1, planes.middle(engine) if wish.position is None else wish.position)], (unbalance,)
     slots = [Slot("counterweight", 1, 1, z) for z in _planes(engine, wish)]
     left = fitting.rest(1)
     whole = replace(left, parts={**left.parts, Part("force", 1): -unbalance})

@@ -152,7 +152,7 @@ def _smallest_peak(design: str, engine: Array, x: Array) -> Array:
 
 
 def _exchange(values: Array, rows: Array) -> Array:
-    """The step d that makes the largest of `values + rows d` smallest: of all triples the one whose bound is highest (de la Vallee-Poussin)."""
+    """The step d that makes the largest of `values + rows d` smallest: that of the triple whose bound is highest (de la Vallee-Poussin)."""
     top, best = -np.inf, None
     for triple in combinations(range(len(values)), 3):
         system = np.column_stack([rows[list(triple)], -np.ones(3)])

@@ -35,9 +35,8 @@ class Fitting:
 
     @property
     def remedy(self) -> Remedy:
-        kinds = self._of(Counterweight), self._of(Shaft), self._of(Slider)
-        reasons = (reason for kind in kinds for _, reason in kind)
-        weights, shafts, sliders = (tuple(table for table, _ in kind) for kind in kinds)
+        weights, shafts, sliders = self._of(Counterweight), self._of(Shaft), self._of(Slider)
+        reasons = [reason for kind in (Counterweight, Shaft, Slider) for table, reason in self.fits if isinstance(table, kind)]
         return Remedy(self.scheme, self.order, weights, shafts, sliders, tuple(reasons), self.details, self.beyond)
 
     def rest(self, order: int) -> Rest:
@@ -55,11 +54,13 @@ class Fitting:
         if not slots:
             return self
         fit = exactly(slots, self.rest(slots[0].order), parts, impossible)
-        return self.add(slots, fit.unbalances, reason)
+        worst = max(fit.condition, self.details.get("condition_number", 1.0)) if len(slots) > 1 else None
+        told = self if worst is None or worst == float("inf") else self.note(condition_number=worst)
+        return told.add(slots, fit.unbalances, reason)
 
     def note(self, **details: Any) -> Fitting:
         """With further figures in the details."""
         return replace(self, details={**self.details, **details})
 
-    def _of(self, kind: type[T]) -> list[tuple[T, str]]:
-        return [(table, reason) for table, reason in self.fits if isinstance(table, kind)]
+    def _of(self, kind: type[T]) -> tuple[T, ...]:
+        return tuple(table for table, _ in self.fits if isinstance(table, kind))

@@ -9,7 +9,8 @@ from typing import Any
 
 from ..core.inertia import Device
 from ..core.phasors import EPS
-from ..engine import Engine, devices
+from ..devices import devices
+from ..engine import Engine
 from ..model import Counterweight, EngineFile, Shaft, Slider
 
 
@@ -60,7 +61,8 @@ def shaft(unbalance: complex, ratio: int, z: float, place: complex = 0j) -> Shaf
 def slider(amplitude: complex, order: int, direction_deg: float, z: float, place: complex = 0j) -> Slider:
     """A reciprocating mass whose displacement is the real part of `amplitude e^{i n theta}` along its direction."""
     size, angle = _polar(amplitude)
-    return Slider.model_construct(order=order, unbalance=size, direction=direction_deg, angle=angle, at=_at(place), position=_millimetres(z))
+    return Slider.model_construct(order=order, unbalance=size, direction=direction_deg, angle=angle, at=_at(place),
+                                  position=_millimetres(z))
 
 
 def degrees(vector: complex, origin_deg: float = 0.0) -> float:

@@ -5,15 +5,14 @@ import cmath
 import math
 from typing import Any
 
-from ..core.phasors import unit
 from ..engine import Engine
 from ..errors import BalcliError
 from . import planes
-from .auto import size_of, why_shaft, why_weights
+from .auto import why_shaft, why_weights
 from .fitting import BACKWARD, FORWARD, SAME_PLACE, Fitting
 from .remedy import Remedy, degrees
 from .solver import Part, Rest, Slot, solve
-from .wish import Nothing, Wish, chosen
+from .wish import NoNeedError, Wish, chosen
 
 ROLL = Part("roll", 0)
 
@@ -49,7 +48,7 @@ def four_shaft(engine: Engine, wish: Wish) -> Remedy:
     fitting = Fitting.of(engine, "four-shaft")
     there = [left for left in map(fitting.rest, (1, 2)) if any(left.at("force", s) for s in (1, -1))]
     if not there:
-        raise Nothing("there is no free force of orders 1 and 2: nothing to balance; couple-shaft takes moments")
+        raise NoNeedError("there is no free force of orders 1 and 2: nothing to balance; couple-shaft takes moments")
     for left in there:
         fitting = _pair(fitting, left, wish)
     return fitting.remedy
@@ -79,8 +78,8 @@ def slider(engine: Engine, wish: Wish) -> Remedy:
     axis = 90 - (90 - axis) % 180
     z, place = _along(engine, wish, left, 1 if abs(forward) >= abs(backward) else -1), _only(wish)
     slots = [Slot("slider", left.order, 0, z, place, direction) for direction in (axis, axis + 90 if axis <= 0 else axis - 90)]
-    reason = (f"Order {left.order} force, up to {(abs(forward) + abs(backward)) * left.newton:.4g} N: sliders driven at {left.order} times crank "
-              "speed along the axes of its ellipse, of sizes |V+| + |V-| and ||V+| - |V-||")
+    reason = (f"Order {left.order} force, up to {(abs(forward) + abs(backward)) * left.newton:.4g} N: sliders driven at {left.order} times "
+              "crank speed along the axes of its ellipse, of sizes |V+| + |V-| and ||V+| - |V-||")
     fit = solve(slots, left, (FORWARD[0], BACKWARD[0]))
     there = [u if abs(u) > 2 * left.noise[FORWARD[0]] else 0j for u in fit.unbalances]
     fitting = Fitting.of(engine, "slider", left.order).add(slots, there, reason)
@@ -148,8 +147,8 @@ def _moved(left: Rest) -> complex:
 
 def _one_sided(left: Rest) -> str:
     part = "with" if left.at("force", 1) else "against"
-    return (f"order {left.order}: its force turns {part} the crank alone, so that one shaft takes it and none is left to be placed for the roll; "
-            "use --at, or two-shaft without --roll")
+    return (f"order {left.order}: its force turns {part} the crank alone, so that one shaft takes it and none is left to be placed "
+            "for the roll; leave out --roll")
 
 
 def _geometry(places: dict[int, tuple[complex, ...]]) -> dict[str, Any]:

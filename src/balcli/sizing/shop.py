@@ -54,15 +54,15 @@ def practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practical, 
         raise BalcliError("radius, thickness, disc and drill must be positive lengths in mm")
     if tools.thickness is not None and tools.disc is not None:
         raise BalcliError("a semicircular disc has its radius or its thickness given, not both: the other follows")
-    radius = float(engine.cylinders.radius) if tools.radius is None else tools.radius
+    radius = tools.radius or float(engine.cylinders.radius)
     multiples = [1] * len(remedy.counterweights) + [abs(d.ratio) for d in remedy.shafts] + [d.order for d in remedy.sliders]
 
     def figures(unbalance: float, times: int) -> Practical:
         r, t = _disc(unbalance, tools)
-        depth = None if tools.drill is None else drill_depth(unbalance, radius, tools.drill)
+        depth = drill_depth(unbalance, radius, tools.drill) if tools.drill else None
         return Practical(unbalance, unbalance / radius, radius, unbalance * (times * float(engine.omega)) ** 2,
                          times * float(engine.speed_rpm), r, t, depth)
-    return tuple(figures(d.unbalance / 1e6, n) for d, n in zip(remedy.devices, multiples, strict=True))
+    return tuple(figures((d.unbalance or 0.0) / 1e6, n) for d, n in zip(remedy.devices, multiples, strict=True))
 
 
 def _disc(unbalance: float, tools: Tools) -> tuple[float, float]:

@@ -16,6 +16,8 @@ from .remedy import Remedy
 from .solver import Slot
 from .wish import Wish
 
+_DEFINITION = ("k = r_b/e, mu = m_b r_b/(m r) of each of the two shafts; forces in units of m r omega^2, m the reciprocating mass; "
+               "design a: pin on the shaft, slot in the disc; b: pin on the disc, slot on the shaft; criteria: largest, mean absolute force")
 _SMALLEST = 1e-17               # harmonics of the shafts below this share are left out
 
 
@@ -39,10 +41,8 @@ def eccentric_slider(engine: Engine, wish: Wish) -> Remedy:
     devices = tuple(Device(m, u := -used.mu * mass * radius * float(a) * axis, u, 0j, z)
                     for m, a in enumerate(wave) if m and abs(a) > _SMALLEST)
     return replace(fitting, beyond=devices).note(
-        unit_force_N=mass * radius * float(engine.omega) ** 2, fitted=_figures(used, mass * radius), optima=[_figures(o, mass * radius) for o in optima],
-        definition="k = r_b/e, mu = m_b r_b/(m r) of each of the two shafts; forces in units of m r omega^2, m the reciprocating mass; "
-                   "design a: pin on the shaft, slot in the disc; b: pin on the disc, slot on the shaft; criteria: largest, mean absolute force",
-    ).remedy
+        unit_force_N=mass * radius * float(engine.omega) ** 2, fitted=_figures(used, mass * radius),
+        optima=[_figures(optimum, mass * radius) for optimum in optima], definition=_DEFINITION).remedy
 
 
 def _figures(optimum: eccentric.Optimum, unit_unbalance: float) -> dict[str, Any]:

@@ -120,7 +120,7 @@ def solve(slots: Sequence[Slot], wish: Rest, parts: Sequence[Part]) -> Fit:
 
     Least squares by singular values, then refined on the residual, so that what is left is a few ulp of the parts.
     """
-    length = max([abs(s.z - wish.arm[1]) for s in slots] + [abs(s.place - wish.arm[0]) for s in slots]) or 1.0
+    length = _length(slots, wish)
     scale = np.repeat([1.0 if p.quantity == "force" else 1 / length for p in parts], 2)
     columns = [effect(slot.device(u), parts, wish.arm) for slot in slots for u in (1 + 0j, 1j)]
     matrix = np.column_stack([_real(c) for c in columns])
@@ -136,21 +136,27 @@ def solve(slots: Sequence[Slot], wish: Rest, parts: Sequence[Part]) -> Fit:
 
 
 def exactly(slots: Sequence[Slot], wish: Rest, parts: Sequence[Part], reason: str) -> Fit:
-    """The same, but nothing may be left; otherwise BalcliError with the reason why these slots cannot do it, or the condition number."""
+    """The same, but nothing may be left: neither by the system nor by the rounding of unbalances that work against each other.
+
+    Raises BalcliError with the reason why these slots cannot do it, or with the condition number where it is hopeless.
+    """
     fit = solve(slots, wish, parts)
-    length = max(abs(s.z - wish.arm[1]) for s in slots) or 1.0
-    size = max(abs(wish.parts[p]) / (1 if p.quantity == "force" else length) for p in parts)
-    noise = max(wish.noise.get(p, 0.0) / (1 if p.quantity == "force" else length) for p in parts)
-    if fit.left * size <= noise:
-        return fit
-    if fit.condition == np.inf:
+    length = _length(slots, wish)
+    size, noise = (max(abs(of.get(p, 0.0)) / (1 if p.quantity == "force" else length) for p in parts) for of in (wish.parts, wish.noise))
+    if fit.condition == np.inf and fit.left * size > noise:
         raise BalcliError(reason)
     largest = max(map(abs, fit.unbalances), default=0.0)
-    if max(fit.left, 2 * EPS * largest / size) > LEFT:
-        raise BalcliError(f"order {wish.order}: the places given are too unlike in effect to cancel it: condition number {fit.condition:.3g}, "
-                          f"unbalances of {largest * 1e6:.3g} g mm against each other, and {max(fit.left, 2 * EPS * largest / size):.1g} of it would "
-                          "remain; choose planes farther apart")
+    left = fit.left * size + 2 * EPS * largest
+    if left > max(noise, LEFT * size):
+        raise BalcliError(f"order {wish.order}: the places given are too much alike: unbalances of {largest * 1e6:.3g} g mm would work "
+                          f"against each other (condition number {fit.condition:.3g}), and their rounding alone would leave "
+                          f"{left / size:.1g} of what shakes; choose planes farther apart")
     return fit
+
+
+def _length(slots: Sequence[Slot], wish: Rest) -> float:
+    """The longest arm: a moment is measured by the force that makes it there."""
+    return max([abs(s.z - wish.arm[1]) for s in slots] + [abs(s.place - wish.arm[0]) for s in slots]) or 1.0
 
 
 def _inverse(matrix: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:

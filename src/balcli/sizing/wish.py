@@ -12,7 +12,7 @@ HIGHEST = 8                     # order up to which something to balance is look
 STRONGEST = 1000                # order that a shaft may be asked for
 
 
-class Nothing(Exception):
+class NoNeedError(Exception):
     """There is nothing to balance, as its text says: a scheme then fits no device."""
 
 
@@ -49,26 +49,29 @@ class Wish:
 
 
 def lowest(engine: Engine, quantity: str, senses: Sequence[int] = (1, -1)) -> Rest:
-    """The lowest order at which a free force (or moment) is left; Nothing if there is none."""
+    """The lowest order at which a free force (or moment) is left; NoNeedError if there is none."""
     for order in range(1, HIGHEST + 1):
         found = rest(engine, order)
         if any(found.at(quantity, sense) for sense in senses):
             return found
-    turning = {(1,): " turning with the crank", (-1,): " turning against the crank"}.get(tuple(senses), "")
-    raise Nothing(f"there is no free {quantity}{turning} of orders 1 to {HIGHEST}: nothing to balance; --order names a higher one")
+    raise NoNeedError(f"there is no free {quantity}{_turning(senses)} of orders 1 to {HIGHEST}: nothing to balance; "
+                      "--order names a higher one")
+
+
+def _turning(senses: Sequence[int]) -> str:
+    return "" if len(senses) > 1 else " turning with the crank" if senses[0] > 0 else " turning against the crank"
 
 
 def chosen(engine: Engine, wish: Wish, quantity: str, senses: Sequence[int] = (1, -1)) -> Rest:
-    """What is left of the order asked for, or of the lowest that has something; Nothing if there is nothing."""
+    """What is left of the order asked for, or of the lowest that has something; NoNeedError if there is nothing."""
     if wish.order is None:
         return lowest(engine, quantity, senses)
     found = rest(engine, wish.order)
     if any(found.at(quantity, sense) for sense in senses):
         return found
-    turning = {(1,): " turning with the crank", (-1,): " turning against the crank"}.get(tuple(senses), "")
     other = next((q for q in ("force", "moment") if q != quantity and any(found.at(q, s) for s in senses)), None)
     hint = {"moment": "; it has a free moment: couple-shaft", "force": "; it has a free force: two-shaft", None: ""}[other]
-    raise Nothing(f"order {wish.order} has no free {quantity}{turning}: nothing to balance{hint}")
+    raise NoNeedError(f"order {wish.order} has no free {quantity}{_turning(senses)}: nothing to balance{hint}")
 
 
 def options(accepted: Mapping[str, Sequence[str]], scheme: str) -> Sequence[str]:

@@ -35,7 +35,7 @@ def textbook(printed: Print, options: Options) -> Table:
 def _row(name: str) -> Row:
     from ..core import harmonics
     from ..engine import build
-    from ..load import parse
+    from ..enginefile import parse
     from ..spectrum import spectra
     file = parse((_folder() / f"{name}.toml").read_text(encoding="utf-8"), name)
     engine = build(_bare(file))

@@ -89,7 +89,7 @@ def _third() -> Row:
 
 def _engine(text: str) -> Engine:
     from ..engine import build
-    from ..load import parse
+    from ..enginefile import parse
     return build(parse(text, "example"))
 
 

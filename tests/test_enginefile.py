@@ -13,8 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from kit import GOOD, changed
 
+from balcli.enginefile import LARGEST, parse, read
 from balcli.errors import BalcliError, InputError
-from balcli.load import LARGEST, parse, read
 
 LENGTH = 'a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"'
 ANGLE = 'an angle is wanted: a bare number in deg, or "30 deg" or "1.2 rad" or "1/7 turn"'

@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
+from .engine import Engine, build
 from .errors import BalcliError, InputError, Problem
 from .fields import printable, shorten
 from .mistakes import DEVICES, INNER, KNOWN, TABLES, TEXTS, path_of, plain, unknown_key
@@ -24,6 +25,22 @@ REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5
 T = TypeVar("T", bound=Table)
 _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
 _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST}}}""")
+
+
+def load(source: str | Path) -> Engine:
+    """The engine that a file describes, ready to analyse; "-" reads standard input.
+
+    Raises BalcliError if there is nothing to read, InputError with every mistake of the file.
+    """
+    return built(read(source), name_of(source))
+
+
+def built(model: EngineFile, file: str) -> Engine:
+    """The engine of a model. Raises InputError with what does not fit together in the file of that name."""
+    try:
+        return build(model)
+    except InputError as error:
+        raise InputError(error.problems, file) from None
 
 
 def read(source: str | Path) -> EngineFile:
@@ -98,8 +115,6 @@ def _count(value: object) -> int:
 
 def misfits(parts: Mapping[str, Any]) -> tuple[Problem, ...]:
     """What the tables that could be read say against each other; those that could not are taken as harmless."""
-    from .engine import build
-
     whole = {key: part for key, part in parts.items() if part is not None and key not in TEXTS and key not in DEVICES}
     if "crank" not in whole:
         return ()

@@ -1,0 +1,97 @@
+"""Rotary engines: the crank stands still, the cylinders turn."""
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from balcli import engine, enginefile, spectrum
+from balcli.core.travel import travel
+from balcli.errors import InputError
+
+GNOME = """\
+[crank]
+stroke = 120
+throw_mass = 3
+[rod]
+length = 230
+mass = 0.9
+cg = 70
+inertia = 7000
+[piston]
+mass = 0.8
+offset = {offset}
+[layout]
+{layout}
+rotary = true
+"""
+
+
+def built(layout="radial = 7", offset=0, more=""):
+    return engine.build(enginefile.parse(GNOME.format(layout=layout, offset=offset) + more))
+
+
+@pytest.mark.parametrize("count", [3, 4, 5, 7, 9])
+def test_three_or_more_cylinders_have_no_first_order_force(count):
+    """Well known: the pistons run round the crank pin almost on a circle. What is left has the order of the cylinders."""
+    force = spectrum.spectra(built(f"radial = {count}"), np.arange(1.0, 2 * count + 1), ["force"]).force
+    assert force is not None
+    assert force.balanced[0]
+    left = force.orders[~force.balanced]
+    assert all(order % count == 0 for order in left)
+
+
+def test_one_cylinder_has_a_first_order_force_of_its_mean_distance():
+    """Forward first order: m omega^2 times the mean distance of the piston pin, here by quadrature (lambda = 6/23)."""
+    force = spectrum.spectra(built("banks = [0]"), [1.0], ["force"]).force
+    assert force is not None
+    psi = np.arange(64) * (2 * np.pi / 64)
+    distance = (0.06 * np.cos(psi) + np.sqrt(0.23**2 - (0.06 * np.sin(psi)) ** 2)).mean()
+    mass = 0.8 + 0.9 * 70 / 230
+    assert force.forward[0] == pytest.approx(mass * distance * (1000 * np.pi / 30) ** 2, rel=1e-12)
+
+
+def test_the_throw_stands_still():
+    light, heavy = (spectrum.spectra(engine.build(enginefile.parse(GNOME.format(layout="banks = [0]", offset=0).replace("throw_mass = 3", mass))),
+                                     np.arange(1.0, 4.0)) for mass in ("throw_mass = 0", "throw_mass = 9"))
+    for (_, a), (_, b) in zip(light.items(), heavy.items(), strict=True):
+        assert np.array_equal(a.forward, b.forward)
+
+
+def test_strokes_and_dead_centres_are_those_of_the_same_engine_with_a_turning_crank():
+    turning, still = (travel(engine.build(enginefile.parse(GNOME.format(layout="radial = 5", offset=9).replace("rotary = true", flag))).cylinders)
+                      for flag in ("", "rotary = true"))
+    assert still.stroke == pytest.approx(turning.stroke, rel=1e-12)
+    assert still.top_deg == pytest.approx(turning.top_deg, abs=1e-9)
+
+
+def test_every_second_cylinder_fires_as_they_come_round():
+    """Cylinder 5 of 5 stands 72 degrees behind cylinder 1 and comes to the top after it."""
+    built("radial = 5", more="firing_order = [1, 4, 2, 5, 3]\n")
+    with pytest.raises(InputError, match="cylinder 3 is not at top dead centre when it fires: its crank pin stands 0 deg "
+                                         "after cylinder 1's, and would have to stand at 288 deg"):
+        built("radial = 5", more="firing_order = [1, 3, 5, 2, 4]\n")
+
+
+def test_the_throws_of_two_rows_follow_from_the_firing_order():
+    """Cylinder 6 stands at 240 degrees and is to fire 60 degrees after cylinder 1: its pin stands still at 300."""
+    found = built("radial = 3", more="firing_order = [1, 6, 5, 4, 3, 2]\nstrokes = 2\n")
+    assert found.cylinders.axis_deg == pytest.approx([0, 300])
+    assert found.numbers == (1, 3, 5, 2, 4, 6)
+
+
+@pytest.mark.parametrize(("layout", "message"), [
+    ("rotary = 1", "layout.rotary: 1 is neither true nor false; write one of these, without quotes"),
+    ('rotary = "yes"', 'layout.rotary: "yes" is neither true nor false; write one of these, without quotes'),
+])
+def test_true_or_false(layout, message):
+    with pytest.raises(InputError) as caught:
+        enginefile.parse(GNOME.format(layout="radial = 5", offset=0).replace("rotary = true", layout))
+    assert [str(p) for p in caught.value.problems] == [message]
+
+
+def test_no_articulated_rods():
+    more = "[articulation]\nknuckle_radius = 50\nrod = { length = 180 }\n"
+    with pytest.raises(InputError) as caught:
+        built(more=more)
+    assert [str(p) for p in caught.value.problems] == [
+        "articulation: the rods of a rotary engine are taken as equal, all on one pin: leave this table out"]
