@@ -14,7 +14,7 @@ def check(
     """Recompute engines and compare with their recorded results; exit status 1 if anything moved."""
     from ..errors import Exit
     from ..regression import Difference, differences, record, recorded_at
-    from .output import write
+    from .output import emit, write
     from .several import each, engine_files, engine_of, tell
 
     def compared(file: Path) -> list[Difference]:
@@ -28,7 +28,7 @@ def check(
     results, errors = each(engine_files(paths), compared)
     moved = [difference for found in results for difference in found]
     done = _count(len(results), "engine") + (" recorded" if update else f", {_count(len(moved), 'difference')}")
-    typer.echo("\n".join([*map(str, moved), done]))
+    emit("\n".join([*map(str, moved), done]))
     tell(errors)
     if moved:
         raise typer.Exit(Exit.DIFFERENCE)
