@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import enginefile, quantity
-from .choices import repeated
 from .engine import Engine, build
 from .errors import BalcliError, InputError
 from .model import EngineFile
@@ -76,8 +75,9 @@ def ask(file: str, vary: Sequence[str], quantities: str) -> Sweep:
     """
     model = enginefile.read(file)
     parameters = tuple(parse(text, model) for text in vary)
-    if twice := repeated(p.path for p in parameters):
-        raise BalcliError(f"{twice} is varied twice; give all its values at once")
+    paths = [p.path for p in parameters]
+    if twice := [path for path in paths if paths.count(path) > 1]:
+        raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
     sweep = Sweep(model, parameters, quantity.parse(quantities))
     try:
         check(sweep)

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from balcli.analysis import alone
 from balcli.engine import Engine, build
-from balcli.load import parse
+from balcli.enginefile import parse
 from balcli.spectrum import SPECTRAL, Spectra, spectra
 
 SCALED = 1e-12

@@ -12,14 +12,17 @@ from ..errors import BalcliError
 
 
 def emit(text: str, output: Path | None = None) -> None:
-    """Print once, or write the whole file or nothing of it.
+    """Print once, or write the whole file or nothing of it; what the reader of a closed pipe does not want need not be written.
 
     Raises:
         BalcliError: if the file cannot be written; an older one is left as it was.
     """
     if output is None:
-        sys.stdout.write(text if text.endswith("\n") else text + "\n")
-        sys.stdout.flush()
+        try:
+            sys.stdout.write(text if text.endswith("\n") else text + "\n")
+            sys.stdout.flush()
+        except BrokenPipeError:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     else:
         write(text if text.endswith("\n") else text + "\n", output)
 

@@ -32,12 +32,14 @@ def scatter(
     output: Output = None,
 ) -> None:
     """How free forces and moments spread when masses (rod lengths, throw angles) vary, and which tolerance matters most."""
-    from .. import load, quantity as quantities, scatter as scatters     # noqa: I001, E401 (three rooms of one name)
+    from .. import enginefile
+    from .. import quantity as quantities
+    from .. import scatter as scatters
     from ..render import scatter as rendered
     from ..render.formats import render
     from .output import emit
 
     tolerances = scatters.tolerances(mass, length, angle)
-    found = scatters.scatter(load.read(file), tolerances, quantities.parse(quantity), samples, seed, distribution.value)
+    found = scatters.scatter(enginefile.read(file), tolerances, quantities.parse(quantity), samples, seed, distribution.value)
     emit(render(format, sheets=lambda: [rendered.sheet(found)], documents=lambda: [rendered.document(found)],
                 rows=lambda: rendered.rows(found), into_file=output is not None), output)
