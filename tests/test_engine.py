@@ -8,7 +8,7 @@ import pytest
 from kit import engine, refused
 
 from balcli.core.phasors import unit
-from balcli.engine import STANDARD_GRAVITY
+from balcli.rods import STANDARD_GRAVITY
 
 TIGHT = 1e-14
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balcli import engine, load, spectrum
+from balcli import engine, enginefile, spectrum
 from balcli.core.travel import travel
 from balcli.errors import InputError
 
@@ -27,7 +27,7 @@ rotary = true
 
 
 def built(layout="radial = 7", offset=0, more=""):
-    return engine.build(load.parse(GNOME.format(layout=layout, offset=offset) + more))
+    return engine.build(enginefile.parse(GNOME.format(layout=layout, offset=offset) + more))
 
 
 @pytest.mark.parametrize("count", [3, 4, 5, 7, 9])
@@ -51,14 +51,14 @@ def test_one_cylinder_has_a_first_order_force_of_its_mean_distance():
 
 
 def test_the_throw_stands_still():
-    light, heavy = (spectrum.spectra(engine.build(load.parse(GNOME.format(layout="banks = [0]", offset=0).replace("throw_mass = 3", mass))),
+    light, heavy = (spectrum.spectra(engine.build(enginefile.parse(GNOME.format(layout="banks = [0]", offset=0).replace("throw_mass = 3", mass))),
                                      np.arange(1.0, 4.0)) for mass in ("throw_mass = 0", "throw_mass = 9"))
     for (_, a), (_, b) in zip(light.items(), heavy.items(), strict=True):
         assert np.array_equal(a.forward, b.forward)
 
 
 def test_strokes_and_dead_centres_are_those_of_the_same_engine_with_a_turning_crank():
-    turning, still = (travel(engine.build(load.parse(GNOME.format(layout="radial = 5", offset=9).replace("rotary = true", flag))).cylinders)
+    turning, still = (travel(engine.build(enginefile.parse(GNOME.format(layout="radial = 5", offset=9).replace("rotary = true", flag))).cylinders)
                       for flag in ("", "rotary = true"))
     assert still.stroke == pytest.approx(turning.stroke, rel=1e-12)
     assert still.top_deg == pytest.approx(turning.top_deg, abs=1e-9)
@@ -85,7 +85,7 @@ def test_the_throws_of_two_rows_follow_from_the_firing_order():
 ])
 def test_true_or_false(layout, message):
     with pytest.raises(InputError) as caught:
-        load.parse(GNOME.format(layout="radial = 5", offset=0).replace("rotary = true", layout))
+        enginefile.parse(GNOME.format(layout="radial = 5", offset=0).replace("rotary = true", layout))
     assert [str(p) for p in caught.value.problems] == [message]
 
 

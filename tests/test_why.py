@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from balcli import analysis, engine, load, spectrum
+from balcli import analysis, engine, enginefile, spectrum
 from balcli.render import json as as_json
 from balcli.why import why
 
@@ -28,7 +28,7 @@ mass = 0.5
 
 def sentences(throws, *, spacing=100, more="", orders=(1, 2)):
     text = BASE.format(throws=throws, spacing=spacing) + more
-    return why(engine.build(load.parse(text)), orders).sentences
+    return why(engine.build(enginefile.parse(text)), orders).sentences
 
 
 def test_the_inline_four():
@@ -71,7 +71,7 @@ def test_the_middle_piston_as_heavy_as_both_others():
 
 def test_two_banks_of_different_mechanisms_that_are_each_balanced():
     """A VR6: neighbouring pins stand at no fraction of a turn, but each bank is a balanced three."""
-    vr6 = engine.build(load.read(next(p for p in ENGINES if p.stem == "vr6")))
+    vr6 = engine.build(enginefile.read(next(p for p in ENGINES if p.stem == "vr6")))
     assert why(vr6, [1]).reasons[0].verdict == "exact"
 
 
@@ -93,13 +93,13 @@ def test_balanced_by_figures_only():
 ])
 def test_firing(layout, text):
     base = "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n[layout]\n"
-    assert why(engine.build(load.parse(base + layout)), [1]).firing == text
+    assert why(engine.build(enginefile.parse(base + layout)), [1]).firing == text
 
 
 @pytest.mark.parametrize("path", ENGINES, ids=lambda path: path.stem)
 def test_exact_and_numeric_decisions_agree(path):
     """What is balanced exactly has no force left but rounding, and what is free is not reported as balanced."""
-    built = engine.build(load.read(path))
+    built = engine.build(enginefile.read(path))
     bare = replace(built, devices=())
     found = spectrum.spectra(bare, np.arange(1.0, 9.0))
     for reason in why(built, range(1, 9)).reasons:
@@ -109,7 +109,7 @@ def test_exact_and_numeric_decisions_agree(path):
 
 
 def test_only_what_is_asked_and_as_json():
-    built = engine.build(load.parse(BASE.format(throws=[0, 180], spacing=100)))
+    built = engine.build(enginefile.parse(BASE.format(throws=[0, 180], spacing=100)))
     result = analysis.analyze(built, [1, 2], ["force"], reasons=True)
     document = json.loads(as_json.dumps(as_json.analysis(result)))
     assert document["why"] == {"reasons": [{"order": 1, "quantity": "force", "verdict": "exact", "size": 0.0},

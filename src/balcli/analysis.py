@@ -75,13 +75,13 @@ def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collect
     wanted = set(QUANTITIES if only is None else only)
     if strangers := sorted(wanted - set(QUANTITIES)):
         raise BalcliError(f"there is no quantity {', '.join(strangers)}: choose from {', '.join(QUANTITIES)}")
-    asked = None if orders is None else _checked(orders)
+    asked = None if orders is None else checked_orders(orders)
     curves = {"force", "moment"} if "peak" in wanted else set()
     shown = wanted.intersection(SPECTRAL)
     whole = relevant_orders(engine) if asked is None or curves else np.empty(0)
     everything = spectra(engine, sorted({*whole, *([1.0, 2.0] if asked is None else asked)}), shown | curves)
     visible = Spectra(everything.orders, **{q: p for q, p in everything.items() if q in shown})
-    visible = visible.at(_default_orders(visible, engine) if asked is None else asked)
+    visible = visible.at(shown_orders(visible) if asked is None else asked)
     peaks = {q: peak(getattr(everything, q)) for q in curves}
     return Analysis(
         engine, visible, **peaks,
@@ -128,14 +128,16 @@ def _sized(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizi
     return Sizing(remedy, analyze(fitted(engine, remedy), asked, {*wanted, "force", "moment", "peak"} - {"sizing"}))
 
 
-def _checked(orders: Iterable[float]) -> Array:
+def checked_orders(orders: Iterable[float]) -> Array:
+    """Orders that were asked for, ascending; BalcliError unless they are whole numbers up to HIGHEST."""
     asked = np.array(sorted(set(orders)), float)
     if not len(asked) or asked[0] < 0 or asked[-1] > HIGHEST or np.any(asked % 1):
         raise BalcliError(f"orders must be whole numbers from 0 to {HIGHEST}, not {', '.join(f'{n:g}' for n in asked[:8]) or 'none'}")
     return asked
 
 
-def _default_orders(found: Spectra, engine: Engine) -> Array:
+def shown_orders(found: Spectra) -> Array:
+    """Orders to 2, and those in which a quantity exceeds SHOWN of its own largest order."""
     due = found.orders <= 2
     for _, phasors in found.items():
         due |= phasors.major > SHOWN * phasors.major.max(initial=0)

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from .arrays import column
 from .core.articulated import Articulated
 from .core.inertia import Cylinders
 from .core.linkage import revolution
@@ -84,10 +85,10 @@ def linkage(file: EngineFile, layout: Plan, numbers: Sequence[int], axis: Mappin
         return table.knuckle_radius / (file.crank.stroke / 2) * unit(angle)
 
     return Articulated(
-        mass=_rows([m if n in chief else 0.0 for n, m in zip(numbers, on_knuckle, strict=True)], rank),
+        mass=column([m if n in chief else 0.0 for n, m in zip(numbers, on_knuckle, strict=True)], rank),
         master=np.array([numbers.index(chief.get(n, n)) for n in numbers]),
-        knuckle=_rows([pin(n) for n in numbers], rank),
-        lead_deg=_rows([axis[n] - axis[chief.get(n, n)] for n in numbers], rank))
+        knuckle=column([pin(n) for n in numbers], rank),
+        lead_deg=column([axis[n] - axis[chief.get(n, n)] for n in numbers], rank))
 
 
 def locked(file: EngineFile, c: Cylinders, numbers: Sequence[int]) -> Iterator[Problem]:
@@ -117,9 +118,3 @@ def _rise(values: Any, top: int) -> float:
     before, at, after = values[top - 1], values[top], values[(top + 1) % len(values)]
     bend = 2 * at - before - after
     return float((after - before) ** 2 / (8 * bend)) if bend > 0 else 0.0
-
-
-def _rows(values: Sequence[Any], rank: int) -> Any:
-    """One row each; scalars get trailing axes of length 1."""
-    rows = np.stack(np.broadcast_arrays(*map(np.asarray, values)))
-    return rows.reshape(len(values), *rows.shape[1:] or (1,) * rank)

@@ -16,7 +16,8 @@ from typer.main import get_command
 from . import __version__
 from .errors import BalcliError, Exit
 
-COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "plot", "sweep", "search", "scatter", "compare")
+COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "plot", "report", "sweep",
+            "search", "scatter", "compare", "sum", "bench")
 
 _UsageError: Any = typer.BadParameter.__mro__[1]       # click's, or typer's own copy of it
 

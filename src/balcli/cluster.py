@@ -22,15 +22,16 @@ def client(address: str) -> Iterator[Any]:
         BalcliError: dask is not installed, or nobody answers.
     """
     try:
-        from distributed import Client, LocalCluster
+        import distributed
     except ImportError:
         raise BalcliError("--dask needs dask: install balcli[scale]") from None
+    dask: Any = distributed
     try:
         if address == "local":
-            with LocalCluster(threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as found:
+            with dask.LocalCluster(threads_per_worker=1, dashboard_address=None) as cluster, dask.Client(cluster) as found:
                 yield found
         else:
-            with Client(address, timeout=10) as found:
+            with dask.Client(address, timeout=10) as found:
                 yield found
     except (OSError, ValueError) as error:
         raise BalcliError(f"--dask {address}: no cluster answers there ({error})") from None

@@ -104,8 +104,9 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
     """The engine that a file describes.
 
     Args:
-        file: a checked model; numbers in it may have been replaced by arrays of variants, shape (variants,).
-        rank: 1 if so, else 0.
+        file: a checked model; numbers in it may have been replaced by arrays of variants.
+        rank: number of axes of those arrays, which broadcast against each other; what does not vary along an axis has length 1
+            there, here and in all that is computed.
 
     Raises:
         InputError: what does not fit together, by its path in the file.
@@ -121,7 +122,7 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
     top = {n: axis[n] + sense * rod.top_deg(radius) for n, rod in zip(layout.numbers, rods, strict=True)}
     top |= {n: axis[n] for n in masters}                # nominal: an articulated piston's dead centre is off by some degrees
     pin, fires = _pins(file, layout, top)
-    places, throws = _places(file, layout)
+    places, throws = _places(file, layout, rank)
     still, turning = axis, {n: pin[n] - pin[1] for n in layout.numbers}
     if file.layout.rotary:                              # cylinders turn about pins that stand still (core.rotary)
         still, turning = _shared_objects({n: axis[1] + turning[n] for n in axis}), {n: axis[n] - axis[1] for n in axis}
@@ -317,7 +318,7 @@ def _pins(file: EngineFile, layout: Plan, top: Mapping[int, Any]) -> tuple[dict[
     return pin, fires
 
 
-def _places(file: EngineFile, layout: Plan) -> tuple[dict[int, Any], NDArray[np.float64]]:
+def _places(file: EngineFile, layout: Plan, rank: int) -> tuple[dict[int, Any], NDArray[np.float64]]:
     """Place of every cylinder and of every throw along the crank, m (a throw stands in the middle of its rods)."""
     crank = file.crank
     along = crank.positions or [(t - (layout.throws - 1) / 2) * (crank.spacing or 0.0) for t in range(layout.throws)]
@@ -326,7 +327,7 @@ def _places(file: EngineFile, layout: Plan) -> tuple[dict[int, Any], NDArray[np.
     place = {c.number: _own(file, c.number, "position", along[c.throw] + lean[c.number]) / 1e3 for c in layout.cells}
     throws = [sum(place[c.number] - lean[c.number] / 1e3 for c in layout.cells if c.throw == t) / layout.rods_on_throw
               for t in range(layout.throws)]
-    return place, np.array(throws)
+    return place, _column(throws, rank)
 
 
 def _reference(file: EngineFile, throws: NDArray[np.float64]) -> tuple[Any, Any, Any]:

@@ -192,7 +192,7 @@ def _replaced(node: Any, keys: Sequence[str], value: Any, path: str) -> Any:
         row = int(key) - 1
         return (*node[:row], _replaced(node[row], rest, value, path), *node[row + 1:])
     if isinstance(node, dict):
-        return node | {int(key): _replaced(node.get(int(key), Override()), rest, value, path)}
+        return node | {int(key): _replaced(node.get(int(key), Override.model_construct()), rest, value, path)}
     gone = {} if rest else _giving_way(node, key, path)
     return node.model_copy(update={key: _replaced(getattr(node, key), rest, value, path), **gone})
 

@@ -42,7 +42,8 @@ class Quantity:
         """Its value by the phasors of its kind, shape (*trailing): sizes of vectors, amplitudes along x and y, degrees."""
         row = int(np.searchsorted(phasors.orders, self.order))
         only = slice(row, row + 1)
-        noise = np.broadcast_to(phasors.noise, np.broadcast_shapes(phasors.noise.shape, (len(phasors.orders), *(1,) * (phasors.forward.ndim - 1))))
+        column = (len(phasors.orders), *(1,) * (phasors.forward.ndim - 1))
+        noise = np.broadcast_to(phasors.noise, np.broadcast_shapes(phasors.noise.shape, column))
         own = Phasors(phasors.orders[only], phasors.forward[only], phasors.backward[only], noise[only])
         name = {"amplitude": "major", "axis": "axis_deg"}.get(self.part, self.part)
         value: Array = getattr(own, name)[0]

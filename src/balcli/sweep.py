@@ -14,8 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from . import enginefile, quantity
-from .choices import repeated
+from . import load, quantity
 from .engine import Engine, build
 from .errors import BalcliError, InputError
 from .model import EngineFile
@@ -74,10 +73,11 @@ def ask(file: str, vary: Sequence[str], quantities: str) -> Sweep:
     Raises:
         BalcliError: what is wrong with the file, a parameter or a quantity, or if one of the variants cannot be.
     """
-    model = enginefile.read(file)
+    model = load.read(file)
     parameters = tuple(parse(text, model) for text in vary)
-    if twice := repeated(p.path for p in parameters):
-        raise BalcliError(f"{twice} is varied twice; give all its values at once")
+    paths = [p.path for p in parameters]
+    if twice := [path for path in paths if paths.count(path) > 1]:
+        raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
     sweep = Sweep(model, parameters, quantity.parse(quantities))
     try:
         check(sweep)

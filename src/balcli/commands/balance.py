@@ -26,7 +26,7 @@ def balance(
     output: Output = None,
 ) -> None:
     """Size counterweights, balancer shafts or sliders, and show what is left with them."""
-    from ..balance import balance as balanced
+    from ..balancing import balance as balanced
     from ..render.formats import balances
     from .output import emit
     from .several import engine_and_text

@@ -80,7 +80,7 @@ class Phasors:
     def __sub__(self, other: Phasors) -> Phasors:
         return Phasors(self.orders, self.forward - other.forward, self.backward - other.backward, self.noise + other.noise)
 
-    def __rmul__(self, factor: ArrayLike) -> Phasors:
+    def __rmul__(self, factor: Any) -> Phasors:
         """Scaled, or scaled and turned where the factor is complex."""
         return Phasors(self.orders, factor * self.forward, factor * self.backward, abs(factor) * self.noise)
 

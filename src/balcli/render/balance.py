@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..balance import Balance
+from ..balancing import Balance
 from ..core.peaks import Peak
 from .devices import device_grid
 from .figures import order_number

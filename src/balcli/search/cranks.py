@@ -15,14 +15,15 @@ from ..layout import plan
 from ..model import EngineFile
 from ..quantity import Quantity
 from .objective import Objective
-from .shares import Array, Key, Share, shares
+from .shares import Array, Complex, Key, Share, shares
 
 Indices = NDArray[np.int8]
+Allowed = Callable[[Array], NDArray[np.bool_]]
 Left = tuple[int, ...]          # how often each angle is still to be given
 BLOCK = 7                       # throws of which all arrangements are tried at a time (7! = 5040)
 
 
-def best(file: EngineFile, objective: Objective, count: int, allowed: Callable[[Array], NDArray[np.bool_]] | None = None) -> Array:
+def best(file: EngineFile, objective: Objective, count: int, allowed: Allowed | None = None) -> Array:
     """The best arrangements of the file's throw angles, shape (at most count, throws), cylinder 1's throw at 0, best first.
 
     Args:
@@ -35,10 +36,7 @@ def best(file: EngineFile, objective: Objective, count: int, allowed: Callable[[
     for angles in _turns(given):
         levels, times = np.unique(angles, return_counts=True)
 
-        def whole(rows: Indices, levels: Array = levels) -> Array:
-            return np.insert(levels[rows], fixed, 0.0, axis=1)
-        tree = _Tree(shares(file, levels, fixed, objective.quantities), objective, fixed, free, found,
-                     whole, None if allowed is None else lambda rows, whole=whole: allowed(whole(rows)))
+        tree = _Tree(shares(file, levels, fixed, objective.quantities), objective, levels, fixed, free, found, allowed)
         tree.grow((), (times[0] - 1, *times[1:]))
     return found.rows
 
@@ -71,10 +69,10 @@ class _Best:
 class _Tree:
     """All arrangements of one set of angles, beginnings of the crank first."""
 
-    def __init__(self, table: dict[Key, Share], objective: Objective, fixed: int, free: list[int], found: _Best,
-                 whole: Callable[[Indices], Array], allowed: Callable[[Indices], NDArray[np.bool_]] | None) -> None:
-        self._table, self._objective, self._free, self._found = table, objective, free, found
-        self._whole, self._allowed = whole, allowed
+    def __init__(self, table: dict[Key, Share], objective: Objective, levels: Array, fixed: int, free: list[int], found: _Best,
+                 allowed: Allowed | None) -> None:
+        self._table, self._objective, self._found, self._allowed = table, objective, found, allowed
+        self._levels, self._fixed, self._free = levels, fixed, free
         self._start = {key: tuple(a + b for a, b in zip(share.sums([fixed], np.zeros((1, 1), np.int8)), share.devices, strict=True))
                        for key, share in table.items()}
 
@@ -89,7 +87,11 @@ class _Tree:
             if times:
                 self.grow((*prefix, level), (*left[:level], times - 1, *left[level + 1:]))
 
-    def _sums(self, key: Key, rows: Indices) -> tuple[Array, Array]:
+    def _whole(self, rows: Indices) -> Array:
+        """Angles of all throws by the indices of the free ones."""
+        return np.insert(self._levels[rows], self._fixed, 0.0, axis=1)
+
+    def _sums(self, key: Key, rows: Indices) -> tuple[Complex, Complex]:
         ahead, astern = self._table[key].sums(self._free[:rows.shape[1]], rows)
         return self._start[key][0] + ahead, self._start[key][1] + astern
 
@@ -108,7 +110,7 @@ class _Tree:
         values = self._objective.of(lambda q: self._table[q.kind, q.order].value(q, *sums[q.kind, q.order]))
         good = np.flatnonzero(values < self._found.worst)
         if self._allowed is not None and len(good):
-            good = good[self._allowed(rows[good])]
+            good = good[self._allowed(self._whole(rows[good]))]
         if len(good):
             good = good[np.argsort(values[good], kind="stable")[:self._found.count]]
             self._found.take(self._whole(rows[good]), values[good])

@@ -49,7 +49,8 @@ class Slots:
         given = dict(enumerate(t - self.throws[first.throw] + start for t in self.throws)) if self.throws else {first.throw: start}
         found = list(islice(self._continued((1,), given), MOST + 1))
         if len(found) > MOST:
-            raise BalcliError(f"there are more than {MOST} firing orders for {len(self.cells)} cylinders; give crank.throws, or search over throws")
+            raise BalcliError(f"there are more than {MOST} firing orders for {len(self.cells)} cylinders; "
+                              "give crank.throws, or search over throws")
         return found
 
     def _continued(self, order: tuple[int, ...], throws: dict[int, float]) -> Iterator[Firing]:

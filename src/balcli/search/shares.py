@@ -61,14 +61,16 @@ def shares(file: EngineFile, angles: Array, fixed: int, quantities: Collection[Q
     devices = spectra(replace(_moving(engine, [False] * len(engine.numbers)), devices=engine.devices), orders, kinds)
 
     def share(kind: str, order: int) -> Share:
-        row = orders.index(order)
-        still = getattr(devices, kind)
-        return Share(order, *(np.stack([np.broadcast_to(getattr(getattr(s, kind), way)[row], angles.shape) for s in each])
-                              for way in ("forward", "backward")), devices=(still.forward[row].flat[0], still.backward[row].flat[0]))
+        row, still = orders.index(order), getattr(devices, kind)
+
+        def table(way: str) -> Complex:
+            return np.stack([np.broadcast_to(getattr(getattr(s, kind), way)[row], angles.shape) for s in each])
+        return Share(order, table("forward"), table("backward"), (still.forward[row].flat[0], still.backward[row].flat[0]))
     return {(q.kind, q.order): share(q.kind, q.order) for q in quantities}
 
 
 def _moving(engine: Engine, which: Sequence[bool]) -> Engine:
     """The engine with the masses of some cylinders alone, and no devices."""
     c, here = engine.cylinders, np.array(which, float)[:, None]
-    return replace(engine, devices=(), cylinders=replace(c, reciprocating=here * c.reciprocating, rotating=here * c.rotating, couple=here * c.couple))
+    masses = {key: here * getattr(c, key) for key in ("reciprocating", "rotating", "couple")}
+    return replace(engine, devices=(), cylinders=replace(c, **masses))

@@ -6,7 +6,7 @@ from typing import Any
 
 from ..engine import build
 from ..errors import InputError
-from ..load import parse
+from ..enginefile import parse
 
 TABLES = {"throws": "crank", "splay": "crank", "firing_order": "layout", "bank_angle": "layout"}
 

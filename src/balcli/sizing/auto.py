@@ -6,11 +6,12 @@ from . import planes
 from .fitting import BACKWARD, FORWARD, Fitting
 from .remedy import Remedy
 from .solver import Rest, Slot
+from .wish import Wish
 
 _SHAFTS = ((1, -1), (2, 1), (2, -1))        # order and sense
 
 
-def auto(engine: Engine) -> Remedy:
+def auto(engine: Engine, wish: Wish | None = None) -> Remedy:
     """Counterweights for the forward part of order 1, then shafts at -1, +2 and -2, each only where that part is not balanced.
 
     Counterweights stand in the end planes (first and last throw), or in the one plane of all throws if that suffices; a shaft carries

@@ -9,7 +9,8 @@ from typing import Any
 
 from ..core.inertia import Device
 from ..core.phasors import EPS
-from ..engine import Engine, devices
+from ..devices import devices
+from ..engine import Engine
 from ..model import Counterweight, EngineFile, Shaft, Slider
 
 

@@ -39,7 +39,12 @@ def single_shaft(engine: Engine, wish: Wish) -> Remedy:
 
 def two_shaft(engine: Engine, wish: Wish) -> Remedy:
     """Shafts at +N and -N for the force of order N, placed such that no roll is added, or such that none is left (`roll`)."""
-    left = chosen(engine, wish, "force")
+    try:
+        left = chosen(engine, wish, "force")
+    except NoNeedError as reason:
+        if wish.roll:
+            raise BalcliError(f"{reason}; shafts without unbalance can do nothing about the roll") from None
+        raise
     return _pair(Fitting.of(engine, "two-shaft", left.order), left, wish).remedy
 
 
@@ -210,7 +215,7 @@ def _two_planes(engine: Engine, wish: Wish) -> tuple[float, float]:
     else:
         raise BalcliError("--planes: opposite eccentrics stand in two planes; give ends, or two places along z in mm, such as -200,200")
     if low == high:
-        raise BalcliError(SAME_PLACE)
+        raise BalcliError(f"--planes: {SAME_PLACE}")
     return low, high
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...analysis import Analysis, analyze
-from ...balance import balance
+from ...balancing import balance
 from ...core.phasors import Phasors
 from ...engine import Engine
 from ...errors import BalcliError

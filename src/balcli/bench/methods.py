@@ -1,0 +1,143 @@
+"""All the ways to the same figures: two-term formula, printed series, closed form, FFT of samples, time stepping.
+
+Each is written as one would write it, with numpy and without the rest of the program (but for the closed form, which is it).
+"""
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core import harmonics, series
+from ..engine import Engine
+from ..spectrum import spectra
+
+Complex = NDArray[np.complex128]
+POWERS = (3, 5, 7)              # of lambda, up to which books print the series
+POINTS = (8, 16, 32, 64)
+SAMPLES = (64, 360, 720, 3600)
+EXACT_POWER = 81                # lambda^81 is below 1e-40 at lambda = 0.3
+
+Coefficients = Callable[[list[int], float], NDArray[np.float64]]
+
+
+def exact(orders: list[int], lam: float) -> NDArray[np.float64]:
+    """A_n to the last digit: the series in exact fractions, far beyond the last power that matters."""
+    x = Fraction(lam)
+    return np.array([float(sum(c * x**p for p, c in series.piston(n, EXACT_POWER).items())) for n in orders])
+
+
+def two_term(orders: list[int], lam: float) -> NDArray[np.float64]:
+    """`cos psi + lambda cos 2 psi`."""
+    return np.array([{1: 1.0, 2: lam}.get(n, 0.0) for n in orders])
+
+
+def printed(power: int) -> Coefficients:
+    """The series that books print, up to a power of lambda."""
+    terms = {n: [(p, float(c)) for p, c in series.piston(n, power).items() if p <= power] for n in range(1, 65)}
+
+    def evaluate(orders: list[int], lam: float) -> NDArray[np.float64]:
+        return np.array([sum(c * lam**p for p, c in terms[n]) for n in orders])
+    return evaluate
+
+
+def closed_form(orders: list[int], lam: float) -> NDArray[np.float64]:
+    return harmonics.piston(orders, lam)
+
+
+def transformed(points: int) -> Coefficients:
+    """The acceleration's formula, sampled and transformed."""
+    def evaluate(orders: list[int], lam: float) -> NDArray[np.float64]:
+        psi = 2 * np.pi * np.arange(points) / points
+        return _picked(np.fft.rfft(_acceleration(psi, lam)).real * (2 / points), orders)
+    return evaluate
+
+
+def stepped(samples: int) -> Coefficients:
+    """The piston's place at equal steps of time, its second differences, and their sums with cos n psi."""
+    def evaluate(orders: list[int], lam: float) -> NDArray[np.float64]:
+        psi = 2 * np.pi * np.arange(samples) / samples
+        acceleration = -_second_difference(np.cos(psi) + np.sqrt(1 - (lam * np.sin(psi)) ** 2) / lam)
+        return np.array([2 / samples * float(acceleration @ np.cos(n * psi)) for n in orders])
+    return evaluate
+
+
+def _acceleration(psi: Any, lam: Any) -> Any:
+    cosine, sine = np.cos(psi), np.sin(psi)
+    cos_beta = np.sqrt(1 - (lam * sine) ** 2)
+    return cosine - lam * sine**2 / cos_beta + lam * cosine**2 / cos_beta**3
+
+
+def _second_difference(place: Any) -> Any:
+    """By the square of the step, along the last axis, which is one revolution."""
+    step = 2 * np.pi / place.shape[-1]
+    return (np.roll(place, -1, axis=-1) - 2 * place + np.roll(place, 1, axis=-1)) / step**2
+
+
+def _picked(spectrum: Any, orders: list[int]) -> Any:
+    """The lines of these orders; there is nothing beyond half the number of points."""
+    return np.array([spectrum[n] if n < len(spectrum) - 1 else 0.0 for n in orders])
+
+
+# ------------------------------------------------------------------ one engine
+Vectors = Callable[[Engine, list[int]], Complex]
+
+
+def from_coefficients(find: Coefficients) -> Vectors:
+    """Force and moment by order from A_n: phases of every cylinder added up, shape (2, orders, 2): kind, order, direction."""
+    def evaluate(engine: Engine, orders: list[int]) -> Complex:
+        mass, turning, axis, phase, z = _columns(engine)
+        n = np.array(orders)[:, None]
+        c = mass * find(orders, float(engine.cylinders.lam[0]))[:, None] / 2
+        ahead = (c + turning * (n == 1)) * np.exp(1j * (axis + n * phase))
+        astern = c * np.exp(1j * (axis - n * phase))
+        both = np.stack([ahead, astern], axis=-1)
+        return np.stack([both.sum(axis=1), 1j * (z[:, None] * both).sum(axis=1)])
+    return evaluate
+
+
+def of_engine(engine: Engine, orders: list[int]) -> Complex:
+    """balcli itself."""
+    found = spectra(engine, orders, ("force", "moment"))
+    return np.array([(p.forward, p.backward) for _, p in found.items()]).transpose(0, 2, 1)
+
+
+def sampled(points: int) -> Vectors:
+    """Force of every cylinder at crank angles, summed and transformed: what one writes first with numpy."""
+    def evaluate(engine: Engine, orders: list[int]) -> Complex:
+        mass, turning, axis, phase, z = _columns(engine)
+        psi = 2 * np.pi * np.arange(points) / points + phase[:, None]
+        force = (mass * _acceleration(psi, engine.cylinders.lam[0]) + turning * np.exp(1j * psi)) * np.exp(1j * axis)[:, None]
+        return _of_curves(force.sum(axis=0), 1j * (z[:, None] * force).sum(axis=0), orders)
+    return evaluate
+
+
+def time_stepped(samples: int) -> Vectors:
+    """The same from the places of all masses at equal steps of time."""
+    def evaluate(engine: Engine, orders: list[int]) -> Complex:
+        mass, turning, axis, phase, z = _columns(engine)
+        psi = 2 * np.pi * np.arange(samples) / samples + phase[:, None]
+        lam = engine.cylinders.lam[0]
+        place = mass * (np.cos(psi) + np.sqrt(1 - (lam * np.sin(psi)) ** 2) / lam) + turning * np.exp(1j * psi)
+        force = -_second_difference(place) * np.exp(1j * axis)[:, None]
+        return _of_curves(force.sum(axis=0), 1j * (z[:, None] * force).sum(axis=0), orders)
+    return evaluate
+
+
+def _columns(engine: Engine) -> tuple[Any, Any, Any, Any, Any]:
+    """Of an engine of equal cylinders: `m_rec r omega^2`, `m_rot r omega^2`; axis, phase (rad) and arm (m) of every cylinder."""
+    c = engine.cylinders
+    axis = np.radians(np.repeat(c.axis_deg, np.diff([*c.starts, c.count])))
+    scale = c.radius * engine.omega**2
+    return (float(c.reciprocating[0] * scale), float(c.rotating[0] * scale), axis,
+            axis[engine.numbers.index(1)] + np.radians(c.pin_deg) - axis, c.z - engine.reference_m[2])
+
+
+def _of_curves(force: Complex, moment: Complex, orders: list[int]) -> Complex:
+    """Forward and backward vectors of two curves over a revolution."""
+    lines = np.fft.fft(np.stack([force, moment])) / len(force)
+    inside = [n if 2 * n < len(force) else None for n in orders]
+    return np.array([[(0, 0) if n is None else (row[n], row[-n]) for n in inside] for row in lines])

@@ -1,0 +1,44 @@
+"""Counterweights, balancer shafts and sliders of an engine file as rotating vectors of mass x radius."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from .core.inertia import Device
+from .core.phasors import unit
+from .model import Counterweight, EngineFile, Shaft, Slider
+
+
+def devices(file: EngineFile, first_axis_deg: Any) -> tuple[Device, ...]:
+    """Counterweights, shafts and sliders of a file; a counterweight's angle counts from cylinder 1's pin, others from x."""
+    return (*(_counterweight(d, first_axis_deg) for d in file.counterweight),
+            *(_shaft(d) for d in file.shaft), *(_slider(d) for d in file.slider))
+
+
+def _counterweight(d: Counterweight, first_axis_deg: Any) -> Device:
+    return Device(1, _unbalance(d) * unit(d.angle + first_axis_deg), 0j, 0j, d.position / 1e3, 0)
+
+
+def _shaft(d: Shaft) -> Device:
+    turning = _unbalance(d) * unit(d.angle)
+    forward, backward = (turning, 0j) if d.ratio > 0 else (0j, turning)
+    return Device(abs(d.ratio), forward, backward, _place(d.at), d.position / 1e3, 1)
+
+
+def _slider(d: Slider) -> Device:
+    """Its displacement `U cos(n theta + angle)` is two vectors of half the size, turning against each other."""
+    half, direction, phase = _unbalance(d) / 2, unit(d.direction), unit(d.angle)
+    return Device(d.order, half * direction * phase, half * direction * np.conj(phase), _place(d.at), d.position / 1e3, 2)
+
+
+def _unbalance(d: Counterweight | Shaft | Slider) -> Any:
+    """kg m"""
+    if d.unbalance is not None:
+        return d.unbalance / 1e6
+    return (d.mass or 0.0) * (d.radius or 0.0) / 1e3
+
+
+def _place(at: Sequence[Any]) -> Any:
+    return at[0] / 1e3 + 1j * (at[1] / 1e3)

@@ -1,0 +1,60 @@
+"""Results of the benchmark: table, JSON, CSV, and run time against error as a picture."""
+from __future__ import annotations
+
+from io import BytesIO
+from typing import TYPE_CHECKING, Any
+
+from .csv import write
+from .sheet import Grid, Sheet, number
+
+if TYPE_CHECKING:
+    from ..bench import Bench, Row
+
+LEAST = 1e-17                   # where a picture shows an error of 0
+
+
+def document(result: Bench) -> dict[str, Any]:
+    """`balcli.bench/1`: seconds, relative errors (null where there is none), ratios of run times."""
+    return {"format": "balcli.bench/1",
+            "rows": [{"task": r.task, "method": r.method, "seconds": r.seconds, "error": r.error} for r in result.rows],
+            "ratios": [{"what": r.what, "value": r.value} for r in result.ratios]}
+
+
+def rows(result: Bench) -> str:
+    """CSV: run times and errors, then ratios."""
+    return write(("task", "method", "seconds", "error", "ratio"), [
+        *((r.task, r.method, r.seconds, r.error, None) for r in result.rows),
+        *(("ratio", r.what, None, None, r.value) for r in result.ratios)])
+
+
+def sheet(result: Bench) -> Sheet:
+    """A table a task, and the ratios."""
+    grids = [Grid(f"{task[0].upper()}{task[1:]}", ("method", "µs", "relative error"),
+                  tuple((r.method, number(r.seconds * 1e6, 3), error(r)) for r in result.rows if r.task == task))
+             for task in dict.fromkeys(r.task for r in result.rows)]
+    ratios = Grid("Ratios of run times", ("", "ratio"), tuple((r.what, number(r.value, 3)) for r in result.ratios))
+    return Sheet("Run time against error", (*grids, ratios))
+
+
+def error(row: Row) -> str:
+    """Two digits: more of a rounding error means nothing."""
+    return "–" if row.error is None else "0" if row.error == 0 else f"{row.error:.1e}"
+
+
+def draw(result: Bench) -> bytes:
+    """SVG: run time and error of every method, a panel a task, both axes logarithmic."""
+    from matplotlib.figure import Figure
+
+    tasks = list(dict.fromkeys(r.task for r in result.rows))
+    figure = Figure(figsize=(5.2 * len(tasks), 4.6), layout="constrained")
+    for axes, task in zip(figure.subplots(1, len(tasks), squeeze=False)[0], tasks, strict=True):
+        points = [r for r in result.rows if r.task == task and r.error is not None]
+        for r in points:
+            spot = r.seconds * 1e6, max(r.error or 0.0, LEAST)
+            axes.plot(*spot, "o", color="C3" if r.method.startswith("closed form") else "C0")
+            axes.annotate(r.method, spot, xytext=(4, 3), textcoords="offset points", fontsize=7)
+        axes.set(xscale="log", yscale="log", xlabel="µs", ylabel="relative error", title=task)
+        axes.grid(alpha=0.3)
+    buffer = BytesIO()
+    figure.savefig(buffer, format="svg", metadata={"Date": None})
+    return buffer.getvalue()

@@ -1,0 +1,110 @@
+"""Pistons and rods of an engine file: masses, lengths and moments of inertia of one cylinder, SI (THEORY 3)."""
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .errors import Problem
+from .model import ArticulatedRod, EngineFile, Override, Rod
+
+STANDARD_GRAVITY = 9.80665          # m/s2, by definition (CGPM 1901)
+NEAREST_TO_LOCK = 1e-6              # how far lambda + |offset| / rod length must stay below 1
+_GROUPS = (({"length"}, {"ratio"}), ({"mass", "cg"}, {"small_end", "big_end"}), ({"inertia"}, {"pendulum"}))
+
+
+@dataclass(frozen=True)
+class Parts:
+    """Piston and rod of one cylinder, SI: `spin` is the rod's moment of inertia about its centre of mass, `couple` is H."""
+
+    length: Any
+    offset: Any
+    piston: Any
+    small_end: Any
+    big_end: Any
+    spin: Any
+    couple: Any
+
+    def top_deg(self, radius: Any) -> Any:
+        """Crank angle of top dead centre."""
+        return np.degrees(np.arcsin(self.offset / (radius + self.length)))
+
+
+def rod_of(file: EngineFile, number: int, articulated: bool) -> Parts:
+    """Piston and rod of a cylinder: the engine's, with what its own table says otherwise (THEORY 3)."""
+    own = file.cylinder.get(number)
+    figures = _overridden(file.articulation.rod if articulated and file.articulation else file.rod, own)
+    length = figures["length"] / 1e3 if "length" in figures else file.crank.stroke / 2e3 / figures["ratio"]
+    if "small_end" in figures:
+        small, big = figures["small_end"], figures["big_end"]
+    else:
+        mass, from_big_end = figures.get("mass", 0.0), figures.get("cg", 0.0) / 1e3
+        small, big = mass * (from_big_end / length), mass * ((length - from_big_end) / length)
+    whole = small + big
+    share = small / np.where(whole == 0, 1.0, whole)                         # s_b / l
+    if "inertia" in figures:
+        spin = figures["inertia"] / 1e6
+    elif "pendulum" in figures:
+        swing = figures["pendulum"]
+        arm = length * (share if swing.pivot == "big_end" else 1 - share)
+        spin = whole * arm * (STANDARD_GRAVITY * (swing.period / (2 * math.pi)) ** 2 - arm)
+    else:
+        spin = whole * share * (1 - share) * length**2
+    return Parts(length, own_or(file, number, "piston_offset", file.piston.offset) / 1e3,
+                  own_or(file, number, "piston_mass", file.piston.mass), small, big, spin,
+                  whole * share * (1 - share) * length**2 - spin)
+
+
+def own_or(file: EngineFile, number: int, key: str, default: Any) -> Any:
+    own = file.cylinder.get(number)
+    value = None if own is None else getattr(own, key)
+    return default if value is None else value
+
+
+def _overridden(rod: Rod | ArticulatedRod, own: Override | None) -> dict[str, Any]:
+    """Figures of a rod; a figure of the cylinder's own displaces those of the engine that say the same otherwise."""
+    figures = {key: value for key in type(rod).model_fields if (value := getattr(rod, key)) is not None}
+    if own is None:
+        return figures
+    mine = {key: value for key in Rod.model_fields if (value := getattr(own, f"rod_{key}")) is not None}
+    for ways in _GROUPS:
+        for way in ways:
+            if way & mine.keys():
+                for key in set().union(*ways) - way:
+                    figures.pop(key, None)
+    return figures | mine
+
+
+def half_rods(file: EngineFile, articulated: Collection[int]) -> list[Problem]:
+    """Cylinders whose own rod is weighed at one end only, where the engine's rod does not give the other."""
+    ends = ("small_end", "big_end")
+    return [Problem(f"cylinder.{n}.rod_{here}", f"needs rod_{missing} beside it: weigh the rod at both ends")
+            for n, own in file.cylinder.items() for here, missing in (ends, ends[::-1])
+            if getattr(own, f"rod_{here}") is not None and getattr(own, f"rod_{missing}") is None
+            and (n in articulated or getattr(file.rod, missing) is None)]
+
+
+def mistakes(file: EngineFile, number: int, rod: Parts, radius: Any, articulated: bool) -> list[Problem]:
+    """What keeps a mechanism from turning, or a pendulum test from being one."""
+    own = file.cylinder.get(number)
+
+    def path(*keys: str) -> str:
+        """Where one of these figures of the rod is given, or the first might be."""
+        for key in keys:
+            if own is not None and getattr(own, f"rod_{key}") is not None:
+                return f"cylinder.{number}.rod_{key}"
+        return "rod." + next((key for key in keys if getattr(file.rod, key) is not None), keys[0])
+
+    if not np.all(rod.spin >= 0):
+        return [Problem(path("pendulum"), "the period is too quick for the distance of its pivot from the centre of mass: the moment of inertia "
+                                          f"about it would be {np.min(rod.spin) * 1e6:g} kg mm2 (period: a full swing, in seconds)")]
+    lam, eps = np.max(radius / rod.length), np.max(np.abs(rod.offset / rod.length))
+    if articulated or lam + eps <= 1 - NEAREST_TO_LOCK:                     # what an articulated rod can do depends on its master
+        return []
+    offset = f", with the piston offset of {np.max(np.abs(rod.offset)) * 1e3:g} mm lambda + |offset|/length = {lam + eps:.9g}" if eps else ""
+    return [Problem(path("length", "ratio"), f"the crank cannot turn: crank radius {np.max(radius) * 1e3:g} mm over rod length "
+                    f"{np.min(rod.length) * 1e3:g} mm is lambda = {lam:.9g}{offset}; at most 1 - {NEAREST_TO_LOCK:g} is allowed: "
+                    f"make the rod longer{' or the offset smaller' if eps else ''}")]
