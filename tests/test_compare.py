@@ -9,7 +9,7 @@ from kit import GOOD, changed
 from balcli.compare import compare
 from balcli.engine import build
 from balcli.errors import BalcliError
-from balcli.load import parse
+from balcli.enginefile import parse
 
 
 def test_force_of_order_2_goes_with_the_square_of_the_speed() -> None:

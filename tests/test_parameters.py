@@ -8,7 +8,7 @@ import pytest
 from kit import GOOD, changed
 
 from balcli.errors import BalcliError
-from balcli.load import parse as load
+from balcli.enginefile import parse as load
 from balcli.parameters import ladder, parse, varied
 
 DEVICES = """

@@ -9,7 +9,7 @@ from kit import GOOD, changed
 
 from balcli.engine import build
 from balcli.errors import BalcliError
-from balcli.load import parse as load
+from balcli.enginefile import parse as load
 from balcli.model import EngineFile
 from balcli.parameters import varied
 from balcli.quantity import evaluate, parse

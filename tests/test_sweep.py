@@ -10,7 +10,7 @@ from kit import GOOD, changed
 
 from balcli.engine import build
 from balcli.errors import BalcliError, InputError
-from balcli.load import parse as load
+from balcli.enginefile import parse as load
 from balcli.parameters import parse, varied
 from balcli.quantity import evaluate
 from balcli.quantity import parse as quantities

@@ -44,7 +44,8 @@ def pins(file: EngineFile, layout: Plan, top: Mapping[int, Any]) -> tuple[dict[i
 def places(file: EngineFile, layout: Plan, rank: int) -> tuple[dict[int, Any], NDArray[np.float64]]:
     """Place of every cylinder and of every throw along the crank, m (a throw stands in the middle of its rods)."""
     crank = file.crank
-    along = crank.positions or [(t - (layout.throws - 1) / 2) * (crank.spacing or 0.0) for t in range(layout.throws)]
+    spacing = 0.0 if crank.spacing is None else crank.spacing               # which may be an array of variants
+    along = crank.positions or [(t - (layout.throws - 1) / 2) * spacing for t in range(layout.throws)]
     middle = (layout.rods_on_throw - 1) / 2
     lean = {c.number: (c.bank - middle) * file.layout.stagger if layout.rods_on_throw > 1 else 0.0 for c in layout.cells}
     place = {c.number: own_or(file, c.number, "position", along[c.throw] + lean[c.number]) / 1e3 for c in layout.cells}

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from . import load, quantity
+from . import enginefile, quantity
 from .engine import Engine, build
 from .errors import BalcliError, InputError
 from .model import EngineFile
@@ -73,7 +73,7 @@ def ask(file: str, vary: Sequence[str], quantities: str) -> Sweep:
     Raises:
         BalcliError: what is wrong with the file, a parameter or a quantity, or if one of the variants cannot be.
     """
-    model = load.read(file)
+    model = enginefile.read(file)
     parameters = tuple(parse(text, model) for text in vary)
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..analysis import analyze
 from ..engine import Engine, build
-from ..load import parse
+from ..enginefile import parse
 from ..model import EngineFile
 from ..parameters import ladder
 from ..quantity import parse as quantities

@@ -27,8 +27,12 @@ def check(
         return []
     results, errors = each(engine_files(paths), compared)
     moved = [difference for found in results for difference in found]
-    done = "recorded" if update else "engines"
-    emit("\n".join([*map(str, moved), f"{len(results)} {done}, {len(moved)} differences"]))
+    done = _count(len(results), "engine") + (" recorded" if update else f", {_count(len(moved), 'difference')}")
+    emit("\n".join([*map(str, moved), done]))
     tell(errors)
     if moved:
         raise typer.Exit(Exit.DIFFERENCE)
+
+
+def _count(number: int, thing: str) -> str:
+    return f"{number} {thing}{'' if number == 1 else 's'}"

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, Optional
 
 import typer
 
@@ -21,18 +21,18 @@ def scatter(
     file: EngineFile,
     mass: Annotated[str, typer.Option("--mass-scatter", metavar="PERCENT", help="Tolerance of every piston, rod and throw mass.")] = "0.5%",
     length: Annotated[str, typer.Option("--length-scatter", metavar="PERCENT", help="Tolerance of every rod length.")] = "0%",
-    angle: Annotated[str, typer.Option("--angle-scatter", metavar="ANGLE", help="Tolerance of every throw angle, as 0.2 deg.")] = "0",
+    angle: Annotated[str, typer.Option("--angle-scatter", metavar="ANGLE", help="Tolerance of every throw angle, such as 0.2 deg.")] = "0",
     samples: Annotated[int, typer.Option("--samples", help="Number of random engines.")] = 100_000,
-    seed: Annotated[int | None, typer.Option("--seed", min=0, help="Of the random numbers, to repeat them.", show_default=False)] = None,
+    seed: Annotated[Optional[int], typer.Option("--seed", min=0, help="Of the random numbers, for repeatable figures.", show_default=False)] = None,
     distribution: Annotated[Distribution, typer.Option("--distribution", help=(
         "uniform within the tolerances, or normal with a third of them as standard deviation."))] = Distribution.UNIFORM,
-    quantity: Annotated[str, typer.Option("--quantity", "-q", metavar="WHAT,...", help=(
-        "Sizes such as force.1.major, couple.4.amplitude."))] = "force.1.major,force.2.major,moment.1.major,moment.2.major",
+    quantity: Annotated[str, typer.Option("--quantity", "-q", metavar="WHAT,...", help="Sizes such as force.1.major, couple.4.amplitude.")] =
+        "force.1.major,force.2.major,moment.1.major,moment.2.major",
     format: FormatOption = Format.TABLE,                                    # noqa: A002 (the option's name)
     output: Output = None,
 ) -> None:
     """How free forces and moments spread when masses (rod lengths, throw angles) vary, and which tolerance matters most."""
-    from .. import load
+    from .. import enginefile
     from .. import quantity as quantities
     from .. import scatter as scatters
     from ..render import scatter as rendered
@@ -40,6 +40,6 @@ def scatter(
     from .output import emit
 
     tolerances = scatters.tolerances(mass, length, angle)
-    found = scatters.scatter(load.read(file), tolerances, quantities.parse(quantity), samples, seed, distribution.value)
+    found = scatters.scatter(enginefile.read(file), tolerances, quantities.parse(quantity), samples, seed, distribution.value)
     emit(render(format, sheets=lambda: [rendered.sheet(found)], documents=lambda: [rendered.document(found)],
                 rows=lambda: rendered.rows(found), into_file=output is not None), output)

@@ -30,6 +30,9 @@ def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
     if result.force is not None:
         parts.append(largest(result, system, "Largest over a revolution, all orders"))
     parts += [_share(n, share, system) for n, share in result.cylinders]
+    if result.inner is not None or result.guide is not None or result.travel is not None:
+        from .extras import parts as extras
+        parts += extras(result, system)
     if found := verdict(spectra, system):
         parts.append(Text("Verdict", found))
     if result.why is not None:

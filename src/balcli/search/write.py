@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..engine import build
-from ..errors import InputError
 from ..enginefile import parse
+from ..errors import InputError
 
 TABLES = {"throws": "crank", "splay": "crank", "firing_order": "layout", "bank_angle": "layout"}
 
