@@ -15,7 +15,7 @@ from .engine import Engine
 SPECTRAL = ("force", "moment", "couple", "torque", "roll")
 _ONLY_FORCES = {"force", "moment"}
 SHOWN = 1e-6                    # share of a quantity's largest order below which an order is not worth showing
-_CLOSED_FORM = 256              # highest order at which closed forms are cheaper than sampling and transforming
+_CLOSED_FORM = 4096             # highest order of closed forms; only mechanisms near their lock have more
 
 
 @dataclass(frozen=True)
