@@ -14,8 +14,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import slidercrank
-
 Array = NDArray[Any]
 EPS = float(np.finfo(float).eps)
 
@@ -271,6 +269,8 @@ def sampled(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, ener
 
     Accelerations are sampled as such, not differentiated, so that no order's error grows.
     """
+    from . import slidercrank
+
     psi = np.arange(count := points(lam, eps)) * (2 * np.pi / count)
     arguments = psi, np.asarray(lam)[..., None], np.asarray(eps)[..., None]
     return Harmonics(
