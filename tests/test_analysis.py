@@ -152,7 +152,7 @@ def test_an_unknown_quantity():
     with pytest.raises(BalcliError) as caught:
         analyze(example("i4"), only=["force", "weight", "noise"])
     assert str(caught.value) == ("there is no quantity noise, weight: choose from force, moment, couple, torque, roll, "
-                                 "peak, sizing")
+                                 "peak, sizing, inner, guide")
 
 
 def test_everything_by_default():
