@@ -60,7 +60,8 @@ def test_the_throw_stands_still():
 
 def test_strokes_and_dead_centres_are_those_of_the_same_engine_with_a_turning_crank():
     text = GNOME.format(layout="radial = 5", offset=9)
-    turning, still = (travel(engine.build(enginefile.parse(text.replace("rotary = true", flag))).cylinders) for flag in ("", "rotary = true"))
+    turning, still = (travel(engine.build(enginefile.parse(text.replace("rotary = true", flag))).cylinders)
+                      for flag in ("", "rotary = true"))
     assert still.stroke == pytest.approx(turning.stroke, rel=1e-12)
     assert still.top_deg == pytest.approx(turning.top_deg, abs=1e-9)
 
