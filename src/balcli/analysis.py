@@ -12,13 +12,15 @@ from .core.peaks import Peak, peak
 from .core.phasors import Array
 from .engine import Engine
 from .errors import BalcliError
-from .spectrum import SPECTRAL, Spectra, alone, considerable, relevant_orders, spectra
+from .sizing import Remedy, auto, fitted
+from .spectrum import SHOWN as SHOWN
+from .spectrum import SPECTRAL, Spectra, considerable, relevant_orders, spectra
+from .spectrum import alone as alone
 
 if TYPE_CHECKING:
     from .core.travel import Travel
     from .guide import Guide
     from .inner import Inner
-    from .sizing import Remedy
     from .why import Why
 
 QUANTITIES = (*SPECTRAL, "peak", "sizing")
@@ -149,8 +151,6 @@ def _explained(engine: Engine, orders: Array, quantities: Collection[str]) -> Wh
 
 
 def _sized(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizing:
-    from .sizing import auto, fitted
-
     remedy = auto(engine)
     return Sizing(remedy, analyze(fitted(engine, remedy), asked, {*wanted, "force", "moment", "peak"} - {"sizing"}))
 
