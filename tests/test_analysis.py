@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from kit import engine
 
-from balcli.analysis import HIGHEST, QUANTITIES, SHOWN, Analysis, alone, analyze, textbook
+from balcli.analysis import HIGHEST, QUANTITIES, Analysis, alone, analyze, textbook
 from balcli.core import harmonics
 from balcli.engine import Engine, build
 from balcli.enginefile import read
 from balcli.errors import BalcliError
-from balcli.spectrum import SPECTRAL, relevant_orders, spectra
+from balcli.spectrum import SHOWN, SPECTRAL, relevant_orders, spectra
 
 FOLDER = Path(__file__).parents[1] / "engines"
 NAMES = sorted(file.stem for file in FOLDER.glob("*.toml"))
@@ -161,7 +161,7 @@ def test_an_unknown_quantity():
     with pytest.raises(BalcliError) as caught:
         analyze(example("i4"), only=["force", "weight", "noise"])
     assert str(caught.value) == ("there is no quantity noise, weight: choose from force, moment, couple, torque, roll, "
-                                 "peak, sizing")
+                                 "peak, sizing, inner, guide")
 
 
 def test_everything_by_default():

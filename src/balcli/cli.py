@@ -19,6 +19,8 @@ from .errors import BalcliError, Exit
 COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "plot", "report", "sweep",
             "search", "scatter", "compare", "sum", "bench")
 
+_UsageError: Any = typer.BadParameter.__mro__[1]       # click's, or typer's own copy of it
+
 
 class _OnDemand(TyperGroup):
     """Commands by name; the module of one is imported when it is needed."""
