@@ -6,6 +6,7 @@ from pathlib import Path
 
 import guide
 import pytest
+import reference
 
 from balcli.cli import COMMANDS
 
@@ -51,3 +52,7 @@ def anchors(document: Path) -> set[str]:
     """Names of the headings, as hosts of Markdown make them."""
     headings = re.findall(r"^#+ (.+)$", document.read_text(encoding="utf-8"), re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def test_engine_file_reference_is_up_to_date() -> None:
+    assert reference.DOCUMENT.read_text(encoding="utf-8") == reference.document(), "python tests/reference.py writes it anew"

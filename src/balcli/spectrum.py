@@ -82,7 +82,7 @@ def alone(engine: Engine, number: int) -> Engine:
 
 def _steady(engine: Engine, orders: Array, quantities: Collection[str]) -> tuple[dict[str, Phasors], Loads]:
     c = engine.cylinders
-    plain = harmonics.of if orders.max(initial=0) <= _CLOSED_FORM else harmonics.sampled
+    plain = harmonics.sampled if len(orders) and orders[-1] > _CLOSED_FORM else harmonics.of
     find = c.linkage.harmonics if c.linkage else plain
     x, y, z = engine.reference_m
     rod = bool(np.count_nonzero(c.couple)) and not _ONLY_FORCES.issuperset(quantities)

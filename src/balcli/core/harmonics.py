@@ -82,7 +82,7 @@ def of(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: b
 
 
 def _of_distinct(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> Harmonics:
-    return sampled(orders, lam, eps, rod=rod, energy=energy) if np.any(eps) else centred(orders, lam, rod=rod, energy=energy)
+    return sampled(orders, lam, eps, rod=rod, energy=energy) if np.count_nonzero(eps) else centred(orders, lam, rod=rod, energy=energy)
 
 
 # ------------------------------------------------------------------ centred: closed form
@@ -227,7 +227,7 @@ def _G(m: Array, z: Any) -> Any:
     """
     single = isinstance(z, float)
     largest = max(z if single else z.max(initial=0.0), 1e-300)
-    ratios = _ratios(2 + int(math.log(EPS / 64) / math.log(largest)), m.shape)
+    ratios = _ratios(1 + int(math.log(EPS / 64) / math.log(largest)), m.shape)
     total: Any = 1.0
     for ratio in ratios * z if single else (ratio * z for ratio in ratios):
         total = 1 + ratio * total
