@@ -68,3 +68,9 @@ def refused(**parts: dict[str, Any] | list[dict[str, Any]]) -> str:
     with pytest.raises(InputError) as caught:
         engine(**parts)
     return str(caught.value)
+
+
+def engine_text(**tables: str) -> str:
+    """A small engine in 1 kg, 100 mm stroke, unit figures; each keyword names a table and gives its lines, replacing the default."""
+    lines = {"crank": "stroke = 100", "rod": "ratio = 0.25", "piston": "mass = 1"} | tables
+    return "\n".join(f"[{table}]\n{body}" for table, body in lines.items()) + "\n"

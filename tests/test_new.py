@@ -28,6 +28,13 @@ def test_it_is_the_engine_that_it_says(kind):
 
 
 @pytest.mark.parametrize("kind", KINDS)
+def test_editors_are_told_where_the_schema_is(kind):
+    hint, how = template(kind).splitlines()[:2]
+    assert hint.startswith("#:schema ")
+    assert f"`balcli schema -o {hint.split()[1]}`" in how
+
+
+@pytest.mark.parametrize("kind", KINDS)
 def test_every_optional_key_can_be_switched_on(kind):
     """All of them at once, but for those that stand instead of others."""
     lines = [line for line in template(kind).splitlines() if not any(mark in line for mark in INSTEAD)]
@@ -62,7 +69,7 @@ def test_alternatives_say_the_same(kind):
 def test_every_key_is_explained_and_lines_are_short(kind):
     lines = template(kind).splitlines()
     assert max(map(len, lines)) <= 120
-    assert lines[0].startswith("# ")
+    assert lines[3].startswith("# ")
     keys = [line for line in lines if re.match(r"(# )?[a-z_]+ += ", line)]
     assert [line for line in keys if " # " not in line] == keys[:2]  # name and source
 

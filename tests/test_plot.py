@@ -13,8 +13,8 @@ from kit import GOOD, changed
 
 from balcli.analysis import analyze
 from balcli.engine import build
-from balcli.errors import BalcliError
 from balcli.enginefile import parse
+from balcli.errors import BalcliError
 from balcli.render.plot import draw, style
 from balcli.render.plot.pages import PAGES, Subject, form_of, picture
 from balcli.render.units import IMPERIAL, SI

@@ -9,8 +9,8 @@ import pytest
 from kit import GOOD, changed
 
 from balcli.engine import build
-from balcli.errors import BalcliError, InputError
 from balcli.enginefile import parse as load
+from balcli.errors import BalcliError, InputError
 from balcli.parameters import parse, varied
 from balcli.quantity import evaluate
 from balcli.quantity import parse as quantities

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,13 +13,16 @@ from .core.phasors import Array
 from .engine import Engine
 from .errors import BalcliError
 from .sizing import Remedy, auto, fitted
-from .spectrum import SPECTRAL, Spectra, alone, relevant_orders, spectra
+from .spectrum import SPECTRAL, Spectra, alone, considerable, relevant_orders, spectra
 
 if TYPE_CHECKING:
+    from .core.travel import Travel
+    from .guide import Guide
+    from .inner import Inner
     from .why import Why
 
 QUANTITIES = (*SPECTRAL, "peak", "sizing")
-SHOWN = 1e-6                    # an order is shown if something in it exceeds this share of its own largest order
+EXTRAS = ("inner", "guide")     # computed only when they are named
 HIGHEST = 4096                  # order that may be asked for
 
 
@@ -42,6 +45,9 @@ class Analysis:
         sizing: devices of the scheme `auto`, and the analysis with them.
         cylinders: phasors of each cylinder alone (no devices), by cylinder number.
         why: whether the orders shown are balanced by symmetry.
+        inner: shear force and bending moment along the crankshaft.
+        guide: H- and X-type guide-force moments.
+        travel: strokes and dead centres of articulated cylinders and of the masters, by rows of `engine.numbers`.
     """
 
     engine: Engine
@@ -51,6 +57,9 @@ class Analysis:
     sizing: Sizing | None = None
     cylinders: tuple[tuple[int, Spectra], ...] = ()
     why: Why | None = None
+    inner: Inner | None = None
+    guide: Guide | None = None
+    travel: Travel | None = None
 
     @property
     def orders(self) -> Array:
@@ -65,7 +74,7 @@ def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collect
         engine: without trailing axes.
         orders: which orders to show; default: 1 and 2 (0 too under uneven speed) and all in which a quantity that was asked
             for exceeds 1e-6 of its own largest order.
-        only: any of QUANTITIES; default: all.
+        only: any of QUANTITIES and EXTRAS; default: all QUANTITIES.
         by_cylinder: also the phasors of every cylinder alone.
         reasons: also why each order is balanced, or is not.
 
@@ -73,21 +82,22 @@ def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collect
         BalcliError: an unknown quantity, an order that is negative or above HIGHEST.
     """
     wanted = set(QUANTITIES if only is None else only)
-    if strangers := sorted(wanted - set(QUANTITIES)):
-        raise BalcliError(f"there is no quantity {', '.join(strangers)}: choose from {', '.join(QUANTITIES)}")
-    asked = None if orders is None else _checked(orders)
+    if strangers := sorted(wanted.difference(QUANTITIES, EXTRAS)):
+        raise BalcliError(f"there is no quantity {', '.join(strangers)}: choose from {', '.join((*QUANTITIES, *EXTRAS))}")
+    asked = None if orders is None else checked_orders(orders)
     curves = {"force", "moment"} if "peak" in wanted else set()
     shown = wanted.intersection(SPECTRAL)
     whole = relevant_orders(engine) if asked is None or curves else np.empty(0)
     everything = spectra(engine, sorted({*whole, *([1.0, 2.0] if asked is None else asked)}), shown | curves)
     visible = Spectra(everything.orders, **{q: p for q, p in everything.items() if q in shown})
-    visible = visible.at(_default_orders(visible, engine) if asked is None else asked)
+    visible = visible.at(shown_orders(visible) if asked is None else asked)
     peaks = {q: peak(getattr(everything, q)) for q in curves}
     return Analysis(
-        engine, visible, **peaks,
+        engine, visible, peaks.get("force"), peaks.get("moment"),
         sizing=_sized(engine, asked, wanted) if "sizing" in wanted else None,
         cylinders=tuple((n, spectra(alone(engine, n), visible.orders, shown)) for n in sorted(engine.numbers)) if by_cylinder else (),
         why=_explained(engine, visible.orders, shown) if reasons else None,
+        **_extras(engine, asked, wanted),
     )
 
 
@@ -116,6 +126,21 @@ def textbook(engine: Engine, orders: Array) -> Textbook:
     )
 
 
+def _extras(engine: Engine, asked: Array | None, wanted: Collection[str]) -> dict[str, Any]:
+    """What is computed only where it is asked for, or where the engine has it."""
+    found: dict[str, Any] = {}
+    if "inner" in wanted:
+        from .inner import inner
+        found["inner"] = inner(engine, asked)
+    if "guide" in wanted:
+        from .guide import guide
+        found["guide"] = guide(engine, asked)
+    if engine.cylinders.linkage is not None:
+        from .core.travel import travel
+        found["travel"] = travel(engine.cylinders)
+    return found
+
+
 def _explained(engine: Engine, orders: Array, quantities: Collection[str]) -> Why:
     from .why import QUANTITIES, why
 
@@ -128,15 +153,17 @@ def _sized(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizi
     return Sizing(remedy, analyze(fitted(engine, remedy), asked, {*wanted, "force", "moment", "peak"} - {"sizing"}))
 
 
-def _checked(orders: Iterable[float]) -> Array:
+def checked_orders(orders: Iterable[float]) -> Array:
+    """Orders that were asked for, ascending; BalcliError unless they are whole numbers up to HIGHEST."""
     asked = np.array(sorted(set(orders)), float)
     if not len(asked) or asked[0] < 0 or asked[-1] > HIGHEST or np.any(asked % 1):
         raise BalcliError(f"orders must be whole numbers from 0 to {HIGHEST}, not {', '.join(f'{n:g}' for n in asked[:8]) or 'none'}")
     return asked
 
 
-def _default_orders(found: Spectra, engine: Engine) -> Array:
+def shown_orders(found: Spectra) -> Array:
+    """Orders to 2, and those in which a quantity exceeds SHOWN of its own largest order."""
     due = found.orders <= 2
     for _, phasors in found.items():
-        due |= phasors.major > SHOWN * phasors.major.max(initial=0)
+        due |= considerable(phasors)
     return found.orders[due]

@@ -2,13 +2,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .analysis import QUANTITIES, Analysis, analyze
 from .engine import Engine
 from .sizing import Practical, Remedy, Tools, Wish, fitted, practical, remedy_for
+
+_UNEVEN = "sized for steady mean speed; before and after are those of the uneven one"
 
 
 @dataclass(frozen=True)
@@ -38,6 +40,8 @@ def balance(engine: Engine, scheme: str = "auto", wish: Wish | None = None, orde
         BalcliError: an unknown scheme, or a wish that cannot be met, with the reason.
     """
     remedy = remedy_for(engine, scheme, wish)
+    if engine.ripple:
+        remedy = replace(remedy, details={**remedy.details, "speed": _UNEVEN})
     figures = practical(engine, remedy, tools or Tools())
     new = fitted(engine, remedy)
     shown = set(QUANTITIES) - {"sizing"}

@@ -16,7 +16,10 @@ from typer.main import get_command
 from . import __version__
 from .errors import BalcliError, Exit
 
-COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "plot", "sweep", "search", "scatter", "compare", "bench")
+COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "plot", "report", "sweep",
+            "search", "scatter", "compare", "sum", "engines", "bench")
+
+_UsageError: Any = typer.BadParameter.__mro__[1]       # click's, or typer's own copy of it
 
 
 class _OnDemand(TyperGroup):
@@ -60,10 +63,9 @@ def main() -> None:
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(encoding="utf-8", errors="replace")
     try:
-        app()
+        sys.exit(app(prog_name="balcli", standalone_mode=False))
     except BalcliError as error:
         typer.echo(f"balcli: {error}", err=True)
-        sys.exit(Exit.BAD_INPUT)
-    except BrokenPipeError:                             # `| head`: what is not read need not be written
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(Exit.DONE)
+    except _UsageError as error:
+        error.show()                                    # plain: a box would fold it, even in a pipe
+    sys.exit(Exit.BAD_INPUT)

@@ -7,6 +7,11 @@ from pathlib import Path
 from .errors import BalcliError
 
 KINDS = ("single", "inline", "vee", "boxer", "radial", "w")
+SCHEMA = """\
+#:schema balcli.schema.json
+# Editors that know TOML check and complete what you type, with that file here: `balcli schema -o balcli.schema.json`
+
+"""
 _FOLDER = Path(__file__).with_name("templates")
 
 
@@ -17,4 +22,4 @@ def template(kind: str) -> str:
         hint = f" Did you mean {near[0]}?" if near else ""
         raise BalcliError(f'"{kind[:60]}" is no kind of engine; there are {", ".join(KINDS)}.{hint}')
     parts = (_FOLDER / f"{name}.toml" for name in (kind, "optional"))
-    return "".join(part.read_text(encoding="utf-8") for part in parts)
+    return SCHEMA + "".join(part.read_text(encoding="utf-8") for part in parts)

@@ -5,7 +5,7 @@ from collections.abc import Collection
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from .core import harmonics, ripple
 from .core.inertia import Loads
@@ -14,7 +14,8 @@ from .engine import Engine
 
 SPECTRAL = ("force", "moment", "couple", "torque", "roll")
 _ONLY_FORCES = {"force", "moment"}
-_CLOSED_FORM = 256              # highest order at which closed forms are cheaper than sampling and transforming
+SHOWN = 1e-6                    # share of a quantity's largest order below which an order is not worth showing
+_CLOSED_FORM = 4096             # highest order of closed forms; only mechanisms near their lock have more
 
 
 @dataclass(frozen=True)
@@ -62,6 +63,12 @@ def relevant_orders(engine: Engine) -> Array:
     if not engine.ripple:
         return np.arange(1.0, highest + 1)
     return np.arange(0.0, highest + 2 * max(line.order for line in engine.ripple) + 1)
+
+
+def considerable(phasors: Phasors) -> NDArray[np.bool_]:
+    """Orders in which something exceeds SHOWN of its own largest order, shape (orders,)."""
+    sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1, initial=0)
+    return np.asarray(sizes > SHOWN * sizes.max(initial=0))
 
 
 def alone(engine: Engine, number: int) -> Engine:

@@ -14,7 +14,7 @@ def check(
     """Recompute engines and compare with their recorded results; exit status 1 if anything moved."""
     from ..errors import Exit
     from ..regression import Difference, differences, record, recorded_at
-    from .output import write
+    from .output import emit, write
     from .several import each, engine_files, engine_of, tell
 
     def compared(file: Path) -> list[Difference]:
@@ -27,8 +27,12 @@ def check(
         return []
     results, errors = each(engine_files(paths), compared)
     moved = [difference for found in results for difference in found]
-    done = "recorded" if update else "engines"
-    typer.echo("\n".join([*map(str, moved), f"{len(results)} {done}, {len(moved)} differences"]))
+    done = _count(len(results), "engine") + (" recorded" if update else f", {_count(len(moved), 'difference')}")
+    emit("\n".join([*map(str, moved), done]))
     tell(errors)
     if moved:
         raise typer.Exit(Exit.DIFFERENCE)
+
+
+def _count(number: int, thing: str) -> str:
+    return f"{number} {thing}{'' if number == 1 else 's'}"

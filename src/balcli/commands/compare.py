@@ -20,11 +20,11 @@ def compare(
     from ..render.formats import render
     from ..render.units import SYSTEMS
     from .output import emit
-    from .several import engine_of
+    from .several import distinct, engine_of
 
     rpm, asked = checked_speed(speed), order_list(orders)
     engines = [engine_of(file, rpm)[1] for file in files]
     chosen = None if only is None else [word.strip() for word in only.split(",")]
-    found = compared(engines, [engine.name or file for engine, file in zip(engines, files, strict=True)], asked, chosen)
+    found = compared(engines, distinct([engine.name for engine in engines], files), asked, chosen)
     emit(render(format, sheets=lambda: [rendered.sheet(found, SYSTEMS[units])], documents=lambda: [rendered.document(found)],
                 rows=lambda: rendered.rows(found, SYSTEMS[units]), into_file=output is not None), output)

@@ -12,16 +12,29 @@ from ..errors import BalcliError
 
 
 def emit(text: str, output: Path | None = None) -> None:
-    """Print once, or write the whole file or nothing of it.
+    """Print once, or write the whole file or nothing of it; what the reader of a closed pipe does not want need not be written.
 
     Raises:
         BalcliError: if the file cannot be written; an older one is left as it was.
     """
     if output is None:
-        sys.stdout.write(text if text.endswith("\n") else text + "\n")
-        sys.stdout.flush()
+        try:
+            sys.stdout.write(text if text.endswith("\n") else text + "\n")
+            sys.stdout.flush()
+        except BrokenPipeError:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     else:
         write(text if text.endswith("\n") else text + "\n", output)
+
+
+def keep(file: Path | None, force: bool) -> None:
+    """Refuse to overwrite a file that is there, unless forced.
+
+    Raises:
+        BalcliError: with what to do.
+    """
+    if file is not None and file.exists() and not force:
+        raise BalcliError(f"{file}: is there already; choose another name, or --force to overwrite it")
 
 
 def write(content: str | bytes, target: Path) -> None:

@@ -72,3 +72,8 @@ def engine_files(paths: Sequence[Path]) -> list[Path]:
             raise BalcliError(f"{path}: {'has no engine files (*.toml)' if path.is_dir() else 'no such file or folder'}")
         files += found
     return files
+
+
+def distinct(names: Sequence[str], files: Sequence[str]) -> list[str]:
+    """What to call several engines side by side: by name, or by file where a name is missing or stands for several."""
+    return [name if name and names.count(name) == 1 else file for name, file in zip(names, files, strict=True)]

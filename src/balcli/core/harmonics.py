@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from math import comb
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -223,9 +222,12 @@ def _rows(orders: bytes, axes: int) -> _Rows:
 
 def _binomials(count: int) -> tuple[Array, Array]:
     """binom(1/2, m) and binom(-3/2, m) for m = 0 .. count-1, each correctly rounded."""
-    half = [-(-1) ** m * comb(2 * m, m) / (4**m * (2 * m - 1)) for m in range(count)]
-    minus = [(-1) ** m * (2 * m + 1) * comb(2 * m, m) / 4**m for m in range(count)]
-    return np.array(half), np.array(minus)
+    half, minus, middle = np.empty(count), np.empty(count), 1           # middle: binom(2m, m), exactly
+    for m in range(count):
+        half[m] = -(-1) ** m * middle / ((2 * m - 1) << 2 * m)
+        minus[m] = (-1) ** m * (2 * m + 1) * middle / (1 << 2 * m)
+        middle = middle * 2 * (2 * m + 1) // (m + 1)
+    return half, minus
 
 
 def _G(m: Array, z: Any) -> Any:

@@ -12,7 +12,7 @@ from ..core.phasors import Array, Phasors
 from ..engine import Engine
 from ..spectrum import Spectra
 from .devices import device_grid
-from .figures import order_number, peak_deg, phase_deg
+from .figures import Result, order_number, peak_deg, phase_deg
 from .sheet import Facts, Grid, Sheet, Text, degrees, number
 from .units import System, Unit
 from .verdict import verdict
@@ -24,12 +24,15 @@ def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
     """The whole analysis: what the engine is, what it does order by order, peaks, verdict, sizing; pictures of characters."""
     engine, spectra = result.engine, result.spectra
     parts: list[Grid | Facts | Text] = [facts(engine, system)]
-    parts += _spectra(spectra, system)
+    parts += order_by_order(spectra, system)
     if spectra.force is not None or spectra.moment is not None:
-        parts += [_directions(spectra, system), *_textbook(spectra, textbook(engine, spectra.orders), system)]
+        parts += [*_textbook(spectra, textbook(engine, spectra.orders), system)]
     if result.force is not None:
-        parts.append(_peaks(result, system, "Largest over a revolution, all orders"))
+        parts.append(largest(result, system, "Largest over a revolution, all orders"))
     parts += [_share(n, share, system) for n, share in result.cylinders]
+    if result.inner is not None or result.guide is not None or result.travel is not None:
+        from .extras import parts as extras
+        parts += extras(result, system)
     if found := verdict(spectra, system):
         parts.append(Text("Verdict", found))
     if result.why is not None:
@@ -96,7 +99,8 @@ def _rows(orders: Array, phasors: list[Phasors], row: Callable[[int], tuple[str,
     return tuple(row(k) for k, order in enumerate(orders) if order <= 2 or not all(p.balanced[k] for p in phasors))
 
 
-def _spectra(spectra: Spectra, system: System) -> Iterator[Grid]:
+def order_by_order(spectra: Spectra, system: System) -> Iterator[Grid]:
+    """Phasors and scalars, and vectors along x and y."""
     for quantity, unit in (("force", system.force), ("moment", system.moment)):
         phasors = getattr(spectra, quantity)
         if phasors is not None:
@@ -104,6 +108,8 @@ def _spectra(spectra: Spectra, system: System) -> Iterator[Grid]:
     scalars = {q: p for q, p in spectra.items() if q in _SCALARS}
     if scalars:
         yield _scalars(scalars, spectra, system.moment)
+    if spectra.force is not None or spectra.moment is not None:
+        yield _directions(spectra, system)
 
 
 def _vectors(title: str, phasors: Phasors, unit: Unit) -> Grid:
@@ -169,7 +175,8 @@ def _multiples(quantity: str, phasors: Phasors, size: float, ratios: Array, note
                 _rows(phasors.orders, [phasors], row), note)
 
 
-def _peaks(result: Analysis, system: System, title: str) -> Facts:
+def largest(result: Result, system: System, title: str) -> Facts:
+    """The peaks."""
     pairs = (("force", result.force, system.force), ("moment", result.moment, system.moment))
     return Facts(tuple((name, _peak(peak, unit)) for name, peak, unit in pairs if peak is not None), title)
 
@@ -203,4 +210,4 @@ def _sizing(sizing: Sizing, system: System) -> Iterator[Grid | Text | Facts]:
         return
     yield Text("Sizing: what leaves no free force or moment of orders 1 and 2", tuple(dict.fromkeys(remedy.reasons)))
     yield device_grid(remedy, system)
-    yield _peaks(after, system, "Largest with these devices")
+    yield largest(after, system, "Largest with these devices")

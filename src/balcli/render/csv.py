@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from ..analysis import Analysis
     from ..balancing import Balance
+    from ..combined import Combined
     from .units import System
 
 
@@ -27,6 +28,13 @@ def analyses(results: Sequence[Analysis], system: System) -> str:
 
     return write(("engine", "cylinder", "quantity", "order", "figure", "value", "unit"),
                  ((result.engine.name, *row) for result in results for row in rows(result, system)))
+
+
+def sums(result: Combined, system: System) -> str:
+    """One figure a row, of both engines together."""
+    from .figures import rows
+
+    return write(("quantity", "order", "figure", "value", "unit"), (row[1:] for row in rows(result, system)))
 
 
 def balances(result: Balance, system: System) -> str:

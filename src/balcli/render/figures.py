@@ -2,11 +2,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ..analysis import Analysis
 from ..core.peaks import Peak
 from ..core.phasors import Phasors
 from ..spectrum import Spectra
@@ -14,6 +13,22 @@ from .units import System, Unit
 
 KEYS = {"force": "force_N", "moment": "moment_Nm", "couple": "couple_Nm", "torque": "inertia_torque_Nm", "roll": "roll_Nm"}
 VECTORS = ("force", "moment")
+
+
+class Result(Protocol):
+    """What has orders and peaks: an analysis, or the sum of two engines."""
+
+    @property
+    def spectra(self) -> Spectra: ...
+
+    @property
+    def force(self) -> Peak | None: ...
+
+    @property
+    def moment(self) -> Peak | None: ...
+
+    @property
+    def cylinders(self) -> tuple[tuple[int, Spectra], ...]: ...
 
 
 class Row(NamedTuple):
@@ -80,7 +95,7 @@ def entries(spectra: Spectra, k: int) -> dict[str, dict[str, Any]]:
     return {KEYS[q]: (vector if q in VECTORS else scalar)(phasors, k) for q, phasors in spectra.items()}
 
 
-def peaks(analysis: Analysis) -> dict[str, float | None]:
+def peaks(analysis: Result) -> dict[str, float | None]:
     """The largest force and moment over a revolution."""
     found: dict[str, float | None] = {}
     for name, unit, peak in (("force", "N", analysis.force), ("moment", "Nm", analysis.moment)):
@@ -90,7 +105,7 @@ def peaks(analysis: Analysis) -> dict[str, float | None]:
 
 
 # ------------------------------------------------------------------ as a list
-def rows(analysis: Analysis, system: System) -> Iterator[Row]:
+def rows(analysis: Result, system: System) -> Iterator[Row]:
     """Every figure of an analysis, one a row."""
     for cylinder, spectra in ((0, analysis.spectra), *analysis.cylinders):
         for k, order in enumerate(spectra.orders):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, assert_never
 if TYPE_CHECKING:
     from ..analysis import Analysis
     from ..balancing import Balance
+    from ..combined import Combined
     from .sheet import Sheet
 
 
@@ -73,3 +74,13 @@ def balances(result: Balance, form: Format, units: Units, *, into_file: bool = F
         from .balance import sheet
         return [sheet(result, system)]
     return render(form, sheets=sheets, documents=lambda: [json.balance(result)], rows=lambda: csv.balances(result, system), into_file=into_file)
+
+
+def sums(result: Combined, form: Format, units: Units, *, into_file: bool = False) -> str:
+    """Two engines on one frame."""
+    from . import combined, csv
+    from .units import SYSTEMS
+
+    system = SYSTEMS[units]
+    return render(form, sheets=lambda: [combined.sheet(result, system)], documents=lambda: [combined.document(result)],
+                  rows=lambda: csv.sums(result, system), into_file=into_file)

@@ -36,6 +36,9 @@ def analysis(result: Analysis) -> dict[str, Any]:
         document["sizing"] = {"scheme": result.sizing.remedy.scheme, **devices(result.sizing.remedy), "after": after(result.sizing.after)}
     if result.cylinders:
         document["cylinders"] = [{"cylinder": number, "orders": orders(spectra)} for number, spectra in result.cylinders]
+    if result.inner is not None or result.guide is not None or result.travel is not None:
+        from .extras import document as extras
+        document |= extras(result)
     if result.why is not None:
         document["why"] = {"reasons": [asdict(reason) for reason in result.why.reasons], "firing": result.why.firing}
     return document

@@ -1,10 +1,10 @@
 """Sizing of counterweights, balancer shafts and sliders: every scheme is a choice of devices for one least squares."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from importlib import import_module
+from typing import NamedTuple
 
 from ..engine import Engine
-from . import crank, shafts, single
 from .auto import auto
 from .remedy import Remedy, fitted
 from .shop import Practical, Tools, practical
@@ -12,20 +12,26 @@ from .wish import NoNeedError, Wish, options
 
 __all__ = ["SCHEMES", "Practical", "Remedy", "Tools", "Wish", "auto", "fitted", "practical", "remedy_for"]
 
-_Scheme = tuple[Callable[[Engine, Wish], Remedy], tuple[str, ...]]
 
-SCHEMES: dict[str, _Scheme] = {
-    "auto": (lambda engine, _: auto(engine), ()),
-    "counterweights": (crank.counterweights, ("order", "planes")),
-    "factor": (crank.factor, ("factor",)),
-    "minimax": (crank.minimax, ("planes", "position")),
-    "single-shaft": (shafts.single_shaft, ("order", "at", "position")),
-    "two-shaft": (shafts.two_shaft, ("order", "at", "position", "roll")),
-    "four-shaft": (shafts.four_shaft, ("at", "position")),
-    "couple-shaft": (shafts.couple_shaft, ("order", "at", "planes")),
-    "slider": (shafts.slider, ("order", "at", "position")),
-    "eccentric-slider": (single.eccentric_slider, ()),
-    "oldham": (single.oldham, ()),
+class _Scheme(NamedTuple):
+    """Where the function of a scheme is (imported when it is asked for), and the options it takes."""
+
+    room: str
+    options: tuple[str, ...] = ()
+
+
+SCHEMES = {
+    "auto": _Scheme("auto"),
+    "counterweights": _Scheme("crank", ("order", "planes")),
+    "factor": _Scheme("crank", ("factor",)),
+    "minimax": _Scheme("crank", ("planes", "position")),
+    "single-shaft": _Scheme("shafts", ("order", "at", "position")),
+    "two-shaft": _Scheme("shafts", ("order", "at", "position", "roll")),
+    "four-shaft": _Scheme("shafts", ("at", "position")),
+    "couple-shaft": _Scheme("shafts", ("order", "at", "planes")),
+    "slider": _Scheme("shafts", ("order", "at", "position")),
+    "eccentric-slider": _Scheme("single"),
+    "oldham": _Scheme("single"),
 }
 
 
@@ -36,9 +42,10 @@ def remedy_for(engine: Engine, scheme: str = "auto", wish: Wish | None = None) -
         BalcliError: an unknown scheme, an option that it does not have, or a wish that cannot be met, with the reason.
     """
     asked = wish or Wish()
-    accepted = options({name: takes for name, (_, takes) in SCHEMES.items()}, scheme)
-    asked.check(scheme, accepted)
+    asked.check(scheme, options({name: known.options for name, known in SCHEMES.items()}, scheme))
+    size = getattr(import_module(f".{SCHEMES[scheme].room}", __name__), scheme.replace("-", "_"))
     try:
-        return SCHEMES[scheme][0](engine, asked)
+        remedy: Remedy = size(engine, asked)
     except NoNeedError as reason:
         return Remedy(scheme, asked.order, details={"note": str(reason)})
+    return remedy

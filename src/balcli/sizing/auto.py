@@ -4,13 +4,14 @@ from __future__ import annotations
 from ..engine import Engine
 from . import planes
 from .fitting import BACKWARD, FORWARD, Fitting
-from .remedy import Remedy
+from .remedy import Remedy, told
 from .solver import Rest, Slot
+from .wish import Wish
 
 _SHAFTS = ((1, -1), (2, 1), (2, -1))        # order and sense
 
 
-def auto(engine: Engine) -> Remedy:
+def auto(engine: Engine, wish: Wish | None = None) -> Remedy:
     """Counterweights for the forward part of order 1, then shafts at -1, +2 and -2, each only where that part is not balanced.
 
     Counterweights stand in the end planes (first and last throw), or in the one plane of all throws if that suffices; a shaft carries
@@ -33,13 +34,13 @@ def size_of(wish: Rest, sense: int) -> str:
     """What turns at this order in this sense: a force with its size, or a moment if there is no force."""
     force, moment = (abs(wish.at(q, sense)) * wish.newton for q in ("force", "moment"))
     if not force:
-        return f"moment, {moment:.4g} N m"
-    return f"force, {force:.4g} N" + (f", with a moment of {moment:.4g} N m" if moment else "")
+        return f"moment, {told(moment)} N·m"
+    return f"force, {told(force)} N" + (f", with a moment of {told(moment)} N·m" if moment else "")
 
 
 def why_weights(wish: Rest) -> str:
-    return (f"Order 1 {size_of(wish, 1)}, turning with the crank: counterweights turn with it too and cancel it "
-            f"({'force and moment' if wish.at('force', 1) and wish.at('moment', 1) else 'wholly'})")
+    return (f"Order 1 {size_of(wish, 1)}, turning with the crank: counterweights turn with it too and cancel "
+            f"{'both' if wish.at('force', 1) and wish.at('moment', 1) else 'it'}")
 
 
 def why_shaft(wish: Rest, sense: int, count: int) -> str:

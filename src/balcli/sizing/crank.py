@@ -77,7 +77,7 @@ def factor(engine: Engine, wish: Wish) -> Remedy:
     best = min(rows, key=lambda row: (round(row["peak_force_N"], 6), row["peak_moment_Nm"]))["factor"]
     fitting = _weights(Fitting.of(engine, "factor", 1), best)
     sweep = {"sweep": rows} if len(rows) > 1 else {}
-    own = sum(d.order == 1 and d.forward != 0 for d in engine.devices)
+    own = len(engine.devices) - len(_off_crank(engine))
     note = {"note": "the engine's own counterweights are not counted in the factor"} if own else {}
     return fitting.note(factor=best, definition=DEFINITION, card=card(engine, best), **sweep, **note).remedy
 
@@ -170,7 +170,7 @@ def minimax(engine: Engine, wish: Wish) -> Remedy:
 
 def _off_crank(engine: Engine) -> tuple[Any, ...]:
     """Devices that are no counterweights."""
-    return tuple(d for d in engine.devices if d.order != 1 or d.backward != 0 or d.place != 0)
+    return tuple(d for d in engine.devices if d.rank)
 
 
 def _split(engine: Engine, wish: Wish, fitting: Fitting, unbalance: complex) -> tuple[Sequence[Slot], Iterable[complex]]:

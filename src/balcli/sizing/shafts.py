@@ -10,7 +10,7 @@ from ..errors import BalcliError
 from . import planes
 from .auto import why_shaft, why_weights
 from .fitting import BACKWARD, FORWARD, SAME_PLACE, Fitting
-from .remedy import Remedy, degrees
+from .remedy import Remedy, degrees, told
 from .solver import Part, Rest, Slot, solve
 from .wish import NoNeedError, Wish, chosen
 
@@ -39,7 +39,12 @@ def single_shaft(engine: Engine, wish: Wish) -> Remedy:
 
 def two_shaft(engine: Engine, wish: Wish) -> Remedy:
     """Shafts at +N and -N for the force of order N, placed such that no roll is added, or such that none is left (`roll`)."""
-    left = chosen(engine, wish, "force")
+    try:
+        left = chosen(engine, wish, "force")
+    except NoNeedError as reason:
+        if wish.roll:
+            raise BalcliError(f"{reason}; shafts without unbalance can do nothing about the roll") from None
+        raise
     return _pair(Fitting.of(engine, "two-shaft", left.order), left, wish).remedy
 
 
@@ -78,7 +83,7 @@ def slider(engine: Engine, wish: Wish) -> Remedy:
     axis = 90 - (90 - axis) % 180
     z, place = _along(engine, wish, left, 1 if abs(forward) >= abs(backward) else -1), _only(wish)
     slots = [Slot("slider", left.order, 0, z, place, direction) for direction in (axis, axis + 90 if axis <= 0 else axis - 90)]
-    reason = (f"Order {left.order} force, up to {(abs(forward) + abs(backward)) * left.newton:.4g} N: sliders driven at {left.order} times "
+    reason = (f"Order {left.order} force, up to {told((abs(forward) + abs(backward)) * left.newton)} N: sliders driven at {left.order} times "
               "crank speed along the axes of its ellipse, of sizes |V+| + |V-| and ||V+| - |V-||")
     fit = solve(slots, left, (FORWARD[0], BACKWARD[0]))
     there = [u if abs(u) > 2 * left.noise[FORWARD[0]] else 0j for u in fit.unbalances]
@@ -168,7 +173,7 @@ def _why_pair(left: Rest, sense: int, count: int) -> str:
 
 def _why_couple(left: Rest, sense: int) -> str:
     turning = "with" if sense > 0 else "against"
-    return (f"Order {left.order} moment of {abs(left.at('moment', sense)) * left.newton:.4g} N m turning {turning} the crank: two opposite "
+    return (f"Order {left.order} moment of {told(abs(left.at('moment', sense)) * left.newton)} N·m turning {turning} the crank: two opposite "
             f"eccentrics on a shaft at {sense * left.order:+d} times crank speed make the opposite moment and no force")
 
 
@@ -210,7 +215,7 @@ def _two_planes(engine: Engine, wish: Wish) -> tuple[float, float]:
     else:
         raise BalcliError("--planes: opposite eccentrics stand in two planes; give ends, or two places along z in mm, such as -200,200")
     if low == high:
-        raise BalcliError(SAME_PLACE)
+        raise BalcliError(f"--planes: {SAME_PLACE}")
     return low, high
 
 

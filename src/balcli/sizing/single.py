@@ -16,8 +16,8 @@ from .remedy import Remedy
 from .solver import Slot
 from .wish import Wish
 
-_DEFINITION = ("k = r_b/e, mu = m_b r_b/(m r) of each of the two shafts; forces in units of m r omega^2, m the reciprocating mass; "
-               "design a: pin on the shaft, slot in the disc; b: pin on the disc, slot on the shaft; criteria: largest, mean absolute force")
+_DEFINITION = ("k = r_b/e, mu = m_b r_b/(m r) of each of the two shafts; forces in units of m r omega^2 (m reciprocates); "
+               "design a: pin on the shaft, slot in the disc; b: pin on the disc, slot on the shaft; criteria: largest and mean force")
 _SMALLEST = 1e-17               # harmonics of the shafts below this share are left out
 
 

@@ -1,0 +1,274 @@
+"use strict";
+(() => {
+  const scene = JSON.parse(document.getElementById("scene").textContent);
+  const byId = (id) => document.getElementById(id);
+  const rad = (degrees) => degrees * Math.PI / 180;
+  const element = (name, attributes, parent) => {
+    const made = document.createElementNS("http://www.w3.org/2000/svg", name);
+    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+    if (parent) parent.append(made);
+    return made;
+  };
+  const set = (made, attributes) => { for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value); };
+
+  // ---------------------------------------------------------------- mechanism
+  const r = scene.stroke / 2, bore = scene.bore, crown = 0.42 * bore, skirt = 0.33 * bore;
+  const sense = scene.rotary ? -1 : 1;                    // in which a crank pin turns, seen from its cylinder
+
+  // Crank end of the rod and piston pin of a cylinder in its own frame [u along the axis, v ahead of it], mm.
+  function drive(cylinder, theta) {
+    const psi = rad(theta + cylinder.phase);
+    let lower = [r * Math.cos(psi), r * Math.sin(psi)];
+    if (cylinder.master !== undefined) {                  // knuckle pin, turned from the master's frame into this one
+      const master = scene.cylinders[cylinder.master], angle = rad(theta + master.phase), lead = rad(cylinder.lead);
+      const sine = (r * Math.sin(angle) - master.offset) / master.rod, lean = Math.asin(sine);
+      const [a, b] = cylinder.knuckle;
+      const u = r * Math.cos(angle) + a * Math.cos(lean) + b * Math.sin(lean), v = r * Math.sin(angle) - a * Math.sin(lean) + b * Math.cos(lean);
+      lower = [u * Math.cos(lead) + v * Math.sin(lead), v * Math.cos(lead) - u * Math.sin(lead)];
+    }
+    const beside = lower[1] - cylinder.offset;
+    const place = lower[0] + Math.sqrt(cylinder.rod ** 2 - beside ** 2);
+    return { lower: [lower[0], sense * lower[1]], piston: [place, sense * cylinder.offset], axis: cylinder.axis + (scene.rotary ? theta + cylinder.phase : 0) };
+  }
+  const turned = ([u, v], degrees) => { const a = rad(degrees); return [u * Math.cos(a) - v * Math.sin(a), u * Math.sin(a) + v * Math.cos(a)]; };
+  const pinAngle = (cylinder, theta) => scene.rotary ? cylinder.axis : cylinder.axis + cylinder.phase + theta;
+  const plain = scene.cylinders.filter((c) => c.master === undefined);
+  const depths = scene.cylinders.map((c) => c.z), near = Math.min(...depths), far = Math.max(...depths);
+  const reach = Math.max(...scene.cylinders.map((c) => Math.max(...Array.from({ length: 72 }, (_, k) => drive(c, 5 * k).piston[0])))) + crown;
+  const backToFront = [...scene.cylinders].sort((a, b) => b.z - a.z);
+
+  function endView() {
+    const svg = byId("end"), corners = [[r * 1.5, 0], [-r * 1.5, 0], [0, r * 1.5], [0, -r * 1.5]];
+    for (const c of scene.cylinders) {
+      const angles = scene.rotary ? Array.from({ length: 24 }, (_, k) => 15 * k) : [c.axis];
+      for (const a of angles) for (const v of [-0.6 * bore, 0.6 * bore]) corners.push(turned([reach + 0.3 * bore, v], a));
+    }
+    for (const variant of scene.variants) for (const d of variant.devices) for (const s of [-1, 1]) corners.push([d.at[0] + s * 0.5 * r, d.at[1] + s * 0.5 * r]);
+    frame(svg, corners.map(([x, y]) => [y, -x]));
+    const cylinders = backToFront.map((c) => {
+      const behind = far > near ? (c.z - near) / (far - near) : 0;
+      const group = element("g", { opacity: 1 - 0.65 * behind }, svg), own = element("g", {}, group);
+      const low = Math.min(...Array.from({ length: 72 }, (_, k) => drive(c, 5 * k).piston[0])) - skirt, e = sense * c.offset;
+      element("path", { class: "bore", d: `M ${e - bore / 2} ${-low} V ${-reach} H ${e + bore / 2} V ${-low}` }, own);
+      element("path", { class: "axis dashed", d: `M ${e} 0 V ${-reach * 1.03}` }, own);
+      const rod = element("line", { class: "rod", "stroke-width": 0.24 * r }, own);
+      const piston = element("path", { class: "piston", d: `M ${-bore * 0.485} ${skirt} V ${-crown} H ${bore * 0.485} V ${skirt} Z` }, own);
+      const pin = element("circle", { class: "pin", r: 0.16 * r }, own);
+      return { c, own, rod, piston, pin };
+    });
+    const crank = element("g", { opacity: 0.92 }, svg);
+    const knuckles = Math.max(0, ...scene.cylinders.map((c) => c.master === undefined ? 0 : Math.hypot(...c.knuckle)));
+    const bigEnd = element("circle", { class: "web", r: knuckles ? knuckles + 0.2 * r : 0 }, crank);
+    const eyes = scene.cylinders.filter((c) => c.master !== undefined).map((c) => ({ c, eye: element("circle", { class: "pin", r: 0.13 * r }, crank) }));
+    const webs = plain.map((c) => ({ c, web: element("path", { class: "web", d: web(r) }, crank), pin: element("circle", { class: "pin", r: 0.2 * r }, crank) }));
+    element("circle", { class: "pin", r: 0.26 * r }, crank);
+    const devices = element("g", {}, svg), banks = new Map();
+    for (const c of scene.rotary ? [] : scene.cylinders) banks.set(c.axis, [...(banks.get(c.axis) || []), c.number]);
+    for (const [axis, numbers] of banks) {
+      const [x, y] = turned([reach + 0.18 * bore, 0], axis), shown = numbers.length > 6 ? [...numbers.slice(0, 5), "…"] : numbers;
+      element("text", { class: "number", x: y, y: -x, "font-size": 0.2 * bore }, svg).textContent = shown.join(" ");
+    }
+    return (theta, variant) => {
+      for (const { c, own, rod, piston, pin } of cylinders) {
+        const { lower, piston: at, axis } = drive(c, theta);
+        set(own, { transform: `rotate(${axis})` });
+        set(rod, { x1: lower[1], y1: -lower[0], x2: at[1], y2: -at[0] });
+        set(piston, { transform: `translate(${at[1]} ${-at[0]})` });
+        set(pin, { cx: at[1], cy: -at[0] });
+      }
+      const [up, right] = turned([r, 0], pinAngle(plain[0], theta));
+      set(bigEnd, { cx: right, cy: -up });
+      for (const { c, eye } of eyes) {
+        const [x, y] = turned(drive(c, theta).lower, c.axis);
+        set(eye, { cx: y, cy: -x });
+      }
+      for (const { c, web: shape, pin } of webs) {
+        const angle = pinAngle(c, theta);
+        set(shape, { transform: `rotate(${angle})` });
+        set(pin, { transform: `rotate(${angle})`, cx: 0, cy: -r });
+      }
+      drawDevices(devices, variant.devices, theta);
+    };
+  }
+  const web = (r) => `M ${-0.3 * r} ${-r} A ${0.3 * r} ${0.3 * r} 0 0 1 ${0.3 * r} ${-r} L ${0.36 * r} 0 A ${0.36 * r} ${0.36 * r} 0 0 1 ${-0.36 * r} 0 Z`;
+
+  // A weight as half a disc that points where it pulls; a slider as a block on its path.
+  function drawDevices(group, devices, theta) {
+    const sizeOf = (d) => Math.hypot(...d.forward) + Math.hypot(...d.backward), most = Math.max(...devices.map(sizeOf)) || 1;
+    group.replaceChildren();
+    for (const d of devices) {
+      const size = sizeOf(d), [x, y] = d.at, radius = (0.2 + 0.5 * Math.sqrt(size / most)) * r;
+      if (Math.hypot(...d.forward) && Math.hypot(...d.backward)) {
+        const v = add(spin(d.forward, d.order * theta), spin(d.backward, -d.order * theta)), k = radius / size;
+        element("circle", { class: "weight", cx: y + v[1] * k, cy: -x - v[0] * k, r: radius / 2 }, group);
+        continue;
+      }
+      const v = add(spin(d.forward, d.order * theta), spin(d.backward, -d.order * theta)), angle = Math.atan2(v[1], v[0]) * 180 / Math.PI;
+      const place = `translate(${y} ${-x}) rotate(${angle})`;
+      element("circle", { class: "shaft", r: radius, transform: place }, group);
+      element("path", { class: "weight", d: `M ${-radius} 0 A ${radius} ${radius} 0 0 1 ${radius} 0 Z`, transform: place }, group);
+    }
+  }
+
+  function sideView() {
+    const svg = byId("side"), spread = (f) => plain.concat(scene.cylinders).reduce((sum, c) => sum + f(rad(c.axis)) ** 2, 0);
+    const above = !scene.rotary && spread(Math.sin) > spread(Math.cos) * 1.01;      // flat engines are seen from above
+    const height = ([x, y]) => above ? y : x;
+    byId("side-caption").textContent = `From ${above ? "above" : "the side"}: z to the right, free end on the left; ${above ? "y" : "x"} up`;
+    const corners = [[near - bore * 0.75, -1.4 * r], [far + bore * 0.75, 1.4 * r]];
+    for (const c of scene.cylinders) for (const s of [0, 1]) for (const a of scene.rotary ? [0, 90, 180, 270] : [c.axis]) corners.push([c.z, height(turned([reach * 1.04, (s - 0.5) * bore], a))]);
+    frame(svg, corners.map(([z, h]) => [z, -h]));
+    element("path", { class: "axis dashed", d: `M ${near - bore} 0 H ${far + bore}` }, svg);
+    const crank = element("g", {}, svg);
+    const shaft = element("path", { class: "crank", "stroke-width": Math.min(0.16 * r, 0.2 * throwWidth) }, crank), throws = throwsOf();
+    const cylinders = backToFront.map((c) => {
+      const group = element("g", { opacity: 0.8 }, svg);
+      return { c, rod: element("line", { class: "rod", "stroke-width": Math.min(0.2 * r, 0.4 * throwWidth) }, group), piston: element("rect", { class: "piston" }, group),
+        text: element("text", { class: "number", "font-size": 0.26 * bore }, group) };
+    });
+    for (const { c, text } of cylinders) text.textContent = c.number;
+    return (theta) => {
+      const bends = throws.map(({ c, from, to }) => `H ${from} V ${-height(turned([r, 0], pinAngle(c, theta)))} H ${to} V 0`);
+      set(shaft, { d: `M ${near - bore * 0.6} 0 ${bends.join(" ")} H ${far + bore * 0.6}` });
+      for (const { c, rod, piston, text } of cylinders) {
+        const { lower, piston: at, axis } = drive(c, theta);
+        const top = height(turned([at[0] + crown, at[1]], axis)), bottom = height(turned([at[0] - skirt, at[1]], axis));
+        const across = bore * Math.abs(height(turned([0, 1], axis)));               // of a bank that leans
+        const high = Math.max(top, bottom) + across / 2, low = Math.min(top, bottom) - across / 2;
+        set(rod, { x1: c.z, y1: -height(turned(lower, axis)), x2: c.z, y2: -height(turned(at, axis)) });
+        set(piston, { x: c.z - bore * 0.485, y: -high, width: bore * 0.97, height: high - low });
+        set(text, { x: c.z, y: -(high + low) / 2 });
+      }
+    };
+  }
+  const gaps = [...new Set(depths.map((z) => Math.round(z * 10) / 10))].sort((a, b) => a - b).map((z, k, all) => k ? z - all[k - 1] : Infinity);
+  const throwWidth = Math.min(0.5 * bore, 0.6 * Math.min(...gaps));
+
+  // Crank pins along the shaft; neighbouring rods whose pins point the same way stand on one.
+  function throwsOf() {
+    const found = [], same = (a, b) => Math.abs(((pinAngle(a, 0) - pinAngle(b, 0)) % 360 + 540) % 360 - 180) < 0.01;
+    for (const c of [...plain].sort((a, b) => a.z - b.z)) {
+      const last = found.at(-1);
+      if (last && same(last.c, c) && c.z - last.to < 0.5 * bore) last.to = c.z + throwWidth / 2;
+      else found.push({ c, from: c.z - throwWidth / 2, to: c.z + throwWidth / 2 });
+    }
+    return found;
+  }
+
+  function frame(svg, points) {
+    const xs = points.map((p) => p[0]), ys = points.map((p) => p[1]), margin = 0.03 * scene.stroke;
+    const left = Math.min(...xs) - margin, top = Math.min(...ys) - margin;
+    svg.setAttribute("viewBox", [left, top, Math.max(...xs) + margin - left, Math.max(...ys) + margin - top].map((v) => v.toFixed(2)).join(" "));
+  }
+
+  // ---------------------------------------------------------------- vectors
+  const add = ([a, b], [c, d]) => [a + c, b + d];
+  const spin = (v, degrees) => turned(v, degrees);
+  const sum = (rows, theta) => rows.reduce((v, [n, a, b, c, d]) => add(v, add(spin([a, b], n * theta), spin([c, d], -n * theta))), [0, 0]);
+  const nice = (value) => { const power = 10 ** Math.floor(Math.log10(value)); return [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10].map((k) => k * power).find((v) => v >= value * 0.999999); };
+  const digits = (value) => value >= 1000 ? value.toFixed(0) : value.toPrecision(4);
+  function figure(value, { name, thousand }, write = digits) {
+    return thousand && value >= 5000 ? `${write(value / 1000)} ${thousand}` : `${write(value)} ${name}`;
+  }
+  const HALF = 100;
+
+  function locusView(id, unit) {
+    const svg = byId(id), now = byId(`${id}-now`);
+    svg.setAttribute("viewBox", "-112 -112 224 224");
+    element("path", { class: "axis", d: "M -108 0 H 108 M 0 -108 V 108" }, svg);
+    const rings = [0.5, 1].map((share) => ({ share, ring: element("circle", { class: "axis", r: HALF * share }, svg), label: element("text", { class: "scale", x: 3, y: -HALF * share - 2 }, svg) }));
+    element("text", { class: "scale", x: -9, y: -104 }, svg).textContent = "x";
+    element("text", { class: "scale", x: 104, y: -3 }, svg).textContent = "y";
+    const old = element("path", { class: "old" }, svg), curve = element("path", { class: "curve" }, svg), chain = element("g", {}, svg);
+    const vector = element("line", { class: "vector", id: `${id}-vector`, x1: 0, y1: 0 }, svg), tip = element("circle", { class: "tip", r: 3.2 }, svg);
+    let rows = [], scale = 1;
+    const path = (of) => "M" + Array.from({ length: 361 }, (_, k) => { const [x, y] = sum(of, k); return `${(y * scale).toFixed(2)} ${(-x * scale).toFixed(2)}`; }).join("L");
+    const largest = (of) => Math.max(0, ...Array.from({ length: 361 }, (_, k) => Math.hypot(...sum(of, k))));
+    return {
+      choose(all, before) {
+        rows = all;
+        const most = Math.max(largest(rows), before ? largest(before) : 0), full = most ? nice(most) : 1;
+        scale = HALF / full;
+        for (const { share, label } of rings) label.textContent = most ? figure(full * share, unit, String) : "";
+        set(curve, { d: path(rows) });
+        set(old, { d: before ? path(before) : "" });
+      },
+      turn(theta, showChain) {
+        const [x, y] = sum(rows, theta), size = Math.hypot(x, y);
+        set(vector, { x2: (y * scale).toFixed(3), y2: (-x * scale).toFixed(3) });
+        set(tip, { cx: y * scale, cy: -x * scale });
+        now.textContent = size ? `${figure(size, unit)} at ${(Math.atan2(y, x) * 180 / Math.PI).toFixed(0)}° from x` : "none";
+        chain.replaceChildren();
+        let at = [0, 0];
+        for (const [n, a, b, c, d] of showChain ? rows : []) for (const [kind, v, sign] of [["forward", [a, b], 1], ["backward", [c, d], -1]]) {
+          const next = add(at, spin(v, sign * n * theta)), length = Math.hypot(...v) * scale;
+          if (length > 0.5) {
+            element("line", { class: kind, x1: at[1] * scale, y1: -at[0] * scale, x2: next[1] * scale, y2: -next[0] * scale }, chain);
+            element("circle", { class: "axis", cx: at[1] * scale, cy: -at[0] * scale, r: length }, chain);
+          }
+          at = next;
+        }
+      },
+    };
+  }
+
+  // ---------------------------------------------------------------- controls
+  if (scene.rotary) byId("end-caption").textContent = "From the free end: x up, y to the right; the cylinders turn clockwise, the crank stands still";
+  const end = endView(), side = sideView(), views = { force: locusView("force", scene.units.force), moment: locusView("moment", scene.units.moment) };
+  const angle = byId("angle"), play = byId("play"), chain = byId("chain");
+  const switchFor = (parent, type, name, value, text, checked) => {
+    const label = document.createElement("label"), input = document.createElement("input");
+    Object.assign(input, { type, name, value, checked });
+    label.append(input, ` ${text}`);
+    byId(parent).append(label);
+    return input;
+  };
+  const orders = scene.orders.map((n) => switchFor("orders", "checkbox", "order", n, n === 0 ? "mean" : n, true));
+  if (!orders.length) byId("orders").append("none is free");
+  const variants = scene.variants.map((v, k) => switchFor("variants", "radio", "variant", k, v.label, k === 0));
+  byId("variants").hidden = variants.length < 2;
+
+  const chosen = () => Math.max(variants.findIndex((input) => input.checked), 0);
+  function choose() {
+    const wanted = new Set(orders.filter((input) => input.checked).map((input) => Number(input.value)));
+    for (const [quantity, view] of Object.entries(views)) {
+      const pick = (k) => scene.variants[k][quantity].filter((row) => wanted.has(row[0]));
+      view.choose(pick(chosen()), chosen() ? pick(0) : null);
+    }
+    turn();
+  }
+  function turn() {
+    const theta = Number(angle.value);
+    byId("angle-now").textContent = `${Math.round(theta) % 360}°`;
+    end(theta, scene.variants[chosen()]);
+    side(theta);
+    for (const view of Object.values(views)) view.turn(theta, chain.checked);
+  }
+  angle.addEventListener("input", turn);
+  chain.addEventListener("change", turn);
+  for (const input of [...orders, ...variants]) input.addEventListener("change", choose);
+
+  const DEGREES_PER_SECOND = 60;
+  let last = null;
+  function step(time) {
+    if (play.getAttribute("aria-pressed") !== "true") { last = null; return; }
+    if (last !== null) { angle.step = "any"; angle.value = (Number(angle.value) + DEGREES_PER_SECOND * (time - last) / 1000) % 360; turn(); }
+    last = time;
+    requestAnimationFrame(step);
+  }
+  play.addEventListener("click", () => {
+    const on = play.getAttribute("aria-pressed") !== "true";
+    play.setAttribute("aria-pressed", on);
+    play.textContent = on ? "Pause" : "Play";
+    if (on) requestAnimationFrame(step);
+    else { angle.step = "1"; angle.value = Math.round(Number(angle.value)); turn(); }
+  });
+
+  const theme = byId("theme");
+  theme.hidden = false;
+  theme.addEventListener("click", () => {
+    const set = document.documentElement.dataset.theme, dark = set ? set === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
+    document.documentElement.dataset.theme = dark ? "light" : "dark";
+  });
+  choose();
+})();

@@ -1,0 +1,119 @@
+"""The smallest enclosing circle against exhaustive search, a convex minimiser at high precision, and its own bound."""
+from __future__ import annotations
+
+import itertools
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from kit import engine_text
+
+from balcli.core import circle
+from balcli.core.phasors import Phasors
+from balcli.engine import build
+from balcli.enginefile import parse
+from balcli.spectrum import relevant_orders, spectra
+
+TRUE = 1e-10                            # relative to the true optimum
+
+
+def force(**tables: str) -> Phasors:
+    e = build(parse(engine_text(**tables)))
+    return spectra(e, relevant_orders(e), ("force",)).force
+
+
+def seen(curve: Phasors, theta: np.ndarray) -> np.ndarray:
+    return curve.values(theta) * np.exp(-1j * theta)
+
+
+def smallest_of_points(points: np.ndarray) -> float:
+    """Radius by all pairs and triples: the largest of the smallest circles around three points (Helly)."""
+    def around(triple):
+        a, b, c = triple
+        for p, q, r in ((a, b, c), (b, c, a), (c, a, b)):
+            if abs(r - (p + q) / 2) <= abs(p - q) / 2:
+                return abs(p - q) / 2
+        sides = abs(a - b), abs(b - c), abs(c - a)
+        return np.prod(sides) / (2 * abs(((b - a).conjugate() * (c - a)).imag))
+    return max(around(triple) for triple in itertools.combinations(points, 3))
+
+
+@given(st.lists(st.complex_numbers(max_magnitude=1e3, allow_nan=False, allow_infinity=False), min_size=3, max_size=12, unique=True))
+def test_points(points):
+    points = np.array(points)
+    centre, radius, fixing = circle.around(points)
+    assert np.all(np.abs(points - centre) <= radius * (1 + 1e-9) + 1e-12)
+    assert radius == pytest.approx(smallest_of_points(points), rel=1e-9, abs=1e-12)
+    assert len(fixing) <= 3
+
+
+@pytest.mark.parametrize("offset", [0, 4, -15])
+@pytest.mark.parametrize("lam", [0.05, 0.1, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6])
+def test_single_cylinder_at_high_precision(lam, offset):
+    """mpmath finds where the curve is farthest from the centre; three such points, solved to 30 digits, are the true optimum."""
+    found = circle.enclosing(force(rod=f"ratio = {lam}", piston=f"mass = 1\noffset = {offset}", operation="speed = 1000"))
+    with mpmath.workdps(30):
+        r, length = mpmath.mpf(50) / 1000, mpmath.mpf(50) / 1000 / mpmath.mpf(str(lam))
+        omega = mpmath.mpf(1000) * mpmath.pi / 30
+
+        def curve(t):
+            s = (r * mpmath.sin(t) - mpmath.mpf(offset) / 1000) / length
+            root = mpmath.sqrt(1 - s * s)
+            rate = r * mpmath.cos(t) / length                               # of sin(beta)
+            second = -r * mpmath.sin(t) / length
+            root2 = -(rate**2 + s * second) / root - (s * rate) ** 2 / root**3
+            return (r * mpmath.cos(t) - length * root2) * omega**2 * mpmath.exp(mpmath.mpc(0, -1) * t)
+
+        def reach(x, y, t):
+            return abs(curve(t) - mpmath.mpc(x, y)) ** 2
+
+        def equations(x, y, *angles):
+            values = [reach(x, y, t) for t in angles]
+            slopes = [mpmath.diff(lambda t: reach(x, y, t), t) for t in angles]
+            return [*(v - values[0] for v in values[1:]), *slopes]
+        x, y = found.centre.real, found.centre.imag
+        if len(found.theta) == 3:
+            x, y, *angles = mpmath.findroot(equations, (x, y, *found.theta), tol=1e-20)
+            assert abs(found.centre - complex(x, y)) <= TRUE * found.radius
+            assert float(mpmath.sqrt(reach(x, y, angles[0]))) == pytest.approx(found.radius, rel=TRUE)
+        grid = max(abs(curve(t) - mpmath.mpc(x, y)) for t in mpmath.linspace(0, 2 * mpmath.pi, 400))
+        assert grid <= found.radius * (1 + TRUE)
+    assert found.excess <= 1e-13 * found.radius
+
+
+@pytest.mark.parametrize("tables", [
+    {"layout": "bank_angle = 45"}, {"layout": "bank_angle = 72"}, {"layout": "bank_angle = 120", "piston": "mass = 1\noffset = 6"},
+    {"crank": "stroke = 100\nthrows = [0, 270]\nspacing = 80"}, {"crank": "stroke = 100\nthrows = [0, 100]", "rod": "ratio = 0.6"},
+    {"layout": "radial = 5", "cylinder.3": "piston_mass = 1.5"}, {"layout": "banks = [-60, 0, 60]"},
+])
+def test_nothing_near_is_better(tables):
+    """Convex: if no centre on a small ring is better, none is; and points of the curve alone prove the radius."""
+    curve = force(**tables)
+    found = circle.enclosing(curve)
+    samples = seen(curve, np.linspace(0, 2 * np.pi, 20001))
+    assert np.abs(samples - found.centre).max() <= found.radius * (1 + 1e-13)
+    for step in (1e-3, 1e-5):
+        for direction in np.exp(1j * np.linspace(0, 2 * np.pi, 24)):
+            other = found.centre + step * found.radius * direction
+            assert circle._around(curve, other, found.theta).radius >= found.radius * (1 - 1e-13)
+    assert found.excess <= TRUE * found.radius
+
+
+def test_curves_that_are_points_and_circles():
+    zero = Phasors(np.array([1.0, 2.0]), np.zeros(2, complex), np.zeros(2, complex), np.zeros(1))
+    assert circle.enclosing(zero)[:2] == (0j, 0.0)
+    still = Phasors(np.array([1.0]), np.array([3 + 4j]), np.zeros(1, complex), np.zeros(1))
+    assert circle.enclosing(still)[:2] == (3 + 4j, 0.0)
+    round_ = Phasors(np.array([1.0]), np.array([3 + 4j]), np.array([2j]), np.zeros(1))
+    found = circle.enclosing(round_)
+    assert found.centre == pytest.approx(3 + 4j, abs=1e-14)
+    assert found.radius == pytest.approx(2, rel=1e-14)
+
+
+def test_angles_are_those_at_which_the_circle_is_touched():
+    curve = force()
+    found = circle.enclosing(curve)
+    assert np.abs(seen(curve, found.theta) - found.centre) == pytest.approx(found.radius, rel=1e-12)
+    assert len(found.theta) == 3

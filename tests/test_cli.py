@@ -1,0 +1,386 @@
+"""The command line: exit statuses, messages, formats, files, pipes, terminals, and what is imported."""
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from kit import GOOD, changed
+
+from balcli import __version__
+from balcli.cli import COMMANDS, main
+from balcli.render.formats import Format
+
+ROOT = Path(__file__).parents[1]
+V8 = str(ROOT / "engines" / "v8_crossplane.toml")
+POUND_FORCE, FOOT = 0.45359237 * 9.80665, 0.3048        # N, m by definition
+ESCAPE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
+
+
+@pytest.fixture
+def balcli(capsys, monkeypatch):
+    """Runs a command in this process: (exit status, standard output, standard error)."""
+    def run(*args: object, stdin: str = "") -> tuple[int, str, str]:
+        monkeypatch.setattr(sys, "argv", ["balcli", *map(str, args)])
+        monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(stdin.encode())))
+        with pytest.raises(SystemExit) as done:
+            main()
+        out, err = capsys.readouterr()
+        return int(done.value.code or 0), out, err
+    return run
+
+
+def process(*args: str, **more) -> subprocess.CompletedProcess:
+    """Runs a command as users do."""
+    environment = {**os.environ, "PYTHONPATH": str(ROOT / "src"), **more.pop("env", {})}
+    return subprocess.run([sys.executable, "-m", "balcli", *args], env=environment, check=False, **{"capture_output": True, **more})
+
+
+@pytest.fixture
+def good(tmp_path):
+    file = tmp_path / "good.toml"
+    file.write_text(GOOD)
+    return file
+
+
+@pytest.fixture
+def bad(tmp_path):
+    file = tmp_path / "bad.toml"
+    file.write_text(changed(("stroke = 90", "strok = 90")))
+    return file
+
+
+# ------------------------------------------------------------------ exit statuses and messages
+def test_version(balcli):
+    assert balcli("--version") == (0, f"balcli {__version__}\n", "")
+
+
+def test_help_names_every_command(balcli):
+    for flag in ("--help", "-h"):
+        status, out, err = balcli(flag)
+        assert (status, err) == (0, "")
+        assert [name for name in COMMANDS if name not in out] == []
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_has_help(balcli, command):
+    status, out, err = balcli(command, "--help")
+    assert (status, err) == (0, "")
+    assert f"Usage: balcli {command}" in out
+
+
+def usage(command: str, message: str) -> str:
+    form = {"": "[OPTIONS] COMMAND [ARGS]...", "analyze": "[OPTIONS] {FILE...}..."}[command]
+    name = f"balcli {command}".strip()
+    return f"Usage: {name} {form}\nTry '{name} -h' for help.\n\nError: {message}\n"
+
+
+@pytest.mark.parametrize(("args", "command", "message"), [
+    (["frobnicate"], "", "No such command 'frobnicate'."),
+    (["--frob"], "", "No such option: --frob"),
+    (["analyze", V8, "--by", "bank"], "analyze", 'Invalid value for --by: "bank": only "cylinder" can be chosen'),
+])
+def test_bad_usage(balcli, args, command, message):
+    status, out, err = balcli(*args)
+    assert (status, out) == (2, "")
+    assert re.sub(r"\{?FILE\.\.\.\}?(\.\.\.)?", "{FILE...}...", err) == usage(command, message)
+
+
+@pytest.mark.parametrize("args", [["analyze"], ["analyze", V8, "--format", "xml"], ["analyze", V8, "--speed", "fast"],
+                                  ["analyze", V8, "--only"], ["new"]])
+def test_bad_usage_that_the_parser_words(balcli, args):
+    """Its text changes with its version; what is needed to mend it stands in the last line."""
+    status, out, err = balcli(*args)
+    assert (status, out) == (2, "")
+    *_, last = err.splitlines()
+    assert last.startswith("Error: ")
+    assert {"xml": "'xml' is not one of", "fast": "--speed", "--only": "--only", "analyze": "FILE", "new": "KIND"}[args[-1]] in last
+    assert "Traceback" not in err
+
+
+@pytest.mark.parametrize(("args", "message"), [
+    (["analyze", "no.toml"], "no.toml: no such file"),
+    (["analyze", str(ROOT / "engines")], f"{ROOT / 'engines'}: is a folder; name an engine file in it"),
+    (["analyze", V8, "--orders", "0x"], '--orders "0x": give whole numbers such as 1-8 or 1,2,4'),
+    (["analyze", V8, "--orders", "8-1"], '--orders "8-1": 8-1 must rise and end at 4096 at most'),
+    (["analyze", V8, "--orders", "1,5000"], '--orders "1,5000": 5000 must rise and end at 4096 at most'),
+    (["analyze", V8, "--orders", ""], '--orders "": give whole numbers such as 1-8 or 1,2,4'),
+    (["analyze", V8, "--orders", "-1"], '--orders "-1": give whole numbers such as 1-8 or 1,2,4'),
+    (["analyze", V8, "--speed", "0"], "--speed 0: the crank speed must be a positive number of rpm, below 1e9"),
+    (["analyze", V8, "--speed", "nan"], "--speed nan: the crank speed must be a positive number of rpm, below 1e9"),
+    (["analyze", V8, "--only", "force,noise"],
+     "there is no quantity noise: choose from force, moment, couple, torque, roll, peak, sizing, inner, guide"),
+    (["analyze", V8, "-o", "/nowhere/x.txt"], "/nowhere/x.txt: cannot be written (No such file or directory)"),
+    (["analyze", V8, "-o", str(ROOT)], f"{ROOT}: is a folder, so no file can be written there"),
+    (["check", "nowhere"], "nowhere: no such file or folder"),
+    (["check", str(ROOT / "src")], f"{ROOT / 'src'}: has no engine files (*.toml)"),
+    (["new", "inlin"], '"inlin" is no kind of engine; there are single, inline, vee, boxer, radial, w. Did you mean inline?'),
+])
+def test_bad_input(balcli, args, message):
+    assert balcli(*args) == (2, "", f"balcli: {message}\n")
+
+
+def test_mistakes_of_a_file(balcli, bad):
+    assert balcli("analyze", bad) == (2, "", f"balcli: {bad}: crank.strok: is no key of [crank]; did you mean stroke?\n")
+
+
+def test_a_warning_does_not_stop_the_analysis(balcli, tmp_path):
+    file = tmp_path / "heavy.toml"
+    file.write_text(changed(("mass = 0.5", "mass = 65")))
+    status, out, err = balcli("analyze", file, "--format", "json")
+    assert status == 0
+    assert json.loads(out)["engine"]["cylinders"] == 4
+    assert err.startswith(f"warning: {file}: piston.mass is 65 kg in a bore of 86 mm, where ")
+
+
+# ------------------------------------------------------------------ formats
+@pytest.mark.parametrize("form", Format)
+def test_every_format(balcli, good, form):
+    """Each is what its name says, ends in one newline, and holds the second-order force of the same analysis."""
+    status, out, err = balcli("analyze", good, "--format", form)
+    assert (status, err) == (0, "")
+    assert out.endswith("\n")
+    assert not out.endswith("\n\n")
+    force = json.loads(balcli("analyze", good, "--format", "json")[1])["orders"][1]["force_N"]["major"]
+    match form:
+        case Format.JSON:
+            assert json.loads(out)["format"] == "balcli.analysis/1"
+        case Format.CSV:
+            rows = list(csv.DictReader(io.StringIO(out)))
+            assert set(rows[0]) == {"engine", "cylinder", "quantity", "order", "figure", "value", "unit"}
+            (major,) = (r for r in rows if (r["quantity"], r["order"], r["figure"]) == ("force", "2", "major"))
+            assert (float(major["value"]), major["unit"]) == (force, "N")
+        case Format.MARKDOWN:
+            assert out.startswith("# in-line four\n")
+            assert f"| 2 | {force:.5g} |" in out
+        case Format.TABLE:
+            assert out.startswith("in-line four\n")
+            assert re.search(rf"(?m)^2 +{force:.5g} ", out)
+
+
+def test_json_of_analyze_has_the_keys_of_the_contract(balcli):
+    document = json.loads(balcli("analyze", V8, "--format", "json", "--orders", "1-4")[1])
+    vector = {"forward", "backward", "major", "minor", "axis_deg", "balanced", "x", "y"}
+    scalar = {"cos", "sin", "amplitude", "peak_deg", "balanced"}
+    assert list(document) == ["format", "engine", "speed_rpm", "reference_mm", "orders", "peak", "sizing"]
+    assert set(document["engine"]) == {"name", "cylinders", "displacement_m3"}
+    assert [entry["order"] for entry in document["orders"]] == [1, 2, 3, 4]
+    for entry in document["orders"]:
+        assert set(entry) == {"order", "force_N", "moment_Nm", "couple_Nm", "inertia_torque_Nm", "roll_Nm"}
+        assert all(set(entry[key]) == vector for key in ("force_N", "moment_Nm"))
+        assert all(set(entry[key]) == scalar for key in ("couple_Nm", "inertia_torque_Nm", "roll_Nm"))
+        assert set(entry["force_N"]["x"]) == set(entry["force_N"]["y"]) == {"amplitude", "phase_deg"}
+    assert set(document["peak"]) == {"force_N", "force_deg", "moment_Nm", "moment_deg"}
+    assert set(document["sizing"]) == {"scheme", "counterweights", "shafts", "sliders", "after"}
+    assert set(document["sizing"]["counterweights"][0]) == {"unbalance_kg_m", "angle_deg", "position_mm"}
+
+
+@pytest.mark.parametrize(("only", "keys", "whole"), [
+    ("force", {"order", "force_N"}, set()), ("roll", {"order", "roll_Nm"}, set()), ("peak", {"order"}, {"peak"}),
+    ("moment,peak", {"order", "moment_Nm"}, {"peak"}), ("couple, torque", {"order", "couple_Nm", "inertia_torque_Nm"}, set()),
+    ("sizing", {"order"}, {"sizing"})])
+def test_what_is_left_out_is_no_key(balcli, only, keys, whole):
+    document = json.loads(balcli("analyze", V8, "--format", "json", "--only", only)[1])
+    assert set(document["orders"][0]) == keys
+    assert set(document) - {"format", "engine", "speed_rpm", "reference_mm", "orders"} == whole
+
+
+def test_by_cylinder(balcli, good):
+    document = json.loads(balcli("analyze", good, "--format", "json", "--by", "cylinder", "--orders", "2")[1])
+    assert [c["cylinder"] for c in document["cylinders"]] == [1, 2, 3, 4]
+    total = sum(c["orders"][0]["force_N"]["forward"][0] for c in document["cylinders"])
+    assert total == pytest.approx(document["orders"][0]["force_N"]["forward"][0], rel=1e-14)
+    assert "Cylinder 3 alone" in balcli("analyze", good, "--by", "cylinder")[1]
+
+
+def test_speed_displaces_the_files(balcli, good):
+    one, two = (json.loads(balcli("analyze", good, "--format", "json", *more)[1]) for more in ([], ["--speed", "6000"]))
+    assert (one["speed_rpm"], two["speed_rpm"]) == (3000, 6000)
+    assert two["orders"][1]["force_N"]["major"] == 4 * one["orders"][1]["force_N"]["major"]
+
+
+def test_imperial_units(balcli, good):
+    def values(*more):
+        rows = csv.DictReader(io.StringIO(balcli("analyze", good, "--format", "csv", *more)[1]))
+        return {(r["quantity"], r["order"], r["figure"]): (float(r["value"]), r["unit"]) for r in rows
+                if r["unit"] not in ("deg", "")}
+    metric, imperial = values(), values("--units", "imperial")
+    assert metric.keys() == imperial.keys()
+    for key, (value, unit) in metric.items():
+        size, name = {"N": (POUND_FORCE, "lbf"), "N·m": (POUND_FORCE * FOOT, "lbf·ft")}[unit]
+        assert imperial[key] == (pytest.approx(value / size, rel=1e-15), name)
+    for form in ("table", "markdown"):
+        text = balcli("analyze", V8, "--format", form, "--units", "imperial")[1]
+        assert all(unit in text for unit in ("lbf", "lbf·ft", "oz·in"))
+        assert not re.search(r"\bN\b|N·m|g·mm|\bkg\b|\bmm\b", text.partition("Sizing")[0])
+    assert balcli("analyze", good, "--format", "json", "--units", "imperial") == balcli("analyze", good, "--format", "json")
+
+
+# ------------------------------------------------------------------ files in, files out
+def test_standard_input(balcli, good):
+    assert balcli("analyze", "-", "--format", "json", stdin=GOOD) == balcli("analyze", good, "--format", "json")
+    status, out, err = balcli("analyze", "-", stdin="[crank]\nstroke = 90\n")
+    assert (status, out) == (2, "")
+    assert err.startswith("balcli: standard input: ")
+
+
+def test_several_files_and_a_bad_one_among_them(balcli, good, bad):
+    """One JSON document a line, in order; the bad one is named, the rest is reported, and the status is 2."""
+    status, out, err = balcli("analyze", good, bad, V8, "--format", "json")
+    assert status == 2
+    assert [json.loads(line)["engine"]["cylinders"] for line in out.splitlines()] == [4, 8]
+    assert err == f"balcli: {bad}: crank.strok: is no key of [crank]; did you mean stroke?\n"
+    status, out, err = balcli("analyze", good, V8, "--format", "table")
+    assert (status, err) == (0, "")
+    assert out.index("in-line four") < out.index("90-degree cross-plane V8")
+
+
+@pytest.mark.parametrize("form", Format)
+def test_into_a_file(balcli, good, tmp_path, form):
+    target = tmp_path / "out.txt"
+    assert balcli("analyze", good, "--format", form, "-o", target) == (0, "", "")
+    assert target.read_text(encoding="utf-8") == balcli("analyze", good, "--format", form)[1]
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["good.toml", "out.txt"]
+
+
+@pytest.mark.parametrize("files", [["bad"], ["good", "bad"]])
+def test_a_file_is_written_whole_or_not_at_all(balcli, good, bad, tmp_path, files):
+    target = tmp_path / "out.json"
+    target.write_text("what was there before")
+    assert balcli("analyze", *({"good": good, "bad": bad}[f] for f in files), "-o", target)[0] == 2
+    assert target.read_text() == "what was there before"
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["bad.toml", "good.toml", "out.json"]
+
+
+def test_a_replaced_file_keeps_its_permissions_and_a_failed_one_leaves_nothing(balcli, good, tmp_path, monkeypatch):
+    target = tmp_path / "out.txt"
+    target.write_text("old")
+    target.chmod(0o640)
+    assert balcli("analyze", good, "-o", target)[0] == 0
+    assert target.stat().st_mode & 0o777 == 0o640
+
+    def full(*_, **__):
+        raise OSError(28, "No space left on device")
+    monkeypatch.setattr(Path, "replace", full)
+    before = target.read_text()
+    assert balcli("analyze", V8, "-o", target) == (2, "", f"balcli: {target}: cannot be written (No space left on device)\n")
+    assert target.read_text() == before
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["good.toml", "out.txt"]
+
+
+def test_new_never_overwrites_without_force(balcli, tmp_path):
+    target = tmp_path / "x.toml"
+    assert balcli("new", "single", target) == (0, "", "")
+    written = target.read_text()
+    assert balcli("new", "vee", target) == (
+        2, "", f"balcli: {target}: is there already; choose another name, or --force to overwrite it\n")
+    assert target.read_text() == written
+    assert balcli("new", "vee", target, "--force") == (0, "", "")
+    assert target.read_text() == balcli("new", "vee")[1] != written
+    assert balcli("analyze", target)[0] == 0
+
+
+# ------------------------------------------------------------------ pipes and terminals
+def test_a_pipe_gets_no_escape_codes_and_no_width(balcli, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "40")
+    for form in Format:
+        out = balcli("analyze", V8, "--format", form, "--by", "cylinder")[1]
+        assert "\x1b" not in out
+    table = balcli("analyze", V8)[1]
+    assert max(map(len, table.splitlines())) > 100
+    assert not any(line != line.rstrip() for line in table.splitlines())
+
+
+@pytest.mark.parametrize("columns", [80, 140])
+@pytest.mark.parametrize("name", ["v8_crossplane", "vr6", "radial9", "w12", "i4_shafts", "single", "tsinghua_12v135q"])
+def test_a_terminal_gets_lines_of_its_width(balcli, monkeypatch, name, columns):
+    """No line is wider, and none of the table's cells is broken."""
+    from rich.cells import cell_len
+    monkeypatch.setenv("COLUMNS", str(columns))
+    monkeypatch.setenv("TERM", "xterm-256color")
+    monkeypatch.setattr("balcli.render.table.seen", lambda into_file: True)
+    out = balcli("analyze", ROOT / "engines" / f"{name}.toml", "--by", "cylinder")[1]
+    assert "\x1b[1m" in out
+    lines = ESCAPE.sub("", out).splitlines()
+    assert max(map(cell_len, lines)) <= columns
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a pseudo-terminal")
+def test_a_real_terminal():
+    """Colours and the terminal's width in a pseudo-terminal of 80 columns."""
+    import fcntl
+    import pty
+    import struct
+    import termios
+
+    ours, theirs = pty.openpty()
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 50, 80, 0, 0))
+    environment = {k: v for k, v in os.environ.items() if k not in ("COLUMNS", "NO_COLOR")} | {
+        "TERM": "xterm-256color", "PYTHONPATH": str(ROOT / "src")}
+    with subprocess.Popen([sys.executable, "-m", "balcli", "analyze", V8], stdout=theirs, env=environment) as running:
+        os.close(theirs)
+        text = b""
+        while chunk := _read(ours):
+            text += chunk
+    os.close(ours)
+    assert running.returncode == 0
+    assert b"\x1b[1m" in text
+    assert max(len(line) for line in ESCAPE.sub("", text.decode()).splitlines()) <= 80
+
+
+def _read(descriptor: int) -> bytes:
+    try:
+        return os.read(descriptor, 65536)
+    except OSError:                                     # Linux: the other end is closed
+        return b""
+
+
+@pytest.mark.parametrize("args", [["analyze", V8], ["schema"], ["new", "single"], ["check", str(ROOT / "engines" / "i4.toml")]])
+def test_a_closed_pipe_ends_quietly(args):
+    reading, writing = os.pipe()
+    os.close(reading)
+    done = process(*args, capture_output=False, stdout=writing, stderr=subprocess.PIPE)
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (0, b"")
+
+
+def test_any_locale_gets_utf_8():
+    done = process("analyze", V8, env={"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "PYTHONIOENCODING": "ascii"})
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert "F1 = m r ω² = " in done.stdout.decode("utf-8")
+
+
+# ------------------------------------------------------------------ what is imported
+HEAVY = {"numpy", "pydantic", "rich", "matplotlib", "pint", "tomli_w", "jinja2", "scipy"}
+PROBE = """
+import sys
+from balcli.cli import main
+try:
+    main()
+finally:
+    sys.stderr.write(" ".join(sorted({name.partition(".")[0] for name in sys.modules})))
+"""
+
+
+@pytest.mark.parametrize(("args", "allowed"), [
+    (["--help"], {"rich"}),
+    (["--version"], set()),
+    (["new", "single"], {"pydantic"}),                  # typer itself may check arguments with it
+    (["schema"], {"pydantic"}),
+    (["analyze", V8, "--format", "json"], {"numpy", "pydantic"}),
+    (["analyze", V8, "--format", "csv"], {"numpy", "pydantic"}),
+    (["analyze", V8, "--format", "markdown"], {"numpy", "pydantic"}),
+    (["analyze", V8], {"numpy", "pydantic", "rich"}),
+    (["check", str(ROOT / "engines" / "i4.toml")], {"numpy", "pydantic"}),
+])
+def test_only_what_is_needed_is_imported(args, allowed):
+    done = subprocess.run([sys.executable, "-c", PROBE, *args], capture_output=True, text=True, check=False,
+                          env={**os.environ, "PYTHONPATH": str(ROOT / "src")})
+    assert set(done.stderr.split()) & HEAVY <= allowed
+    assert "balcli" in done.stderr.split()

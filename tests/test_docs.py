@@ -1,0 +1,58 @@
+"""README.md and docs/*.md: what they show is what is printed, their links lead somewhere, and every command is described."""
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import guide
+import pytest
+import reference
+
+from balcli.cli import COMMANDS
+
+README = guide.ROOT / "README.md"
+
+
+@pytest.mark.parametrize("document", guide.DOCUMENTS, ids=lambda path: path.name)
+def test_everything_shown_is_what_is_printed(document: Path, tmp_path: Path) -> None:
+    text, folder = document.read_text(encoding="utf-8"), guide.project(tmp_path)
+    for name, content in guide.files(text).items():
+        (folder / name).write_text(content, encoding="utf-8")
+    wrong = [f"$ {one.command}\n" + "\n".join(found) for one in guide.shown(text)
+             if not guide.agrees(one.expected, found := guide.printed(one, folder))]
+    assert not wrong, f"{document.name} shows something else (python tests/guide.py {document.name} renews it):\n" + "\n\n".join(wrong)
+
+
+def test_comparison_sees_a_changed_figure_and_passes_over_what_is_left_out() -> None:
+    found = ["force", "1  2.5", "2  0.5", "", "end"]
+    assert guide.agrees(found, found)
+    assert guide.agrees(["force", "…", "2  0.5", "…"], found)
+    assert not guide.agrees(["force", "…", "2  0.6", "…"], found)
+    assert not guide.agrees(["force", "1  2.5"], found)
+    assert not guide.agrees(["1  2.5", "…"], found)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_readme_describes_every_command(command: str) -> None:
+    assert re.search(rf"^\| `balcli {command}\b", README.read_text(encoding="utf-8"), re.MULTILINE)
+
+
+@pytest.mark.parametrize("document", guide.DOCUMENTS, ids=lambda path: path.name)
+def test_links_lead_to_files_and_headings_that_exist(document: Path) -> None:
+    for target in re.findall(r"\]\(([^)\s]+)\)", document.read_text(encoding="utf-8")):
+        if target.startswith("http"):
+            continue
+        file, _, heading = target.partition("#")
+        there = document.parent / file if file else document
+        assert there.exists(), target
+        assert not heading or heading in anchors(there), target
+
+
+def anchors(document: Path) -> set[str]:
+    """Names of the headings, as hosts of Markdown make them."""
+    headings = re.findall(r"^#+ (.+)$", document.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def test_engine_file_reference_is_up_to_date() -> None:
+    assert reference.DOCUMENT.read_text(encoding="utf-8") == reference.document(), "python tests/reference.py writes it anew"

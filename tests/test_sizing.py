@@ -1,0 +1,148 @@
+"""The solver and its slots; what a remedy says."""
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from kit import engine_text
+
+from balcli.engine import build
+from balcli.enginefile import parse
+from balcli.errors import BalcliError
+from balcli.sizing import Remedy, auto, fitted
+from balcli.sizing.remedy import counterweight, degrees, shaft, slider
+from balcli.sizing.solver import Part, Rest, Slot, effect, exactly, rest, solve
+from balcli.spectrum import spectra
+
+FORCE, MOMENT = Part("force", 1), Part("moment", 1)
+BACK, ROLL = Part("force", -1), Part("roll", 0)
+VECTOR = st.complex_numbers(min_magnitude=1e-3, max_magnitude=1e3, allow_nan=False, allow_infinity=False)
+
+
+def wish(noise: float = 1e-16, **parts: complex) -> Rest:
+    """Parts by name: forward, backward, moment, roll."""
+    names = {"forward": FORCE, "backward": BACK, "moment": MOMENT, "roll": ROLL}
+    found = {names[name]: value for name, value in parts.items()}
+    return Rest(2, found, dict.fromkeys(found, noise), (0j, 0.0), 1.0)
+
+
+def text(*throws: float, **tables: str) -> str:
+    return engine_text(crank=f"stroke = 100\nthrows = {list(throws)}\nspacing = 100\nthrow_mass = 1", **tables)
+
+
+# ------------------------------------------------------------------ solver
+@given(VECTOR, VECTOR)
+def test_two_planes_take_any_force_and_moment(force, moment):
+    slots = [Slot("shaft", 2, 1, z) for z in (-0.3, 0.2)]
+    fit = solve(slots, wish(forward=force, moment=moment), (FORCE, MOMENT))
+    left = sum(effect(s.device(u), (FORCE, MOMENT), (0j, 0.0)) for s, u in zip(slots, fit.unbalances, strict=True))
+    assert left == pytest.approx([-force, -moment], rel=1e-13, abs=1e-13 * (abs(force) + abs(moment)))
+
+
+@given(VECTOR, VECTOR)
+def test_sliders_in_two_directions_take_any_ellipse(forward, backward):
+    slots = [Slot("slider", 2, 0, 0.0, 0j, direction) for direction in (20, 75)]
+    fit = solve(slots, wish(forward=forward, backward=backward), (FORCE, BACK))
+    assert fit.left <= 1e-14
+
+
+def test_a_force_and_a_roll_by_shafts_at_three_places():
+    """The roll couples both senses; with a shaft to spare it is cancelled together with the force."""
+    slots = [Slot("shaft", 2, sense, 0.0, place) for sense, place in ((1, 0.1 + 0j), (-1, -0.1 + 0.05j), (1, -0.2j))]
+    parts = (FORCE, BACK, ROLL)
+    asked = wish(forward=1 + 2j, backward=0.5 - 1j, roll=0.3 + 0.1j)
+    fit = solve(slots, asked, parts)
+    total = sum(effect(s.device(u), parts, (0j, 0.0)) for s, u in zip(slots, fit.unbalances, strict=True))
+    assert total == pytest.approx([-asked.parts[p] for p in parts], rel=1e-13)
+
+
+def test_effect_is_what_the_analysis_says():
+    engine = build(parse(text(0, 180, 180, 0)))
+    arm = (complex(*engine.reference_m[:2]), float(engine.reference_m[2]))
+    slot = Slot("slider", 2, 0, 0.07, 0.03 - 0.02j, 33)
+    u = cmath.rect(2e-3, 0.4)
+    with_it = fitted(engine, Remedy("", sliders=(slot.table(u, 0.0),)))
+    parts = [Part(q, s) for q in ("force", "moment") for s in (1, -1)] + [ROLL]
+    before, after = rest(engine, 2), rest(with_it, 2)
+    change = np.array([after.parts[p] - before.parts[p] for p in parts])
+    assert change == pytest.approx(effect(slot.device(u), parts, arm), abs=1e-15)
+
+
+def test_more_slots_than_needed_share_the_work():
+    """The least sum of squares: at every throw of a row, equal weights for a force."""
+    fit = solve([Slot("counterweight", 1, 1, z) for z in (-0.1, 0.0, 0.1)], wish(forward=3, moment=0), (FORCE, MOMENT))
+    assert fit.unbalances == pytest.approx([-1, -1, -1])
+
+
+def test_one_slot_does_what_it_can():
+    """Least squares of force and of moment over the arm: u = -(f + m/z)/2 at z."""
+    fit = solve([Slot("counterweight", 1, 1, 0.2)], wish(forward=1, moment=0.6), (FORCE, MOMENT))
+    assert fit.unbalances == pytest.approx([-(1 + 0.6 / 0.2) / 2])
+    with pytest.raises(BalcliError, match="the reason"):
+        exactly([Slot("counterweight", 1, 1, 0.2)] * 2, wish(forward=1, moment=0.6), (FORCE, MOMENT), "the reason")
+
+
+# ------------------------------------------------------------------ tables
+@given(st.floats(-720, 720), st.floats(-180, 180))
+def test_angles_come_back(angle, origin):
+    found = degrees(cmath.rect(1, math.radians(angle)), origin)
+    assert -180 < found <= 180
+    assert (found + origin - angle + 180) % 360 - 180 == pytest.approx(0, abs=1e-11)
+
+
+@pytest.mark.parametrize("angle", [0, 15, 22.5, 30, 45, 90, 120, 135, 180, -30, -54, -162])
+def test_plain_angles_are_written_plainly(angle):
+    assert degrees(cmath.rect(3e-5, math.radians(angle))) == angle
+
+
+def test_tables_are_in_the_units_of_the_file():
+    weight = counterweight(-2e-3 + 0j, -0.0425, 45.0)
+    assert (weight.unbalance, weight.angle, weight.position) == (2000.0, 135.0, -42.5)
+    turning = shaft(1e-3j, -2, 0.1, -0.04 + 0.06j)
+    assert (turning.ratio, turning.unbalance, turning.angle, turning.at, turning.position) == (-2, 1000.0, 90.0, (-40.0, 60.0), 100.0)
+    sliding = slider(-1e-3 + 0j, 2, 90.0, 0.0)
+    assert (sliding.order, sliding.unbalance, sliding.direction, sliding.angle) == (2, 1000.0, 90.0, 180.0)
+
+
+# ------------------------------------------------------------------ auto
+def test_every_device_has_its_reason():
+    remedy = auto(build(parse(text(0, 240, 120))))
+    assert len(remedy.reasons) == len(remedy.devices) == 8
+    moment = math.sqrt(3) * 0.1 * 1.5 * 0.05 * (1000 * math.pi / 30) ** 2
+    assert remedy.reasons[0] == (f"Order 1 moment, {moment:.4g} N·m, turning with the crank: "
+                                 "counterweights turn with it too and cancel it")
+    assert remedy.reasons[-1].endswith("turning against the crank: nothing on the crankshaft can cancel it; "
+                                       "two opposite eccentrics on a shaft at -2 times crank speed can")
+
+
+def test_nothing_is_fitted_where_nothing_is_left():
+    engine = build(parse(text(0, 240, 120)))
+    assert not auto(fitted(engine, auto(engine))).devices
+
+
+def test_own_devices_count():
+    engine = build(parse(text(0, 180, 180, 0)))
+    half = Remedy("", shafts=auto(engine).shafts[:1])
+    assert [s.ratio for s in auto(fitted(engine, half)).shafts] == [-2]
+
+
+def test_staggered_rods_on_one_throw_get_planes_at_the_outer_cylinders():
+    remedy = auto(build(parse(text(0, layout="bank_angle = 60\nstagger = 24"))))
+    assert {d.position for d in remedy.counterweights} == {0.0}             # forward vectors of both rods lie on the pin
+    assert {d.position for d in remedy.shafts if d.ratio == -1} == {-12.0, 12.0}
+
+
+def test_sizing_does_not_depend_on_speed():
+    slow, fast = (auto(build(parse(text(0, 90, 200) + f"[operation]\nspeed = {rpm}\n"))) for rpm in (10, 20000))
+    assert [d.unbalance for d in slow.devices] == pytest.approx([d.unbalance for d in fast.devices], rel=1e-12)
+
+
+def test_devices_are_summed_in_the_order_of_the_file():
+    engine = build(parse(text(0, 240, 120) + "[[slider]]\norder = 2\nunbalance = 3\ndirection = 10\n"))
+    ranks = [d.rank for d in fitted(engine, auto(engine)).devices]
+    assert ranks == sorted(ranks)
+    assert spectra(fitted(engine, auto(engine)), [1], ("force",)).force.balanced.all()
