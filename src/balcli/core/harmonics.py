@@ -80,7 +80,17 @@ def of(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: b
 
 
 def _of_distinct(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> Harmonics:
-    return sampled(orders, lam, eps, rod=rod, energy=energy) if np.count_nonzero(eps) else centred(orders, lam, rod=rod, energy=energy)
+    if np.count_nonzero(eps):
+        return sampled(orders, lam, eps, rod=rod, energy=energy)
+    if lam.size == 1:
+        return _of_one(np.asarray(orders, float).tobytes(), lam.item(), lam.shape, rod, energy)
+    return centred(orders, lam, rod=rod, energy=energy)
+
+
+@lru_cache(maxsize=64)
+def _of_one(orders: bytes, lam: float, shape: tuple[int, ...], rod: bool, energy: bool) -> Harmonics:
+    """Those of one mechanism, kept: sizing and analysing an engine ask for the same again and again."""
+    return centred(np.frombuffer(orders), np.full(shape, lam), rod=rod, energy=energy)
 
 
 # ------------------------------------------------------------------ centred: closed form
