@@ -86,9 +86,20 @@ def printed(one: Shown, folder: Path) -> list[str]:
 
 
 def agrees(expected: list[str], found: list[str]) -> bool:
-    """Whether the lines are the same but for those that are left out; at either end, empty lines count for nothing."""
-    parts = [r"(?:.*\n)*?" if line.strip() == LEFT_OUT else re.escape(line.rstrip()) + "\n" for line in _trimmed(expected)]
-    return re.fullmatch("".join(parts), "".join(line + "\n" for line in _trimmed(found))) is not None
+    """Whether the lines are the same but for those that are left out; at either end, empty lines count for nothing.
+
+    Figures in full precision need to agree to nine digits: the last ones are the machine's.
+    """
+    parts = [r"(?:.*\n)*?" if line.strip() == LEFT_OUT else re.escape(_rounded(line.rstrip())) + "\n" for line in _trimmed(expected)]
+    return re.fullmatch("".join(parts), "".join(_rounded(line) + "\n" for line in _trimmed(found))) is not None
+
+
+def _rounded(line: str) -> str:
+    """With numbers of more than nine decimals to nine digits, and rounding errors as what they are: 0."""
+    def nine(number: re.Match[str]) -> str:
+        value = float(number[0])
+        return f"{value if abs(value) > 1e-12 else 0:.9g}"
+    return re.sub(r"-?\b\d+\.\d{9,}(?:e[-+]\d+)?|-?\b0\.0\b", nine, line)
 
 
 def _trimmed(lines: list[str]) -> list[str]:
