@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from kit import engine
 
-from balcli.analysis import HIGHEST, QUANTITIES, SHOWN, Analysis, alone, analyze, textbook
+from balcli.analysis import HIGHEST, QUANTITIES, Analysis, alone, analyze, textbook
 from balcli.core import harmonics
 from balcli.engine import Engine, build
 from balcli.enginefile import read
 from balcli.errors import BalcliError
-from balcli.spectrum import SPECTRAL, relevant_orders, spectra
+from balcli.spectrum import SHOWN, SPECTRAL, relevant_orders, spectra
 
 FOLDER = Path(__file__).parents[1] / "engines"
 NAMES = sorted(file.stem for file in FOLDER.glob("*.toml"))
@@ -49,11 +49,13 @@ def test_orders_asked_for_are_the_same_to_the_last_bit(name):
     default = analysed(name)
     asked = analyze(example(name), default.orders[::-1], only=STEADY)
     single = analyze(example(name), [2], only=SPECTRAL)
+    many = analyze(example(name), range(1, 300), only=SPECTRAL)
     for q, phasors in default.spectra.items():
         again, alone_ = getattr(asked.spectra, q), getattr(single.spectra, q)
         assert np.array_equal(phasors.forward, again.forward), q
         assert np.array_equal(phasors.backward, again.backward), q
         assert np.array_equal(phasors.at([2]).forward, alone_.forward), q
+        assert np.array_equal(phasors.forward, getattr(many.spectra, q).at(default.orders).forward), q
     assert (asked.force, asked.moment) == (default.force, default.moment)
 
 
@@ -115,6 +117,13 @@ def test_a_small_order_that_is_there_is_not_swallowed(name, order, factor):
     assert found.major[0] == pytest.approx(factor * units.force * units.ratios[0], rel=1e-10)
 
 
+def test_a_high_order_beside_it_swallows_no_small_one():
+    """The orders 1 to 4096 of a single cylinder: the first forty are there as they are by themselves."""
+    everything, few = (analyze(example("single"), range(1, last + 1), only=["force"]).spectra.force for last in (4096, 40))
+    assert np.array_equal(everything.forward[:40], few.forward)
+    assert np.array_equal(few.balanced, [n % 2 == 1 and n > 1 for n in range(1, 41)])
+
+
 def test_each_vector_is_settled_for_itself():
     """The first-order moment of a cross-plane V8 turns with the crank and has no backward part at all."""
     moment = analysed("v8_crossplane").spectra.moment
@@ -152,7 +161,7 @@ def test_an_unknown_quantity():
     with pytest.raises(BalcliError) as caught:
         analyze(example("i4"), only=["force", "weight", "noise"])
     assert str(caught.value) == ("there is no quantity noise, weight: choose from force, moment, couple, torque, roll, "
-                                 "peak, sizing")
+                                 "peak, sizing, inner, guide")
 
 
 def test_everything_by_default():

@@ -115,7 +115,7 @@ def test_bad_usage_that_the_parser_words(balcli, args):
     (["analyze", V8, "--speed", "0"], "--speed 0: the crank speed must be a positive number of rpm, below 1e9"),
     (["analyze", V8, "--speed", "nan"], "--speed nan: the crank speed must be a positive number of rpm, below 1e9"),
     (["analyze", V8, "--only", "force,noise"],
-     "there is no quantity noise: choose from force, moment, couple, torque, roll, peak, sizing"),
+     "there is no quantity noise: choose from force, moment, couple, torque, roll, peak, sizing, inner, guide"),
     (["analyze", V8, "-o", "/nowhere/x.txt"], "/nowhere/x.txt: cannot be written (No such file or directory)"),
     (["analyze", V8, "-o", str(ROOT)], f"{ROOT}: is a folder, so no file can be written there"),
     (["check", "nowhere"], "nowhere: no such file or folder"),

@@ -8,8 +8,8 @@ from kit import GOOD, changed
 
 from balcli.compare import compare
 from balcli.engine import build
-from balcli.errors import BalcliError
 from balcli.enginefile import parse
+from balcli.errors import BalcliError
 
 
 def test_force_of_order_2_goes_with_the_square_of_the_speed() -> None:

@@ -1,11 +1,15 @@
 """Knuckle angles that make strokes or dead centres even."""
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 from test_articulation import RADIAL
+from typer.testing import CliRunner
 
 from balcli import enginefile
+from balcli.cli import app
 from balcli.errors import BalcliError
 from balcli.knuckles import even_knuckles
 
@@ -57,3 +61,55 @@ def test_an_engine_without_articulated_rods():
     with pytest.raises(BalcliError) as caught:
         even_knuckles(enginefile.parse(RADIAL[:RADIAL.index("[articulation]")]))
     assert str(caught.value) == "knuckles: this engine has no articulated rods; an engine file says so with [articulation]"
+
+
+# ------------------------------------------------------------------ the command
+def run(*arguments):
+    return CliRunner().invoke(app, ["balance", *map(str, arguments), "--scheme", "knuckles"])
+
+
+@pytest.mark.parametrize("older", ["", "knuckle_angles = [0, 50, 100, 150, 200, 250, 300]  # measured\n"])
+def test_what_is_written_reads_back_as_it_was_analysed(tmp_path, older):
+    file, out = tmp_path / "radial.toml", tmp_path / "even.toml"
+    file.write_text("# a comment\n" + RADIAL.replace("[articulation]\n", f"[articulation] # seven\n{older}"))
+    document = json.loads(run(file, "--write", out, "--format", "json").stdout)
+    assert document["scheme"] == "knuckles"
+    assert document["counterweights"] == []
+    read = enginefile.read(out)
+    assert list(read.articulation.knuckle_angles) == document["details"]["knuckle_angles_deg"]
+    assert out.read_text().startswith("# a comment\n")
+    assert np.abs(even_knuckles(read).before.top_deg).max() < 1e-9
+
+
+def test_an_articulation_in_one_line_is_written_anew(tmp_path):
+    file, out = tmp_path / "radial.toml", tmp_path / "even.toml"
+    head, table = RADIAL.split("[articulation]")
+    file.write_text(f"articulation = {{ {', '.join(table.strip().splitlines())} }}\n{head}")
+    assert run(file, "--write", out).exit_code == 0
+    assert out.read_text().startswith("# Comments and lay-out of the original could not be kept")
+    assert np.abs(even_knuckles(enginefile.read(out)).before.top_deg).max() < 1e-9
+
+
+def test_for_people(tmp_path):
+    file = tmp_path / "radial.toml"
+    file.write_text(RADIAL)
+    text = run(file, "--even", "strokes", "--speed", "2000").stdout
+    assert "What is changed, and why" in text
+    assert "strokes equal to the master's" in text
+
+
+@pytest.mark.parametrize(("options", "message"), [
+    (["--even", "colours"], '--even "colours": choose from dead-centres, strokes'),
+    (["--order", "2"], "scheme knuckles: has no option but --even"),
+])
+def test_mistakes(tmp_path, options, message):
+    file = tmp_path / "radial.toml"
+    file.write_text(RADIAL)
+    assert str(run(file, *options).exception) == message
+
+
+def test_even_without_the_scheme(tmp_path):
+    file = tmp_path / "radial.toml"
+    file.write_text(RADIAL)
+    result = CliRunner().invoke(app, ["balance", str(file), "--even", "strokes"])
+    assert str(result.exception) == "--even belongs to --scheme knuckles; scheme auto has no such option"

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from kit import GOOD, changed
 
-from balcli.errors import BalcliError
 from balcli.enginefile import parse as load
+from balcli.errors import BalcliError
 from balcli.parameters import ladder, parse, varied
 
 DEVICES = """

@@ -7,8 +7,8 @@ from kit import changed
 
 from balcli.analysis import analyze
 from balcli.engine import build
-from balcli.errors import BalcliError
 from balcli.enginefile import parse as load
+from balcli.errors import BalcliError
 from balcli.quantity import evaluate, parse
 
 UNEVEN = changed(("[0, 180, 180, 0]", "[0, 100, 250, 190]"), ('firing_order = [1, 3, 4, 2]', 'bank_angle = 70\nstagger = 20'))

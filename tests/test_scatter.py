@@ -8,8 +8,8 @@ import pytest
 from kit import GOOD, changed
 
 from balcli.engine import build
-from balcli.errors import BalcliError
 from balcli.enginefile import parse as load
+from balcli.errors import BalcliError
 from balcli.quantity import evaluate, parse
 from balcli.scatter import Tolerances, scatter, tolerances
 

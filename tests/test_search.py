@@ -8,8 +8,8 @@ import pytest
 from kit import GOOD, changed
 
 from balcli.engine import build
-from balcli.errors import BalcliError
 from balcli.enginefile import parse as load
+from balcli.errors import BalcliError
 from balcli.model import EngineFile
 from balcli.parameters import varied
 from balcli.quantity import evaluate, parse

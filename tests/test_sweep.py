@@ -9,8 +9,8 @@ import pytest
 from kit import GOOD, changed
 
 from balcli.engine import build
-from balcli.errors import BalcliError, InputError
 from balcli.enginefile import parse as load
+from balcli.errors import BalcliError, InputError
 from balcli.parameters import parse, varied
 from balcli.quantity import evaluate
 from balcli.quantity import parse as quantities
@@ -84,14 +84,14 @@ def test_boxes_cover_the_grid_in_the_order_of_rows(shape: tuple[int, ...], most:
 
 
 def test_chunks_do_not_change_figures() -> None:
-    sweep = asked(VEE, "layout.bank_angle=0:179:1", "rod.ratio=0.2:0.299:0.001", of="force.2.major,moment.1.backward")
+    sweep = asked(VEE, "layout.bank_angle=0:179:1", "rod.ratio=0.2:0.399:0.001", of="force.2.major,moment.1.backward")
     several = list(chunks(sweep))
     assert len(several) == 2
     every = np.concatenate([np.stack(columns(sweep, chunk)) for chunk in several], axis=1)
-    assert every.shape == (4, 18_000)
+    assert every.shape == (4, 36_000)
     whole = np.stack(grid(sweep)).reshape(2, -1)
     assert np.array_equal(every[2:], whole)
-    assert every[:2, [0, 1, 100, -1]].T.tolist() == [[0, 0.2], [0, 0.201], [1, 0.2], [179, 0.299]]
+    assert every[:2, [0, 1, 200, -1]].T.tolist() == [[0, 0.2], [0, 0.201], [1, 0.2], [179, 0.399]]
 
 
 def test_csv_is_exact_and_an_axis_that_is_none_an_empty_cell() -> None:

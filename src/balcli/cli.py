@@ -17,7 +17,9 @@ from . import __version__
 from .errors import BalcliError, Exit
 
 COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "plot", "report", "sweep",
-            "search", "scatter", "compare", "sum", "bench")
+            "search", "scatter", "compare", "sum", "engines", "bench")
+
+_UsageError: Any = typer.BadParameter.__mro__[1]       # click's, or typer's own copy of it
 
 
 class _OnDemand(TyperGroup):

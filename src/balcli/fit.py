@@ -1,6 +1,7 @@
 """The engine file with the devices of a remedy: its text as it was, comments and all, with their tables after it."""
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Iterator
 from typing import Any
@@ -38,6 +39,26 @@ def fit(text: bytes, remedy: Remedy, file: str = "") -> str:
         new = _rewritten(old, remedy)
     if build(parse(new, file)).devices != fitted(build(parse(text, file)), remedy).devices:
         raise BalcliError(f"{file}: the devices do not read back as they were sized; please report this file")
+    return new
+
+
+def fit_knuckles(text: bytes, angles_deg: tuple[float, ...], file: str = "") -> str:
+    """The text of an engine file with these knuckle angles, in place of older ones; written anew where they cannot be put in."""
+    old = text.decode("utf-8-sig")
+    line = f"knuckle_angles = {_value(list(angles_deg))}"
+    kept = re.sub(r"(?m)^[ \t]*knuckle_angles[ \t]*=[ \t]*\[[^\]\[\"']*\][^\n]*\n", "", old)
+    new = re.sub(r"(?m)^[ \t]*\[articulation\][^\n]*$", lambda head: f"{head[0]}\n{line}    # even, by balcli", kept, count=1)
+    wanted = tomllib.loads(old)
+    wanted["articulation"]["knuckle_angles"] = list(angles_deg)
+    try:
+        done = tomllib.loads(new) == wanted
+    except tomllib.TOMLDecodeError:
+        done = False
+    if not done:
+        import tomli_w
+        new = "# Comments and lay-out of the original could not be kept: its [articulation] is written in an unusual way.\n"
+        new += tomli_w.dumps(wanted)
+    parse(new, file)
     return new
 
 

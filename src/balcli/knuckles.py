@@ -1,13 +1,15 @@
 """Knuckle angles that make the strokes, or the dead centres, of an engine with articulated rods even."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .analysis import QUANTITIES, analyze
+from .balancing import Balance
 from .core.articulated import Articulated
 from .core.inertia import Cylinders
 from .core.phasors import Array, unit
@@ -16,8 +18,10 @@ from .engine import build
 from .errors import BalcliError
 from .layout import plan
 from .model import EngineFile
+from .sizing import Remedy
 
 Goal = Literal["dead-centres", "strokes"]
+GOALS: tuple[Goal, ...] = ("dead-centres", "strokes")
 _STEP = 1e-3                        # degrees, for the slope
 _FAR = 30.0                         # degrees: a knuckle pin that would have to move farther is no answer
 _CLOSE = {"dead-centres": 1e-9, "strokes": 1e-12}                       # degrees; metres
@@ -68,6 +72,25 @@ def even_knuckles(file: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
     better = file.model_copy(update={"articulation": table})
     return Knuckles(goal, better, found, travel(c), travel(build(better).cylinders),
                     _reasons(goal, hung[rows], done[rows], turn[rows]))
+
+
+def balanced(file: EngineFile, goal: Goal = "dead-centres", orders: Iterable[float] | None = None, speed_rpm: Any = None) -> Balance:
+    """The same as a scheme of `balance`: the engine before and after, at the speed of the file or another.
+
+    Raises as `even_knuckles` does.
+    """
+    found = even_knuckles(file, goal)
+    details = {"even": goal, "knuckle_angles_deg": list(found.angles_deg), "stroke_mm": _range(found.after.stroke * 1e3),
+               "top_deg": _range(found.after.top_deg)}
+    shown = set(QUANTITIES) - {"sizing"}
+    old, new = (build(f) if speed_rpm is None else replace(build(f), speed_rpm=speed_rpm) for f in (file, found.file))
+    before = analyze(old, orders, shown)
+    after = analyze(new, before.orders, shown)
+    return Balance(Remedy("knuckles", reasons=found.reasons, details=details), before, after, ())
+
+
+def _range(values: Array) -> dict[str, float]:
+    return {"least": float(values.min()), "largest": float(values.max())}
 
 
 def _turned(c: Cylinders, linkage: Articulated, angle_deg: Array) -> Travel:

@@ -9,6 +9,7 @@ from typing import Any
 
 from .analysis import analyze
 from .engine import Engine
+from .errors import BalcliError
 from .render import json as documents
 from .render.figures import KEYS
 from .spectrum import SPECTRAL
@@ -49,24 +50,21 @@ def differences(name: str, engine: Engine, file: Path) -> list[Difference]:
     """All figures of an engine that are not those of its recorded result."""
     if not file.exists():
         return [Difference(name, f"no result is recorded in {file.parent.name}/{file.name}; check --update records it")]
+    shown = analyze(engine, only=RECORDED)
     try:
         recorded = json.loads(file.read_text(encoding="utf-8"))
-        orders = [entry["order"] for entry in recorded["orders"]]
-        old = dict(_figures(recorded))
-    except (OSError, ValueError, KeyError, TypeError) as error:
+        old, before = dict(_figures(recorded)), _plain(recorded)
+        now = documents.analysis(analyze(engine, {*(entry["order"] for entry in recorded["orders"]), *shown.orders}, RECORDED))
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, BalcliError) as error:
         return [Difference(name, f"the result recorded in {file.parent.name}/{file.name} cannot be read "
                                  f"({type(error).__name__}: {error}); check --update records it anew")]
-    shown = analyze(engine, only=RECORDED)
-    now = documents.analysis(analyze(engine, {*orders, *shown.orders}, RECORDED))
-    return [*_plain(name, recorded, now), *_moved(name, old, dict(_figures(now)))]
+    plain = [Difference(name, f"{what}: {before[what]} -> {new}") for what, new in _plain(now).items() if before[what] != new]
+    return [*plain, *_moved(name, old, dict(_figures(now)))]
 
 
-def _plain(name: str, recorded: dict[str, Any], now: dict[str, Any]) -> Iterator[Difference]:
-    pairs = (("number of cylinders", recorded.get("engine", {}).get("cylinders"), now["engine"]["cylinders"]),
-             ("speed, rpm", recorded.get("speed_rpm"), now["speed_rpm"]))
-    for what, old, new in pairs:
-        if old != new:
-            yield Difference(name, f"{what}: {old} -> {new}")
+def _plain(document: dict[str, Any]) -> dict[str, Any]:
+    """What must be the same to the last digit."""
+    return {"number of cylinders": document["engine"]["cylinders"], "speed, rpm": document["speed_rpm"]}
 
 
 def _moved(name: str, old: dict[tuple[str, str, str], float], new: dict[tuple[str, str, str], float]) -> Iterator[Difference]:
@@ -74,7 +72,7 @@ def _moved(name: str, old: dict[tuple[str, str, str], float], new: dict[tuple[st
     for figures in (old, new):
         for (quantity, _, _), value in figures.items():
             scale[quantity] = max(scale.get(quantity, 0.0), abs(value))
-    for key in sorted(old.keys() | new.keys()):
+    for key in dict.fromkeys((*new, *old)):
         before, after = old.get(key, 0.0), new.get(key, 0.0)
         if not abs(after - before) <= TOLERANCE * scale[key[0]]:
             yield Difference(name, " ".join(filter(None, key)), before, after, abs(after - before) / scale[key[0]])
@@ -91,8 +89,8 @@ def _figures(document: dict[str, Any]) -> Iterator[tuple[tuple[str, str, str], f
                         yield (quantity, f"order {entry['order']}", f"{part} {axis}, {_unit(quantity)}"), float(component)
                 elif value is not None:
                     yield (quantity, f"order {entry['order']}", f"{part}, {_unit(quantity)}"), float(value)
-    yield ("force", "peak", "N"), float(document["peak"]["force_N"])
-    yield ("moment", "peak", "N·m"), float(document["peak"]["moment_Nm"])
+    yield ("force", "peak,", "N"), float(document["peak"]["force_N"])
+    yield ("moment", "peak,", "N·m"), float(document["peak"]["moment_Nm"])
 
 
 def _unit(quantity: str) -> str:

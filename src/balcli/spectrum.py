@@ -15,7 +15,7 @@ from .engine import Engine
 SPECTRAL = ("force", "moment", "couple", "torque", "roll")
 _ONLY_FORCES = {"force", "moment"}
 SHOWN = 1e-6                    # share of a quantity's largest order below which an order is not worth showing
-_CLOSED_FORM = 256              # highest order at which closed forms are cheaper than sampling and transforming
+_CLOSED_FORM = 4096             # highest order of closed forms; only mechanisms near their lock have more
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ def alone(engine: Engine, number: int) -> Engine:
 
 def _steady(engine: Engine, orders: Array, quantities: Collection[str]) -> tuple[dict[str, Phasors], Loads]:
     c = engine.cylinders
-    plain = harmonics.of if orders.max(initial=0) <= _CLOSED_FORM else harmonics.sampled
+    plain = harmonics.sampled if len(orders) and orders[-1] > _CLOSED_FORM else harmonics.of
     find = c.linkage.harmonics if c.linkage else plain
     x, y, z = engine.reference_m
     rod = bool(np.count_nonzero(c.couple)) and not _ONLY_FORCES.issuperset(quantities)

@@ -24,7 +24,7 @@ from .quantity import Quantity, evaluate
 Array = NDArray[np.float64]
 Box = tuple[slice, ...]
 MOST_KEPT = 4_000_000
-CHUNK = 16_384                  # variants at a time: their arrays stay in the processor's cache
+CHUNK = 32_768                  # variants at a time: few enough for the cache, enough for what they share
 
 
 class Chunk(NamedTuple):

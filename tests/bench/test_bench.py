@@ -1,6 +1,8 @@
 """The bench's errors against mpmath, and the page that shows them."""
 from __future__ import annotations
 
+from pathlib import Path
+
 import mpmath
 import pytest
 
@@ -39,3 +41,33 @@ def test_closed_form_is_exact_where_sampling_is_not() -> None:
     assert 1e-13 < found["A_8", "FFT, 64 points"] < 1e-10
     assert found["A_2", "two-term formula"] == pytest.approx(LAM**2 / 4, rel=0.05)          # the next term of the series
     assert found["A_2", "time stepping, 360 steps"] / found["A_2", "time stepping, 720 steps"] == pytest.approx(4, rel=0.01)
+
+
+# ------------------------------------------------------------------ docs/accuracy.md
+PAGE = Path(__file__).parents[2] / "docs" / "accuracy.md"
+
+
+def shown() -> dict[tuple[str, str], str]:
+    """Errors on the page, by task (heading) and method (first cell of a row; the last one is the error)."""
+    rows, task = {}, ""
+    for line in PAGE.read_text(encoding="utf-8").splitlines():
+        if line.startswith("## "):
+            task = line[3:].strip()
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if line.startswith("|") and len(cells) == 3 and cells[0] not in ("method", "---"):
+            rows[task, cells[0]] = cells[2]
+    return rows
+
+
+def test_the_page_shows_every_row_and_its_true_error() -> None:
+    page, found = shown(), errors()
+    assert page.keys() == found.keys()
+    for key, error in found.items():
+        if error is None:
+            assert page[key] == "–", key
+        elif error < ROUNDING:
+            assert page[key] == "rounding", key
+        elif error < 1e-9:                      # rounding, grown by what is divided by: the power of ten is all that can be told
+            assert 0.1 < float(page[key]) / error < 10, key
+        else:
+            assert page[key] == f"{error:.1e}", key

@@ -18,6 +18,7 @@ def balance(
     thickness: wishes.Thickness = None,
     disc: wishes.Disc = None,
     drill: wishes.Drill = None,
+    even: wishes.Even = None,
     write: wishes.Write = None,
     speed: Speed = None,
     orders: Orders = None,
@@ -27,6 +28,7 @@ def balance(
 ) -> None:
     """Size counterweights, balancer shafts or sliders, and show what is left with them."""
     from ..balancing import balance as balanced
+    from ..enginefile import name_of, parse
     from ..render.formats import balances
     from .output import emit
     from .several import engine_and_text
@@ -35,7 +37,10 @@ def balance(
     wish, tools = wishes.wish_of(order, at, position, planes, factor, roll), wishes.shop_tools(radius, thickness, disc, drill)
     asked = order_list(orders)
     text, engine = engine_and_text(file, checked_speed(speed))
-    result = balanced(engine, scheme, wish, asked, tools)
+    if scheme == "knuckles" or even is not None:
+        result = wishes.knuckles(scheme, wish, even, parse(text, name_of(file)), engine, asked)
+    else:
+        result = balanced(engine, scheme, wish, asked, tools)
     shown = balances(result, format, units, into_file=output is not None)
     if write is not None:
         write_fitted(file, text, result.remedy, write)

@@ -13,11 +13,9 @@ def new(
     force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
 ) -> None:
     """Write a commented, valid engine file to start from."""
-    from ..errors import BalcliError
     from ..new import template
-    from .output import emit
+    from .output import emit, keep
 
     text = template(kind)
-    if file is not None and file.exists() and not force:
-        raise BalcliError(f"{file}: is there already; choose another name, or --force to overwrite it")
+    keep(file, force)
     emit(text, file)

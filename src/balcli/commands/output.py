@@ -27,6 +27,16 @@ def emit(text: str, output: Path | None = None) -> None:
         write(text if text.endswith("\n") else text + "\n", output)
 
 
+def keep(file: Path | None, force: bool) -> None:
+    """Refuse to overwrite a file that is there, unless forced.
+
+    Raises:
+        BalcliError: with what to do.
+    """
+    if file is not None and file.exists() and not force:
+        raise BalcliError(f"{file}: is there already; choose another name, or --force to overwrite it")
+
+
 def write(content: str | bytes, target: Path) -> None:
     """Replace a file in one step."""
     data = content.encode() if isinstance(content, str) else content

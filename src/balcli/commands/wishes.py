@@ -11,12 +11,15 @@ import typer
 from ..errors import BalcliError
 
 if TYPE_CHECKING:
+    from ..balancing import Balance
+    from ..engine import Engine
+    from ..model import EngineFile
     from ..sizing import Tools, Wish
 
 MOST_FACTORS = 1000
 
 Scheme = Annotated[str, typer.Option("--scheme", "--with", metavar="NAME", help="auto, counterweights, factor, minimax, single-shaft, "
-                                     "two-shaft, four-shaft, couple-shaft, slider, eccentric-slider or oldham.")]
+                                     "two-shaft, four-shaft, couple-shaft, slider, eccentric-slider, oldham or knuckles.")]
 Order = Annotated[int | None, typer.Option(metavar="N", show_default=False, help="Order to balance; default: the lowest that is free.")]
 At = Annotated[list[str] | None, typer.Option(metavar="X,Y", show_default=False,
                                               help="Place in mm of the shaft turning against the crank; given twice: of both.")]
@@ -28,6 +31,8 @@ Radius = Annotated[float | None, typer.Option(metavar="MM", show_default=False, 
 Thickness = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help="Of a semicircular steel disc; default 20.")]
 Disc = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help="Radius of that disc, instead of its thickness.")]
 Drill = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help="Drill for a radial hole from --radius inwards.")]
+Even = Annotated[str | None, typer.Option("--even", metavar="dead-centres|strokes", show_default=False,
+                                          help="What --scheme knuckles makes even; default: dead-centres.")]
 Write = Annotated[Path | None, typer.Option("--write", metavar="OUT.toml", show_default=False,
                                             help="Write the engine with the devices fitted.")]
 
@@ -45,6 +50,21 @@ def wish_of(order: int | None, at: Sequence[str] | None, position: str | None, p
         factor=None if factor is None else _factors(factor),
         roll=roll,
     )
+
+
+def knuckles(scheme: str, wish: Wish, even: str | None, file: EngineFile, engine: Engine, orders: list[int] | None) -> Balance:
+    """The scheme that changes knuckle angles; BalcliError for options that are not its own, or --even with another scheme."""
+    from ..knuckles import GOALS, balanced
+    from ..sizing import Wish
+
+    if scheme != "knuckles":
+        raise BalcliError(f"--even belongs to --scheme knuckles; scheme {scheme} has no such option")
+    if wish != Wish():
+        raise BalcliError("scheme knuckles: has no option but --even")
+    goal = next((known for known in GOALS if known == (even or GOALS[0])), None)
+    if goal is None:
+        raise BalcliError(f'--even "{str(even)[:60]}": choose from {", ".join(GOALS)}')
+    return balanced(file, goal, orders, engine.speed_rpm)
 
 
 def shop_tools(radius: float | None, thickness: float | None, disc: float | None, drill: float | None) -> Tools:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from ..enginefile import name_of
 from ..errors import BalcliError
-from ..fit import fit
+from ..fit import fit, fit_knuckles
 from ..sizing import Remedy
 from .output import write
 
@@ -18,4 +18,7 @@ def write_fitted(source: str, text: bytes, remedy: Remedy, target: Path) -> None
     """
     if source != "-" and target.exists() and target.samefile(source):
         raise BalcliError(f"--write {target}: this is the engine file itself, which stays as it is; choose another name")
-    write(fit(text, remedy, name_of(source)), target)
+    if remedy.scheme == "knuckles":
+        write(fit_knuckles(text, tuple(remedy.details["knuckle_angles_deg"]), name_of(source)), target)
+    else:
+        write(fit(text, remedy, name_of(source)), target)

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from math import comb
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -83,7 +82,7 @@ def of(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: b
 
 
 def _of_distinct(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> Harmonics:
-    return sampled(orders, lam, eps, rod=rod, energy=energy) if np.any(eps) else centred(orders, lam, rod=rod, energy=energy)
+    return sampled(orders, lam, eps, rod=rod, energy=energy) if np.count_nonzero(eps) else centred(orders, lam, rod=rod, energy=energy)
 
 
 # ------------------------------------------------------------------ centred: closed form
@@ -213,9 +212,12 @@ def _rows(orders: bytes, axes: int) -> _Rows:
 
 def _binomials(count: int) -> tuple[Array, Array]:
     """binom(1/2, m) and binom(-3/2, m) for m = 0 .. count-1, each correctly rounded."""
-    half = [-(-1) ** m * comb(2 * m, m) / (4**m * (2 * m - 1)) for m in range(count)]
-    minus = [(-1) ** m * (2 * m + 1) * comb(2 * m, m) / 4**m for m in range(count)]
-    return np.array(half), np.array(minus)
+    half, minus, middle = np.empty(count), np.empty(count), 1           # middle: binom(2m, m), exactly
+    for m in range(count):
+        half[m] = -(-1) ** m * middle / ((2 * m - 1) << 2 * m)
+        minus[m] = (-1) ** m * (2 * m + 1) * middle / (1 << 2 * m)
+        middle = middle * 2 * (2 * m + 1) // (m + 1)
+    return half, minus
 
 
 def _G(m: Array, z: Any) -> Any:
@@ -225,7 +227,7 @@ def _G(m: Array, z: Any) -> Any:
     """
     single = isinstance(z, float)
     largest = max(z if single else z.max(initial=0.0), 1e-300)
-    ratios = _ratios(2 + int(math.log(EPS / 64) / math.log(largest)), m.shape)
+    ratios = _ratios(1 + int(math.log(EPS / 64) / math.log(largest)), m.shape)
     total: Any = 1.0
     for ratio in ratios * z if single else (ratio * z for ratio in ratios):
         total = 1 + ratio * total

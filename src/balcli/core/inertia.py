@@ -113,15 +113,15 @@ class Loads:
     @property
     def force(self) -> Phasors:
         """N; `F = m_rec r (cos psi + ...) + m_rot r e^{i psi}` of each cylinder, turned by its axis."""
-        return sum(self._of_devices, self._forces(self._turned, self._once))
+        return sum(self._of_devices, self._forces(1.0, self._once))
 
     @property
     def moment(self) -> Phasors:
         """N m as `M_x + i M_y = i sum (z - z_ref) F`."""
         z = self._cylinders.z
-        of_cylinders = self._forces((z - self._z_ref) * self._turned, np.abs(z) + abs(self._z_ref))
-        arms = (device.z - self._z_ref for device in self._devices)
-        return 1j * sum((z * f for z, f in zip(arms, self._of_devices, strict=True)), of_cylinders)
+        of_cylinders = self._forces(1j * (z - self._z_ref), np.abs(z) + abs(self._z_ref))
+        arms = (1j * (device.z - self._z_ref) for device in self._devices)
+        return sum((arm * f for arm, f in zip(arms, self._of_devices, strict=True)), of_cylinders)
 
     @property
     def couple(self) -> Phasors:
@@ -135,7 +135,7 @@ class Loads:
         if (curve := self._harmonics.curve) is not None:
             total += self._about_z((self._on_curve * c.radius) * curve.couple)
         if np.count_nonzero(self._place):
-            total += self._forces(self._turned, self._once).about(-self._place)
+            total += self._forces(1.0, self._once).about(-self._place)
         return sum((f.about(d.place - self._place) for d, f in zip(self._devices, self._of_devices, strict=True)), total)
 
     @property
@@ -202,12 +202,12 @@ class Loads:
         error = error + self._rounding * (np.abs(x.c) + np.abs(y.c)) + (x.noise + y.noise)
         return forward + (x.c + 1j * y.c), backward + (x.c - 1j * y.c).conj(), error
 
-    def _forces(self, turned: Complex, size: Array) -> Phasors:
-        """Sum over the cylinders of their forces, with the weights that `turned` bears and `size` bounds."""
+    def _forces(self, weights: Any, size: Array) -> Phasors:
+        """Sum over the cylinders of their forces, with weights, whose size bounds the error."""
         forward, backward, error = self._pull
         ahead, astern = self._ahead_and_astern
-        return Phasors(self._orders, self._sum(forward, turned, ahead), self._sum(backward, turned.conj(), astern),
-                       _total(error, size))
+        return Phasors(self._orders, self._sum(forward, weights * self._turned, ahead),
+                       self._sum(backward, weights * self._turned.conj(), astern), _total(error, size))
 
     def _about_z(self, series: Series) -> Phasors:
         """Sum over the cylinders of scalars."""

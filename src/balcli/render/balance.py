@@ -23,7 +23,9 @@ def sheet(result: Balance, system: System) -> Sheet:
     remedy = result.remedy
     order = "" if remedy.order is None else f", order {remedy.order}"
     parts: list[Grid | Facts | Text] = []
-    if remedy.reasons:
+    if remedy.reasons and not remedy.devices and not remedy.beyond:
+        parts.append(Text("What is changed, and why", remedy.reasons))
+    elif remedy.reasons:
         parts.append(Text("What is fitted, and why", tuple(dict.fromkeys(remedy.reasons))))
         parts += [device_grid(remedy, system), _practical(result, system)]
     else:
@@ -83,7 +85,7 @@ def _peak(peak: Peak | None, unit: Unit) -> tuple[str, str]:
 # ------------------------------------------------------------------ details
 def _details(details: Mapping[str, Any], system: System) -> Iterator[Grid | Facts | Text]:
     """Figures of a scheme that are no device."""
-    plain = [fact for key, value in details.items() if key == "reached_deg" or (key != "note" and not isinstance(value, list))
+    plain = [fact for key, value in details.items() if key in ("reached_deg", "knuckle_angles_deg") or (key != "note" and not isinstance(value, list))
              for fact in _facts(key, value, system)]
     if plain:
         yield Facts(tuple(plain), "Details")

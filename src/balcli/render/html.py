@@ -29,7 +29,7 @@ def page(result: Analysis, balanced: Balance, system: System) -> str:
     return _template().render(
         title=own.title, version=__version__, facts=own.parts[0], verdict=_titled(own, "Verdict"),
         figures=[part for part in own.parts[1:] if part.title != "Verdict"], remedy=remedy.parts, fitted=fitted,
-        scene=scene(result, balanced.after if fitted else None),
+        scene=scene(result, balanced.after if fitted else None, system),
         pictures=[Markup(panel(now, *each)) for each in _PICTURES],
         compared=[Markup(panel(after, *each)) for each in _COMPARED] if fitted else [],
         style=Markup((FOLDER / "report.css").read_text(encoding="utf-8")),

@@ -1,4 +1,4 @@
-"""What the page needs to turn the mechanism and its vectors: plain figures, mm, deg, N and N m, ready for JSON."""
+"""What the page needs to turn the mechanism and its vectors: plain figures in mm, deg and the reader's units, ready for JSON."""
 from __future__ import annotations
 
 from typing import Any
@@ -12,18 +12,22 @@ from ..core.phasors import Phasors
 from ..core.rotary import Rotary
 from ..engine import Engine
 from .figures import clean, order_number
+from .units import System, Unit
 
 ASSUMED_BORE = 0.95             # of the stroke, where a file gives none: pistons have to be drawn
 
 
-def scene(now: Analysis, after: Analysis | None) -> dict[str, Any]:
+def scene(now: Analysis, after: Analysis | None, system: System) -> dict[str, Any]:
     """The mechanism, and what shakes as the engine is and with devices fitted."""
     engine = now.engine
     stroke, bore = 2e3 * float(engine.cylinders.radius), clean(engine.bore_m * 1e3)
-    variants = [_variant("as in the file", now)] + ([] if after is None else [_variant("with the devices fitted", after)])
+    variants = [_variant("as in the file", now, system)]
+    if after is not None:
+        variants.append(_variant("with the devices fitted", after, system))
     return {
         "stroke": stroke, "bore": bore or ASSUMED_BORE * stroke, "rotary": isinstance(engine.cylinders.linkage, Rotary),
         "cylinders": _cylinders(engine), "variants": variants,
+        "units": {"force": _unit(system.force), "moment": _unit(system.moment)},
         "orders": [order_number(n) for n in now.orders if _shakes(now, n) or (after is not None and _shakes(after, n))],
     }
 
@@ -35,7 +39,7 @@ def _cylinders(engine: Engine) -> list[dict[str, Any]]:
     lengths, offsets = (np.broadcast_to(np.ravel(v) * 1e3, c.count) for v in (c.radius / c.lam, c.offset))
     found = []
     for row, number in enumerate(engine.numbers):
-        entry = {"number": number, "axis": float(axes[row]), "phase": float(c.angle_deg[row]), "z": float(c.z[row]) * 1e3,
+        entry: dict[str, Any] = {"number": number, "axis": float(axes[row]), "phase": float(c.angle_deg[row]), "z": float(c.z[row]) * 1e3,
                  "rod": float(lengths[row]), "offset": float(offsets[row])}
         if isinstance(rods, Articulated) and rods.master[row] != row:
             pin = complex(rods.knuckle[row]) * float(c.radius) * 1e3
@@ -44,16 +48,20 @@ def _cylinders(engine: Engine) -> list[dict[str, Any]]:
     return found
 
 
-def _variant(label: str, result: Analysis) -> dict[str, Any]:
-    spectra = result.spectra
+def _variant(label: str, result: Analysis, system: System) -> dict[str, Any]:
+    force, moment = result.spectra.force, result.spectra.moment
     return {"label": label, "devices": [_device(d) for d in result.engine.devices],
-            **{q: _rows(p) for q, p in spectra.items() if q in ("force", "moment", "roll")}}
+            "force": [] if force is None else _rows(force, system.force), "moment": [] if moment is None else _rows(moment, system.moment)}
 
 
-def _rows(phasors: Phasors) -> list[list[float]]:
+def _rows(phasors: Phasors, unit: Unit) -> list[list[float]]:
     """order, forward x and y, backward x and y."""
     vectors = zip(phasors.orders, phasors.forward, phasors.backward, strict=True)
-    return [[float(n), *(float(v) + 0.0 for v in (f.real, f.imag, b.real, b.imag))] for n, f, b in vectors]
+    return [[float(n), *(unit.of(float(v)) + 0.0 for v in (f.real, f.imag, b.real, b.imag))] for n, f, b in vectors]
+
+
+def _unit(unit: Unit) -> dict[str, str]:
+    return {"name": unit.name, "thousand": f"k{unit.name}" if unit.size == 1 else ""}
 
 
 def _device(device: Device) -> dict[str, Any]:

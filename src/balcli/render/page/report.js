@@ -41,7 +41,7 @@
     const svg = byId("end"), corners = [[r * 1.5, 0], [-r * 1.5, 0], [0, r * 1.5], [0, -r * 1.5]];
     for (const c of scene.cylinders) {
       const angles = scene.rotary ? Array.from({ length: 24 }, (_, k) => 15 * k) : [c.axis];
-      for (const a of angles) for (const v of [-0.6 * bore, 0.6 * bore]) corners.push(turned([reach * 1.04, v], a));
+      for (const a of angles) for (const v of [-0.6 * bore, 0.6 * bore]) corners.push(turned([reach + 0.3 * bore, v], a));
     }
     for (const variant of scene.variants) for (const d of variant.devices) for (const s of [-1, 1]) corners.push([d.at[0] + s * 0.5 * r, d.at[1] + s * 0.5 * r]);
     frame(svg, corners.map(([x, y]) => [y, -x]));
@@ -57,9 +57,17 @@
       return { c, own, rod, piston, pin };
     });
     const crank = element("g", { opacity: 0.92 }, svg);
+    const knuckles = Math.max(0, ...scene.cylinders.map((c) => c.master === undefined ? 0 : Math.hypot(...c.knuckle)));
+    const bigEnd = element("circle", { class: "web", r: knuckles ? knuckles + 0.2 * r : 0 }, crank);
+    const eyes = scene.cylinders.filter((c) => c.master !== undefined).map((c) => ({ c, eye: element("circle", { class: "pin", r: 0.13 * r }, crank) }));
     const webs = plain.map((c) => ({ c, web: element("path", { class: "web", d: web(r) }, crank), pin: element("circle", { class: "pin", r: 0.2 * r }, crank) }));
     element("circle", { class: "pin", r: 0.26 * r }, crank);
-    const devices = element("g", {}, svg);
+    const devices = element("g", {}, svg), banks = new Map();
+    for (const c of scene.rotary ? [] : scene.cylinders) banks.set(c.axis, [...(banks.get(c.axis) || []), c.number]);
+    for (const [axis, numbers] of banks) {
+      const [x, y] = turned([reach + 0.18 * bore, 0], axis), shown = numbers.length > 6 ? [...numbers.slice(0, 5), "…"] : numbers;
+      element("text", { class: "number", x: y, y: -x, "font-size": 0.2 * bore }, svg).textContent = shown.join(" ");
+    }
     return (theta, variant) => {
       for (const { c, own, rod, piston, pin } of cylinders) {
         const { lower, piston: at, axis } = drive(c, theta);
@@ -67,6 +75,12 @@
         set(rod, { x1: lower[1], y1: -lower[0], x2: at[1], y2: -at[0] });
         set(piston, { transform: `translate(${at[1]} ${-at[0]})` });
         set(pin, { cx: at[1], cy: -at[0] });
+      }
+      const [up, right] = turned([r, 0], pinAngle(plain[0], theta));
+      set(bigEnd, { cx: right, cy: -up });
+      for (const { c, eye } of eyes) {
+        const [x, y] = turned(drive(c, theta).lower, c.axis);
+        set(eye, { cx: y, cy: -x });
       }
       for (const { c, web: shape, pin } of webs) {
         const angle = pinAngle(c, theta);
@@ -80,12 +94,13 @@
 
   // A weight as half a disc that points where it pulls; a slider as a block on its path.
   function drawDevices(group, devices, theta) {
+    const sizeOf = (d) => Math.hypot(...d.forward) + Math.hypot(...d.backward), most = Math.max(...devices.map(sizeOf)) || 1;
     group.replaceChildren();
     for (const d of devices) {
-      const size = Math.hypot(...d.forward) + Math.hypot(...d.backward), [x, y] = d.at, radius = (d.order === 1 && !x && !y ? 0.8 : 0.45) * r;
+      const size = sizeOf(d), [x, y] = d.at, radius = (0.2 + 0.5 * Math.sqrt(size / most)) * r;
       if (Math.hypot(...d.forward) && Math.hypot(...d.backward)) {
         const v = add(spin(d.forward, d.order * theta), spin(d.backward, -d.order * theta)), k = radius / size;
-        element("circle", { class: "weight", cx: y + v[1] * k, cy: -x - v[0] * k, r: radius / 3 }, group);
+        element("circle", { class: "weight", cx: y + v[1] * k, cy: -x - v[0] * k, r: radius / 2 }, group);
         continue;
       }
       const v = add(spin(d.forward, d.order * theta), spin(d.backward, -d.order * theta)), angle = Math.atan2(v[1], v[0]) * 180 / Math.PI;
@@ -99,34 +114,46 @@
     const svg = byId("side"), spread = (f) => plain.concat(scene.cylinders).reduce((sum, c) => sum + f(rad(c.axis)) ** 2, 0);
     const above = !scene.rotary && spread(Math.sin) > spread(Math.cos) * 1.01;      // flat engines are seen from above
     const height = ([x, y]) => above ? y : x;
-    byId("side-caption").textContent = `From the side: z to the right, free end on the left; ${above ? "y" : "x"} up`;
+    byId("side-caption").textContent = `From ${above ? "above" : "the side"}: z to the right, free end on the left; ${above ? "y" : "x"} up`;
     const corners = [[near - bore * 0.75, -1.4 * r], [far + bore * 0.75, 1.4 * r]];
     for (const c of scene.cylinders) for (const s of [0, 1]) for (const a of scene.rotary ? [0, 90, 180, 270] : [c.axis]) corners.push([c.z, height(turned([reach * 1.04, (s - 0.5) * bore], a))]);
     frame(svg, corners.map(([z, h]) => [z, -h]));
     element("path", { class: "axis dashed", d: `M ${near - bore} 0 H ${far + bore}` }, svg);
     const crank = element("g", {}, svg);
-    const throws = plain.map((c) => ({ c, throw: element("path", { class: "rod", "stroke-width": 0.26 * r, fill: "none" }, crank) }));
+    const shaft = element("path", { class: "crank", "stroke-width": Math.min(0.16 * r, 0.2 * throwWidth) }, crank), throws = throwsOf();
     const cylinders = backToFront.map((c) => {
-      const group = element("g", { opacity: 0.85 }, svg);
-      return { c, rod: element("line", { class: "rod", "stroke-width": 0.2 * r }, group), piston: element("rect", { class: "piston" }, group) };
+      const group = element("g", { opacity: 0.8 }, svg);
+      return { c, rod: element("line", { class: "rod", "stroke-width": Math.min(0.2 * r, 0.4 * throwWidth) }, group), piston: element("rect", { class: "piston" }, group),
+        text: element("text", { class: "number", "font-size": 0.26 * bore }, group) };
     });
+    for (const { c, text } of cylinders) text.textContent = c.number;
     return (theta) => {
-      for (const { c, throw: path } of throws) {
-        const pin = height(turned([r, 0], pinAngle(c, theta))), w = throwWidth / 2;
-        set(path, { d: `M ${c.z - 1.4 * w} 0 H ${c.z - w} V ${-pin} H ${c.z + w} V 0 H ${c.z + 1.4 * w}` });
-      }
-      for (const { c, rod, piston } of cylinders) {
+      const bends = throws.map(({ c, from, to }) => `H ${from} V ${-height(turned([r, 0], pinAngle(c, theta)))} H ${to} V 0`);
+      set(shaft, { d: `M ${near - bore * 0.6} 0 ${bends.join(" ")} H ${far + bore * 0.6}` });
+      for (const { c, rod, piston, text } of cylinders) {
         const { lower, piston: at, axis } = drive(c, theta);
         const top = height(turned([at[0] + crown, at[1]], axis)), bottom = height(turned([at[0] - skirt, at[1]], axis));
         const across = bore * Math.abs(height(turned([0, 1], axis)));               // of a bank that leans
         const high = Math.max(top, bottom) + across / 2, low = Math.min(top, bottom) - across / 2;
         set(rod, { x1: c.z, y1: -height(turned(lower, axis)), x2: c.z, y2: -height(turned(at, axis)) });
         set(piston, { x: c.z - bore * 0.485, y: -high, width: bore * 0.97, height: high - low });
+        set(text, { x: c.z, y: -(high + low) / 2 });
       }
     };
   }
   const gaps = [...new Set(depths.map((z) => Math.round(z * 10) / 10))].sort((a, b) => a - b).map((z, k, all) => k ? z - all[k - 1] : Infinity);
   const throwWidth = Math.min(0.5 * bore, 0.6 * Math.min(...gaps));
+
+  // Crank pins along the shaft; neighbouring rods whose pins point the same way stand on one.
+  function throwsOf() {
+    const found = [], same = (a, b) => Math.abs(((pinAngle(a, 0) - pinAngle(b, 0)) % 360 + 540) % 360 - 180) < 0.01;
+    for (const c of [...plain].sort((a, b) => a.z - b.z)) {
+      const last = found.at(-1);
+      if (last && same(last.c, c) && c.z - last.to < 0.5 * bore) last.to = c.z + throwWidth / 2;
+      else found.push({ c, from: c.z - throwWidth / 2, to: c.z + throwWidth / 2 });
+    }
+    return found;
+  }
 
   function frame(svg, points) {
     const xs = points.map((p) => p[0]), ys = points.map((p) => p[1]), margin = 0.03 * scene.stroke;
@@ -138,17 +165,20 @@
   const add = ([a, b], [c, d]) => [a + c, b + d];
   const spin = (v, degrees) => turned(v, degrees);
   const sum = (rows, theta) => rows.reduce((v, [n, a, b, c, d]) => add(v, add(spin([a, b], n * theta), spin([c, d], -n * theta))), [0, 0]);
-  const nice = (value) => { const power = 10 ** Math.floor(Math.log10(value)); return [1, 2, 5, 10].map((k) => k * power).find((v) => v >= value * 0.999999); };
-  const figure = (value, unit) => value >= 5000 ? `${(value / 1000).toPrecision(4)} k${unit}` : `${value ? value.toPrecision(4) : 0} ${unit}`;
+  const nice = (value) => { const power = 10 ** Math.floor(Math.log10(value)); return [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10].map((k) => k * power).find((v) => v >= value * 0.999999); };
+  const digits = (value) => value >= 1000 ? value.toFixed(0) : value.toPrecision(4);
+  function figure(value, { name, thousand }, write = digits) {
+    return thousand && value >= 5000 ? `${write(value / 1000)} ${thousand}` : `${write(value)} ${name}`;
+  }
   const HALF = 100;
 
   function locusView(id, unit) {
     const svg = byId(id), now = byId(`${id}-now`);
     svg.setAttribute("viewBox", "-112 -112 224 224");
     element("path", { class: "axis", d: "M -108 0 H 108 M 0 -108 V 108" }, svg);
-    const rings = [0.5, 1].map((share) => ({ share, ring: element("circle", { class: "axis", r: HALF * share }, svg), label: element("text", { x: 3, y: -HALF * share - 2 }, svg) }));
-    element("text", { x: -9, y: -104 }, svg).textContent = "x";
-    element("text", { x: 104, y: -3 }, svg).textContent = "y";
+    const rings = [0.5, 1].map((share) => ({ share, ring: element("circle", { class: "axis", r: HALF * share }, svg), label: element("text", { class: "scale", x: 3, y: -HALF * share - 2 }, svg) }));
+    element("text", { class: "scale", x: -9, y: -104 }, svg).textContent = "x";
+    element("text", { class: "scale", x: 104, y: -3 }, svg).textContent = "y";
     const old = element("path", { class: "old" }, svg), curve = element("path", { class: "curve" }, svg), chain = element("g", {}, svg);
     const vector = element("line", { class: "vector", id: `${id}-vector`, x1: 0, y1: 0 }, svg), tip = element("circle", { class: "tip", r: 3.2 }, svg);
     let rows = [], scale = 1;
@@ -159,7 +189,7 @@
         rows = all;
         const most = Math.max(largest(rows), before ? largest(before) : 0), full = most ? nice(most) : 1;
         scale = HALF / full;
-        for (const { share, label } of rings) label.textContent = most ? figure(full * share, unit) : "";
+        for (const { share, label } of rings) label.textContent = most ? figure(full * share, unit, String) : "";
         set(curve, { d: path(rows) });
         set(old, { d: before ? path(before) : "" });
       },
@@ -183,7 +213,8 @@
   }
 
   // ---------------------------------------------------------------- controls
-  const end = endView(), side = sideView(), views = { force: locusView("force", "N"), moment: locusView("moment", "N·m") };
+  if (scene.rotary) byId("end-caption").textContent = "From the free end: x up, y to the right; the cylinders turn clockwise, the crank stands still";
+  const end = endView(), side = sideView(), views = { force: locusView("force", scene.units.force), moment: locusView("moment", scene.units.moment) };
   const angle = byId("angle"), play = byId("play"), chain = byId("chain");
   const switchFor = (parent, type, name, value, text, checked) => {
     const label = document.createElement("label"), input = document.createElement("input");

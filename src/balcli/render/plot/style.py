@@ -72,7 +72,7 @@ def inline(svg: bytes, name: str) -> str:
     text = svg.decode()
     text = text[text.index("<svg"):]
     text = re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.S)
-    text = re.sub(r'(\bid="|"#|url\(#)', rf"\g<1>{name}-", text)
+    text = re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{name}-", text)
     text = re.sub(r'(<svg[^>]*?) width="([\d.]+)pt" height="[\d.]+pt"', r'\1 style="max-width: \2pt"', text, count=1)
     return re.sub("|".join(NAMES), lambda colour: f"var(--{NAMES[colour[0]]})", text)
 

@@ -1,0 +1,174 @@
+"""`balcli check`: what is recorded, what moved, and how it is named."""
+from __future__ import annotations
+
+import json
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+from kit import GOOD, changed
+
+from balcli.cli import main
+from balcli.engine import build
+from balcli.enginefile import parse
+from balcli.regression import TOLERANCE, differences, record, recorded_at
+
+ENGINES = Path(__file__).parents[1] / "engines"
+
+
+@pytest.fixture
+def check(capsys, monkeypatch):
+    def run(*args: object) -> tuple[int, str, str]:
+        monkeypatch.setattr(sys, "argv", ["balcli", "check", *map(str, args)])
+        with pytest.raises(SystemExit) as done:
+            main()
+        out, err = capsys.readouterr()
+        return int(done.value.code or 0), out, err
+    return run
+
+
+@pytest.fixture
+def file(tmp_path):
+    """An engine file with its recorded result."""
+    engine_file = tmp_path / "four.toml"
+    engine_file.write_text(GOOD)
+    target = recorded_at(engine_file)
+    target.parent.mkdir()
+    target.write_text(record(build(parse(GOOD))))
+    return engine_file
+
+
+def edited(file: Path, edit) -> None:
+    """Changes the recorded result of an engine file."""
+    target = recorded_at(file)
+    document = json.loads(target.read_text())
+    edit(document)
+    target.write_text(json.dumps(document))
+
+
+def test_all_example_engines_are_as_recorded(check):
+    count = len(list(ENGINES.glob("*.toml")))
+    assert check(ENGINES) == (0, f"{count} engines, 0 differences\n", "")
+
+
+def test_recorded_results_are_the_product_of_todays_program(tmp_path, check):
+    """check --update writes the same file again: keys, digits and layout."""
+    for suffix in (".toml", ".json"):
+        source = ENGINES / ("v8_crossplane.toml" if suffix == ".toml" else "expected/v8_crossplane.json")
+        target = tmp_path / ("" if suffix == ".toml" else "expected") / source.name
+        target.parent.mkdir(exist_ok=True)
+        shutil.copy(source, target)
+    assert check("--update", tmp_path) == (0, "1 recorded, 0 differences\n", "")
+    assert check(tmp_path) == (0, "1 engines, 0 differences\n", "")
+    old, new = (json.loads(p.joinpath("expected/v8_crossplane.json").read_text()) for p in (ENGINES, tmp_path))
+    assert old.keys() == new.keys()
+    assert [o.keys() for o in old["orders"]] == [n.keys() for n in new["orders"]]
+
+
+def test_nothing_moved(check, file):
+    assert check(file) == (0, "1 engines, 0 differences\n", "")
+
+
+def test_an_engine_without_a_recorded_result_is_a_difference(check, tmp_path):
+    lonely = tmp_path / "lonely.toml"
+    lonely.write_text(GOOD)
+    assert check(lonely) == (1, "lonely: no result is recorded in expected/lonely.json; check --update records it\n"
+                                "1 engines, 1 differences\n", "")
+    assert not (tmp_path / "expected").exists()
+    assert check(lonely, "--update") == (0, "1 recorded, 0 differences\n", "")
+    assert check(lonely) == (0, "1 engines, 0 differences\n", "")
+
+
+def test_every_figure_that_moved_is_named(check, file):
+    """A tenth of a per cent more piston moves forces, torque and roll; order, part, old and new figure are told."""
+    before = {(e["order"], "force"): e["force_N"] for e in json.loads(recorded_at(file).read_text())["orders"]}
+    file.write_text(changed(("mass = 0.5", "mass = 0.5005")))
+    status, out, err = check(file)
+    assert (status, err) == (1, "")
+    *lines, last = out.splitlines()
+    assert last == f"1 engines, {len(lines)} differences"
+    old = before[2, "force"]["forward"][0]
+    (line,) = [line for line in lines if line.startswith("four: force order 2 forward x, N: ")]
+    assert line.startswith(f"four: force order 2 forward x, N: {old:.10g} -> ")
+    new = float(line.split("-> ")[1].split(" (")[0])
+    recip = 0.5 + 0.6 * 45 / 160
+    assert new == pytest.approx(old * (recip + 0.0005) / recip, rel=1e-9)
+    assert any(line.startswith("four: force peak, N: ") for line in lines)
+    assert any(line.startswith("four: torque order 2 sin, N·m: ") for line in lines)
+    assert any(line.startswith("four: roll order 2 sin, N·m: ") for line in lines)
+    assert not any("moment" in line for line in lines)
+    orders = [int(line.split("order ")[1].split()[0]) for line in lines if " order " in line]
+    assert orders == sorted(orders)
+
+
+@pytest.mark.parametrize(("share", "moved"), [(0.9, False), (1.1, True)])
+def test_the_tolerance_is_a_share_of_the_largest_order(file, share, moved):
+    """What matters is the size of the quantity: the same change in a small order counts the same."""
+    largest = max(max(map(abs, e["force_N"]["forward"])) for e in json.loads(recorded_at(file).read_text())["orders"])
+    peak = json.loads(recorded_at(file).read_text())["peak"]["force_N"]
+
+    def edit(document):
+        document["orders"][3]["force_N"]["forward"][0] += share * TOLERANCE * max(largest, peak)
+    edited(file, edit)
+    found = differences("four", build(parse(GOOD)), recorded_at(file))
+    assert len(found) == moved
+    assert all(str(d).startswith("four: force order ") for d in found)
+
+
+def test_an_order_that_is_not_recorded_and_one_that_is_no_more(check, file):
+    edited(file, lambda document: document["orders"].pop(1))
+    status, out, _ = check(file)
+    assert status == 1
+    assert "four: force order 2 forward x, N: 0 -> " in out
+
+
+def test_angles_are_not_compared(check, file):
+    """They jump where an ellipse is nearly a circle."""
+    def edit(document):
+        for entry in document["orders"]:
+            for value in entry.values():
+                if isinstance(value, dict):
+                    value |= {key: 12.5 for key in ("axis_deg", "peak_deg") if key in value}
+        document["peak"] |= {"force_deg": 1.0, "moment_deg": 2.0}
+    edited(file, edit)
+    assert check(file) == (0, "1 engines, 0 differences\n", "")
+
+
+def test_speed_and_number_of_cylinders(check, file):
+    edited(file, lambda document: (document.update(speed_rpm=2999.0), document["engine"].update(cylinders=5)))
+    assert check(file) == (1, "four: number of cylinders: 5 -> 4\nfour: speed, rpm: 2999.0 -> 3000.0\n1 engines, 2 differences\n", "")
+
+
+@pytest.mark.parametrize(("text", "reason"), [
+    ("{", "JSONDecodeError: Expecting property name enclosed in double quotes: line 1 column 2 (char 1)"),
+    ("{}", "KeyError: 'orders'"),
+    ("[]", "TypeError: list indices must be integers or slices, not str"),
+    ('{"orders": [{"order": 1}]}', "KeyError: 'force_N'"),
+])
+def test_a_broken_record_is_a_difference(check, file, text, reason):
+    recorded_at(file).write_text(text)
+    assert check(file) == (1, f"four: the result recorded in expected/four.json cannot be read ({reason}); "
+                              "check --update records it anew\n1 engines, 1 differences\n", "")
+    assert check(file, "--update") == (0, "1 recorded, 0 differences\n", "")
+    assert check(file) == (0, "1 engines, 0 differences\n", "")
+
+
+@pytest.mark.parametrize("text", [
+    '{"orders": [{"order": 1, "force_N": null}]}', '{"orders": [{"order": -3}]}', '{"orders": 5}', '{"orders": [], "peak": []}',
+    '{"orders": [], "peak": {"force_N": null, "moment_Nm": 0}}', '{"orders": [], "peak": {"force_N": 0, "moment_Nm": 0}}',
+    '{"orders": [{"order": 1e99}], "peak": {}}', "null", '"text"', "\xff",
+    '{"orders": [], "engine": [], "peak": {"force_N": 0, "moment_Nm": 0}}',
+])
+def test_no_record_however_broken_brings_check_down(check, file, text):
+    recorded_at(file).write_text(text, encoding="latin-1")
+    status, out, err = check(file)
+    assert (status, err) == (1, "")
+    assert out.startswith("four: ")
+
+
+def test_a_bad_engine_file_among_good_ones(check, file, tmp_path):
+    (tmp_path / "a.toml").write_text("[crank]")
+    status, out, err = check(tmp_path)
+    assert (status, out) == (2, "1 engines, 0 differences\n")
+    assert err.startswith(f"balcli: {tmp_path / 'a.toml'}: ")

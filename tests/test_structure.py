@@ -1,0 +1,136 @@
+"""The house in order: one way through it, rooms that keep to themselves, commands that only call, all of them documented."""
+from __future__ import annotations
+
+import ast
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import balcli
+from balcli.cli import COMMANDS
+from balcli.render.formats import Format
+
+ROOT = Path(__file__).parents[1]
+SOURCE = ROOT / "src" / "balcli"
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+CORE = sorted((SOURCE / "core").rglob("*.py"))
+RENDER = sorted((SOURCE / "render").rglob("*.py"))
+LINES_OF_A_COMMAND = 25
+
+
+def tree(file: Path) -> ast.Module:
+    return ast.parse(file.read_text(encoding="utf-8"))
+
+
+def name_of(file: Path) -> str:
+    return file.relative_to(SOURCE).as_posix()
+
+
+def imported(file: Path) -> Iterator[tuple[str, str]]:
+    """(module, name) of everything a file imports, modules of its own with their full name; also inside functions."""
+    package = ["balcli", *file.relative_to(SOURCE).parts[:-1]]
+    for node in ast.walk(tree(file)):
+        if isinstance(node, ast.Import):
+            yield from ((alias.name, "") for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            own = package[:len(package) - node.level + 1] if node.level else []
+            module = ".".join([*own, *([node.module] if node.module else [])])
+            yield from ((module, alias.name) for alias in node.names)
+
+
+# ------------------------------------------------------------------ commands
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_command_is_a_module_with_a_function_of_its_name(command):
+    file = SOURCE / "commands" / f"{command}.py"
+    (function,) = (n for n in tree(file).body if isinstance(n, ast.FunctionDef) and n.name == command)
+    described, *body = function.body
+    assert isinstance(described, ast.Expr), "help is the docstring"
+    length = body[-1].end_lineno - body[0].lineno + 1
+    assert length <= LINES_OF_A_COMMAND
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_command_prints_once_and_computes_nothing(command):
+    """No arithmetic library is imported by a command, and results leave by way of commands/output.py."""
+    file = SOURCE / "commands" / f"{command}.py"
+    assert not {module.partition(".")[0] for module, _ in imported(file)} & {"numpy", "rich", "matplotlib", "csv"}
+    calls = [ast.unparse(n.func) for n in ast.walk(tree(file)) if isinstance(n, ast.Call)]
+    assert "print" not in calls
+    assert "sys.stdout.write" not in calls
+
+
+def test_every_command_is_documented():
+    """In the README's own words, `balcli NAME` in code."""
+    assert [c for c in COMMANDS if not re.search(rf"`balcli {c}\b|^\$ balcli {c}\b", README, re.MULTILINE)] == []
+
+
+def test_every_format_is_documented():
+    assert [form for form in Format if form not in README] == []
+
+
+def test_modules_of_commands_are_commands_or_their_helpers():
+    """No command is forgotten in the list: a module whose function bears its name and has help is one."""
+    forgotten = []
+    for file in (SOURCE / "commands").glob("*.py"):
+        functions = [n for n in tree(file).body if isinstance(n, ast.FunctionDef) and n.name == file.stem]
+        if functions and file.stem not in COMMANDS:
+            forgotten.append(file.stem)
+    assert forgotten == []
+
+
+# ------------------------------------------------------------------ rooms
+@pytest.mark.parametrize("file", CORE, ids=name_of)
+def test_core_knows_numpy_and_the_standard_library_alone(file):
+    strangers = {module for module, _ in imported(file)
+                 if module.partition(".")[0] not in {"numpy", "__future__", *sys.stdlib_module_names}
+                 and not module.startswith("balcli.core")}
+    assert strangers == set()
+
+
+# Types and constants of a room may be named by what shows them, functions not: these shape figures for the eye.
+SHAPING = {("balcli.analysis", "textbook"), ("balcli.tables.table", "deviates"), ("balcli.tables.table", "figure"),
+           ("balcli.tables.table", "rational"), ("balcli.tables.table", "rounded")}
+COMPUTING = ("balcli.analysis", "balcli.balancing", "balcli.spectrum", "balcli.sizing", "balcli.core", "balcli.engine",
+             "balcli.enginefile", "balcli.sweep", "balcli.scatter", "balcli.search", "balcli.compare", "balcli.curves",
+             "balcli.tables")
+
+
+@pytest.mark.parametrize("file", RENDER, ids=name_of)
+def test_renderers_call_no_computation(file):
+    if file.name == "pages.py":
+        pytest.skip("analyses the engine of a page itself")
+    called = {(module, name) for module, name in imported(file)
+              if module.startswith(COMPUTING) and name[:1].islower() and (module, name) not in SHAPING}
+    assert called == set()
+
+
+@pytest.mark.parametrize("file", sorted(SOURCE.rglob("*.py")), ids=name_of)
+def test_files_speak_for_themselves(file):
+    """A docstring, and none of what fails silently: blanket except, assert as a check, eval."""
+    module = tree(file)
+    if file.name != "__main__.py":
+        assert ast.get_docstring(module)
+    for node in ast.walk(module):
+        assert not isinstance(node, ast.Assert), f"line {node.lineno}"
+        assert not (isinstance(node, ast.ExceptHandler) and node.type is None), f"line {node.lineno}"
+        assert not (isinstance(node, ast.ExceptHandler) and ast.unparse(node.type) in ("Exception", "BaseException")), f"line {node.lineno}"
+        assert not (isinstance(node, ast.Call) and ast.unparse(node.func) in ("eval", "exec")), f"line {node.lineno}"
+
+
+def test_public_names_are_there():
+    """The library's door: what it promises can be had."""
+    for name in balcli.__all__:
+        assert getattr(balcli, name) is not None
+    with pytest.raises(AttributeError, match="module 'balcli' has no attribute 'frobnicate'"):
+        _ = balcli.frobnicate
+
+
+def test_the_library_does_what_the_command_does():
+    engine = balcli.load(ROOT / "engines" / "v8_crossplane.toml")
+    found = balcli.analyze(engine, only=["moment"]).spectra.moment
+    left = balcli.balance(engine, "counterweights").after.spectra.moment
+    assert found.major[0] > 1000
+    assert left.major[0] < 1e-9 * found.major[0]
