@@ -11,11 +11,14 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
+from contextlib import chdir, redirect_stderr, redirect_stdout
 from difflib import SequenceMatcher
+from io import StringIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
@@ -77,12 +80,33 @@ def shown(text: str) -> Iterator[Shown]:
 
 def printed(one: Shown, folder: Path) -> list[str]:
     """What a command prints, standard error included. AssertionError if it fails."""
+    plain = one.command.startswith("balcli ") and not one.python and not set("|&;<>$*?") & set(one.command)
+    status, output = _inside(one.command, folder) if plain else _outside(one, folder)
+    if status:
+        raise AssertionError(f"{one.command}\nends with status {status}:\n{output}")
+    return [line.rstrip() for line in output.splitlines()]
+
+
+def _inside(command: str, folder: Path) -> tuple[object, str]:
+    """A command without a shell's help, in this process, which is quicker."""
+    from balcli.cli import main
+
+    output, argv, sys.argv = StringIO(), sys.argv, shlex.split(command)
+    try:
+        with chdir(folder), redirect_stdout(output), redirect_stderr(output):
+            main()
+    except SystemExit as end:
+        return end.code, output.getvalue()
+    finally:
+        sys.argv = argv
+    return 0, output.getvalue()
+
+
+def _outside(one: Shown, folder: Path) -> tuple[object, str]:
     command = [sys.executable, "-c", one.command] if one.python else ["bash", "-c", FUNCTION + one.command]
     done = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=ENVIRONMENT,
                           text=True, encoding="utf-8", timeout=120)
-    if done.returncode:
-        raise AssertionError(f"{one.command}\nends with status {done.returncode}:\n{done.stdout}")
-    return [line.rstrip() for line in done.stdout.splitlines()]
+    return done.returncode, done.stdout
 
 
 def agrees(expected: list[str], found: list[str]) -> bool:
