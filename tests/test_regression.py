@@ -59,25 +59,25 @@ def test_recorded_results_are_the_product_of_todays_program(tmp_path, check):
         target = tmp_path / ("" if suffix == ".toml" else "expected") / source.name
         target.parent.mkdir(exist_ok=True)
         shutil.copy(source, target)
-    assert check("--update", tmp_path) == (0, "1 recorded, 0 differences\n", "")
-    assert check(tmp_path) == (0, "1 engines, 0 differences\n", "")
+    assert check("--update", tmp_path) == (0, "1 engine recorded\n", "")
+    assert check(tmp_path) == (0, "1 engine, 0 differences\n", "")
     old, new = (json.loads(p.joinpath("expected/v8_crossplane.json").read_text()) for p in (ENGINES, tmp_path))
     assert old.keys() == new.keys()
     assert [o.keys() for o in old["orders"]] == [n.keys() for n in new["orders"]]
 
 
 def test_nothing_moved(check, file):
-    assert check(file) == (0, "1 engines, 0 differences\n", "")
+    assert check(file) == (0, "1 engine, 0 differences\n", "")
 
 
 def test_an_engine_without_a_recorded_result_is_a_difference(check, tmp_path):
     lonely = tmp_path / "lonely.toml"
     lonely.write_text(GOOD)
     assert check(lonely) == (1, "lonely: no result is recorded in expected/lonely.json; check --update records it\n"
-                                "1 engines, 1 differences\n", "")
+                                "1 engine, 1 difference\n", "")
     assert not (tmp_path / "expected").exists()
-    assert check(lonely, "--update") == (0, "1 recorded, 0 differences\n", "")
-    assert check(lonely) == (0, "1 engines, 0 differences\n", "")
+    assert check(lonely, "--update") == (0, "1 engine recorded\n", "")
+    assert check(lonely) == (0, "1 engine, 0 differences\n", "")
 
 
 def test_every_figure_that_moved_is_named(check, file):
@@ -87,7 +87,7 @@ def test_every_figure_that_moved_is_named(check, file):
     status, out, err = check(file)
     assert (status, err) == (1, "")
     *lines, last = out.splitlines()
-    assert last == f"1 engines, {len(lines)} differences"
+    assert last == f"1 engine, {len(lines)} differences"
     old = before[2, "force"]["forward"][0]
     (line,) = [line for line in lines if line.startswith("four: force order 2 forward x, N: ")]
     assert line.startswith(f"four: force order 2 forward x, N: {old:.10g} -> ")
@@ -132,12 +132,12 @@ def test_angles_are_not_compared(check, file):
                     value |= {key: 12.5 for key in ("axis_deg", "peak_deg") if key in value}
         document["peak"] |= {"force_deg": 1.0, "moment_deg": 2.0}
     edited(file, edit)
-    assert check(file) == (0, "1 engines, 0 differences\n", "")
+    assert check(file) == (0, "1 engine, 0 differences\n", "")
 
 
 def test_speed_and_number_of_cylinders(check, file):
     edited(file, lambda document: (document.update(speed_rpm=2999.0), document["engine"].update(cylinders=5)))
-    assert check(file) == (1, "four: number of cylinders: 5 -> 4\nfour: speed, rpm: 2999.0 -> 3000.0\n1 engines, 2 differences\n", "")
+    assert check(file) == (1, "four: number of cylinders: 5 -> 4\nfour: speed, rpm: 2999.0 -> 3000.0\n1 engine, 2 differences\n", "")
 
 
 @pytest.mark.parametrize(("text", "reason"), [
@@ -149,9 +149,9 @@ def test_speed_and_number_of_cylinders(check, file):
 def test_a_broken_record_is_a_difference(check, file, text, reason):
     recorded_at(file).write_text(text)
     assert check(file) == (1, f"four: the result recorded in expected/four.json cannot be read ({reason}); "
-                              "check --update records it anew\n1 engines, 1 differences\n", "")
-    assert check(file, "--update") == (0, "1 recorded, 0 differences\n", "")
-    assert check(file) == (0, "1 engines, 0 differences\n", "")
+                              "check --update records it anew\n1 engine, 1 difference\n", "")
+    assert check(file, "--update") == (0, "1 engine recorded\n", "")
+    assert check(file) == (0, "1 engine, 0 differences\n", "")
 
 
 @pytest.mark.parametrize("text", [
@@ -170,5 +170,5 @@ def test_no_record_however_broken_brings_check_down(check, file, text):
 def test_a_bad_engine_file_among_good_ones(check, file, tmp_path):
     (tmp_path / "a.toml").write_text("[crank]")
     status, out, err = check(tmp_path)
-    assert (status, out) == (2, "1 engines, 0 differences\n")
+    assert (status, out) == (2, "1 engine, 0 differences\n")
     assert err.startswith(f"balcli: {tmp_path / 'a.toml'}: ")

@@ -13,10 +13,9 @@ import tomli_w
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from balcli.analysis import alone
 from balcli.engine import Engine, build
 from balcli.enginefile import parse
-from balcli.spectrum import SPECTRAL, Spectra, spectra
+from balcli.spectrum import SPECTRAL, Spectra, alone, spectra
 
 SCALED = 1e-12
 ORDERS = np.arange(0.0, 9.0)
