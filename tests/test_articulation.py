@@ -121,7 +121,8 @@ def test_a_radial_with_a_master_rod_shakes_forward_in_the_second_order():
 
 def test_knuckle_pins_on_the_crank_pin_are_equal_rods():
     """With a vanishing knuckle radius and equal rods nothing is left of the articulation."""
-    articulated = built(("knuckle_radius = 52", "knuckle_radius = 1e-11"), ("length = 188, mass = 0.62, cg = 90", "length = 240, mass = 1.9, cg = 55"))
+    articulated = built(("knuckle_radius = 52", "knuckle_radius = 1e-11"),
+                        ("length = 188, mass = 0.62, cg = 90", "length = 240, mass = 1.9, cg = 55"))
     plain = engine.build(enginefile.parse(RADIAL[:RADIAL.index("[articulation]")]))
     orders = np.arange(1.0, 9.0)
     one, other = spectrum.spectra(articulated, orders), spectrum.spectra(plain, orders)

@@ -30,6 +30,8 @@ def test_comparison_sees_a_changed_figure_and_passes_over_what_is_left_out() -> 
     assert not guide.agrees(["force", "…", "2  0.6", "…"], found)
     assert not guide.agrees(["force", "1  2.5"], found)
     assert not guide.agrees(["1  2.5", "…"], found)
+    assert guide.agrees(["0.12345678901,0.0"], ["0.12345678902,-1.23456789012e-16"])
+    assert not guide.agrees(["0.12345678901"], ["0.12345679901"])
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -166,7 +166,7 @@ def test_uneven_speed():
 # ------------------------------------------------------------------ what cannot be
 @pytest.mark.parametrize(("parts", "message"), [
     ({"cylinder": {"3": {"piston_mass": 1}}},
-     "cylinder.3: there is no cylinder 3; this engine has cylinders 1 to 1"),
+     "cylinder.3: there is no cylinder 3: crank.throws and layout make 1 cylinder; give every throw its angle in crank.throws"),
     ({"rod": {"length": 50}},
      "rod.length: the crank cannot turn: crank radius 50 mm over rod length 50 mm is lambda = 1; "
      "at most 1 - 1e-06 is allowed: make the rod longer"),

@@ -106,8 +106,8 @@ def test_given_both_they_must_agree():
     assert refused(crank={"throws": [0, 180, 180, 0]}, layout={
         "firing_order": [1, 2, 3, 4], "firing_intervals": [180] * 4}) == (
         "engine: layout.firing_order: cylinder 3 is not at top dead centre when it fires: its crank pin stands 180 deg "
-        "after cylinder 1's, and would have to stand at 0 deg (allowed difference 1 deg); change crank.throws, "
-        "firing_order or firing_intervals, or leave crank.throws out")
+        "ahead of cylinder 1's, and would have to stand at 0 deg (allowed difference 1 deg); change crank.throws, "
+        "crank.splay, firing_order or firing_intervals, or leave crank.throws out")
 
 
 def test_an_order_that_takes_more_than_a_cycle():

@@ -51,14 +51,16 @@ def test_one_cylinder_has_a_first_order_force_of_its_mean_distance():
 
 
 def test_the_throw_stands_still():
-    light, heavy = (spectrum.spectra(engine.build(enginefile.parse(GNOME.format(layout="banks = [0]", offset=0).replace("throw_mass = 3", mass))),
-                                     np.arange(1.0, 4.0)) for mass in ("throw_mass = 0", "throw_mass = 9"))
+    text = GNOME.format(layout="banks = [0]", offset=0)
+    light, heavy = (spectrum.spectra(engine.build(enginefile.parse(text.replace("throw_mass = 3", mass))), np.arange(1.0, 4.0))
+                    for mass in ("throw_mass = 0", "throw_mass = 9"))
     for (_, a), (_, b) in zip(light.items(), heavy.items(), strict=True):
         assert np.array_equal(a.forward, b.forward)
 
 
 def test_strokes_and_dead_centres_are_those_of_the_same_engine_with_a_turning_crank():
-    turning, still = (travel(engine.build(enginefile.parse(GNOME.format(layout="radial = 5", offset=9).replace("rotary = true", flag))).cylinders)
+    text = GNOME.format(layout="radial = 5", offset=9)
+    turning, still = (travel(engine.build(enginefile.parse(text.replace("rotary = true", flag))).cylinders)
                       for flag in ("", "rotary = true"))
     assert still.stroke == pytest.approx(turning.stroke, rel=1e-12)
     assert still.top_deg == pytest.approx(turning.top_deg, abs=1e-9)
@@ -95,3 +97,21 @@ def test_no_articulated_rods():
         built(more=more)
     assert [str(p) for p in caught.value.problems] == [
         "articulation: the rods of a rotary engine are taken as equal, all on one pin: leave this table out"]
+
+
+def test_variants_along_two_axes():
+    """Strokes along one axis, rod lengths along the other: what each variant alone gives."""
+    file = enginefile.parse(GNOME.format(layout="radial = 3", offset=4))
+    strokes, lengths = np.array([[100.0], [120.0], [130.0]]), np.array([[220.0, 240.0]])
+
+    def variant(stroke, length):
+        return file.model_copy(update={"crank": file.crank.model_copy(update={"stroke": stroke}),
+                                       "rod": file.rod.model_copy(update={"length": length})})
+    orders = np.arange(1.0, 7.0)
+    together = spectrum.spectra(engine.build(variant(strokes, lengths), rank=2), orders)
+    for i in range(3):
+        for j in range(2):
+            alone = spectrum.spectra(engine.build(variant(strokes[i, 0], lengths[0, j])), orders)
+            for (quantity, many), (_, one) in zip(together.items(), alone.items(), strict=True):
+                difference = np.abs(np.broadcast_to(many.forward, (6, 3, 2))[:, i, j] - one.forward).max()
+                assert difference <= 1e-12 * np.abs(one.forward).max(initial=1e-6), quantity

@@ -95,5 +95,5 @@ def test_compare_in_every_format(engine: str) -> None:
     document = json.loads(run("compare", engine, engine, "--orders", "2", "--only", "force", "-f", "json").stdout)
     (figure,) = document["figures"]
     assert (figure["quantity"], figure["order"], figure["ratios"]) == ("force_N", 2, [1.0, 1.0])
-    for form in ("table", "csv", "markdown"):
-        assert "in-line four" in run("compare", engine, engine, "-f", form).stdout
+    for form, said in (("table", "Free force, N: largest by order"), ("csv", "quantity,order,unit,"), ("markdown", "| order 2 |")):
+        assert said in run("compare", engine, engine, "-f", form).stdout

@@ -13,7 +13,9 @@ from .core.phasors import Array
 from .engine import Engine
 from .errors import BalcliError
 from .sizing import Remedy, auto, fitted
-from .spectrum import SPECTRAL, Spectra, alone, considerable, relevant_orders, spectra
+from .spectrum import SHOWN as SHOWN
+from .spectrum import SPECTRAL, Spectra, considerable, relevant_orders, spectra
+from .spectrum import alone as alone
 
 if TYPE_CHECKING:
     from .core.travel import Travel

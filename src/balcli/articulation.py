@@ -2,18 +2,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .arrays import column
-from .core.articulated import Articulated
 from .core.inertia import Cylinders
-from .core.linkage import revolution
-from .core.phasors import unit
 from .errors import Problem
 from .layout import Plan
 from .model import Articulation, EngineFile
+
+if TYPE_CHECKING:
+    from .core.articulated import Articulated
 
 NEAREST_TO_LOCK = 1e-6              # how far the sine of an articulated rod's angle must stay below 1
 _STEPS = 1440
@@ -75,6 +75,9 @@ def linkage(file: EngineFile, layout: Plan, numbers: Sequence[int], axis: Mappin
     table = file.articulation
     if table is None:
         return None
+    from .core.articulated import Articulated
+    from .core.phasors import unit
+
     chief = masters(file, layout)
     bank = {c.number: c.bank for c in layout.cells}
 
@@ -93,8 +96,10 @@ def linkage(file: EngineFile, layout: Plan, numbers: Sequence[int], axis: Mappin
 
 def locked(file: EngineFile, c: Cylinders, numbers: Sequence[int]) -> Iterator[Problem]:
     """Articulated cylinders whose rod cannot follow its knuckle pin all the way round."""
-    if not isinstance(c.linkage, Articulated):
+    if file.articulation is None:
         return
+    from .core.linkage import revolution
+
     with np.errstate(invalid="ignore"):                                     # beyond 1 there is no angle
         leans = np.abs(c.linkage.motion(revolution(_STEPS), c.lam, c.eps).lean).reshape(len(numbers), -1, _STEPS).max(axis=1)
     turned = c.angle_deg.reshape(len(numbers), -1)[:, 0]

@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,13 +12,15 @@ from numpy.typing import NDArray
 from . import articulation
 from .arrays import column, shared
 from .core.inertia import Cylinders, Device
-from .core.rotary import Rotary
 from .devices import devices
 from .errors import InputError, Problem
 from .layout import Plan, plan
 from .model import Bobweight, EngineFile
 from .rods import Parts, half_rods, mistakes, own_or, rod_of
 from .stations import by_axis, one_object, pins, places, reference, strangers
+
+if TYPE_CHECKING:
+    from .core.rotary import Rotary
 
 
 @dataclass(frozen=True)
@@ -161,9 +163,15 @@ def _cylinders(file: EngineFile, layout: Plan, rods: Mapping[int, Parts], axis: 
         reciprocating=0 * at_pistons if file.layout.rotary else at_pistons,
         rotating=shared([_at_pin(file, layout, rod, n in masters) for n, rod in zip(numbers, parts, strict=True)], rank),
         couple=shared([rod.couple for rod in parts], rank),
-        linkage=Rotary(at_pistons) if file.layout.rotary else
+        linkage=_rotary(at_pistons) if file.layout.rotary else
         articulation.linkage(file, layout, numbers, axis, [rod.big_end for rod in parts], rank),
     ), numbers
+
+
+def _rotary(masses: NDArray[np.float64]) -> Rotary:
+    from .core.rotary import Rotary
+
+    return Rotary(masses)
 
 
 def _weighed(file: EngineFile, layout: Plan, throw: int, rod: Parts) -> Weighed:

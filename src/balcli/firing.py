@@ -55,9 +55,9 @@ def disagreement(fires: Mapping[int, Any], pin: Mapping[int, Any], top: Mapping[
         off = float(np.max(np.abs(_centred(pin[i] - wanted[i]))))
         if off > TOLERANCE:
             return Problem("layout.firing_order", f"cylinder {i} is not at top dead centre when it fires: its crank pin stands "
-                           f"{float(np.ravel(pin[i])[0]) % 360:.6g} deg after cylinder 1's, and would have to stand at "
+                           f"{float(np.ravel(pin[i])[0]) % 360:.6g} deg ahead of cylinder 1's, and would have to stand at "
                            f"{float(np.ravel(wanted[i])[0]):.6g} deg (allowed difference {TOLERANCE:g} deg); change crank.throws, "
-                           "firing_order or firing_intervals, or leave crank.throws out")
+                           "crank.splay, firing_order or firing_intervals, or leave crank.throws out")
     return None
 
 

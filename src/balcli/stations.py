@@ -74,5 +74,6 @@ def by_axis(layout: Plan, axis: Mapping[int, Any]) -> list[int]:
 
 
 def strangers(layout: Plan, own: Mapping[int, Override]) -> list[Problem]:
-    return [Problem(f"cylinder.{n}", f"there is no cylinder {n}; this engine has cylinders 1 to {len(layout.cells)}")
-            for n in own if n not in layout.numbers]
+    count = len(layout.cells)
+    made = f"crank.throws and layout make {count} cylinder{'s' * (count > 1)}; give every throw its angle in crank.throws"
+    return [Problem(f"cylinder.{n}", f"there is no cylinder {n}: {made}") for n in own if n not in layout.numbers]

@@ -144,7 +144,8 @@ class Engine:
         rod = dict(table["rod"] if hung and table else self.data["rod"])
         for group in (("length", "ratio"), ("mass", "cg", "small_end", "big_end"), ("inertia", "pendulum")):
             mine = {k: own["rod_" + k] for k in group if "rod_" + k in own}
-            if mine and not (set(mine) <= {"mass", "cg"} and "small_end" not in rod) and not (set(mine) <= {"small_end", "big_end"} and "small_end" in rod):
+            whole, ends = set(mine) <= {"mass", "cg"}, set(mine) <= {"small_end", "big_end"}
+            if mine and not (whole and "small_end" not in rod) and not (ends and "small_end" in rod):
                 rod = {k: v for k, v in rod.items() if k not in group}
             rod |= mine
         length = rod["length"] / 1e3 if "length" in rod else self.radius / rod["ratio"]
@@ -217,7 +218,8 @@ class Engine:
     def _pace(self) -> np.ndarray:
         """Crank speed over its mean."""
         lines = self.data.get("operation", {}).get("speed_ripple", [])
-        return 1 + sum((line["amplitude"] * np.cos(line["order"] * THETA - math.radians(line.get("angle", 0))) for line in lines), 0 * THETA)
+        waves = (line["amplitude"] * np.cos(line["order"] * THETA - math.radians(line.get("angle", 0))) for line in lines)
+        return 1 + sum(waves, 0 * THETA)
 
     def curves(self, numbers: list[int] | None = None) -> Curves:
         """Of the whole engine, or of some cylinders without the devices."""
@@ -246,7 +248,8 @@ class Engine:
             return max(sum(map(abs, c.order(quantity, n))) for c in alone for n in orders)
         force = largest("force", range(1, 2))
         turning = max(largest(q, range(1, 5)) for q in ("couple", "torque", "roll"))
-        return {"force": force, "moment": max(largest("moment", range(1, 2)), force * self.radius)} | dict.fromkeys(("couple", "torque", "roll"), turning)
+        moment = max(largest("moment", range(1, 2)), force * self.radius)
+        return {"force": force, "moment": moment, "couple": turning, "torque": turning, "roll": turning}
 
 
 def _bare(value: Any) -> Any:

@@ -73,7 +73,8 @@ CASES = {
     "rotary in two rows, offset": {"layout": "radial = 3\nrotary = true\nstagger = 3", "piston": "offset = 11",
                                    "crank": "throws = [0, 175]\nspacing = 160", "more": DISPLACED},
     "rotary, one cylinder, uneven speed": {"layout": "rotary = true", "piston": "offset = -5", "operation": RIPPLE, "more": DISPLACED},
-    "articulated, uneven, displaced": {"layout": "radial = 5", "piston": "offset = 8", "operation": RIPPLE, "more": ARTICULATED + DISPLACED},
+    "articulated, uneven, displaced": {"layout": "radial = 5", "piston": "offset = 8", "operation": RIPPLE,
+                                       "more": ARTICULATED + DISPLACED},
 }
 
 

@@ -20,8 +20,8 @@ Speed = Annotated[float | None, typer.Option("--speed", metavar="RPM", help="Cra
 Orders = Annotated[str | None, typer.Option("--orders", metavar="1-8|1,2,4", show_default=False,
                                                help="Orders to show; default: 1, 2 and all that are not negligible.")]
 Only = Annotated[str | None, typer.Option("--only", metavar="WHAT,...", show_default=False,
-                                             help="Compute only some of force, moment, couple, torque, roll, peak, sizing; or "
-                                                  "inner (along the crankshaft) and guide (H- and X-type).")]
+                                             help="Compute only some of force, moment, couple, torque, roll, peak, sizing; or inner "
+                                                  "(shear, bending and bearing loads along the crankshaft) and guide (H- and X-type moments).")]
 Scheme = Annotated[str | None, typer.Option("--scheme", metavar="NAME", show_default=False,
                                                help="Also with the devices of a balance scheme, such as auto: before and after.")]
 

@@ -19,11 +19,14 @@ class What(StrEnum):
     ORDERS = "orders"
     SPECTRUM = "spectrum"
     CURVES = "curves"
+    FACTOR = "factor"
+    BANK = "bank"
 
 
 Picture = Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="Write here; .svg, .png or .pdf.", show_default=False)]
 Page = Annotated[What, typer.Option("--what",
-                                    help="polar: loci; orders: the two vectors of each; spectrum: bars; curves: over the crank angle.")]
+                                    help="polar: loci; orders: the two vectors of each; spectrum: bars; curves: over the crank angle; "
+                                         "factor: over the balance factor; bank: a vee over its bank angle.")]
 
 
 def plot(file: EngineFile, output: Picture, what: Page = What.ALL, scheme: Scheme = None, speed: Speed = None, orders: Orders = None,
@@ -31,9 +34,11 @@ def plot(file: EngineFile, output: Picture, what: Page = What.ALL, scheme: Schem
     """Draw free forces and moments: loci over a revolution, order by order, and over the crank angle."""
     from ..render.plot.pages import Subject, form_of, picture
     from ..render.units import SYSTEMS
+    from ..studies import study
     from .output import write
     from .several import engine_of
 
     form, asked = form_of(output), order_list(orders)
     _, engine = engine_of(file, checked_speed(speed))
-    write(picture(Subject.of(engine, asked, scheme, SYSTEMS[units]), what, form), output)
+    now, before, factors, banks = study(engine, what, asked, scheme)
+    write(picture(Subject(now, before, SYSTEMS[units], factors, banks), what, form), output)

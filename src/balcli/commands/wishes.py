@@ -18,19 +18,29 @@ if TYPE_CHECKING:
 
 MOST_FACTORS = 1000
 
-Scheme = Annotated[str, typer.Option("--scheme", "--with", metavar="NAME", help="auto, counterweights, factor, minimax, single-shaft, "
-                                     "two-shaft, four-shaft, couple-shaft, slider, eccentric-slider, oldham or knuckles.")]
-Order = Annotated[int | None, typer.Option(metavar="N", show_default=False, help="Order to balance; default: the lowest that is free.")]
-At = Annotated[list[str] | None, typer.Option(metavar="X,Y", show_default=False,
-                                              help="Place in mm of the shaft turning against the crank; given twice: of both.")]
-Position = Annotated[str | None, typer.Option(metavar="Z", show_default=False, help="Axial place of new devices, mm.")]
-Planes = Annotated[str | None, typer.Option(metavar="ends|throws|Z,Z...", show_default=False, help="Axial places of several devices, mm.")]
-Factor = Annotated[str | None, typer.Option(metavar="K|K:K:STEP", show_default=False, help="Share of the reciprocating mass; default 0.5.")]
-Roll = Annotated[str | None, typer.Option(metavar="zero", show_default=False, help="Place a pair of shafts such that no roll is left.")]
-Radius = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help="Where masses are stated; default: crank radius.")]
-Thickness = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help="Of a semicircular steel disc; default 20.")]
-Disc = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help="Radius of that disc, instead of its thickness.")]
-Drill = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help="Drill for a radial hole from --radius inwards.")]
+Scheme = Annotated[str, typer.Option("--scheme", "--with", metavar="NAME", help=(
+    "What to fit: auto, counterweights, factor, minimax, single-shaft, "
+    "two-shaft, four-shaft, couple-shaft, slider, eccentric-slider, oldham or knuckles."))]
+Order = Annotated[int | None, typer.Option(metavar="N", show_default=False, help=(
+    "Order to balance; default: the lowest that is not balanced."))]
+At = Annotated[list[str] | None, typer.Option(metavar="X,Y", show_default=False, help=(
+    "Place in mm of the shaft that turns against the crank; given twice: of both."))]
+Position = Annotated[str | None, typer.Option(metavar="Z", show_default=False, help=(
+    "Axial place of new devices, mm."))]
+Planes = Annotated[str | None, typer.Option(metavar="ends|throws|Z,Z...", show_default=False, help=(
+    "Where along the crank: at its end throws, at every throw, or at these z in mm."))]
+Factor = Annotated[str | None, typer.Option(metavar="K|K:K:STEP", show_default=False, help=(
+    "Share of the reciprocating mass that counterweights take; default 0.5. Of a range, the best."))]
+Roll = Annotated[str | None, typer.Option(metavar="zero", show_default=False, help=(
+    "Place two shafts such that they cancel the roll of this order, too."))]
+Radius = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help=(
+    "Radius at which masses are stated; default: crank radius."))]
+Thickness = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help=(
+    "Thickness of the semicircular steel discs that are stated; default 20."))]
+Disc = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help=(
+    "Radius of those discs, instead of their thickness."))]
+Drill = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help=(
+    "Diameter of a drill: also say how deep a radial hole from --radius inwards removes as much."))]
 Even = Annotated[str | None, typer.Option("--even", metavar="dead-centres|strokes", show_default=False,
                                           help="What --scheme knuckles makes even; default: dead-centres.")]
 Write = Annotated[Path | None, typer.Option("--write", metavar="OUT.toml", show_default=False,

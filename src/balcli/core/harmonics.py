@@ -14,8 +14,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import slidercrank
-
 Array = NDArray[Any]
 EPS = float(np.finfo(float).eps)
 
@@ -82,7 +80,17 @@ def of(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: b
 
 
 def _of_distinct(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> Harmonics:
-    return sampled(orders, lam, eps, rod=rod, energy=energy) if np.count_nonzero(eps) else centred(orders, lam, rod=rod, energy=energy)
+    if np.count_nonzero(eps):
+        return sampled(orders, lam, eps, rod=rod, energy=energy)
+    if lam.size == 1:
+        return _of_one(np.asarray(orders, float).tobytes(), lam.item(), lam.shape, rod, energy)
+    return centred(orders, lam, rod=rod, energy=energy)
+
+
+@lru_cache(maxsize=64)
+def _of_one(orders: bytes, lam: float, shape: tuple[int, ...], rod: bool, energy: bool) -> Harmonics:
+    """Those of one mechanism, kept: sizing and analysing an engine ask for the same again and again."""
+    return centred(np.frombuffer(orders), np.full(shape, lam), rod=rod, energy=energy)
 
 
 # ------------------------------------------------------------------ centred: closed form
@@ -271,6 +279,8 @@ def sampled(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, ener
 
     Accelerations are sampled as such, not differentiated, so that no order's error grows.
     """
+    from . import slidercrank
+
     psi = np.arange(count := points(lam, eps)) * (2 * np.pi / count)
     arguments = psi, np.asarray(lam)[..., None], np.asarray(eps)[..., None]
     return Harmonics(

@@ -13,14 +13,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .harmonics import Harmonics, Series
-from .linkage import Linkage
 from .phasors import EPS, Array, Complex, Phasors, unit
+
+if TYPE_CHECKING:
+    from .linkage import Linkage
 
 _SUM = 8 * EPS              # rounding error of a sum, per term and size of the terms
 _TURN = np.pi * EPS         # rounding error of an angle in the file (half an ulp of 360 deg), which order n multiplies

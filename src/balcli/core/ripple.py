@@ -65,7 +65,8 @@ def _convolved(series: Complex, w: Complex) -> Complex:
     reach = len(w) // 2
     ends = np.zeros((reach, *series.shape[1:]), complex)
     padded = np.concatenate([ends, series, ends])
-    return np.asarray(sum(w[reach + k] * padded[reach - k:len(padded) - reach - k] for k in range(-reach, reach + 1) if np.any(w[reach + k])))
+    return np.asarray(sum(w[reach + k] * padded[reach - k:len(padded) - reach - k]
+                          for k in range(-reach, reach + 1) if np.any(w[reach + k])))
 
 
 def _two_sided(phasors: Phasors) -> NDArray[np.complex128]:

@@ -1,7 +1,6 @@
 """Results of the benchmark: table, JSON, CSV, and run time against error as a picture."""
 from __future__ import annotations
 
-from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 from .csv import write
@@ -43,18 +42,17 @@ def error(row: Row) -> str:
 
 def draw(result: Bench) -> bytes:
     """SVG: run time and error of every method, a panel a task, both axes logarithmic."""
-    from matplotlib.figure import Figure
+    from .plot import style
 
     tasks = list(dict.fromkeys(r.task for r in result.rows))
-    figure = Figure(figsize=(5.2 * len(tasks), 4.6), layout="constrained")
-    for axes, task in zip(figure.subplots(1, len(tasks), squeeze=False)[0], tasks, strict=True):
-        points = [r for r in result.rows if r.task == task and r.error is not None]
-        for r in points:
-            spot = r.seconds * 1e6, max(r.error or 0.0, LEAST)
-            axes.plot(*spot, "o", color="C3" if r.method.startswith("closed form") else "C0")
-            axes.annotate(r.method, spot, xytext=(4, 3), textcoords="offset points", fontsize=7)
-        axes.set(xscale="log", yscale="log", xlabel="µs", ylabel="relative error", title=task)
-        axes.grid(alpha=0.3)
-    buffer = BytesIO()
-    figure.savefig(buffer, format="svg", metadata={"Date": None})
-    return buffer.getvalue()
+    with style.figure(5.2 * len(tasks), 4.6, "svg") as page:
+        for axes, task in zip(page.subplots(1, len(tasks), squeeze=False)[0], tasks, strict=True):
+            points = [r for r in result.rows if r.task == task and r.error is not None]
+            for r in points:
+                spot = r.seconds * 1e6, max(r.error or 0.0, LEAST)
+                axes.plot(*spot, "o", color=style.RED if r.method.startswith("closed form") else style.BLUE)
+                axes.annotate(r.method, spot, xytext=(4, 3), textcoords="offset points", fontsize=7)
+            axes.set(xscale="log", yscale="log", xlabel="µs", ylabel="relative error", title=task)
+            for axis in (axes.xaxis, axes.yaxis):                           # no mathematical text in our style
+                axis.set_major_formatter(lambda value, _: f"{value:.0e}" if not 0.01 <= value < 1e5 else f"{value:g}")
+        return style.saved(page, "svg")

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from ..balancing import Balance
     from ..combined import Combined
     from .sheet import Sheet
+    from .units import System
 
 
 class Format(StrEnum):
@@ -49,26 +50,33 @@ def render(form: Format, *, sheets: Callable[[], list[Sheet]], documents: Callab
 
 def analyses(results: Sequence[Analysis], form: Format, units: Units, *, into_file: bool = False, plot: bool = False) -> str:
     """Analyses, one after the other; JSON is one document a line. `plot`: with pictures, if a person looks at a terminal."""
-    from . import csv, json
-    from .units import SYSTEMS
-
-    system = SYSTEMS[units]
-
     def sheets() -> list[Sheet]:
         from .analysis import sheet
         from .table import seen
         pictures = plot and form is Format.TABLE and seen(into_file)
-        return [sheet(result, system, pictures=pictures) for result in results]
-    return render(form, sheets=sheets, documents=lambda: [json.analysis(r) for r in results],
-                  rows=lambda: csv.analyses(results, system), into_file=into_file)
+        return [sheet(result, _system(units), pictures=pictures) for result in results]
+
+    def documents() -> list[Any]:
+        from .json import analysis
+        return [analysis(result) for result in results]
+
+    def rows() -> str:
+        from .csv import analyses
+        return analyses(results, _system(units))
+    return render(form, sheets=sheets, documents=documents, rows=rows, into_file=into_file)
+
+
+def _system(units: Units) -> System:
+    from .units import SYSTEMS
+
+    return SYSTEMS[units]
 
 
 def balances(result: Balance, form: Format, units: Units, *, into_file: bool = False) -> str:
     """One balance."""
     from . import csv, json
-    from .units import SYSTEMS
 
-    system = SYSTEMS[units]
+    system = _system(units)
 
     def sheets() -> list[Sheet]:
         from .balance import sheet
@@ -79,8 +87,7 @@ def balances(result: Balance, form: Format, units: Units, *, into_file: bool = F
 def sums(result: Combined, form: Format, units: Units, *, into_file: bool = False) -> str:
     """Two engines on one frame."""
     from . import combined, csv
-    from .units import SYSTEMS
 
-    system = SYSTEMS[units]
+    system = _system(units)
     return render(form, sheets=lambda: [combined.sheet(result, system)], documents=lambda: [combined.document(result)],
                   rows=lambda: csv.sums(result, system), into_file=into_file)

@@ -1,10 +1,11 @@
 """Picture of a sweep: curves over one parameter, contours over two."""
 from __future__ import annotations
 
-from io import BytesIO
+from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 from ..errors import BalcliError
+from .plot import style
 
 if TYPE_CHECKING:
     from ..sweep import Array, Sweep
@@ -21,26 +22,22 @@ def draw(sweep: Sweep, values: list[Array]) -> bytes:
     several = [p for p in sweep.parameters if len(p) > 1]
     if not 0 < len(several) <= 2:
         raise BalcliError(f"--plot draws one or two parameters with several values each, not {len(several)}")
-    from matplotlib.figure import Figure
-
     if len(several) == 1:
-        figure = Figure(figsize=(7, 4.2), layout="constrained")
-        _curves(figure.subplots(), sweep, values)
-    else:
-        figure = Figure(figsize=(6 * len(values), 4.8), layout="constrained")
-        for axes, quantity, value in zip(figure.subplots(1, len(values), squeeze=False)[0], sweep.quantities, values, strict=True):
-            _contours(figure, axes, several, value.squeeze(), f"{quantity.name}, {quantity.unit}")
-    buffer = BytesIO()
-    figure.savefig(buffer, format="svg", metadata={"Date": None})
-    return buffer.getvalue()
+        with style.figure(7, 4.2, "svg") as page:
+            _curves(page.subplots(), sweep, values)
+            return style.saved(page, "svg")
+    with style.figure(6 * len(values), 4.8, "svg") as page:
+        for axes, quantity, value in zip(page.subplots(1, len(values), squeeze=False)[0], sweep.quantities, values, strict=True):
+            _contours(page, axes, several, value.squeeze(), f"{quantity.name}, {quantity.unit}")
+        return style.saved(page, "svg")
 
 
 def _curves(axes: Any, sweep: Sweep, values: list[Array]) -> None:
     parameter = next(p for p in sweep.parameters if len(p) > 1)
-    for quantity, value in zip(sweep.quantities, values, strict=True):
-        axes.plot(parameter.values, value.ravel(), label=f"{quantity.name}, {quantity.unit}")
+    looks = [(colour, line) for line in ("-", "--", ":") for colour in (style.BLUE, style.RED, style.GREEN)]
+    for quantity, value, (colour, line) in zip(sweep.quantities, values, cycle(looks), strict=False):
+        axes.plot(parameter.values, value.ravel(), color=colour, linestyle=line, label=f"{quantity.name}, {quantity.unit}")
     axes.set_xlabel(parameter.path)
-    axes.grid(alpha=0.3)
     axes.legend()
 
 

@@ -1,17 +1,15 @@
 """Which pictures there are, and how each page is laid out."""
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...analysis import Analysis, analyze
-from ...balancing import balance
+from ...analysis import Analysis
 from ...core.phasors import Phasors
-from ...engine import Engine
 from ...errors import BalcliError
-from ...spectrum import SPECTRAL
+from ...studies import Banks
 from ..units import SI, System, Unit
 from . import draw
 from .style import FORMS, Form, figure, inline, plain, saved
@@ -27,23 +25,13 @@ ALL = (*VECTORS, "about")
 
 @dataclass(frozen=True)
 class Subject:
-    """What a page shows: an analysis of all spectra, and one of the engine before devices were fitted, to compare with."""
+    """What a page shows: an analysis of all spectra, one of the engine before devices were fitted, to compare with, and studies."""
 
     now: Analysis
     before: Analysis | None = None
     system: System = SI
-
-    @classmethod
-    def of(cls, engine: Engine, orders: Iterable[int] | None, scheme: str | None, system: System) -> Subject:
-        """An engine, and what a balance scheme makes of it if one is named.
-
-        Raises:
-            BalcliError: an unknown scheme, or one that cannot be fitted.
-        """
-        if scheme is None:
-            return cls(analyze(engine, orders, SPECTRAL), None, system)
-        found = balance(engine, scheme, orders=orders)
-        return cls(found.after, found.before, system)
+    factors: Sequence[dict[str, float]] = ()
+    banks: Banks | None = None
 
     def phasors(self, quantity: str) -> tuple[Phasors, Phasors | None]:
         old = None if self.before is None else getattr(self.before.spectra, quantity)
@@ -132,6 +120,18 @@ def _orders(fig: Figure, subject: Subject) -> None:
         grid[0, 0].text(0, 0.5, "no free force and no free moment")
 
 
+def _factor(fig: Figure, subject: Subject) -> None:
+    draw.factors(fig.subplots(), subject.factors, subject.system.force, subject.system.moment)
+
+
+def _bank(fig: Figure, subject: Subject) -> None:
+    if subject.banks is None:
+        raise ValueError("a page of bank angles needs a study of them")
+    grid = fig.add_gridspec(1, 2)
+    draw.end_curves(fig.add_subplot(grid[0]), subject.banks, subject.system.force)
+    draw.roses(fig.add_subplot(grid[1], projection="polar"), subject.banks, subject.system.force)
+
+
 # ------------------------------------------------------------------ panels
 def _locus(ax: Axes, subject: Subject, quantity: str) -> None:
     curve, before = subject.phasors(quantity)
@@ -166,6 +166,8 @@ PAGES: dict[str, tuple[float, float, Layout]] = {
     "orders": (11.7, 7.4, _orders),
     "spectrum": (6.5, 8.0, _spectrum),
     "curves": (7.5, 8.6, _curves),
+    "factor": (7.2, 4.6, _factor),
+    "bank": (9.6, 5.4, _bank),
 }
 _PANELS: dict[str, Callable[[Figure, Subject, str], None]] = {
     "polar": lambda fig, subject, quantity: _locus(fig.subplots(), subject, quantity),
