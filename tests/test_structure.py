@@ -106,8 +106,6 @@ COMPUTING = ("balcli.analysis", "balcli.balancing", "balcli.spectrum", "balcli.s
 
 @pytest.mark.parametrize("file", RENDER, ids=name_of)
 def test_renderers_call_no_computation(file):
-    if file.name == "pages.py":
-        pytest.skip("analyses the engine of a page itself")
     called = {(module, name) for module, name in imported(file)
               if module.startswith(COMPUTING) and name[:1].islower() and (module, name) not in SHAPING}
     assert called == set()
