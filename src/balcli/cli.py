@@ -21,8 +21,6 @@ COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", 
 
 _UsageError: Any = typer.BadParameter.__mro__[1]       # click's, or typer's own copy of it
 
-_UsageError: Any = typer.BadParameter.__mro__[1]       # click's, or typer's own copy of it
-
 
 class _OnDemand(TyperGroup):
     """Commands by name; the module of one is imported when it is needed."""
