@@ -9,6 +9,7 @@ import typer
 from ..errors import BalcliError
 from ..render.formats import Format as Format
 from ..render.formats import Units as Units
+from . import completion
 
 EngineFile = Annotated[str, typer.Argument(metavar="FILE", help="Engine file (TOML); - reads standard input.", show_default=False)]
 EngineFiles = Annotated[list[str], typer.Argument(metavar="FILE...", show_default=False,
@@ -21,8 +22,8 @@ Orders = Annotated[str | None, typer.Option("--orders", metavar="1-8|1,2,4", sho
                                                help="Orders to show; default: 1, 2 and all that are not negligible.")]
 Only = Annotated[str | None, typer.Option("--only", metavar="WHAT,...", show_default=False,
                                              help="Compute only some of force, moment, couple, torque, roll, peak, sizing; or inner "
-                                                  "(shear, bending and bearing loads along the crankshaft) and guide (H- and X-type moments).")]
-Scheme = Annotated[str | None, typer.Option("--scheme", metavar="NAME", show_default=False,
+                                                  "(shear, bending, bearing loads along the crankshaft) and guide (H- and X-type).")]
+Scheme = Annotated[str | None, typer.Option("--scheme", metavar="NAME", show_default=False, autocompletion=completion.schemes,
                                                help="Also with the devices of a balance scheme, such as auto: before and after.")]
 
 

@@ -6,9 +6,11 @@ from typing import Annotated
 import typer
 
 from ..render.formats import Format
+from . import completion
 from .options import FormatOption, Output
 
-Name = Annotated[str | None, typer.Argument(help="Which table; without it, all are listed.", show_default=False)]
+Name = Annotated[str | None, typer.Argument(metavar="NAME", help="Which table; without it, all are listed.", show_default=False,
+                                              autocompletion=completion.tables)]
 Errata = Annotated[bool, typer.Option("--errata", help="List every printed figure that is not the exact one rounded.")]
 Lam = Annotated[str | None, typer.Option("--lambda", metavar="0.20:0.40:0.01", show_default=False,
                                             help="Other crank ratios than the printed ones; or a list 0.25,1/3.")]

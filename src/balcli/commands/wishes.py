@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import BalcliError
+from . import completion
 
 if TYPE_CHECKING:
     from ..balancing import Balance
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 MOST_FACTORS = 1000
 
-Scheme = Annotated[str, typer.Option("--scheme", "--with", metavar="NAME", help=(
+Scheme = Annotated[str, typer.Option("--scheme", "--with", metavar="NAME", autocompletion=completion.schemes, help=(
     "What to fit: auto, counterweights, factor, minimax, single-shaft, "
     "two-shaft, four-shaft, couple-shaft, slider, eccentric-slider, oldham or knuckles."))]
 Order = Annotated[int | None, typer.Option(metavar="N", show_default=False, help=(
