@@ -45,7 +45,8 @@ def _vector(k: int, order: int, what: str, p: Phasors, unit: Unit) -> str:
     forward, backward = abs(p.forward[k]), abs(p.backward[k])
     size = f"{number(unit.of(float(p.major[k])), 4)} {unit.name}"
     if backward == 0:
-        return f"{what} of {size}, turning with the crank: {'counterweights on the crankshaft cancel it' if order == 1 else _shafts(f'at +{order}')}."
+        means = "counterweights on the crankshaft cancel it" if order == 1 else _shafts(f"at +{order}")
+        return f"{what} of {size}, turning with the crank: {means}."
     if forward == 0:
         return f"{what} of {size}, turning against the crank: {_shafts(f'at −{order}')}."
     parts = f"{number(unit.of(forward), 4)} turns with the crank, {number(unit.of(backward), 4)} against it"
