@@ -32,6 +32,12 @@ class Series:
     def __add__(self, other: Series) -> Series:
         return Series(self.c + other.c, self.noise + other.noise)
 
+    def of_rows(self, which: NDArray[np.intp]) -> Series:
+        """Those of these cylinders; a single row stands for all."""
+        if self.c.shape[1] == 1:
+            return self
+        return Series(self.c[:, which], np.broadcast_to(self.noise, self.c.shape[1:])[which])
+
     def __rmul__(self, factor: Array) -> Series:
         return Series(factor * self.c, abs(factor) * self.noise)
 
@@ -57,6 +63,14 @@ class Harmonics:
     rod_kinetic: Series                 # beta'^2
     curve: Curve | None = None          # of a further mass, where a mechanism has one that moves in the plane
     turns: Array | float = 0.0          # of the rod for each of the crank
+
+    def of_rows(self, which: NDArray[np.intp] | slice) -> Harmonics:
+        """With the mechanisms of these rows."""
+        if self.curve is None or isinstance(which, slice):
+            return self
+        series = {name: getattr(self, name).of_rows(which) for name in ("piston", "rod", "kinetic", "rod_kinetic")}
+        lines = {name: getattr(self.curve, name).of_rows(which) for name in ("along", "across", "couple", "kinetic")}
+        return Harmonics(**series, curve=Curve(**lines, momentum=self.curve.momentum[which]), turns=np.asarray(self.turns)[which])
 
 
 NONE = Series(np.zeros((1, 1)))
@@ -287,7 +301,7 @@ def sampled(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, ener
     """
     from . import slidercrank
 
-    arguments = _circle(points(lam, eps)), np.asarray(lam)[..., None], np.asarray(eps)[..., None]
+    arguments = circle(points(lam, eps)), np.asarray(lam)[..., None], np.asarray(eps)[..., None]
     return Harmonics(
         piston=from_samples(slidercrank.acceleration(*arguments), orders),
         rod=from_samples(-slidercrank.rod_acceleration(*arguments), orders) if rod else NONE,
@@ -299,22 +313,32 @@ def sampled(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, ener
 SAMPLING = 16 * EPS         # error of a sampled coefficient, in units of the curve's root mean square
 
 
-def _circle(count: int) -> Array:
+def circle(count: int) -> Array:
     """e^{i psi} at evenly spaced psi, each component within 2 ulp of itself: `np.exp` would round psi before."""
     from .phasors import unit
 
     return unit(np.arange(count) * (360 / count))
 
 
-def from_samples(samples: Array, orders: ArrayLike) -> Series:
-    """Coefficients of whole orders from one revolution of samples (last axis), shape (orders, *the other axes)."""
+def from_samples(samples: Array, orders: ArrayLike, condition: Array | float = 1.0) -> Series:
+    """Coefficients of whole orders from one revolution of samples (last axis), shape (orders, *the other axes).
+
+    `condition`: the error of each sample, relative and in roundings.
+    """
     n, count = np.asarray(orders), samples.shape[-1]
     spectrum = np.moveaxis(np.fft.rfft(samples) / count, -1, 0)
     spectrum[1:] *= 2
     inside = (n % 1 == 0) & (n < count // 2)
     rows = spectrum[np.where(inside, n, 0).astype(int)]
     c = np.where(inside.reshape(-1, *(1,) * (rows.ndim - 1)), rows, 0)
-    return Series(c, SAMPLING * np.sqrt(2 * np.mean(samples**2, axis=-1)))
+    return Series(c, SAMPLING * rounding(samples, condition))
+
+
+def rounding(samples: Array, condition: Array | float = 1.0) -> Array:
+    """What one rounding of every sample does to a coefficient, in units of the rounding: root mean square of the samples
+    and, where they are not good to some ulp, mean of what each is multiplied by."""
+    spread = np.sqrt(2 * np.mean(np.abs(samples)**2, axis=-1))
+    return spread if np.isscalar(condition) else np.asarray(spread + np.mean(np.abs(samples) * condition, axis=-1))
 
 
 def points(lam: ArrayLike, eps: ArrayLike) -> int:

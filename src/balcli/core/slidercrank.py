@@ -190,12 +190,14 @@ def _floats(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike) -> tuple[Real, Real,
 
 def _given(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike) -> tuple[Real, Real, Real, Real]:
     """sin psi, cos psi, lam and eps, psi being an angle or e^{i psi}."""
+    at = on_circle(psi)
+    return at.imag, at.real, np.asarray(lam, dtype=np.float64), np.asarray(eps, dtype=np.float64)
+
+
+def on_circle(psi: ArrayLike) -> NDArray[np.complex128]:
+    """e^{i psi}, psi being an angle or e^{i psi} itself."""
     angle = np.asarray(psi)
-    lam, eps = np.asarray(lam, dtype=np.float64), np.asarray(eps, dtype=np.float64)
-    if np.iscomplexobj(angle):
-        return angle.imag, angle.real, lam, eps
-    angle = angle.astype(np.float64)
-    return np.sin(angle), np.cos(angle), lam, eps
+    return angle if np.iscomplexobj(angle) else np.exp(1j * angle)
 
 
 def _clearance(lam: Real, lean: Real) -> Real:
