@@ -274,6 +274,16 @@ def test_many_cylinders(count):
     assert np.all(np.abs(found.force.major[left] - want) <= BOUNDS["many cylinders"] * count * EPS * want)
 
 
+def test_512_cylinders_at_odd_angles():
+    """Against the sum with 50 digits: 8 roundings a cylinder, of the sum of their sizes, and n roundings of the angle."""
+    throws = [7.3 * k % 360 for k in range(512)]
+    orders = [1, 2, 4, 64, 256]
+    found = spectra(engine(crank={"stroke": 100, "throws": throws}, rod={"ratio": 0.999}), orders).force
+    for row, (n, a) in enumerate(zip(orders, harmonics.piston(orders, 0.999), strict=True)):
+        want = abs(mp.fsum(mp.expjpi(n * mp.mpf(throw) / 180) for throw in throws)) * REVOLVING * abs(a)
+        assert abs(found.major[row] - float(want)) <= BOUNDS["many cylinders"] * 512 * EPS * REVOLVING * abs(a)
+
+
 def test_peaks_of_32768_orders_and_64_cylinders_are_the_sum_of_all():
     """lambda = 1 - 1e-6, all pistons together: at the quick point beside 90 degrees 64 times the peak of one."""
     def highest(count: int) -> float:
