@@ -37,13 +37,27 @@
   const reach = Math.max(...scene.cylinders.map((c) => Math.max(...Array.from({ length: 72 }, (_, k) => drive(c, 5 * k).piston[0])))) + crown;
   const backToFront = [...scene.cylinders].sort((a, b) => b.z - a.z);
 
+  // Numbers of the cylinders of each bank, beyond its end.
+  const LETTER = 0.2 * bore;
+  function bankLabels() {
+    const banks = new Map();
+    for (const c of scene.rotary ? [] : scene.cylinders) banks.set(c.axis, [...(banks.get(c.axis) || []), c.number]);
+    return [...banks].map(([axis, numbers]) => {
+      const text = (numbers.length > 6 ? [...numbers.slice(0, 5), "…"] : numbers).join(" "), wide = 0.3 * LETTER * text.length, high = 0.6 * LETTER;
+      const [x, y] = turned([reach + 0.3 * LETTER + high + (wide - high) * Math.abs(Math.sin(rad(axis))), 0], axis);
+      return { text, x, y, wide, high };
+    });
+  }
+
   function endView() {
     const svg = byId("end"), corners = [[r * 1.5, 0], [-r * 1.5, 0], [0, r * 1.5], [0, -r * 1.5]];
     for (const c of scene.cylinders) {
       const angles = scene.rotary ? Array.from({ length: 24 }, (_, k) => 15 * k) : [c.axis];
-      for (const a of angles) for (const v of [-0.6 * bore, 0.6 * bore]) corners.push(turned([reach + 0.3 * bore, v], a));
+      for (const a of angles) for (const v of [-0.6 * bore, 0.6 * bore]) corners.push(turned([reach * 1.03, v], a));
     }
     for (const variant of scene.variants) for (const d of variant.devices) for (const s of [-1, 1]) corners.push([d.at[0] + s * 0.5 * r, d.at[1] + s * 0.5 * r]);
+    const labels = bankLabels();
+    for (const { x, y, wide, high } of labels) corners.push([x + high, y - wide], [x - high, y + wide]);
     frame(svg, corners.map(([x, y]) => [y, -x]));
     const cylinders = backToFront.map((c) => {
       const behind = far > near ? (c.z - near) / (far - near) : 0;
@@ -62,12 +76,8 @@
     const eyes = scene.cylinders.filter((c) => c.master !== undefined).map((c) => ({ c, eye: element("circle", { class: "pin", r: 0.13 * r }, crank) }));
     const webs = plain.map((c) => ({ c, web: element("path", { class: "web", d: web(r) }, crank), pin: element("circle", { class: "pin", r: 0.2 * r }, crank) }));
     element("circle", { class: "pin", r: 0.26 * r }, crank);
-    const devices = element("g", {}, svg), banks = new Map();
-    for (const c of scene.rotary ? [] : scene.cylinders) banks.set(c.axis, [...(banks.get(c.axis) || []), c.number]);
-    for (const [axis, numbers] of banks) {
-      const [x, y] = turned([reach + 0.18 * bore, 0], axis), shown = numbers.length > 6 ? [...numbers.slice(0, 5), "…"] : numbers;
-      element("text", { class: "number", x: y, y: -x, "font-size": 0.2 * bore }, svg).textContent = shown.join(" ");
-    }
+    const devices = element("g", {}, svg);
+    for (const { x, y, text } of labels) element("text", { class: "number", x: y, y: -x, "font-size": LETTER }, svg).textContent = text;
     return (theta, variant) => {
       for (const { c, own, rod, piston, pin } of cylinders) {
         const { lower, piston: at, axis } = drive(c, theta);

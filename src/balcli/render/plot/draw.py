@@ -3,13 +3,11 @@ crank turns clockwise."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from itertools import cycle
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ...core.phasors import Array, Complex, Phasors
-from ...studies import Banks
 from ..figures import order_number
 from ..sheet import number
 from ..units import Unit
@@ -42,12 +40,12 @@ def locus(ax: Axes, curve: Phasors, what: str, unit: Unit, before: Phasors | Non
     """Where the tip of the vector goes in a revolution, with crank angles along it; `before`: a second locus to compare with."""
     values, old = _once(curve), None if before is None else _once(before)
     s = scale(unit, max(np.abs(v).max(initial=0) for v in (values, old) if v is not None))
-    limit = _plane(ax, [values, old], what, s)
+    limit = plane(ax, [values, old], what, s)
     if old is not None:
         ax.plot(old.imag / s.size, old.real / s.size, color=SOFT, linewidth=1, linestyle=(0, (4, 2)), label="before")
     ax.plot([], [], color=BLUE, label="after")
     if old is not None:
-        _legend(ax)
+        legend_above(ax)
     largest = float(np.abs(values).max()) / s.size
     if largest < 0.02 * limit:
         ax.plot(0, 0, "o", color=BLUE, markersize=4)
@@ -63,7 +61,7 @@ def _once(curve: Phasors) -> Complex:
     return curve.values(FINE[:360 // repeats(curve) + 1])
 
 
-def _plane(ax: Axes, curves: Sequence[Complex | None], what: str, s: Scale) -> float:
+def plane(ax: Axes, curves: Sequence[Complex | None], what: str, s: Scale) -> float:
     """A square with the origin in its middle, x up."""
     largest = max(np.abs(c).max(initial=0) for c in curves if c is not None) / s.size
     limit = float(largest or 1) * 1.25
@@ -126,7 +124,7 @@ def ellipse(ax: Axes, curve: Phasors, k: int, what: str, unit: Unit) -> None:
     order, phase = order_number(curve.orders[k]), np.exp(1j * np.radians(_SHOWN_AT))
     s = scale(unit, float(one.major[0]))
     values = one.values(FINE)
-    _plane(ax, [values], what, s)
+    plane(ax, [values], what, s)
     ax.set_title(f"{what}, order {order}, at crank angle {_SHOWN_AT / order:g}°")
     ax.plot(values.imag / s.size, values.real / s.size, color=INK)
     forward, backward = complex(one.forward[0] * phase), complex(one.backward[0] / phase)
@@ -166,7 +164,7 @@ def scalar_spectrum(ax: Axes, curves: Mapping[str, Phasors], unit: Unit) -> None
     """Amplitudes of several scalars, side by side."""
     shown = sorted({k for curve in curves.values() for k in visible(curve)})
     s = scale(unit, max(float(c.major.max(initial=0)) for c in curves.values()))
-    for (label, curve), look, shift in zip(curves.items(), _LOOKS, (-0.27, 0, 0.27), strict=False):
+    for (label, curve), look, shift in zip(curves.items(), LOOKS, (-0.27, 0, 0.27), strict=False):
         ax.bar(np.arange(len(shown)) + shift, curve.major[shown] / s.size, 0.25, color=look[0], hatch=look[2], label=label)
     _bars(ax, next(iter(curves.values())).orders[shown], None, f"moment, {s.name}")
 
@@ -196,10 +194,10 @@ def _bars(ax: Axes, orders: Array, tops: Array | None, label: str) -> None:
     ax.set_ylim(0, 1.18 * highest or 1)
     if not highest:
         ax.set_yticks([0])
-    _legend(ax)
+    legend_above(ax)
 
 
-def _legend(ax: Axes) -> None:
+def legend_above(ax: Axes) -> None:
     """On one line between the axes and their title."""
     legend = ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, handlelength=1.6, columnspacing=1, borderpad=0, borderaxespad=0.3,
                        handletextpad=0.5)
@@ -207,7 +205,7 @@ def _legend(ax: Axes) -> None:
 
 
 # ------------------------------------------------------------------ curves over the crank angle
-_LOOKS = ((BLUE, "-", ""), (RED, (0, (5, 1.5)), "////"), (GREEN, (0, (1.5, 1)), "...."))
+LOOKS = ((BLUE, "-", ""), (RED, (0, (5, 1.5)), "////"), (GREEN, (0, (1.5, 1)), "...."))
 
 
 def vector_curves(ax: Axes, curve: Phasors, what: str, unit: Unit, before: Phasors | None = None) -> None:
@@ -229,78 +227,11 @@ def _curves(ax: Axes, lines: Mapping[str, Array], what: str, unit: Unit, before:
     crank = np.degrees(FINE)
     if before is not None:
         ax.plot(crank, before / s.size, color=SOFT, linewidth=1, linestyle=(0, (4, 2)), label=f"{list(lines)[-1].split()[0]} before")
-    for (label, values), look in zip(lines.items(), _LOOKS, strict=False):
+    for (label, values), look in zip(lines.items(), LOOKS, strict=False):
         ax.plot(crank, values / s.size, color=look[0], linestyle=look[1], label=label)
     ax.axhline(0, color=SOFT, linewidth=0.7)
     ax.set(xlim=(0, 360), xticks=np.arange(0, 361, 90), xlabel="crank angle, deg", ylabel=f"{what}, {s.name}")
     ax.locator_params(axis="y", nbins=5)
     if not any(np.any(v) for v in everything):
         ax.set(ylim=(-1, 1), yticks=[0])
-    _legend(ax)
-
-
-# ------------------------------------------------------------------ studies
-def factors(ax: Axes, rows: Sequence[Mapping[str, float]], force: Unit, moment: Unit) -> None:
-    """Largest force and its components over the balance factor; the moment on an axis of its own where there is one."""
-    share = [row["factor"] for row in rows]
-    s = scale(force, max(row["peak_force_N"] for row in rows))
-    lines = (("peak_force_N", "force"), ("along_N", "along the first bank"), ("across_N", "across it"))
-    for (key, label), look in zip(lines, _LOOKS, strict=True):
-        ax.plot(share, [row[key] / s.size for row in rows], color=look[0], linestyle=look[1], label=label)
-    best = min(rows, key=lambda row: (round(row["peak_force_N"], 6), row["peak_moment_Nm"]))
-    ax.plot(best["factor"], best["peak_force_N"] / s.size, "o", color=BLUE)
-    ax.set(xlabel="balance factor: share of the reciprocating mass in the counterweights", ylabel=f"largest over a revolution, {s.name}",
-           xlim=(share[0], share[-1]))
-    ax.set_ylim(bottom=0)
-    ax.set_title(f"Largest free force over the balance factor; best at {best['factor']:g}")
-    moments = np.array([row["peak_moment_Nm"] for row in rows])
-    if moments.max() > 0:
-        t = scale(moment, float(moments.max()))
-        right = ax.twinx()
-        right.plot(share, moments / t.size, color=SOFT, linestyle=(0, (4, 2)), linewidth=1.2)
-        right.set_ylabel(f"moment (dashed grey), {t.name}")
-        right.set_ylim(bottom=0)
-        right.grid(False)
-    _legend(ax)
-
-
-_SWUNG = (0, 30, 60, 90, 120, 150, 180)
-
-
-def end_curves(ax: Axes, banks: Banks, unit: Unit) -> None:
-    """The way of the force's tip for several bank angles."""
-    shown = [int(np.argmin(np.abs(banks.angles_deg - angle))) for angle in _SWUNG]
-    s = scale(unit, float(banks.force.major.max(initial=0)))
-    ways = [Phasors(banks.force.orders, banks.force.forward[:, k], banks.force.backward[:, k], np.zeros(1)).values(FINE) for k in shown]
-    limit = _plane(ax, ways, "force", s)
-    for side, k, way, shade in zip(cycle((1, -1)), shown, ways, np.linspace(0.25, 1, len(shown)), strict=False):
-        ax.plot(way.imag / s.size, way.real / s.size, color=BLUE, alpha=shade, linewidth=1.2)
-        far = np.abs(way) > (1 - 1e-6) * np.abs(way).max(initial=0)                 # labels to either side in turn
-        tip = max(way[far] / s.size, key=lambda v: side * (v.real + v.imag), default=0j)
-        out = tip / abs(tip) if abs(tip) > 0.02 * limit else 1
-        spot = tip + 0.07 * limit * out
-        ax.text(spot.imag, spot.real, f"{banks.angles_deg[k]:g}°", ha="center", va="center", fontsize=7)
-    ax.set_title(f"Force of order {banks.order}: way of its tip by bank angle", pad=6)
-
-
-def roses(ax: Any, banks: Banks, unit: Unit) -> None:
-    """Both vectors as radii in the directions of the two banks: what a pair of shafts has to turn, and their places."""
-    from matplotlib.ticker import MaxNLocator
-
-    ahead, against = np.abs(banks.force.forward[0]), np.abs(banks.force.backward[0])
-    s = scale(unit, float(max(ahead.max(), against.max())))
-    ax.set_theta_zero_location("N")
-    ax.set_theta_direction(-1)
-    ax.set(thetamin=-90, thetamax=90)
-    half = np.radians(banks.angles_deg) / 2
-    for size, colour, style, label in ((ahead, BLUE, "-", "with the crank"), (against, RED, (0, (5, 1.5)), "against it")):
-        there_and_back = np.concatenate([size[::-1], size]) / s.size
-        ax.plot(np.concatenate([-half[::-1], half]), there_and_back, color=colour, linestyle=style, label=label)
-    if banks.own_deg <= 180:
-        for side in (-0.5, 0.5):
-            ax.axvline(np.radians(side * banks.own_deg), color=INK, linewidth=0.9, linestyle=":")
-    ax.set_thetagrids(np.arange(-90, 91, 30), [f"{abs(2 * a):g}°" for a in np.arange(-90, 91, 30)])
-    ax.set_rmax(1.08 * max(ahead.max(), against.max()) / s.size or 1)
-    ax.set_rticks([r for r in MaxNLocator(3).tick_values(0, ax.get_rmax()) if 0 < r < ax.get_rmax()])
-    ax.set_title(f"Its two vectors by bank angle, {s.name} (dotted: this engine)", pad=6)
-    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 0.02), ncols=2)
+    legend_above(ax)

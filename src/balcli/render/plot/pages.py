@@ -11,7 +11,7 @@ from ...core.phasors import Phasors
 from ...errors import BalcliError
 from ...studies import Banks
 from ..units import SI, System, Unit
-from . import draw
+from . import draw, studied
 from .style import FORMS, Form, figure, inline, plain, saved
 
 if TYPE_CHECKING:
@@ -121,15 +121,15 @@ def _orders(fig: Figure, subject: Subject) -> None:
 
 
 def _factor(fig: Figure, subject: Subject) -> None:
-    draw.factors(fig.subplots(), subject.factors, subject.system.force, subject.system.moment)
+    studied.factors(fig.subplots(), subject.factors, subject.system.force, subject.system.moment)
 
 
 def _bank(fig: Figure, subject: Subject) -> None:
     if subject.banks is None:
         raise ValueError("a page of bank angles needs a study of them")
     grid = fig.add_gridspec(1, 2)
-    draw.end_curves(fig.add_subplot(grid[0]), subject.banks, subject.system.force)
-    draw.roses(fig.add_subplot(grid[1], projection="polar"), subject.banks, subject.system.force)
+    studied.end_curves(fig.add_subplot(grid[0]), subject.banks, subject.system.force)
+    studied.roses(fig.add_subplot(grid[1], projection="polar"), subject.banks, subject.system.force)
 
 
 # ------------------------------------------------------------------ panels
