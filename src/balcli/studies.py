@@ -12,6 +12,7 @@ from .balancing import balance
 from .core.phasors import Array, Phasors
 from .engine import Engine
 from .errors import BalcliError
+from .inner import Inner, inner
 from .sizing import Wish, remedy_for
 from .spectrum import SPECTRAL, spectra
 
@@ -28,12 +29,14 @@ class Banks(NamedTuple):
 
 
 class Study(NamedTuple):
-    """Now, and before devices were fitted if any were; rows of peaks over the balance factor; the order over the bank angle."""
+    """Now, and before devices were fitted if any were; rows of peaks over the balance factor; the order over the bank angle;
+    what bends the crankshaft now and before."""
 
     now: Analysis
     before: Analysis | None = None
     factors: Sequence[dict[str, float]] = ()
     banks: Banks | None = None
+    bent: tuple[Inner, ...] = ()
 
 
 def study(engine: Engine, what: str, orders: Sequence[int] | None = None, scheme: str | None = None) -> Study:
@@ -49,8 +52,11 @@ def study(engine: Engine, what: str, orders: Sequence[int] | None = None, scheme
     """
     if scheme is not None:
         found = balance(engine, scheme, orders=orders)
-        return Study(found.after, found.before)
+        bent = (inner(found.after.engine), inner(engine)) if what == "inner" else ()
+        return Study(found.after, found.before, bent=bent)
     now = analyze(engine, orders, SPECTRAL)
+    if what == "inner":
+        return Study(now, bent=(inner(engine),))
     if what == "factor":
         details: Any = remedy_for(engine, "factor", Wish(factor=FACTORS)).details
         return Study(now, factors=details["sweep"])

@@ -21,12 +21,13 @@ class What(StrEnum):
     CURVES = "curves"
     FACTOR = "factor"
     BANK = "bank"
+    INNER = "inner"
 
 
 Picture = Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="Write here; .svg, .png or .pdf.", show_default=False)]
 Page = Annotated[What, typer.Option("--what",
                                     help="polar: loci; orders: the two vectors of each; spectrum: bars; curves: over the crank angle; "
-                                         "factor: over the balance factor; bank: a vee over its bank angle.")]
+                                         "factor: over the balance factor; bank: a vee over its bank angle; inner: along the crankshaft.")]
 
 
 def plot(file: EngineFile, output: Picture, what: Page = What.ALL, scheme: Scheme = None, speed: Speed = None, orders: Orders = None,
@@ -40,5 +41,5 @@ def plot(file: EngineFile, output: Picture, what: Page = What.ALL, scheme: Schem
 
     form, asked = form_of(output), order_list(orders)
     _, engine = engine_of(file, checked_speed(speed))
-    now, before, factors, banks = study(engine, what, asked, scheme)
-    write(picture(Subject(now, before, SYSTEMS[units], factors, banks), what, form), output)
+    subject = Subject(system=SYSTEMS[units], **study(engine, what, asked, scheme)._asdict())
+    write(picture(subject, what, form), output)

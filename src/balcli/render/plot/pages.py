@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from ...analysis import Analysis
 from ...core.phasors import Phasors
 from ...errors import BalcliError
+from ...inner import Inner
 from ...studies import Banks
 from ..units import SI, System, Unit
 from . import draw, studied
@@ -32,6 +33,7 @@ class Subject:
     system: System = SI
     factors: Sequence[dict[str, float]] = ()
     banks: Banks | None = None
+    bent: tuple[Inner, ...] = ()
 
     def phasors(self, quantity: str) -> tuple[Phasors, Phasors | None]:
         old = None if self.before is None else getattr(self.before.spectra, quantity)
@@ -132,6 +134,17 @@ def _bank(fig: Figure, subject: Subject) -> None:
     studied.roses(fig.add_subplot(grid[1], projection="polar"), subject.banks, subject.system.force)
 
 
+def _inner(fig: Figure, subject: Subject) -> None:
+    shear, bending, bearings = fig.subplots(3, 1, sharex=True)
+    studied.along(shear, [b.shear for b in subject.bent], ("Shear force along the crankshaft", "force"), subject.system.force, "steps-post")
+    studied.along(bending, [b.bending for b in subject.bent], ("Bending moment", "moment"), subject.system.moment)
+    studied.along(bearings, [b.bearings for b in subject.bent if b.bearings], ("Inertia load of each main bearing", "force"),
+                  subject.system.force, "")
+    bearings.set_xlabel("z, mm (free end on the left)")
+    for ax in (shear, bending):
+        ax.label_outer()
+
+
 # ------------------------------------------------------------------ panels
 def _locus(ax: Axes, subject: Subject, quantity: str) -> None:
     curve, before = subject.phasors(quantity)
@@ -168,6 +181,7 @@ PAGES: dict[str, tuple[float, float, Layout]] = {
     "curves": (7.5, 8.6, _curves),
     "factor": (7.2, 4.6, _factor),
     "bank": (9.6, 5.4, _bank),
+    "inner": (7.5, 7.6, _inner),
 }
 _PANELS: dict[str, Callable[[Figure, Subject, str], None]] = {
     "polar": lambda fig, subject, quantity: _locus(fig.subplots(), subject, quantity),

@@ -1,4 +1,4 @@
-"""Pictures of studies: over the balance factor, and over the bank angle of a vee."""
+"""Pictures of studies: over the balance factor, over the bank angle of a vee, and along the crankshaft."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...core.phasors import Phasors
+from ...inner import Along
 from ...studies import Banks
 from ..units import Unit
 from .draw import FINE, LOOKS, legend_above, plane, scale
@@ -39,6 +40,26 @@ def factors(ax: Axes, rows: Sequence[Mapping[str, float]], force: Unit, moment: 
         right.set_ylim(bottom=0)
         right.grid(False)
     legend_above(ax)
+
+
+def along(ax: Axes, now_and_before: Sequence[Along], titles: tuple[str, str], unit: Unit, steps: str = "default") -> None:
+    """Largest values over a revolution at places along the crank: a line, steps, or (no steps named) columns."""
+    title, what = titles
+    curves = [(found.z_m * 1e3, np.array([p.value for p in found.peaks])) for found in now_and_before]
+    s = scale(unit, max((float(values.max()) for _, values in curves), default=0.0))
+    looks: Any = (({"color": BLUE, "linewidth": 2.2, "zorder": 3}, "after" if len(curves) > 1 else "largest over a revolution"),
+                  ({"color": SOFT, "linewidth": 1.1, "linestyle": (0, (4, 2)), "zorder": 2}, "before"))
+    for (z, values), (look, label) in zip(curves, looks, strict=False):
+        ax.plot(z, values / s.size, "o", color=look["color"], markersize=4, zorder=look["zorder"])
+        if steps:
+            ax.plot(z, values / s.size, drawstyle=steps, label=label, **look)
+        else:
+            ax.vlines(z, 0, values / s.size, label=label, **look)
+    ax.set(ylabel=f"{what}, {s.name}")
+    ax.set_title(title if curves else f"{title}: one throw, bearings not known")
+    ax.set_ylim(bottom=0)
+    if curves:
+        legend_above(ax)
 
 
 _SWUNG = (0, 30, 60, 90, 120, 150, 180)
