@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import os
 import sys
+from difflib import get_close_matches
 from importlib import import_module
 from typing import Annotated, Any
 
@@ -34,6 +35,14 @@ class _OnDemand(TyperGroup):
         single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
         single.command(cmd_name)(getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name))
         return get_command(single)
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        try:
+            return super().resolve_command(ctx, args)
+        except _UsageError as error:
+            if near := get_close_matches(args[0].lower()[:100], COMMANDS, 1):
+                error.message += f" Did you mean {near[0]}?"
+            raise
 
 
 app = typer.Typer(cls=_OnDemand, no_args_is_help=True, pretty_exceptions_enable=False,
