@@ -70,7 +70,7 @@ def test_every_second_cylinder_fires_as_they_come_round():
     """Cylinder 5 of 5 stands 72 degrees behind cylinder 1 and comes to the top after it."""
     built("radial = 5", more="firing_order = [1, 4, 2, 5, 3]\n")
     with pytest.raises(InputError, match="cylinder 3 is not at top dead centre when it fires: its crank pin stands 0 deg "
-                                         "after cylinder 1's, and would have to stand at 288 deg"):
+                                         "ahead of cylinder 1's, and would have to stand at 288 deg"):
         built("radial = 5", more="firing_order = [1, 3, 5, 2, 4]\n")
 
 
