@@ -193,7 +193,7 @@ def test_a_pendulum_that_swings_too_quickly_for_a_cylinders_own_rod():
     inertia = (STANDARD_GRAVITY * 0.15 * (0.1 / 2 / math.pi) ** 2 - 0.15**2) * 1e6
     assert text == (
         "engine: cylinder.2.rod_pendulum: the period is too quick for the distance of its pivot from the centre of "
-        f"mass: the moment of inertia about it would be {inertia:g} kg mm2 (period: a full swing, in seconds)")
+        f"mass: the moment of inertia about it would be {inertia:g} kg mm2 (period: a full swing, s)")
 
 
 def test_every_mechanism_that_cannot_turn_is_told_once():

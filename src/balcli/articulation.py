@@ -96,9 +96,11 @@ def linkage(file: EngineFile, layout: Plan, numbers: Sequence[int], axis: Mappin
 
 def locked(file: EngineFile, c: Cylinders, numbers: Sequence[int]) -> Iterator[Problem]:
     """Articulated cylinders whose rod cannot follow its knuckle pin all the way round."""
-    if file.articulation is None:
-        return
+    from .core.articulated import Articulated
     from .core.linkage import revolution
+
+    if not isinstance(c.linkage, Articulated):
+        return
 
     with np.errstate(invalid="ignore"):                                     # beyond 1 there is no angle
         leans = np.abs(c.linkage.motion(revolution(_STEPS), c.lam, c.eps).lean).reshape(len(numbers), -1, _STEPS).max(axis=1)

@@ -99,12 +99,13 @@ def mistakes(file: EngineFile, number: int, rod: Parts, radius: Any, articulated
         return "rod." + next((key for key in keys if getattr(file.rod, key) is not None), keys[0])
 
     if not np.all(rod.spin >= 0):
-        return [Problem(path("pendulum"), "the period is too quick for the distance of its pivot from the centre of mass: the moment of inertia "
-                                          f"about it would be {np.min(rod.spin) * 1e6:g} kg mm2 (period: a full swing, in seconds)")]
+        return [Problem(path("pendulum"), "the period is too quick for the distance of its pivot from the centre of mass: the moment "
+                                          f"of inertia about it would be {np.min(rod.spin) * 1e6:g} kg mm2 (period: a full swing, s)")]
     lam, eps = np.max(radius / rod.length), np.max(np.abs(rod.offset / rod.length))
     if articulated or lam + eps <= 1 - NEAREST_TO_LOCK:                     # what an articulated rod can do depends on its master
         return []
-    offset = f", with the piston offset of {np.max(np.abs(rod.offset)) * 1e3:g} mm lambda + |offset|/length = {lam + eps:.9g}" if eps else ""
+    aside = np.max(np.abs(rod.offset)) * 1e3
+    offset = f", with the piston offset of {aside:g} mm lambda + |offset|/length = {lam + eps:.9g}" if eps else ""
     return [Problem(path("length", "ratio"), f"the crank cannot turn: crank radius {np.max(radius) * 1e3:g} mm over rod length "
                     f"{np.min(rod.length) * 1e3:g} mm is lambda = {lam:.9g}{offset}; at most 1 - {NEAREST_TO_LOCK:g} is allowed: "
                     f"make the rod longer{' or the offset smaller' if eps else ''}")]

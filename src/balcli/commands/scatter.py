@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import Annotated, Optional
+from typing import Annotated
 
 import typer
 
@@ -21,12 +21,12 @@ def scatter(
     file: EngineFile,
     mass: Annotated[str, typer.Option("--mass-scatter", metavar="PERCENT", help="Tolerance of every piston, rod and throw mass.")] = "0.5%",
     length: Annotated[str, typer.Option("--length-scatter", metavar="PERCENT", help="Tolerance of every rod length.")] = "0%",
-    angle: Annotated[str, typer.Option("--angle-scatter", metavar="ANGLE", help="Tolerance of every throw angle, such as 0.2 deg.")] = "0",
+    angle: Annotated[str, typer.Option("--angle-scatter", metavar="ANGLE", help="Tolerance of every throw angle, as 0.2 deg.")] = "0",
     samples: Annotated[int, typer.Option("--samples", help="Number of random engines.")] = 100_000,
-    seed: Annotated[Optional[int], typer.Option("--seed", min=0, help="Of the random numbers, for repeatable figures.", show_default=False)] = None,
+    seed: Annotated[int | None, typer.Option("--seed", min=0, help="Of the random numbers, to repeat them.", show_default=False)] = None,
     distribution: Annotated[Distribution, typer.Option("--distribution", help=(
         "uniform within the tolerances, or normal with a third of them as standard deviation."))] = Distribution.UNIFORM,
-    quantity: Annotated[str, typer.Option("--quantity", "-q", metavar="WHAT,...", help="Sizes such as force.1.major, couple.4.amplitude.")] =
+    quantity: Annotated[str, typer.Option("--quantity", "-q", metavar="WHAT,...", help="As force.1.major, couple.4.amplitude.")] =
         "force.1.major,force.2.major,moment.1.major,moment.2.major",
     format: FormatOption = Format.TABLE,                                    # noqa: A002 (the option's name)
     output: Output = None,

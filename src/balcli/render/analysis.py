@@ -54,22 +54,33 @@ def facts(engine: Engine, system: System) -> Facts:
     def of_first(values: np.ndarray) -> float:
         return float(values[first if len(values) > 1 else 0])
     unequal = "" if engine.equal else " (cylinder 1; others differ)"
-    bore = f", bore × stroke {number(length.of(engine.bore_m))} × {number(length.of(2 * float(c.radius)))} {length.name}" \
-        f", {number(system.volume.of(engine.displacement_m3), 4)} {system.volume.name}" if engine.bore_m == engine.bore_m else ""
-    lam = of_first(c.lam)
+    radius, lam, weighed = float(c.radius), of_first(c.lam), engine.weighed[first]
+    crank = (f"r = {number(length.of(radius))} {length.name}, rod {number(length.of(radius / lam))} {length.name}, "
+             f"λ = {number(lam, 4)}{unequal}")
+    masses = (f"reciprocating {number(mass.of(weighed.piston + weighed.small_end), 4)} {mass.name} a cylinder (piston, rod's "
+              f"share at its pin), rotating {number(mass.of(weighed.big_end + weighed.share), 4)} {mass.name} a pin (rod's share, "
+              f"throw){unequal}")
+    about = ", ".join(number(length.of(float(v))) for v in engine.reference_m)
     pairs = [
-        ("cylinders", f"{c.count}{_banks(engine)}{bore}"),
-        ("crank", f"r = {number(length.of(float(c.radius)))} {length.name}, rod {number(length.of(float(c.radius) / lam))} {length.name}, "
-                  f"λ = {number(lam, 4)}{unequal}"),
+        ("cylinders", f"{c.count}{_banks(engine)}{_bore(engine, system)}"),
+        ("crank", crank),
         ("firing", _firing(engine)),
         ("speed", f"{number(engine.speed_rpm, 6)} rpm{', uneven: figures are those of the uneven speed' if engine.ripple else ''}"),
-        ("masses", f"reciprocating {number(mass.of(of_first(c.reciprocating)), 4)} {mass.name} a cylinder (piston, rod's share at its pin), "
-                   f"rotating {number(mass.of(of_first(c.rotating)), 4)} {mass.name} a pin (rod's share, throw){unequal}"),
-        ("reference", f"moments about x, y, z = {', '.join(number(length.of(float(v))) for v in engine.reference_m)} {length.name}"),
+        ("masses", masses),
+        ("reference", f"moments about x, y, z = {about} {length.name}"),
         ("devices", _counted(engine)),
         ("source", engine.source),
     ]
     return Facts(tuple((name, value) for name, value in pairs if value))
+
+
+def _bore(engine: Engine, system: System) -> str:
+    """Bore, stroke and displacement, where the file gives the bore."""
+    if engine.bore_m != engine.bore_m:
+        return ""
+    bore, stroke = (number(system.length.of(v)) for v in (engine.bore_m, 2 * float(engine.cylinders.radius)))
+    volume = number(system.volume.of(engine.displacement_m3), 4)
+    return f", bore × stroke {bore} × {stroke} {system.length.name}, {volume} {system.volume.name}"
 
 
 def _banks(engine: Engine) -> str:
@@ -157,7 +168,8 @@ def _directions(spectra: Spectra, system: System) -> Grid:
 def _textbook(spectra: Spectra, units: Textbook, system: System) -> Iterator[Grid]:
     cylinder = "one cylinder" if units.equal else "cylinder 1"
     if spectra.force is not None:
-        note = f"F1 = m r ω² = {number(system.force.of(units.force))} {system.force.name} (reciprocating mass of {cylinder}), Fn = A_n F1 its n-th order."
+        note = (f"F1 = m r ω² = {number(system.force.of(units.force))} {system.force.name} (reciprocating mass of {cylinder}), "
+                "Fn = A_n F1 its n-th order.")
         yield _multiples("force", spectra.force, units.force, units.ratios, note)
     if spectra.moment is not None and units.arm == units.arm:
         note = f"a = {number(system.length.of(units.arm), 4)} {system.length.name}, the distance of neighbouring throws."
@@ -171,8 +183,8 @@ def _multiples(quantity: str, phasors: Phasors, size: float, ratios: Array, note
         return (f"{order_number(phasors.orders[k])}", *(number(p / size, 4) if size else "–" for p in parts),
                 number(parts[0] / own, 4) if ratios[k] > 1e-12 and size else "–")
     unit = "F1" if quantity == "force" else "F1·a"
-    return Grid(f"Free {quantity} in textbook units", ("order", f"largest, {unit}", "with crank", "against", f"largest, {unit.replace('1', 'n')}"),
-                _rows(phasors.orders, [phasors], row), note)
+    heads = ("order", f"largest, {unit}", "with crank", "against", f"largest, {unit.replace('1', 'n')}")
+    return Grid(f"Free {quantity} in textbook units", heads, _rows(phasors.orders, [phasors], row), note)
 
 
 def largest(result: Result, system: System, title: str) -> Facts:

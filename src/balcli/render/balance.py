@@ -85,7 +85,8 @@ def _peak(peak: Peak | None, unit: Unit) -> tuple[str, str]:
 # ------------------------------------------------------------------ details
 def _details(details: Mapping[str, Any], system: System) -> Iterator[Grid | Facts | Text]:
     """Figures of a scheme that are no device."""
-    plain = [fact for key, value in details.items() if key in ("reached_deg", "knuckle_angles_deg") or (key != "note" and not isinstance(value, list))
+    plain = [fact for key, value in details.items()
+             if key in ("reached_deg", "knuckle_angles_deg") or (key != "note" and not isinstance(value, list))
              for fact in _facts(key, value, system)]
     if plain:
         yield Facts(tuple(plain), "Details")

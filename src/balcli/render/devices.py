@@ -19,5 +19,5 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
               length(d.position)) for d in remedy.shafts]
     rows += [("slider", str(d.order), unbalance(d.unbalance), f"{degrees(d.angle)} along {degrees(d.direction)}",
               f"{length(d.at[0])}, {length(d.at[1])}", length(d.position)) for d in remedy.sliders]
-    return Grid("", ("device", "turns", f"{system.unbalance.name}", "angle, deg", f"x, y, {system.length.name}", f"z, {system.length.name}"),
-                tuple(rows), words=(0, 3, 4))
+    heads = ("device", "turns", f"{system.unbalance.name}", "angle, deg", f"x, y, {system.length.name}", f"z, {system.length.name}")
+    return Grid("", heads, tuple(rows), words=(0, 3, 4))

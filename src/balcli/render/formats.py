@@ -81,7 +81,8 @@ def balances(result: Balance, form: Format, units: Units, *, into_file: bool = F
     def sheets() -> list[Sheet]:
         from .balance import sheet
         return [sheet(result, system)]
-    return render(form, sheets=sheets, documents=lambda: [json.balance(result)], rows=lambda: csv.balances(result, system), into_file=into_file)
+    return render(form, sheets=sheets, documents=lambda: [json.balance(result)],
+                  rows=lambda: csv.balances(result, system), into_file=into_file)
 
 
 def sums(result: Combined, form: Format, units: Units, *, into_file: bool = False) -> str:

@@ -24,7 +24,8 @@ def _part(part: Grid | Facts | Text) -> str:
         case Grid():
             marked = [[f"**{escape(cell)}**" if (i, k) in part.marked else escape(cell) for k, cell in enumerate(row)]
                       for i, row in enumerate(part.rows)]
-            lines = [_row([escape(c) for c in part.columns]), _row(["---" if k in part.words else "---:" for k in range(len(part.columns))]), *map(_row, marked)]
+            rule = ["---" if k in part.words else "---:" for k in range(len(part.columns))]
+            lines = [_row([escape(c) for c in part.columns]), _row(rule), *map(_row, marked)]
             return head + "\n".join(lines) + (f"\n\n{escape(part.note)}" if part.note else "")
         case Facts():
             return head + "\n".join(f"- {escape(name)}: {escape(value)}" for name, value in part.pairs)
