@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +28,7 @@ _SUM = 8 * EPS              # rounding error of a sum, per term and size of the 
 _TURN = np.pi * EPS         # rounding error of an angle in the file (half an ulp of 360 deg), which order n multiplies
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Cylinders:
     """All cylinders of an engine, sorted by bank: bank b has the rows from `starts[b]` on.
 
@@ -74,8 +74,7 @@ class Cylinders:
         return self.eps * self.radius / self.lam
 
 
-@dataclass(frozen=True)
-class Device:
+class Device(NamedTuple):
     """Counterweight, balancer shaft or slider: mass x radius (kg m) that turns at `order`, with and against the crank.
 
     `rank` is the order in which devices are summed: 0 counterweights, 1 shafts, 2 sliders, as an engine file has them.

@@ -49,7 +49,7 @@ def _turn(radians: Array) -> Complex:
     return result
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Phasors:
     """Rotating vectors by order, and the rounding error that they may carry.
 
