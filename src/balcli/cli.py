@@ -79,4 +79,6 @@ def main() -> None:
         typer.echo(f"balcli: {error}", err=True)
     except _UsageError as error:
         error.show()                                    # plain: a box would fold it, even in a pipe
+    finally:
+        gc.freeze()                                     # the process ends: nothing need be collected any more
     sys.exit(Exit.BAD_INPUT)
