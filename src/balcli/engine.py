@@ -92,7 +92,13 @@ class Engine:
     def equal(self) -> bool:
         """Whether all cylinders have one mechanism and one set of reciprocating masses."""
         c = self.cylinders
-        return len(c.lam) == len(c.eps) == len(c.reciprocating) == 1 and c.linkage is None
+        return len(c.lam) == len(c.eps) == len(c.reciprocating) == 1 and (c.linkage is None or len(c.linkage.mass) == 1)
+
+    @property
+    def rotary(self) -> bool:
+        """Whether the cylinders turn and the crank stands still: then the cylinders have masses on a linkage only."""
+        c = self.cylinders
+        return c.linkage is not None and not np.any(c.reciprocating)
 
     @property
     def pins_deg(self) -> dict[int, Any]:
