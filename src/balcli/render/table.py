@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from io import StringIO
 from typing import TYPE_CHECKING, Any
 
@@ -63,6 +64,7 @@ def _fitting(grid: Grid, width: int) -> Iterator[Table]:
         if sum(natural) + gap * (len(natural) - 1) <= width:
             yield _grid(grid, dict(enumerate(natural)), gap)
             return
+    grid = replace(grid, columns=tuple(name.replace("_", " ") for name in grid.columns))        # may be broken into lines
     least = [max((len(word) for text in _texts(grid, k) for word in text.split()), default=1) for k in range(len(grid.columns))]
     piece = [0]
     for k in range(1, len(least)):
@@ -74,12 +76,8 @@ def _fitting(grid: Grid, width: int) -> Iterator[Table]:
 
 
 def _texts(grid: Grid, k: int) -> list[str]:
-    """Everything that stands in a column; its name may be broken into lines."""
-    return [_heading(grid.columns[k]), *(row[k] for row in grid.rows)]
-
-
-def _heading(name: str) -> str:
-    return name.replace("_", " ")
+    """Everything that stands in a column."""
+    return [grid.columns[k], *(row[k] for row in grid.rows)]
 
 
 def _shared_out(width: int, columns: list[int], least: list[int], natural: list[int]) -> dict[int, int]:
@@ -98,7 +96,7 @@ def _grid(grid: Grid, widths: dict[int, int], gap: int) -> Table:
 
     table = Table(box=box.SIMPLE_HEAD, padding=(0, gap - 2, 0, 1), pad_edge=False, show_edge=False)
     for k, width in widths.items():
-        table.add_column(_heading(grid.columns[k]), justify="left" if k in grid.words else "right", overflow="fold",
+        table.add_column(grid.columns[k], justify="left" if k in grid.words else "right", overflow="fold",
                          style="bold" if k == 0 else "", width=width)
     for i, row in enumerate(grid.rows):
         table.add_row(*(Cell(row[k], style="bold red" if (i, k) in grid.marked else "") for k in widths))
