@@ -69,6 +69,12 @@ def test_axis_lies_above_minus_90_up_to_90(forward, backward, axis):
     assert one(forward, backward).axis_deg[0] == pytest.approx(axis, abs=1e-12)
 
 
+@pytest.mark.parametrize("slip", [-1e-15, -1e-16, 0, 1e-16, 1e-15])
+def test_an_axis_across_is_at_90_degrees_whatever_the_rounding(slip):
+    assert one(cmath.exp(1j * (math.pi / 3 + slip)), cmath.exp(2j * math.pi / 3)).axis_deg[0] == pytest.approx(90, abs=1e-9)
+    assert one(cmath.exp(-1j * (math.pi / 3 + slip)), cmath.exp(-2j * math.pi / 3)).axis_deg[0] == pytest.approx(90, abs=1e-9)
+
+
 @pytest.mark.parametrize(("forward", "backward"), [(1, 0), (0, 1j), (0, 0)])
 def test_a_circle_and_a_balanced_order_have_no_axis(forward, backward):
     assert math.isnan(one(forward, backward).axis_deg[0])

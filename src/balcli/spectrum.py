@@ -18,7 +18,7 @@ SHOWN = 1e-6                    # share of a quantity's largest order below whic
 _AT_ONCE = 1 << 19              # orders x cylinders that are computed together: bounds the memory, about 16 arrays of complex numbers
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Spectra:
     """Phasors by order: force (N), moment, couple, inertia torque on the crank and roll (N m); None: not asked for."""
 

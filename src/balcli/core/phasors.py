@@ -50,7 +50,7 @@ def _turn(radians: Array) -> Complex:
     return result
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Phasors:
     """Rotating vectors by order, and the rounding error that they may carry.
 
@@ -121,6 +121,7 @@ class Phasors:
         """Direction of the major axis from x in (-90, 90]; nan for a circle, a balanced order and a mean."""
         angle = np.degrees((np.angle(self.forward) + np.angle(self.backward)) / 2)
         turned = 90 - (90 - angle) % 180
+        turned = np.where(turned < 1e-9 - 90, 90.0, turned)             # rounding shall not turn an axis end for end
         there = (self.forward != 0) & (self.backward != 0)
         return np.where(there, turned, np.nan)
 
