@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from balcli.core.phasors import EPS, Phasors, unit
+from balcli.core.phasors import EPS, Phasors, reduced, unit
 
 RELATIVE = 4 * EPS
 THETA = np.linspace(0, 2 * np.pi, 7201)
@@ -67,6 +67,19 @@ def test_ellipse_against_the_curve(forward, backward, order):
     (1, 1j, 45.0), (1j, 1, 45.0), (1, -1j, -45.0)])
 def test_axis_lies_above_minus_90_up_to_90(forward, backward, axis):
     assert one(forward, backward).axis_deg[0] == pytest.approx(axis, abs=1e-12)
+
+
+@pytest.mark.parametrize("eighths", range(-1440, 1440, 5))
+def test_an_axis_along_y_is_plus_90_however_it_rounds(eighths):
+    turn = math.radians(eighths / 8)
+    forward, backward = cmath.rect(1, turn), cmath.rect(1, math.pi - turn)      # their mean direction is 90 degrees
+    assert -90 < one(forward, backward).axis_deg[0] <= 90
+
+
+@pytest.mark.parametrize("turn", [180, 360])
+def test_a_direction_is_reduced_to_half_a_turn_either_way(turn):
+    barely = math.nextafter(turn / 2, math.inf)                                 # its remainder rounds to a whole turn
+    assert list(reduced([barely, -turn / 2, 1.5 * turn, 0, turn], turn)) == [turn / 2, turn / 2, turn / 2, 0, 0]
 
 
 @pytest.mark.parametrize(("forward", "backward"), [(1, 0), (0, 1j), (0, 0)])
