@@ -79,12 +79,15 @@ def _overridden(rod: Rod | ArticulatedRod, own: Override | None) -> dict[str, An
 
 
 def half_rods(file: EngineFile, articulated: Collection[int]) -> list[Problem]:
-    """Cylinders whose own rod is weighed at one end only, where the engine's rod does not give the other."""
+    """Rods weighed at one end only: the engine's (in a sweep), or a cylinder's own where the engine's does not give the other."""
     ends = ("small_end", "big_end")
-    return [Problem(f"cylinder.{n}.rod_{here}", f"needs rod_{missing} beside it: weigh the rod at both ends")
-            for n, own in file.cylinder.items() for here, missing in (ends, ends[::-1])
-            if getattr(own, f"rod_{here}") is not None and getattr(own, f"rod_{missing}") is None
-            and (n in articulated or getattr(file.rod, missing) is None)]
+    pairs = (ends, ends[::-1])
+    found = [Problem(f"rod.{here}", f"needs {missing} beside it: weigh the rod at both ends") for here, missing in pairs
+             if getattr(file.rod, here) is not None and getattr(file.rod, missing) is None]
+    return found or [Problem(f"cylinder.{n}.rod_{here}", f"needs rod_{missing} beside it: weigh the rod at both ends")
+                     for n, own in file.cylinder.items() for here, missing in pairs
+                     if getattr(own, f"rod_{here}") is not None and getattr(own, f"rod_{missing}") is None
+                     and (n in articulated or getattr(file.rod, missing) is None)]
 
 
 def mistakes(file: EngineFile, number: int, rod: Parts, radius: Any, articulated: bool) -> list[Problem]:
