@@ -200,3 +200,11 @@ def test_every_mechanism_that_cannot_turn_is_told_once():
     text = refused(crank={"throws": [0, 0, 0]}, rod={"length": 40}, cylinder={"2": {"rod_length": 30}})
     assert text.splitlines()[0] == "engine: 2 mistakes"
     assert [line.split(":")[0].strip() for line in text.splitlines()[1:]] == ["rod.length", "cylinder.2.rod_length"]
+
+
+def test_layout_and_rods_are_told_together():
+    """What is wrong with the cylinders does not hide what is wrong with the rods."""
+    for parts, paths in (({"layout": {"firing_order": [1, 2, 3]}}, ["layout.firing_order", "rod.length"]),
+                         ({"cylinder": {"3": {"piston_mass": 1}}}, ["cylinder.3", "rod.length"])):
+        text = refused(crank={"throws": [0, 0]}, rod={"length": 40}, **parts)
+        assert [line.split(":")[0].strip() for line in text.splitlines()[1:]] == paths
