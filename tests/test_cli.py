@@ -83,6 +83,7 @@ def usage(command: str, message: str) -> str:
 
 @pytest.mark.parametrize(("args", "command", "message"), [
     (["frobnicate"], "", "No such command 'frobnicate'."),
+    (["anlyze"], "", "No such command 'anlyze'. Did you mean analyze?"),
     (["--frob"], "", "No such option: --frob"),
     (["analyze", V8, "--by", "bank"], "analyze", 'Invalid value for --by: "bank": only "cylinder" can be chosen'),
 ])

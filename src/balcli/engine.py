@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,8 +23,7 @@ if TYPE_CHECKING:
     from .core.rotary import Rotary
 
 
-@dataclass(frozen=True)
-class Ripple:
+class Ripple(NamedTuple):
     """One line of an uneven crank speed: `omega = mean (1 + sum amplitude cos(order theta - angle))`."""
 
     order: int
@@ -32,8 +31,7 @@ class Ripple:
     angle_deg: Any
 
 
-@dataclass(frozen=True)
-class Weighed:
+class Weighed(NamedTuple):
     """Masses of one cylinder as a shop weighs them, kg, and on which throw (from 0) its rod runs.
 
     `share` is the pin's share of the throw mass; bearing and oil count on the bobweight card only.
@@ -48,7 +46,7 @@ class Weighed:
     oil: Any
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Engine:
     """An engine, SI except where a name says otherwise; arrays may have a trailing axis of variants.
 
@@ -94,7 +92,13 @@ class Engine:
     def equal(self) -> bool:
         """Whether all cylinders have one mechanism and one set of reciprocating masses."""
         c = self.cylinders
-        return len(c.lam) == len(c.eps) == len(c.reciprocating) == 1 and c.linkage is None
+        return len(c.lam) == len(c.eps) == len(c.reciprocating) == 1 and (c.linkage is None or len(c.linkage.mass) == 1)
+
+    @property
+    def rotary(self) -> bool:
+        """Whether the cylinders turn and the crank stands still: then the cylinders have masses on a linkage only."""
+        c = self.cylinders
+        return c.linkage is not None and not np.any(c.reciprocating)
 
     @property
     def pins_deg(self) -> dict[int, Any]:

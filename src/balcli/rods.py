@@ -3,8 +3,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,8 +15,7 @@ NEAREST_TO_LOCK = 1e-6              # how far lambda + |offset| / rod length mus
 _GROUPS = (({"length"}, {"ratio"}), ({"mass", "cg"}, {"small_end", "big_end"}), ({"inertia"}, {"pendulum"}))
 
 
-@dataclass(frozen=True)
-class Parts:
+class Parts(NamedTuple):
     """Piston and rod of one cylinder, SI: `spin` is the rod's moment of inertia about its centre of mass, `couple` is H."""
 
     length: Any

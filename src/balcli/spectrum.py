@@ -18,7 +18,7 @@ SHOWN = 1e-6                    # share of a quantity's largest order below whic
 _CLOSED_FORM = 4096             # highest order of closed forms; only mechanisms near their lock have more
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Spectra:
     """Phasors by order: force (N), moment, couple, inertia torque on the crank and roll (N m); None: not asked for."""
 

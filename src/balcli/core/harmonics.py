@@ -18,7 +18,7 @@ Array = NDArray[Any]
 EPS = float(np.finfo(float).eps)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Series:
     """Coefficients c_n (real: of cosines alone), shape (orders, cylinders or any axes), and their own error bound, which
     broadcasts to it (0: some ulp)."""
@@ -34,8 +34,7 @@ class Series:
         return Series(factor * self.c, abs(factor) * self.noise)
 
 
-@dataclass(frozen=True)
-class Curve:
+class Curve(NamedTuple):
     """What unit mass does on a closed curve z(psi) (complex, in crank radii, x along the cylinder's axis)."""
 
     along: Series                       # -Re z''
@@ -45,8 +44,7 @@ class Curve:
     momentum: Array                     # mean of Im(conj(z) z'), shape (cylinders, *trailing)
 
 
-@dataclass(frozen=True)
-class Harmonics:
+class Harmonics(NamedTuple):
     """The Fourier series of a mechanism (or many); those of rod and energy may be left out."""
 
     piston: Series                      # -s''/r: acceleration towards the crank

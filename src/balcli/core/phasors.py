@@ -55,7 +55,7 @@ def reduced(degrees: ArrayLike, turn: float) -> Array:
     return np.where(found > -turn / 2, found, turn / 2)         # the remainder of what is barely negative rounds to a whole turn
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Phasors:
     """Rotating vectors by order, and the rounding error that they may carry.
 
@@ -125,8 +125,10 @@ class Phasors:
     def axis_deg(self) -> Array:
         """Direction of the major axis from x in (-90, 90]; nan for a circle, a balanced order and a mean."""
         angle = np.degrees((np.angle(self.forward) + np.angle(self.backward)) / 2)
+        turned = reduced(angle, 180)
+        turned = np.where(turned < 1e-9 - 90, 90.0, turned)             # rounding shall not turn an axis end for end
         there = (self.forward != 0) & (self.backward != 0)
-        return np.where(there, reduced(angle, 180), np.nan)
+        return np.where(there, turned, np.nan)
 
     @property
     def x(self) -> Complex:

@@ -87,8 +87,3 @@ def _plain(figure: float, size: float) -> float:
     """The figure with nine decimals, as people would write it, where that is the same to an ulp of `size`."""
     short = round(figure, 9) + 0.0
     return short if abs(figure - short) <= size * EPS else figure
-
-
-def told(value: float) -> str:
-    """A figure for a sentence: four digits, or all before the point."""
-    return f"{value:.0f}" if 1e4 <= abs(value) < 1e9 else f"{value:.4g}"

@@ -11,7 +11,7 @@ from ..errors import BalcliError
 from . import planes
 from .auto import why_shaft, why_weights
 from .fitting import BACKWARD, FORWARD, SAME_PLACE, Fitting
-from .remedy import Remedy, degrees, told
+from .remedy import Remedy, degrees
 from .solver import Part, Rest, Slot, solve
 from .wish import NoNeedError, Wish, chosen
 
@@ -84,7 +84,7 @@ def slider(engine: Engine, wish: Wish) -> Remedy:
     axis = float(reduced(axis, 180))
     z, place = _along(engine, wish, left, 1 if abs(forward) >= abs(backward) else -1), _only(wish)
     slots = [Slot("slider", left.order, 0, z, place, direction) for direction in (axis, axis + 90 if axis <= 0 else axis - 90)]
-    reason = (f"Order {left.order} force, up to {told((abs(forward) + abs(backward)) * left.newton)} N: sliders driven at "
+    reason = (f"Order {left.order} force: sliders driven at "
               f"{left.order} times crank speed along the axes of its ellipse, of sizes |V+| + |V-| and ||V+| - |V-||")
     fit = solve(slots, left, (FORWARD[0], BACKWARD[0]))
     there = [u if abs(u) > 2 * left.noise[FORWARD[0]] else 0j for u in fit.unbalances]
@@ -174,7 +174,7 @@ def _why_pair(left: Rest, sense: int, count: int) -> str:
 
 def _why_couple(left: Rest, sense: int) -> str:
     turning = "with" if sense > 0 else "against"
-    return (f"Order {left.order} moment of {told(abs(left.at('moment', sense)) * left.newton)} N·m turning {turning} the crank: two "
+    return (f"Order {left.order} moment turning {turning} the crank: two "
             f"opposite eccentrics on a shaft at {sense * left.order:+d} times crank speed make the opposite moment and no force")
 
 
