@@ -48,9 +48,12 @@ def study(engine: Engine, what: str, orders: Sequence[int] | None = None, scheme
         scheme: the balance scheme to compare with, if any.
 
     Raises:
-        BalcliError: an unknown scheme, or one that cannot be fitted; a bank angle is asked of an engine that is no vee.
+        BalcliError: an unknown scheme, or one that cannot be fitted, or for a page that compares nothing; a bank angle is asked of an
+            engine that is no vee.
     """
     if scheme is not None:
+        if what in ("factor", "bank"):
+            raise BalcliError(f"--scheme {scheme}: the page {what} shows the engine as it is; leave out --scheme")
         found = balance(engine, scheme, orders=orders)
         bent = (inner(found.after.engine), inner(engine)) if what == "inner" else ()
         return Study(found.after, found.before, bent=bent)
