@@ -108,8 +108,9 @@ def locked(file: EngineFile, c: Cylinders, numbers: Sequence[int]) -> Iterator[P
     turned = c.angle_deg.reshape(len(numbers), -1)[:, 0]
     for row, number in enumerate(numbers):
         worst = int(leans[row].argmax())
-        if c.linkage.master[row] != row and leans[row, worst] + _rise(leans[row], worst) > 1 - NEAREST_TO_LOCK:
-            yield _lock(file, number, leans[row, worst], (360 / _STEPS * worst - turned[row]) % 360)
+        lean = leans[row, worst] + _rise(leans[row], worst)
+        if c.linkage.master[row] != row and lean > 1 - NEAREST_TO_LOCK:
+            yield _lock(file, number, lean, (360 / _STEPS * worst - turned[row]) % 360)
 
 
 def _lock(file: EngineFile, number: int, lean: float, crank: float) -> Problem:

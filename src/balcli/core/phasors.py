@@ -6,6 +6,7 @@ Arrays have the orders first, then any trailing axes (crank angles, variants of 
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -148,6 +149,13 @@ class Phasors:
         turning = np.exp(1j * np.multiply.outer(angles, self.orders))
         curve: Complex = turning @ self.forward + np.conj(turning) @ self.backward
         return curve
+
+
+def joined(parts: Sequence[Phasors]) -> Phasors:
+    """One run of orders from several, in their order."""
+    noises = [np.broadcast_to(p.noise, p.forward.shape) for p in parts]
+    columns = ([p.orders for p in parts], [p.forward for p in parts], [p.backward for p in parts], noises)
+    return Phasors(*map(np.concatenate, columns))
 
 
 def _settled(vectors: Complex, noise: Array) -> Complex:
