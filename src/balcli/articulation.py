@@ -65,7 +65,8 @@ def _wrong_angles(table: Articulation, banks: int) -> Iterator[Problem]:
     if angles is not None and len(angles) != banks:
         yield Problem(path, f"has {len(angles)} angles for {banks} banks: give one for each, the master's own is 0")
     elif angles is not None and np.any(np.asarray(angles[own]) != 0):
-        yield Problem(path, f"has {angles[own]:g} for bank {own + 1}, which carries the master rod: its own is 0")
+        angle = max(np.ravel(angles[own]), key=abs)
+        yield Problem(path, f"has {angle:g} for bank {own + 1}, which carries the master rod: its own is 0")
 
 
 def linkage(file: EngineFile, layout: Plan, numbers: Sequence[int], axis: Mapping[int, Any],

@@ -38,7 +38,9 @@ def search(
     if require not in ("", "even-firing"):
         raise typer.BadParameter(f'"{require}": only even-firing can be required', param_hint="--require")
     text = enginefile.text_of(file)
-    found = searches.search(enginefile.parse(text, file), over, searches.objective(minimise, limit or ()), top, bool(require))
+    model = enginefile.parse(text, enginefile.name_of(file))
+    enginefile.built(model, file)
+    found = searches.search(model, over, searches.objective(minimise, limit or ()), top, bool(require))
     emit(render(format, sheets=lambda: [rendered.sheet(found)], documents=lambda: [rendered.document(found)],
                 rows=lambda: rendered.rows(found), into_file=output is not None), output)
     if write is not None:

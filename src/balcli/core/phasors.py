@@ -50,6 +50,12 @@ def _turn(radians: Array) -> Complex:
     return result
 
 
+def reduced(degrees: ArrayLike, turn: float) -> Array:
+    """The same direction in (-turn/2, turn/2], any shape; `turn` is 180 for lines, 360 for vectors."""
+    found = turn / 2 - np.remainder(turn / 2 - np.asarray(degrees, float), turn)
+    return np.where(found > -turn / 2, found, turn / 2)         # the remainder of what is barely negative rounds to a whole turn
+
+
 @dataclass(frozen=True, eq=False)
 class Phasors:
     """Rotating vectors by order, and the rounding error that they may carry.
@@ -120,7 +126,7 @@ class Phasors:
     def axis_deg(self) -> Array:
         """Direction of the major axis from x in (-90, 90]; nan for a circle, a balanced order and a mean."""
         angle = np.degrees((np.angle(self.forward) + np.angle(self.backward)) / 2)
-        turned = 90 - (90 - angle) % 180
+        turned = reduced(angle, 180)
         turned = np.where(turned < 1e-9 - 90, 90.0, turned)             # rounding shall not turn an axis end for end
         there = (self.forward != 0) & (self.backward != 0)
         return np.where(there, turned, np.nan)

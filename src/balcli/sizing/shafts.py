@@ -5,6 +5,7 @@ import cmath
 import math
 from typing import Any
 
+from ..core.phasors import reduced
 from ..engine import Engine
 from ..errors import BalcliError
 from . import planes
@@ -80,7 +81,7 @@ def slider(engine: Engine, wish: Wish) -> Remedy:
     left = chosen(engine, wish, "force")
     forward, backward = left.at("force", 1), left.at("force", -1)
     axis = degrees(cmath.sqrt(forward * backward)) if forward and backward else 0.0
-    axis = 90 - (90 - axis) % 180
+    axis = float(reduced(axis, 180))
     z, place = _along(engine, wish, left, 1 if abs(forward) >= abs(backward) else -1), _only(wish)
     slots = [Slot("slider", left.order, 0, z, place, direction) for direction in (axis, axis + 90 if axis <= 0 else axis - 90)]
     reason = (f"Order {left.order} force: sliders driven at "
