@@ -44,7 +44,7 @@ def test_the_text_stays_and_reasons_stand_beside_the_devices():
     text = GOOD.rstrip("\n") + " # the last comment"
     remedy = remedy_for(build(parse(text)), "auto")
     new = fit(text.encode(), remedy)
-    assert new.startswith(text + "\n\n# fitted by balcli, scheme auto\n# Order 2 force, ")
+    assert new.startswith(text + "\n\n# fitted by balcli, scheme auto\n# Order 2 force turning with the crank: ")
     assert new.count("[[shaft]]") == 2
 
 
