@@ -57,7 +57,7 @@ def test_plot_compares_before_and_after(balcli, four, tmp_path):
 @pytest.mark.parametrize("what", ["factor", "bank"])
 def test_plot_refuses_a_scheme_where_nothing_is_compared(balcli, tmp_path, what):
     assert balcli("plot", ENGINES / "vtwin90.toml", "-o", tmp_path / "x.svg", "--what", what, "--scheme", "factor") == (
-        2, "", f"balcli: --scheme factor: the page {what} shows the engine as it is; leave out --scheme\n")
+        2, "", f"balcli: --what {what} shows the engine as it is: leave --scheme factor out\n")
     assert not (tmp_path / "x.svg").exists()
 
 

@@ -58,3 +58,11 @@ def anchors(document: Path) -> set[str]:
 
 def test_engine_file_reference_is_up_to_date() -> None:
     assert reference.DOCUMENT.read_text(encoding="utf-8") == reference.document(), "python tests/reference.py writes it anew"
+
+
+def test_every_json_format_is_described() -> None:
+    source = "".join(file.read_text(encoding="utf-8") for file in (guide.ROOT / "src").rglob("*.py"))
+    described = (guide.ROOT / "docs" / "json.md").read_text(encoding="utf-8")
+    formats = set(re.findall(r"balcli\.[a-z]+/\d+", source))
+    assert len(formats) > 5
+    assert not {name for name in formats if f"`{name}`" not in described}

@@ -4,8 +4,10 @@ Only the module of the command that is called is imported; what a command does i
 """
 from __future__ import annotations
 
+import gc
 import os
 import sys
+from difflib import get_close_matches
 from importlib import import_module
 from typing import Annotated, Any
 
@@ -35,6 +37,14 @@ class _OnDemand(TyperGroup):
         single.command(cmd_name)(getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name))
         return get_command(single)
 
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        try:
+            return super().resolve_command(ctx, args)
+        except _UsageError as error:
+            if near := get_close_matches(args[0].lower()[:100], COMMANDS, 1):
+                error.message += f" Did you mean {near[0]}?"
+            raise
+
 
 app = typer.Typer(cls=_OnDemand, no_args_is_help=True, pretty_exceptions_enable=False,
                   context_settings={"help_option_names": ["-h", "--help"]})
@@ -58,6 +68,7 @@ def _options(
 
 def main() -> None:
     """Entry point: runs the command; whatever a user can mend becomes a message on standard error and exit status 2."""
+    gc.set_threshold(100_000)                                           # start-up makes many objects, but no garbage
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")              # looking for plugins takes longer than an analysis
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
@@ -68,4 +79,6 @@ def main() -> None:
         typer.echo(f"balcli: {error}", err=True)
     except _UsageError as error:
         error.show()                                    # plain: a box would fold it, even in a pipe
+    finally:
+        gc.freeze()                                     # the process ends: nothing need be collected any more
     sys.exit(Exit.BAD_INPUT)

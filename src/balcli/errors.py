@@ -2,8 +2,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from enum import IntEnum
+from typing import NamedTuple
 
 
 class Exit(IntEnum):
@@ -14,8 +14,7 @@ class Exit(IntEnum):
     BAD_INPUT = 2
 
 
-@dataclass(frozen=True)
-class Problem:
+class Problem(NamedTuple):
     """One mistake: where in the file (`rod.length`, `shaft.2.ratio`; empty: the file), and what would be right."""
 
     path: str

@@ -36,7 +36,7 @@ class Quantity:
 
     @property
     def unit(self) -> str:
-        return "deg" if self.part == "axis" else "N" if self.kind == "force" else "N m"
+        return "deg" if self.part == "axis" else "N" if self.kind == "force" else "N·m"
 
     def of(self, phasors: Phasors) -> Array:
         """Its value by the phasors of its kind, shape (*trailing): sizes of vectors, amplitudes along x and y, degrees."""

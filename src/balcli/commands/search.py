@@ -17,7 +17,7 @@ def search(
     minimise: Annotated[str, typer.Option("--minimise", "--minimize", metavar="WHAT[=WEIGHT],...", show_default=False, help=(
         "What should be small, such as moment.1.major,force.2.major=0.5."))],
     limit: Annotated[list[str] | None, typer.Option("--limit", metavar="WHAT<VALUE", show_default=False, help=(
-        "What must stay below a value (N, N m), such as 'moment.2.major<100'."))] = None,
+        "What must stay below a value (N, N·m), such as 'moment.2.major<100'."))] = None,
     require: Annotated[str, typer.Option("--require", metavar="even-firing", show_default=False, help=(
         "even-firing: only what can fire at even intervals."))] = "",
     top: Annotated[int, typer.Option("--top", min=1, max=1000, help="How many to show.")] = 10,
@@ -38,7 +38,9 @@ def search(
     if require not in ("", "even-firing"):
         raise typer.BadParameter(f'"{require}": only even-firing can be required', param_hint="--require")
     text = enginefile.text_of(file)
-    found = searches.search(enginefile.parse(text, file), over, searches.objective(minimise, limit or ()), top, bool(require))
+    model = enginefile.parse(text, enginefile.name_of(file))
+    enginefile.built(model, file)
+    found = searches.search(model, over, searches.objective(minimise, limit or ()), top, bool(require))
     emit(render(format, sheets=lambda: [rendered.sheet(found)], documents=lambda: [rendered.document(found)],
                 rows=lambda: rendered.rows(found), into_file=output is not None), output)
     if write is not None:

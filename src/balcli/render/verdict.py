@@ -7,6 +7,7 @@ from .sheet import degrees, number
 from .units import System, Unit
 
 _NAMES = {1: "First", 2: "Second", 3: "Third", 4: "Fourth", 5: "Fifth", 6: "Sixth", 7: "Seventh", 8: "Eighth"}
+_AXES = {"0.0": "x", "90.0": "y"}
 NEGLIGIBLE = 1e-3               # higher orders are passed over below this share of the largest order
 
 
@@ -45,15 +46,21 @@ def _vector(k: int, order: int, what: str, p: Phasors, unit: Unit) -> str:
     forward, backward = abs(p.forward[k]), abs(p.backward[k])
     size = f"{number(unit.of(float(p.major[k])), 4)} {unit.name}"
     if backward == 0:
-        means = "counterweights on the crankshaft cancel it" if order == 1 else _shafts(f"at +{order}")
-        return f"{what} of {size}, turning with the crank: {means}."
+        cure = "counterweights on the crankshaft cancel it" if order == 1 else _shafts(f"a shaft at +{order}")
+        return f"{what} of {size}, turning with the crank: {cure}."
     if forward == 0:
-        return f"{what} of {size}, turning against the crank: {_shafts(f'at −{order}')}."
+        return f"{what} of {size}, turning against the crank: {_shafts(f'a shaft at −{order}')}."
     parts = f"{number(unit.of(forward), 4)} turns with the crank, {number(unit.of(backward), 4)} against it"
-    means = "counterweights cancel the first part, a shaft at −1 the second" if order == 1 else \
-        _shafts(f"at +{order} for the first part and at −{order} for the second")
-    return f"{what} of up to {size} along {degrees(float(p.axis_deg[k]))} deg ({parts}): {means}."
+    cure = "counterweights cancel the first part, a shaft at −1 times crank speed the second" if order == 1 else \
+        _shafts(f"shafts at +{order} and −{order}")
+    return f"{what} of up to {size} {_direction(what, float(p.axis_deg[k]))} ({parts}): {cure}."
 
 
-def _shafts(where: str) -> str:
-    return f"nothing on the crankshaft cancels it; it takes a shaft {where}"
+def _direction(what: str, axis_deg: float) -> str:
+    """A force acts along an axis, a moment about it."""
+    angle = degrees(axis_deg)
+    return f"{'about' if what == 'moment' else 'along'} {_AXES.get(angle) or f'an axis at {angle} deg'}"
+
+
+def _shafts(which: str) -> str:
+    return f"nothing on the crankshaft cancels it; it takes {which} times crank speed"
