@@ -73,3 +73,12 @@ def test_random_curves_against_many_samples(seed):
     sampled = np.abs(phasors.values(np.linspace(0, 2 * np.pi, 40_001))).max()
     assert sampled * (1 - 1e-15) <= found.value <= sampled * (1 + 1e-5)
     assert abs(phasors.values(found.theta)) == pytest.approx(found.value, rel=RELATIVE)
+
+
+def test_of_equal_peaks_the_first_counts():
+    """|cos 3 theta| is 1 at 0, 60, 120 .. deg, |sin 3 theta| at 30, 90 ..; rounding must not choose."""
+    for turned, first in ((1, 0.0), (1j, 30.0), (1 - 1e-13j, 0.0)):
+        half = np.array([turned / 2])
+        found = peak(Phasors(np.array([3.0]), half, np.conj(half), np.zeros(1)))
+        assert found.value == pytest.approx(1, rel=1e-14)
+        assert (np.degrees(found.theta) + 1e-9) % 360 == pytest.approx(first, abs=1e-7)

@@ -15,6 +15,9 @@ class Peak(NamedTuple):
     theta: float
 
 
+_EQUAL = 1e-12                  # peaks that differ by a smaller share are equal
+
+
 def peak(curve: Phasors) -> Peak:
     """The global maximum of |F|, to rounding.
 
@@ -29,9 +32,10 @@ def peak(curve: Phasors) -> Peak:
     theta = candidates(curve)
     step = np.pi / (8 * max(curve.orders[-1], 1))
     theta = climb(curve, theta, step)
-    values = np.abs(curve.values(theta))
-    best = int(values.argmax())
-    return Peak(float(values[best]), float(theta[best] % (2 * np.pi)))
+    values, turned = np.abs(curve.values(theta)), theta % (2 * np.pi)
+    equal = np.flatnonzero(values >= values.max() * (1 - _EQUAL))       # of equal peaks the first, whatever the rounding
+    best = equal[np.argmin(np.round(turned[equal], 9) % np.round(2 * np.pi, 9))]
+    return Peak(float(values.max()), float(turned[best]))
 
 
 def candidates(curve: Phasors, most: int = 64) -> Array:
