@@ -14,7 +14,7 @@ from .engine import Engine, build
 from .errors import BalcliError, InputError, Problem
 from .fields import printable, shorten
 from .mistakes import DEVICES, INNER, KNOWN, TABLES, TEXTS, path_of, plain, unknown_key
-from .model import MOST, EngineFile, Override, Piston, Rod, Table, mistakes_of_choice
+from .model import MOST, MOST_PARTS, EngineFile, Override, Piston, Rod, Table, mistakes_of_choice
 
 LARGEST = 6_000_000              # bytes of an engine file
 MOST_MARKS = 180_000             # of "[", "{", ".", ",", "=": what each stands for takes tomllib up to a kilobyte
@@ -197,8 +197,8 @@ class _Reader:
         if not isinstance(value, list):
             self._add(key, f"is one of several; write [[{key}]] in double brackets, once for each {key}")
             return ()
-        if len(value) > MOST:
-            self._add(key, f"stands {len(value)} times; no engine has more than {MOST}")
+        if len(value) > MOST_PARTS:
+            self._add(key, f"stands {len(value)} times; no engine has more than {MOST_PARTS}")
             return ()
         return tuple(self._table(f"{key}.{number}", item, table) for number, item in enumerate(value, 1))
 

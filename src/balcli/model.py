@@ -16,7 +16,8 @@ from .fields import Flag, Number, OneOf, Whole
 from .units import ANGLE, INERTIA, LENGTH, MASS, PLAIN, SPEED, TIME, UNBALANCE
 
 GRAVITY = 9.80665                # m/s^2, standard
-MOST = 10_000                    # throws, cylinders, banks, orders: above every engine, and still quick to refuse
+MOST = 10_000                    # values of a list, orders: above every engine, and still quick to refuse
+MOST_PARTS = 1000                # cylinders, devices of a kind: above every engine, and still quick to analyse
 INTERVAL_TOLERANCE_DEG = 0.5     # firing intervals are often printed rounded
 
 Length = Annotated[float, Number(LENGTH, most=1e9)]
