@@ -40,7 +40,6 @@ def _paths(chosen: Mapping[str, Any], names: tuple[str, ...]) -> Iterator[tuple[
 
 def _same(one: str, other: str) -> bool:
     """Whether two paths are one file, there or not; a device may be named as often as one likes."""
-    try:
-        return Path(one).is_file() and os.path.samefile(one, other)
-    except OSError:                                 # one of them is not there
-        return False
+    if not os.path.exists(one):
+        return os.path.realpath(one) == os.path.realpath(other)
+    return os.path.isfile(one) and os.path.exists(other) and os.path.samefile(one, other)

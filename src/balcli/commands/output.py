@@ -1,6 +1,7 @@
 """Where results go: standard output, or a file that is written beside its place and moved there when it is whole."""
 from __future__ import annotations
 
+import errno
 import os
 import sys
 import tempfile
@@ -90,6 +91,8 @@ def beside(target: Path) -> Iterator[Path]:
     try:
         if real.is_dir():
             raise BalcliError(f"{target}: is a folder, so no file can be written there")
+        if real.is_symlink():
+            raise OSError(errno.ELOOP, "a symbolic link that leads to itself")
         if real.exists() and not real.is_file():
             yield real
             return
