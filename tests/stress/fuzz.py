@@ -79,7 +79,8 @@ def tree(random: random.Random, depth: int = 0) -> Tree:
     if kind == 9:
         return {random.choice(KEYS): tree(random, depth + 1) for _ in range(random.randrange(4))}
     if kind == 10:
-        return [scalar(random)] * random.choice((2, 3, 16, 100, 513, 10_000, 20_001))
+        one = scalar(random)
+        return [one] * random.choice((2, 3, 16, 100, 513, 10_000, 20_001) if len(str(one)) < 100 else (2, 16))
     nested: Tree = scalar(random)
     for _ in range(random.choice((5, 50, 90))):
         nested = [nested]

@@ -40,6 +40,8 @@ def scatter(
     from .output import emit
 
     tolerances = scatters.tolerances(mass, length, angle)
-    found = scatters.scatter(enginefile.read(file), tolerances, quantities.parse(quantity), samples, seed, distribution.value)
+    model = enginefile.read(file)
+    enginefile.built(model, enginefile.name_of(file))       # what is wrong with the file itself is told with its name
+    found = scatters.scatter(model, tolerances, quantities.parse(quantity), samples, seed, distribution.value)
     emit(render(format, sheets=lambda: [rendered.sheet(found)], documents=lambda: [rendered.document(found)],
                 rows=lambda: rendered.rows(found), into_file=output is not None), output)
