@@ -1,4 +1,5 @@
 """Where results go: never onto what is read, through links and into pipes, whole or not at all."""
+
 from __future__ import annotations
 
 import io
@@ -21,6 +22,7 @@ unix = pytest.mark.skipif(sys.platform == "win32", reason="needs links, pipes an
 @pytest.fixture
 def balcli(capsys, monkeypatch):
     """Runs a command in this process: (exit status, standard output, standard error)."""
+
     def run(*args: object) -> tuple[int, str, str]:
         monkeypatch.setattr(sys, "argv", ["balcli", *map(str, args)])
         monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(GOOD.encode())))
@@ -28,6 +30,7 @@ def balcli(capsys, monkeypatch):
             main()
         out, err = capsys.readouterr()
         return int(done.value.code or 0), out, err
+
     return run
 
 
@@ -48,15 +51,26 @@ def contents() -> dict[str, str]:
 
 
 def started(*args: str, **more) -> subprocess.Popen:
-    return subprocess.Popen([sys.executable, "-m", "balcli", *args], env={**os.environ, "PYTHONPATH": str(ROOT / "src")},
-                            stderr=subprocess.PIPE, **more)
+    return subprocess.Popen(
+        [sys.executable, "-m", "balcli", *args], env={**os.environ, "PYTHONPATH": str(ROOT / "src")}, stderr=subprocess.PIPE, **more
+    )
 
 
 COMMANDS = [
-    ["analyze"], ["analyze", "other.toml"], ["balance"], ["balance", "-o", "x", "--write"], ["sum", "other.toml"], ["compare", "other.toml"],
-    ["curves", "--step", "90"], ["report"], ["sweep", "--vary", "crank.stroke=80,90"], ["scatter", "--samples", "9"],
-    ["search", "--over", "throws", "--minimise", "moment.1.major"], ["search", "--over", "throws", "--minimise", "moment.1.major", "--write"],
-    ["sweep", "--vary", "crank.stroke=80,90", "--plot"], ["plot"],
+    ["analyze"],
+    ["analyze", "other.toml"],
+    ["balance"],
+    ["balance", "-o", "x", "--write"],
+    ["sum", "other.toml"],
+    ["compare", "other.toml"],
+    ["curves", "--step", "90"],
+    ["report"],
+    ["sweep", "--vary", "crank.stroke=80,90"],
+    ["scatter", "--samples", "9"],
+    ["search", "--over", "throws", "--minimise", "moment.1.major"],
+    ["search", "--over", "throws", "--minimise", "moment.1.major", "--write"],
+    ["sweep", "--vary", "crank.stroke=80,90", "--plot"],
+    ["plot"],
 ]
 
 
@@ -78,7 +92,10 @@ def test_two_results_never_go_to_one_place(balcli, good, before):
     for name, text in before.items():
         Path(name).write_text(text)
     assert balcli("balance", good, "-o", "x.toml", "--write", "./x.toml") == (
-        2, "", "balcli: --write x.toml: another result goes there, too; choose another name\n")
+        2,
+        "",
+        "balcli: --write x.toml: another result goes there, too; choose another name\n",
+    )
     assert {name: text for name, text in contents().items() if name == "x.toml"} == before
 
 
@@ -116,7 +133,9 @@ def test_a_pipe_is_written_to_and_stays_a_pipe(balcli, good):
     assert Path("pipe").is_fifo()
 
 
-@pytest.mark.parametrize(("target", "reason"), [("x" * 300, "File name too long"), ("good.toml/x", "Not a directory"), ("none/x", "No such file or directory")])
+@pytest.mark.parametrize(
+    ("target", "reason"), [("x" * 300, "File name too long"), ("good.toml/x", "Not a directory"), ("none/x", "No such file or directory")]
+)
 def test_places_that_cannot_be(balcli, good, target, reason):
     for command in (["analyze", good, "-o"], ["balance", good, "--write"], ["new", "single"], ["engines", "i4"]):
         assert balcli(*command, target) == (2, "", f"balcli: {target}: cannot be written ({reason})\n")
@@ -166,15 +185,20 @@ def test_a_disk_that_fills_up_during_a_sweep(balcli, good, monkeypatch):
 
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
+
     monkeypatch.setattr("balcli.commands.variants._copy", full)
     assert balcli("sweep", good, "--vary", "crank.stroke=80,90", "-o", "out.csv") == (
-        2, "", "balcli: out.csv: cannot be written (No space left on device)\n")
+        2,
+        "",
+        "balcli: out.csv: cannot be written (No space left on device)\n",
+    )
     assert contents() == before
 
 
 def test_a_folder_in_which_nothing_may_be_made(balcli, good, monkeypatch):
     def forbidden(*_: object, **__: object) -> None:
         raise PermissionError(13, "Permission denied")
+
     Path("out.txt").write_text("old")
     before = contents()
     monkeypatch.setattr("tempfile.mkstemp", forbidden)
@@ -183,7 +207,9 @@ def test_a_folder_in_which_nothing_may_be_made(balcli, good, monkeypatch):
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
-@pytest.mark.parametrize("command", [["analyze"], ["analyze", "--format", "json"], ["sweep", "--vary", "crank.stroke=1:90:0.01"], ["curves"]], ids=" ".join)
+@pytest.mark.parametrize(
+    "command", [["analyze"], ["analyze", "--format", "json"], ["sweep", "--vary", "crank.stroke=1:90:0.01"], ["curves"]], ids=" ".join
+)
 def test_standard_output_that_is_full(good, command):
     name, *rest = command
     with Path("/dev/full").open("wb") as full:

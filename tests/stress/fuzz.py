@@ -40,15 +40,23 @@ class Hung(BaseException):
 
 
 # ------------------------------------------------------------------ values
-UNITS = ("mm", "kg", "deg", "rpm", "in", "oz in", "lb in^2", "s", "turn", "rad/s", "furlong", "K", "degC", "dB", "A", "N m", "mm**9", "m^-9",
-         "zorks", "__import__", "%", "m/m", "km/h", "·", "° ", "µm", "kg*mm^2", "mol", "hectare", "light_year", "parsec^9", "yg", "Δ", "count", "pi")
-HOSTILE = ("", " ", "nan", "inf", "-inf", "true", "1e999 mm", "1e-999 mm", "9**9**9 mm", "90 mm**999999999", "(1+1) mm", "__import__('os').abort() mm",
-           "{0.__class__}", "%s%n", "1/0 turn", "0/0 deg", "1_000 mm", "٣ mm", "９０ mm", "1e9999 kg", "0x10 mm", "1" * 400 + " mm", "mm", "1 mm mm mm mm",
-           "\x1b[31mred\x1b[0m", "\x1b]0;title\x07", "\x9b31m", "a\r\nb", "\x00", "\x7f", "[bold]x[/]", "[/red]", "[link=x]", "$x_{", "$\\frac{1}{",
-           "<script>alert(1)</script>", "</script><!--", "|a|b|", "=1+1", "../../x", "é" * 40, "\u202egnirts", "\ufeff", "𝔘𝔫𝔦", "👩‍🔧", "a\tb", "x" * 5000,
+UNITS = ("mm", "kg", "deg", "rpm", "in", "oz in", "lb in^2", "s", "turn", "rad/s", "furlong", "K", "degC", "dB", "A", "N m",
+    "mm**9", "m^-9",
+         "zorks", "__import__", "%", "m/m", "km/h", "·", "° ", "µm", "kg*mm^2", "mol", "hectare", "light_year", "parsec^9", "yg",
+         "Δ", "count", "pi")
+HOSTILE = ("", " ", "nan", "inf", "-inf", "true", "1e999 mm", "1e-999 mm", "9**9**9 mm", "90 mm**999999999", "(1+1) mm",
+    "__import__('os').abort() mm",
+           "{0.__class__}", "%s%n", "1/0 turn", "0/0 deg", "1_000 mm", "٣ mm", "９０ mm", "1e9999 kg", "0x10 mm", "1" * 400 + " mm",
+           "mm", "1 mm mm mm mm",
+           "\x1b[31mred\x1b[0m", "\x1b]0;title\x07", "\x9b31m", "a\r\nb", "\x00", "\x7f", "[bold]x[/]", "[/red]", "[link=x]",
+           "$x_{", "$\\frac{1}{",
+           "<script>alert(1)</script>", "</script><!--", "|a|b|", "=1+1", "../../x", "é" * 40, "\u202egnirts", "\ufeff", "𝔘𝔫𝔦",
+           "👩‍🔧", "a\tb", "x" * 5000,
            "`code`", "{{ name }}", "{% raw %}", "\\", "\"", "'", "&amp;", "shared", "alternating", "small_end")
-NUMBERS = (0, -0.0, 1, -1, 2, 3, 4, 8, 90, 1e-300, 5e-324, 1e-12, 1e-9, 1e-6, 0.5, 0.999999, 1.0000001, 1e6, 1e9, 1e12, 1e24, 1e300, 1.7e308, -1e300,
-           float("nan"), float("inf"), float("-inf"), 2**31, 2**63, 2**64, -2**63, 10**30, 10**400, 360, 720, 1000, 10_000, 10_001, 100_000)
+NUMBERS = (0, -0.0, 1, -1, 2, 3, 4, 8, 90, 1e-300, 5e-324, 1e-12, 1e-9, 1e-6, 0.5, 0.999999, 1.0000001, 1e6, 1e9, 1e12, 1e24,
+    1e300, 1.7e308, -1e300,
+           float("nan"), float("inf"), float("-inf"), 2**31, 2**63, 2**64, -2**63, 10**30, 10**400, 360, 720, 1000, 10_000, 10_001,
+               100_000)
 
 
 def scalar(random: random.Random) -> Tree:
@@ -137,7 +145,8 @@ def _devices(random: random.Random) -> str:
     """Tables of plausible devices, overrides and an articulation, at the end of a file."""
     lines = []
     for _ in range(random.randrange(1, 4)):
-        table = random.choice(("[[counterweight]]", "[[shaft]]", "[[slider]]", "[cylinder.1]", "[cylinder.2]", "[articulation]", "[frame]", "[bobweight]"))
+        table = random.choice(("[[counterweight]]", "[[shaft]]", "[[slider]]", "[cylinder.1]", "[cylinder.2]", "[articulation]",
+            "[frame]", "[bobweight]"))
         lines += [table, *(f"{random.choice(KEYS[12:-10])} = {random.choice((0, 1, -1, 2, 40, 100.5, '[0, 80]', '[0,0,0]', '1e9'))}"
                            for _ in range(random.randrange(1, 6)))]
     return "\n".join(lines)
@@ -152,7 +161,8 @@ def engine_file(random: random.Random) -> bytes:
     if kind in (1, 2, 3):
         lines = text.splitlines()
         for _ in range(random.randrange(1, 4)):
-            k, junk = random.randrange(len(lines)), random.choice((random.choice(lines), "[crank]", "x = [", "a.b.c = 1", "= 1", '"""', "[[shaft]]", "\x1b[2J", "}{", "["))
+            k, junk = random.randrange(len(lines)), random.choice((random.choice(lines), "[crank]", "x = [", "a.b.c = 1", "= 1",
+                '"""', "[[shaft]]", "\x1b[2J", "}{", "["))
             lines[k:k + random.randrange(2)] = [junk]
         text = "\n".join(lines)
     elif kind == 4:
@@ -169,12 +179,17 @@ def engine_file(random: random.Random) -> bytes:
 
 
 # ------------------------------------------------------------------ commands
-TEXTS = (*HOSTILE[:40], "1", "0", "-1", "0.5", "1-8", "1,2,4", "0:1:0.1", "1:0:1", "0:1:1e-300", "1e400", "50%", "0.1 deg", "3000", "ends", "throws", "zero",
-         "force", "force.1.major", "moment.2.x,couple.1.amplitude", "peak.force", "force.9999999999.major", "force.1", "-40,60", "0,0,0", "1,2", "nan,nan,nan",
-         "auto", "crank.stroke=80,90", "rod.ratio=0.2:0.3:0.05", "crank.throws.1=0:360:90", "crank.stroke=-1", "rod.length=1:1000:1", "x=1", "=",
-         "rod.ratio=0:1:1e-18", "crank.stroke=1e999", "layout.bank_angle=0:180:45", "counterweight.1.unbalance=0,1", "cylinder.1.piston_mass=1,2",
+TEXTS = (*HOSTILE[:40], "1", "0", "-1", "0.5", "1-8", "1,2,4", "0:1:0.1", "1:0:1", "0:1:1e-300", "1e400", "50%", "0.1 deg", "3000",
+    "ends", "throws", "zero",
+         "force", "force.1.major", "moment.2.x,couple.1.amplitude", "peak.force", "force.9999999999.major", "force.1", "-40,60",
+         "0,0,0", "1,2", "nan,nan,nan",
+         "auto", "crank.stroke=80,90", "rod.ratio=0.2:0.3:0.05", "crank.throws.1=0:360:90", "crank.stroke=-1",
+         "rod.length=1:1000:1", "x=1", "=",
+         "rod.ratio=0:1:1e-18", "crank.stroke=1e999", "layout.bank_angle=0:180:45", "counterweight.1.unbalance=0,1",
+         "cylinder.1.piston_mass=1,2",
          "operation.speed=1000,2000", "cylinder.99.bank=1", "moment.1.major<10", "force.1.major=0.5", "force.1.major=nan", "even-firing")
-SCHEMES = ("auto", "counterweights", "factor", "minimax", "single-shaft", "two-shaft", "four-shaft", "couple-shaft", "slider", "eccentric-slider", "oldham",
+SCHEMES = ("auto", "counterweights", "factor", "minimax", "single-shaft", "two-shaft", "four-shaft", "couple-shaft", "slider",
+    "eccentric-slider", "oldham",
            "knuckles", "nonsense")
 FORMATS = ("table", "json", "csv", "markdown")
 
@@ -192,14 +207,17 @@ def _some(random: random.Random, **options: tuple[str, ...]) -> list[str]:
 
 def _analyze(random: random.Random) -> list[str]:
     return ["analyze", "FILE", f"--format={random.choice(FORMATS)}", *_some(
-        random, speed=("3000", "1e8"), orders=("1-8", "1-512", "256"), only=("force", "inner", "guide", "peak", "sizing", "roll,torque"), by=("cylinder",),
+        random, speed=("3000", "1e8"), orders=("1-8", "1-512", "256"), only=("force", "inner", "guide", "peak", "sizing",
+            "roll,torque"), by=("cylinder",),
         why=(), units=("imperial",), plot=(), output=("out.txt",))]
 
 
 def _balance(random: random.Random) -> list[str]:
     return ["balance", "FILE", f"--scheme={random.choice(SCHEMES)}", f"--format={random.choice(FORMATS)}", *_some(
-        random, order=("1", "2", "4"), at=("-40,60", "0,0"), position=("0", "1e9"), planes=("ends", "throws", "-100,100"), factor=("0.5", "0:1:0.1"),
-        roll=("zero",), radius=("40", "0"), thickness=("10",), disc=("50",), drill=("10",), even=("dead-centres", "strokes"), write=("new.toml",), speed=("1",),
+        random, order=("1", "2", "4"), at=("-40,60", "0,0"), position=("0", "1e9"), planes=("ends", "throws", "-100,100"),
+            factor=("0.5", "0:1:0.1"),
+        roll=("zero",), radius=("40", "0"), thickness=("10",), disc=("50",), drill=("10",), even=("dead-centres", "strokes"),
+            write=("new.toml",), speed=("1",),
         orders=("1-8",), output=("out.txt",))]
 
 
@@ -210,27 +228,32 @@ def _sum(random: random.Random) -> list[str]:
 
 def _sweep(random: random.Random) -> list[str]:
     file = random.choice(("FILE", "GOOD"))
-    return ["sweep", file, f"--vary={text(random, *TEXTS[-25:])}", *_some(random, vary=TEXTS[-25:], quantity=("force.1.major", "peak.force"), format=("json",),
+    return ["sweep", file, f"--vary={text(random, *TEXTS[-25:])}", *_some(random, vary=TEXTS[-25:], quantity=("force.1.major",
+        "peak.force"), format=("json",),
                                                                            output=("out.csv",))]
 
 
 def _search(random: random.Random) -> list[str]:
-    return ["search", "FILE", f"--over={text(random, 'throws', 'firing_order', 'bank_angle', 'splay')}", f"--minimise={text(random, 'moment.1.major', 'force.2.major')}",
+    return ["search", "FILE", f"--over={text(random, 'throws', 'firing_order', 'bank_angle', 'splay')}",
+        f"--minimise={text(random, 'moment.1.major', 'force.2.major')}",
             *_some(random, limit=("moment.2.major<100",), require=("even-firing",), top=("3",), write=("new.toml",))]
 
 
 def _scatter(random: random.Random) -> list[str]:
     return ["scatter", random.choice(("FILE", "FILE", "GOOD")), f"--samples={random.choice((1, 200))}", "--seed=1", *_some(
-        random, mass_scatter=("1%", "0%"), length_scatter=("1%",), angle_scatter=("0.1 deg",), quantity=("force.1.major", "couple.2.amplitude"), distribution=("normal",))]
+        random, mass_scatter=("1%", "0%"), length_scatter=("1%",), angle_scatter=("0.1 deg",), quantity=("force.1.major",
+            "couple.2.amplitude"), distribution=("normal",))]
 
 
 def _curves(random: random.Random) -> list[str]:
-    return ["curves", "FILE", "--step=10", *_some(random, step=("0", "nan", "1e-300", "400"), cylinder=("1", "2", "0", "99"), speed=("1",), format=("json",), output=("o.csv",))]
+    return ["curves", "FILE", "--step=10", *_some(random, step=("0", "nan", "1e-300", "400"), cylinder=("1", "2", "0", "99"),
+        speed=("1",), format=("json",), output=("o.csv",))]
 
 
 COMMANDS: tuple[Callable[[random.Random], list[str]], ...] = (
     _analyze, _analyze, _analyze, _balance, _balance, _balance, _sum, _sweep, _search, _scatter, _curves,
-    lambda r: ["check", r.choice(("FILE", "FILE", "."))], lambda r: ["compare", "FILE", "GOOD", *_some(r, format=FORMATS, orders=("1-4",))])
+    lambda r: ["check", r.choice(("FILE", "FILE", "."))], lambda r: ["compare", "FILE", "GOOD", *_some(r, format=FORMATS,
+        orders=("1-4",))])
 
 
 def recorded(random: random.Random) -> bytes:
@@ -249,7 +272,8 @@ def _drawn(random: random.Random) -> list[str]:
     """The slow ones: pages and pictures."""
     if random.random() < 0.5:
         return ["report", "FILE", "-o", "page.html", *_some(random, scheme=SCHEMES)]
-    return ["plot", "FILE", "-o", f"page.{random.choice(('svg', 'png', 'x'))}", *_some(random, what=("polar", "orders", "factor", "bank", "inner"), scheme=SCHEMES)]
+    return ["plot", "FILE", "-o", f"page.{random.choice(('svg', 'png', 'x'))}", *_some(random, what=("polar", "orders", "factor",
+        "bank", "inner"), scheme=SCHEMES)]
 
 
 # ------------------------------------------------------------------ running
@@ -382,7 +406,7 @@ def _strays(case: Case, done: Outcome) -> str:
 
 def memory() -> int:
     """The most that this process has used so far, MB."""
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // (1 if sys.platform == "darwin" else 1024) // (1024 if sys.platform == "darwin" else 1)
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // (1024 * 1024 if sys.platform == "darwin" else 1024)
 
 
 def main() -> None:
@@ -407,7 +431,8 @@ def main() -> None:
             if wrong := fault(case, done):
                 faults += 1
                 print(f"{case.number}: {case.args}\n{wrong}\n", flush=True)
-    print(f"{asked.cases - asked.first} cases, {accepted} accepted, {faults} faults; slowest {slowest[0]:.2f} s (case {slowest[1]}); {memory()} MB")
+    print(f"{asked.cases - asked.first} cases, {accepted} accepted, {faults} faults; "
+          f"slowest {slowest[0]:.2f} s (case {slowest[1]}); {memory()} MB")
 
 
 if __name__ == "__main__":
