@@ -10,6 +10,7 @@ import pytest
 from balcli import engine, enginefile, spectrum
 from balcli.core.travel import travel
 from balcli.errors import InputError
+from balcli.parameters import varied
 
 RADIAL = """\
 [crank]
@@ -61,6 +62,12 @@ def mistakes(*changes: tuple[str, str], more: str = "") -> list[str]:
 ])
 def test_what_does_not_fit_together(changes, more, message):
     assert mistakes(*changes, more=more) == [message]
+
+
+def test_the_masters_own_knuckle_angle_does_not_vary():
+    file = enginefile.parse(RADIAL.replace("[articulation]", "[articulation]\nknuckle_angles = [0, 50, 100, 150, 200, 250, 300]"))
+    with pytest.raises(InputError, match="knuckle_angles: has -2 for bank 1, which carries the master rod: its own is 0"):
+        engine.build(varied(file, {"articulation.knuckle_angles.1": np.array([0.0, -2.0])}), 1)
 
 
 def test_a_rod_that_cannot_follow_names_the_cylinder_and_the_crank_angle():

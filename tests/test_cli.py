@@ -231,6 +231,21 @@ def test_standard_input(balcli, good):
     assert err.startswith("balcli: standard input: ")
 
 
+LOCKED = changed(("length = 160", "length = 40"), ("cg = 45", "cg = 15"))
+
+
+@pytest.mark.parametrize("command", [
+    ("analyze",), ("balance",), ("scatter",), ("sweep", "--vary", "rod.cg=0,1"),
+    ("search", "--over", "throws", "--minimise", "force.1.major")])
+def test_what_cannot_be_an_engine_goes_by_its_file(balcli, tmp_path, command):
+    file = tmp_path / "locked.toml"
+    file.write_text(LOCKED)
+    for name, called in ((str(file), str(file)), ("-", "standard input")):
+        status, out, err = balcli(command[0], name, *command[1:], stdin=LOCKED)
+        assert (status, out) == (2, "")
+        assert err.startswith(f"balcli: {called}: rod.length: the crank cannot turn")
+
+
 def test_several_files_and_a_bad_one_among_them(balcli, good, bad):
     """One JSON document a line, in order; the bad one is named, the rest is reported, and the status is 2."""
     status, out, err = balcli("analyze", good, bad, V8, "--format", "json")

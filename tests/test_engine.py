@@ -196,7 +196,28 @@ def test_a_pendulum_that_swings_too_quickly_for_a_cylinders_own_rod():
         f"mass: the moment of inertia about it would be {inertia:g} kg mm2 (period: a full swing, s)")
 
 
+@pytest.mark.parametrize(("parts", "message"), [
+    ({"rod": {"length": 200, "mass": 1, "cg": 230}}, "rod.cg: 230 mm is outside the rod of 200 mm"),
+    ({"rod": {"length": 200, "mass": 1, "cg": -10}}, "rod.cg: -10 mm is outside the rod of 200 mm"),
+    ({"rod": {"length": 200}, "cylinder": {"1": {"rod_mass": 1, "rod_cg": 230}}}, "cylinder.1.rod_cg: 230 mm is outside the rod of 200 mm"),
+])
+def test_a_centre_of_mass_outside_the_rod_needs_an_inertia(parts, message):
+    """Two masses at the ends would have m s_a s_b < 0; with its own inertia it is a rod like any other."""
+    assert refused(**parts) == (
+        f"engine: {message}, and two masses at its ends cannot stand for such a rod, one would be negative: give a cg from 0 to 200 mm, "
+        "or the rod's inertia")
+    assert engine(**parts | {"rod": parts["rod"] | {"inertia": 1000}}).cylinders.count == 1
+
+
 def test_every_mechanism_that_cannot_turn_is_told_once():
     text = refused(crank={"throws": [0, 0, 0]}, rod={"length": 40}, cylinder={"2": {"rod_length": 30}})
     assert text.splitlines()[0] == "engine: 2 mistakes"
     assert [line.split(":")[0].strip() for line in text.splitlines()[1:]] == ["rod.length", "cylinder.2.rod_length"]
+
+
+def test_layout_and_rods_are_told_together():
+    """What is wrong with the cylinders does not hide what is wrong with the rods."""
+    for parts, paths in (({"layout": {"firing_order": [1, 2, 3]}}, ["layout.firing_order", "rod.length"]),
+                         ({"cylinder": {"3": {"piston_mass": 1}}}, ["cylinder.3", "rod.length"])):
+        text = refused(crank={"throws": [0, 0]}, rod={"length": 40}, **parts)
+        assert [line.split(":")[0].strip() for line in text.splitlines()[1:]] == paths

@@ -64,7 +64,7 @@ def test_standard_input(monkeypatch):
             changed(("stroke = 90", "stroke = 1" + "0" * 400)),
             f"crank.stroke: an integer of about 401 digits is too large a number; {LENGTH}",
         ),
-        (changed(("stroke = 90\n", "")), "crank.stroke: is missing"),
+        (changed(("stroke = 90\n", "")), "crank.stroke: is missing; give it, such as stroke = 90"),
         (changed(("stroke = 90", "strok = 90")), "crank.strok: is no key of [crank]; did you mean stroke?"),
         (
             changed(("stroke = 90", "stroke = 90\nbore = 86")),
@@ -134,7 +134,16 @@ def test_standard_input(monkeypatch):
             "shaft: is one of several; write [[shaft]] in double brackets, once for each shaft",
         ),
         (GOOD + "[[shaft]]\nratio = 1\nunbalance = 1\nat = [80]\n", "shaft.1.at: [80] has 1 value where 2 are wanted"),
-        (GOOD + "[[slider]]\nunbalance = 1\ndirection = 0\n", "slider.1.order: is missing"),
+        (GOOD + "[[slider]]\nunbalance = 1\ndirection = 0\n", "slider.1.order: is missing; give it, such as order = 2"),
+        (GOOD + "[frame]\nreference = [1, inf, 0]\n", f"frame.reference: the 2nd value inf is no finite number; {LENGTH}"),
+        (
+            changed(("firing_order = [1, 3, 4, 2]", "radial = 3"), more="[articulation]\nknuckle_radius = 50\n"),
+            "articulation.rod: is missing; give it, such as rod = { length = 200 }",
+        ),
+        (
+            GOOD + "[articulation]\nknuckle_radius = 50\nrod = { mass = 1 }\n",
+            "articulation.rod.length: is missing; give it, such as length = 200",
+        ),
         (
             GOOD + "[cylinder.x]\npiston_mass = 1\n",
             "cylinder.x: does not name a cylinder; write [cylinder.3] for what differs in cylinder 3",
@@ -168,7 +177,7 @@ def test_all_mistakes_at_once():
   crank.stroke: -90 is not above 0; {LENGTH}, above 0
   rod: has length and ratio; give either length or ratio
   rod.mass: "heavy" is not a number followed by a unit; {MASS}
-  shaft.1.ratio: is missing"""
+  shaft.1.ratio: is missing; give it, such as ratio = -2"""
     )
 
 

@@ -119,8 +119,10 @@ def test_an_order_that_takes_more_than_a_cycle():
 
 def test_shared_pins_that_an_order_cannot_have():
     """Throws from the first bank, and then the second bank must agree with them."""
-    assert refused(layout={"firing_order": [1, 2, 3, 4], "bank_angle": 60}).startswith(
-        "engine: layout.firing_order: cylinder 3 is not at top dead centre when it fires: ")
+    assert refused(layout={"firing_order": [1, 2, 3, 4], "bank_angle": 60}) == (
+        "engine: layout.firing_order: cylinder 3 is not at top dead centre when it fires: its crank pin stands 0 deg "
+        "ahead of cylinder 1's, and would have to stand at 60 deg (allowed difference 1 deg); change crank.splay, "
+        "firing_order or firing_intervals, or give crank.throws and no firing_order")
 
 
 @pytest.mark.parametrize(("throw", "good"), [(179.1, True), (180.9, True), (178.9, False), (181.1, False)])

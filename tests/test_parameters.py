@@ -9,7 +9,7 @@ from kit import GOOD, changed
 
 from balcli.enginefile import parse as load
 from balcli.errors import BalcliError
-from balcli.parameters import ladder, parse, varied
+from balcli.parameters import ladder, numeric, parse, varied
 
 DEVICES = """
 [[shaft]]
@@ -100,6 +100,15 @@ def test_what_says_the_same_gives_way() -> None:
 def test_half_of_an_alternative_is_refused() -> None:
     with pytest.raises(BalcliError, match=r"rod\.small_end: the file gives mass and cg instead"):
         varied(load(GOOD), {"rod.small_end": 0.2})
+
+
+def test_a_bank_angle_is_that_of_a_vee() -> None:
+    """An in-line four would become a V8, a W9 a V6."""
+    vee = changed(("firing_order = [1, 3, 4, 2]", "banks = [-30, 60]"))
+    assert "layout.bank_angle" in numeric(load(vee))
+    for other in (GOOD, changed(("firing_order = [1, 3, 4, 2]", "banks = [-60, 0, 60]"))):
+        with pytest.raises(BalcliError, match=r"^layout\.bank_angle is no number of this engine file"):
+            parse("layout.bank_angle=0:90:10", load(other))
 
 
 def test_a_firing_order_beside_throws_is_left_out() -> None:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from balcli.core.phasors import EPS, Phasors, unit
+from balcli.core.phasors import EPS, Phasors, reduced, unit
 
 RELATIVE = 4 * EPS
 THETA = np.linspace(0, 2 * np.pi, 7201)
@@ -73,6 +73,12 @@ def test_axis_lies_above_minus_90_up_to_90(forward, backward, axis):
 def test_an_axis_across_is_at_90_degrees_whatever_the_rounding(slip):
     assert one(cmath.exp(1j * (math.pi / 3 + slip)), cmath.exp(2j * math.pi / 3)).axis_deg[0] == pytest.approx(90, abs=1e-9)
     assert one(cmath.exp(-1j * (math.pi / 3 + slip)), cmath.exp(-2j * math.pi / 3)).axis_deg[0] == pytest.approx(90, abs=1e-9)
+
+
+@pytest.mark.parametrize("turn", [180, 360])
+def test_a_direction_is_reduced_to_half_a_turn_either_way(turn):
+    barely = math.nextafter(turn / 2, math.inf)                                 # its remainder rounds to a whole turn
+    assert list(reduced([barely, -turn / 2, 1.5 * turn, 0, turn], turn)) == [turn / 2, turn / 2, turn / 2, 0, 0]
 
 
 @pytest.mark.parametrize(("forward", "backward"), [(1, 0), (0, 1j), (0, 0)])

@@ -112,8 +112,7 @@ def test_tables_are_in_the_units_of_the_file():
 def test_every_device_has_its_reason():
     remedy = auto(build(parse(text(0, 240, 120))))
     assert len(remedy.reasons) == len(remedy.devices) == 8
-    moment = math.sqrt(3) * 0.1 * 1.5 * 0.05 * (1000 * math.pi / 30) ** 2
-    assert remedy.reasons[0] == (f"Order 1 moment, {moment:.4g} N·m, turning with the crank: "
+    assert remedy.reasons[0] == ("Order 1 moment turning with the crank: "
                                  "counterweights turn with it too and cancel it")
     assert remedy.reasons[-1].endswith("turning against the crank: nothing on the crankshaft can cancel it; "
                                        "two opposite eccentrics on a shaft at -2 times crank speed can")

@@ -81,3 +81,9 @@ def test_a_scheme_compares_before_and_after():
     assert found.now.spectra.force.at([2]).balanced[0]
     with pytest.raises(BalcliError, match="there is no scheme 'tow-shaft'"):
         study(engine(GOOD), "all", scheme="tow-shaft")
+
+
+@pytest.mark.parametrize("what", ["factor", "bank"])
+def test_a_study_of_the_engine_as_it_is_takes_no_scheme(what):
+    with pytest.raises(BalcliError, match=f"--what {what} shows the engine as it is: leave --scheme auto out"):
+        study(engine(VEE), what, scheme="auto")

@@ -66,6 +66,20 @@ def test_every_variant_is_the_engine_alone(engine: str, vary: tuple[str, ...]) -
         assert values.ravel() == pytest.approx(expected, abs=SAME * max(np.abs(expected).max(), 1e-9)), quantity.name
 
 
+@pytest.mark.parametrize("vary", ["counterweight.1.mass=0,0.3", "counterweight.1.radius=0,40"])
+def test_an_unbalance_of_mass_and_radius_varies_by_either(vary: str) -> None:
+    """0 and 0.3 kg at 40 mm (or 0 and 40 mm of 0.3 kg), opposite the first pin of a balanced crank: U omega^2."""
+    sweep = asked(GOOD + "[[counterweight]]\nmass = 0.3\nradius = 40\n", vary, of="force.1.forward")
+    (found,) = evaluate(sweep.engine((slice(None),)), sweep.quantities)
+    assert found == pytest.approx([0, 0.3 * 0.040 * (3000 * math.pi / 30)**2], rel=1e-14)
+
+
+def test_a_rod_weighed_at_one_end_only_is_refused() -> None:
+    light = changed(("mass = 0.6\ncg = 45\n", ""))
+    with pytest.raises(InputError, match=r"rod\.big_end: needs small_end beside it: weigh the rod at both ends"):
+        check(asked(light, "rod.big_end=0.1,0.2"))
+
+
 def test_what_does_not_vary_is_not_computed_again() -> None:
     sweep = asked(VEE, "layout.bank_angle=0:180:45", "rod.ratio=0.2,0.3,0.31")
     engine = sweep.engine((slice(None), slice(None)))

@@ -188,6 +188,8 @@ def test_deviating_figures_are_marked_and_counted():
 
 def test_digits():
     assert "0.4312506086" in run("tsinghua-1-2", "--digits", "10").stdout
+    first = next(line for line in run("tsinghua-1-2", "--digits", "2").stdout.splitlines() if line.startswith("0 "))
+    assert first.split() == ["0", *["0.00"] * 9, "360"]                         # printed .0000; whole angles stay whole
 
 
 def test_errata_of_one_table_and_of_all():
@@ -198,6 +200,7 @@ def test_errata_of_one_table_and_of_all():
 
 @pytest.mark.parametrize(("arguments", "message"), [
     (("tsinghua-1-9",), "no table 'tsinghua-1-9'; the nearest name is 'tsinghua-1-6'"),
+    (("colour",), "no table 'colour'. Tables: tsinghua-1-1, "),
     (("liu-1", "--angle", "0:90:5"), "--angle: table liu-1 takes no other range"),
     (("kvasnikov-1", "--angle", "0:90:5"), "--angle: table kvasnikov-1 takes --lambda"),
     (("--angle", "0:90:5"), "--angle: name the table that it is for (tsinghua-1-2, tsinghua-1-3, tsinghua-1-6)"),

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -28,15 +28,14 @@ EXTRAS = ("inner", "guide")     # computed only when they are named
 HIGHEST = 4096                  # order that may be asked for
 
 
-@dataclass(frozen=True)
-class Sizing:
+class Sizing(NamedTuple):
     """The devices that a scheme fits, and what is left with them."""
 
     remedy: Remedy
     after: Analysis
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Analysis:
     """What an engine does to its frame. Whatever was not asked for is None.
 
@@ -103,8 +102,7 @@ def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collect
     )
 
 
-@dataclass(frozen=True)
-class Textbook:
+class Textbook(NamedTuple):
     """Units of textbooks: `F1 = m_rec r omega^2` of cylinder 1 (N), throw spacing a (m, nan for one throw), and A_n."""
 
     force: float

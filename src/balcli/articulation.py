@@ -65,7 +65,8 @@ def _wrong_angles(table: Articulation, banks: int) -> Iterator[Problem]:
     if angles is not None and len(angles) != banks:
         yield Problem(path, f"has {len(angles)} angles for {banks} banks: give one for each, the master's own is 0")
     elif angles is not None and np.any(np.asarray(angles[own]) != 0):
-        yield Problem(path, f"has {angles[own]:g} for bank {own + 1}, which carries the master rod: its own is 0")
+        angle = max(np.ravel(angles[own]), key=abs)
+        yield Problem(path, f"has {angle:g} for bank {own + 1}, which carries the master rod: its own is 0")
 
 
 def linkage(file: EngineFile, layout: Plan, numbers: Sequence[int], axis: Mapping[int, Any],
@@ -107,8 +108,9 @@ def locked(file: EngineFile, c: Cylinders, numbers: Sequence[int]) -> Iterator[P
     turned = c.angle_deg.reshape(len(numbers), -1)[:, 0]
     for row, number in enumerate(numbers):
         worst = int(leans[row].argmax())
-        if c.linkage.master[row] != row and leans[row, worst] + _rise(leans[row], worst) > 1 - NEAREST_TO_LOCK:
-            yield _lock(file, number, leans[row, worst], (360 / _STEPS * worst - turned[row]) % 360)
+        lean = leans[row, worst] + _rise(leans[row], worst)
+        if c.linkage.master[row] != row and lean > 1 - NEAREST_TO_LOCK:
+            yield _lock(file, number, lean, (360 / _STEPS * worst - turned[row]) % 360)
 
 
 def _lock(file: EngineFile, number: int, lean: float, crank: float) -> Problem:

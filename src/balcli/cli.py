@@ -4,6 +4,7 @@ Only the module of the command that is called is imported; what a command does i
 """
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from difflib import get_close_matches
@@ -70,6 +71,7 @@ def _options(
 
 def main() -> None:
     """Entry point: runs the command; whatever a user can mend becomes a message on standard error and exit status 2."""
+    gc.set_threshold(100_000)                                           # start-up makes many objects, but no garbage
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")              # looking for plugins takes longer than an analysis
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
@@ -84,4 +86,6 @@ def main() -> None:
         typer.echo(legible(text.getvalue()), err=True, nl=False)
     except typer.Abort:                                 # Ctrl-C
         sys.exit(Exit.INTERRUPTED)
+    finally:
+        gc.freeze()                                     # the process ends: nothing need be collected any more
     sys.exit(Exit.BAD_INPUT)

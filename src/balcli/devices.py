@@ -37,7 +37,8 @@ def _unbalance(d: Counterweight | Shaft | Slider) -> Any:
     """kg m"""
     if d.unbalance is not None:
         return d.unbalance / 1e6
-    return (d.mass or 0.0) * (d.radius or 0.0) / 1e3
+    mass, radius = (0.0 if figure is None else figure for figure in (d.mass, d.radius))
+    return mass * radius / 1e3
 
 
 def _place(at: Sequence[Any]) -> Any:

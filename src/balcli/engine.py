@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,8 +23,7 @@ if TYPE_CHECKING:
     from .core.rotary import Rotary
 
 
-@dataclass(frozen=True)
-class Ripple:
+class Ripple(NamedTuple):
     """One line of an uneven crank speed: `omega = mean (1 + sum amplitude cos(order theta - angle))`."""
 
     order: int
@@ -32,8 +31,7 @@ class Ripple:
     angle_deg: Any
 
 
-@dataclass(frozen=True)
-class Weighed:
+class Weighed(NamedTuple):
     """Masses of one cylinder as a shop weighs them, kg, and on which throw (from 0) its rod runs.
 
     `share` is the pin's share of the throw mass; bearing and oil count on the bobweight card only.
@@ -48,7 +46,7 @@ class Weighed:
     oil: Any
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Engine:
     """An engine, SI except where a name says otherwise; arrays may have a trailing axis of variants.
 
@@ -94,7 +92,13 @@ class Engine:
     def equal(self) -> bool:
         """Whether all cylinders have one mechanism and one set of reciprocating masses."""
         c = self.cylinders
-        return len(c.lam) == len(c.eps) == len(c.reciprocating) == 1 and c.linkage is None
+        return len(c.lam) == len(c.eps) == len(c.reciprocating) == 1 and (c.linkage is None or len(c.linkage.mass) == 1)
+
+    @property
+    def rotary(self) -> bool:
+        """Whether the cylinders turn and the crank stands still: then the cylinders have masses on a linkage only."""
+        c = self.cylinders
+        return c.linkage is not None and not np.any(c.reciprocating)
 
     @property
     def pins_deg(self) -> dict[int, Any]:
@@ -113,12 +117,7 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
     Raises:
         InputError: what does not fit together, by its path in the file.
     """
-    layout = plan(file.crank, file.layout)
-    masters = articulation.masters(file, layout)
-    _refuse([*articulation.mistakes(file, layout), *strangers(layout, file.cylinder), *half_rods(file, masters)])
-    radius = file.crank.stroke / 2e3
-    rods = {n: rod_of(file, n, n in masters) for n in layout.numbers}
-    _refuse(p for n, rod in rods.items() for p in mistakes(file, n, rod, radius, n in masters))
+    layout, masters, rods, radius = *_parts(file), file.crank.stroke / 2e3
     axis = {c.number: own_or(file, c.number, "bank", layout.banks[c.bank]) for c in layout.cells}
     pin, fires = pins(file, layout, _tops(file, rods, axis, radius) | {n: axis[n] for n in masters})
     along, throws = places(file, layout, rank)
@@ -132,6 +131,27 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
         reference_m=reference(file, throws), devices=devices(file, axis[1]),
         weighed=tuple(_weighed(file, layout, {c.number: c.throw for c in layout.cells}[n], rods[n]) for n in numbers),
     )
+
+
+def _parts(file: EngineFile) -> tuple[Plan, dict[int, int], dict[int, Parts]]:
+    """Cylinders, master of each articulated one, and rods; InputError with all that does not fit together in them."""
+    try:
+        layout = plan(file.crank, file.layout)
+    except InputError as error:                         # the engine's own rod can be looked at all the same
+        _refuse([*error.problems, *_rods(file, (0,), {})[1]])
+        raise
+    masters = articulation.masters(file, layout)
+    rods, faults = _rods(file, layout.numbers, masters)
+    _refuse([*articulation.mistakes(file, layout), *strangers(layout, file.cylinder), *faults])
+    return layout, masters, rods
+
+
+def _rods(file: EngineFile, numbers: Iterable[int], masters: Mapping[int, int]) -> tuple[dict[int, Parts], list[Problem]]:
+    """Rods of these cylinders (0: the engine's own), and what is wrong with them."""
+    if halves := half_rods(file, masters):
+        return {}, halves
+    rods = {n: rod_of(file, n, n in masters) for n in numbers}
+    return rods, [p for n, rod in rods.items() for p in mistakes(file, n, rod, file.crank.stroke / 2e3, n in masters)]
 
 
 def _tops(file: EngineFile, rods: Mapping[int, Parts], axis: Mapping[int, Any], radius: Any) -> dict[int, Any]:

@@ -13,7 +13,7 @@ from pydantic import ValidationError
 from .engine import Engine, build
 from .errors import BalcliError, InputError, Problem
 from .fields import printable, shorten
-from .mistakes import DEVICES, INNER, KNOWN, TABLES, TEXTS, path_of, plain, unknown_key
+from .mistakes import DEVICES, INNER, KNOWN, TABLES, TEXTS, miscounted, path_of, plain, unknown_key
 from .model import MOST, MOST_PARTS, EngineFile, Override, Piston, Rod, Table, mistakes_of_choice
 
 LARGEST = 6_000_000              # bytes of an engine file
@@ -38,11 +38,11 @@ def load(source: str | Path) -> Engine:
 
 
 def built(model: EngineFile, file: str) -> Engine:
-    """The engine of a model. Raises InputError with what does not fit together in the file of that name."""
+    """The engine of a model. Raises InputError with what does not fit together in the file of that name ("-": standard input)."""
     try:
         return build(model)
     except InputError as error:
-        raise InputError(error.problems, file) from None
+        raise InputError(error.problems, name_of(file)) from None
 
 
 def read(source: str | Path) -> EngineFile:
@@ -224,5 +224,5 @@ class _Reader:
             if finding["type"] == "extra_forbidden":         # in a table within the table
                 *parents, last = finding["loc"]
                 self._unknown.append((path_of(path, parents), str(last), INNER[str(parents[0])]))
-            else:
-                self._found.append(plain(path, finding))
+            elif not miscounted(finding):
+                self._found.append(plain(path, finding, table))

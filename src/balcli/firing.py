@@ -48,16 +48,21 @@ def from_pins(order: Sequence[int], pin: Mapping[int, Any], top: Mapping[int, An
     return intervals
 
 
-def disagreement(fires: Mapping[int, Any], pin: Mapping[int, Any], top: Mapping[int, Any], sense: int = 1) -> Problem | None:
-    """The first cylinder that is not at top dead centre when it fires; pins are counted from cylinder 1's."""
+def disagreement(fires: Mapping[int, Any], pin: Mapping[int, Any], top: Mapping[int, Any], sense: int = 1, *,
+                 throws_given: bool = True) -> Problem | None:
+    """The first cylinder that is not at top dead centre when it fires; pins are counted from cylinder 1's.
+
+    Without `throws_given` the pins follow from the firing order, and two rods on one throw ask for different ones.
+    """
     wanted = pins(fires, top, sense)
+    remedy = ("change crank.throws, crank.splay, firing_order or firing_intervals, or leave crank.throws out" if throws_given else
+              "change crank.splay, firing_order or firing_intervals, or give crank.throws and no firing_order")
     for i in fires:
         off = float(np.max(np.abs(_centred(pin[i] - wanted[i]))))
         if off > TOLERANCE:
             return Problem("layout.firing_order", f"cylinder {i} is not at top dead centre when it fires: its crank pin stands "
                            f"{float(np.ravel(pin[i])[0]) % 360:.6g} deg ahead of cylinder 1's, and would have to stand at "
-                           f"{float(np.ravel(wanted[i])[0]):.6g} deg (allowed difference {TOLERANCE:g} deg); change crank.throws, "
-                           "crank.splay, firing_order or firing_intervals, or leave crank.throws out")
+                           f"{float(np.ravel(wanted[i])[0]):.6g} deg (allowed difference {TOLERANCE:g} deg); {remedy}")
     return None
 
 

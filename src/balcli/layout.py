@@ -5,9 +5,8 @@ Angles are degrees and positions mm, as in the file; any of them may be an array
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
 from itertools import count
-from typing import Any
+from typing import Any, NamedTuple
 
 from .errors import InputError, Problem
 from .model import MOST_PARTS, Crank, Layout
@@ -15,8 +14,7 @@ from .model import MOST_PARTS, Crank, Layout
 TURN = 360.0
 
 
-@dataclass(frozen=True, order=True)
-class Cell:
+class Cell(NamedTuple):
     """One cylinder: on which bank and which throw (from 0), and its number."""
 
     bank: int
@@ -24,8 +22,7 @@ class Cell:
     number: int
 
 
-@dataclass(frozen=True)
-class Plan:
+class Plan(NamedTuple):
     """All cylinders, sorted by bank and throw."""
 
     banks: tuple[Any, ...]              # angle of each bank, deg

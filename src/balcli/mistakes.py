@@ -1,7 +1,7 @@
 """Mistakes of an engine file in plain words: pydantic's findings translated, and the key that was probably meant."""
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from . import model
@@ -21,7 +21,6 @@ INNER: dict[str, type[model.Table]] = {
     "rod": model.ArticulatedRod}
 
 WORDS = {
-    "missing": "is missing",
     "tuple_type": "{value} is not a list; write it in square brackets, such as [0, 180]",
     "model_type": "{value} is not a table; write it in braces with its keys",
     "model_attributes_type": "{value} is not a table; write it in braces with its keys",
@@ -33,11 +32,18 @@ def path_of(start: str, loc: Iterable[int | str]) -> str:
     return ".".join([start, *(str(part + 1) if isinstance(part, int) else printable(part) for part in loc)])
 
 
-def plain(path: str, finding: Mapping[str, Any]) -> Problem:
+def miscounted(finding: Mapping[str, Any]) -> bool:
+    """Whether a list is called too short only because members of it, which have findings of their own, were not counted."""
+    return finding["type"] == "too_short" and len(finding["input"]) >= finding["ctx"]["min_length"]
+
+
+def plain(path: str, finding: Mapping[str, Any], table: type[model.Table]) -> Problem:
     """One finding of pydantic in the table at `path`; a member of a list is named in words (`the 2nd value`)."""
     value, kind, loc, context = finding["input"], finding["type"], finding["loc"], finding.get("ctx", {})
     if kind == "value_error":
         message = str(context["error"])
+    elif kind == "missing":
+        message = _missing(table, loc)
     elif kind in ("too_short", "too_long"):
         message = _wrong_length(value, context)
     else:
@@ -45,6 +51,14 @@ def plain(path: str, finding: Mapping[str, Any]) -> Problem:
     if loc and isinstance(loc[-1], int):
         return Problem(path_of(path, loc[:-1]), f"the {_ordinal(loc[-1] + 1)} value {message}")
     return Problem(path_of(path, loc), message)
+
+
+def _missing(table: type[model.Table], loc: Sequence[str | int]) -> str:
+    """With an example of the key, which may stand in a table within the table."""
+    *parents, key = loc
+    inner = next((INNER[str(part)] for part in reversed(parents) if part in INNER), table)
+    examples = inner.model_fields[str(key)].examples
+    return f"is missing; give it, such as {key} = {shorten(examples[0]) if examples else '{ length = 200 }'}"
 
 
 def _wrong_length(value: list[Any], context: Mapping[str, Any]) -> str:

@@ -25,7 +25,7 @@ Length = Annotated[float, Number(LENGTH, most=1e9)]
 Distance = Annotated[float, Number(LENGTH, least=0, most=1e9)]
 Size = Annotated[float, Number(LENGTH, above=0, most=1e9)]
 Mass = Annotated[float, Number(MASS, least=0, most=1e12)]
-Angle = Annotated[float, Number(ANGLE, most=1e6)]
+Angle = Annotated[float, Number(ANGLE, most=1e9)]         # a million turns, and then some
 Interval = Annotated[float, Number(ANGLE, least=0, most=720)]
 Inertia = Annotated[float, Number(INERTIA, least=0, most=1e24)]
 Unbalance = Annotated[float, Number(UNBALANCE, most=1e24)]

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from typing import Any, get_args
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,9 @@ from .fields import Number, nearest
 from .mistakes import DEVICES, TABLES
 from .model import EngineFile, Override, Table
 from .units import convert
+
+if TYPE_CHECKING:
+    from .layout import Plan
 
 MOST = 1_000_000_000            # values of one parameter
 _EXACT = 2**53                  # whole numbers below it are exact as floating-point numbers
@@ -47,8 +50,11 @@ def numeric(file: EngineFile) -> dict[str, Number]:
     for key, table in DEVICES.items():
         for k, device in enumerate(getattr(file, key), 1):
             found |= _numbers(f"{key}.{k}", table, device)
-    for number in {*file.cylinder, *range(1, _cylinders(file) + 1)}:
+    layout = _plan(file)
+    for number in {*file.cylinder, *layout.numbers}:
         found |= _numbers(f"cylinder.{number}", Override, file.cylinder.get(number))
+    if len(layout.banks) != 2:                          # it would make a vee of the engine, with other cylinders
+        found.pop("layout.bank_angle", None)
     return found
 
 
@@ -83,10 +89,10 @@ def _marks(annotation: Any) -> Iterator[Any]:
         yield from _marks(part)
 
 
-def _cylinders(file: EngineFile) -> int:
+def _plan(file: EngineFile) -> Plan:
     from .layout import plan
 
-    return len(plan(file.crank, file.layout).cells)
+    return plan(file.crank, file.layout)
 
 
 # ------------------------------------------------------------------ what a user asks for

@@ -3,8 +3,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,8 +15,7 @@ NEAREST_TO_LOCK = 1e-6              # how far lambda + |offset| / rod length mus
 _GROUPS = (({"length"}, {"ratio"}), ({"mass", "cg"}, {"small_end", "big_end"}), ({"inertia"}, {"pendulum"}))
 
 
-@dataclass(frozen=True)
-class Parts:
+class Parts(NamedTuple):
     """Piston and rod of one cylinder, SI: `spin` is the rod's moment of inertia about its centre of mass, `couple` is H."""
 
     length: Any
@@ -36,7 +34,7 @@ class Parts:
 def rod_of(file: EngineFile, number: int, articulated: bool) -> Parts:
     """Piston and rod of a cylinder: the engine's, with what its own table says otherwise (THEORY 3)."""
     own = file.cylinder.get(number)
-    figures = _overridden(file.articulation.rod if articulated and file.articulation else file.rod, own)
+    figures = _overridden(_given(file, articulated), own)
     length = figures["length"] / 1e3 if "length" in figures else file.crank.stroke / 2e3 / figures["ratio"]
     if "small_end" in figures:
         small, big = figures["small_end"], figures["big_end"]
@@ -79,33 +77,54 @@ def _overridden(rod: Rod | ArticulatedRod, own: Override | None) -> dict[str, An
 
 
 def half_rods(file: EngineFile, articulated: Collection[int]) -> list[Problem]:
-    """Cylinders whose own rod is weighed at one end only, where the engine's rod does not give the other."""
+    """Rods weighed at one end only: the engine's (in a sweep), or a cylinder's own where the engine's does not give the other."""
     ends = ("small_end", "big_end")
-    return [Problem(f"cylinder.{n}.rod_{here}", f"needs rod_{missing} beside it: weigh the rod at both ends")
-            for n, own in file.cylinder.items() for here, missing in (ends, ends[::-1])
-            if getattr(own, f"rod_{here}") is not None and getattr(own, f"rod_{missing}") is None
-            and (n in articulated or getattr(file.rod, missing) is None)]
+    pairs = (ends, ends[::-1])
+    found = [Problem(f"rod.{here}", f"needs {missing} beside it: weigh the rod at both ends") for here, missing in pairs
+             if getattr(file.rod, here) is not None and getattr(file.rod, missing) is None]
+    return found or [Problem(f"cylinder.{n}.rod_{here}", f"needs rod_{missing} beside it: weigh the rod at both ends")
+                     for n, own in file.cylinder.items() for here, missing in pairs
+                     if getattr(own, f"rod_{here}") is not None and getattr(own, f"rod_{missing}") is None
+                     and (n in articulated or getattr(file.rod, missing) is None)]
 
 
 def mistakes(file: EngineFile, number: int, rod: Parts, radius: Any, articulated: bool) -> list[Problem]:
-    """What keeps a mechanism from turning, or a pendulum test from being one."""
-    own = file.cylinder.get(number)
-
-    def path(*keys: str) -> str:
-        """Where one of these figures of the rod is given, or the first might be."""
-        for key in keys:
-            if own is not None and getattr(own, f"rod_{key}") is not None:
-                return f"cylinder.{number}.rod_{key}"
-        return "rod." + next((key for key in keys if getattr(file.rod, key) is not None), keys[0])
-
-    if not np.all(rod.spin >= 0):
-        return [Problem(path("pendulum"), "the period is too quick for the distance of its pivot from the centre of mass: the moment "
-                                          f"of inertia about it would be {np.min(rod.spin) * 1e6:g} kg mm2 (period: a full swing, s)")]
+    """What keeps a mechanism from turning, or a rod from being one."""
+    found = [] if np.all(rod.spin >= 0) else [_no_rod(file, number, rod, articulated)]
     lam, eps = np.max(radius / rod.length), np.max(np.abs(rod.offset / rod.length))
     if articulated or lam + eps <= 1 - NEAREST_TO_LOCK:                     # what an articulated rod can do depends on its master
-        return []
+        return found
     aside = np.max(np.abs(rod.offset)) * 1e3
     offset = f", with the piston offset of {aside:g} mm lambda + |offset|/length = {lam + eps:.9g}" if eps else ""
-    return [Problem(path("length", "ratio"), f"the crank cannot turn: crank radius {np.max(radius) * 1e3:g} mm over rod length "
-                    f"{np.min(rod.length) * 1e3:g} mm is lambda = {lam:.9g}{offset}; at most 1 - {NEAREST_TO_LOCK:g} is allowed: "
-                    f"make the rod longer{' or the offset smaller' if eps else ''}")]
+    return [*found, Problem(
+        _path(file, number, "length", "ratio"), f"the crank cannot turn: crank radius {np.max(radius) * 1e3:g} mm over rod length "
+        f"{np.min(rod.length) * 1e3:g} mm is lambda = {lam:.9g}{offset}; at most 1 - {NEAREST_TO_LOCK:g} is allowed: "
+        f"make the rod longer{' or the offset smaller' if eps else ''}")]
+
+
+def _no_rod(file: EngineFile, number: int, rod: Parts, articulated: bool) -> Problem:
+    """A rod whose moment of inertia would be negative: by its pendulum test, or as two masses at its ends."""
+    figures = _overridden(_given(file, articulated), file.cylinder.get(number))
+    if "pendulum" in figures:
+        return Problem(_path(file, number, "pendulum"),
+                       "the period is too quick for the distance of its pivot from the centre of mass: the moment of inertia about "
+                       f"it would be {np.min(rod.spin) * 1e6:g} kg mm2 (period: a full swing, s)")
+    length = np.min(rod.length) * 1e3
+    return Problem(_path(file, number, "cg", articulated=articulated),
+                   f"{float(np.max(figures['cg'])):g} mm is outside the rod of {length:g} mm, and two masses at its ends cannot stand for "
+                   f"such a rod, one would be negative: give a cg from 0 to {length:g} mm, or the rod's inertia")
+
+
+def _path(file: EngineFile, number: int, *keys: str, articulated: bool = False) -> str:
+    """Where one of these figures of a cylinder's rod is given, or the first might be."""
+    own, general = file.cylinder.get(number), _given(file, articulated)
+    for key in keys:
+        if own is not None and getattr(own, f"rod_{key}") is not None:
+            return f"cylinder.{number}.rod_{key}"
+    key = next((key for key in keys if getattr(general, key, None) is not None), keys[0])
+    return f"{'articulation.' if articulated else ''}rod.{key}"
+
+
+def _given(file: EngineFile, articulated: bool) -> Rod | ArticulatedRod:
+    """What the file says of the rods of a kind."""
+    return file.articulation.rod if articulated and file.articulation else file.rod

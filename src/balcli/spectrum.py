@@ -9,16 +9,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from .core import harmonics, ripple
 from .core.inertia import Loads
-from .core.phasors import Array, Phasors
+from .core.phasors import Array, Phasors, joined
 from .engine import Engine
 
 SPECTRAL = ("force", "moment", "couple", "torque", "roll")
 _ONLY_FORCES = {"force", "moment"}
 SHOWN = 1e-6                    # share of a quantity's largest order below which an order is not worth showing
-_CLOSED_FORM = 4096             # highest order of closed forms; only mechanisms near their lock have more
+_AT_ONCE = 1 << 19              # orders x cylinders that are computed together: bounds the memory, about 16 arrays of complex numbers
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Spectra:
     """Phasors by order: force (N), moment, couple, inertia torque on the crank and roll (N m); None: not asked for."""
 
@@ -81,14 +81,27 @@ def alone(engine: Engine, number: int) -> Engine:
 
 
 def _steady(engine: Engine, orders: Array, quantities: Collection[str]) -> tuple[dict[str, Phasors], Loads]:
+    """Phasors at a steady speed, and the loads of the lowest orders."""
+    names = [q for q in SPECTRAL[:4] if q in quantities]
+    most = max(_AT_ONCE // engine.cylinders.count, 1)
+    if len(orders) <= most:
+        loads = _loads(engine, orders, quantities)
+        return {q: getattr(loads, q) for q in names}, loads
+    lowest = _loads(engine, orders[:most], quantities)
+    parts = [{q: getattr(lowest, q) for q in names}]
+    for start in range(most, len(orders), most):
+        loads = _loads(engine, orders[start:start + most], quantities)
+        parts.append({q: getattr(loads, q) for q in names})
+    return {q: joined([part[q] for part in parts]) for q in names}, lowest
+
+
+def _loads(engine: Engine, orders: Array, quantities: Collection[str]) -> Loads:
     c = engine.cylinders
-    plain = harmonics.sampled if len(orders) and orders[-1] > _CLOSED_FORM else harmonics.of
-    find = c.linkage.harmonics if c.linkage else plain
+    find = c.linkage.harmonics if c.linkage else harmonics.of
     x, y, z = engine.reference_m
     rod = bool(np.count_nonzero(c.couple)) and not _ONLY_FORCES.issuperset(quantities)
-    loads = Loads(c, engine.devices, (x + 1j * y, z), orders,
-                  find(orders, c.lam, c.eps, rod=rod, energy="torque" in quantities), engine.omega**2)
-    return {q: getattr(loads, q) for q in SPECTRAL[:4] if q in quantities}, loads
+    return Loads(c, engine.devices, (x + 1j * y, z), orders,
+                 find(orders, c.lam, c.eps, rod=rod, energy="torque" in quantities), engine.omega**2)
 
 
 def _uneven(engine: Engine, orders: Array, quantities: Collection[str]) -> dict[str, Phasors]:

@@ -36,7 +36,7 @@ def pins(file: EngineFile, layout: Plan, top: Mapping[int, Any]) -> tuple[dict[i
         if isinstance(found, Problem):
             raise InputError([found])
         fires = firing.instants(order, found, cycle(file.layout))
-    if off := firing.disagreement(fires, relative, top, sense):
+    if off := firing.disagreement(fires, relative, top, sense, throws_given=file.crank.throws is not None):
         raise InputError([off])
     return pin, fires
 

@@ -17,6 +17,7 @@ from .sizing import Wish, remedy_for
 from .spectrum import SPECTRAL, spectra
 
 FACTORS = tuple(k / 20 for k in range(21))
+_ALONE = ("factor", "bank")     # studies of the engine as it is
 
 
 class Banks(NamedTuple):
@@ -48,8 +49,11 @@ def study(engine: Engine, what: str, orders: Sequence[int] | None = None, scheme
         scheme: the balance scheme to compare with, if any.
 
     Raises:
-        BalcliError: an unknown scheme, or one that cannot be fitted; a bank angle is asked of an engine that is no vee.
+        BalcliError: an unknown scheme, one that cannot be fitted, or one beside a study that takes none; a bank angle is asked
+            of an engine that is no vee.
     """
+    if scheme is not None and what in _ALONE:
+        raise BalcliError(f"--what {what} shows the engine as it is: leave --scheme {scheme} out")
     if scheme is not None:
         found = balance(engine, scheme, orders=orders)
         bent = (inner(found.after.engine), inner(engine)) if what == "inner" else ()

@@ -82,7 +82,7 @@ def ask(file: str, vary: Sequence[str], quantities: str) -> Sweep:
     try:
         check(sweep)
     except InputError as error:
-        raise InputError(error.problems, file) from None
+        raise InputError(error.problems, enginefile.name_of(file)) from None
     return sweep
 
 

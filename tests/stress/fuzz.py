@@ -6,6 +6,7 @@ terminal, and a message that names the file or the option. `python -m tests.stre
 from __future__ import annotations
 
 import argparse
+import gc
 import io
 import json
 import os
@@ -365,6 +366,7 @@ def run(case: Case, place: Path) -> Outcome:
         signal.setitimer(signal.ITIMER_REAL, 0)
         seconds = time.process_time() - start
         sys.argv, sys.stdout, sys.stderr = kept
+        gc.unfreeze()                                   # main() takes the process for ended
     shown = [_all(stream) for stream in (out, err)]
     return Outcome(status, *shown, failure, seconds, tuple(sorted(path.name for path in place.iterdir())))
 

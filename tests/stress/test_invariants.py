@@ -130,6 +130,34 @@ def banks(layout: Tables) -> list[float]:
     return found
 
 
+def in_a_mirror(m: Tables) -> None:
+    """The plane of x and z."""
+    m["layout"]["banks"] = [-bank for bank in banks(m["layout"])]
+    m["crank"] |= {"throws": [-throw for throw in m["crank"]["throws"]], "splay": -m["crank"]["splay"]}
+    m["piston"]["offset"] *= -1
+    m["frame"]["reference"][1] *= -1
+    m["operation"]["speed_ripple"] = [line | {"angle": -line["angle"]} for line in m["operation"]["speed_ripple"]]
+    if "cylinder" in m:
+        m["cylinder"]["1"]["piston_offset"] *= -1
+    for device in (*m["counterweight"], *m["shaft"], *m["slider"]):
+        for key in {"angle", "direction"} & device.keys():
+            device[key] *= -1
+        if "at" in device:
+            device["at"][1] *= -1
+
+
+def end_to_end(m: Tables) -> None:
+    """Throws in reverse: the plane of x and y as a mirror."""
+    crank, layout = m["crank"], m["layout"]
+    count = len(crank["throws"])
+    crank["positions"] = [-(t - (count - 1) / 2) * crank["spacing"] for t in range(count)]
+    del crank["spacing"]
+    layout["stagger"] = -layout.get("stagger", 0)
+    m["frame"]["reference"][2] *= -1
+    for device in (*m["counterweight"], *m["shaft"], *m["slider"]):
+        device["position"] *= -1
+
+
 @quick
 @given(engines(), figures(-180, 180))
 def test_a_turned_engine_makes_the_same_turned(model, turn):
@@ -156,20 +184,7 @@ def about(at: list[float], turn: float) -> list[float]:
 def test_an_engine_in_a_mirror(model):
     """Mirrored in the plane of x and z, turning the same way: at crank angle -theta it is the mirror image of the first
     at theta. Force: conjugate; moment (over i): conjugate; scalars: odd in the crank angle, with their sign changed."""
-    def change(m: Tables) -> None:
-        m["layout"]["banks"] = [-bank for bank in banks(m["layout"])]
-        m["crank"] |= {"throws": [-throw for throw in m["crank"]["throws"]], "splay": -m["crank"]["splay"]}
-        m["piston"]["offset"] *= -1
-        m["frame"]["reference"][1] *= -1
-        m["operation"]["speed_ripple"] = [line | {"angle": -line["angle"]} for line in m["operation"]["speed_ripple"]]
-        if "cylinder" in m:
-            m["cylinder"]["1"]["piston_offset"] *= -1
-        for device in (*m["counterweight"], *m["shaft"], *m["slider"]):
-            for key in {"angle", "direction"} & device.keys():
-                device[key] *= -1
-            if "at" in device:
-                device["at"][1] *= -1
-    one, other = made(model), made(changed(model, change))
+    one, other = made(model), made(changed(model, in_a_mirror))
     before, after, scale = found(one), found(other), sizes(one)
     for q, sign in {"force": 1, "moment": -1, "couple": -1, "torque": -1, "roll": -1}.items():
         p, o = getattr(before, q), getattr(after, q)
@@ -182,18 +197,23 @@ def test_an_engine_in_a_mirror(model):
 @given(engines())
 def test_an_engine_with_its_throws_in_reverse(model):
     """Mirrored in the plane of x and y: only the moment changes, its sign."""
-    def change(m: Tables) -> None:
-        crank, layout = m["crank"], m["layout"]
-        count = len(crank["throws"])
-        crank["positions"] = [-(t - (count - 1) / 2) * crank["spacing"] for t in range(count)]
-        del crank["spacing"]
-        layout["stagger"] = -layout.get("stagger", 0)
-        m["frame"]["reference"][2] *= -1
-        for device in (*m["counterweight"], *m["shaft"], *m["slider"]):
-            device["position"] *= -1
-    one, other = made(model), made(changed(model, change))
+    one, other = made(model), made(changed(model, end_to_end))
     assert_same(one, other, quantities=("force", "couple", "torque", "roll"))
     assert_same(one, other, by=-1, quantities=("moment",))
+
+
+@quick
+@given(engines())
+def test_time_reversed(model):
+    """What turns backward through the same angles at the same speeds makes the same forces at each of them; seen from its
+    other end (half a turn about x) it is an engine that turns forward, at crank angle -theta."""
+    one, other = made(model), made(changed(changed(model, in_a_mirror), end_to_end))
+    before, after, scale = found(one), found(other), sizes(one)
+    theta = np.radians(np.arange(0.0, 360.0, 30.0))
+    for q in SPECTRAL:
+        seen = np.conj if q in ("force", "moment") else np.negative
+        error = np.abs(getattr(after, q).values(-theta) - seen(getattr(before, q).values(theta))).max()
+        assert error <= 2 * len(ORDERS) * SCALED * scale[q], q
 
 
 @quick
@@ -240,6 +260,55 @@ def test_a_counterweight_in_two_parts(model, share):
             weight | {"unbalance": weight["unbalance"] * share, "position": weight["position"] + arm * (1 - share)},
             weight | {"unbalance": weight["unbalance"] * (1 - share), "position": weight["position"] - arm * share}]
     assert_same(made(model), made(changed(model, change)))
+
+
+@quick
+@given(engines(), st.lists(angles, max_size=3), st.lists(places, min_size=9, max_size=9))
+def test_two_engines_on_one_crank_add_up(model, more, where):
+    """One with the devices and one without, whose first pins stand alike; equal but for their throws and places."""
+    model.pop("cylinder", None)
+    del model["crank"]["spacing"]
+    first, second = model["crank"]["throws"], [model["crank"]["throws"][0], *more]
+
+    def with_throws(throws: list[float], positions: list[float]) -> Any:
+        return lambda m: m["crank"].update(throws=throws, positions=positions)
+    count, both = len(first), len(first) + len(second)
+    bare = changed(model, lambda m: [m.pop(key) for key in ("counterweight", "shaft", "slider")])
+    one = made(changed(model, with_throws(first, where[:count])))
+    other = made(changed(bare, with_throws(second, where[count:both])))
+    whole = found(made(changed(model, with_throws(first + second, where[:both]))))
+    p, o, scale, scale_too = found(one), found(other), sizes(one), sizes(other)
+    for q in SPECTRAL:
+        for way in ("forward", "backward"):
+            total = getattr(getattr(p, q), way) + getattr(getattr(o, q), way)
+            assert np.abs(getattr(getattr(whole, q), way) - total).max() <= SCALED * (scale[q] + scale_too[q]), q
+
+
+@quick
+@given(engines(), figures(0, 1))
+def test_every_mass_in_two_parts(model, share):
+    """All moving masses of the cylinders split in one proportion between two engines at the same place."""
+    model.pop("cylinder", None)
+    del model["crank"]["spacing"]
+    throws, along = model["crank"]["throws"], [37.0 * t for t in range(len(model["crank"]["throws"]))]
+
+    def masses(part: float) -> Any:
+        """Of each throw: pistons, rods and the throw's own, in this proportion."""
+        def change(m: Tables) -> None:
+            m["piston"]["mass"] *= part
+            m["crank"]["throw_mass"] *= part
+            for key in {"mass", "inertia", "small_end", "big_end"} & m["rod"].keys():
+                m["rod"][key] *= part
+        return change
+    bare = changed(model, lambda m: [m.pop(key) for key in ("counterweight", "shaft", "slider")])
+    placed = [changed(m, lambda m: m["crank"].update(throws=throws, positions=along)) for m in (model, bare)]
+    one = made(placed[0])
+    whole, scale = found(one), sizes(one)
+    p, o = found(made(changed(placed[0], masses(share)))), found(made(changed(placed[1], masses(1 - share))))
+    for q in SPECTRAL:
+        for way in ("forward", "backward"):
+            total = getattr(getattr(p, q), way) + getattr(getattr(o, q), way)
+            assert np.abs(getattr(getattr(whole, q), way) - total).max() <= SCALED * scale[q], q
 
 
 @quick

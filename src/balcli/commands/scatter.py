@@ -32,16 +32,14 @@ def scatter(
     output: Output = None,
 ) -> None:
     """How free forces and moments spread when masses (rod lengths, throw angles) vary, and which tolerance matters most."""
-    from .. import enginefile
     from .. import quantity as quantities
     from .. import scatter as scatters
     from ..render import scatter as rendered
     from ..render.formats import render
     from .output import emit
+    from .several import engine_of
 
     tolerances = scatters.tolerances(mass, length, angle)
-    model = enginefile.read(file)
-    enginefile.built(model, enginefile.name_of(file))       # what is wrong with the file itself is told with its name
-    found = scatters.scatter(model, tolerances, quantities.parse(quantity), samples, seed, distribution.value)
+    found = scatters.scatter(engine_of(file)[0], tolerances, quantities.parse(quantity), samples, seed, distribution.value)
     emit(render(format, sheets=lambda: [rendered.sheet(found)], documents=lambda: [rendered.document(found)],
                 rows=lambda: rendered.rows(found), into_file=output is not None), output)

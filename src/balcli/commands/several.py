@@ -37,7 +37,7 @@ def engine_and_text(file: str, speed_rpm: float | None = None) -> tuple[bytes, E
 def _built(model: EngineFile, file: str, speed_rpm: float | None) -> tuple[EngineFile, Engine]:
     engine = built(model, file)
     for warning in suspicious(model):
-        typer.echo(legible(f"warning: {file}: {warning}"), err=True)
+        typer.echo(legible(f"warning: {name_of(file)}: {warning}"), err=True)
     return model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)
 
 

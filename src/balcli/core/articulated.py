@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from . import slidercrank
 from .harmonics import Array
 from .linkage import Linkage, Motion
-from .phasors import Complex, unit
+from .phasors import EPS, Complex, unit
 
 
 @dataclass(frozen=True)
@@ -44,14 +44,24 @@ class Articulated(Linkage):
             acceleration=k2.real - tangent * k2.imag - rate * k1.imag / cosine**2,
             spin=-rate,
             spin_rate=-(lam * k2.imag / cosine + rate**2 * tangent),
-            z=k, z1=k1, z2=k2)
+            z=k, z1=k1, z2=k2,
+            condition=1 / (1 - np.minimum(np.abs(sine), 1 - EPS)))
+
+    def distinct(self, lam: Array, eps: Array) -> tuple[Articulated, Array, Array, NDArray[np.intp] | slice]:
+        if self.knuckle.ndim > 1:
+            return self, lam, eps, slice(None)
+        lam, eps = (np.broadcast_to(a, self.knuckle.shape) for a in (lam, eps))
+        figures = np.stack([lam, eps, lam[self.master], eps[self.master], self.knuckle.real, self.knuckle.imag, self.lead_deg])
+        _, rows, which = np.unique(figures, axis=1, return_index=True, return_inverse=True)
+        which = which.reshape(-1)                                           # numpy 2.0 alone gives it two axes
+        few = Articulated(np.broadcast_to(self.mass, which.shape)[rows], which[self.master[rows]], self.knuckle[rows], self.lead_deg[rows])
+        return few, lam[rows], eps[rows], which
 
     def _knuckles(self, psi: Array, lam: Array, eps: Array) -> tuple[Complex, Complex, Complex]:
         """K and its two derivatives in each cylinder's frame."""
         lead = unit(self.lead_deg)[..., None]
-        crank = np.exp(1j * psi)                                            # e^{i psi_m} turned back by the lead
-        angle = psi + np.radians(self.lead_deg)[..., None]
-        mechanism = angle, lam[self.master], eps[self.master]
+        crank = slidercrank.on_circle(psi)                                  # e^{i psi_m} turned back by the lead
+        mechanism = crank * lead, lam[self.master], eps[self.master]
         sine, cosine = slidercrank.rod_angle(*mechanism)
         rate, bend = slidercrank.rod_rate(*mechanism), slidercrank.rod_acceleration(*mechanism)
         arm = np.conj(lead) * self.knuckle[..., None] * (cosine - 1j * sine)

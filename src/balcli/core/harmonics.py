@@ -16,9 +16,11 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[Any]
 EPS = float(np.finfo(float).eps)
+CLOSED_FORM = 4096              # highest order of closed forms; only mechanisms near their lock have more
+_AT_ONCE = 1 << 18              # factors of Gauss's functions that are kept in memory
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Series:
     """Coefficients c_n (real: of cosines alone), shape (orders, cylinders or any axes), and their own error bound, which
     broadcasts to it (0: some ulp)."""
@@ -30,12 +32,17 @@ class Series:
     def __add__(self, other: Series) -> Series:
         return Series(self.c + other.c, self.noise + other.noise)
 
+    def of_rows(self, which: NDArray[np.intp]) -> Series:
+        """Those of these cylinders; a single row stands for all."""
+        if self.c.shape[1] == 1:
+            return self
+        return Series(self.c[:, which], np.broadcast_to(self.noise, self.c.shape[1:])[which])
+
     def __rmul__(self, factor: Array) -> Series:
         return Series(factor * self.c, abs(factor) * self.noise)
 
 
-@dataclass(frozen=True)
-class Curve:
+class Curve(NamedTuple):
     """What unit mass does on a closed curve z(psi) (complex, in crank radii, x along the cylinder's axis)."""
 
     along: Series                       # -Re z''
@@ -45,8 +52,7 @@ class Curve:
     momentum: Array                     # mean of Im(conj(z) z'), shape (cylinders, *trailing)
 
 
-@dataclass(frozen=True)
-class Harmonics:
+class Harmonics(NamedTuple):
     """The Fourier series of a mechanism (or many); those of rod and energy may be left out."""
 
     piston: Series                      # -s''/r: acceleration towards the crank
@@ -55,6 +61,14 @@ class Harmonics:
     rod_kinetic: Series                 # beta'^2
     curve: Curve | None = None          # of a further mass, where a mechanism has one that moves in the plane
     turns: Array | float = 0.0          # of the rod for each of the crank
+
+    def of_rows(self, which: NDArray[np.intp] | slice) -> Harmonics:
+        """With the mechanisms of these rows."""
+        if self.curve is None or isinstance(which, slice):
+            return self
+        series = {name: getattr(self, name).of_rows(which) for name in ("piston", "rod", "kinetic", "rod_kinetic")}
+        lines = {name: getattr(self.curve, name).of_rows(which) for name in ("along", "across", "couple", "kinetic")}
+        return Harmonics(**series, curve=Curve(**lines, momentum=self.curve.momentum[which]), turns=np.asarray(self.turns)[which])
 
 
 NONE = Series(np.zeros((1, 1)))
@@ -80,7 +94,7 @@ def of(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: b
 
 
 def _of_distinct(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> Harmonics:
-    if np.count_nonzero(eps):
+    if np.count_nonzero(eps) or np.max(orders, initial=0) > CLOSED_FORM:
         return sampled(orders, lam, eps, rod=rod, energy=energy)
     if lam.size == 1:
         return _of_one(np.asarray(orders, float).tobytes(), lam.item(), lam.shape, rod, energy)
@@ -235,18 +249,22 @@ def _G(m: Array, z: Any) -> Any:
     """
     single = isinstance(z, float)
     largest = max(z if single else z.max(initial=0.0), 1e-300)
-    ratios = _ratios(1 + int(math.log(EPS / 64) / math.log(largest)), m.shape)
+    terms = 1 + int(math.log(EPS / 64) / math.log(largest))
+    most = max(_AT_ONCE // len(m), 1)
     total: Any = 1.0
-    for ratio in ratios * z if single else (ratio * z for ratio in ratios):
-        total = 1 + ratio * total
+    for last in range(terms, 0, -most):
+        ratios = _ratios(last, max(last - most, 0), m.shape)
+        for ratio in ratios * z if single else (ratio * z for ratio in ratios):
+            total = 1 + ratio * total
     return total
 
 
 @lru_cache(maxsize=8)
-def _ratios(terms: int, shape: tuple[int, ...]) -> Array:
-    """What makes each coefficient of G_m from the one before, last term first, shape (terms, *shape of the column m)."""
+def _ratios(last: int, before: int, shape: tuple[int, ...]) -> Array:
+    """What makes each coefficient of G_m from the one before, the last term first and down to `before` (without it), shape
+    (terms, *shape of the column m)."""
     m = np.arange(float(shape[0])).reshape(shape)
-    j = np.arange(terms, 0.0, -1).reshape(-1, *(1,) * m.ndim)
+    j = np.arange(last, before, -1.0).reshape(-1, *(1,) * m.ndim)
     return (j - 1.5) / j * ((m + j - 1.5) / (m + j))
 
 
@@ -281,8 +299,7 @@ def sampled(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, ener
     """
     from . import slidercrank
 
-    psi = np.arange(count := points(lam, eps)) * (2 * np.pi / count)
-    arguments = psi, np.asarray(lam)[..., None], np.asarray(eps)[..., None]
+    arguments = circle(points(lam, eps)), np.asarray(lam)[..., None], np.asarray(eps)[..., None]
     return Harmonics(
         piston=from_samples(slidercrank.acceleration(*arguments), orders),
         rod=from_samples(-slidercrank.rod_acceleration(*arguments), orders) if rod else NONE,
@@ -291,18 +308,35 @@ def sampled(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, ener
     )
 
 
-SAMPLING = 16 * EPS         # error of a sampled coefficient, in units of the largest
+SAMPLING = 16 * EPS         # error of a sampled coefficient, in units of the curve's root mean square
 
 
-def from_samples(samples: Array, orders: ArrayLike) -> Series:
-    """Coefficients of whole orders from one revolution of samples (last axis), shape (orders, *the other axes)."""
+def circle(count: int) -> Array:
+    """e^{i psi} at evenly spaced psi, each component within 2 ulp of itself: `np.exp` would round psi before."""
+    from .phasors import unit
+
+    return unit(np.arange(count) * (360 / count))
+
+
+def from_samples(samples: Array, orders: ArrayLike, condition: Array | float = 1.0) -> Series:
+    """Coefficients of whole orders from one revolution of samples (last axis), shape (orders, *the other axes).
+
+    `condition`: the error of each sample, relative and in roundings.
+    """
     n, count = np.asarray(orders), samples.shape[-1]
     spectrum = np.moveaxis(np.fft.rfft(samples) / count, -1, 0)
     spectrum[1:] *= 2
     inside = (n % 1 == 0) & (n < count // 2)
     rows = spectrum[np.where(inside, n, 0).astype(int)]
     c = np.where(inside.reshape(-1, *(1,) * (rows.ndim - 1)), rows, 0)
-    return Series(c, SAMPLING * np.abs(spectrum).max(axis=0))
+    return Series(c, SAMPLING * rounding(samples, condition))
+
+
+def rounding(samples: Array, condition: Array | float = 1.0) -> Array:
+    """What one rounding of every sample does to a coefficient, in units of the rounding: root mean square of the samples
+    and, where they are not good to some ulp, mean of what each is multiplied by."""
+    spread = np.sqrt(2 * np.mean(np.abs(samples)**2, axis=-1))
+    return spread if np.isscalar(condition) else np.asarray(spread + np.mean(np.abs(samples) * condition, axis=-1))
 
 
 def points(lam: ArrayLike, eps: ArrayLike) -> int:

@@ -12,8 +12,8 @@ bank) next, then any trailing axes; an axis along which nothing varies has lengt
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +28,7 @@ _SUM = 8 * EPS              # rounding error of a sum, per term and size of the 
 _TURN = np.pi * EPS         # rounding error of an angle in the file (half an ulp of 360 deg), which order n multiplies
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Cylinders:
     """All cylinders of an engine, sorted by bank: bank b has the rows from `starts[b]` on.
 
@@ -74,8 +74,7 @@ class Cylinders:
         return self.eps * self.radius / self.lam
 
 
-@dataclass(frozen=True)
-class Device:
+class Device(NamedTuple):
     """Counterweight, balancer shaft or slider: mass x radius (kg m) that turns at `order`, with and against the crank.
 
     `rank` is the order in which devices are summed: 0 counterweights, 1 shafts, 2 sliders, as an engine file has them.
@@ -105,11 +104,9 @@ class Loads:
         self._cylinders, self._devices, self._harmonics = cylinders, devices, harmonics
         self._place, self._z_ref = reference
         self._orders, self._square = orders, square
-        self._n = orders.reshape(-1, *(1,) * cylinders.pin_deg.ndim)
-        self._once = np.ones((cylinders.count, *(1,) * (cylinders.pin_deg.ndim - 1)))
-        self._turned = unit(self._n * cylinders.pin_deg)                    # e^{i n pin}, (orders, cylinders, *trailing)
-        self._apart = self._n * (cylinders.axis_deg - cylinders.axis_deg[cylinders.first])      # (orders, banks, *trailing)
-        self._rounding = cylinders.count * _SUM + _TURN * self._n           # of a sum over cylinders, relative to its terms
+        single = cylinders.pin_deg.ndim == 1                                # many variants are too large to be kept
+        self._phases = _kept(cylinders, orders.tobytes()) if single else _Phases(cylinders, orders)
+        self._n, self._once, self._rounding = self._phases.n, self._phases.once, self._phases.rounding
         self._of_devices = [self._of_device(device) for device in devices]
 
     @property
@@ -182,12 +179,6 @@ class Loads:
 
     # -------------------------------------------------------------- sums over the cylinders
     @cached_property
-    def _ahead_and_astern(self) -> Complex:
-        """Turn of each bank's forward and backward vectors: `e^{i (axis -+ n (axis - axis_1))}`, shape (2, *that of `_apart`)."""
-        axis = self._cylinders.axis_deg
-        return unit(np.array((axis - self._apart, axis + self._apart)))
-
-    @cached_property
     def _pull(self) -> tuple[Complex, Complex, Array]:
         """Forward and backward vectors of each cylinder's force in its own frame, N, and their rounding error.
 
@@ -207,20 +198,48 @@ class Loads:
     def _forces(self, weights: Any, size: Array) -> Phasors:
         """Sum over the cylinders of their forces, with weights, whose size bounds the error."""
         forward, backward, error = self._pull
-        ahead, astern = self._ahead_and_astern
-        return Phasors(self._orders, self._sum(forward, weights * self._turned, ahead),
-                       self._sum(backward, weights * self._turned.conj(), astern), _total(error, size))
+        ahead, astern = self._phases.sides
+        return Phasors(self._orders, self._sum(forward, weights * self._phases.turned, ahead),
+                       self._sum(backward, weights * self._phases.turned.conj(), astern), _total(error, size))
 
     def _about_z(self, series: Series) -> Phasors:
         """Sum over the cylinders of scalars."""
         error = self._rounding * np.abs(series.c) + series.noise
-        return Phasors.real(self._orders, self._sum(series.c, self._turned, unit(-self._apart)), _total(error, self._once))
+        return Phasors.real(self._orders, self._sum(series.c, self._phases.turned, self._phases.banks), _total(error, self._once))
 
     def _sum(self, vectors: Complex | Array, turned: Complex, axes: Complex) -> Complex:
         """`sum over banks of axes * sum over cylinders of vectors * turned`; the phases of equal cylinders are summed once."""
         banks: Complex = np.add.reduceat(turned if vectors.shape[1] == 1 else vectors * turned, self._cylinders.starts, axis=1)
         summed: Complex = np.add.reduce(axes * banks, axis=1)
         return vectors[:, 0] * summed if vectors.shape[1] == 1 else summed
+
+
+class _Phases:
+    """What the sums need of the geometry and the orders alone."""
+
+    def __init__(self, cylinders: Cylinders, orders: Array) -> None:
+        axis = cylinders.axis_deg
+        self.n = orders.reshape(-1, *(1,) * cylinders.pin_deg.ndim)         # before cylinders and trailing axes
+        self.once = np.ones((cylinders.count, *(1,) * (cylinders.pin_deg.ndim - 1)))
+        self.turned = unit(self.n * cylinders.pin_deg)                      # e^{i n pin}, (orders, cylinders, *trailing)
+        self.rounding = cylinders.count * _SUM + _TURN * self.n             # of a sum over cylinders, relative to its terms
+        self._axis, self._apart = axis, self.n * (axis - axis[cylinders.first])
+
+    @cached_property
+    def sides(self) -> Complex:
+        """Turn of each bank's forward and backward vectors: `e^{i (axis -+ n (axis - axis_1))}`, (2, orders, banks, *trailing)."""
+        return unit(np.array((self._axis - self._apart, self._axis + self._apart)))
+
+    @cached_property
+    def banks(self) -> Complex:
+        """Turn of each bank's scalars: `e^{-i n (axis - axis_1)}`, (orders, banks, *trailing)."""
+        return unit(-self._apart)
+
+
+@lru_cache(maxsize=16)
+def _kept(cylinders: Cylinders, orders: bytes) -> _Phases:
+    """Phases of the last engines: another speed, another mass or a device fitted changes none of them."""
+    return _Phases(cylinders, np.frombuffer(orders))
 
 
 def _total(values: Array, size: Array) -> Array:

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .harmonics import NONE, SAMPLING, Array, Curve, Harmonics, from_samples
+from .harmonics import NONE, SAMPLING, Array, Curve, Harmonics, circle, from_samples, rounding
 
 FEWEST, MOST = 64, 1 << 18          # samples
 
@@ -31,6 +31,7 @@ class Motion(NamedTuple):
     z: NDArray[np.complex128]           # the mass on the curve, and its derivatives
     z1: NDArray[np.complex128]
     z2: NDArray[np.complex128]
+    condition: Array | float = 1.0      # relative error of what the rod does, in roundings: near its lock they are amplified
 
 
 @dataclass(frozen=True)
@@ -45,17 +46,25 @@ class Linkage(ABC):
 
     @abstractmethod
     def motion(self, psi: Array, lam: Array, eps: Array) -> Motion:
-        """The cylinders at their own crank angles psi, shape (samples,) or one row each; lam and eps as in `Cylinders`."""
+        """The cylinders at their own crank angles psi, shape (samples,) or one row each, or at e^{i psi}; lam and eps as in `Cylinders`."""
+
+    def distinct(self, lam: Array, eps: Array) -> tuple[Linkage, Array, Array, NDArray[np.intp] | slice]:
+        """The mechanisms that differ, their lam and eps, and which of them each cylinder has."""
+        return self, lam, eps, slice(None)
 
     def harmonics(self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: bool = True) -> Harmonics:
         """Harmonics of all cylinders for whole orders; accelerations are sampled as such, so that no order's error grows."""
+        few, *mechanisms, which = self.distinct(lam, eps)
+        return few._harmonics(orders, *mechanisms, rod=rod, energy=energy).of_rows(which)
+
+    def _harmonics(self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> Harmonics:
         m = self._sampled(lam, eps)
         swirl = np.conj(m.z) * m.z1
         return Harmonics(
-            piston=from_samples(-m.acceleration, orders),
-            rod=from_samples(m.spin_rate, orders) if rod else NONE,
-            kinetic=from_samples(m.velocity**2, orders) if energy else NONE,
-            rod_kinetic=from_samples(m.spin**2, orders) if energy and rod else NONE,
+            piston=from_samples(-m.acceleration, orders, m.condition),
+            rod=from_samples(m.spin_rate, orders, m.condition) if rod else NONE,
+            kinetic=from_samples(m.velocity**2, orders, m.condition) if energy else NONE,
+            rod_kinetic=from_samples(m.spin**2, orders, m.condition) if energy and rod else NONE,
             curve=Curve(
                 along=from_samples(-m.z2.real, orders),
                 across=from_samples(-m.z2.imag, orders),
@@ -66,14 +75,16 @@ class Linkage(ABC):
 
     def highest(self, lam: Array, eps: Array) -> int:
         """The order beyond which nothing exceeds rounding errors."""
-        return int(self._sampled(lam, eps).z.shape[-1]) // 2
+        few, *mechanisms, _ = self.distinct(lam, eps)
+        return int(few._sampled(*mechanisms).z.shape[-1]) // 2
 
     def _sampled(self, lam: Array, eps: Array) -> Motion:
         """A revolution on as many points (a power of two) as leave neither alias nor tail above rounding."""
         count = FEWEST
         while True:
-            motion = self.motion(revolution(count), lam, eps)
-            if count >= MOST or all(map(_resolved, (motion.acceleration, motion.spin_rate, motion.z2))):
+            motion = self.motion(circle(count), lam, eps)
+            rod = (_resolved(samples, motion.condition) for samples in (motion.acceleration, motion.spin_rate))
+            if count >= MOST or (all(rod) and _resolved(motion.z2)):
                 return motion
             count *= 2
 
@@ -83,8 +94,9 @@ def revolution(count: int) -> Array:
     return np.arange(count, dtype=float) * (2 * np.pi / count)
 
 
-def _resolved(samples: NDArray[np.generic]) -> bool:
+def _resolved(samples: NDArray[Any], condition: Array | float = 1.0) -> bool:
     """Whether the upper half of the spectrum holds rounding errors alone."""
     sizes = np.abs(np.fft.fft(samples, norm="forward"))
     count = samples.shape[-1]
-    return bool(sizes[..., count // 4:-(count // 4)].max() <= SAMPLING / 4 * max(sizes.max(), 1.0))
+    tails = sizes[..., count // 4:-(count // 4)].max(axis=-1)
+    return bool(np.all(tails <= SAMPLING / 4 * np.maximum(rounding(samples, condition), 1.0)))

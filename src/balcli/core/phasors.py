@@ -6,6 +6,7 @@ Arrays have the orders first, then any trailing axes (crank angles, variants of 
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -49,7 +50,13 @@ def _turn(radians: Array) -> Complex:
     return result
 
 
-@dataclass(frozen=True)
+def reduced(degrees: ArrayLike, turn: float) -> Array:
+    """The same direction in (-turn/2, turn/2], any shape; `turn` is 180 for lines, 360 for vectors."""
+    found = turn / 2 - np.remainder(turn / 2 - np.asarray(degrees, float), turn)
+    return np.where(found > -turn / 2, found, turn / 2)         # the remainder of what is barely negative rounds to a whole turn
+
+
+@dataclass(frozen=True, eq=False)
 class Phasors:
     """Rotating vectors by order, and the rounding error that they may carry.
 
@@ -119,7 +126,7 @@ class Phasors:
     def axis_deg(self) -> Array:
         """Direction of the major axis from x in (-90, 90]; nan for a circle, a balanced order and a mean."""
         angle = np.degrees((np.angle(self.forward) + np.angle(self.backward)) / 2)
-        turned = 90 - (90 - angle) % 180
+        turned = reduced(angle, 180)
         turned = np.where(turned < 1e-9 - 90, 90.0, turned)             # rounding shall not turn an axis end for end
         there = (self.forward != 0) & (self.backward != 0)
         return np.where(there, turned, np.nan)
@@ -142,6 +149,13 @@ class Phasors:
         turning = np.exp(1j * np.multiply.outer(angles, self.orders))
         curve: Complex = turning @ self.forward + np.conj(turning) @ self.backward
         return curve
+
+
+def joined(parts: Sequence[Phasors]) -> Phasors:
+    """One run of orders from several, in their order."""
+    noises = [np.broadcast_to(p.noise, p.forward.shape) for p in parts]
+    columns = ([p.orders for p in parts], [p.forward for p in parts], [p.backward for p in parts], noises)
+    return Phasors(*map(np.concatenate, columns))
 
 
 def _settled(vectors: Complex, noise: Array) -> Complex:

@@ -22,10 +22,11 @@ class Rotary(Linkage):
 
     def motion(self, psi: Array, lam: Array, eps: Array) -> Motion:
         lam, eps = lam[..., None], eps[..., None]
+        turned = slidercrank.on_circle(psi)
         sine, cosine = slidercrank.rod_angle(psi, lam, eps)
-        place = np.cos(psi) + cosine / lam
+        place = turned.real + cosine / lam
         velocity, acceleration = -slidercrank.velocity(psi, lam, eps), -slidercrank.acceleration(psi, lam, eps)
-        turned, seen = np.exp(1j * psi), place - 1j * (eps / lam)
+        seen = place - 1j * (eps / lam)
         still = np.zeros_like(place)
         return Motion(
             lean=sine, place=place, velocity=velocity, acceleration=acceleration,

@@ -3,7 +3,8 @@
 Everything is dimensionless: lengths in crank radii r, the crank angle psi in radians from the position in which the
 crank pin lies along the cylinder's axis, derivatives with respect to psi. `lam` = r/l, `eps` = e/l with the offset e of
 the piston pin's path towards the side to which the crank pin moves; the mechanism turns if lam + |eps| < 1. All
-arguments are broadcast against each other, so that scalars and arrays of any shape serve.
+arguments are broadcast against each other, so that scalars and arrays of any shape serve. Near its lock the mechanism is so
+quick that the rounding of psi itself would show; rates and accelerations therefore also take the complex e^{i psi} for psi.
 
 Source: the closed forms are those of every textbook (Lu Jiqing, Meng Sizong, Automobile Engine Design, 1990, (1-2),
 (1-7), (1-10)); here differences of nearly equal terms are multiplied out, so that results are good to about 1e-15
@@ -41,11 +42,10 @@ def rod_angle(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> tuple[Rea
     sin beta = lam sin psi - eps. In cos^2 beta = (1 - sin beta)(1 + sin beta) the factor that can become small is
     written 1 - lam +- eps + lam (1 - |sin psi|), and 1 - |sin psi| = cos^2 psi/(1 + |sin psi|).
     """
-    psi, lam, eps = _floats(psi, lam, eps)
-    sine = np.sin(psi)
+    sine, cosine, lam, eps = _given(psi, lam, eps)
     height, lean = np.abs(sine), np.where(sine < 0, -eps, eps)
-    near = (1 - lam + lean) + lam * np.cos(psi) ** 2 / (1 + height)
-    far = 1 + lam * height - lean
+    near = _clearance(lam, lean) + lam * cosine**2 / (1 + height)
+    far = (1 - lean) + lam * height
     return lam * sine - eps, np.sqrt(near * far)
 
 
@@ -68,9 +68,8 @@ def velocity(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
     Where the two terms of the sine differ in sign, their difference is replaced by that of their squares,
     sin^2 psi - sin^2 beta, whose factors vanish exactly at the dead centres.
     """
-    psi, lam, eps = _floats(psi, lam, eps)
     sin_beta, cos_beta = rod_angle(psi, lam, eps)
-    sine, cosine = np.sin(psi), np.cos(psi)
+    sine, cosine, lam, eps = _given(psi, lam, eps)
     crank, rod = sine * cos_beta, cosine * sin_beta
     opposed = np.sign(crank) * np.sign(rod) < 0
     safe = np.where(opposed, crank - rod, 1.0)
@@ -84,9 +83,8 @@ def acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
     cos psi - sin psi tan beta + lam cos^2 psi/cos^3 beta. Accurate relative to its value without offset, and to about
     1e-16/cos^3 beta absolute with one.
     """
-    psi, lam, eps = _floats(psi, lam, eps)
     sin_beta, cos_beta = rod_angle(psi, lam, eps)
-    sine, cosine = np.sin(psi), np.cos(psi)
+    sine, cosine, lam, eps = _given(psi, lam, eps)
     offset = cosine - sine * sin_beta / cos_beta + lam * cosine**2 / cos_beta**3
     return _real(np.where(eps == 0, _centred_acceleration(sine, cosine, lam, cos_beta), offset))
 
@@ -107,16 +105,22 @@ def _centred_acceleration(sine: Real, cosine: Real, lam: Real, cos_beta: Real) -
 
 def rod_rate(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
     """beta' = lam cos psi/cos beta; the rod turns at -beta' omega."""
-    psi, lam, eps = _floats(psi, lam, eps)
-    return _real(lam * np.cos(psi) / rod_angle(psi, lam, eps)[1])
+    _, cosine, ratio, _ = _given(psi, lam, eps)
+    return _real(ratio * cosine / rod_angle(psi, lam, eps)[1])
 
 
 def rod_acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
-    """beta'' = -lam ((w^2 - eps^2) sin psi + eps lam (1 + sin^2 psi))/cos^3 beta, w^2 = (1 - lam)(1 + lam)."""
-    psi, lam, eps = _floats(psi, lam, eps)
-    sine = np.sin(psi)
-    bracket = ((1 - lam) * (1 + lam) - eps**2) * sine + eps * lam * (1 + sine**2)
-    return _real(-lam * bracket / rod_angle(psi, lam, eps)[1] ** 3)
+    """beta'' = -lam ((w^2 - eps^2) sin psi + eps lam (1 + sin^2 psi))/cos^3 beta, w^2 = (1 - lam)(1 + lam).
+
+    With h = |sin psi| and e = +-eps, by its sign, the bracket is h (1 - lam + e)(1 + lam - e) + e lam (1 - h)^2: near the
+    lock, where both factors 1 - .. are small, nothing cancels.
+    """
+    cos_beta = rod_angle(psi, lam, eps)[1]
+    sine, cosine, lam, eps = _given(psi, lam, eps)
+    height, lean = np.abs(sine), np.where(sine < 0, -eps, eps)
+    short = cosine**2 / (1 + height)
+    bracket = height * _clearance(lam, lean) * ((1 - lean) + lam) + lean * lam * short**2
+    return _real(-lam * np.copysign(1.0, sine) * bracket / cos_beta**3)
 
 
 # ---------------------------------------------------------------- the two-term forms of the centred mechanism
@@ -182,6 +186,24 @@ def fastest_two_term(lam: ArrayLike) -> Extreme:
 # ---------------------------------------------------------------- small helpers
 def _floats(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike) -> tuple[Real, Real, Real]:
     return np.asarray(psi, dtype=np.float64), np.asarray(lam, dtype=np.float64), np.asarray(eps, dtype=np.float64)
+
+
+def _given(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike) -> tuple[Real, Real, Real, Real]:
+    """sin psi, cos psi, lam and eps, psi being an angle or e^{i psi}."""
+    at = on_circle(psi)
+    return at.imag, at.real, np.asarray(lam, dtype=np.float64), np.asarray(eps, dtype=np.float64)
+
+
+def on_circle(psi: ArrayLike) -> NDArray[np.complex128]:
+    """e^{i psi}, psi being an angle or e^{i psi} itself."""
+    angle = np.asarray(psi)
+    return angle if np.iscomplexobj(angle) else np.exp(1j * angle)
+
+
+def _clearance(lam: Real, lean: Real) -> Real:
+    """1 - lam + lean, rounded once, however small it is."""
+    most = 1 - lam
+    return (most + lean) + ((1 - most) - lam)
 
 
 def _real(value: ArrayLike) -> Real:

@@ -84,6 +84,8 @@ def _bore(engine: Engine, system: System) -> str:
 
 
 def _banks(engine: Engine) -> str:
+    if engine.rotary:
+        return " that turn about a crank standing still"
     axes = np.ravel(engine.cylinders.axis_deg)
     if len(axes) == 1:
         return " in line"
@@ -166,6 +168,8 @@ def _directions(spectra: Spectra, system: System) -> Grid:
 
 
 def _textbook(spectra: Spectra, units: Textbook, system: System) -> Iterator[Grid]:
+    if not units.force:
+        return
     cylinder = "one cylinder" if units.equal else "cylinder 1"
     if spectra.force is not None:
         note = (f"F1 = m r ω² = {number(system.force.of(units.force))} {system.force.name} (reciprocating mass of {cylinder}), "

@@ -104,7 +104,7 @@ def _cell(value: Cell, text: str | None, digits: int | None) -> str:
     if not isinstance(value, (int, float)):
         return value or ""
     like = figure(text) if text else None
-    whole = like is not None and like == like.to_integral_value() and float(value).is_integer()
+    whole = text is not None and text.lstrip("+-").isdigit() and float(value).is_integer()
     if digits is not None and not whole:
         return f"{value:.{digits}f}"
     if like is None or text is None:

@@ -2,8 +2,10 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
+from dataclasses import replace
 from io import StringIO
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .sheet import Facts, Grid, Sheet, Text
 
@@ -31,35 +33,73 @@ def terminal(sheets: list[Sheet], *, into_file: bool = False) -> str:
         console.print(Line(sheet.title, style="bold"))
         for part in sheet.parts:
             console.print()
-            match part:
-                case Grid():
-                    if part.title:
-                        console.print(Line(part.title, style="bold"))
-                    console.print(_grid(part))
-                    if part.note:
-                        console.print(Line(part.note, style="dim"))
-                case Facts():
-                    if part.title:
-                        console.print(Line(part.title, style="bold"))
-                    console.print(_facts(part))
-                case Text():
-                    console.print(Line(part.title, style="bold"))
-                    for paragraph in part.paragraphs:
-                        console.print(paragraph)
+            if part.title:
+                console.print(Line(part.title, style="bold"))
+            for piece in _pieces(part, console.width):
+                console.print(piece)
         console.print()
     return "\n".join(line.rstrip() for line in buffer.getvalue().splitlines())
 
 
-def _grid(grid: Grid) -> Table:
+def _pieces(part: Grid | Facts | Text, width: int) -> Iterator[Any]:
+    """What is printed of a part under its title."""
+    from rich.text import Text as Line
+
+    match part:
+        case Grid():
+            yield from _fitting(part, width)
+            if part.note:
+                yield Line(part.note, style="dim")
+        case Facts():
+            yield _facts(part)
+        case Text():
+            yield from part.paragraphs
+
+
+def _fitting(grid: Grid, width: int) -> Iterator[Table]:
+    """The table as wide as it likes to be, else narrowed; figures are never broken, so one that is still too wide comes in
+    pieces, each with the first column."""
+    natural = [max(map(len, _texts(grid, k))) for k in range(len(grid.columns))]
+    for gap in (3, 2):
+        if sum(natural) + gap * (len(natural) - 1) <= width:
+            yield _grid(grid, dict(enumerate(natural)), gap)
+            return
+    grid = replace(grid, columns=tuple(name.replace("_", " ") for name in grid.columns))        # may be broken into lines
+    least = [max((len(word) for text in _texts(grid, k) for word in text.split()), default=1) for k in range(len(grid.columns))]
+    piece = [0]
+    for k in range(1, len(least)):
+        if len(piece) > 1 and sum(least[j] for j in [*piece, k]) + 2 * len(piece) > width:
+            yield _grid(grid, _shared_out(width, piece, least, natural), 2)
+            piece = [0]
+        piece.append(k)
+    yield _grid(grid, _shared_out(width, piece, least, natural), 2)
+
+
+def _texts(grid: Grid, k: int) -> list[str]:
+    """Everything that stands in a column."""
+    return [grid.columns[k], *(row[k] for row in grid.rows)]
+
+
+def _shared_out(width: int, columns: list[int], least: list[int], natural: list[int]) -> dict[int, int]:
+    """Width of each column: the least, and what is left over to the one that lacks most, until there is none."""
+    widths = {k: least[k] for k in columns}
+    for _ in range(width - sum(widths.values()) - 2 * (len(columns) - 1)):
+        needy = max(columns, key=lambda k: natural[k] - widths[k])
+        widths[needy] += natural[needy] > widths[needy]
+    return widths
+
+
+def _grid(grid: Grid, widths: dict[int, int], gap: int) -> Table:
     from rich import box
     from rich.table import Table
     from rich.text import Text as Cell
 
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1), pad_edge=False, show_edge=False)
-    for k, column in enumerate(grid.columns):
-        table.add_column(column, justify="left" if k in grid.words else "right", overflow="fold", style="bold" if k == 0 else "")
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, gap - 2, 0, 1), pad_edge=False, show_edge=False)
+    for k, width in widths.items():
+        table.add_column(grid.columns[k], justify="left" if k in grid.words else "right", overflow="fold",
+                         style="bold" if k == 0 else "", width=width)
     for i, row in enumerate(grid.rows):
-        table.add_row(*(Cell(cell, style="bold red" if (i, k) in grid.marked else "") for k, cell in enumerate(row)))
+        table.add_row(*(Cell(row[k], style="bold red" if (i, k) in grid.marked else "") for k in widths))
     return table
 
 

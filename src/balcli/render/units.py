@@ -1,15 +1,14 @@
 """Units on the way out."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 POUND = 0.45359237                      # kg, by definition (1959)
 INCH = 0.0254                           # m, by definition (1959)
 POUND_FORCE = POUND * 9.80665           # N
 
 
-@dataclass(frozen=True)
-class Unit:
+class Unit(NamedTuple):
     """A name, and how many SI units it is."""
 
     name: str
@@ -20,8 +19,7 @@ class Unit:
         return value / self.size
 
 
-@dataclass(frozen=True)
-class System:
+class System(NamedTuple):
     """The units in which people read a result."""
 
     force: Unit

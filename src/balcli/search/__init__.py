@@ -116,6 +116,9 @@ def _over_angle(key: str, low: float, high: float) -> Callable[[EngineFile, Obje
     def over(file: EngineFile, objective: Objective, top: int, even: bool) -> Candidates:
         if len(plan(file.crank, file.layout).banks) < 2 or (key == "bank_angle" and file.layout.bank_angle is None):
             raise BalcliError(f"there is no {key.replace('_', ' ')} to look for: the engine is no vee (give layout.bank_angle)")
+        if file.crank.throws is None and file.layout.firing_order is not None:
+            raise BalcliError(f"the crank follows from the firing order, which fits no other {key.replace('_', ' ')}: give crank.throws, "
+                              "so that the crank stays as it is")
 
         def value(x: Array) -> Array:
             engine = _engines(file, {key: x})

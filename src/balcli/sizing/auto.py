@@ -4,7 +4,7 @@ from __future__ import annotations
 from ..engine import Engine
 from . import planes
 from .fitting import BACKWARD, FORWARD, Fitting
-from .remedy import Remedy, told
+from .remedy import Remedy
 from .solver import Rest, Slot
 from .wish import Wish
 
@@ -30,16 +30,14 @@ def auto(engine: Engine, wish: Wish | None = None) -> Remedy:
     return fitting.remedy
 
 
-def size_of(wish: Rest, sense: int) -> str:
-    """What turns at this order in this sense: a force with its size, or a moment if there is no force."""
-    force, moment = (abs(wish.at(q, sense)) * wish.newton for q in ("force", "moment"))
-    if not force:
-        return f"moment, {told(moment)} N·m"
-    return f"force, {told(force)} N" + (f", with a moment of {told(moment)} N·m" if moment else "")
+def what(wish: Rest, sense: int) -> str:
+    """What turns at this order in this sense. Sizes stand in the tables, in the reader's units."""
+    force, moment = (wish.at(q, sense) for q in ("force", "moment"))
+    return f"Order {wish.order} {'force and moment' if force and moment else 'force' if force else 'moment'}"
 
 
 def why_weights(wish: Rest) -> str:
-    return (f"Order 1 {size_of(wish, 1)}, turning with the crank: counterweights turn with it too and cancel "
+    return (f"{what(wish, 1)} turning with the crank: counterweights turn with it too and cancel "
             f"{'both' if wish.at('force', 1) and wish.at('moment', 1) else 'it'}")
 
 
@@ -47,5 +45,5 @@ def why_shaft(wish: Rest, sense: int, count: int) -> str:
     """One sentence on what is cancelled, why nothing less will do, and how."""
     turning = "with" if sense > 0 else "against"
     how = "one eccentric" if count == 1 else "eccentrics in two planes" if wish.at("force", sense) else "two opposite eccentrics"
-    return (f"Order {wish.order} {size_of(wish, sense)}, turning {turning} the crank: nothing on the crankshaft can cancel it; "
+    return (f"{what(wish, sense)} turning {turning} the crank: nothing on the crankshaft can cancel it; "
             f"{how} on a shaft at {sense * wish.order:+d} times crank speed can")

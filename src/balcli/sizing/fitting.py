@@ -18,7 +18,7 @@ SAME_PLACE = "one plane, or planes at the same z, cannot take a moment; choose t
 T = TypeVar("T")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Fitting:
     """An engine at steady speed, and what has been fitted so far: tables of the engine file with their reasons."""
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ..core.inertia import Device
-from ..core.phasors import EPS
+from ..core.phasors import EPS, reduced
 from ..devices import devices
 from ..engine import Engine
 from ..model import Counterweight, EngineFile, Shaft, Slider
@@ -67,7 +67,7 @@ def slider(amplitude: complex, order: int, direction_deg: float, z: float, place
 
 def degrees(vector: complex, origin_deg: float = 0.0) -> float:
     """Direction of a vector from `origin_deg`, in (-180, 180]."""
-    return _plain(180 - (180 - (math.degrees(cmath.phase(vector)) - origin_deg)) % 360, 360)
+    return _plain(float(reduced(math.degrees(cmath.phase(vector)) - origin_deg, 360)), 360)
 
 
 def _polar(vector: complex, origin_deg: float = 0.0) -> tuple[float, float]:
@@ -87,8 +87,3 @@ def _plain(figure: float, size: float) -> float:
     """The figure with nine decimals, as people would write it, where that is the same to an ulp of `size`."""
     short = round(figure, 9) + 0.0
     return short if abs(figure - short) <= size * EPS else figure
-
-
-def told(value: float) -> str:
-    """A figure for a sentence: four digits, or all before the point."""
-    return f"{value:.0f}" if 1e4 <= abs(value) < 1e9 else f"{value:.4g}"

@@ -5,12 +5,13 @@ import cmath
 import math
 from typing import Any
 
+from ..core.phasors import reduced
 from ..engine import Engine
 from ..errors import BalcliError
 from . import planes
 from .auto import why_shaft, why_weights
 from .fitting import BACKWARD, FORWARD, SAME_PLACE, Fitting
-from .remedy import Remedy, degrees, told
+from .remedy import Remedy, degrees
 from .solver import Part, Rest, Slot, solve
 from .wish import NoNeedError, Wish, chosen
 
@@ -80,10 +81,10 @@ def slider(engine: Engine, wish: Wish) -> Remedy:
     left = chosen(engine, wish, "force")
     forward, backward = left.at("force", 1), left.at("force", -1)
     axis = degrees(cmath.sqrt(forward * backward)) if forward and backward else 0.0
-    axis = 90 - (90 - axis) % 180
+    axis = float(reduced(axis, 180))
     z, place = _along(engine, wish, left, 1 if abs(forward) >= abs(backward) else -1), _only(wish)
     slots = [Slot("slider", left.order, 0, z, place, direction) for direction in (axis, axis + 90 if axis <= 0 else axis - 90)]
-    reason = (f"Order {left.order} force, up to {told((abs(forward) + abs(backward)) * left.newton)} N: sliders driven at "
+    reason = (f"Order {left.order} force: sliders driven at "
               f"{left.order} times crank speed along the axes of its ellipse, of sizes |V+| + |V-| and ||V+| - |V-||")
     fit = solve(slots, left, (FORWARD[0], BACKWARD[0]))
     there = [u if abs(u) > 2 * left.noise[FORWARD[0]] else 0j for u in fit.unbalances]
@@ -173,7 +174,7 @@ def _why_pair(left: Rest, sense: int, count: int) -> str:
 
 def _why_couple(left: Rest, sense: int) -> str:
     turning = "with" if sense > 0 else "against"
-    return (f"Order {left.order} moment of {told(abs(left.at('moment', sense)) * left.newton)} N·m turning {turning} the crank: two "
+    return (f"Order {left.order} moment turning {turning} the crank: two "
             f"opposite eccentrics on a shaft at {sense * left.order:+d} times crank speed make the opposite moment and no force")
 
 

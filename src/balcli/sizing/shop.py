@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from ..engine import Engine
 from ..errors import BalcliError
@@ -12,8 +12,7 @@ STEEL = 7850.0                  # kg/m3, plain carbon steel
 THICKNESS = 0.020               # m, of a semicircular disc if nothing else is said
 
 
-@dataclass(frozen=True)
-class Tools:
+class Tools(NamedTuple):
     """At which radius masses are stated, thickness (or radius) of the discs, and drill diameter, m; None: see `practical`."""
 
     radius: float | None = None
@@ -22,8 +21,7 @@ class Tools:
     drill: float | None = None
 
 
-@dataclass(frozen=True)
-class Practical:
+class Practical(NamedTuple):
     """Figures of one device, SI.
 
     Attributes:

@@ -32,7 +32,7 @@ class Part(NamedTuple):
     sense: int
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Rest:
     """What shakes an engine at one order, per `n^2 omega^2`: force (kg m), moment over i and roll (kg m2).
 
@@ -72,8 +72,7 @@ def rest(engine: Engine, order: int) -> Rest:
     return Rest(order, parts, noise, (complex(x, y), float(z)), newton)
 
 
-@dataclass(frozen=True)
-class Slot:
+class Slot(NamedTuple):
     """Where a device may be fitted, by the table that describes it: "counterweight", "shaft" or "slider"."""
 
     kind: str

@@ -3,9 +3,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from difflib import get_close_matches
 
 from ..errors import BalcliError
+from ..fields import nearest
 from . import kvasnikov, layouts, liang, liu, series, tsinghua, wang
 from .options import Options
 from .printed import Print, load
@@ -49,8 +49,8 @@ def recompute(name: str, options: Options | None = None) -> Table:
     """
     entry = REGISTRY.get(name)
     if entry is None:
-        near = get_close_matches(name, NAMES, n=1, cutoff=0.0)[0]
-        raise BalcliError(f"no table {name!r}; the nearest name is {near!r}. Tables: {', '.join(NAMES)}")
+        near = nearest(name, NAMES)
+        raise BalcliError(f"no table {name!r}{f'; the nearest name is {near!r}' if near else ''}. Tables: {', '.join(NAMES)}")
     asked = options or Options()
     for option in asked.given():
         if option not in entry.takes:
