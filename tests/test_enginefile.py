@@ -272,7 +272,7 @@ def test_enormous_lists_are_refused_whole():
     """One by one, their mistakes would take gigabytes."""
     flood = changed(("[0, 180, 180, 0]", "[" + "[]," * 40_000 + "]"))
     assert refusal(flood) == "crank.throws: holds 40001 values; no engine needs more than 20000"
-    nested = changed(("[layout]", "[layout]\nnumbering = [" + f"[{'0.5,' * 300}]," * 300 + "]"))
+    nested = changed(("[layout]", "[layout]\nnumbering = [" + f"[{'1,' * 300}]," * 300 + "]"))
     assert refusal(nested) == "layout.numbering: holds 90301 values; no engine needs more than 20000"
 
 

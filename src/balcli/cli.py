@@ -34,10 +34,10 @@ class _OnDemand(TyperGroup):
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         if cmd_name not in COMMANDS:
             return None
-        from .commands.apart import apart
+        from .commands.apart import guarded
 
         single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-        single.command(cmd_name)(apart(getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name)))
+        single.command(cmd_name)(guarded(getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name)))
         return get_command(single)
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:

@@ -13,7 +13,7 @@ READ = ("file", "files", "first", "second")         # parameters of commands
 WRITTEN = ("output", "write", "plot")
 
 
-def apart(command: Callable[..., None]) -> Callable[..., None]:
+def guarded(command: Callable[..., None]) -> Callable[..., None]:
     """The command, which first refuses such paths. Raises BalcliError with the option and its path."""
     @wraps(command)
     def checked(**chosen: Any) -> None:
