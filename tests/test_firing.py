@@ -6,6 +6,8 @@ import math
 import pytest
 from kit import engine, refused
 
+from balcli.firing import disagreement, from_pins
+
 TIGHT = 1e-9                    # deg
 
 
@@ -132,3 +134,15 @@ def test_a_degree_is_forgiven(throw, good):
         assert fires(**parts) == {1: 0, 2: 180}
     else:
         assert "cylinder 2 is not at top dead centre" in refused(**parts)
+
+
+def test_the_first_cylinder_that_cannot_fire_in_time_is_named():
+    """Cylinders 2, 3 and 4 come to top dead centre at 170, 160 and 150 deg: 1-2-3-4 waits 170 + 350 + 350 + 210 deg."""
+    pin = {1: 0.0, 2: -170.0, 3: -160.0, 4: -150.0}
+    found = from_pins([1, 2, 3, 4], pin, dict.fromkeys(pin, 0.0), 720.0)
+    assert "1-2-3-4 would take 1080 deg with these throws, a cycle has 720; firing evenly, every 180 deg, cylinder 2 is the" in str(found)
+
+
+def test_a_pin_a_rounding_error_short_of_a_turn_is_at_its_place():
+    assert disagreement({1: 0.0, 2: 0.0}, {1: 0.0, 2: 360 - 1e-12}, {1: 0.0, 2: 0.0}) is None
+    assert "cylinder 2 is not at top dead centre" in str(disagreement({1: 0.0, 2: 0.0}, {1: 0.0, 2: 340.0}, {1: 0.0, 2: 0.0}))

@@ -114,3 +114,24 @@ def test_the_rounding_error_grows_with_the_parts_and_never_vanishes_where_they_d
                     for size in (1e-16, 1e-14))
     assert np.all(small > 0)
     assert large == pytest.approx(100 * small)
+
+
+def test_at_steady_speed_nothing_changes_not_even_the_bound():
+    """W = 1: the orders come back, each with the error it had (of the torque and of a force alike)."""
+    noise = 1e-16 * np.arange(1.0, 16.0)
+    steady = Phasors(ORDERS, FORWARD.astype(complex), BACKWARD.astype(complex), noise)
+    for rule in (ripple.force(steady, np.ones(1, complex)), ripple.torque(steady, np.ones(1, complex), 0.0)):
+        assert rule.forward == pytest.approx(FORWARD, rel=1e-15)
+        assert rule.noise[1:] == pytest.approx(noise[1:], rel=1e-12)
+
+
+def test_variants_side_by_side_are_what_each_is_alone():
+    """Trailing axes, as sweeps have them, of the series and of the mean."""
+    w = ripple.speed(LINES["two"])[:, None, None]
+    scales, means = np.array([[1.0, -2.0, 0.5], [3.0, 1.5, 7.0]]), np.array([[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]])
+    many = [v[:, None, None] * scales for v in (FORWARD, BACKWARD)]
+    whole = ripple.force(Phasors(ORDERS, *many, np.zeros(1)), w, means)
+    for i, j in np.ndindex(scales.shape):
+        one = ripple.force(Phasors(ORDERS, FORWARD * scales[i, j], BACKWARD * scales[i, j], np.zeros(1)), w[:, 0, 0], means[i, j])
+        assert whole.forward[:, i, j] == pytest.approx(one.forward, rel=1e-14)
+        assert whole.backward[:, i, j] == pytest.approx(one.backward, rel=1e-14)

@@ -12,8 +12,10 @@ DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 def schema() -> dict[str, Any]:
     """JSON Schema (draft 2020-12) of an engine file: every key with description, unit, bounds and an example."""
-    document: dict[str, Any] = _tidy(EngineFile.model_json_schema())
     tables: list[type[Table]] = [*TABLES.values(), *DEVICES.values(), Override]
+    for table in tables:
+        table.model_rebuild()                           # pydantic before 2.13 writes no default of a table not built yet
+    document: dict[str, Any] = _tidy(EngineFile.model_json_schema())
     for table in tables:
         document["$defs"][table.__name__] |= _exclusions(table)
     document["properties"]["cylinder"]["propertyNames"] = {"pattern": "^[1-9][0-9]*$"}

@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from balcli.core.unity import even, turns, vanishes
+from balcli.core.unity import even, rational, turns, vanishes
 
 
 def cyclotomic(n: int) -> list[int]:
@@ -118,3 +118,16 @@ def test_even_instants():
     assert even([Fraction(1, 2), Fraction(1, 2) + third, Fraction(1, 2) - third], Fraction(1))
     assert not even([Fraction(0), third, Fraction(1, 2)], Fraction(1))
     assert even([Fraction(0), Fraction(1)], Fraction(2))
+
+
+def test_no_denominator_above_5040_and_no_more_than_two_ulp_of_a_turn():
+    ulp = math.ulp(360.0)
+    assert turns(360 / 5041) is None
+    assert turns(120 + 1.75 * ulp) == Fraction(1, 3)
+    assert turns(120 + 2.5 * ulp) is None
+    assert rational(0.5, 2, 0.0) == Fraction(1, 2)              # exact is near enough
+
+
+def test_a_weight_without_an_angle_is_no_sum():
+    with pytest.raises(ValueError, match="argument 2 is shorter"):
+        vanishes([1, -1], [Fraction(0)])

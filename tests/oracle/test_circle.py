@@ -117,3 +117,8 @@ def test_angles_are_those_at_which_the_circle_is_touched():
     found = circle.enclosing(curve)
     assert np.abs(seen(curve, found.theta) - found.centre) == pytest.approx(found.radius, rel=1e-12)
     assert len(found.theta) == 3
+
+
+def test_no_force_is_a_circle_without_points():
+    nothing = circle.enclosing(Phasors(np.array([1.0, 2.0]), np.zeros(2, complex), np.zeros(2, complex), np.zeros(1)))
+    assert (nothing.centre, nothing.radius, nothing.theta.tolist(), nothing.excess) == (0, 0, [], 0)

@@ -58,3 +58,24 @@ def alone_each(whole: Engine) -> list:
     from balcli.spectrum import alone
 
     return [spectra(alone(whole, n), ORDERS) for n in whole.numbers]
+
+
+LARGEST = """
+import resource
+from kit import engine
+from balcli.core.peaks import peak
+from balcli.spectrum import relevant_orders, spectra
+whole = engine(crank={"stroke": 100, "throws": [7.3 * k % 360 for k in range(512)], "spacing": 1}, rod={"ratio": 1 - 1e-6})
+orders = relevant_orders(whole)
+found = spectra(whole, orders, ["force", "moment"])
+assert len(orders) == 32768 and peak(found.force).value > 0 and peak(found.moment).value > 0
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="ru_maxrss is in KiB there")
+def test_512_cylinders_and_32768_orders_stay_below_300_mb():
+    """At once they would be 16 million complex numbers, 256 MB, for each of some 16 arrays."""
+    env = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+    run = subprocess.run([sys.executable, "-c", LARGEST], env=env, capture_output=True, check=True)
+    assert float(run.stdout) < 300

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import re
 
-from .sheet import Facts, Grid, Sheet, Text
+from .sheet import Facts, Grid, Sheet, Text, harmless
 
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~])")
 
@@ -15,7 +15,7 @@ def markdown(sheets: list[Sheet]) -> str:
 
 def escape(text: str) -> str:
     """Text that Markdown leaves as it is."""
-    return _SPECIAL.sub(r"\\\1", text.replace("\n", " "))
+    return _SPECIAL.sub(r"\\\1", harmless(text.replace("\n", " ")))
 
 
 def _part(part: Grid | Facts | Text) -> str:

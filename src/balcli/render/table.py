@@ -7,7 +7,7 @@ from dataclasses import replace
 from io import StringIO
 from typing import TYPE_CHECKING, Any
 
-from .sheet import Facts, Grid, Sheet, Text
+from .sheet import Facts, Grid, Sheet, Text, harmless
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -30,7 +30,7 @@ def terminal(sheets: list[Sheet], *, into_file: bool = False) -> str:
     console = Console(file=buffer, highlight=False, emoji=False, markup=False, soft_wrap=not person,
                       **({"force_terminal": True} if person else {"width": UNLIMITED, "no_color": True}))
     for sheet in sheets:
-        console.print(Line(sheet.title, style="bold"))
+        console.print(Line(harmless(sheet.title), style="bold"))
         for part in sheet.parts:
             console.print()
             if part.title:
@@ -38,7 +38,8 @@ def terminal(sheets: list[Sheet], *, into_file: bool = False) -> str:
             for piece in _pieces(part, console.width):
                 console.print(piece)
         console.print()
-    return "\n".join(line.rstrip() for line in buffer.getvalue().splitlines())
+    text = "\n".join(line.rstrip() for line in buffer.getvalue().splitlines())
+    return text if person else harmless(text)
 
 
 def _pieces(part: Grid | Facts | Text, width: int) -> Iterator[Any]:
