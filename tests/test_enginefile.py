@@ -114,7 +114,7 @@ def test_standard_input(monkeypatch):
         ),
         (
             changed(("speed = 3000", "speed_ripple = [{ order = 1.5, amplitude = 0.01 }]")),
-            f"operation.speed_ripple.1.order: 1.5 is not a whole number; {WHOLE}",
+            "operation.speed_ripple.1.order: 1.5 is not a whole number; a whole number from 1 to 256 is wanted",
         ),
         (
             changed(("speed = 3000", "speed_ripple = [{ order = 1, amplitude = 2 }]")),
@@ -220,7 +220,7 @@ def test_missing_tables_come_with_an_example():
                 "conversion: value has 5000 digits"
             ),
         ),
-        ("#" * (LARGEST + 1), "has more than 16 MB; no engine file needs that"),
+        ("#" * (LARGEST + 1), "has more than 6 MB; no engine file needs that"),
     ],
     ids=[
         "syntax",
@@ -264,15 +264,15 @@ def test_messages_carry_no_control_characters():
 
 
 def test_more_devices_than_an_engine_can_have():
-    text = GOOD + "[[shaft]]\nratio = 1\nunbalance = 1\n" * 10_001
-    assert refusal(text) == "shaft: stands 10001 times; no engine has more than 10000"
+    text = GOOD + "[[shaft]]\nratio = 1\nunbalance = 1\n" * 1001
+    assert refusal(text) == "shaft: stands 1001 times; no engine has more than 1000"
 
 
 def test_enormous_lists_are_refused_whole():
     """One by one, their mistakes would take gigabytes."""
-    flood = changed(("[0, 180, 180, 0]", "[" + "[]," * 1_000_000 + "]"))
-    assert refusal(flood) == "crank.throws: holds 1000001 values; no engine needs more than 20000"
-    nested = changed(("[layout]", "[layout]\nnumbering = [" + f"[{'0.5,' * 300}]," * 300 + "]"))
+    flood = changed(("[0, 180, 180, 0]", "[" + "[]," * 40_000 + "]"))
+    assert refusal(flood) == "crank.throws: holds 40001 values; no engine needs more than 20000"
+    nested = changed(("[layout]", "[layout]\nnumbering = [" + f"[{'1,' * 300}]," * 300 + "]"))
     assert refusal(nested) == "layout.numbering: holds 90301 values; no engine needs more than 20000"
 
 

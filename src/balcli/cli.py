@@ -9,6 +9,7 @@ import os
 import sys
 from difflib import get_close_matches
 from importlib import import_module
+from io import StringIO
 from typing import Annotated, Any
 
 import typer
@@ -16,7 +17,7 @@ from typer.core import TyperGroup
 from typer.main import get_command
 
 from . import __version__
-from .errors import BalcliError, Exit
+from .errors import BalcliError, Exit, legible
 
 COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "plot", "report", "sweep",
             "search", "scatter", "compare", "sum", "engines", "bench")
@@ -33,8 +34,10 @@ class _OnDemand(TyperGroup):
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         if cmd_name not in COMMANDS:
             return None
+        from .commands.apart import guarded
+
         single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-        single.command(cmd_name)(getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name))
+        single.command(cmd_name)(guarded(getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name)))
         return get_command(single)
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
@@ -76,9 +79,13 @@ def main() -> None:
     try:
         sys.exit(app(prog_name="balcli", standalone_mode=False))
     except BalcliError as error:
-        typer.echo(f"balcli: {error}", err=True)
+        typer.echo(legible(f"balcli: {error}"), err=True)
     except _UsageError as error:
-        error.show()                                    # plain: a box would fold it, even in a pipe
+        text = StringIO()
+        error.show(text)                                # plain: a box would fold it, even in a pipe
+        typer.echo(legible(text.getvalue()), err=True, nl=False)
+    except typer.Abort:                                 # Ctrl-C
+        sys.exit(Exit.INTERRUPTED)
     finally:
         gc.freeze()                                     # the process ends: nothing need be collected any more
     sys.exit(Exit.BAD_INPUT)

@@ -6,8 +6,8 @@ acceleration xi and a prime for the derivative with respect to the crank angle: 
 """
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 import numpy as np
@@ -19,6 +19,7 @@ from .engine import Engine
 from .errors import BalcliError
 
 FINEST = 1e-3                   # degrees
+AT_ONCE = 200_000               # cylinders x angles, which bounds the memory
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,18 @@ def engine_curves(engine: Engine, crank_deg: Array) -> Curves:
         engine: without trailing axes.
         crank_deg: shape (angles,).
     """
+    return _in_parts(engine, crank_deg, lambda part: _engine_curves(engine, part))
+
+
+def _in_parts(engine: Engine, crank_deg: Array, curves: Callable[[Array], Curves]) -> Curves:
+    """Curves over so many angles at a time that memory does not grow with both cylinders and angles."""
+    step = max(AT_ONCE // engine.cylinders.count, 1)
+    parts = [curves(crank_deg[k:k + step]) for k in range(0, len(crank_deg), step)] or [curves(crank_deg)]
+    return replace(parts[0], crank_deg=crank_deg, values=MappingProxyType(
+        {name: np.concatenate([part.values[name] for part in parts]) for name in parts[0].values}))
+
+
+def _engine_curves(engine: Engine, crank_deg: Array) -> Curves:
     motion = _Motion(engine, crank_deg)
     force, arms = _forces(engine, motion)
     x, y, z = engine.reference_m
@@ -70,7 +83,11 @@ def cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:
     if number not in engine.numbers:
         some = ", ".join(map(str, sorted(engine.numbers)))
         raise BalcliError(f"--cylinder {number}: {engine.name or 'the engine'} has the cylinders {some}")
-    motion, row = _Motion(engine, crank_deg), engine.numbers.index(number)
+    return _in_parts(engine, crank_deg, lambda part: _cylinder_curves(engine, engine.numbers.index(number), part))
+
+
+def _cylinder_curves(engine: Engine, row: int, crank_deg: Array) -> Curves:
+    motion = _Motion(engine, crank_deg)
     r, v = motion.radius, motion.v[row]
     return _curves(engine, crank_deg, travel_m=r * motion.travel()[row],
                    velocity_m_per_s=r * motion.omega * v,

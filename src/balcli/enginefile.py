@@ -14,12 +14,14 @@ from .engine import Engine, build
 from .errors import BalcliError, InputError, Problem
 from .fields import printable, shorten
 from .mistakes import DEVICES, INNER, KNOWN, TABLES, TEXTS, miscounted, path_of, plain, unknown_key
-from .model import MOST, EngineFile, Override, Piston, Rod, Table, mistakes_of_choice
+from .model import MOST, MOST_PARTS, EngineFile, Override, Piston, Rod, Table, mistakes_of_choice
 
-LARGEST = 16_000_000             # bytes of an engine file
+LARGEST = 6_000_000              # bytes of an engine file
+MOST_MARKS = 180_000             # of "[", "{", ".", ",", "=": what each stands for takes tomllib up to a kilobyte
 MOST_SHOWN = 20                  # mistakes of one file
 DEEPEST = 32                     # parts of a dotted key; tomllib's memory grows with their square
 MOST_VALUES = 2 * MOST           # of one key, inner lists included; to refuse millions one by one takes gigabytes
+CONTROL = {"name": re.compile(r"[\x00-\x1f\x7f-\x9f]"), "source": re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")}
 REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5"}
 
 T = TypeVar("T", bound=Table)
@@ -89,6 +91,8 @@ def _tables(text: str | bytes, file: str) -> dict[str, Any]:
         return _decode(text)
     except tomllib.TOMLDecodeError as error:
         message = f"is not valid TOML: {str(error)[:300]}"
+    except OverflowError as error:
+        message = str(error)
     except RecursionError:
         message = "lists or tables are nested too deeply; an engine file needs no more than four levels"
     except UnicodeDecodeError as error:
@@ -104,6 +108,8 @@ def _decode(text: str | bytes) -> dict[str, Any]:
         text = text.decode("utf-8-sig")
     if _DEEP_KEY.search(text):
         raise RecursionError
+    if sum(map(text.count, "[{.,=")) > MOST_MARKS:
+        raise OverflowError(f"has more than {MOST_MARKS} keys, lists and values; no engine file needs that")
     return tomllib.loads(text)
 
 
@@ -166,6 +172,8 @@ class _Reader:
     def _text(self, key: str, value: object) -> object:
         if not isinstance(value, str):
             self._add(key, f"{shorten(value)} is not text; write it in quotes")
+        elif strange := CONTROL[key].search(value):
+            self._add(key, f"has the control character U+{ord(strange[0]):04X}, which could command a terminal; leave it out")
         return value
 
     def _table(self, path: str, value: object, table: type[T]) -> T | None:
@@ -189,8 +197,8 @@ class _Reader:
         if not isinstance(value, list):
             self._add(key, f"is one of several; write [[{key}]] in double brackets, once for each {key}")
             return ()
-        if len(value) > MOST:
-            self._add(key, f"stands {len(value)} times; no engine has more than {MOST}")
+        if len(value) > MOST_PARTS:
+            self._add(key, f"stands {len(value)} times; no engine has more than {MOST_PARTS}")
             return ()
         return tuple(self._table(f"{key}.{number}", item, table) for number, item in enumerate(value, 1))
 

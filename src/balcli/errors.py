@@ -5,6 +5,13 @@ from collections.abc import Iterable
 from enum import IntEnum
 from typing import NamedTuple
 
+_CONTROL = dict.fromkeys([*range(0x09), *range(0x0B, 0x20), *range(0x7F, 0xA0)], "?")
+
+
+def legible(text: str) -> str:
+    """Text for a terminal: of all control characters only line ends and tabs stay, so that nobody's file name can command it."""
+    return text.translate(_CONTROL)
+
 
 class Exit(IntEnum):
     """Exit statuses of every command."""
@@ -12,6 +19,7 @@ class Exit(IntEnum):
     DONE = 0
     DIFFERENCE = 1
     BAD_INPUT = 2
+    INTERRUPTED = 130
 
 
 class Problem(NamedTuple):

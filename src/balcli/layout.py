@@ -9,7 +9,7 @@ from itertools import count
 from typing import Any, NamedTuple
 
 from .errors import InputError, Problem
-from .model import Crank, Layout
+from .model import MOST_PARTS, Crank, Layout
 
 TURN = 360.0
 
@@ -44,6 +44,7 @@ def plan(crank: Crank, layout: Layout) -> Plan:
     banks = bank_angles(layout)
     shared = layout.rods == "shared" or len(banks) == 1
     throws, problems = _throws(crank, layout, len(banks) if shared else 1)
+    problems = problems or _too_many(throws, len(banks), shared)
     if problems:                                        # all else counts throws
         raise InputError(problems)
     places = [(b, t) for b in range(len(banks)) for t in range(throws) if shared or t % len(banks) == b]
@@ -82,6 +83,14 @@ def _throws(crank: Crank, layout: Layout, rods: int) -> tuple[int, list[Problem]
         return 1, [Problem("layout.firing_order", f"has {cylinders} cylinders, which {rods} banks cannot share evenly: "
                                                   f"give crank.throws, or a multiple of {rods} cylinders")]
     return max(cylinders // rods, 1), []
+
+
+def _too_many(throws: int, banks: int, shared: bool) -> list[Problem]:
+    """Banks x throws of a short file can be more cylinders than there is memory for."""
+    if max(banks, throws, throws * banks * shared) <= MOST_PARTS:
+        return []
+    return [Problem("layout" if banks > 1 else "crank.throws", f"{banks} banks on {throws} throws are too many; "
+                                                               f"no engine has more than {MOST_PARTS} cylinders")]
 
 
 def _positions(crank: Crank, throws: int) -> list[Problem]:

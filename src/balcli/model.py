@@ -16,7 +16,9 @@ from .fields import Flag, Number, OneOf, Whole
 from .units import ANGLE, INERTIA, LENGTH, MASS, PLAIN, SPEED, TIME, UNBALANCE
 
 GRAVITY = 9.80665                # m/s^2, standard
-MOST = 10_000                    # throws, cylinders, banks, orders: above every engine, and still quick to refuse
+MOST = 10_000                    # values of a list, orders: above every engine, and still quick to refuse
+MOST_RIPPLE = 256                # order of the uneven speed, which lets every order of the engine reach that much further
+MOST_PARTS = 1000                # cylinders, devices of a kind: above every engine, and still quick to analyse
 INTERVAL_TOLERANCE_DEG = 0.5     # firing intervals are often printed rounded
 
 Length = Annotated[float, Number(LENGTH, most=1e9)]
@@ -32,6 +34,7 @@ Period = Annotated[float, Number(TIME, above=0, most=1e6)]
 RodRatio = Annotated[float, Number(PLAIN, above=0, below=1)]
 Share = Annotated[float, Number(PLAIN, least=-1, most=1)]
 Count = Annotated[int, Whole(least=1, most=MOST)]
+RippleOrder = Annotated[int, Whole(least=1, most=MOST_RIPPLE)]
 ShaftRatio = Annotated[int, Whole(least=-1000, most=1000, zero=False)]
 Angles = Annotated[tuple[Angle, ...], Field(min_length=1, max_length=MOST)]
 Lengths = Annotated[tuple[Length, ...], Field(min_length=1, max_length=MOST)]
@@ -200,7 +203,7 @@ class Bobweight(Table):
 class Ripple(Table):
     """One order of the uneven crank speed: mean speed times amplitude * cos(order * theta - angle)."""
 
-    order: Count = Field(description="times for each turn of the crank", examples=[4])
+    order: RippleOrder = Field(description="times for each turn of the crank", examples=[4])
     amplitude: Share = Field(description="of the mean speed", examples=[0.01])
     angle: Angle = Field(0.0, description="of its first largest value", examples=[0])
 
@@ -210,6 +213,10 @@ class Operation(Table):
 
     speed: Speed = Field(1000.0, description="crank speed (mean over the angle)", examples=[3000])
     speed_ripple: tuple[Ripple, ...] = Field((), description="uneven crank speed, by whole orders")
+
+    def contradictions(self) -> Iterator[str]:
+        if len(self.speed_ripple) > MOST_RIPPLE:
+            yield f"speed_ripple has {len(self.speed_ripple)} orders; no more than {MOST_RIPPLE} can be given"
 
 
 class Frame(Table):

@@ -55,7 +55,7 @@ def differences(name: str, engine: Engine, file: Path) -> list[Difference]:
         recorded = json.loads(file.read_text(encoding="utf-8"))
         old, before = dict(_figures(recorded)), _plain(recorded)
         now = documents.analysis(analyze(engine, {*(entry["order"] for entry in recorded["orders"]), *shown.orders}, RECORDED))
-    except (OSError, ValueError, LookupError, TypeError, AttributeError, BalcliError) as error:
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError, BalcliError) as error:
         return [Difference(name, f"the result recorded in {file.parent.name}/{file.name} cannot be read "
                                  f"({type(error).__name__}: {error}); check --update records it anew")]
     plain = [Difference(name, f"{what}: {before[what]} -> {new}") for what, new in _plain(now).items() if before[what] != new]

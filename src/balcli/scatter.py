@@ -24,6 +24,7 @@ from .units import ANGLE
 
 Array = NDArray[np.float64]
 CHUNK = 8_192                   # samples at a time
+AT_ONCE = 400_000               # deviations at a time, where there are many sources
 MOST = 20_000_000
 STEP = 1e-3                     # of a tolerance, for derivatives; masses act linearly, so that theirs are exact
 PERCENTILES = {"p05": 5.0, "p50": 50.0, "p95": 95.0}
@@ -130,8 +131,9 @@ def _drawn(sources: Sequence[Source], samples: int, seed: int | None, shape: Sha
     """Deviations in chunks, shape (sources, samples)."""
     random = np.random.default_rng(seed)
     tolerance = np.array([s.tolerance for s in sources])[:, None]
-    for start in range(0, samples, CHUNK):
-        count = min(CHUNK, samples - start)
+    chunk = min(CHUNK, max(AT_ONCE // len(sources), 1))
+    for start in range(0, samples, chunk):
+        count = min(chunk, samples - start)
         if shape == "uniform":
             yield count, tolerance * (2 * random.random((len(sources), count)) - 1)
         else:

@@ -12,9 +12,9 @@ def check(
     update: Annotated[bool, typer.Option("--update", help="Record the present results in expected/ beside the engines.")] = False,
 ) -> None:
     """Recompute engines and compare with their recorded results; exit status 1 if anything moved."""
-    from ..errors import Exit
+    from ..errors import Exit, legible
     from ..regression import Difference, differences, record, recorded_at
-    from .output import emit, write
+    from .output import emit, made, write
     from .several import each, engine_files, engine_of, tell
 
     def compared(file: Path) -> list[Difference]:
@@ -22,13 +22,12 @@ def check(
         target = recorded_at(file)
         if not update:
             return differences(file.stem, engine, target)
-        target.parent.mkdir(exist_ok=True)
-        write(record(engine), target)
+        write(record(engine), made(target))
         return []
     results, errors = each(engine_files(paths), compared)
     moved = [difference for found in results for difference in found]
     done = _count(len(results), "engine") + (" recorded" if update else f", {_count(len(moved), 'difference')}")
-    emit("\n".join([*map(str, moved), done]))
+    emit(legible("\n".join([*map(str, moved), done])))
     tell(errors)
     if moved:
         raise typer.Exit(Exit.DIFFERENCE)

@@ -37,9 +37,9 @@ def search(
 
     if require not in ("", "even-firing"):
         raise typer.BadParameter(f'"{require}": only even-firing can be required', param_hint="--require")
-    text = enginefile.text_of(file)
-    model = enginefile.parse(text, enginefile.name_of(file))
-    enginefile.built(model, file)
+    text, name = enginefile.text_of(file), enginefile.name_of(file)
+    model = enginefile.parse(text, name)
+    enginefile.built(model, name)                           # what is wrong with the file itself is told with its name
     found = searches.search(model, over, searches.objective(minimise, limit or ()), top, bool(require))
     emit(render(format, sheets=lambda: [rendered.sheet(found)], documents=lambda: [rendered.document(found)],
                 rows=lambda: rendered.rows(found), into_file=output is not None), output)

@@ -1,6 +1,7 @@
 """Several engine files: what is good is reported, what is bad is named."""
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -11,7 +12,7 @@ import typer
 from ..checks import suspicious
 from ..engine import Engine
 from ..enginefile import built, name_of, parse, text_of
-from ..errors import BalcliError, Exit
+from ..errors import BalcliError, Exit, legible
 from ..model import EngineFile
 
 F = TypeVar("F")
@@ -36,7 +37,7 @@ def engine_and_text(file: str, speed_rpm: float | None = None) -> tuple[bytes, E
 def _built(model: EngineFile, file: str, speed_rpm: float | None) -> tuple[EngineFile, Engine]:
     engine = built(model, file)
     for warning in suspicious(model):
-        typer.echo(f"warning: {name_of(file)}: {warning}", err=True)
+        typer.echo(legible(f"warning: {name_of(file)}: {warning}"), err=True)
     return model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)
 
 
@@ -54,7 +55,7 @@ def each(files: Sequence[F], work: Callable[[F], T]) -> tuple[list[T], list[str]
 def tell(errors: Sequence[str]) -> None:
     """Messages on standard error and exit status 2, if there are any."""
     for text in errors:
-        typer.echo(f"balcli: {text}", err=True)
+        typer.echo(legible(f"balcli: {text}"), err=True)
     if errors:
         raise typer.Exit(Exit.BAD_INPUT)
 
@@ -67,13 +68,14 @@ def engine_files(paths: Sequence[Path]) -> list[Path]:
     """
     files: list[Path] = []
     for path in paths:
-        found = sorted(path.glob("*.toml")) if path.is_dir() else [path]
-        if not found or not path.exists():
-            raise BalcliError(f"{path}: {'has no engine files (*.toml)' if path.is_dir() else 'no such file or folder'}")
+        folder = os.path.isdir(path)                 # unlike Path.is_dir false where one may not look, or the name is too long
+        found = sorted(path.glob("*.toml")) if folder else [path]
+        if not found or not os.path.exists(path):
+            raise BalcliError(f"{path}: {'has no engine files (*.toml)' if folder else 'no such file or folder'}")
         files += found
     return files
 
 
 def distinct(names: Sequence[str], files: Sequence[str]) -> list[str]:
     """What to call several engines side by side: by name, or by file where a name is missing or stands for several."""
-    return [name if name and names.count(name) == 1 else file for name, file in zip(names, files, strict=True)]
+    return [name if name and names.count(name) == 1 else legible(file) for name, file in zip(names, files, strict=True)]

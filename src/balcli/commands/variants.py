@@ -23,11 +23,11 @@ def write(sweep: Sweep, chunks: Iterable[Chunk], form: str, output: Path | None)
     Raises:
         BalcliError: the file cannot be written, or pyarrow is missing.
     """
-    from .output import beside
+    from .output import beside, standard_output
 
     if output is None:
-        _copy(sweep, chunks, form, sys.stdout)
-        sys.stdout.flush()
+        with standard_output() as stream:
+            _copy(sweep, chunks, form, stream)
         return
     with beside(output) as place:
         if form == "parquet":

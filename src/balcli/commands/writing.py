@@ -4,20 +4,17 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..enginefile import name_of
-from ..errors import BalcliError
 from ..fit import fit, fit_knuckles
 from ..sizing import Remedy
 from .output import write
 
 
 def write_fitted(source: str, text: bytes, remedy: Remedy, target: Path) -> None:
-    """Write the engine file with these devices; never over the file that it was read from.
+    """Write the engine file with these devices.
 
     Raises:
-        BalcliError: the target is the source, or cannot be written, or the devices cannot be described.
+        BalcliError: the target cannot be written, or the devices cannot be described.
     """
-    if source != "-" and target.exists() and target.samefile(source):
-        raise BalcliError(f"--write {target}: this is the engine file itself, which stays as it is; choose another name")
     if remedy.scheme == "knuckles":
         write(fit_knuckles(text, tuple(remedy.details["knuckle_angles_deg"]), name_of(source)), target)
     else:

@@ -54,6 +54,7 @@ def clean(value: Any) -> float | None:
 
 def vector(phasors: Phasors, k: int) -> dict[str, Any]:
     """Force or moment of the k-th order."""
+    phasors, k = phasors.at(phasors.orders[k:k + 1]), 0                     # else each figure would be computed for all orders each time
     forward, backward = phasors.forward[k], phasors.backward[k]
     return {
         "forward": [clean(forward.real), clean(forward.imag)],
@@ -66,6 +67,7 @@ def vector(phasors: Phasors, k: int) -> dict[str, Any]:
 
 def scalar(phasors: Phasors, k: int) -> dict[str, Any]:
     """Couple, torque or roll of the k-th order."""
+    phasors, k = phasors.at(phasors.orders[k:k + 1]), 0
     c, order = phasors.x[k], phasors.orders[k]
     return {"cos": clean(c.real), "sin": clean(-c.imag), "amplitude": clean(abs(c)), "peak_deg": peak_deg(c, order),
             "balanced": bool(phasors.balanced[k])}

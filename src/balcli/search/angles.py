@@ -21,6 +21,8 @@ def valleys(value: Callable[[Array], Array], low: float, high: float, count: int
     deep = np.isfinite(y) & (y <= padded[:-2]) & (y <= padded[2:])
     deep[1:] &= ~(deep[:-1] & (y[1:] == y[:-1]))                            # a level stretch is one valley
     best = np.flatnonzero(deep)[np.argsort(y[deep], kind="stable")][:count]
+    if not len(best):
+        return x[best]
     found = _deepened(value, x[best], low, high)
     return np.unique(found)[np.argsort(value(np.unique(found)), kind="stable")]
 

@@ -5,12 +5,14 @@ the crank is dropped as soon as nothing that may follow can bring its sum below 
 """
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import BalcliError
 from ..layout import plan
 from ..model import EngineFile
 from ..quantity import Quantity
@@ -20,6 +22,7 @@ from .shares import Array, Complex, Key, Share, shares
 Indices = NDArray[np.int8]
 Allowed = Callable[[Array], NDArray[np.bool_]]
 Left = tuple[int, ...]          # how often each angle is still to be given
+MOST = 10**10                   # arrangements; branch and bound tries few of them
 BLOCK = 7                       # throws of which all arrangements are tried at a time (7! = 5040)
 
 
@@ -28,8 +31,13 @@ def best(file: EngineFile, objective: Objective, count: int, allowed: Allowed | 
 
     Args:
         allowed: which of some arrangements (shape (candidates, throws)) may be; None: all.
+
+    Raises:
+        BalcliError: more than MOST.
     """
     given = np.mod(np.asarray(file.crank.throws, float), 360.0)
+    if _count(given) > MOST:
+        raise BalcliError(f"crank.throws: {len(given)} throws can be arranged in more than {MOST:g} ways, too many to search")
     fixed = next(c.throw for c in plan(file.crank, file.layout).cells if c.number == 1)
     free = [t for t in range(len(given)) if t != fixed]
     found = _Best(count)
@@ -39,6 +47,11 @@ def best(file: EngineFile, objective: Objective, count: int, allowed: Allowed | 
         tree = _Tree(shares(file, levels, fixed, objective.quantities), objective, levels, fixed, free, found, allowed)
         tree.grow((), (times[0] - 1, *times[1:]))
     return found.rows
+
+
+def _count(given: Array) -> int:
+    """How many arrangements there are."""
+    return math.factorial(len(given)) // math.prod(map(math.factorial, np.unique(given, return_counts=True)[1].tolist()))
 
 
 def _turns(given: Array) -> Iterator[Array]:

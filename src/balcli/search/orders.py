@@ -10,6 +10,7 @@ from ..firing import TOLERANCE
 from ..layout import Cell
 
 MOST = 200_000
+MOST_CYLINDERS = 64
 
 
 @dataclass(frozen=True)
@@ -42,8 +43,10 @@ class Slots:
         """All even firing orders that begin with cylinder 1.
 
         Raises:
-            BalcliError: more than MOST.
+            BalcliError: more than MOST, or too many cylinders to look for them.
         """
+        if len(self.cells) > MOST_CYLINDERS:
+            raise BalcliError(f"{len(self.cells)} cylinders are too many to look for firing orders; up to {MOST_CYLINDERS} are allowed")
         first = next(c for c in self.cells if c.number == 1)
         start = self.top[1] - self.lead[1]                                  # throw of cylinder 1, pointing along its axis
         given = dict(enumerate(t - self.throws[first.throw] + start for t in self.throws)) if self.throws else {first.throw: start}

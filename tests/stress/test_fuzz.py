@@ -1,0 +1,235 @@
+"""Hostile input in numbers: 2000 cases in this process, 50 as processes of their own, and the costliest files."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from itertools import islice
+from pathlib import Path
+
+import fuzz
+import numpy as np
+import pytest
+
+from balcli.search.angles import valleys
+
+ROOT = Path(__file__).parents[2]
+SEED = 20
+
+
+@pytest.fixture
+def place() -> Iterator[Path]:
+    with fuzz.folder() as folder:
+        yield folder
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("only", "count", "accepted"), [("force", 1700, 200), ("", 300, 30)])
+def test_nothing_brings_it_down(place, only, count, accepted):
+    """Enough of the files are sound, so that what lies behind the reader is met as well."""
+    done = [(case, fuzz.run(case, place)) for case in fuzz.cases(SEED, count, only)]
+    assert [(case.number, wrong) for case, outcome in done if (wrong := fuzz.fault(case, outcome))] == []
+    assert sum(outcome.status == 0 for _, outcome in done) >= accepted
+
+
+def process(args: list[str], place: Path) -> fuzz.Outcome:
+    """A command as a process of its own; `failure` is what it took too much of."""
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+        running = subprocess.Popen(
+            [sys.executable, "-m", "balcli", *args],
+            cwd=place,
+            stdout=out,
+            stderr=err,
+            stdin=subprocess.DEVNULL,
+            env={**os.environ, "PYTHONPATH": str(ROOT / "src"), "OMP_NUM_THREADS": "1"},
+        )
+        _, status, used = os.wait4(running.pid, 0)
+        running.returncode = os.waitstatus_to_exitcode(status)
+        memory = used.ru_maxrss // (1024 * 1024 if sys.platform == "darwin" else 1024)
+        texts = []
+        for stream in (out, err):
+            stream.seek(0)
+            texts.append(stream.read().decode("utf-8", "replace"))
+    return fuzz.Outcome(
+        running.returncode,
+        *texts,
+        f"{memory} MB" if memory > fuzz.MOST_MEMORY else "",
+        used.ru_utime + used.ru_stime,
+        tuple(sorted(path.name for path in place.iterdir())),
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="needs wait4")
+def test_as_processes(place):
+    """The start of Python and the imports count, too: twice the time."""
+    cases = islice((case for case in fuzz.cases(SEED + 1, 1000) if "." not in case.args), 50)
+    done = [(case, process(fuzz.prepared(case, place), place)) for case in cases]
+    assert len(done) == 50
+    assert [(case.number, wrong) for case, outcome in done if (wrong := fuzz.fault(case, outcome, 2 * fuzz.SLOWEST))] == []
+
+
+BODY = "[crank]\nstroke = 90\n{crank}\n[rod]\nlength = 160\nmass = 0.6\ncg = 50\n[piston]\nmass = 0.5\n{more}\n"
+
+
+def body(crank: str = "", more: str = "") -> str:
+    return BODY.format(crank=crank, more=more)
+
+
+def listed(items: object) -> str:
+    return f"[{','.join(map(str, items))}]"  # type: ignore[call-overload]
+
+
+COSTLY = {
+    "tables": ("".join(f"[{k:x}]\n" for k in range(179_000)), "179003 mistakes"),
+    "dotted tables": ("".join(f"[{k:x}.a.a.a.a.a.a]\n" for k in range(25_700)), "25703 mistakes"),
+    "deep tables": ("".join(f"[{k:x}{'.a' * 29}]\n" for k in range(5_900)), "5903 mistakes"),
+    "6 MB of tables": ("[a]\n" * 1_500_000, "has more than 180000 keys, lists and values; no engine file needs that"),
+    "6 MB of lines": ("#\n" * 3_000_000, "crank: is missing"),
+    "wrong lists": (
+        body(
+            f"throws = {listed(['true'] * 9_990)}\npositions = {listed(['true'] * 9_990)}",
+            f"[layout]\nbanks = {listed(['true'] * 9_990)}\nfiring_order = {listed(['true'] * 9_990)}",
+        ),
+        " mistakes\n  crank.throws: the 1st value true is not a number",
+    ),
+    "cylinders": (
+        body(f"throws = {listed([0] * 10_000)}", "[layout]\nradial = 10000"),
+        "layout: 10000 banks on 10000 throws are too many; no engine has more than 1000 cylinders",
+    ),
+    "alternating": (
+        body(f"throws = {listed([0] * 10_000)}", "[layout]\nradial = 10000\nrods = 'alternating'"),
+        "layout: 10000 banks on 10000 throws",
+    ),
+    "ripple": (
+        body(more="[operation]\nspeed_ripple = " + listed(f"{{order={k},amplitude=0.001}}" for k in [*range(1, 257), 1])),
+        "operation: speed_ripple has 257 orders; no more than 256 can be given",
+    ),
+    "most throws": (body(f"throws = {listed(k * 137.1 for k in range(1000))}"), ""),
+    "most shafts": (body(more="[[shaft]]\nratio = 999\nunbalance = 1\n" * 1000), ""),
+    "most ripple": (body(more="[operation]\nspeed_ripple = " + listed(f"{{order={k},amplitude=0.001}}" for k in range(1, 257))), ""),
+    "most articulated rods": (body(more="[layout]\nradial = 1000\n[articulation]\nknuckle_radius = 10\nrod = {length = 150}"), ""),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="needs wait4")
+@pytest.mark.parametrize("what", COSTLY)
+def test_the_costliest_files(place, what):
+    """What a file of a few bytes to 6 MB can ask for at worst, refused or not, stays below the limits of memory and time."""
+    text, message = COSTLY[what]
+    (place / "costly.toml").write_text(text)
+    done = process(["analyze", "costly.toml", "--format", "csv"], place)
+    assert done.failure == ""
+    assert done.seconds < 2 * fuzz.SLOWEST
+    assert (done.status, message in done.err) == (2 if message else 0, True)
+
+
+# ------------------------------------------------------------------ cases that once failed
+@pytest.mark.parametrize("name", ["\x1b[31mred", "\x9b31m", "a\nb", "\x00", "\x7f", "a\tb"])
+def test_a_name_that_commands_a_terminal_is_refused(place, name):
+    escaped = "".join(f"\\u{ord(letter):04X}" for letter in name)
+    done = fuzz.run(fuzz.Case(0, f'name = "{escaped}"\n{body()}'.encode(), ("analyze", "FILE")), place)
+    control = next(letter for letter in name if not letter.isprintable())
+    assert (done.status, done.out) == (2, "")
+    assert (
+        done.err
+        == f"balcli: case.toml: name: has the control character U+{ord(control):04X}, which could command a terminal; leave it out\n"
+    )
+
+
+def test_a_source_may_have_lines(place):
+    data = f'source = """weighed,\n\tin May"""\n{body()}'.encode()
+    assert fuzz.run(fuzz.Case(0, data, ("analyze", "FILE")), place).status == 0
+
+
+@pytest.mark.parametrize(
+    "args",
+    [
+        ("analyze", "FILE", "--orders=\x9b31m"),
+        ("analyze", "FILE", "--by=\x1b[2J"),
+        ("analyze", "\x1b]0;x\x07.toml"),
+        ("check", "\x1b[31m.toml"),
+    ],
+)
+def test_options_and_paths_are_told_without_control_characters(place, args):
+    done = fuzz.run(fuzz.Case(0, body().encode(), args), place)
+    assert (done.status, fuzz.fault(fuzz.Case(0, b"", args), done)) == (2, "")
+    assert len(done.err) > 30
+
+
+def test_file_names_among_results_have_no_control_characters(place):
+    (place / "\x1b[31m.toml").write_text(body())
+    for args in (("check", "."), ("compare", "\x1b[31m.toml", "\x1b[31m.toml")):
+        case = fuzz.Case(0, body().encode(), args)
+        fuzz.prepared(case, place)
+        (place / "\x1b[31m.toml").write_text(body())
+        done = process(list(args), place)
+        assert "\x1b" not in done.out + done.err
+        assert "?[31m" in done.out
+
+
+@pytest.mark.parametrize("record", [b"[" * 100_000, b"9" * 5000, b"{", b"[]", b"\xff", b'{"orders": [{"order": 1e300}]}'])
+def test_a_broken_record_is_a_difference(place, record):
+    done = fuzz.run(fuzz.Case(0, body().encode(), ("check", "FILE"), record), place)
+    assert (done.status, done.failure) == (1, "")
+    assert "cannot be read" in done.out
+
+
+def test_many_orders_along_the_crank_take_time_in_proportion(place):
+    """Each figure was once computed for all orders each time."""
+    times = []
+    for orders in ("1-512", "1-2048"):
+        case = fuzz.Case(
+            0,
+            body("throws = [0, 180, 180, 0]\nspacing = 90").encode(),
+            ("analyze", "FILE", "--only=inner", "--format=json", f"--orders={orders}"),
+        )
+        times.append(min(fuzz.run(case, place).seconds for _ in range(2)))
+    assert times[1] < 8 * times[0]
+
+
+MANY = body(f"throws = {listed(k * 137.1 % 360 for k in range(1000))}").encode()
+DISTINCT = body(f"throws = {listed(range(0, 345, 15))}").encode()
+
+
+@pytest.mark.parametrize(
+    ("data", "over", "message"),
+    [
+        (DISTINCT, "throws", "crank.throws: 23 throws can be arranged in more than 1e+10 ways, too many to search"),
+        (MANY, "throws", "crank.throws: 1000 throws can be arranged in more than 1e+10 ways, too many to search"),
+        (MANY, "firing_order", "1000 cylinders are too many to look for firing orders; up to 64 are allowed"),
+    ],
+)
+def test_a_search_that_cannot_end_is_refused(place, data, over, message):
+    done = fuzz.run(fuzz.Case(0, data, ("search", "FILE", f"--over={over}", "--minimise=moment.1.major")), place)
+    assert (done.status, done.err) == (2, f"balcli: {message}\n")
+    assert done.seconds < fuzz.SLOWEST
+
+
+def test_a_search_in_which_nothing_fires_evenly_has_no_valley():
+    assert len(valleys(lambda x: np.full_like(x, np.inf), 0.0, 180.0, 3)) == 0
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="needs wait4")
+@pytest.mark.parametrize(
+    "args",
+    [
+        ("curves", "--step=0.1"),
+        ("curves", "--step=0.1", "--cylinder=3"),
+        ("scatter", "--samples=2000"),
+        ("sum", "f.toml"),
+        ("balance", "--scheme=factor"),
+        ("sweep", "--vary=crank.stroke=80:90:1"),
+        ("report", "-o", "x.html"),
+    ],
+    ids=" ".join,
+)
+def test_most_cylinders_take_no_more_memory_than_allowed(place, args):
+    (place / "f.toml").write_bytes(MANY)
+    done = process([args[0], "f.toml", *args[1:]], place)
+    assert (done.status, done.failure) == (0, "")
