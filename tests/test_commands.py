@@ -265,6 +265,6 @@ def test_mistakes_of_a_built_model_name_its_file():
 def test_more_devices_than_any_engine_has():
     from kit import refused
 
-    from balcli.enginefile import MOST
-    assert f"counterweight: stands {MOST + 1} times; no engine has more than {MOST}" in refused(
-        counterweight=[{"mass": 1, "radius": 10}] * (MOST + 1))
+    from balcli.model import MOST_PARTS
+    assert f"counterweight: stands {MOST_PARTS + 1} times; no engine has more than {MOST_PARTS}" in refused(
+        counterweight=[{"mass": 1, "radius": 10}] * (MOST_PARTS + 1))
