@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -97,19 +97,19 @@ def linkage(file: EngineFile, layout: Plan, numbers: Sequence[int], axis: Mappin
 
 def locked(file: EngineFile, c: Cylinders, numbers: Sequence[int]) -> Iterator[Problem]:
     """Articulated cylinders whose rod cannot follow its knuckle pin all the way round."""
+    if file.articulation is None or c.linkage is None:
+        return
     from .core.articulated import Articulated
     from .core.linkage import revolution
 
-    if not isinstance(c.linkage, Articulated):
-        return
-
+    linkage = cast(Articulated, c.linkage)
     with np.errstate(invalid="ignore"):                                     # beyond 1 there is no angle
-        leans = np.abs(c.linkage.motion(revolution(_STEPS), c.lam, c.eps).lean).reshape(len(numbers), -1, _STEPS).max(axis=1)
+        leans = np.abs(linkage.motion(revolution(_STEPS), c.lam, c.eps).lean).reshape(len(numbers), -1, _STEPS).max(axis=1)
     turned = c.angle_deg.reshape(len(numbers), -1)[:, 0]
     for row, number in enumerate(numbers):
         worst = int(leans[row].argmax())
         lean = leans[row, worst] + _rise(leans[row], worst)
-        if c.linkage.master[row] != row and lean > 1 - NEAREST_TO_LOCK:
+        if linkage.master[row] != row and lean > 1 - NEAREST_TO_LOCK:
             yield _lock(file, number, lean, (360 / _STEPS * worst - turned[row]) % 360)
 
 
