@@ -67,13 +67,13 @@ _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
 _FACTOR = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[²³])?"
 _JOINT = r"\s*[*·⋅/]\s*|\s+"
 _UNIT = rf"{_FACTOR}(?:(?:{_JOINT}){_FACTOR})*"
-FIGURE = re.compile(rf"\s*([+-]?{_NUMBER})(?:\s*/\s*({_NUMBER}))?\s*({_UNIT})?\s*", re.ASCII)
-_PART = re.compile(r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([²³]))?", re.ASCII)
+FIGURE = rf"\s*([+-]?{_NUMBER})(?:\s*/\s*({_NUMBER}))?\s*({_UNIT})?\s*"       # compiled when a string is met
+_PART = r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([²³]))?"
 
 
 def convert(text: str, dimension: Dimension) -> float:
     """The figure in the bare unit of `dimension`, correctly rounded. ValueError: what is wrong, what would be right."""
-    match = FIGURE.fullmatch(text) if len(text) <= LONGEST else None
+    match = re.fullmatch(FIGURE, text, re.ASCII) if len(text) <= LONGEST else None
     if match is None:
         raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
     above, below, names = match.groups()
@@ -93,7 +93,7 @@ def convert(text: str, dimension: Dimension) -> float:
 def read_unit(names: str, dimension: Dimension) -> Unit:
     """The product of a unit's parts; ValueError for an unknown one, with examples of `dimension`."""
     scale, powers = Fraction(1), Powers()
-    for joint, name, power, superscript in _PART.findall(names):
+    for joint, name, power, superscript in re.findall(_PART, names, re.ASCII):
         part = COMMON.get(name) or _ask_pint(name)
         if part is None:
             raise ValueError(f'has the unknown unit "{name}"; {wanted(dimension)}')
