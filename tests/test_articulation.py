@@ -93,7 +93,7 @@ def test_one_cylinder_with_too_short_a_rod_of_its_own():
 
 # ------------------------------------------------------------------ strokes and dead centres
 def test_strokes_and_dead_centres_against_fine_sampling():
-    """Places straight from THEORY 8, on a grid of 0.001 degrees."""
+    """Places straight from docs/theory.md, on a grid of 0.001 degrees."""
     psi = np.radians(np.arange(0, 360, 0.001))
     lean = np.arcsin(60 / 240 * np.sin(psi))
     found = travel(built().cylinders)

@@ -1,4 +1,4 @@
-"""Firing order <-> crank throws (THEORY 7).
+"""Firing order <-> crank throws (docs/theory.md).
 
 Cylinder i is at top dead centre when its crank angle is `tau_i`, `sin tau_i = e_i / (r + l_i)`; firing at `f_i` after
 cylinder 1 it needs its crank pin at `g_i - g_1 + tau_i - tau_1 - f_i`. Angles in degrees; they may be arrays of variants.

@@ -1,4 +1,4 @@
-"""Pistons and rods of an engine file: masses, lengths and moments of inertia of one cylinder, SI (THEORY 3)."""
+"""Pistons and rods of an engine file: masses, lengths and moments of inertia of one cylinder, SI (docs/theory.md)."""
 from __future__ import annotations
 
 import math
@@ -32,7 +32,7 @@ class Parts(NamedTuple):
 
 
 def rod_of(file: EngineFile, number: int, articulated: bool) -> Parts:
-    """Piston and rod of a cylinder: the engine's, with what its own table says otherwise (THEORY 3)."""
+    """Piston and rod of a cylinder: the engine's, with what its own table says otherwise (docs/theory.md)."""
     own = file.cylinder.get(number)
     figures = _overridden(_given(file, articulated), own)
     length = figures["length"] / 1e3 if "length" in figures else file.crank.stroke / 2e3 / figures["ratio"]
@@ -57,6 +57,7 @@ def rod_of(file: EngineFile, number: int, articulated: bool) -> Parts:
 
 
 def own_or(file: EngineFile, number: int, key: str, default: Any) -> Any:
+    """What `[cylinder.N]` says under this key, or else the engine's figure."""
     own = file.cylinder.get(number)
     value = None if own is None else getattr(own, key)
     return default if value is None else value

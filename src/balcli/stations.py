@@ -55,6 +55,7 @@ def places(file: EngineFile, layout: Plan, rank: int) -> tuple[dict[int, Any], N
 
 
 def reference(file: EngineFile, throws: NDArray[np.float64]) -> tuple[Any, Any, Any]:
+    """x, y, z (m) of the point of moments: the file's, or on the crank axis half-way between the first and the last throw."""
     if file.frame.reference is not None:
         x, y, z = file.frame.reference
         return x / 1e3, y / 1e3, z / 1e3
@@ -74,6 +75,7 @@ def by_axis(layout: Plan, axis: Mapping[int, Any]) -> list[int]:
 
 
 def strangers(layout: Plan, own: Mapping[int, Override]) -> list[Problem]:
+    """Tables of cylinders that the engine does not have."""
     count = len(layout.cells)
     made = f"crank.throws and layout make {count} cylinder{'s' * (count > 1)}; give every throw its angle in crank.throws"
     return [Problem(f"cylinder.{n}", f"there is no cylinder {n}: {made}") for n in own if n not in layout.numbers]

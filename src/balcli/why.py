@@ -1,7 +1,7 @@
 """Why an engine is balanced: sums of e^{i(n phi +- gamma)} decided exactly where angles are fractions of a turn.
 
 Cylinders with one mechanism share their Fourier coefficients, so an order vanishes if its sum over each such family
-does (THEORY 5): for the force `sum m e^{i(n phi +- g)}`, for the moment the same with z, for couple, torque and roll
+does (docs/theory.md): for the force `sum m e^{i(n phi +- g)}`, for the moment the same with z, for couple, torque and roll
 `sum e^{i n phi}`. Families of different mechanisms may still cancel each other by their figures; that is no symmetry.
 """
 from __future__ import annotations

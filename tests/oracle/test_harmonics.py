@@ -88,7 +88,7 @@ def of_revolution(lam: float, eps: float = 0.0, highest: int = 64, digits: int =
 
 
 def motion(sine: mp.mpf, cosine: mp.mpf, lam: mp.mpf, eps: mp.mpf) -> tuple[mp.mpf, ...]:
-    """-s''/r, -beta'', (s'/r)^2 and beta'^2 as THEORY 2 has them."""
+    """-s''/r, -beta'', (s'/r)^2 and beta'^2 as docs/theory.md has them."""
     sin_beta = lam * sine - eps
     cos_beta = mp.sqrt(1 - sin_beta**2)
     tangent, rate = sin_beta / cos_beta, lam * cosine / cos_beta

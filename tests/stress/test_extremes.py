@@ -41,7 +41,7 @@ def _digits():
 
 # ------------------------------------------------------------------ centred mechanisms
 def exact(name: str, n: int, lam: float) -> mp.mpf:
-    """A_n, D_n, K_n, B_n by Gauss's functions (THEORY 2), with 50 digits: D as the book's sum, which cancels, and no ladder."""
+    """A_n, D_n, K_n, B_n by Gauss's functions (docs/theory.md), with 50 digits: D as the book's sum, which cancels, and no ladder."""
     ratio = mp.mpf(lam)
     w = mp.sqrt(1 - ratio**2)
     q = (ratio / (1 + w)) ** 2

@@ -1,4 +1,4 @@
-"""Articulated rods: hinged to the big end of a master rod, as in radials and some V engines (THEORY 8).
+"""Articulated rods: hinged to the big end of a master rod, as in radials and some V engines (docs/theory.md).
 
 In crank radii, with the master rod at the angle -beta_m in its own frame, the knuckle pin moves on
 `K = e^{i psi_m} + k e^{-i beta_m}`; turned into the articulated cylinder's frame, its rod hangs on K as a plain one

@@ -41,7 +41,7 @@ class Cylinders:
         radius: crank radius, m.
         lam, eps: shape (cylinders or 1, *trailing), crank radius and offset over rod length.
         reciprocating, rotating: masses at the piston pin and at the crank pin, kg.
-        couple: `H` of the rods, kg m2 (THEORY: what two point masses lack of the rod's moment of inertia, with the sign changed).
+        couple: `H` of the rods, kg m2 (docs/theory.md: what two point masses lack of the rod's moment of inertia, with the sign changed).
         linkage: of cylinders that are more than slider-cranks; its masses come on top of these.
     """
 
@@ -64,7 +64,7 @@ class Cylinders:
 
     @property
     def angle_deg(self) -> Array:
-        """Each cylinder's own crank angle at crank angle 0 (`phi` in THEORY 1), deg, shape (cylinders, *trailing)."""
+        """Each cylinder's own crank angle at crank angle 0 (`phi` in docs/theory.md), deg, shape (cylinders, *trailing)."""
         axis = np.repeat(self.axis_deg, np.diff([*self.starts, self.count]), axis=0)
         return np.asarray(self.axis_deg[self.first] + self.pin_deg - axis)
 

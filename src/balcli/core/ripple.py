@@ -1,7 +1,7 @@
 """Uneven crank speed: `omega = mean (1 + sum of lines)`; momentum is multiplied by it before it is differentiated.
 
 With W = omega/mean and momentum `mean W G`, the force is `-mean^2 W (W G)'`, the couple the same of the moment of momentum,
-and the inertia torque `-mean^2 1/2 (I W^2)'` (from `-(1/2 I' omega^2 + I omega omega')`, THEORY 4). In Fourier
+and the inertia torque `-mean^2 1/2 (I W^2)'` (from `-(1/2 I' omega^2 + I omega omega')`, docs/theory.md). In Fourier
 coefficients all of these are short convolutions, so that every order stays as exact as at steady speed.
 """
 from __future__ import annotations

@@ -3,7 +3,8 @@ from __future__ import annotations
 
 import re
 
-from .sheet import Facts, Grid, Sheet, Text, harmless
+from ..errors import legible
+from .sheet import Facts, Grid, Sheet, Text
 
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~])")
 
@@ -15,7 +16,7 @@ def markdown(sheets: list[Sheet]) -> str:
 
 def escape(text: str) -> str:
     """Text that Markdown leaves as it is."""
-    return _SPECIAL.sub(r"\\\1", harmless(text.replace("\n", " ")))
+    return _SPECIAL.sub(r"\\\1", legible(text.replace("\n", " ")))
 
 
 def _part(part: Grid | Facts | Text) -> str:

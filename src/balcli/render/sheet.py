@@ -1,16 +1,8 @@
 """A sheet: what a person reads, before it is known where. Terminal, Markdown and HTML are made of it."""
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-
-_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
-
-
-def harmless(text: str) -> str:
-    """What would move a cursor or colour a terminal (in the name of an engine) as question marks."""
-    return _CONTROL.sub("?", text)
 
 
 @dataclass(frozen=True)

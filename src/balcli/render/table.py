@@ -7,7 +7,8 @@ from dataclasses import replace
 from io import StringIO
 from typing import TYPE_CHECKING, Any
 
-from .sheet import Facts, Grid, Sheet, Text, harmless
+from ..errors import legible
+from .sheet import Facts, Grid, Sheet, Text
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -30,7 +31,7 @@ def terminal(sheets: list[Sheet], *, into_file: bool = False) -> str:
     console = Console(file=buffer, highlight=False, emoji=False, markup=False, soft_wrap=not person,
                       **({"force_terminal": True} if person else {"width": UNLIMITED, "no_color": True}))
     for sheet in sheets:
-        console.print(Line(harmless(sheet.title), style="bold"))
+        console.print(Line(legible(sheet.title), style="bold"))
         for part in sheet.parts:
             console.print()
             if part.title:
@@ -39,7 +40,7 @@ def terminal(sheets: list[Sheet], *, into_file: bool = False) -> str:
                 console.print(piece)
         console.print()
     text = "\n".join(line.rstrip() for line in buffer.getvalue().splitlines())
-    return text if person else harmless(text)
+    return text if person else legible(text)
 
 
 def _pieces(part: Grid | Facts | Text, width: int) -> Iterator[Any]:

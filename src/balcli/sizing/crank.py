@@ -148,7 +148,7 @@ def _curve(engine: Engine, quantity: str) -> Phasors:
 
 # ------------------------------------------------------------------ the smallest peak
 def minimax(engine: Engine, wish: Wish) -> Remedy:
-    """The counterweight that moves the centre of the smallest circle around `F e^{-i theta}` to the origin (THEORY 6).
+    """The counterweight that moves the centre of the smallest circle around `F e^{-i theta}` to the origin (docs/theory.md).
 
     One weight in the middle of the throws, or in the planes asked for such that the moment turning with the crank vanishes too.
     """

@@ -131,7 +131,7 @@ def _places(left: Rest, wish: Wish) -> dict[int, tuple[complex, ...]]:
 
 
 def _second(first: complex, forward: complex, backward: complex, roll: complex) -> complex:
-    """Place of the shaft turning with the crank, such that both together add minus the roll given (THEORY 6 where that is 0).
+    """Place of the shaft turning with the crank, such that both together add minus the roll given (docs/theory.md where that is 0).
 
     The devices' roll is `Re c e^{in theta}` with `c = i conj(p_B) V+ - i p_A conj(V-)`, which is to be `-roll`.
     """

@@ -1,4 +1,4 @@
-"""All sizing is one weighted linear least squares over chosen devices: every one is linear in its complex unbalance (THEORY 6).
+"""All sizing is one weighted linear least squares over chosen devices: every one is linear in its complex unbalance (docs/theory.md).
 
 For one order n, a device of unbalance u at z and place p adds to what the engine shakes, per `n^2 omega^2`, `u` to the force,
 `(z - z_ref) u` to the moment (over i) and `Im(conj(p) u ...)` to the roll; a slider adds to both rotating vectors at once. A scheme is
