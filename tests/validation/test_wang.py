@@ -8,8 +8,9 @@ from math import cos, radians, sin, sqrt
 
 import numpy as np
 import pytest
+import two_term
+from two_term import largest_error
 
-from balcli.core import slidercrank as sc
 from balcli.tables import recompute
 
 TH = np.radians(np.arange(0.0, 360.0, 0.05))
@@ -73,6 +74,6 @@ def test_smaller_lambda_leaves_less():
 @pytest.mark.parametrize(("lam", "percent"), [(0.20, 0.344), (0.25, 0.656), (0.30, 1.114), (0.40, 2.603)])
 def test_error_of_orders_1_and_2(lam, percent):
     """Said to be 0.1 %: of (1 + lambda) J it is lambda^3/(w (1 + w) (1 + lambda))."""
-    error = np.abs(sc.acceleration(TH, lam) - sc.acceleration_two_term(TH, lam)).max() / (1 + lam)
+    error, w = largest_error(two_term.acceleration, lam) / (1 + lam), sqrt(1 - lam**2)
     assert round(100 * error, 3) == percent
-    assert float(sc.two_term_errors(lam).acceleration) / (1 + lam) == pytest.approx(error, rel=1e-6)
+    assert lam**3 / (w * (1 + w) * (1 + lam)) == pytest.approx(error, rel=1e-12)

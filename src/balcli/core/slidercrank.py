@@ -28,14 +28,6 @@ class Extreme(NamedTuple):
     value: Real
 
 
-class TwoTermErrors(NamedTuple):
-    """Largest absolute errors of the two-term forms over a revolution."""
-
-    displacement: Real
-    velocity: Real
-    acceleration: Real
-
-
 def rod_angle(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> tuple[Real, Real]:
     """(sin beta, cos beta) of the rod's angle; the rod stands at -beta from the cylinder's axis.
 
@@ -123,45 +115,6 @@ def rod_acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Re
     return _real(-lam * np.copysign(1.0, sine) * bracket / cos_beta**3)
 
 
-# ---------------------------------------------------------------- the two-term forms of the centred mechanism
-def displacement_two_term(psi: ArrayLike, lam: ArrayLike) -> Real:
-    """(1 - cos psi) + lam/4 (1 - cos 2 psi)."""
-    psi, lam, _ = _floats(psi, lam, 0.0)
-    return _real(2 * np.sin(psi / 2) ** 2 + lam / 2 * np.sin(psi) ** 2)
-
-
-def velocity_two_term(psi: ArrayLike, lam: ArrayLike) -> Real:
-    """sin psi + lam/2 sin 2 psi."""
-    psi, lam, _ = _floats(psi, lam, 0.0)
-    return _real(np.sin(psi) * (1 + lam * np.cos(psi)))
-
-
-def acceleration_two_term(psi: ArrayLike, lam: ArrayLike) -> Real:
-    """cos psi + lam cos 2 psi."""
-    psi, lam, _ = _floats(psi, lam, 0.0)
-    return _real(np.cos(psi) + lam * np.cos(2 * psi))
-
-
-def two_term_errors(lam: ArrayLike) -> TwoTermErrors:
-    """Largest errors of the three forms above, by lam: lam^3 times a factor that tends to 1/8, 3 sqrt 3/32 and 1/2.
-
-    Displacement and acceleration err most at 90 degrees. The velocity errs by lam^3 sin^3 cos/(C (1 + C)),
-    C = cos beta, most where the derivative of its logarithm by t = sin^2 psi vanishes.
-    """
-    lam = np.asarray(lam, dtype=np.float64)
-    w = np.sqrt((1 - lam) * (1 + lam))
-    t = _bisect(lambda t: _velocity_error_slope(t, lam**2), np.full_like(lam, 0.75), np.ones_like(lam))
-    cos_beta = np.sqrt(1 - lam**2 * t)
-    velocity_error = lam**3 * np.sqrt(t**3 * (1 - t)) / (cos_beta * (1 + cos_beta))
-    return TwoTermErrors(_real(lam**3 / (2 * (1 + w) ** 2)), _real(velocity_error), _real(lam**3 / (w * (1 + w))))
-
-
-def _velocity_error_slope(t: Real, square: Real) -> Real:
-    cos_beta = np.sqrt(1 - square * t)
-    bend = square / cos_beta**2 + square / (cos_beta * (1 + cos_beta))
-    return _real((1 - t) * (3 + t * bend) - t)
-
-
 # ---------------------------------------------------------------- extremes of the velocity
 def fastest(lam: ArrayLike) -> Extreme:
     """Crank angle (0 to 90 degrees) and size of the greatest piston velocity of the centred mechanism.
@@ -177,10 +130,10 @@ def fastest(lam: ArrayLike) -> Extreme:
 
 
 def fastest_two_term(lam: ArrayLike) -> Extreme:
-    """The same of the two-term form: cos psi = (sqrt(1 + 8 lam^2) - 1)/(4 lam)."""
+    """The same of the two-term form sin psi + lam/2 sin 2 psi: cos psi = (sqrt(1 + 8 lam^2) - 1)/(4 lam)."""
     lam = np.asarray(lam, dtype=np.float64)
     psi = np.arccos(2 * lam / (1 + np.sqrt(1 + 8 * lam**2)))
-    return Extreme(_real(psi), velocity_two_term(psi, lam))
+    return Extreme(_real(psi), _real(np.sin(psi) * (1 + lam * np.cos(psi))))
 
 
 # ---------------------------------------------------------------- small helpers
