@@ -266,6 +266,21 @@ def test_several_files_and_a_bad_one_among_them(balcli, good, bad):
     assert out.index("in-line four") < out.index("90-degree cross-plane V8")
 
 
+def test_rows_of_several_engines_can_be_told_apart(balcli, good, tmp_path):
+    """By name, or by file where a name is missing or stands for several."""
+    again, nameless = tmp_path / "again.toml", tmp_path / "nameless.toml"
+    again.write_text(GOOD)
+    nameless.write_text(changed(('name = "in-line four"', "")))
+
+    def engines(*files, stdin=""):
+        status, out, _ = balcli("analyze", *files, "--only", "peak", "--format", "csv", stdin=stdin)
+        assert status == 0
+        return list(dict.fromkeys(row["engine"] for row in csv.DictReader(io.StringIO(out))))
+    assert engines(good) == ["in-line four"]
+    assert engines(good, again, V8, nameless) == [str(good), str(again), "90-degree cross-plane V8", str(nameless)]
+    assert engines("-", stdin=nameless.read_text()) == ["standard input"]
+
+
 @pytest.mark.parametrize("form", Format)
 def test_into_a_file(balcli, good, tmp_path, form):
     target = tmp_path / "out.txt"

@@ -24,13 +24,15 @@ def analyze(
     from ..analysis import analyze as analyzed
     from ..render.formats import analyses
     from .output import emit
-    from .several import each, engine_of, tell
+    from .several import distinct, each, engine_of, tell
 
     if by not in ("", "cylinder"):
         raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")
     chosen = None if only is None else [word.strip() for word in only.split(",")]
     asked, rpm = order_list(orders), checked_speed(speed)
-    results, errors = each(files, lambda file: analyzed(engine_of(file, rpm)[1], asked, chosen, by_cylinder=bool(by), reasons=why))
-    if results and not (errors and output):             # a file gets all of them or is left as it was
-        emit(analyses(results, format, units, into_file=output is not None, plot=plot), output)
+    found, errors = each(files, lambda file: (file, analyzed(engine_of(file, rpm)[1], asked, chosen, by_cylinder=bool(by), reasons=why)))
+    if found and not (errors and output):               # a file gets all of them or is left as it was
+        good, results = zip(*found, strict=True)
+        names = distinct([result.engine.name for result in results], good)
+        emit(analyses(results, names, format, units, into_file=output is not None, plot=plot), output)
     tell(errors)

@@ -78,4 +78,4 @@ def engine_files(paths: Sequence[Path]) -> list[Path]:
 
 def distinct(names: Sequence[str], files: Sequence[str]) -> list[str]:
     """What to call several engines side by side: by name, or by file where a name is missing or stands for several."""
-    return [name if name and names.count(name) == 1 else legible(file) for name, file in zip(names, files, strict=True)]
+    return [name if name and names.count(name) == 1 else legible(name_of(file)) for name, file in zip(names, files, strict=True)]

@@ -22,12 +22,12 @@ def write(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
     return buffer.getvalue()
 
 
-def analyses(results: Sequence[Analysis], system: System) -> str:
-    """One figure a row; cylinder 0 is the whole engine, an empty order the whole curve."""
+def analyses(results: Sequence[Analysis], names: Sequence[str], system: System) -> str:
+    """One figure a row, under the name of its engine; cylinder 0 is the whole engine, an empty order the whole curve."""
     from .figures import rows
 
     return write(("engine", "cylinder", "quantity", "order", "figure", "value", "unit"),
-                 ((result.engine.name, *row) for result in results for row in rows(result, system)))
+                 ((name, *row) for name, result in zip(names, results, strict=True) for row in rows(result, system)))
 
 
 def sums(result: Combined, system: System) -> str:

@@ -48,8 +48,14 @@ def render(form: Format, *, sheets: Callable[[], list[Sheet]], documents: Callab
             assert_never(form)
 
 
-def analyses(results: Sequence[Analysis], form: Format, units: Units, *, into_file: bool = False, plot: bool = False) -> str:
-    """Analyses, one after the other; JSON is one document a line. `plot`: with pictures, if a person looks at a terminal."""
+def analyses(results: Sequence[Analysis], names: Sequence[str], form: Format, units: Units, *,
+             into_file: bool = False, plot: bool = False) -> str:
+    """Analyses, one after the other; JSON is one document a line.
+
+    Args:
+        names: of the engines, by which the rows of CSV are told apart.
+        plot: with pictures, if a person looks at a terminal.
+    """
     def sheets() -> list[Sheet]:
         from .analysis import sheet
         from .table import seen
@@ -62,7 +68,7 @@ def analyses(results: Sequence[Analysis], form: Format, units: Units, *, into_fi
 
     def rows() -> str:
         from .csv import analyses
-        return analyses(results, _system(units))
+        return analyses(results, names, _system(units))
     return render(form, sheets=sheets, documents=documents, rows=rows, into_file=into_file)
 
 
