@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -112,6 +113,13 @@ def test_other_formats(file, form):
     result = run(file, file, "--reverse", "--turn", "180", "--format", form)
     assert result.exit_code == 0
     assert "roll" in result.stdout
+
+
+def test_engines_without_a_name_go_by_their_files(file, tmp_path):
+    nameless = tmp_path / "twin.toml"
+    nameless.write_text(Path(file).read_text().replace('name = "single"', ""))
+    assert run(file, str(nameless)).stdout.startswith("single and twin\n\nfirst      single, 1 cylinder\n")
+    assert [e["name"] for e in json.loads(run(str(nameless), file, "--format", "json").stdout)["engines"]] == ["twin", "single"]
 
 
 @pytest.mark.parametrize(("options", "message"), [

@@ -76,6 +76,11 @@ def engine_files(paths: Sequence[Path]) -> list[Path]:
     return files
 
 
+def named(engine: Engine, file: str) -> Engine:
+    """The engine, called by its file where it has no name."""
+    return engine if engine.name else replace(engine, name=legible(Path(name_of(file)).stem))
+
+
 def distinct(names: Sequence[str], files: Sequence[str]) -> list[str]:
     """What to call several engines side by side: by name, or by file where a name is missing or stands for several."""
     return [name if name and names.count(name) == 1 else legible(name_of(file)) for name, file in zip(names, files, strict=True)]

@@ -26,9 +26,9 @@ def sum(                                                                    # no
     from ..render.formats import sums
     from .output import emit
     from .places import arrangement
-    from .several import engine_of
+    from .several import engine_of, named
 
     rpm, asked, placed = checked_speed(speed), order_list(orders), arrangement(phase, at, turn, reverse)
-    engines = [engine_of(file, rpm)[1] for file in (first, second)]
+    engines = [named(engine_of(file, rpm)[1], file) for file in (first, second)]
     result = combine(engines[0], engines[1], placed, asked)
     emit(sums(result, format, units, into_file=output is not None), output)

@@ -33,13 +33,13 @@ def sheet(result: Combined, system: System) -> Sheet:
     from .sheet import Facts, Sheet, number
 
     first, how, length = result.engines[0], result.arrangement, system.length
-    names = [engine.name or "engine without a name" for engine in result.engines]
+    names = [engine.name for engine in result.engines]
 
     def place(values: tuple[Any, ...]) -> str:
         return f"x, y, z = {', '.join(number(length.of(float(v))) for v in values)} {length.name}"
     pairs = (
-        ("first", f"{names[0]}, {first.cylinders.count} cylinders"),
-        ("second", f"{names[1]}, {result.engines[1].cylinders.count} cylinders"),
+        *((which, f"{engine.name}, {(count := engine.cylinders.count)} cylinder{'s' * (count > 1)}")
+          for which, engine in zip(("first", "second"), result.engines, strict=True)),
         ("place", f"the second at {place(how.at_m)}, turned by {how.turn_deg:g} deg"),
         ("crank", f"the second leads by {how.phase_deg:g} deg{', and turns against the first' if how.reverse else ''}"),
         ("speed", f"{number(first.speed_rpm, 6)} rpm, both"),
