@@ -209,6 +209,26 @@ def test_a_centre_of_mass_outside_the_rod_needs_an_inertia(parts, message):
     assert engine(**parts | {"rod": parts["rod"] | {"inertia": 1000}}).cylinders.count == 1
 
 
+def test_a_rod_weighed_at_one_end_hides_no_other_mistake():
+    """Its own cylinder and all others are looked at, whatever else is wrong with the lay-out or with one table."""
+    cylinders = {"1": {"rod_small_end": 0.2}, "2": {"rod_length": 30}, "3": {"rod_big_end": 0.4, "rod_length": 35}}
+    found = [
+        "cylinder.1.rod_small_end: needs rod_big_end beside it: weigh the rod at both ends",
+        "cylinder.2.rod_length: the crank cannot turn: crank radius 50 mm over rod length 30 mm is lambda = 1.66666667; "
+        "at most 1 - 1e-06 is allowed: make the rod longer",
+        "cylinder.3.rod_big_end: needs rod_small_end beside it: weigh the rod at both ends",
+        "cylinder.3.rod_length: the crank cannot turn: crank radius 50 mm over rod length 35 mm is lambda = 1.42857143; "
+        "at most 1 - 1e-06 is allowed: make the rod longer"]
+    crank = {"throws": [0, 0, 0]}
+    assert refused(crank=crank, cylinder=cylinders).splitlines() == ["engine: 4 mistakes", *(f"  {line}" for line in found)]
+    assert refused(crank=crank, layout={"numbering": [[1, 2]]}, cylinder=cylinders).splitlines() == [
+        "engine: 5 mistakes", "  layout.numbering: has rows of 2, but the banks have 3 cylinders: give one row a bank, "
+        "from the free end to the flywheel end", *(f"  {line}" for line in found)]
+    worse = refused(crank=crank, cylinder={**cylinders, "1": {"piston_mass": -1}}).splitlines()
+    assert worse[0] == "engine: 4 mistakes"
+    assert worse[2:] == [f"  {line}" for line in found[1:]]
+
+
 def test_every_mechanism_that_cannot_turn_is_told_once():
     text = refused(crank={"throws": [0, 0, 0]}, rod={"length": 40}, cylinder={"2": {"rod_length": 30}})
     assert text.splitlines()[0] == "engine: 2 mistakes"

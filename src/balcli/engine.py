@@ -16,7 +16,7 @@ from .devices import devices
 from .errors import InputError, Problem
 from .layout import Plan, plan
 from .model import Bobweight, EngineFile
-from .rods import Parts, half_rods, mistakes, own_or, rod_of
+from .rods import Parts, mistakes, own_or, rod_of
 from .stations import by_axis, one_object, pins, places, reference, strangers
 
 if TYPE_CHECKING:
@@ -137,8 +137,8 @@ def _parts(file: EngineFile) -> tuple[Plan, dict[int, int], dict[int, Parts]]:
     """Cylinders, master of each articulated one, and rods; InputError with all that does not fit together in them."""
     try:
         layout = plan(file.crank, file.layout)
-    except InputError as error:                         # the engine's own rod can be looked at all the same
-        _refuse([*error.problems, *_rods(file, (0,), {})[1]])
+    except InputError as error:                         # rods can be looked at all the same, as far as it is known which they are
+        _refuse([*error.problems, *_rods(file, (0, *(() if file.articulation else file.cylinder)), {})[1]])
         raise
     masters = articulation.masters(file, layout)
     rods, faults = _rods(file, layout.numbers, masters)
@@ -148,8 +148,6 @@ def _parts(file: EngineFile) -> tuple[Plan, dict[int, int], dict[int, Parts]]:
 
 def _rods(file: EngineFile, numbers: Iterable[int], masters: Mapping[int, int]) -> tuple[dict[int, Parts], list[Problem]]:
     """Rods of these cylinders (0: the engine's own), and what is wrong with them."""
-    if halves := half_rods(file, masters):
-        return {}, halves
     rods = {n: rod_of(file, n, n in masters) for n in numbers}
     return rods, [p for n, rod in rods.items() for p in mistakes(file, n, rod, file.crank.stroke / 2e3, n in masters)]
 

@@ -124,8 +124,11 @@ def misfits(parts: Mapping[str, Any]) -> tuple[Problem, ...]:
     whole = {key: part for key, part in parts.items() if part is not None and key not in TEXTS and key not in DEVICES}
     if "crank" not in whole:
         return ()
-    if None in whole.get("cylinder", {}).values() or parts.get("layout", True) is None:
+    cylinders, legible = whole.get("cylinder", {}), parts.get("layout", True) is not None
+    if None in cylinders.values() or not legible:
+        plain = legible and "articulation" not in whole             # else it is not known which rods these cylinders have
         whole = {key: part for key, part in whole.items() if key in ("crank", "rod", "piston", "layout")}
+        whole["cylinder"] = {number: own for number, own in cylinders.items() if plain and own is not None}
     harmless = {"rod": Rod.model_construct(length=1e3 * whole["crank"].stroke), "piston": Piston.model_construct(mass=0.0)}
     try:
         build(EngineFile.model_construct(**harmless | whole))

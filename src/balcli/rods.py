@@ -2,15 +2,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .errors import Problem
-from .model import ArticulatedRod, EngineFile, Override, Rod
+from .model import ArticulatedRod, EngineFile, Rod
 
 STANDARD_GRAVITY = 9.80665          # m/s2, by definition (CGPM 1901)
+ENDS = ("small_end", "big_end")
 NEAREST_TO_LOCK = 1e-6              # how far lambda + |offset| / rod length must stay below 1
 _GROUPS = (({"length"}, {"ratio"}), ({"mass", "cg"}, {"small_end", "big_end"}), ({"inertia"}, {"pendulum"}))
 
@@ -32,12 +32,12 @@ class Parts(NamedTuple):
 
 
 def rod_of(file: EngineFile, number: int, articulated: bool) -> Parts:
-    """Piston and rod of a cylinder: the engine's, with what its own table says otherwise (docs/theory.md)."""
-    own = file.cylinder.get(number)
-    figures = _overridden(_given(file, articulated), own)
+    """Piston and rod of a cylinder: the engine's, with what its own table says otherwise (docs/theory.md); an end of which
+    nothing is said, a mistake, counts as weightless here."""
+    figures = _figures(file, number, articulated)
     length = figures["length"] / 1e3 if "length" in figures else file.crank.stroke / 2e3 / figures["ratio"]
-    if "small_end" in figures:
-        small, big = figures["small_end"], figures["big_end"]
+    if figures.keys() & ENDS:
+        small, big = (figures.get(end, 0.0) for end in ENDS)
     else:
         mass, from_big_end = figures.get("mass", 0.0), figures.get("cg", 0.0) / 1e3
         small, big = mass * (from_big_end / length), mass * ((length - from_big_end) / length)
@@ -63,8 +63,9 @@ def own_or(file: EngineFile, number: int, key: str, default: Any) -> Any:
     return default if value is None else value
 
 
-def _overridden(rod: Rod | ArticulatedRod, own: Override | None) -> dict[str, Any]:
+def _figures(file: EngineFile, number: int, articulated: bool) -> dict[str, Any]:
     """Figures of a rod; a figure of the cylinder's own displaces those of the engine that say the same otherwise."""
+    rod, own = _given(file, articulated), file.cylinder.get(number)
     figures = {key: value for key in type(rod).model_fields if (value := getattr(rod, key)) is not None}
     if own is None:
         return figures
@@ -77,21 +78,11 @@ def _overridden(rod: Rod | ArticulatedRod, own: Override | None) -> dict[str, An
     return figures | mine
 
 
-def half_rods(file: EngineFile, articulated: Collection[int]) -> list[Problem]:
-    """Rods weighed at one end only: the engine's (in a sweep), or a cylinder's own where the engine's does not give the other."""
-    ends = ("small_end", "big_end")
-    pairs = (ends, ends[::-1])
-    found = [Problem(f"rod.{here}", f"needs {missing} beside it: weigh the rod at both ends") for here, missing in pairs
-             if getattr(file.rod, here) is not None and getattr(file.rod, missing) is None]
-    return found or [Problem(f"cylinder.{n}.rod_{here}", f"needs rod_{missing} beside it: weigh the rod at both ends")
-                     for n, own in file.cylinder.items() for here, missing in pairs
-                     if getattr(own, f"rod_{here}") is not None and getattr(own, f"rod_{missing}") is None
-                     and (n in articulated or getattr(file.rod, missing) is None)]
-
-
 def mistakes(file: EngineFile, number: int, rod: Parts, radius: Any, articulated: bool) -> list[Problem]:
     """What keeps a mechanism from turning, or a rod from being one."""
-    found = [] if np.all(rod.spin >= 0) else [_no_rod(file, number, rod, articulated)]
+    found = _half_weighed(file, number, articulated)
+    if not found and not np.all(rod.spin >= 0):
+        found = [_no_rod(file, number, rod, articulated)]
     lam, eps = np.max(radius / rod.length), np.max(np.abs(rod.offset / rod.length))
     if articulated or lam + eps <= 1 - NEAREST_TO_LOCK:                     # what an articulated rod can do depends on its master
         return found
@@ -103,9 +94,19 @@ def mistakes(file: EngineFile, number: int, rod: Parts, radius: Any, articulated
         f"make the rod longer{' or the offset smaller' if eps else ''}")]
 
 
+def _half_weighed(file: EngineFile, number: int, articulated: bool) -> list[Problem]:
+    """A rod weighed at one end only: a cylinder's own where the engine's does not give the other, or the engine's (in a sweep)."""
+    given = [end for end in ENDS if end in _figures(file, number, articulated)]
+    if len(given) != 1:
+        return []
+    (here,), (missing,) = given, set(ENDS).difference(given)
+    path = _path(file, number, here, articulated=articulated)
+    return [Problem(path, f"needs {'rod_' * path.startswith('cylinder')}{missing} beside it: weigh the rod at both ends")]
+
+
 def _no_rod(file: EngineFile, number: int, rod: Parts, articulated: bool) -> Problem:
     """A rod whose moment of inertia would be negative: by its pendulum test, or as two masses at its ends."""
-    figures = _overridden(_given(file, articulated), file.cylinder.get(number))
+    figures = _figures(file, number, articulated)
     if "pendulum" in figures:
         return Problem(_path(file, number, "pendulum"),
                        "the period is too quick for the distance of its pivot from the centre of mass: the moment of inertia about "
