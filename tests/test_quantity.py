@@ -10,6 +10,7 @@ from balcli.engine import build
 from balcli.enginefile import parse as load
 from balcli.errors import BalcliError
 from balcli.quantity import evaluate, parse
+from balcli.spectrum import spectra
 
 UNEVEN = changed(("[0, 180, 180, 0]", "[0, 100, 250, 190]"), ('firing_order = [1, 3, 4, 2]', 'bank_angle = 70\nstagger = 20'))
 
@@ -23,8 +24,9 @@ def test_names_read_back(name: str) -> None:
     ("forse.2.major", "forse.2.major is no quantity: did you mean force?"),
     ("noise.2.major", "noise.2.major is no quantity: it begins with force, moment, couple, torque, roll or peak"),
     ("force.two.major", "force.two.major is no quantity: after force comes a whole order up to 4096, as in force.2.major"),
-    ("force.2", "force.2 is no quantity: after the order comes one of major, minor, forward, backward, axis, x, y"),
-    ("couple.2.axis", "couple.2.axis is no quantity: after the order comes one of amplitude, major"),
+    ("force.2", "force.2 is no quantity: after the order comes one of major, minor, forward, backward, axis, x, y, "
+                "x_cos, x_sin, y_cos, y_sin"),
+    ("couple.2.axis", "couple.2.axis is no quantity: after the order comes one of amplitude, major, cos, sin"),
     (" , ", "no quantity is given; name some, such as force.2.major,moment.1.backward"),
 ])
 def test_mistakes_in_words(text: str, message: str) -> None:
@@ -47,6 +49,21 @@ def test_they_are_what_analyze_gives() -> None:
     values = dict(zip(expected, evaluate(engine, parse(",".join(expected))), strict=True))
     assert {name: float(v) for name, v in values.items()} == pytest.approx(
         {name: float(v) for name, v in expected.items()}, rel=1e-13)
+
+
+def test_the_signed_parts_of_an_order_are_those_of_the_curve() -> None:
+    """Value = cos cos n theta + sin sin n theta; order 0, the mean under uneven speed, is its cos."""
+    engine = build(load(UNEVEN + "speed_ripple = [{ order = 2, amplitude = 0.02, angle = 25 }]\n"))
+    theta = np.radians(np.arange(0.0, 360.0, 0.5))
+    curves = {"force.{}.x_": 1, "force.{}.y_": 1j, "moment.{}.x_": 1, "moment.{}.y_": 1j, "couple.{}.": 1, "torque.{}.": 1, "roll.{}.": 1}
+    for stem, axis in curves.items():
+        for order in (0, 1, 2, 3):
+            phasors = getattr(spectra(engine, [order]), stem.split(".")[0])
+            cos, sin = (float(v) for v in evaluate(engine, parse(f"{stem}cos,{stem}sin".format(order, order))))
+            value = (phasors.values(theta) * np.conj(axis)).real
+            found = cos * np.cos(order * theta) + sin * np.sin(order * theta)
+            assert found == pytest.approx(value, abs=1e-9 * np.abs(value).max(initial=1))
+            assert order or sin == 0
 
 
 def test_quantities_keep_the_order_asked_for() -> None:

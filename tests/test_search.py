@@ -140,6 +140,7 @@ def test_an_angle_is_looked_for_on_a_given_crank(over: str) -> None:
     ("force.1.major=heavy", (), '"force.1.major=heavy": heavy is no positive number'),
     ("force.1.major", ("force.2.major=3",), '--limit "force.2.major=3": give a quantity and what it must stay below'),
     ("force.1.axis", (), "force.1.axis is a direction, which cannot be large or small; name a size such as force.1.major"),
+    ("roll.2.cos", (), "roll.2.cos may be negative, and then would be the better the larger it is; name a size such as roll.2.major"),
 ])
 def test_mistakes_of_objectives(minimise: str, limits: tuple[str, ...], message: str) -> None:
     with pytest.raises(BalcliError) as caught:

@@ -16,15 +16,19 @@ from .fields import nearest
 from .spectrum import SPECTRAL, relevant_orders, spectra
 
 VECTORS = ("force", "moment")
-PARTS = ("major", "minor", "forward", "backward", "axis", "x", "y")
-SCALAR_PARTS = ("amplitude", "major")
+PARTS = ("major", "minor", "forward", "backward", "axis", "x", "y", "x_cos", "x_sin", "y_cos", "y_sin")
+SCALAR_PARTS = ("amplitude", "major", "cos", "sin")
 HIGHEST = 4096
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """`kind.order.part`, or `peak.kind` with order 0 and part "peak"."""
+    """`kind.order.part`, or `peak.kind` with order 0 and part "peak".
+
+    Of a couple, torque or roll, and of force and moment along x or y, `cos` and `sin` are the parts of the value
+    `cos cos n theta + sin sin n theta`: they have signs, and so has the mean of order 0, which is its `cos`.
+    """
 
     kind: str
     order: int
@@ -38,13 +42,21 @@ class Quantity:
     def unit(self) -> str:
         return "deg" if self.part == "axis" else "N" if self.kind == "force" else "N·m"
 
+    @property
+    def signed(self) -> bool:
+        """Whether it is one of two parts of a harmonic, which may be negative."""
+        return self.part.endswith(("cos", "sin"))
+
     def of(self, phasors: Phasors) -> Array:
-        """Its value by the phasors of its kind, shape (*trailing): sizes of vectors, amplitudes along x and y, degrees."""
+        """Its value by the phasors of its kind, shape (*trailing): sizes of vectors, amplitudes along x and y or their parts, degrees."""
         row = int(np.searchsorted(phasors.orders, self.order))
         only = slice(row, row + 1)
         column = (len(phasors.orders), *(1,) * (phasors.forward.ndim - 1))
         noise = np.broadcast_to(phasors.noise, np.broadcast_shapes(phasors.noise.shape, column))
         own = Phasors(phasors.orders[only], phasors.forward[only], phasors.backward[only], noise[only])
+        if self.signed:
+            c = (own.y if self.part.startswith("y") else own.x)[0]
+            return (c.real if self.part.endswith("cos") else -c.imag) + 0.0
         name = {"amplitude": "major", "axis": "axis_deg"}.get(self.part, self.part)
         value: Array = getattr(own, name)[0]
         return value if self.part in ("major", "minor", "axis", "amplitude") else np.abs(value)

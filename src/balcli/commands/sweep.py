@@ -24,7 +24,8 @@ def sweep(
         "A number of the engine file and its values: rod.ratio=0.24:0.32:0.01 (from:to:step, ends included) or crank.throws.2=90,180. "
         "Several span a grid, the last one fastest."))],
     quantity: Annotated[str, typer.Option("--quantity", "-q", metavar="WHAT,...", help=(
-        "force.2.major (or minor, forward, backward, axis, x, y), moment..., couple.4.amplitude, torque..., roll..., peak.force."),
+        "force.2.major (or minor, forward, backward, axis, x, y, x_cos, x_sin, y_cos, y_sin), moment...; couple.4.amplitude (or cos, sin), "
+        "torque..., roll...; peak.force, peak.moment."),
     )] = "force.1.major,force.2.major,moment.1.major,moment.2.major",
     format: Annotated[Form, typer.Option("--format", "-f", help="How to write the variants.")] = Form.CSV,   # noqa: A002
     output: Output = None,

@@ -57,6 +57,9 @@ def _quantity(name: str) -> tuple[Quantity, ...]:
     for q in found:
         if q.part == "axis":
             raise BalcliError(f"{q.name} is a direction, which cannot be large or small; name a size such as {q.kind}.{q.order}.major")
+        if q.signed:
+            raise BalcliError(f"{q.name} may be negative, and then would be the better the larger it is; "
+                              f"name a size such as {q.kind}.{q.order}.major")
     return found
 
 
