@@ -10,6 +10,7 @@ from balcli.curves import crank_angles, cylinder_curves, engine_curves
 from balcli.engine import build
 from balcli.enginefile import parse
 from balcli.errors import BalcliError
+from balcli.render.json import orders
 from balcli.spectrum import relevant_orders, spectra
 
 ENGINES = Path(__file__).parents[1] / "engines"
@@ -77,6 +78,37 @@ def test_force_of_a_single_at_top_dead_centre():
     expected = subject.omega**2 * r * (m * (1 + lam) + rot)
     expected += sum((d.forward + d.backward).real * d.order**2 * subject.omega**2 for d in subject.devices)
     assert engine_curves(subject, np.zeros(1)).values["force_x_N"][0] == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize("name", ["single", "i4", "v6_60", "v12_60", "boxer6", "radial7"])
+def test_what_is_zero_is_exactly_zero(name):
+    """No rounding noise and no negative zeros beside real figures, which may be as small as 1e-9 of their parts."""
+    subject = engine(name)
+    curves = engine_curves(subject, crank_angles(15)).values
+    for quantity, curve in curves.items():
+        small = np.abs(curve) <= 1e-13 * scale(subject)[quantity.endswith("_N")]
+        assert not curve[small].any(), quantity
+        assert not np.signbit(curve[small]).any(), quantity
+    if name == "v12_60":
+        assert 0 < curves["force_x_N"][3] < 1e-4
+
+
+def test_a_piston_stands_still_at_its_dead_centres():
+    found = cylinder_curves(engine("single"), 1, np.array([0.0, 180.0])).values
+    assert found["velocity_m_per_s"].tolist() == found["rod_angle_deg"].tolist() == [0, 0]
+
+
+def test_a_mean_under_uneven_speed_keeps_its_sign_where_the_documents_say():
+    """Order 0 is the mean over the crank angle: in `forward` with signs, in the amplitudes of x and y without them."""
+    subject, angles = engine("uneven"), crank_angles(0.5)
+    (order,) = orders(spectra(subject, [0]))
+    mean = {name: float(curve.mean()) for name, curve in engine_curves(subject, angles).values.items()}
+    force, couple = order["force_N"], order["couple_Nm"]
+    assert force["forward"] == pytest.approx([mean["force_x_N"], mean["force_y_N"]], rel=1e-9)
+    assert [force[axis] for axis in "xy"] == [{"amplitude": abs(v), "phase_deg": None} for v in force["forward"]]
+    assert (force["backward"], force["axis_deg"], couple["peak_deg"], couple["sin"]) == ([0, 0], None, None, 0)
+    assert couple["cos"] == pytest.approx(mean["couple_Nm"], rel=1e-9)
+    assert couple["amplitude"] == abs(couple["cos"])
 
 
 def test_piston_motion_is_consistent_with_its_derivatives():

@@ -2,24 +2,26 @@
 
 From momentum G, moment of momentum h and inertia I of each cylinder at crank speed 1. With crank speed omega, crank
 acceleration xi and a prime for the derivative with respect to the crank angle: force -(omega^2 G' + xi G), couple
--(omega^2 h' + xi h), inertia torque -(1/2 I' omega^2 + xi I).
+-(omega^2 h' + xi h), inertia torque -(1/2 I' omega^2 + xi I). As everywhere, what lies within the rounding error of the
+parts that are added up (docs/theory.md) is exactly 0.
 """
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
 
 from .core import slidercrank as sc
-from .core.phasors import Array, Complex, unit
+from .core.phasors import EPS, Array, Complex, unit
 from .core.travel import travel as dead_centres
 from .engine import Engine
 from .errors import BalcliError
 
 FINEST = 1e-3                   # degrees
 AT_ONCE = 200_000               # cylinders x angles, which bounds the memory
+_EVERYWHERE = np.arange(0.0, 360.0, 15.0)       # where the sizes of parts are taken, deg
 
 
 @dataclass(frozen=True)
@@ -50,28 +52,30 @@ def engine_curves(engine: Engine, crank_deg: Array) -> Curves:
         engine: without trailing axes.
         crank_deg: shape (angles,).
     """
-    return _in_parts(engine, crank_deg, lambda part: _engine_curves(engine, part))
+    return _summed(engine, crank_deg, lambda angles: _engine_parts(engine, angles))
 
 
-def _in_parts(engine: Engine, crank_deg: Array, curves: Callable[[Array], Curves]) -> Curves:
-    """Curves over so many angles at a time that memory does not grow with both cylinders and angles."""
+def _summed(engine: Engine, crank_deg: Array, parts: Callable[[Array], dict[str, Array]]) -> Curves:
+    """Curves by their parts, over so many angles at a time that memory does not grow with both cylinders and angles."""
+    noise = {name: 8 * len(some) * EPS * float(np.abs(some).sum(axis=0).max()) for name, some in parts(_EVERYWHERE).items()}
     step = max(AT_ONCE // engine.cylinders.count, 1)
-    parts = [curves(crank_deg[k:k + step]) for k in range(0, len(crank_deg), step)] or [curves(crank_deg)]
-    return replace(parts[0], crank_deg=crank_deg, values=MappingProxyType(
-        {name: np.concatenate([part.values[name] for part in parts]) for name in parts[0].values}))
+    pieces = [parts(crank_deg[k:k + step]) for k in range(0, max(len(crank_deg), 1), step)]
+    curves = {name: np.concatenate([piece[name].sum(axis=0) for piece in pieces]) for name in noise}
+    return Curves(engine.name, float(engine.speed_rpm), crank_deg, MappingProxyType(
+        {name: np.where(np.abs(curve) <= noise[name], 0.0, curve) for name, curve in curves.items()}))
 
 
-def _engine_curves(engine: Engine, crank_deg: Array) -> Curves:
+def _engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
+    """What each cylinder and device does, shape (cylinders and devices, angles)."""
     motion = _Motion(engine, crank_deg)
     force, arms = _forces(engine, motion)
     x, y, z = engine.reference_m
-    moment = 1j * ((arms - float(z))[:, None] * force).sum(axis=0)
-    couple, torque = _couple(engine, motion), _torque(engine, motion)
+    moment = 1j * (arms - float(z))[:, None] * force
     places = np.concatenate([np.zeros(engine.cylinders.count), [d.place for d in engine.devices]]) - (x + 1j * y)
-    couple = couple + (np.conj(places)[:, None] * force).imag.sum(axis=0)
-    total = force.sum(axis=0)
-    return _curves(engine, crank_deg, force_x_N=total.real, force_y_N=total.imag, moment_x_Nm=moment.real,
-                   moment_y_Nm=moment.imag, couple_Nm=couple, inertia_torque_Nm=torque, roll_Nm=couple - torque)
+    couple = np.concatenate([_couple(engine, motion), (np.conj(places)[:, None] * force).imag])
+    torque = _torque(engine, motion)
+    return {"force_x_N": force.real, "force_y_N": force.imag, "moment_x_Nm": moment.real, "moment_y_Nm": moment.imag,
+            "couple_Nm": couple, "inertia_torque_Nm": torque, "roll_Nm": np.concatenate([couple, -torque])}
 
 
 def cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:
@@ -83,16 +87,15 @@ def cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:
     if number not in engine.numbers:
         some = ", ".join(map(str, sorted(engine.numbers)))
         raise BalcliError(f"--cylinder {number}: {engine.name or 'the engine'} has the cylinders {some}")
-    return _in_parts(engine, crank_deg, lambda part: _cylinder_curves(engine, engine.numbers.index(number), part))
+    row = engine.numbers.index(number)
 
-
-def _cylinder_curves(engine: Engine, row: int, crank_deg: Array) -> Curves:
-    motion = _Motion(engine, crank_deg)
-    r, v = motion.radius, motion.v[row]
-    return _curves(engine, crank_deg, travel_m=r * motion.travel()[row],
-                   velocity_m_per_s=r * motion.omega * v,
-                   acceleration_m_per_s2=r * (motion.omega**2 * motion.a[row] + motion.xi * v),
-                   rod_angle_deg=np.degrees(motion.beta()[row]))
+    def parts(crank_deg: Array) -> dict[str, Array]:
+        motion = _Motion(engine, crank_deg)
+        r, v = motion.radius, motion.v[row]
+        return {"travel_m": r * motion.travel()[row:row + 1], "velocity_m_per_s": (r * motion.omega * v)[None],
+                "acceleration_m_per_s2": r * np.array([motion.omega**2 * motion.a[row], motion.xi * v]),
+                "rod_angle_deg": np.degrees(motion.beta()[row:row + 1])}
+    return _summed(engine, crank_deg, parts)
 
 
 class _Motion:
@@ -161,7 +164,7 @@ def _forces(engine: Engine, motion: _Motion) -> tuple[Complex, Array]:
 
 
 def _couple(engine: Engine, motion: _Motion) -> Array:
-    """Free transverse couple about the crank's axis: h = -m_rec e s' + m_rot r^2 - H spin (+ the masses on curves), s' = -r v."""
+    """Free couple of each cylinder about the crank's axis: h = -m_rec e s' + m_rot r^2 - H spin (+ the masses on curves), s' = -r v."""
     c, r = engine.cylinders, motion.radius
     pull = _column(c.reciprocating) * (motion.eps * r / motion.lam) * r
     h = pull * motion.v + _column(c.rotating) * r**2 - _column(c.couple) * motion.spin
@@ -169,11 +172,11 @@ def _couple(engine: Engine, motion: _Motion) -> Array:
     if (m := motion.linked) is not None:
         h = h + motion.mass * r**2 * (np.conj(m.z) * m.z1).imag
         slope = slope + motion.mass * r**2 * (np.conj(m.z) * m.z2).imag
-    return np.asarray(-(motion.omega**2 * slope + motion.xi * h).sum(axis=0))
+    return np.asarray(-(motion.omega**2 * slope + motion.xi * h))
 
 
 def _torque(engine: Engine, motion: _Motion) -> Array:
-    """Inertia torque on the crank: I = m_rec s'^2 + m_rot r^2 - H spin^2 (+ the masses on curves)."""
+    """Inertia torque of each cylinder on the crank: I = m_rec s'^2 + m_rot r^2 - H spin^2 (+ the masses on curves)."""
     c, r = engine.cylinders, motion.radius
     mass, couple = _column(c.reciprocating) * r**2, _column(c.couple)
     inertia = mass * motion.v**2 + _column(c.rotating) * r**2 - couple * motion.spin**2
@@ -181,11 +184,7 @@ def _torque(engine: Engine, motion: _Motion) -> Array:
     if (m := motion.linked) is not None:
         inertia = inertia + motion.mass * r**2 * np.abs(m.z1) ** 2
         half_slope = half_slope + motion.mass * r**2 * (np.conj(m.z1) * m.z2).real
-    return np.asarray(-(half_slope * motion.omega**2 + motion.xi * inertia).sum(axis=0))
-
-
-def _curves(engine: Engine, crank_deg: Array, **values: Array) -> Curves:
-    return Curves(engine.name, float(engine.speed_rpm), crank_deg, MappingProxyType(values))
+    return np.asarray(-(half_slope * motion.omega**2 + motion.xi * inertia))
 
 
 def _column(values: Array) -> Array:
