@@ -18,6 +18,7 @@ CASES = [
     ("analyze --format m", {"markdown"}),
     ("new ra", {"radial"}),
     ("balance --scheme t", {"two-shaft"}),
+    ("balance --scheme k", {"knuckles"}),
     ("tables liu-", {"liu-1", "liu-2", "liu-3"}),
     ("engines vtwin", {"vtwin45", "vtwin90"}),
 ]

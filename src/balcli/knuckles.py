@@ -18,6 +18,7 @@ from .engine import build
 from .errors import BalcliError
 from .layout import plan
 from .model import EngineFile
+from .schemes import KNUCKLES
 from .sizing import Remedy
 
 Goal = Literal["dead-centres", "strokes"]
@@ -86,7 +87,7 @@ def balanced(file: EngineFile, goal: Goal = "dead-centres", orders: Iterable[flo
     old, new = (build(f) if speed_rpm is None else replace(build(f), speed_rpm=speed_rpm) for f in (file, found.file))
     before = analyze(old, orders, shown)
     after = analyze(new, before.orders, shown)
-    return Balance(Remedy("knuckles", reasons=found.reasons, details=details), before, after, ())
+    return Balance(Remedy(KNUCKLES, reasons=found.reasons, details=details), before, after, ())
 
 
 def _range(values: Array) -> dict[str, float]:

@@ -210,7 +210,10 @@ def test_eccentric_stands_where_the_force_acts():
     ("counterweights", Wish(planes=(0.1, 0.1 + 1e-10)), r"too much alike: .*condition number .*e\+09"),
     ("two-shaft", Wish(order=0), "must be a whole number from 1 to 1000"),
     ("auto", Wish(order=2), "scheme auto has no --order; it takes no options"),
-    ("magic", Wish(), "there is no scheme 'magic': choose from auto, counterweights"),
+    ("magic", Wish(), "there is no scheme 'magic': choose from auto, counterweights, factor, minimax, single-shaft, two-shaft, four-shaft, "
+     "couple-shaft, slider, eccentric-slider, oldham, knuckles"),
+    ("knuckle", Wish(), "there is no scheme 'knuckle': did you mean knuckles\\? choose from"),
+    ("knuckles", Wish(), "scheme knuckles sizes no devices but changes the engine file: `balcli balance --scheme knuckles` does so"),
     ("mini-max", Wish(), "did you mean minimax"),
     ("two-shaft", Wish(order=6, roll="nought"), 'only "zero" can be asked for'),
     ("two-shaft", Wish(order=3, roll="zero"), "order 3 has no free force.*shafts without unbalance can do nothing about the roll"),

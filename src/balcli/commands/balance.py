@@ -1,6 +1,7 @@
 """`balcli balance`"""
 from __future__ import annotations
 
+from ..schemes import KNUCKLES
 from . import wishes
 from .options import EngineFile, Format, FormatOption, Orders, Output, Speed, Units, UnitsOption, checked_speed, order_list
 
@@ -37,7 +38,7 @@ def balance(
     wish, tools = wishes.wish_of(order, at, position, planes, factor, roll), wishes.shop_tools(radius, thickness, disc, drill)
     asked = order_list(orders)
     text, engine = engine_and_text(file, checked_speed(speed))
-    if scheme == "knuckles" or even is not None:
+    if scheme == KNUCKLES or even is not None:
         result = wishes.knuckles(scheme, wish, even, parse(text, name_of(file)), engine, asked)
     else:
         result = balanced(engine, scheme, wish, asked, tools)

@@ -13,9 +13,9 @@ def kinds(incomplete: str) -> list[str]:
 
 def schemes(incomplete: str) -> list[str]:
     """Of `--scheme`."""
-    from ..sizing import SCHEMES
+    from ..schemes import NAMES
 
-    return _beginning(incomplete, SCHEMES)
+    return _beginning(incomplete, NAMES)
 
 
 def tables(incomplete: str) -> list[str]:

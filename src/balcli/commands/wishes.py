@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import BalcliError
+from ..schemes import KNUCKLES, NAMES
 from . import completion
 
 if TYPE_CHECKING:
@@ -19,9 +20,8 @@ if TYPE_CHECKING:
 
 MOST_FACTORS = 1000
 
-Scheme = Annotated[str, typer.Option("--scheme", "--with", metavar="NAME", autocompletion=completion.schemes, help=(
-    "What to fit: auto, counterweights, factor, minimax, single-shaft, "
-    "two-shaft, four-shaft, couple-shaft, slider, eccentric-slider, oldham or knuckles."))]
+Scheme = Annotated[str, typer.Option("--scheme", "--with", metavar="NAME", autocompletion=completion.schemes,
+                                       help=f"What to fit: {', '.join(NAMES[:-1])} or {NAMES[-1]}.")]
 Order = Annotated[int | None, typer.Option(metavar="N", show_default=False, help=(
     "Order to balance; default: the lowest that is not balanced."))]
 At = Annotated[list[str] | None, typer.Option(metavar="X,Y", show_default=False, help=(
@@ -68,7 +68,7 @@ def knuckles(scheme: str, wish: Wish, even: str | None, file: EngineFile, engine
     from ..knuckles import GOALS, balanced
     from ..sizing import Wish
 
-    if scheme != "knuckles":
+    if scheme != KNUCKLES:
         raise BalcliError(f"--even belongs to --scheme knuckles; scheme {scheme} has no such option")
     if wish != Wish():
         raise BalcliError("scheme knuckles: has no option but --even")

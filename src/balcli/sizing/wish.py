@@ -1,11 +1,12 @@
 """What a user may ask of a scheme, and which scheme takes which of it."""
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
 from ..engine import Engine
 from ..errors import BalcliError
+from ..schemes import KNUCKLES, NAMES, SCHEMES
 from .solver import Rest, rest
 
 HIGHEST = 8                     # order up to which something to balance is looked for
@@ -74,11 +75,13 @@ def chosen(engine: Engine, wish: Wish, quantity: str, senses: Sequence[int] = (1
     raise NoNeedError(f"order {wish.order} has no free {quantity}{_turning(senses)}: nothing to balance{hint}")
 
 
-def options(accepted: Mapping[str, Sequence[str]], scheme: str) -> Sequence[str]:
-    """What a scheme takes; BalcliError with the nearest name if there is no such scheme."""
-    if scheme in accepted:
-        return accepted[scheme]
+def options(scheme: str) -> Sequence[str]:
+    """What a scheme takes; BalcliError if there is no such scheme, with the nearest name, or if it sizes no devices."""
+    if scheme in SCHEMES:
+        return SCHEMES[scheme].options
+    if scheme == KNUCKLES:
+        raise BalcliError("scheme knuckles sizes no devices but changes the engine file: `balcli balance --scheme knuckles` does so")
     from ..fields import nearest
-    near = nearest(scheme, accepted)
+    near = nearest(scheme, NAMES)
     meant = f"did you mean {near}? " if near else ""
-    raise BalcliError(f"there is no scheme {scheme[:60]!r}: {meant}choose from {', '.join(accepted)}")
+    raise BalcliError(f"there is no scheme {scheme[:60]!r}: {meant}choose from {', '.join(NAMES)}")
