@@ -381,7 +381,8 @@ def _read(descriptor: int) -> bytes:
         return b""
 
 
-@pytest.mark.parametrize("args", [["analyze", V8], ["schema"], ["new", "single"], ["check", str(ROOT / "engines" / "i4.toml")]])
+@pytest.mark.parametrize("args", [["analyze", V8], ["schema"], ["new", "single"], ["check", str(ROOT / "engines" / "i4.toml")],
+                                  ["--help"], ["--version"], ["balance", "--help"]])
 def test_a_closed_pipe_ends_quietly(args):
     reading, writing = os.pipe()
     os.close(reading)

@@ -86,6 +86,10 @@ def main() -> None:
         typer.echo(legible(text.getvalue()), err=True, nl=False)
     except typer.Abort:                                 # Ctrl-C
         sys.exit(Exit.INTERRUPTED)
+    except SystemExit as end:
+        if isinstance(end.__context__, BrokenPipeError):        # help, or the version, whose reader has what they want
+            sys.exit(Exit.DONE)
+        raise
     finally:
         gc.freeze()                                     # the process ends: nothing need be collected any more
     sys.exit(Exit.BAD_INPUT)
