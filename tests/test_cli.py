@@ -391,6 +391,15 @@ def test_a_closed_pipe_ends_quietly(args):
     assert (done.returncode, done.stderr) == (0, b"")
 
 
+@pytest.mark.parametrize("args", [["analyze", "nowhere.toml"], ["balance", "nowhere.toml"], ["analyze", "--wrong"]])
+def test_mistakes_that_nobody_reads_have_their_status(args):
+    reading, writing = os.pipe()
+    os.close(reading)
+    done = process(*args, capture_output=False, stdout=writing, stderr=writing)
+    os.close(writing)
+    assert done.returncode == 2
+
+
 def test_any_locale_gets_utf_8():
     done = process("analyze", V8, env={"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "PYTHONIOENCODING": "ascii"})
     assert (done.returncode, done.stderr) == (0, b"")

@@ -17,7 +17,7 @@ from typer.core import TyperGroup
 from typer.main import get_command
 
 from . import __version__
-from .errors import BalcliError, Exit, legible
+from .errors import BalcliError, Exit, say
 
 COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "plot", "report", "sweep",
             "search", "scatter", "compare", "sum", "engines", "bench")
@@ -79,11 +79,11 @@ def main() -> None:
     try:
         sys.exit(app(prog_name="balcli", standalone_mode=False))
     except BalcliError as error:
-        typer.echo(legible(f"balcli: {error}"), err=True)
+        say(f"balcli: {error}")
     except _UsageError as error:
         text = StringIO()
         error.show(text)                                # plain: a box would fold it, even in a pipe
-        typer.echo(legible(text.getvalue()), err=True, nl=False)
+        say(text.getvalue().rstrip("\n"))
     except typer.Abort:                                 # Ctrl-C
         sys.exit(Exit.INTERRUPTED)
     except SystemExit as end:

@@ -1,7 +1,9 @@
 """The errors a user can cause, and the exit codes."""
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable
+from contextlib import suppress
 from enum import IntEnum
 from typing import NamedTuple
 
@@ -11,6 +13,12 @@ _CONTROL = dict.fromkeys([*range(0x09), *range(0x0B, 0x20), *range(0x7F, 0xA0)],
 def legible(text: str) -> str:
     """Text for a terminal: of all control characters only line ends and tabs stay, so that nobody's file name can command it."""
     return text.translate(_CONTROL)
+
+
+def say(text: str) -> None:
+    """A message on standard error, whether somebody reads it or not."""
+    with suppress(BrokenPipeError):
+        print(legible(text), file=sys.stderr, flush=True)
 
 
 class Exit(IntEnum):

@@ -12,7 +12,7 @@ import typer
 from ..checks import suspicious
 from ..engine import Engine
 from ..enginefile import built, name_of, parse, text_of
-from ..errors import BalcliError, Exit, legible
+from ..errors import BalcliError, Exit, legible, say
 from ..model import EngineFile
 
 F = TypeVar("F")
@@ -37,7 +37,7 @@ def engine_and_text(file: str, speed_rpm: float | None = None) -> tuple[bytes, E
 def _built(model: EngineFile, file: str, speed_rpm: float | None) -> tuple[EngineFile, Engine]:
     engine = built(model, file)
     for warning in suspicious(model):
-        typer.echo(legible(f"warning: {name_of(file)}: {warning}"), err=True)
+        say(f"warning: {name_of(file)}: {warning}")
     return model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)
 
 
@@ -55,7 +55,7 @@ def each(files: Sequence[F], work: Callable[[F], T]) -> tuple[list[T], list[str]
 def tell(errors: Sequence[str]) -> None:
     """Messages on standard error and exit status 2, if there are any."""
     for text in errors:
-        typer.echo(legible(f"balcli: {text}"), err=True)
+        say(f"balcli: {text}")
     if errors:
         raise typer.Exit(Exit.BAD_INPUT)
 
