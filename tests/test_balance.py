@@ -106,6 +106,17 @@ def test_written_file_reads_back(file, tmp_path):
     assert all(same[o["order"]] == o for o in doc["after"]["orders"] if o["order"] in same)
 
 
+@pytest.mark.parametrize(("scheme", "speed", "line"), [
+    ("auto", 4500, "speed = 4500.0    # as balanced by balcli\n"), ("auto", 3000, "speed = 3000\n"), ("auto", None, "speed = 3000\n")])
+def test_what_is_written_runs_at_the_speed_that_was_asked_for(file, tmp_path, scheme, speed, line):
+    """So that it reads back to exactly `after`."""
+    out = tmp_path / "out.toml"
+    asked = [] if speed is None else ["--speed", speed]
+    after = document(file, "--scheme", scheme, "--write", out, *asked)["after"]
+    assert f"[operation]\n{line}" in out.read_text()
+    assert document(out, "--scheme", "factor", "--factor", "0")["before"]["peak"] == after["peak"]
+
+
 def test_standard_input_can_be_written(tmp_path):
     document("-", "--write", tmp_path / "out.toml", text=GOOD)
     assert (tmp_path / "out.toml").read_text().startswith(GOOD)

@@ -153,6 +153,12 @@ def test_peaks_do_not_add_up() -> None:
         search(load(SHUFFLED), "throws", objective("peak.force"))
 
 
+def test_written_file_keeps_its_comments() -> None:
+    text = changed(("throws = [0, 180, 180, 0]", "throws = [0, 180, 180, 0]  # deg"), ("firing_order = [1, 3, 4, 2]\n", "")) + "# the end\n"
+    wanted = text.replace("[0, 180, 180, 0]  # deg", "[0.0, 180.0, 0.0, 180.0]  # deg (found by balcli)")
+    assert arranged(text.encode(), {"throws": [0.0, 180.0, 0.0, 180.0]}) == wanted
+
+
 def test_written_file_drops_a_firing_order_that_no_longer_fits() -> None:
     new = load(arranged(GOOD.encode(), {"throws": [0.0, 0.0, 180.0, 180.0]}))
     assert new.crank.throws == (0, 0, 180, 180)

@@ -1,11 +1,11 @@
 """The engine file with the devices of a remedy: its text as it was, comments and all, with their tables after it."""
 from __future__ import annotations
 
-import re
 import tomllib
 from collections.abc import Iterator
 from typing import Any
 
+from .edit import anew, changed, written
 from .engine import build
 from .enginefile import parse
 from .errors import BalcliError, InputError
@@ -17,7 +17,6 @@ _KEYS: dict[type, tuple[str, ...]] = {
     Shaft: ("ratio", "unbalance", "angle", "at", "position"),
     Slider: ("order", "unbalance", "direction", "angle", "at", "position"),
 }
-_REWRITTEN = "# Comments and lay-out of the original could not be kept: it has devices in one list, to which TOML lets nothing be added.\n"
 
 
 def fit(text: bytes, remedy: Remedy, file: str = "") -> str:
@@ -43,21 +42,8 @@ def fit(text: bytes, remedy: Remedy, file: str = "") -> str:
 
 
 def fit_knuckles(text: bytes, angles_deg: tuple[float, ...], file: str = "") -> str:
-    """The text of an engine file with these knuckle angles, in place of older ones; written anew where they cannot be put in."""
-    old = text.decode("utf-8-sig")
-    line = f"knuckle_angles = {_value(list(angles_deg))}"
-    kept = re.sub(r"(?m)^[ \t]*knuckle_angles[ \t]*=[ \t]*\[[^\]\[\"']*\][^\n]*\n", "", old)
-    new = re.sub(r"(?m)^[ \t]*\[articulation\][^\n]*$", lambda head: f"{head[0]}\n{line}    # even, by balcli", kept, count=1)
-    wanted = tomllib.loads(old)
-    wanted["articulation"]["knuckle_angles"] = list(angles_deg)
-    try:
-        done = tomllib.loads(new) == wanted
-    except tomllib.TOMLDecodeError:
-        done = False
-    if not done:
-        import tomli_w
-        new = "# Comments and lay-out of the original could not be kept: its [articulation] is written in an unusual way.\n"
-        new += tomli_w.dumps(wanted)
+    """The text of an engine file with these knuckle angles, in place of older ones."""
+    new = changed(text.decode("utf-8-sig"), "articulation", {"knuckle_angles": list(angles_deg)}, "even, by balcli")
     parse(new, file)
     return new
 
@@ -70,7 +56,7 @@ def _tables(remedy: Remedy) -> Iterator[str]:
     for device, reason in zip(remedy.devices, remedy.reasons, strict=True):
         head = "" if reason == told else f"# {reason}\n"
         told = reason
-        lines = "".join(f"{key} = {_value(value)}\n" for key, value in _entries(device).items())
+        lines = "".join(f"{key} = {written(value)}\n" for key, value in _entries(device).items())
         yield f"{head}[[{type(device).__name__.lower()}]]\n{lines}\n"
 
 
@@ -79,16 +65,9 @@ def _entries(device: Counterweight | Shaft | Slider) -> dict[str, Any]:
     return {key: list(value) if isinstance(value, tuple) else value for key, value in values.items()}
 
 
-def _value(value: Any) -> str:
-    """As TOML has it: the shortest decimals that read back to the same number."""
-    return f"[{', '.join(map(_value, value))}]" if isinstance(value, list) else repr(value)
-
-
 def _rewritten(text: str, remedy: Remedy) -> str:
-    import tomli_w
-
     data = tomllib.loads(text)
     for device in remedy.devices:
         key = type(device).__name__.lower()
         data[key] = [*data.get(key, []), _entries(device)]
-    return _REWRITTEN + tomli_w.dumps(data)
+    return anew(data, "it has devices in one list, to which TOML lets nothing be added")

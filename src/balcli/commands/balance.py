@@ -37,12 +37,12 @@ def balance(
 
     wish, tools = wishes.wish_of(order, at, position, planes, factor, roll), wishes.shop_tools(radius, thickness, disc, drill)
     asked = order_list(orders)
-    text, engine = engine_and_text(file, checked_speed(speed))
+    text, engine = engine_and_text(file, rpm := checked_speed(speed))
     if scheme == KNUCKLES or even is not None:
         result = wishes.knuckles(scheme, wish, even, parse(text, name_of(file)), engine, asked)
     else:
         result = balanced(engine, scheme, wish, asked, tools)
     shown = balances(result, format, units, into_file=output is not None)
     if write is not None:
-        write_fitted(file, text, result.remedy, write)
+        write_fitted(file, text, result.remedy, write, rpm)
     emit(shown, output)

@@ -45,7 +45,7 @@ Drill = Annotated[float | None, typer.Option(metavar="MM", show_default=False, h
 Even = Annotated[str | None, typer.Option("--even", metavar="dead-centres|strokes", show_default=False,
                                           help="What --scheme knuckles makes even; default: dead-centres.")]
 Write = Annotated[Path | None, typer.Option("--write", metavar="OUT.toml", show_default=False,
-                                            help="Write the engine with the devices fitted.")]
+                                            help="Write the engine with the devices fitted, and with the speed of --speed.")]
 
 
 def wish_of(order: int | None, at: Sequence[str] | None, position: str | None, planes: str | None, factor: str | None,

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ..edit import changed
 from ..enginefile import name_of
 from ..fit import fit, fit_knuckles
 from ..schemes import KNUCKLES
@@ -10,13 +11,14 @@ from ..sizing import Remedy
 from .output import write
 
 
-def write_fitted(source: str, text: bytes, remedy: Remedy, target: Path) -> None:
-    """Write the engine file with these devices.
+def write_fitted(source: str, text: bytes, remedy: Remedy, target: Path, speed_rpm: float | None = None) -> None:
+    """Write the engine file with these devices, and at the speed for which they were asked if that is not its own.
 
     Raises:
         BalcliError: the target cannot be written, or the devices cannot be described.
     """
     if remedy.scheme == KNUCKLES:
-        write(fit_knuckles(text, tuple(remedy.details["knuckle_angles_deg"]), name_of(source)), target)
+        new = fit_knuckles(text, tuple(remedy.details["knuckle_angles_deg"]), name_of(source))
     else:
-        write(fit(text, remedy, name_of(source)), target)
+        new = fit(text, remedy, name_of(source))
+    write(new if speed_rpm is None else changed(new, "operation", {"speed": speed_rpm}, "as balanced by balcli"), target)
