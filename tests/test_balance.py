@@ -85,6 +85,29 @@ def test_csv_has_one_figure_a_line(file):
     devices = {(r["part"], r["figure"]): r["value"] for r in rows if r["part"].startswith("shaft")}
     assert devices["shaft 1", "ratio"] == "2"
     assert {r["part"] for r in rows} == {"shaft 1", "shaft 2", "before", "after"}
+    assert devices["shaft 2", "speed_rpm"] == "6000.0"
+
+
+def test_csv_has_what_json_calls_practical_and_details(file):
+    options = ("--scheme", "factor", "--factor", "0.5")
+    rows = list(csv.DictReader(StringIO(run(file, *options, "--format", "csv").stdout)))
+    found = {(r["part"], r["figure"]): r["value"] for r in rows if not r["quantity"]}
+    wanted = document(file, *options)
+    for k, shop in enumerate(wanted["practical"], 1):
+        assert {key: found[f"counterweight {k}", key] for key in shop} == {key: str(value) for key, value in shop.items()}
+    assert found["details", "card.2.bobweight_g"] == str(wanted["details"]["card"][1]["bobweight_g"])
+    assert found["details", "card.2.cylinders.1"] == "2"
+
+
+@pytest.mark.parametrize(("units", "size", "length"), [("si", 1.0, 1.0), ("imperial", 28.349523125 * 25.4, 25.4)])
+def test_csv_has_devices_in_the_units_asked_for(file, units, size, length):
+    options = ("--scheme", "two-shaft", "--at=-60,80", "--position", "12")
+    rows = list(csv.DictReader(StringIO(run(file, *options, "--format", "csv", "--units", units).stdout)))
+    found = {r["figure"]: (float(r["value"]), r["unit"]) for r in rows if r["part"] == "shaft 1" and r["unit"]}
+    shaft = document(file, *options)["shafts"][0]
+    names = {"si": ("g·mm", "mm"), "imperial": ("oz·in", "in")}[units]
+    assert found["unbalance"] == (pytest.approx(shaft["unbalance_kg_m"] * 1e6 / size), names[0])
+    assert [found["at_x"], found["at_y"], found["position"]] == [(pytest.approx(v / length), names[1]) for v in (-60, 80, 12)]
 
 
 def test_imperial_units(file):

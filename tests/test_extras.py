@@ -1,7 +1,9 @@
 """What analyze shows only where it is asked for: inner moments, guide-force moments; and strokes of articulated cylinders."""
 from __future__ import annotations
 
+import csv
 import json
+from io import StringIO
 
 import pytest
 from test_articulation import RADIAL
@@ -10,6 +12,7 @@ from test_rotary import GNOME
 
 from balcli import analysis, engine, enginefile
 from balcli.errors import BalcliError
+from balcli.render import csv as as_csv
 from balcli.render import json as as_json
 from balcli.render.analysis import sheet
 from balcli.render.markdown import markdown
@@ -50,6 +53,38 @@ def test_strokes_as_json():
 
 def test_nothing_more_where_nothing_was_asked():
     assert not {"inner", "guide", "travel", "why"} & document(built([0, 180])).keys()
+
+
+def rows(subject, system="si", **options):
+    text = as_csv.analyses([analysis.analyze(subject, **options)], ["E"], SYSTEMS[system])
+    return {(r["cylinder"], r["quantity"], r["order"], r["figure"]): (r["value"], r["unit"]) for r in csv.DictReader(StringIO(text))}
+
+
+def test_inner_and_guide_as_rows():
+    """Every figure of the JSON, places numbered, with their positions."""
+    subject = built([0, 180, 180, 0])
+    found, wanted = rows(subject, only=["inner", "guide"], orders=[1, 2]), document(subject, only=["inner", "guide"], orders=[1, 2])
+    section, bearing = wanted["inner"]["sections"][1], wanted["inner"]["bearings"][4]
+    assert found["0", "shear 2", "", "position"] == (str(section["position_mm"]), "mm")
+    assert found["0", "shear 2", "", "peak"] == (str(section["shear_N"]["peak"]), "N")
+    assert found["0", "bending 2", "1", "major"] == (str(section["bending_Nm"]["orders"][0]["major"]), "N·m")
+    assert found["0", "bearing 5", "2", "x_amplitude"] == (str(bearing["load_N"]["orders"][1]["x"]["amplitude"]), "N")
+    assert ("0", "shear 5", "", "peak") not in found
+    h = wanted["guide"]["orders"][1]["h_Nm"]
+    assert found["0", "guide_h", "2", "sin"] == (str(h["sin"]), "N·m")
+    assert found["0", "guide_x", "1", "balanced"] == ("true", "")
+    assert not [key for key in rows(built([0]), only=["guide"], orders=[1]) if key[1] == "guide_x"]
+
+
+def test_strokes_and_reasons_as_rows():
+    subject = engine.build(enginefile.parse(RADIAL))
+    found = rows(subject, "imperial", only=["force"], orders=[1], reasons=True)
+    value, unit = found["1", "travel", "", "stroke"]
+    assert (float(value), unit) == (pytest.approx(0.12 / 0.0254), "in")
+    assert float(found["3", "travel", "", "top_deg"][0]) == pytest.approx(-float(found["6", "travel", "", "top_deg"][0]))
+    (reason,) = document(subject, only=["force"], orders=[1], reasons=True)["why"]["reasons"]
+    assert found["0", "force", "1", "why"] == (reason["verdict"], "")
+    assert found["0", "force", "1", "why_size"] == (str(reason["size"]), "of one cylinder")
 
 
 def test_for_people():

@@ -1,4 +1,4 @@
-"""Inner moments, guide-force moments, strokes and dead centres: as parts of a sheet and of the JSON."""
+"""Inner moments, guide-force moments, strokes and dead centres: as parts of a sheet, of the JSON and as rows."""
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .figures import clean, order_number, scalar, vector
+from .figures import Row, clean, order_number, order_rows, peak_rows, scalar, vector
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from ..core.travel import Travel
     from ..guide import Guide
     from ..inner import Along, Inner
+    from ..why import Why
     from .sheet import Facts, Grid
     from .units import System, Unit
 
@@ -60,6 +61,53 @@ def _guide(guide: Guide) -> list[dict[str, Any]]:
 def _rows(result: Analysis) -> list[tuple[int, int]]:
     """Cylinder numbers in order, with their rows."""
     return sorted((number, row) for row, number in enumerate(result.engine.numbers))
+
+
+# ------------------------------------------------------------------ rows
+def rows(result: Analysis, system: System) -> Iterator[Row]:
+    """The same one figure a row, and what `--why` says. Places along the crank are numbered: `shear 1` has its position as a figure."""
+    if result.travel is not None:
+        yield from _travel_rows(result, result.travel, system.length)
+    if result.inner is not None:
+        yield from _along_rows("shear", result.inner.shear, system.force, system.length)
+        yield from _along_rows("bending", result.inner.bending, system.moment, system.length)
+        if result.inner.bearings is not None:
+            yield from _along_rows("bearing", result.inner.bearings, system.force, system.length)
+    if result.guide is not None:
+        yield from _guide_rows(result.guide, system.moment)
+    if result.why is not None:
+        yield from _why_rows(result.why)
+
+
+def _travel_rows(result: Analysis, travel: Travel, length: Unit) -> Iterator[Row]:
+    for n, row in _rows(result):
+        yield Row(n, "travel", None, "stroke", clean(length.of(travel.stroke[row])), length.name)
+        yield Row(n, "travel", None, "top_deg", clean(travel.top_deg[row]), "deg")
+        yield Row(n, "travel", None, "bottom_deg", clean(travel.bottom_deg[row]), "deg")
+
+
+def _guide_rows(guide: Guide, unit: Unit) -> Iterator[Row]:
+    for k, entry in enumerate(_guide(guide)):
+        for key, name in (("h_Nm", "guide_h"), ("x_Nm", "guide_x")):
+            if key in entry:
+                yield from order_rows(name, guide.h.orders[k], entry[key], unit)
+
+
+def _why_rows(why: Why) -> Iterator[Row]:
+    for reason in why.reasons:
+        yield Row(0, reason.quantity, reason.order, "why", reason.verdict, "")
+        yield Row(0, reason.quantity, reason.order, "why_size", clean(reason.size), "of one cylinder")
+    if why.firing:
+        yield Row(0, "firing", None, "why", why.firing, "")
+
+
+def _along_rows(name: str, along: Along, unit: Unit, length: Unit) -> Iterator[Row]:
+    for k, z in enumerate(along.z_m):
+        here, place = along.at(k), f"{name} {k + 1}"
+        yield Row(0, place, None, "position", clean(length.of(z)), length.name)
+        yield from peak_rows(place, along.peaks[k], unit)
+        for row, n in enumerate(here.orders):
+            yield from order_rows(place, n, vector(here, row), unit)
 
 
 # ------------------------------------------------------------------ a sheet

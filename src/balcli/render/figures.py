@@ -38,7 +38,7 @@ class Row(NamedTuple):
     quantity: str
     order: float | None
     figure: str
-    value: float | bool | None
+    value: float | bool | str | None
     unit: str
 
 
@@ -113,13 +113,21 @@ def rows(analysis: Result, system: System) -> Iterator[Row]:
         for k, order in enumerate(spectra.orders):
             for q, phasors in spectra.items():
                 unit = system.force if q == "force" else system.moment
-                entry = (vector if q in VECTORS else scalar)(phasors, k)
-                yield from (Row(cylinder, q, order_number(order), *figure) for figure in _flat(entry, unit))
-    pair: tuple[tuple[str, Unit, Peak | None], ...] = (("force", system.force, analysis.force), ("moment", system.moment, analysis.moment))
-    for q, unit, peak in pair:
+                yield from order_rows(q, order, (vector if q in VECTORS else scalar)(phasors, k), unit, cylinder)
+    for q, unit, peak in (("force", system.force, analysis.force), ("moment", system.moment, analysis.moment)):
         if peak is not None:
-            yield Row(0, q, None, "peak", clean(unit.of(peak.value)), unit.name)
-            yield Row(0, q, None, "peak_deg", clean(np.degrees(peak.theta)) if peak.value else None, "deg")
+            yield from peak_rows(q, peak, unit)
+
+
+def peak_rows(quantity: str, peak: Peak, unit: Unit) -> Iterator[Row]:
+    """The largest value over a revolution, and its crank angle."""
+    yield Row(0, quantity, None, "peak", clean(unit.of(peak.value)), unit.name)
+    yield Row(0, quantity, None, "peak_deg", clean(np.degrees(peak.theta)) if peak.value else None, "deg")
+
+
+def order_rows(quantity: str, order: float, entry: dict[str, Any], unit: Unit, cylinder: int = 0) -> Iterator[Row]:
+    """All figures of one order, as JSON has them."""
+    return (Row(cylinder, quantity, order_number(order), *figure) for figure in _flat(entry, unit))
 
 
 def _flat(entry: dict[str, Any], unit: Unit, prefix: str = "") -> Iterator[tuple[str, float | bool | None, str]]:

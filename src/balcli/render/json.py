@@ -70,14 +70,20 @@ def balance(result: Balance) -> dict[str, Any]:
     """`balcli.balance/1`."""
     remedy = result.remedy
     return {"format": "balcli.balance/1", "scheme": remedy.scheme, "order": remedy.order, **devices(remedy),
-            "reasons": list(remedy.reasons), "practical": [_practical(p) for p in result.practical], "details": _plain(remedy.details),
+            "reasons": list(remedy.reasons), "practical": [practical(p) for p in result.practical], "details": details(remedy),
             "before": after(result.before), "after": after(result.after)}
 
 
-def _practical(p: Practical) -> dict[str, float | None]:
+def practical(p: Practical) -> dict[str, float | None]:
+    """The workshop's figures of a device."""
     figures = {"unbalance_kg_m": p.unbalance, "mass_kg": p.mass, "radius_mm": p.radius * 1e3, "force_N": p.force, "speed_rpm": p.speed_rpm,
                "disc_radius_mm": p.disc_radius * 1e3, "disc_thickness_mm": p.disc_thickness * 1e3}
     return {key: clean(value) for key, value in figures.items()} | ({} if p.depth is None else {"drill_depth_mm": clean(p.depth * 1e3)})
+
+
+def details(remedy: Remedy) -> dict[str, Any]:
+    """Figures of a scheme that are no device."""
+    return {key: _plain(value) for key, value in remedy.details.items()}
 
 
 def _plain(value: Any) -> Any:
