@@ -166,6 +166,15 @@ def test_list_of_tables():
     assert {t["name"]: t["errata"] for t in document()} == ERRATA
 
 
+def test_words_are_folded_in_a_pipe_and_figures_are_not():
+    listed = run().stdout
+    assert max(map(len, listed.splitlines())) <= 130
+    assert {word for t in document() for word in (t["title"] + " " + t["source"]).split()} <= set(listed.split())
+    figures = run("layouts").stdout.splitlines()
+    assert len([line for line in figures if line.startswith("i4 ")]) == 1
+    assert max(map(len, figures)) > 200
+
+
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("form", ["table", "json", "csv", "markdown"])
 def test_every_table_in_every_format(name, form):

@@ -54,7 +54,8 @@ def table_sheet(table: Table, digits: int | None = None) -> Sheet:
     """Source, the table as printed, and how many figures deviate."""
     rows = tuple(tuple(_shown(table, i, j, digits) for j in range(len(table.columns))) for i in range(len(table.rows)))
     wrong = frozenset((e.row, table.columns.index(e.column)) for e in table.errata)
-    grid = Grid("", table.columns, rows, note=count(table), marked=wrong)
+    words = tuple(j for j in range(len(table.columns)) if j == 0 or all(_is_word(row[j]) for row in table.rows))
+    grid = Grid("", table.columns, rows, note=count(table), marked=wrong, words=words)
     return Sheet(f"{table.name}: {table.title}", (Facts((("source", table.source),)), grid))
 
 
@@ -73,7 +74,7 @@ def errata_sheet(tables: Iterable[Table]) -> Sheet:
     """All errata, and their number."""
     rows = tuple(_errata(tables))
     note = f"{len(rows)} printed figures are not the exact ones rounded"
-    return Sheet("Errata", (Grid("", ERRATA, rows, note=note),))
+    return Sheet("Errata", (Grid("", ERRATA, rows, note=note, words=(0, 1, 2, 5)),))
 
 
 def names_sheet(tables: Iterable[Table]) -> Sheet:
@@ -98,6 +99,10 @@ def _shown(table: Table, i: int, j: int, digits: int | None) -> str:
     value, text = table.rows[i][j], table.printed[i][j]
     shown = _cell(value, text, None if j < table.stub else digits)
     return f"{shown} ≠ {text}" if text is not None and deviates(value, text) else shown
+
+
+def _is_word(cell: Cell) -> bool:
+    return isinstance(cell, str) and figure(cell) is None and rational(cell) is None
 
 
 def _cell(value: Cell, text: str | None, digits: int | None) -> str:

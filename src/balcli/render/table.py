@@ -1,4 +1,4 @@
-"""A sheet for the terminal, or as plain text of unlimited width where the output is no terminal."""
+"""A sheet for the terminal, or as plain text, with figures of unlimited width, where the output is no terminal."""
 from __future__ import annotations
 
 import sys
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 UNLIMITED = 100_000
+PROSE = 50                      # width at which columns of words are folded where no terminal has one; figures never are
 
 
 def seen(into_file: bool) -> bool:
@@ -22,7 +23,7 @@ def seen(into_file: bool) -> bool:
 
 
 def terminal(sheets: list[Sheet], *, into_file: bool = False) -> str:
-    """All sheets as text: with colours and folded to the width where a person looks at a terminal, else plain and unfolded."""
+    """All sheets as text: with colours and folded to the width where a person looks at a terminal, else plain and as wide as they are."""
     from rich.console import Console
     from rich.text import Text as Line
 
@@ -62,6 +63,8 @@ def _fitting(grid: Grid, width: int) -> Iterator[Table]:
     """The table as wide as it likes to be, else narrowed; figures are never broken, so one that is still too wide comes in
     pieces, each with the first column."""
     natural = [max(map(len, _texts(grid, k))) for k in range(len(grid.columns))]
+    if width == UNLIMITED:
+        natural = [min(size, PROSE) if k and k in grid.words else size for k, size in enumerate(natural)]
     for gap in (3, 2):
         if sum(natural) + gap * (len(natural) - 1) <= width:
             yield _grid(grid, dict(enumerate(natural)), gap)
