@@ -42,3 +42,26 @@ def test_force_and_moment_of_one_order() -> None:
     none, some = (Phasors(orders, *np.array(v, complex).reshape(2, 1), np.zeros(1)) for v in ((0, 0), (7, 0)))
     assert verdict(Spectra(orders, force=none, moment=some), SI) == (
         "First order: moment of 7 N·m, turning with the crank: counterweights on the crankshaft cancel it. No force.",)
+
+
+LINES = {"free": ("First order: free of force and moment.", "Second order: free of force and moment.")}
+
+
+@pytest.mark.parametrize(("force", "moment", "told"), [
+    ({}, {}, LINES["free"]),
+    ({6: 0.004}, {6: 0.5, 12: 0.6}, (
+        *LINES["free"], "Higher orders: negligible, at most a force of 0.008 N in order 6 and a moment of 1.2 N·m in order 12.")),
+    ({12: 1e-5}, {}, (*LINES["free"], "Higher orders: negligible, at most a force of 2e-5 N in order 12.")),
+    ({2: 0.4, 4: 0.3}, {}, (LINES["free"][0], "Second order: force of up to 0.8 N, negligible. No moment.",
+                            "Higher orders: negligible, at most a force of 0.6 N in order 4.")),
+    ({4: 0.3, 6: 30}, {}, (*LINES["free"], "Sixth order: force up to 60 N; rarely balanced, it would take shafts at 6 times crank speed.")),
+])
+def test_what_is_small_beside_one_cylinder_is_negligible(force: dict, moment: dict, told: tuple[str, ...]) -> None:
+    """A cylinder makes 1000 N and 2000 N m; vectors of equal size turn both ways."""
+    orders = np.array([1.0, 2, 4, 6, 12])
+
+    def phasors(sizes: dict) -> Phasors:
+        v = np.array([sizes.get(int(n), 0) for n in orders], complex)
+        return Phasors(orders, v, v, np.zeros(5))
+    found = Spectra(orders, force=phasors(force), moment=phasors(moment))
+    assert verdict(found, SI, {"force": 1000.0, "moment": 2000.0}) == told

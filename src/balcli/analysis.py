@@ -126,6 +126,14 @@ def textbook(engine: Engine, orders: Array) -> Textbook:
     )
 
 
+def of_one_cylinder(engine: Engine) -> dict[str, float]:
+    """Force of cylinder 1's piston and rod end, `m r omega^2` (N), and its moment over the length of the crank (N m): what is
+    small beside them is small."""
+    masses = engine.weighed[engine.numbers.index(1)]
+    force = float((masses.piston + masses.small_end) * engine.cylinders.radius * engine.omega**2)
+    return {"force": force, "moment": force * float(np.ptp(engine.throws_m))}
+
+
 def _extras(engine: Engine, asked: Array | None, wanted: Collection[str]) -> dict[str, Any]:
     """What is computed only where it is asked for, or where the engine has it."""
     found: dict[str, Any] = {}

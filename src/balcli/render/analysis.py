@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..analysis import Analysis, Sizing, Textbook, textbook
+from ..analysis import Analysis, Sizing, Textbook, of_one_cylinder, textbook
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
 from ..engine import Engine
@@ -26,14 +26,14 @@ def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
     parts: list[Grid | Facts | Text] = [facts(engine, system)]
     parts += order_by_order(spectra, system)
     if spectra.force is not None or spectra.moment is not None:
-        parts += [*_textbook(spectra, textbook(engine, spectra.orders), system)]
+        parts += _textbook(spectra, textbook(engine, spectra.orders), system)
     if result.force is not None:
         parts.append(largest(result, system, "Largest over a revolution, all orders"))
     parts += [_share(n, share, system) for n, share in result.cylinders]
     if result.inner is not None or result.guide is not None or result.travel is not None:
         from .extras import parts as extras
         parts += extras(result, system)
-    if found := verdict(spectra, system):
+    if found := verdict(spectra, system, of_one_cylinder(engine)):
         parts.append(Text("Verdict", found))
     if result.why is not None:
         parts.append(Text("Why", result.why.sentences))
