@@ -66,6 +66,15 @@ class Analysis:
     def orders(self) -> Array:
         return self.spectra.orders
 
+    @property
+    def of_one_cylinder(self) -> dict[str, float]:
+        """Force of cylinder 1's piston and rod end, `m r omega^2` (N), and its moment over the length of the crank (N m): what
+        is small beside them is small."""
+        engine = self.engine
+        masses = engine.weighed[engine.numbers.index(1)]
+        force = float((masses.piston + masses.small_end) * engine.cylinders.radius * engine.omega**2)
+        return {"force": force, "moment": force * float(np.ptp(engine.throws_m))}
+
 
 def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collection[str] | None = None,
             by_cylinder: bool = False, reasons: bool = False) -> Analysis:
@@ -124,14 +133,6 @@ def textbook(engine: Engine, orders: Array) -> Textbook:
         float(np.ptp(throws) / (len(throws) - 1)) if len(throws) > 1 else float("nan"),
         np.abs(series.c[:, 0]), engine.equal,
     )
-
-
-def of_one_cylinder(engine: Engine) -> dict[str, float]:
-    """Force of cylinder 1's piston and rod end, `m r omega^2` (N), and its moment over the length of the crank (N m): what is
-    small beside them is small."""
-    masses = engine.weighed[engine.numbers.index(1)]
-    force = float((masses.piston + masses.small_end) * engine.cylinders.radius * engine.omega**2)
-    return {"force": force, "moment": force * float(np.ptp(engine.throws_m))}
 
 
 def _extras(engine: Engine, asked: Array | None, wanted: Collection[str]) -> dict[str, Any]:

@@ -59,8 +59,9 @@ def _summed(engine: Engine, crank_deg: Array, parts: Callable[[Array], dict[str,
     """Curves by their parts, over so many angles at a time that memory does not grow with both cylinders and angles."""
     noise = {name: 8 * len(some) * EPS * float(np.abs(some).sum(axis=0).max()) for name, some in parts(_EVERYWHERE).items()}
     step = max(AT_ONCE // engine.cylinders.count, 1)
-    pieces = [parts(crank_deg[k:k + step]) for k in range(0, max(len(crank_deg), 1), step)]
-    curves = {name: np.concatenate([piece[name].sum(axis=0) for piece in pieces]) for name in noise}
+    pieces = [{name: some.sum(axis=0) for name, some in parts(crank_deg[k:k + step]).items()}
+              for k in range(0, max(len(crank_deg), 1), step)]
+    curves = {name: np.concatenate([piece[name] for piece in pieces]) for name in noise}
     return Curves(engine.name, float(engine.speed_rpm), crank_deg, MappingProxyType(
         {name: np.where(np.abs(curve) <= noise[name], 0.0, curve) for name, curve in curves.items()}))
 

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..analysis import Analysis, Sizing, Textbook, of_one_cylinder, textbook
+from ..analysis import Analysis, Sizing, Textbook, textbook
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
 from ..engine import Engine
@@ -33,7 +33,7 @@ def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
     if result.inner is not None or result.guide is not None or result.travel is not None:
         from .extras import parts as extras
         parts += extras(result, system)
-    if found := verdict(spectra, system, of_one_cylinder(engine)):
+    if found := verdict(spectra, system, result.of_one_cylinder):
         parts.append(Text("Verdict", found))
     if result.why is not None:
         parts.append(Text("Why", result.why.sentences))
