@@ -124,7 +124,8 @@ def test_engines_without_a_name_go_by_their_files(file, tmp_path):
 
 @pytest.mark.parametrize(("options", "message"), [
     (["--at", "0,1"], '--at "0,1": give three numbers, X,Y,Z in mm, such as 0,300,0'),
-    (["--at", "0,nan,1"], '--at "0,nan,1": the places must be finite, up to 1e+06 m'),
+    (["--at", "0,nan,1"], '--at "0,nan,1": give three numbers, X,Y,Z in mm, such as 0,300,0'),
+    (["--at", "0,2e9,1"], '--at "0,2e9,1": the places may be up to 1e+06 m'),
     (["--phase", "inf"], "--phase inf: give an angle in degrees, up to 1e+06"),
 ])
 def test_mistakes(file, options, message):

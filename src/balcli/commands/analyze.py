@@ -5,7 +5,8 @@ from typing import Annotated
 
 import typer
 
-from .options import EngineFiles, Format, FormatOption, Only, Orders, Output, Speed, Units, UnitsOption, checked_speed, order_list
+from ..render.formats import Format, Units
+from .options import EngineFiles, FormatOption, Only, Orders, Output, Speed, UnitsOption, checked_speed, only_list, order_list
 
 
 def analyze(
@@ -28,8 +29,7 @@ def analyze(
 
     if by not in ("", "cylinder"):
         raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")
-    chosen = None if only is None else [word.strip() for word in only.split(",")]
-    asked, rpm = order_list(orders), checked_speed(speed)
+    asked, chosen, rpm = order_list(orders), only_list(only), checked_speed(speed)
     found, errors = each(files, lambda file: (file, analyzed(engine_of(file, rpm)[1], asked, chosen, by_cylinder=bool(by), reasons=why)))
     if found and not (errors and output):               # a file gets all of them or is left as it was
         good, results = zip(*found, strict=True)

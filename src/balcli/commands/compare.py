@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from ..render.formats import Format, Units
-from .options import EngineFiles, FormatOption, Only, Orders, Output, Speed, UnitsOption, checked_speed, order_list
+from .options import EngineFiles, FormatOption, Only, Orders, Output, Speed, UnitsOption, checked_speed, only_list, order_list
 
 
 def compare(
@@ -24,7 +24,6 @@ def compare(
 
     rpm, asked = checked_speed(speed), order_list(orders)
     engines = [engine_of(file, rpm)[1] for file in files]
-    chosen = None if only is None else [word.strip() for word in only.split(",")]
-    found = compared(engines, distinct([engine.name for engine in engines], files), asked, chosen)
+    found = compared(engines, distinct([engine.name for engine in engines], files), asked, only_list(only))
     emit(render(format, sheets=lambda: [rendered.sheet(found, SYSTEMS[units])], documents=lambda: [rendered.document(found)],
                 rows=lambda: rendered.rows(found, SYSTEMS[units]), into_file=output is not None), output)

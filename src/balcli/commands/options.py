@@ -1,6 +1,7 @@
 """Options that several commands share."""
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Annotated
 
@@ -45,6 +46,26 @@ def order_list(text: str | None) -> list[int] | None:
             raise BalcliError(f'--orders "{text}": {part.strip()} must rise and end at 4096 at most')
         orders += range(low, high + 1)
     return orders
+
+
+def only_list(text: str | None) -> list[str] | None:
+    """The words of `--only`."""
+    return None if text is None else [word.strip() for word in text.split(",")]
+
+
+def numbers(option: str, text: str, wanted: str, count: int | None = None) -> tuple[float, ...]:
+    """Finite numbers with commas between them (so many, if a count is given).
+
+    Raises:
+        BalcliError: anything else, with the text and what is wanted.
+    """
+    try:
+        found = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        found = ()
+    if not found or not all(map(math.isfinite, found)) or (count is not None and len(found) != count):
+        raise BalcliError(f'{option} "{text[:60]}": give {wanted}')
+    return found
 
 
 def checked_speed(speed: float | None) -> float | None:

@@ -1,15 +1,15 @@
 """Where the second engine of `balcli sum` stands."""
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 from ..errors import BalcliError
+from .options import numbers
 
 if TYPE_CHECKING:
     from ..combined import Arrangement
 
-MOST = 1e6                      # degrees; mm times 1000
+MOST = 1e6                      # degrees; metres
 
 
 def arrangement(phase: float, at: str, turn: float, reverse: bool) -> Arrangement:
@@ -27,10 +27,7 @@ def arrangement(phase: float, at: str, turn: float, reverse: bool) -> Arrangemen
 
 
 def _place(text: str) -> tuple[float, float, float]:
-    try:
-        x, y, z = (float(part) / 1e3 for part in text.split(","))
-    except ValueError:
-        raise BalcliError(f'--at "{text[:60]}": give three numbers, X,Y,Z in mm, such as 0,300,0') from None
-    if not all(math.isfinite(v) and abs(v) <= MOST for v in (x, y, z)):
-        raise BalcliError(f'--at "{text[:60]}": the places must be finite, up to {MOST:g} m')
+    x, y, z = (v / 1e3 for v in numbers("--at", text, "three numbers, X,Y,Z in mm, such as 0,300,0", 3))
+    if max(map(abs, (x, y, z))) > MOST:
+        raise BalcliError(f'--at "{text[:60]}": the places may be up to {MOST:g} m')
     return x, y, z

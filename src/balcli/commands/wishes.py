@@ -1,7 +1,6 @@
 """Options of `balance`, and what the schemes understand of them (SI)."""
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -11,6 +10,7 @@ import typer
 from ..errors import BalcliError
 from ..schemes import KNUCKLES, NAMES
 from . import completion
+from .options import numbers
 
 if TYPE_CHECKING:
     from ..balancing import Balance
@@ -56,7 +56,7 @@ def wish_of(order: int | None, at: Sequence[str] | None, position: str | None, p
     return Wish(
         order=order,
         at=tuple(map(_place, at)) if at else None,
-        position=None if position is None else _numbers("--position", position, "one place along z in mm, such as 40", 1)[0] / 1e3,
+        position=None if position is None else numbers("--position", position, "one place along z in mm, such as 40", 1)[0] / 1e3,
         planes=None if planes is None else _planes(planes),
         factor=None if factor is None else _factors(factor),
         roll=roll,
@@ -86,33 +86,23 @@ def shop_tools(radius: float | None, thickness: float | None, disc: float | None
 
 
 def _place(text: str) -> complex:
-    x, y = _numbers("--at", text, "x,y of a shaft in mm, such as -40,60", 2)
+    x, y = numbers("--at", text, "x,y of a shaft in mm, such as -40,60", 2)
     return complex(x / 1e3, y / 1e3)
 
 
 def _planes(text: str) -> str | tuple[float, ...]:
     if text in ("ends", "throws"):
         return text
-    return tuple(z / 1e3 for z in _numbers("--planes", text, "ends, throws, or places along z in mm, such as -200,200"))
+    return tuple(z / 1e3 for z in numbers("--planes", text, "ends, throws, or places along z in mm, such as -200,200"))
 
 
 def _factors(text: str) -> tuple[float, ...]:
     """`0.5`, `0.4,0.5` or `0:1:0.1` (ends included)."""
     wanted = "a share of the reciprocating mass such as 0.5, or a range such as 0:1:0.1"
     if ":" not in text:
-        return _numbers("--factor", text, wanted)
-    parts = [_numbers("--factor", part, wanted, 1)[0] for part in text.split(":")]
+        return numbers("--factor", text, wanted)
+    parts = [numbers("--factor", part, wanted, 1)[0] for part in text.split(":")]
     if len(parts) != 3 or parts[2] <= 0 or parts[1] < parts[0] or (parts[1] - parts[0]) / parts[2] > MOST_FACTORS:
         raise BalcliError(f'--factor "{text}": a range is first:last:step, rising, with at most {MOST_FACTORS} steps; give {wanted}')
     first, last, step = parts
     return tuple(round(first + k * step, 12) for k in range(int((last - first) / step + 1e-9) + 1))
-
-
-def _numbers(option: str, text: str, wanted: str, count: int | None = None) -> tuple[float, ...]:
-    try:
-        found = tuple(float(part) for part in text.split(","))
-    except ValueError:
-        found = ()
-    if not found or not all(map(math.isfinite, found)) or (count is not None and len(found) != count):
-        raise BalcliError(f'{option} "{text[:60]}": give {wanted}')
-    return found
