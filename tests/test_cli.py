@@ -337,6 +337,13 @@ def test_a_pipe_gets_no_escape_codes_and_no_width(balcli, monkeypatch):
     assert not any(line != line.rstrip() for line in table.splitlines())
 
 
+def test_headings_of_rows_stay_whole_in_a_narrow_terminal(balcli, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.setattr("balcli.render.table.seen", lambda into_file: True)
+    out = balcli("compare", *(ROOT / "engines" / f"{name}.toml" for name in ("i3", "i4", "i5", "i6")), "--orders", "1,2")[1]
+    assert re.findall(r"(?m)^order \d", ESCAPE.sub("", out)) == ["order 1", "order 2"] * 5
+
+
 @pytest.mark.parametrize("columns", [80, 140])
 @pytest.mark.parametrize("name", ["v8_crossplane", "vr6", "radial9", "w12", "i4_shafts", "single", "tsinghua_12v135q"])
 def test_a_terminal_gets_lines_of_its_width(balcli, monkeypatch, name, columns):

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -96,6 +97,10 @@ def test_for_people(tmp_path):
     text = run(file, "--even", "strokes", "--speed", "2000").stdout
     assert "What is changed, and why" in text
     assert "strokes equal to the master's" in text
+    even = run(file).stdout
+    assert re.search(r"(?m)^knuckle angles  0\.0, .* deg$", even)
+    assert re.search(r"(?m)^stroke least    120 mm$", even)
+    assert re.search(r"(?m)^top least       0\.000 deg$", even)                # and no rounding noise
 
 
 @pytest.mark.parametrize(("options", "message"), [

@@ -99,20 +99,27 @@ def _details(details: Mapping[str, Any], system: System) -> Iterator[Grid | Fact
 
 
 def _facts(key: str, value: Any, system: System) -> Iterator[tuple[str, str]]:
+    ending = next((f"_{e}" for e in (*_UNITS, "deg") if key.endswith(f"_{e}")), "")
+    stem = key.removesuffix(ending)
     if isinstance(value, Mapping):
         for name, part in value.items():
-            yield from _facts(f"{key} {name}", part, system)
+            yield from _facts(f"{stem} {name}{ending}", part, system)
         return
-    words = key.replace("_", " ")
+    words = stem.replace("_", " ")
     if isinstance(value, list):
-        yield words, ", ".join(degrees(v) for v in value)
+        yield words, f"{', '.join(map(degrees, value))} deg"
     elif isinstance(value, float):
-        ending = next((e for e in _UNITS if key.endswith(f"_{e}")), "")
-        unit = getattr(system, _UNITS[ending]) if ending else Unit("", 1.0)
-        si = value / 1e3 if ending == "mm" else value
-        yield words.removesuffix(ending.replace("_", " ")).strip(), f"{number(unit.of(si))} {unit.name}".strip()
+        yield words, _sized(value, ending[1:], system)
     else:
         yield words, str(value)
+
+
+def _sized(value: float, ending: str, system: System) -> str:
+    """A figure with the unit that the end of its name tells."""
+    if ending == "deg":
+        return f"{value + 0.0:.3f} deg".replace("-0.000", "0.000")
+    unit = getattr(system, _UNITS[ending]) if ending else Unit("", 1.0)
+    return f"{number(unit.of(value / 1e3 if ending == 'mm' else value))} {unit.name}".strip()
 
 
 def _card(card: list[dict[str, Any]]) -> Grid:

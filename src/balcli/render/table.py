@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 UNLIMITED = 100_000
+LABEL = 12                      # width up to which the headings of rows (`order 10`) are not folded either
 PROSE = 50                      # width at which columns of words are folded where no terminal has one; figures never are
 
 
@@ -71,6 +72,7 @@ def _fitting(grid: Grid, width: int) -> Iterator[Table]:
             return
     grid = replace(grid, columns=tuple(name.replace("_", " ") for name in grid.columns))        # may be broken into lines
     least = [max((len(word) for text in _texts(grid, k) for word in text.split()), default=1) for k in range(len(grid.columns))]
+    least[0] = max(least[0], min(natural[0], LABEL))
     piece = [0]
     for k in range(1, len(least)):
         if len(piece) > 1 and sum(least[j] for j in [*piece, k]) + 2 * len(piece) > width:
