@@ -97,3 +97,34 @@ def test_percentiles_are_those_of_the_samples() -> None:
     median = 0.01 * (2 - math.sqrt(2)) * whole          # of a triangular distribution on [0, 2t], densest at 0
     assert result.spreads[0].percentiles["p50"] == pytest.approx(median, rel=0.02)
     assert np.isfinite(result.spreads[0].mean)
+
+
+ARTICULATED = """\
+[crank]
+stroke = 120
+[rod]
+length = 240
+mass = 1.9
+cg = 55
+[piston]
+mass = 1.3
+[layout]
+radial = 5
+[articulation]
+knuckle_radius = 52
+rod = { length = 188, mass = 0.62, cg = 30 }
+"""
+
+
+def test_an_articulated_rods_mass_deviates_at_its_knuckle_pin_too() -> None:
+    def force(text: str) -> float:
+        return float(evaluate(build(load(text)), parse("force.1.major"))[0])
+    heavier = force(ARTICULATED + "[cylinder.3]\nrod_mass = 0.6231\nrod_cg = 30\n") - force(ARTICULATED)
+    (found,) = scatter(load(ARTICULATED), Tolerances(mass=0.005), parse("force.1.major"), 10, 1).spreads
+    assert {s.name: share for s, share in found.shares}["rod mass 3"] == pytest.approx(heavier, rel=1e-3)
+
+
+def test_rotary_engines_have_no_scatter() -> None:
+    rotary = ARTICULATED[:ARTICULATED.index("[articulation]")] + "rotary = true\n"
+    with pytest.raises(BalcliError, match="there is no scatter of rotary engines, whose masses move on curves"):
+        scatter(load(rotary), Tolerances(mass=0.005), parse("force.1.major"), 10, 1)

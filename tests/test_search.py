@@ -5,7 +5,7 @@ from itertools import permutations
 
 import numpy as np
 import pytest
-from kit import GOOD, changed
+from kit import GOOD, changed, engine_text
 
 from balcli.engine import build
 from balcli.enginefile import parse as load
@@ -15,6 +15,7 @@ from balcli.parameters import varied
 from balcli.quantity import evaluate, parse
 from balcli.search import fires_evenly, objective, search
 from balcli.search.cranks import best
+from balcli.search.shares import shares
 from balcli.search.write import arranged
 
 NO_ORDER = ("[layout]\nfiring_order = [1, 3, 4, 2]\n", "")
@@ -164,3 +165,18 @@ def test_written_file_drops_a_firing_order_that_no_longer_fits() -> None:
     assert new.crank.throws == (0, 0, 180, 180)
     assert new.layout.firing_order is None
     build(new)
+
+
+ARTICULATED = engine_text(
+    crank="stroke = 100\nthrows = [0, 100, 190, 250]\nspacing = 100", rod="length = 200\nmass = 1\ncg = 60", layout="banks = [-50, 10, 60]",
+    articulation="knuckle_radius = 40\nrod = { length = 160, mass = 0.9, cg = 20 }")
+
+
+def test_articulated_rods_count_once_for_their_throw() -> None:
+    """The shares of all throws add up to the whole."""
+    file, quantities = load(ARTICULATED), parse("force.1.major,moment.2.major")
+    angles = np.array([0.0, 100, 190, 250])
+    found = shares(file, angles, 0, quantities)
+    for q, whole in zip(quantities, evaluate(build(file), quantities), strict=True):
+        forward, backward = found[q.kind, q.order].sums(range(4), np.array([[0, 1, 2, 3]], np.int8))
+        assert found[q.kind, q.order].value(q, forward, backward)[0] == pytest.approx(float(whole), rel=1e-9)

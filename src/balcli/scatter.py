@@ -119,6 +119,8 @@ def scatter(file: EngineFile, tolerances: Tolerances, quantities: Sequence[Quant
         raise BalcliError(f"{strange[0]} has no scatter of its own; choose one of {', '.join(SPREADS)} of an order, such as force.1.major")
     if not 1 <= samples <= MOST:
         raise BalcliError(f"{samples} samples: from 1 to {MOST} are allowed")
+    if file.layout.rotary:
+        raise BalcliError("there is no scatter of rotary engines, whose masses move on curves: vary single masses with sweep")
     crowd = _Crowd(file, tolerances)
     if not crowd.sources:
         raise BalcliError("nothing deviates; give a tolerance, such as --mass-scatter 0.5%")
@@ -175,7 +177,7 @@ class _Crowd:
         changed = replace(
             c, reciprocating=c.reciprocating + piston * self._pistons + rod * small, rotating=c.rotating + web * self._webs + rod * big,
             couple=c.couple * (1 + rod), lam=c.lam / (1 + length), eps=c.eps / (1 + length),
-            pin_deg=c.pin_deg + angle)
+            pin_deg=c.pin_deg + angle, linkage=c.linkage and replace(c.linkage, mass=c.linkage.mass * (1 + rod)))
         return replace(self._engine, cylinders=changed)
 
     def _of_cylinders(self, what: str, deviations: Array) -> Array:

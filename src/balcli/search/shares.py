@@ -73,4 +73,5 @@ def _moving(engine: Engine, which: Sequence[bool]) -> Engine:
     """The engine with the masses of some cylinders alone, and no devices."""
     c, here = engine.cylinders, np.array(which, float)[:, None]
     masses = {key: here * getattr(c, key) for key in ("reciprocating", "rotating", "couple")}
-    return replace(engine, devices=(), cylinders=replace(c, **masses))
+    linkage = c.linkage and replace(c.linkage, mass=here * c.linkage.mass)
+    return replace(engine, devices=(), cylinders=replace(c, linkage=linkage, **masses))
