@@ -32,7 +32,8 @@ ARTICULATED = UNEVEN.replace("piston =", """layout = { banks = [0, 75, -80] }
 articulation = { knuckle_radius = 35, rod = { length = 105, mass = 0.4, cg = 50, inertia = 900 } }
 piston =""")
 ROTARY = UNEVEN.replace("piston =", "layout = { banks = [0, 100, -80], rotary = true }\npiston =")
-TEXTS = {"uneven": UNEVEN, "articulated": ARTICULATED, "rotary": ROTARY}
+HUNG = ARTICULATED.replace("80] }", "80], rotary = true }")
+TEXTS = {"uneven": UNEVEN, "articulated": ARTICULATED, "rotary": ROTARY, "rotary with a master rod": HUNG}
 
 
 def engine(name):

@@ -5,8 +5,12 @@ import numpy as np
 import pytest
 
 from balcli import engine, enginefile, spectrum
+from balcli.analysis import analyze
 from balcli.core.travel import travel
-from balcli.errors import InputError
+from balcli.errors import BalcliError, InputError
+from balcli.knuckles import even_knuckles
+from balcli.render.scene import scene
+from balcli.render.units import SYSTEMS
 
 GNOME = """\
 [crank]
@@ -91,12 +95,43 @@ def test_true_or_false(layout, message):
     assert [str(p) for p in caught.value.problems] == [message]
 
 
-def test_no_articulated_rods():
-    more = "[articulation]\nknuckle_radius = 50\nrod = { length = 180 }\n"
+ARTICULATED = "[articulation]\nknuckle_radius = {radius}\nrod = {{ length = {length}, mass = 0.9, cg = {cg}, inertia = 7000 }}\n"
+
+
+def test_a_master_rod_with_knuckle_pins_nearly_on_the_crank_pin_is_no_master_rod():
+    orders = np.arange(1.0, 15.0)
+    equal, hung = (spectrum.spectra(built(offset=4, more=more), orders)
+                   for more in ("", ARTICULATED.format(radius=1e-9, length=230, cg=70)))
+    for (quantity, wanted), (_, found) in zip(equal.items(), hung.items(), strict=True):
+        assert np.abs(found.forward - wanted.forward).max() < 1e-6, quantity                # N, N m; a cylinder makes thousands
+        assert np.abs(found.backward - wanted.backward).max() < 1e-6, quantity
+
+
+def test_articulated_rods_leave_orders_that_equal_rods_do_not():
+    found = spectrum.spectra(built(more=ARTICULATED.format(radius=48, length=184, cg=60)), [1.0, 2, 3], ["force"]).force
+    assert found is not None
+    assert not found.balanced.any()
+
+
+def test_an_articulated_rod_that_is_too_short():
     with pytest.raises(InputError) as caught:
-        built(more=more)
-    assert [str(p) for p in caught.value.problems] == [
-        "articulation: the rods of a rotary engine are taken as equal, all on one pin: leave this table out"]
+        built(more=ARTICULATED.format(radius=48, length=60, cg=20))
+    assert all("the crank cannot turn: at crank angle" in p.message for p in caught.value.problems)
+
+
+def test_even_knuckles_are_not_for_rotary_engines():
+    file = enginefile.parse(GNOME.format(layout="radial = 7", offset=0) + ARTICULATED.format(radius=48, length=184, cg=60))
+    with pytest.raises(BalcliError) as caught:
+        even_knuckles(file)
+    assert str(caught.value) == "knuckles: this engine is rotary; even knuckle angles are looked for where the crank turns only"
+
+
+def test_the_page_has_the_knuckle_pins_of_turning_cylinders():
+    """As seen from the cylinder, in the mirror."""
+    subject = built(more=ARTICULATED.format(radius=48, length=184, cg=60))
+    third = next(c for c in scene(analyze(subject), None, SYSTEMS["si"])["cylinders"] if c["number"] == 3)
+    assert third["lead"] == pytest.approx(-720 / 7)
+    assert third["knuckle"] == pytest.approx([48 * np.cos(4 * np.pi / 7), -48 * np.sin(4 * np.pi / 7)])
 
 
 def test_variants_along_two_axes():

@@ -35,8 +35,6 @@ def mistakes(file: EngineFile, layout: Plan) -> Iterator[Problem]:
     if fault:
         yield fault
         return
-    if file.layout.rotary:
-        yield Problem("articulation", "the rods of a rotary engine are taken as equal, all on one pin: leave this table out")
     yield from _wrong_angles(file.articulation, len(layout.banks))
     if np.any(np.asarray(file.crank.splay) != 0):
         yield Problem("crank.splay", "articulated rods hang on the master rod and have no crank pins to split: "
@@ -80,19 +78,20 @@ def linkage(file: EngineFile, layout: Plan, numbers: Sequence[int], axis: Mappin
     from .core.phasors import unit
 
     chief = masters(file, layout)
+    sense = -1 if file.layout.rotary else 1             # seen from turning cylinders, all angles are in the mirror (core.rotary)
     bank = {c.number: c.bank for c in layout.cells}
 
     def pin(n: int) -> Any:
         if n not in chief:
             return 0j
         angle = table.knuckle_angles[bank[n]] if table.knuckle_angles else axis[n] - axis[chief[n]]
-        return table.knuckle_radius / (file.crank.stroke / 2) * unit(angle)
+        return table.knuckle_radius / (file.crank.stroke / 2) * unit(sense * angle)
 
     return Articulated(
         mass=column([m if n in chief else 0.0 for n, m in zip(numbers, on_knuckle, strict=True)], rank),
         master=np.array([numbers.index(chief.get(n, n)) for n in numbers]),
         knuckle=column([pin(n) for n in numbers], rank),
-        lead_deg=column([axis[n] - axis[chief.get(n, n)] for n in numbers], rank))
+        lead_deg=column([sense * (axis[n] - axis[chief.get(n, n)]) for n in numbers], rank))
 
 
 def locked(file: EngineFile, c: Cylinders, numbers: Sequence[int]) -> Iterator[Problem]:
@@ -101,15 +100,17 @@ def locked(file: EngineFile, c: Cylinders, numbers: Sequence[int]) -> Iterator[P
         return
     from .core.articulated import Articulated
     from .core.linkage import revolution
+    from .core.rotary import Rotary
 
-    linkage = cast(Articulated, c.linkage)
+    linkage = c.linkage
+    hung = cast(Articulated, linkage.hung if isinstance(linkage, Rotary) else linkage)
     with np.errstate(invalid="ignore"):                                     # beyond 1 there is no angle
         leans = np.abs(linkage.motion(revolution(_STEPS), c.lam, c.eps).lean).reshape(len(numbers), -1, _STEPS).max(axis=1)
     turned = c.angle_deg.reshape(len(numbers), -1)[:, 0]
     for row, number in enumerate(numbers):
         worst = int(leans[row].argmax())
         lean = leans[row, worst] + _rise(leans[row], worst)
-        if linkage.master[row] != row and lean > 1 - NEAREST_TO_LOCK:
+        if hung.master[row] != row and lean > 1 - NEAREST_TO_LOCK:
             yield _lock(file, number, lean, (360 / _STEPS * worst - turned[row]) % 360)
 
 

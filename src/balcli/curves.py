@@ -122,7 +122,7 @@ class _Motion:
         else:
             self.linked = m = c.linkage.motion(self.psi, np.ravel(c.lam), np.ravel(c.eps))
             self.v, self.a, self.spin, self.spin_rate = -m.velocity, -m.acceleration, m.spin, m.spin_rate
-            self.mass = _column(c.linkage.mass)                             # what moves on the curve z
+            self.mass = _column(c.linkage.mass)                             # what moves on curves
 
     def travel(self) -> Array:
         """Of the pistons, from their top dead centres, in crank radii."""
@@ -155,7 +155,7 @@ def _forces(engine: Engine, motion: _Motion) -> tuple[Complex, Array]:
     piston: Complex = _column(c.reciprocating) * r * (w2 * motion.a + xi * motion.v) * motion.axis
     pins = _column(c.rotating) * r * (w2 - 1j * xi) * crank
     if (m := motion.linked) is not None:
-        piston = piston - motion.mass * r * (w2 * m.z2 + xi * m.z1) * motion.axis
+        piston = piston - motion.mass * r * (w2 * m.acceleration_of_mass + xi * m.velocity_of_mass) * motion.axis
     rows = [*(piston + pins)]
     for d in engine.devices:
         ahead = unit(d.order * motion.crank_deg)
@@ -171,8 +171,8 @@ def _couple(engine: Engine, motion: _Motion) -> Array:
     h = pull * motion.v + _column(c.rotating) * r**2 - _column(c.couple) * motion.spin
     slope = pull * motion.a - _column(c.couple) * motion.spin_rate
     if (m := motion.linked) is not None:
-        h = h + motion.mass * r**2 * (np.conj(m.z) * m.z1).imag
-        slope = slope + motion.mass * r**2 * (np.conj(m.z) * m.z2).imag
+        h = h + motion.mass * r**2 * m.swirl
+        slope = slope + motion.mass * r**2 * m.swirl_rate
     return np.asarray(-(motion.omega**2 * slope + motion.xi * h))
 
 
@@ -183,8 +183,8 @@ def _torque(engine: Engine, motion: _Motion) -> Array:
     inertia = mass * motion.v**2 + _column(c.rotating) * r**2 - couple * motion.spin**2
     half_slope = mass * motion.v * motion.a - couple * motion.spin * motion.spin_rate
     if (m := motion.linked) is not None:
-        inertia = inertia + motion.mass * r**2 * np.abs(m.z1) ** 2
-        half_slope = half_slope + motion.mass * r**2 * (np.conj(m.z1) * m.z2).real
+        inertia = inertia + motion.mass * r**2 * m.energy
+        half_slope = half_slope + motion.mass * r**2 * m.power
     return np.asarray(-(half_slope * motion.omega**2 + motion.xi * inertia))
 
 

@@ -20,6 +20,7 @@ from .rods import Parts, mistakes, own_or, rod_of
 from .stations import by_axis, one_object, pins, places, reference, strangers
 
 if TYPE_CHECKING:
+    from .core.articulated import Articulated
     from .core.rotary import Rotary
 
 
@@ -98,7 +99,7 @@ class Engine:
     def rotary(self) -> bool:
         """Whether the cylinders turn and the crank stands still: then the cylinders have masses on a linkage only."""
         c = self.cylinders
-        return c.linkage is not None and not np.any(c.reciprocating)
+        return c.linkage is not None and c.linkage.turning
 
     @property
     def pins_deg(self) -> dict[int, Any]:
@@ -169,6 +170,7 @@ def _cylinders(file: EngineFile, layout: Plan, rods: Mapping[int, Parts], axis: 
     parts, radius = [rods[n] for n in numbers], file.crank.stroke / 2e3
     masters = articulation.masters(file, layout)
     at_pistons = shared([rod.piston + rod.small_end for rod in parts], rank)
+    hung = articulation.linkage(file, layout, numbers, axis, [rod.big_end for rod in parts], rank)
     return Cylinders(
         axis_deg=column([still[numbers[row]] for row in starts], rank),
         pin_deg=column([turning[n] for n in numbers], rank),
@@ -181,15 +183,17 @@ def _cylinders(file: EngineFile, layout: Plan, rods: Mapping[int, Parts], axis: 
         reciprocating=0 * at_pistons if file.layout.rotary else at_pistons,
         rotating=shared([_at_pin(file, layout, rod, n in masters) for n, rod in zip(numbers, parts, strict=True)], rank),
         couple=shared([rod.couple for rod in parts], rank),
-        linkage=_rotary(at_pistons) if file.layout.rotary else
-        articulation.linkage(file, layout, numbers, axis, [rod.big_end for rod in parts], rank),
+        linkage=_rotary(at_pistons, hung) if file.layout.rotary else hung,
     ), numbers
 
 
-def _rotary(masses: NDArray[np.float64]) -> Rotary:
+def _rotary(at_pistons: NDArray[np.float64], hung: Articulated | None) -> Rotary:
     from .core.rotary import Rotary
 
-    return Rotary(masses)
+    if hung is None:
+        return Rotary(at_pistons)
+    both = at_pistons + hung.mass
+    return Rotary(both, hung, hung.mass / np.where(both == 0, 1.0, both))
 
 
 def _weighed(file: EngineFile, layout: Plan, throw: int, rod: Parts) -> Weighed:

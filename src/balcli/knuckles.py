@@ -60,6 +60,8 @@ def even_knuckles(file: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
     """
     engine = build(file)
     c, linkage = engine.cylinders, engine.cylinders.linkage
+    if file.articulation is not None and file.layout.rotary:
+        raise BalcliError("knuckles: this engine is rotary; even knuckle angles are looked for where the crank turns only")
     if file.articulation is None or not isinstance(linkage, Articulated):
         raise BalcliError("knuckles: this engine has no articulated rods; an engine file says so with [articulation]")
     hung = linkage.master != np.arange(c.count)

@@ -16,7 +16,6 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .core.articulated import Articulated
 from .core.phasors import Array
 from .core.unity import even, rational, turns, vanishes
 from .engine import Engine
@@ -165,9 +164,7 @@ class _Layout:
         linkage = self._c.linkage
         columns = [getattr(self._c, key) for key in ("lam", "eps", *more)]
         if linkage is not None:
-            columns += [linkage.mass, self._c.reciprocating]
-        if isinstance(linkage, Articulated):
-            columns += [linkage.knuckle, linkage.lead_deg]
+            columns += [*linkage.figures, self._c.reciprocating]
         return lambda row: tuple(column[row if len(column) > 1 else 0].item() for column in columns)
 
     @staticmethod

@@ -72,6 +72,11 @@ CASES = {
     "rotary": {"layout": "radial = 5\nrotary = true"},
     "rotary in two rows, offset": {"layout": "radial = 3\nrotary = true\nstagger = 3", "piston": "offset = 11",
                                    "crank": "throws = [0, 175]\nspacing = 160", "more": DISPLACED},
+    "rotary with master rod": {"layout": "radial = 7\nrotary = true", "more": ARTICULATED},
+    "rotary with master rods in two rows": {"layout": "radial = 5\nrotary = true\nstagger = 4", "crank": "throws = [0, 180]\nspacing = 160",
+                                            "piston": "offset = 6", "operation": RIPPLE, "more": ARTICULATED.replace(
+        "knuckle_radius", "master = 3\nknuckle_angles = [-140, -70, 0, 75, 141]\nknuckle_radius") + DISPLACED
+                                            + "[cylinder.4]\nrod_length = 180\npiston_mass = 1.5"},
     "rotary, one cylinder, uneven speed": {"layout": "rotary = true", "piston": "offset = -5", "operation": RIPPLE, "more": DISPLACED},
     "articulated, uneven, displaced": {"layout": "radial = 5", "piston": "offset = 8", "operation": RIPPLE,
                                        "more": ARTICULATED + DISPLACED},

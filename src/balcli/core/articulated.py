@@ -7,13 +7,14 @@ hangs on the crank pin. A master rod is the case k = 0.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import slidercrank
 from .harmonics import Array
-from .linkage import Linkage, Motion
+from .linkage import Linkage, Motion, Point
 from .phasors import EPS, Complex, unit
 
 
@@ -31,6 +32,10 @@ class Articulated(Linkage):
     knuckle: Complex
     lead_deg: Array
 
+    @property
+    def figures(self) -> tuple[NDArray[Any], ...]:
+        return self.mass, self.knuckle, self.lead_deg
+
     def motion(self, psi: Array, lam: Array, eps: Array) -> Motion:
         lam, eps = (np.broadcast_to(a, (len(self.master), *a.shape[1:]))[..., None] for a in (lam, eps))
         k, k1, k2 = self._knuckles(psi, lam, eps)
@@ -44,7 +49,7 @@ class Articulated(Linkage):
             acceleration=k2.real - tangent * k2.imag - rate * k1.imag / cosine**2,
             spin=-rate,
             spin_rate=-(lam * k2.imag / cosine + rate**2 * tangent),
-            z=k, z1=k1, z2=k2,
+            points=(Point(k, k1, k2),),
             condition=1 / (1 - np.minimum(np.abs(sine), 1 - EPS)))
 
     def distinct(self, lam: Array, eps: Array) -> tuple[Articulated, Array, Array, NDArray[np.intp] | slice]:

@@ -2,14 +2,15 @@
 
 A plain slider-crank needs no more than its piston's motion along the cylinder's axis. Here another mass moves on a closed
 curve `z(psi)` (complex, in crank radii, in the cylinder's frame): the knuckle pin of an articulated rod, the piston of a
-cylinder that itself turns. It adds two components of force, a moment of momentum and a kinetic energy, all of which are
-harmonics of the crank angle like the others (`harmonics.Curve`).
+cylinder that itself turns, or shares of it on both. It adds two components of force, a moment of momentum and a kinetic energy,
+all of which are harmonics of the crank angle like the others (`harmonics.Curve`).
 """
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +18,15 @@ from numpy.typing import ArrayLike, NDArray
 from .harmonics import NONE, SAMPLING, Array, Curve, Harmonics, circle, from_samples, rounding
 
 FEWEST, MOST = 64, 1 << 18          # samples
+
+
+class Point(NamedTuple):
+    """A closed curve with its derivatives, and the share of the mass that moves on it."""
+
+    z: NDArray[np.complex128]
+    z1: NDArray[np.complex128]
+    z2: NDArray[np.complex128]
+    share: Any = 1.0
 
 
 class Motion(NamedTuple):
@@ -28,10 +38,39 @@ class Motion(NamedTuple):
     acceleration: Array                 # s''
     spin: Array                         # angular velocity of the rod, in the crank's sense
     spin_rate: Array
-    z: NDArray[np.complex128]           # the mass on the curve, and its derivatives
-    z1: NDArray[np.complex128]
-    z2: NDArray[np.complex128]
+    points: tuple[Point, ...]           # where the mass is
     condition: Array | float = 1.0      # relative error of what the rod does, in roundings: near its lock they are amplified
+
+    def of(self, what: Callable[[Point], Any]) -> Any:
+        """What unit mass does, shared out over its points."""
+        return sum(p.share * what(p) for p in self.points)
+
+    @property
+    def velocity_of_mass(self) -> NDArray[np.complex128]:
+        return self.of(lambda p: p.z1)
+
+    @property
+    def acceleration_of_mass(self) -> NDArray[np.complex128]:
+        return self.of(lambda p: p.z2)
+
+    @property
+    def swirl(self) -> Array:
+        """Moment of momentum."""
+        return self.of(lambda p: (np.conj(p.z) * p.z1).imag)
+
+    @property
+    def swirl_rate(self) -> Array:
+        return self.of(lambda p: (np.conj(p.z) * p.z2).imag)
+
+    @property
+    def energy(self) -> Array:
+        """Twice the kinetic energy."""
+        return self.of(lambda p: np.abs(p.z1) ** 2)
+
+    @property
+    def power(self) -> Array:
+        """Half the derivative of that."""
+        return self.of(lambda p: (np.conj(p.z1) * p.z2).real)
 
 
 @dataclass(frozen=True)
@@ -43,6 +82,12 @@ class Linkage(ABC):
     """
 
     mass: Array
+    turning: ClassVar[bool] = False     # whether the cylinders turn about a crank that stands still
+
+    @property
+    def figures(self) -> tuple[NDArray[Any], ...]:
+        """What distinguishes the cylinders, each of shape (cylinders or 1, *trailing)."""
+        return (self.mass,)
 
     @abstractmethod
     def motion(self, psi: Array, lam: Array, eps: Array) -> Motion:
@@ -59,24 +104,24 @@ class Linkage(ABC):
 
     def _harmonics(self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> Harmonics:
         m = self._sampled(lam, eps)
-        swirl = np.conj(m.z) * m.z1
+        shake = -m.acceleration_of_mass
         return Harmonics(
             piston=from_samples(-m.acceleration, orders, m.condition),
             rod=from_samples(m.spin_rate, orders, m.condition) if rod else NONE,
             kinetic=from_samples(m.velocity**2, orders, m.condition) if energy else NONE,
             rod_kinetic=from_samples(m.spin**2, orders, m.condition) if energy and rod else NONE,
             curve=Curve(
-                along=from_samples(-m.z2.real, orders),
-                across=from_samples(-m.z2.imag, orders),
-                couple=from_samples(-(np.conj(m.z) * m.z2).imag, orders),
-                kinetic=from_samples(np.abs(m.z1) ** 2, orders) if energy else NONE,
-                momentum=swirl.imag.mean(axis=-1)),
+                along=from_samples(shake.real, orders),
+                across=from_samples(shake.imag, orders),
+                couple=from_samples(-m.swirl_rate, orders),
+                kinetic=from_samples(m.energy, orders) if energy else NONE,
+                momentum=m.swirl.mean(axis=-1)),
             turns=m.spin.mean(axis=-1))
 
     def highest(self, lam: Array, eps: Array) -> int:
         """The order beyond which nothing exceeds rounding errors."""
         few, *mechanisms, _ = self.distinct(lam, eps)
-        return int(few._sampled(*mechanisms).z.shape[-1]) // 2
+        return int(few._sampled(*mechanisms).place.shape[-1]) // 2
 
     def _sampled(self, lam: Array, eps: Array) -> Motion:
         """A revolution on as many points (a power of two) as leave neither alias nor tail above rounding."""
@@ -84,7 +129,7 @@ class Linkage(ABC):
         while True:
             motion = self.motion(circle(count), lam, eps)
             rod = (_resolved(samples, motion.condition) for samples in (motion.acceleration, motion.spin_rate))
-            if count >= MOST or (all(rod) and _resolved(motion.z2)):
+            if count >= MOST or (all(rod) and _resolved(motion.acceleration_of_mass)):
                 return motion
             count *= 2
 

@@ -34,7 +34,8 @@ def scene(now: Analysis, after: Analysis | None, system: System) -> dict[str, An
 
 def _cylinders(engine: Engine) -> list[dict[str, Any]]:
     """One entry a cylinder: axis, its own crank angle at crank angle 0, rod, offset, place; knuckle pin and master's row."""
-    c, rods = engine.cylinders, engine.cylinders.linkage
+    c, linkage = engine.cylinders, engine.cylinders.linkage
+    rods = linkage.hung if isinstance(linkage, Rotary) else linkage
     axes = np.repeat(c.axis_deg, np.diff([*c.starts, c.count]), axis=0)
     lengths, offsets = (np.broadcast_to(np.ravel(v) * 1e3, c.count) for v in (c.radius / c.lam, c.offset))
     found = []

@@ -89,7 +89,7 @@
       const [up, right] = turned([r, 0], pinAngle(plain[0], theta));
       set(bigEnd, { cx: right, cy: -up });
       for (const { c, eye } of eyes) {
-        const [x, y] = turned(drive(c, theta).lower, c.axis);
+        const { lower, axis } = drive(c, theta), [x, y] = turned(lower, axis);
         set(eye, { cx: y, cy: -x });
       }
       for (const { c, web: shape, pin } of webs) {
