@@ -23,7 +23,7 @@ MOST_CYLINDERS = 64
 
 @dataclass(frozen=True)
 class Slots:
-    """The firings of one cycle.
+    """The firings of one cycle; BalcliError for too many cylinders to look for their orders.
 
     Attributes:
         cells: the cylinders.
@@ -35,14 +35,16 @@ class Slots:
     top: Mapping[int, float]
     cycle: float
 
+    def __post_init__(self) -> None:
+        if len(self.cells) > MOST_CYLINDERS:
+            raise BalcliError(f"{len(self.cells)} cylinders are too many to look for firing orders; up to {MOST_CYLINDERS} are allowed")
+
     def cranks(self) -> list[tuple[float, ...]]:
         """The angles of all throws, for every crank that allows an even firing order; cylinder 1's throw at 0.
 
         Raises:
-            BalcliError: more than MOST, or too many cylinders to look for them.
+            BalcliError: more than MOST.
         """
-        if len(self.cells) > MOST_CYLINDERS:
-            raise BalcliError(f"{len(self.cells)} cylinders are too many to look for firing orders; up to {MOST_CYLINDERS} are allowed")
         fixed = next(c.throw for c in self.cells if c.number == 1)
         found = list(islice(self._cranks({}, [fixed, *({c.throw for c in self.cells} - {fixed})], Counter(self._slots)), MOST + 1))
         if len(found) > MOST:
