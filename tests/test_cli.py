@@ -414,10 +414,10 @@ def test_any_locale_gets_utf_8():
 
 
 # ------------------------------------------------------------------ what is imported
-HEAVY = {"numpy", "pydantic", "rich", "matplotlib", "pint", "tomli_w", "jinja2", "scipy"}
+HEAVY = {"numpy", "pydantic", "rich", "matplotlib", "pint", "tomli_w", "jinja2", "scipy", "email", "zipfile"}
 PROBE = """
 import sys
-from balcli.cli import main
+from balcli.__main__ import main
 try:
     main()
 finally:
@@ -441,3 +441,18 @@ def test_only_what_is_needed_is_imported(args, allowed):
                           env={**os.environ, "PYTHONPATH": str(ROOT / "src")})
     assert set(done.stderr.split()) & HEAVY <= allowed
     assert "balcli" in done.stderr.split()
+
+
+@pytest.mark.parametrize("use", [
+    "import importlib.metadata; print(importlib.metadata.version('numpy'))",
+    "from importlib.metadata import version; print(version('numpy'))",
+    "from importlib.metadata import entry_points; print(len(entry_points(group='console_scripts')) > 0)",
+    "import importlib.metadata._meta as m; print(m.__name__)",
+    "import importlib.metadata as m; m.version; import sys; print(type(sys.modules[m.__name__]) is type(sys))",
+])
+def test_what_is_deferred_is_there_when_it_is_asked_for(use):
+    def run(first: str) -> str:
+        done = subprocess.run([sys.executable, "-c", first + use], capture_output=True, text=True, check=True,
+                              env={**os.environ, "PYTHONPATH": str(ROOT / "src")})
+        return done.stdout
+    assert run("from balcli.__main__ import _Metadata as M; M.defer(); M.defer()\n") == run("")

@@ -9,7 +9,8 @@ from kit import GOOD, changed, engine_text
 
 from balcli.engine import build
 from balcli.enginefile import parse as load
-from balcli.errors import BalcliError
+from balcli.errors import BalcliError, InputError
+from balcli.layout import plan
 from balcli.model import EngineFile
 from balcli.parameters import varied
 from balcli.quantity import evaluate, parse
@@ -96,6 +97,52 @@ def test_v8_firing_orders_fit_their_crank() -> None:
     assert len(orders) == 4                                                     # 16, but for mirror images
     common, from_the_other_end = [1, 5, 4, 2, 6, 3, 7, 8], [1, 3, 7, 2, 6, 5, 4, 8]
     assert common in orders or from_the_other_end in orders
+
+
+@pytest.mark.parametrize(("layout", "splay"), [
+    ("firing_order = [1, 5, 3, 6, 2, 4]", 0), ("bank_angle = 120\nfiring_order = [1, 4, 2, 5, 3, 6]", 0),
+    ("banks = [-90, 90]\nfiring_order = [1, 4, 5, 2, 3, 6]\nrods = \"alternating\"", 0),
+    ("bank_angle = 90\nfiring_order = [1, 4, 2, 5, 3, 6]", -30), ("strokes = 2\nfiring_order = [1, 5, 3, 6, 2, 4]", 0),
+])
+def test_firing_orders_are_those_that_an_engine_file_may_have(layout: str, splay: float) -> None:
+    def text(order: tuple[int, ...]) -> str:
+        at = layout.index("firing_order"), layout.index("]", layout.index("firing_order")) + 1
+        own = layout[:at[0]] + f"firing_order = {list(order)}" + layout[at[1]:]
+        return changed(("throws = [0, 180, 180, 0]\n", f"splay = {splay}\n"), ("firing_order = [1, 3, 4, 2]", own))
+
+    def fits(order: tuple[int, ...]) -> bool:
+        try:
+            build(load(text(order)))
+        except InputError:
+            return False
+        return True
+
+    every = {order for rest in permutations(range(2, 7)) if fits(order := (1, *rest))}
+    given = load(text(next(iter(every))))
+    found = [tuple(r.arrangement["firing_order"]) for r in search(given, "firing_order", objective("moment.1.major"), 1000).results]
+    mirrored = {other for order in found for other in _images(order, given)}
+    assert every <= mirrored
+    assert set(found) <= every
+    assert len(found) == len(set(found))
+
+
+def _images(order: tuple[int, ...], file: EngineFile) -> list[tuple[int, ...]]:
+    cells = {(c.bank, c.throw): c.number for c in plan(file.crank, file.layout).cells}
+    last = max(throw for _, throw in cells)
+    other_end = {n: cells.get((bank, last - throw), n) for (bank, throw), n in cells.items()}
+    ends = [order, tuple(other_end[n] for n in order)]
+    turned = [(*row[row.index(1):], *row[:row.index(1)]) for row in ends]
+    return turned + [(1, *reversed(row[1:])) for row in turned]
+
+
+def test_millions_of_firing_orders_are_no_hindrance() -> None:
+    order = [1, 2, 3, 4, 5, 6, 7, 8, 15, 16, 9, 10, 11, 12, 13, 14]
+    file = load(changed(("throws = [0, 180, 180, 0]\n", ""), ("firing_order = [1, 3, 4, 2]", f"bank_angle = 90\nfiring_order = {order}")))
+    found = search(file, "firing_order", objective("moment.1.major,moment.2.major=1"), 3).results
+    assert [r.objective for r in found] == [0, 0, 0]
+    assert all(fires_evenly(build(load(arranged(changed(
+        ("throws = [0, 180, 180, 0]\n", ""), ("firing_order = [1, 3, 4, 2]", f"bank_angle = 90\nfiring_order = {order}")).encode(),
+        r.arrangement))), file).all() for r in found)
 
 
 def test_ninety_degree_twin() -> None:

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -41,7 +41,7 @@ def balance(engine: Engine, scheme: str = "auto", wish: Wish | None = None, orde
     """
     remedy = remedy_for(engine, scheme, wish)
     if engine.ripple:
-        remedy = replace(remedy, details={**remedy.details, "speed": _UNEVEN})
+        remedy = remedy._replace(details={**remedy.details, "speed": _UNEVEN})
     figures = practical(engine, remedy, tools or Tools())
     new = fitted(engine, remedy)
     shown = set(QUANTITIES) - {"sizing"}

@@ -5,7 +5,6 @@ Only the module of the command that is called is imported; what a command does i
 from __future__ import annotations
 
 import gc
-import os
 import sys
 from difflib import get_close_matches
 from importlib import import_module
@@ -70,9 +69,7 @@ def _options(
 
 
 def main() -> None:
-    """Entry point: runs the command; whatever a user can mend becomes a message on standard error and exit status 2."""
-    gc.set_threshold(100_000)                                           # start-up makes many objects, but no garbage
-    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")              # looking for plugins takes longer than an analysis
+    """Runs the command; whatever a user can mend becomes a message on standard error and exit status 2."""
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(encoding="utf-8", errors="replace")

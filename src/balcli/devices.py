@@ -1,20 +1,26 @@
 """Counterweights, balancer shafts and sliders of an engine file as rotating vectors of mass x radius."""
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
 from .core.inertia import Device
 from .core.phasors import unit
-from .model import Counterweight, EngineFile, Shaft, Slider
+from .model import Counterweight, Shaft, Slider
 
 
-def devices(file: EngineFile, first_axis_deg: Any) -> tuple[Device, ...]:
-    """Counterweights, shafts and sliders of a file; a counterweight's angle counts from cylinder 1's pin, others from x."""
-    return (*(_counterweight(d, first_axis_deg) for d in file.counterweight),
-            *(_shaft(d) for d in file.shaft), *(_slider(d) for d in file.slider))
+def devices(tables: Iterable[Counterweight | Shaft | Slider], first_axis_deg: Any) -> Iterator[Device]:
+    """What the tables of a file describe; a counterweight's angle counts from cylinder 1's pin, others from x."""
+    for table in tables:
+        match table:
+            case Counterweight():
+                yield _counterweight(table, first_axis_deg)
+            case Shaft():
+                yield _shaft(table)
+            case Slider():
+                yield _slider(table)
 
 
 def _counterweight(d: Counterweight, first_axis_deg: Any) -> Device:

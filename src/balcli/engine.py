@@ -129,7 +129,7 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
         bore_m=math.nan if file.piston.bore is None else file.piston.bore / 1e3,
         throws_m=throws, speed_rpm=file.operation.speed,
         ripple=tuple(Ripple(line.order, line.amplitude, line.angle) for line in file.operation.speed_ripple),
-        reference_m=reference(file, throws), devices=devices(file, axis[1]),
+        reference_m=reference(file, throws), devices=tuple(devices((*file.counterweight, *file.shaft, *file.slider), axis[1])),
         weighed=tuple(_weighed(file, layout, {c.number: c.throw for c in layout.cells}[n], rods[n]) for n in numbers),
     )
 

@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from .units import PLAIN, Dimension, convert, wanted
@@ -65,15 +64,12 @@ class _Field:
         return self.json()
 
 
-@dataclass(frozen=True)
 class Number(_Field):
     """A figure of some dimension: a bare number in the file's unit, or a string with its own."""
 
-    dimension: Dimension
-    above: float | None = None
-    least: float | None = None
-    below: float | None = None
-    most: float = math.inf
+    def __init__(self, dimension: Dimension, *, above: float | None = None, least: float | None = None, below: float | None = None,
+                 most: float = math.inf) -> None:
+        self.dimension, self.above, self.least, self.below, self.most = dimension, above, least, below, most
 
     def read(self, value: object) -> float:
         number = self._number(value)
@@ -121,13 +117,11 @@ class Number(_Field):
         return {"type": ["number", "string"], "unit": self.dimension.unit, "pattern": STRING_PATTERN, **limits}
 
 
-@dataclass(frozen=True)
 class Whole(_Field):
     """A whole number; 4.0 counts as 4."""
 
-    least: int
-    most: int
-    zero: bool = True
+    def __init__(self, *, least: int, most: int, zero: bool = True) -> None:
+        self.least, self.most, self.zero = least, most, zero
 
     def read(self, value: object) -> int:
         whole = isinstance(value, int) or (isinstance(value, float) and value.is_integer())

@@ -2,7 +2,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,8 +19,7 @@ SHOWN = 1e-6                    # share of a quantity's largest order below whic
 _AT_ONCE = 1 << 19              # orders x cylinders that are computed together: bounds the memory, about 16 arrays of complex numbers
 
 
-@dataclass(frozen=True, eq=False)
-class Spectra:
+class Spectra(NamedTuple):
     """Phasors by order: force (N), moment, couple, inertia torque on the crank and roll (N m); None: not asked for."""
 
     orders: Array

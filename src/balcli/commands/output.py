@@ -4,7 +4,6 @@ from __future__ import annotations
 import errno
 import os
 import sys
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -87,6 +86,8 @@ def beside(target: Path) -> Iterator[Path]:
     Raises:
         BalcliError: if it cannot be written; an older one is left as it was.
     """
+    import tempfile
+
     real, place = Path(os.path.realpath(target)), None
     try:
         if real.is_dir():

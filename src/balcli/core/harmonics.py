@@ -299,7 +299,9 @@ def sampled(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, ener
     """
     from . import slidercrank
 
-    arguments = circle(points(lam, eps)), np.asarray(lam)[..., None], np.asarray(eps)[..., None]
+    many = np.ndim(lam) > 1                                             # variants; of one engine an order is the same among any others
+    count = points(lam, eps, np.max(orders, initial=0) if many else math.inf)
+    arguments = circle(count), np.asarray(lam)[..., None], np.asarray(eps)[..., None]
     return Harmonics(
         piston=from_samples(slidercrank.acceleration(*arguments), orders),
         rod=from_samples(-slidercrank.rod_acceleration(*arguments), orders) if rod else NONE,
@@ -339,11 +341,13 @@ def rounding(samples: Array, condition: Array | float = 1.0) -> Array:
     return spread if np.isscalar(condition) else np.asarray(spread + np.mean(np.abs(samples) * condition, axis=-1))
 
 
-def points(lam: ArrayLike, eps: ArrayLike) -> int:
-    """Number of samples (a power of two) that leaves neither alias nor tail above rounding in any of these mechanisms.
+def points(lam: ArrayLike, eps: ArrayLike, highest: float = math.inf) -> int:
+    """Number of samples (a power of two) that leaves no alias above rounding in orders up to the highest, nor a tail beyond it,
+    in any of these mechanisms.
 
-    Coefficients decay like `x^n`, x = tan(arcsin(lambda')/2), `lambda' = lambda / (1 - |eps|)`.
+    Coefficients decay like `x^n`, x = tan(arcsin(lambda')/2), `lambda' = lambda / (1 - |eps|)`; order n of N samples is mixed with N - n.
     """
     steep = np.minimum(np.max(np.asarray(lam) / (1 - np.abs(eps))), 1 - EPS)
     decay = -np.log(steep / (1 + np.sqrt((1 - steep) * (1 + steep))))
-    return 1 << int(np.ceil(np.log2(max(-2.4 * np.log(EPS) / decay, 16))))
+    last = -1.2 * np.log(EPS) / decay                                   # the order beyond which all is rounding
+    return 1 << int(np.ceil(np.log2(max(last + min(highest, last), 16))))

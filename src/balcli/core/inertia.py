@@ -11,8 +11,10 @@ bank) next, then any trailing axes; an axis along which nothing varies has lengt
 """
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from itertools import groupby
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -112,15 +114,14 @@ class Loads:
     @property
     def force(self) -> Phasors:
         """N; `F = m_rec r (cos psi + ...) + m_rot r e^{i psi}` of each cylinder, turned by its axis."""
-        return sum(self._of_devices, self._forces(1.0, self._once))
+        return sum(self._of_devices, self._forces())
 
     @property
     def moment(self) -> Phasors:
         """N m as `M_x + i M_y = i sum (z - z_ref) F`."""
-        z = self._cylinders.z
-        of_cylinders = self._forces(1j * (z - self._z_ref), np.abs(z) + abs(self._z_ref))
-        arms = (1j * (device.z - self._z_ref) for device in self._devices)
-        return sum((arm * f for arm, f in zip(arms, self._of_devices, strict=True)), of_cylinders)
+        of_cylinders = self._forces(self._cylinders.z - self._z_ref)
+        arms = (device.z - self._z_ref for device in self._devices)
+        return 1j * sum((arm * f for arm, f in zip(arms, self._of_devices, strict=True)), of_cylinders)
 
     @property
     def couple(self) -> Phasors:
@@ -134,7 +135,7 @@ class Loads:
         if (curve := self._harmonics.curve) is not None:
             total += self._about_z((self._on_curve * c.radius) * curve.couple)
         if np.count_nonzero(self._place):
-            total += self._forces(1.0, self._once).about(-self._place)
+            total += self._forces().about(-self._place)
         return sum((f.about(d.place - self._place) for d, f in zip(self._devices, self._of_devices, strict=True)), total)
 
     @property
@@ -180,50 +181,72 @@ class Loads:
     # -------------------------------------------------------------- sums over the cylinders
     @cached_property
     def _pull(self) -> tuple[Complex, Complex, Array]:
-        """Forward and backward vectors of each cylinder's force in its own frame, N, and their rounding error.
+        """Forward vector and conjugate of the backward vector of each cylinder's force in its own frame, N, and their rounding error.
 
         Shapes (orders, cylinders or 1, *trailing).
         """
         c = self._cylinders
         along = (c.reciprocating * c.radius * self._square / 2) * self._harmonics.piston
         turning = (self._n == 1) * (c.rotating * (c.radius * self._square))
-        forward, backward = along.c + turning, along.c.conj()
+        forward, mirrored = along.c + turning, along.c
         error = self._rounding * (np.abs(along.c) + turning) + along.noise
         if (curve := self._harmonics.curve) is None:
-            return forward, backward, error
+            return forward, mirrored, error
         x, y = (self._on_curve / 2) * curve.along, (self._on_curve / 2) * curve.across
         error = error + self._rounding * (np.abs(x.c) + np.abs(y.c)) + (x.noise + y.noise)
-        return forward + (x.c + 1j * y.c), backward + (x.c - 1j * y.c).conj(), error
+        return forward + (x.c + 1j * y.c), mirrored + (x.c - 1j * y.c), error
 
-    def _forces(self, weights: Any, size: Array) -> Phasors:
-        """Sum over the cylinders of their forces, with weights, whose size bounds the error."""
-        forward, backward, error = self._pull
+    def _forces(self, arms: Array | None = None) -> Phasors:
+        """Sum over the cylinders of their forces, or of these (real) multiples of them."""
+        forward, mirrored, error = self._pull
         ahead, astern = self._phases.sides
-        return Phasors(self._orders, self._sum(forward, weights * self._phases.turned, ahead),
-                       self._sum(backward, weights * self._phases.turned.conj(), astern), _total(error, size))
+        size = self._once if arms is None else np.abs(self._cylinders.z) + abs(self._z_ref)
+        return Phasors(self._orders, self._sum(forward, arms, ahead), self._sum(mirrored, arms, astern.conj()).conj(), _total(error, size))
 
     def _about_z(self, series: Series) -> Phasors:
         """Sum over the cylinders of scalars."""
         error = self._rounding * np.abs(series.c) + series.noise
-        return Phasors.real(self._orders, self._sum(series.c, self._phases.turned, self._phases.banks), _total(error, self._once))
+        return Phasors.real(self._orders, self._sum(series.c, None, self._phases.banks), _total(error, self._once))
 
-    def _sum(self, vectors: Complex | Array, turned: Complex, axes: Complex) -> Complex:
-        """`sum over banks of axes * sum over cylinders of vectors * turned`; the phases of equal cylinders are summed once."""
-        banks: Complex = np.add.reduceat(turned if vectors.shape[1] == 1 else vectors * turned, self._cylinders.starts, axis=1)
-        summed: Complex = np.add.reduce(axes * banks, axis=1)
-        return vectors[:, 0] * summed if vectors.shape[1] == 1 else summed
+    def _sum(self, vectors: Complex | Array, arms: Array | None, axes: Complex) -> Complex:
+        """`sum over banks of axes * sum over its cylinders of arms * vectors * e^{i n pin}`; equal vectors are taken out of the sum."""
+        if vectors.shape[1] > 1:
+            return self._phases.summed(axes, vectors if arms is None else arms * vectors)
+        return vectors[:, 0] * self._phases.summed(axes, None if arms is None else arms[None])
 
 
 class _Phases:
     """What the sums need of the geometry and the orders alone."""
 
     def __init__(self, cylinders: Cylinders, orders: Array) -> None:
-        axis = cylinders.axis_deg
-        self.n = orders.reshape(-1, *(1,) * cylinders.pin_deg.ndim)         # before cylinders and trailing axes
-        self.once = np.ones((cylinders.count, *(1,) * (cylinders.pin_deg.ndim - 1)))
-        self.turned = unit(self.n * cylinders.pin_deg)                      # e^{i n pin}, (orders, cylinders, *trailing)
+        axis, pin = cylinders.axis_deg, cylinders.pin_deg
+        self.n = orders.reshape(-1, *(1,) * pin.ndim)                       # before cylinders and trailing axes
+        self.once = np.ones((cylinders.count, *(1,) * (pin.ndim - 1)))
         self.rounding = cylinders.count * _SUM + _TURN * self.n             # of a sum over cylinders, relative to its terms
         self._axis, self._apart = axis, self.n * (axis - axis[cylinders.first])
+        self._starts = cylinders.starts
+        rows = [_narrow(row) for row in pin]                                # a sweep of one throw leaves the others where they are
+        still = np.array([row.size == 1 for row in rows]).reshape(self.once.shape)
+        first = pin[(slice(None), *(slice(1),) * (pin.ndim - 1))]
+        self._still = unit(self.n * first) * still                          # e^{i n pin}, (orders, cylinders, *trailing)
+        self._moving = self._distinct({k: row for k, row in enumerate(rows) if row.size > 1})
+
+    def _distinct(self, pins: Mapping[int, Array]) -> dict[int, Complex]:
+        """`e^{i n pin}` of the cylinders whose pins vary, by row, computed once for those on one throw; shapes (orders, *trailing)."""
+        found: dict[int, Complex] = {}
+        for k, pin in pins.items():
+            twin = next((other for other in found if np.array_equal(pins[other], pin)), None)
+            found[k] = unit(self.n[:, 0] * pin) if twin is None else found[twin]
+        return found
+
+    def summed(self, axes: Complex, factors: Complex | Array | None) -> Complex:
+        """`sum over banks of axes * sum over its cylinders of factors * e^{i n pin}`, shape (orders, *trailing)."""
+        still: Complex = np.add.reduceat(self._still if factors is None else factors * self._still, self._starts, axis=1)
+        total: Complex = np.add.reduce(axes * still, axis=1)
+        for bank, rows in groupby(self._moving, lambda k: int(np.searchsorted(self._starts, k, "right")) - 1):
+            turned = (self._moving[k] if factors is None else factors[:, k] * self._moving[k] for k in rows)
+            total = total + axes[:, bank] * sum(turned)
+        return total
 
     @cached_property
     def sides(self) -> Complex:
@@ -240,6 +263,14 @@ class _Phases:
 def _kept(cylinders: Cylinders, orders: bytes) -> _Phases:
     """Phases of the last engines: another speed, another mass or a device fitted changes none of them."""
     return _Phases(cylinders, np.frombuffer(orders))
+
+
+def _narrow(values: Array) -> Array:
+    """The same without repetition: axes along which nothing changes get length 1."""
+    for axis, length in enumerate(values.shape):
+        if length > 1 and (values == (first := values.take([0], axis))).all():
+            values = first
+    return values
 
 
 def _total(values: Array, size: Array) -> Array:

@@ -1,8 +1,9 @@
 """Best arrangements of an engine: throws along the crank, firing order, bank angle, splay."""
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any, get_args
 from typing import Literal as OneOf
 
@@ -20,7 +21,7 @@ from ..parameters import varied
 from ..quantity import evaluate
 from . import angles, cranks
 from .objective import Array, Objective, objective
-from .orders import Firing, Slots
+from .orders import Slots
 
 __all__ = ["Found", "Search", "fires_evenly", "objective", "search"]
 
@@ -65,44 +66,41 @@ def search(file: EngineFile, over: str, objective: Objective, top: int = 10, eve
         near = nearest(over, get_args(What))
         raise BalcliError(f'--over "{over}": choose from {", ".join(get_args(What))}{f"; did you mean {near}?" if near else ""}')
     engine = build(file)
-    candidates = _SEARCHES[over](file, objective, top, even_firing)
-    found = list(_distinct(_figures(file, candidates, objective), _mirrored(file)))[:top]
+    found = list(islice(_distinct(_SEARCHES[over](file, objective, top, even_firing), _mirrored(file)), top))
     if not found:
         raise BalcliError(f"no {over.replace('_', ' ')} keeps these limits{' and fires evenly' if even_firing else ''}")
     return Search(file, over, objective, tuple(found), textbook(engine, np.array([1.0])))   # type: ignore[arg-type]  # checked above
 
 
 # ------------------------------------------------------------------ the four searches: candidates as the columns of arrays
-Candidates = dict[str, Any]     # by key of the engine file: shape (candidates,) or (candidates, throws), or a list
+Candidates = dict[str, Array]   # by key of the engine file: shape (candidates,) or (candidates, throws)
 
 
-def _over_throws(file: EngineFile, objective: Objective, top: int, even: bool) -> Candidates:
+def _over_throws(file: EngineFile, objective: Objective, top: int, even: bool) -> Iterator[Found]:
     if file.crank.throws is None or len(file.crank.throws) < 2:
         raise BalcliError("there is nothing to permute: the file gives no crank.throws, or one alone")
     if peaks := [q.name for q in objective.quantities if q.part == "peak"]:
         raise BalcliError(f"a search over throws adds up orders, which {peaks[0]} does not allow; name orders, such as force.1.major")
     allowed = (lambda throws: fires_evenly(_engines(file, {"throws": throws}), file)) if even else None
     found = cranks.best(file, objective, IMAGES * top, allowed)
-    return {"throws": np.mod(found - found[:, :1], 360.0) if len(found) else found}
+    return _figures(file, {"throws": np.mod(found - found[:, :1], 360.0) if len(found) else found}, objective)
 
 
-def _over_firing_order(file: EngineFile, objective: Objective, top: int, even: bool) -> Candidates:
+def _over_firing_order(file: EngineFile, objective: Objective, top: int, even: bool) -> Iterator[Found]:
     engine, layout = build(_without_order(file)), plan(file.crank, file.layout)
     axis = {n: float(a) for n, a in zip(engine.numbers, np.repeat(
         engine.cylinders.axis_deg, np.diff([*engine.cylinders.starts, engine.cylinders.count])), strict=True)}
     c = engine.cylinders
     late = np.degrees(np.arcsin(np.broadcast_to(c.eps / (1 + c.lam), c.pin_deg.shape)))
-    top_at = {n: axis[n] + float(t) for n, t in zip(engine.numbers, late, strict=True)}
     lead = {cell.number: cell.bank * file.crank.splay for cell in layout.cells}
-    found = Slots(layout.cells, top_at, lead, file.crank.throws, cycle(file.layout)).orders()
-    if not found:
+    slots = Slots(layout.cells, {n: axis[n] + float(t) - lead[n] for n, t in zip(engine.numbers, late, strict=True)}, cycle(file.layout))
+    cranks = [file.crank.throws] if file.crank.throws else slots.cranks()
+    if not cranks or next(slots.orders(cranks[0]), None) is None:
         raise BalcliError("these throws allow no even firing order")
-    return {"firing_order": [f.order for f in found], "throws": _throws(found)}
-
-
-def _throws(found: Sequence[Firing]) -> Array:
-    throws = np.array([f.throws for f in found])
-    return np.round(np.mod(throws - throws[:, :1], 360.0), 9) % 360.0
+    throws = np.array(cranks)
+    best = _figures(file, {"throws": np.round(np.mod(throws - throws[:, :1], 360.0), 9) % 360.0}, objective)
+    return (Found({"firing_order": list(order), **one.arrangement}, one.objective, one.figures)
+            for one in best for order in slots.orders(one.arrangement["throws"]))
 
 
 def _without_order(file: EngineFile) -> EngineFile:
@@ -112,8 +110,8 @@ def _without_order(file: EngineFile) -> EngineFile:
     return file.model_copy(update={"crank": file.crank.model_copy(update={"throws": throws}), "layout": layout})
 
 
-def _over_angle(key: str, low: float, high: float) -> Callable[[EngineFile, Objective, int, bool], Candidates]:
-    def over(file: EngineFile, objective: Objective, top: int, even: bool) -> Candidates:
+def _over_angle(key: str, low: float, high: float) -> Callable[[EngineFile, Objective, int, bool], Iterator[Found]]:
+    def over(file: EngineFile, objective: Objective, top: int, even: bool) -> Iterator[Found]:
         if len(plan(file.crank, file.layout).banks) < 2 or (key == "bank_angle" and file.layout.bank_angle is None):
             raise BalcliError(f"there is no {key.replace('_', ' ')} to look for: the engine is no vee (give layout.bank_angle)")
         if file.crank.throws is None and file.layout.firing_order is not None:
@@ -125,11 +123,11 @@ def _over_angle(key: str, low: float, high: float) -> Callable[[EngineFile, Obje
             figures = dict(zip(objective.quantities, evaluate(engine, objective.quantities), strict=True))
             values = np.broadcast_to(objective.of(figures.__getitem__), x.shape)
             return np.where(fires_evenly(engine, file, EXACTLY), values, np.inf) if even else values
-        return {key: angles.valleys(value, low, high, IMAGES * top)}
+        return _figures(file, {key: angles.valleys(value, low, high, IMAGES * top)}, objective)
     return over
 
 
-_SEARCHES: dict[str, Callable[[EngineFile, Objective, int, bool], Candidates]] = {
+_SEARCHES: dict[str, Callable[[EngineFile, Objective, int, bool], Iterator[Found]]] = {
     "throws": _over_throws, "firing_order": _over_firing_order,
     "bank_angle": _over_angle("bank_angle", 0.0, 180.0), "splay": _over_angle("splay", -180.0, 180.0),
 }
@@ -168,12 +166,8 @@ def _figures(file: EngineFile, candidates: Candidates, objective: Objective) -> 
     total = np.broadcast_to(objective.of(values.__getitem__), count)
     for k in np.argsort(total, kind="stable"):
         if np.isfinite(total[k]):
-            arrangement = {key: _plain(column[k]) for key, column in candidates.items()}
+            arrangement = {key: column[k].tolist() for key, column in candidates.items()}
             yield Found(arrangement, float(total[k]), {q.name: float(v[k]) for q, v in values.items()})
-
-
-def _plain(value: Any) -> Any:
-    return list(value) if isinstance(value, tuple) else value.tolist()
 
 
 def _distinct(found: Iterator[Found], mirrored: Callable[[Found], Iterator[tuple[float, ...]]]) -> Iterator[Found]:

@@ -179,7 +179,7 @@ def _split(engine: Engine, wish: Wish, fitting: Fitting, unbalance: complex) -> 
         return [Slot("counterweight", 1, 1, planes.middle(engine) if wish.position is None else wish.position)], (unbalance,)
     slots = [Slot("counterweight", 1, 1, z) for z in _planes(engine, wish)]
     left = fitting.rest(1)
-    whole = replace(left, parts={**left.parts, Part("force", 1): -unbalance})
+    whole = left._replace(parts={**left.parts, Part("force", 1): -unbalance})
     fit = solve(slots, whole, FORWARD)
     if fit.left > 1e-9:
         raise BalcliError(f"--planes: {SAME_PLACE}")

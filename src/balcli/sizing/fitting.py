@@ -2,8 +2,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any, TypeVar
+from types import MappingProxyType
+from typing import Any, NamedTuple, TypeVar
 
 from ..core.inertia import Device
 from ..engine import Engine
@@ -18,8 +18,7 @@ SAME_PLACE = "one plane, or planes at the same z, cannot take a moment; choose t
 T = TypeVar("T")
 
 
-@dataclass(frozen=True, eq=False)
-class Fitting:
+class Fitting(NamedTuple):
     """An engine at steady speed, and what has been fitted so far: tables of the engine file with their reasons."""
 
     engine: Engine
@@ -27,7 +26,7 @@ class Fitting:
     order: int | None = None
     fits: tuple[tuple[Counterweight | Shaft | Slider, str], ...] = ()
     beyond: tuple[Device, ...] = ()
-    details: Mapping[str, Any] = field(default_factory=dict)
+    details: Mapping[str, Any] = MappingProxyType({})
 
     @classmethod
     def of(cls, engine: Engine, scheme: str, order: int | None = None) -> Fitting:
@@ -47,7 +46,7 @@ class Fitting:
         """With the devices in these slots; those of no unbalance are left out."""
         axis = float(self.engine.first_axis_deg)
         new = tuple((slot.table(u, axis), reason) for slot, u in zip(slots, unbalances, strict=True) if u)
-        return replace(self, fits=self.fits + new)
+        return self._replace(fits=self.fits + new)
 
     def cancel(self, slots: Sequence[Slot], parts: Sequence[Part], reason: str, impossible: str = SAME_PLACE) -> Fitting:
         """With devices in these slots that leave nothing of the parts; BalcliError if they cannot."""
@@ -60,7 +59,7 @@ class Fitting:
 
     def note(self, **details: Any) -> Fitting:
         """With further figures in the details."""
-        return replace(self, details={**self.details, **details})
+        return self._replace(details={**self.details, **details})
 
     def _of(self, kind: type[T]) -> tuple[T, ...]:
         return tuple(table for table, _ in self.fits if isinstance(table, kind))

@@ -4,18 +4,18 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
-from typing import Any
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 from ..core.inertia import Device
 from ..core.phasors import EPS, reduced
 from ..devices import devices
 from ..engine import Engine
-from ..model import Counterweight, EngineFile, Shaft, Slider
+from ..model import Counterweight, Shaft, Slider
 
 
-@dataclass(frozen=True)
-class Remedy:
+class Remedy(NamedTuple):
     """New devices, in the units of the engine file (g mm, deg, mm), each with its reason in plain words.
 
     Attributes:
@@ -30,7 +30,7 @@ class Remedy:
     shafts: tuple[Shaft, ...] = ()
     sliders: tuple[Slider, ...] = ()
     reasons: tuple[str, ...] = ()
-    details: Mapping[str, Any] = field(default_factory=dict)
+    details: Mapping[str, Any] = MappingProxyType({})
     beyond: tuple[Device, ...] = ()
 
     @property
@@ -40,8 +40,7 @@ class Remedy:
 
 def fitted(engine: Engine, remedy: Remedy) -> Engine:
     """The engine with the devices of a remedy added to its own, in the order in which its file would have them."""
-    tables = EngineFile.model_construct(counterweight=remedy.counterweights, shaft=remedy.shafts, slider=remedy.sliders)
-    everything = (*engine.devices, *devices(tables, engine.first_axis_deg), *remedy.beyond)
+    everything = (*engine.devices, *devices(remedy.devices, engine.first_axis_deg), *remedy.beyond)
     return replace(engine, devices=tuple(sorted(everything, key=lambda device: device.rank)))
 
 

@@ -1,7 +1,6 @@
 """Schemes for one cylinder whose devices no engine file can describe: shafts of variable speed, and Oldham couplings (Wang)."""
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -40,7 +39,7 @@ def eccentric_slider(engine: Engine, wish: Wish) -> Remedy:
     wave = eccentric.shafts(used.design, used.k)[0]
     devices = tuple(Device(m, u := -used.mu * mass * radius * float(a) * axis, u, 0j, z)
                     for m, a in enumerate(wave) if m and abs(a) > _SMALLEST)
-    return replace(fitting, beyond=devices).note(
+    return fitting._replace(beyond=devices).note(
         unit_force_N=mass * radius * float(engine.omega) ** 2, fitted=_figures(used, mass * radius),
         optima=[_figures(optimum, mass * radius) for optimum in optima], definition=_DEFINITION).remedy
 
@@ -62,7 +61,7 @@ def oldham(engine: Engine, wish: Wish) -> Remedy:
         pair = left.at("force", 1), left.at("force", -1)
         devices += [Device(order, -pair[0], 0j, 0j, z), Device(order, 0j, -pair[1], 0j, z)]
         sides[name] = abs(pair[1])
-    return replace(fitting, beyond=tuple(devices)).note(
+    return fitting._replace(beyond=tuple(devices)).note(
         **sides, definition="a side: first-order weight = m r/2 opposite the piston's motion, block mass x e = A2 m r/8, "
                             "e half the distance of the coupling's shafts; m the reciprocating mass").remedy
 

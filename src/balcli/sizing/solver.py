@@ -7,7 +7,7 @@ only a choice of slots for devices and of the parts that are to vanish.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -32,8 +32,7 @@ class Part(NamedTuple):
     sense: int
 
 
-@dataclass(frozen=True, eq=False)
-class Rest:
+class Rest(NamedTuple):
     """What shakes an engine at one order, per `n^2 omega^2`: force (kg m), moment over i and roll (kg m2).
 
     Attributes:

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from typing import NamedTuple
 
 from ..engine import Engine
 from ..errors import BalcliError
@@ -17,8 +17,7 @@ class NoNeedError(Exception):
     """There is nothing to balance, as its text says: a scheme then fits no device."""
 
 
-@dataclass(frozen=True)
-class Wish:
+class Wish(NamedTuple):
     """Options of the schemes; what is None was not asked for. Lengths in m.
 
     Attributes:
@@ -39,7 +38,7 @@ class Wish:
 
     def check(self, scheme: str, accepted: Sequence[str]) -> None:
         """BalcliError for an option that the scheme does not have, or a value that none has."""
-        given = [f.name for f in fields(self) if getattr(self, f.name) is not None]
+        given = [name for name, value in self._asdict().items() if value is not None]
         if strangers := [name for name in given if name not in accepted]:
             has = f"it takes {', '.join('--' + a for a in accepted)}" if accepted else "it takes no options"
             raise BalcliError(f"scheme {scheme} has no --{strangers[0]}; {has}")
