@@ -117,11 +117,10 @@ def test_bench_times_each_case_by_the_variant_and_its_own_pairs(monkeypatch):
     case = Case("task", "way", lambda: sum(range(1000)), 0.5, times=1000)
     monkeypatch.setattr(bench, "cases", lambda: [case])
     monkeypatch.setattr(bench, "_imports", lambda: iter([Ratio("cold", 2.0)]))
-    monkeypatch.setattr(bench, "_sweep_to_exponential", lambda: Ratio("sweep", 3.0))
     found = bench.bench()
     assert found.rows[0].error == 0.5
     assert 0 < found.rows[0].seconds < 1e-6             # of one variant of a thousand; a thousand sums take some 10 us
-    assert [r.value for r in found.ratios[-2:]] == [2.0, 3.0]
+    assert Ratio("cold", 2.0) in found.ratios
     assert all(math.isfinite(r.value) and r.value > 0 for r in found.ratios)
 
 
