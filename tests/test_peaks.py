@@ -77,7 +77,7 @@ def test_random_curves_against_many_samples(seed):
 
 def test_of_equal_peaks_the_first_counts():
     """|cos 3 theta| is 1 at 0, 60, 120 .. deg, |sin 3 theta| at 30, 90 ..; rounding must not choose."""
-    for turned, first in ((1, 0.0), (1j, 30.0), (1 - 1e-13j, 0.0)):
+    for turned, first in ((1, 0.0), (1j, 30.0), (1 - 1e-13j, 0.0), (1 + 1e-13j, 0.0)):          # the last a whole turn, nearly
         half = np.array([turned / 2])
         found = peak(Phasors(np.array([3.0]), half, np.conj(half), np.zeros(1)))
         assert found.value == pytest.approx(1, rel=1e-14)

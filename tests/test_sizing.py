@@ -60,12 +60,15 @@ def test_a_force_and_a_roll_by_shafts_at_three_places():
     assert total == pytest.approx([-asked.parts[p] for p in parts], rel=1e-13)
 
 
-def test_effect_is_what_the_analysis_says():
-    engine = build(parse(text(0, 180, 180, 0)))
+@pytest.mark.parametrize("slot", [
+    Slot("slider", 2, 0, 0.07, 0.03 - 0.02j, 33), Slot("shaft", 2, 1, 0.07, 0.03 - 0.02j), Slot("shaft", 2, -1, -0.04, -0.01 + 0.05j)])
+def test_effect_is_what_the_analysis_says(slot):
+    """Moments and roll about a point that is neither on the crank axis nor in the middle of the throws."""
+    engine = build(parse(text(0, 180, 180, 0, frame="reference = [40, -25, 130]")))
     arm = (complex(*engine.reference_m[:2]), float(engine.reference_m[2]))
-    slot = Slot("slider", 2, 0, 0.07, 0.03 - 0.02j, 33)
     u = cmath.rect(2e-3, 0.4)
-    with_it = fitted(engine, Remedy("", sliders=(slot.table(u, 0.0),)))
+    table = slot.table(u, 0.0)
+    with_it = fitted(engine, Remedy("", sliders=(table,)) if slot.kind == "slider" else Remedy("", shafts=(table,)))
     parts = [Part(q, s) for q in ("force", "moment") for s in (1, -1)] + [ROLL]
     before, after = rest(engine, 2), rest(with_it, 2)
     change = np.array([after.parts[p] - before.parts[p] for p in parts])
@@ -78,12 +81,36 @@ def test_more_slots_than_needed_share_the_work():
     assert fit.unbalances == pytest.approx([-1, -1, -1])
 
 
-def test_one_slot_does_what_it_can():
+def test_of_more_slots_than_needed_the_far_ones_do_most():
+    """The least sum of squares that makes a moment: unbalances in proportion to the arms, `u = -m z / sum z^2`."""
+    places = np.array([-0.1, 0.2, 0.4])
+    fit = solve([Slot("counterweight", 1, 1, z) for z in places], wish(moment=0.21 - 0.42j), (MOMENT,))
+    assert fit.unbalances == pytest.approx(-(0.21 - 0.42j) * places / 0.21, rel=1e-14)
+
+
+@pytest.mark.parametrize("force", [3.7, -3.7, 0.3j, -0.3j])
+def test_what_is_not_needed_is_exactly_nothing(force):
+    """A force in one of the two planes; its part that is 0 stays 0, so that angles are plain."""
+    slots = [Slot("counterweight", 1, 1, z) for z in (-0.13, 0.29)]
+    fit = exactly(slots, wish(forward=force, moment=-0.13 * force), (FORCE, MOMENT), "")
+    assert fit.unbalances == (pytest.approx(-force, rel=1e-15), 0)
+    assert 0 in (fit.unbalances[0].real, fit.unbalances[0].imag)
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1, 1e9])
+def test_one_slot_does_what_it_can(scale):
     """Least squares of force and of moment over the arm: u = -(f + m/z)/2 at z."""
-    fit = solve([Slot("counterweight", 1, 1, 0.2)], wish(forward=1, moment=0.6), (FORCE, MOMENT))
-    assert fit.unbalances == pytest.approx([-(1 + 0.6 / 0.2) / 2])
+    asked = wish(noise=1e-16 * scale, forward=scale, moment=0.6 * scale)
+    fit = solve([Slot("counterweight", 1, 1, 0.2)], asked, (FORCE, MOMENT))
+    assert fit.unbalances == pytest.approx([-(1 + 0.6 / 0.2) / 2 * scale])
+    assert fit.left == pytest.approx(1 / 5**0.5)                            # (f - m/z)/sqrt 2 of |f, m/z|, f = 1, m/z = 3
     with pytest.raises(BalcliError, match="the reason"):
-        exactly([Slot("counterweight", 1, 1, 0.2)] * 2, wish(forward=1, moment=0.6), (FORCE, MOMENT), "the reason")
+        exactly([Slot("counterweight", 1, 1, 0.2)] * 2, asked, (FORCE, MOMENT), "the reason")
+
+
+def test_a_slot_without_an_arm_can_do_nothing_about_a_moment():
+    fit = solve([Slot("shaft", 2, 1, 0.0)], wish(moment=1), (MOMENT,))
+    assert fit == ((0,), math.inf, 1)
 
 
 # ------------------------------------------------------------------ tables

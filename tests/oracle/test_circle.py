@@ -122,3 +122,22 @@ def test_angles_are_those_at_which_the_circle_is_touched():
 def test_no_force_is_a_circle_without_points():
     nothing = circle.enclosing(Phasors(np.array([1.0, 2.0]), np.zeros(2, complex), np.zeros(2, complex), np.zeros(1)))
     assert (nothing.centre, nothing.radius, nothing.theta.tolist(), nothing.excess) == (0, 0, [], 0)
+
+
+@pytest.mark.parametrize("first", [0, 3 + 4j])
+@pytest.mark.parametrize(("forward", "backward", "centre", "radius", "touching"), [
+    ((0, 0, 2, 1), (0, 0, 0, 0), 0.5, 1.5 * 3**0.5, (60, 300)),
+    ((2, 0, 0, 0), (0, 1, 0, 0), 0.5, 1.5 * 3**0.5, (60, 300)),
+    ((0, 0, -2j, -1), (0, 0, 0, 0), 0.5, 1.5 * 3**0.5, (30, 150)),
+    ((0, 0, 2, 0), (0, 1, 0, 0), 0, 3, (0, 120, 240)),
+])
+def test_cardioids_and_a_deltoid(forward, backward, centre, radius, touching, first):
+    """Seen from the crank: a cardioid `2 e^{it} + e^{2it}` (mirrored, begun elsewhere) in a circle about 1/2 that it touches at
+    t = +-60 deg, the deltoid `2 e^{it} + e^{-2it}` in one about 0. Whatever turns with the crank moves the centre alone."""
+    orders = np.arange(4.0)
+    whole = np.array(forward, complex) + np.where(orders == 1, first, 0)
+    found = circle.enclosing(Phasors(orders, whole, np.array(backward, complex), np.zeros(1)))
+    assert found.centre == pytest.approx(first + centre, abs=1e-14)
+    assert found.radius == pytest.approx(radius, rel=1e-14)
+    assert sorted((np.degrees(found.theta) + 1) % 360 - 1) == pytest.approx(touching, abs=1e-5)
+    assert found.excess <= 1e-14 * radius
