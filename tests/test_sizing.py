@@ -10,10 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from kit import engine_text
 
+from balcli.core.peaks import peak
 from balcli.engine import build
 from balcli.enginefile import parse
 from balcli.errors import BalcliError
-from balcli.sizing import Remedy, auto, fitted
+from balcli.sizing import Remedy, Wish, auto, fitted, remedy_for
 from balcli.sizing.remedy import counterweight, degrees, shaft, slider
 from balcli.sizing.solver import Part, Rest, Slot, effect, exactly, rest, solve
 from balcli.spectrum import spectra
@@ -172,3 +173,146 @@ def test_devices_are_summed_in_the_order_of_the_file():
     ranks = [d.rank for d in fitted(engine, auto(engine)).devices]
     assert ranks == sorted(ranks)
     assert spectra(fitted(engine, auto(engine)), [1], ("force",)).force.balanced.all()
+
+
+# ------------------------------------------------------------------ all schemes
+ENGINES = {
+    "one": text(0, piston="mass = 1\noffset = 4"), "two": text(0, 180) + "[cylinder.2]\npiston_mass = 3\n",
+    "three": text(0, 240, 120), "four": text(0, 180, 180, 0), "vee": text(0, 90, layout="bank_angle = 60\nstagger = 20"),
+}
+
+
+def devices(remedy: Remedy) -> list[tuple[float, ...]]:
+    """What each device is, and where."""
+    return [(d.unbalance, *(cmath.rect(1, math.radians(d.angle)).real, cmath.rect(1, math.radians(d.angle)).imag), d.position,
+             *getattr(d, "at", ()), getattr(d, "ratio", 0), getattr(d, "direction", 0)) for d in remedy.devices]
+
+
+@pytest.mark.parametrize("name", ENGINES)
+@pytest.mark.parametrize("scheme", ["auto", "counterweights", "factor", "minimax", "single-shaft", "two-shaft", "four-shaft", "slider"])
+def test_a_remedy_does_not_depend_on_the_point_of_reference(name, scheme):
+    """Moments are counted from it, but devices stand where the engine needs them."""
+    plain, moved = (build(parse(ENGINES[name] + frame)) for frame in ("", "[frame]\nreference = [30, -20, 170]\n"))
+    here, there = (remedy_for(e, scheme) for e in (plain, moved))
+    assert len(there.devices) == len(here.devices)
+    for one, other in zip(devices(here), devices(there), strict=True):
+        assert other == pytest.approx(one, rel=1e-10, abs=1e-9)
+
+
+def test_no_roll_about_the_crank_whatever_the_point_of_reference():
+    """A given first shaft, the second placed for no roll: the same about any point, the force being cancelled."""
+    wish = Wish(at=(-0.04 + 0.06j,), roll="zero")
+    plain, moved = (build(parse(ENGINES["four"] + frame)) for frame in ("", "[frame]\nreference = [30, -20, 170]\n"))
+    here, there = (devices(remedy_for(e, "two-shaft", wish)) for e in (plain, moved))
+    assert there == [pytest.approx(device, rel=1e-10, abs=1e-9) for device in here]
+
+
+def test_places_along_the_crank_are_figures_that_people_can_read():
+    """Where two forces act together: `(m1 z1 + m2 z2)/(m1 + m2)`, in mm."""
+    crank = "stroke = 100\nthrows = [0, 0]\npositions = [{}, {}]"
+    for first, second in ((-50, 50), (17.3, 94.1), (-211.7, 3.3), (0, 100)):
+        for share in (1, 3, 9):
+            crank_text = crank.format(first, second)
+            remedy = auto(build(parse(engine_text(crank=crank_text) + f"[cylinder.2]\npiston_mass = {share}\n")))
+            assert {d.position for d in remedy.shafts} == {round((first + share * second) / (1 + share), 9)}
+
+
+def test_what_is_in_the_middle_of_the_throws():
+    """Throws at 10, 30 and 110 mm: 60, where nothing says otherwise."""
+    engine = build(parse(engine_text(crank="stroke = 100\nthrows = [0, 0, 0]\npositions = [10, 30, 110]")))
+    weight, = remedy_for(engine, "minimax").counterweights
+    assert weight.position == 60
+    weight, = remedy_for(engine, "minimax", Wish(position=-0.02)).counterweights
+    assert weight.position == -20
+
+
+def test_a_single_device_has_no_condition_number():
+    """Of two planes at equal distance from the middle it is 1."""
+    assert "condition_number" not in remedy_for(build(parse(ENGINES["four"])), "single-shaft").details
+    assert auto(build(parse(ENGINES["three"]))).details["condition_number"] == pytest.approx(1, rel=1e-14)
+    balanced = build(parse(text(0, 240, 120, 120, 240, 0)))
+    assert not auto(balanced).details
+
+
+@pytest.mark.parametrize(("scheme", "name", "order"), [
+    ("auto", "three", None), ("counterweights", "three", 1), ("counterweights", "one", 1), ("factor", "one", 1), ("minimax", "one", 1),
+    ("single-shaft", "four", 2), ("two-shaft", "four", 2), ("two-shaft", "one", 1), ("four-shaft", "one", None),
+    ("couple-shaft", "three", 1), ("slider", "four", 2), ("minimax", "four", None), ("eccentric-slider", "centred", None),
+    ("oldham", "centred", None)])
+def test_a_remedy_says_its_scheme_and_its_order(scheme, name, order):
+    remedy = remedy_for(build(parse((ENGINES | {"centred": text(0)})[name])), scheme)
+    assert (remedy.scheme, remedy.order) == (scheme, order)
+
+
+# ------------------------------------------------------------------ the smallest peak
+def forces(engine, quantity="force"):
+    """Force of all orders."""
+    return getattr(spectra(engine, np.arange(1, 41), (quantity,)), quantity)
+
+
+@pytest.mark.parametrize("more", ["", "[[counterweight]]\nunbalance = 30000\nangle = 170\n"])
+def test_minimax_reaches_what_it_says_where_it_says(more):
+    """The peak, the crank angles at which it is reached, and the gain over half the reciprocating mass, by the analysis."""
+    engine = build(parse(ENGINES["one"] + more))
+    remedy = remedy_for(engine, "minimax")
+    told, curve = remedy.details, forces(fitted(engine, remedy))
+    assert peak(curve).value == pytest.approx(told["peak_force_N"], rel=1e-12)
+    assert len(told["reached_deg"]) == 3
+    assert all(0 <= degree < 360 for degree in told["reached_deg"])
+    assert np.abs(curve.values(np.radians(told["reached_deg"]))) == pytest.approx(told["peak_force_N"], rel=1e-9)
+    plain = build(parse(ENGINES["one"]))
+    half = peak(forces(fitted(plain, remedy_for(plain, "factor")))).value
+    assert told["factor_half_peak_N"] == pytest.approx(half, rel=1e-12)      # without the engine's own weights
+    assert told["improvement"] == pytest.approx(1 - told["peak_force_N"] / half, rel=1e-12)
+
+
+def test_minimax_in_several_planes_takes_the_moment_too():
+    engine = build(parse(ENGINES["vee"]))
+    one, several = (remedy_for(engine, "minimax", Wish(planes=planes)) for planes in (None, (-0.1, 0.17)))
+    assert sum(cmath.rect(d.unbalance, math.radians(d.angle)) for d in several.devices) == pytest.approx(
+        cmath.rect(one.devices[0].unbalance, math.radians(one.devices[0].angle)), rel=1e-12)
+    after = spectra(fitted(engine, several), [1], ("moment",)).moment
+    assert abs(after.forward[0]) <= 1e-13 * abs(after.backward[0])
+    with pytest.raises(BalcliError, match="--planes: one plane, or planes at the same z, cannot take a moment"):
+        remedy_for(engine, "minimax", Wish(planes=(0.1,)))
+
+
+def test_minimax_without_a_force():
+    """Nothing can be gained; a moment turning with the crank is still taken if planes are named."""
+    engine = build(parse(ENGINES["three"]))
+    remedy = remedy_for(engine, "minimax")
+    assert not remedy.devices
+    assert "no counterweight makes the largest force smaller than it is" in remedy.details["note"]
+    in_planes = remedy_for(engine, "minimax", Wish(planes="ends"))
+    assert [d.position for d in in_planes.counterweights] == [-100, 100]
+    assert in_planes.details["improvement"] == 0
+
+
+# ------------------------------------------------------------------ the shop's factor
+def test_a_single_factor_is_no_sweep():
+    told = remedy_for(build(parse(ENGINES["vee"])), "factor", Wish(factor=(0.4,))).details
+    assert "sweep" not in told
+    assert "note" not in told
+    assert [(entry["throw"], entry["cylinders"], entry["factor"]) for entry in told["card"]] == [(1, [1, 3], 0.4), (2, [2, 4], 0.4)]
+
+
+def test_own_counterweights_are_not_counted_and_said():
+    engine = build(parse(ENGINES["one"] + "[[counterweight]]\nunbalance = 1\n[[shaft]]\nratio = 2\nunbalance = 1\n"))
+    assert remedy_for(engine, "factor").details["note"] == "the engine's own counterweights are not counted in the factor"
+    shafts = build(parse(ENGINES["one"] + "[[shaft]]\nratio = 2\nunbalance = 1\n"))
+    assert "note" not in remedy_for(shafts, "factor").details
+
+
+def test_rods_a_whole_turn_apart_are_on_one_pin():
+    engine = build(parse(text(0, 90, layout="bank_angle = 60").replace("spacing", "splay = 360\nspacing")))
+    remedy = remedy_for(engine, "factor")
+    assert [entry["cylinders"] for entry in remedy.details["card"]] == [[1, 3], [2, 4]]
+    assert remedy.reasons[0] == "Opposite the pin of cylinders 1, 3: all rotating mass and 0.5 of the reciprocating mass"
+
+
+@pytest.mark.parametrize("share", [-10, 10])
+def test_factors_at_their_bounds(share):
+    engine = build(parse(ENGINES["one"]))
+    assert remedy_for(engine, "factor", Wish(factor=(share,))).details["factor"] == share
+    with pytest.raises(BalcliError, match=r"--factor: give a share of the reciprocating mass such as 0.5, or a range such as 0:1:0.1$"):
+        remedy_for(engine, "factor", Wish(factor=(share * (1 + 1e-15),)))

@@ -5,7 +5,7 @@
 One node of a module's syntax tree is changed at a time: operators, comparisons, conditions, constants, functions by their
 counterparts, results by None, statements left out. Tests run once, with the lines that each of them reaches; then every mutant
 has a process of its own, forked when all is imported, in which the changed functions are put in place and the tests that reach
-the line run, the quick ones and the good ones first, until one fails or those left would take longer than `--seconds`.
+the line run, those first that reach little else or have found others, until one fails or those left would take longer than `--seconds`.
 Survivors are printed and end the run with exit code 1; docs/development.md says which are known, and why.
 """
 from __future__ import annotations
@@ -336,7 +336,7 @@ class Runner:
         names: set[str] = next((found for near in mutant.lines
                                 if (found := set().union(*(self.reached.get((mutant.module, n), ()) for n in near)))), set())
         chosen, spent = [], 0.0
-        for name in sorted(names, key=lambda name: (self.traced[name].seconds / (1 + 10 * kills[name]), name)):
+        for name in sorted(names, key=lambda name: (len(self.traced[name].places) / (1 + 10 * kills[name]), name)):
             spent += self.traced[name].seconds
             if not chosen or spent <= self.options.seconds:
                 chosen.append(name)
