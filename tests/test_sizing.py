@@ -178,7 +178,7 @@ def test_devices_are_summed_in_the_order_of_the_file():
 # ------------------------------------------------------------------ all schemes
 ENGINES = {
     "one": text(0, piston="mass = 1\noffset = 4"), "two": text(0, 180) + "[cylinder.2]\npiston_mass = 3\n",
-    "three": text(0, 240, 120), "four": text(0, 180, 180, 0), "vee": text(0, 90, layout="bank_angle = 60\nstagger = 20"),
+    "three": text(0, 240, 120), "four": text(0, 180, 180, 0), "vee": text(0, 100, layout="bank_angle = 50\nstagger = 20"),
 }
 
 
@@ -242,6 +242,119 @@ def test_a_single_device_has_no_condition_number():
 def test_a_remedy_says_its_scheme_and_its_order(scheme, name, order):
     remedy = remedy_for(build(parse((ENGINES | {"centred": text(0)})[name])), scheme)
     assert (remedy.scheme, remedy.order) == (scheme, order)
+
+
+# ------------------------------------------------------------------ shafts and sliders
+@pytest.mark.parametrize("name", ["two", "vee"])
+def test_a_single_shaft_stands_where_its_couple_is_smallest(name):
+    engine = build(parse(ENGINES[name]))
+    here = remedy_for(engine, "single-shaft")
+    place = here.shafts[0].position / 1e3
+    for other in (-0.05, 0.0, 0.05, max(place - 1e-3, -0.05), min(place + 1e-3, 0.05)):             # between the throws
+        there = remedy_for(engine, "single-shaft", Wish(position=other))
+        assert here.details["couple_left_Nm"] <= there.details["couple_left_Nm"] * (1 + 1e-12) + 1e-12
+        left = spectra(fitted(engine, there), [here.order], ("moment", "roll"))
+        assert there.details["couple_left_Nm"] == pytest.approx(abs(left.moment.backward[0]), rel=1e-9, abs=1e-9)
+        assert there.details["roll_left_Nm"] == pytest.approx(left.roll.major[0], rel=1e-12)
+
+
+def test_a_pair_of_shafts_stands_on_the_crank_axis_if_nothing_is_said():
+    remedy = remedy_for(build(parse(ENGINES["vee"])), "two-shaft")
+    assert [s.at for s in remedy.shafts] == [(0, 0), (0, 0)]
+    assert "radius_ratio" not in remedy.details["order_1"]
+
+
+@pytest.mark.parametrize("frame", ["", "[frame]\nreference = [30, -20, 170]\n"])
+@pytest.mark.parametrize("order", [1, 2])
+def test_no_roll_by_the_nearest_places(order, frame):
+    """Of all pairs of places that take force and roll, those with the least sum of squares; about the crank axis."""
+    at_crank = build(parse(ENGINES["vee"]))
+    wish = Wish(order=order, roll="zero")
+    remedy = remedy_for(build(parse(ENGINES["vee"] + frame)), "two-shaft", wish)
+    before, after = (spectra(e, [order], ("force", "roll")) for e in (at_crank, fitted(at_crank, remedy)))
+    assert after.force.balanced.all()
+    assert after.roll.major[0] <= 1e-13 * before.roll.major[0]
+    near = sum(abs(complex(*s.at)) ** 2 for s in remedy.shafts)
+    first = complex(*next(s.at for s in remedy.shafts if s.ratio < 0)) / 1e3
+    for step in (1e-3, 1e-3j, -1e-3, -1e-3j):
+        other = remedy_for(at_crank, "two-shaft", Wish(order=order, roll="zero", at=(first + step,)))
+        assert sum(abs(complex(*s.at)) ** 2 for s in other.shafts) > near
+
+
+def test_the_geometry_of_a_pair_in_the_details():
+    engine = build(parse(ENGINES["vee"]))
+    remedy = remedy_for(engine, "two-shaft", Wish(order=2, at=(-0.03 + 0.04j, 0.12j)))
+    told = remedy.details["order_2"]
+    assert (told["radius_against_crank_mm"], told["radius_with_crank_mm"]) == pytest.approx((50, 120))
+    assert told["radius_ratio"] == pytest.approx(120 / 50)
+    assert (told["direction_with_crank_deg"], told["direction_against_crank_deg"]) == pytest.approx((90, math.degrees(math.atan2(4, -3))))
+    before, after = (spectra(e, [2], ("moment", "roll")) for e in (engine, fitted(engine, remedy)))
+    assert told["roll_before_Nm"] == pytest.approx(before.roll.major[0], rel=1e-12)
+    assert told["roll_left_Nm"] == pytest.approx(after.roll.major[0], rel=1e-12)
+    assert told["moment_left_Nm"] == pytest.approx(after.moment.major[0], rel=1e-9)
+
+
+def test_four_shafts_are_for_the_orders_that_are_there():
+    assert [key for key in remedy_for(build(parse(ENGINES["four"])), "four-shaft").details if key.startswith("order")] == ["order_2"]
+    assert "there is no free force of orders 1 and 2" in remedy_for(build(parse(ENGINES["three"])), "four-shaft").details["note"]
+
+
+@pytest.mark.parametrize(("order", "turning"), [(2, "against"), (4, "with")])
+def test_a_force_in_one_sense_leaves_no_shaft_for_the_roll(order, turning):
+    """Of three cylinders in a star, order n turns with the crank if n - 1 is divisible by 3, against it if n + 1 is."""
+    engine = build(parse(text(0, layout="radial = 3")))
+    with pytest.raises(BalcliError, match=f"order {order}: its force turns {turning} the crank alone, so that one shaft takes it and none"):
+        remedy_for(engine, "two-shaft", Wish(order=order, roll="zero"))
+    remedy = remedy_for(engine, "two-shaft", Wish(order=order, at=(0.03j,)))
+    assert [s.at for s in remedy.shafts] == [(0, 30), (0, -30)]
+    assert {s.ratio for s in remedy.shafts} == {order if turning == "with" else -order}
+    assert all("in two halves on opposite sides of the crank" in reason for reason in remedy.reasons)
+    assert [key for key in remedy.details[f"order_{order}"] if key.startswith("radius")] == (
+        ["radius_with_crank_mm"] if turning == "with" else ["radius_against_crank_mm"])
+
+
+def test_couple_shafts_say_what_is_left():
+    engine = build(parse(ENGINES["vee"]))
+    remedy = remedy_for(engine, "couple-shaft", Wish(order=1))
+    after = spectra(fitted(engine, remedy), [1], ("force", "moment"))
+    assert after.moment.balanced.all()
+    assert (remedy.details["moment_left_Nm"], remedy.details["force_left_N"]) == pytest.approx((0, after.force.major[0]), rel=1e-12)
+
+
+def star(cylinders):
+    return build(parse(text(0, layout=f"radial = {cylinders}")))
+
+
+def test_the_lowest_order_that_is_there_up_to_8():
+    """Of a star of k cylinders, order k - 1 is the first that turns against the crank."""
+    assert remedy_for(star(9), "single-shaft").order == 8
+    assert remedy_for(star(11), "single-shaft").details["note"].startswith(
+        "there is no free force turning against the crank of orders 1 to 8: nothing to balance")
+    assert remedy_for(star(11), "single-shaft", Wish(order=10)).order == 10
+    weighted = fitted(star(3), remedy_for(star(3), "counterweights"))
+    assert remedy_for(weighted, "two-shaft").order == 2
+    assert remedy_for(star(3), "two-shaft", Wish(order=1000)).details["note"].startswith("order 1000 has no free force: nothing")
+    assert [remedy_for(star(3), "two-shaft", Wish(order=order)).order for order in (1, 4)] == [1, 4]
+
+
+def test_what_else_an_order_has_is_said():
+    three, vee = (build(parse(ENGINES[name])) for name in ("three", "four"))
+    assert remedy_for(three, "two-shaft", Wish(order=1)).details["note"] == (
+        "order 1 has no free force: nothing to balance; it has a free moment: couple-shaft")
+    assert remedy_for(vee, "couple-shaft", Wish(order=2)).details["note"] == (
+        "order 2 has no free moment: nothing to balance; it has a free force: two-shaft")
+    assert remedy_for(three, "two-shaft", Wish(order=3)).details["note"] == "order 3 has no free force: nothing to balance"
+
+
+@pytest.mark.parametrize("bank", [-90, -89.5, -0.5, 0, 0.5, 30, 89.5, 90])
+def test_sliders_lie_along_the_axes_above_minus_90_up_to_90(bank):
+    """One cylinder shakes along its axis, and needs no slider across."""
+    single = text(0, layout=f"banks = [{bank}]")
+    along, = remedy_for(build(parse(single)), "slider", Wish(order=2)).sliders
+    assert along.direction == pytest.approx(90 if bank == -90 else bank)
+    two = remedy_for(build(parse(text(0, layout=f"banks = [{bank}, {bank + 70}]"))), "slider", Wish(order=2)).sliders
+    assert all(-90 < s.direction <= 90 for s in two)
+    assert abs(two[0].direction - two[1].direction) == pytest.approx(90)
 
 
 # ------------------------------------------------------------------ the smallest peak

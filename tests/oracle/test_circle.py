@@ -17,6 +17,7 @@ from balcli.enginefile import parse
 from balcli.spectrum import relevant_orders, spectra
 
 TRUE = 1e-10                            # relative to the true optimum
+VECTORS = st.complex_numbers(max_magnitude=1e3, allow_nan=False, allow_infinity=False)
 
 
 def force(**tables: str) -> Phasors:
@@ -40,13 +41,23 @@ def smallest_of_points(points: np.ndarray) -> float:
     return max(around(triple) for triple in itertools.combinations(points, 3))
 
 
-@given(st.lists(st.complex_numbers(max_magnitude=1e3, allow_nan=False, allow_infinity=False), min_size=3, max_size=12, unique=True))
+@given(st.lists(VECTORS, min_size=3, max_size=12, unique=True))
 def test_points(points):
     points = np.array(points)
     centre, radius, fixing = circle.around(points)
     assert np.all(np.abs(points - centre) <= radius * (1 + 1e-9) + 1e-12)
     assert radius == pytest.approx(smallest_of_points(points), rel=1e-9, abs=1e-12)
     assert len(fixing) <= 3
+
+
+@given(st.lists(VECTORS, min_size=3, max_size=3, unique=True), VECTORS)
+def test_the_lower_bound_is_one_about_any_centre(points, centre):
+    """However badly the centre is guessed; about the true one it is the radius itself."""
+    points = np.array(points)
+    radius = smallest_of_points(points)
+    assert circle._bound(points, centre) <= radius * (1 + 1e-9) + 1e-9
+    true, _, fixing = circle.around(points)
+    assert circle._bound(points[fixing], true) == pytest.approx(radius, rel=1e-6, abs=1e-9)
 
 
 @pytest.mark.parametrize("offset", [0, 4, -15])

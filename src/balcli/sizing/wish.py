@@ -48,7 +48,7 @@ class Wish:
             raise BalcliError(f'--roll "{self.roll}": only "zero" can be asked for')
 
 
-def lowest(engine: Engine, quantity: str, senses: Sequence[int] = (1, -1)) -> Rest:
+def lowest(engine: Engine, quantity: str, senses: Sequence[int]) -> Rest:
     """The lowest order at which a free force (or moment) is left; NoNeedError if there is none."""
     for order in range(1, HIGHEST + 1):
         found = rest(engine, order)
