@@ -59,7 +59,7 @@ def lowest(engine: Engine, quantity: str, senses: Sequence[int]) -> Rest:
 
 
 def _turning(senses: Sequence[int]) -> str:
-    return "" if len(senses) > 1 else " turning with the crank" if senses[0] > 0 else " turning against the crank"
+    return " turning against the crank" if tuple(senses) == (-1,) else ""
 
 
 def chosen(engine: Engine, wish: Wish, quantity: str, senses: Sequence[int] = (1, -1)) -> Rest:
