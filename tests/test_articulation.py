@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 import pytest
+from oracle import momentum
 
 from balcli import engine, enginefile, spectrum
 from balcli.core.travel import travel
@@ -124,6 +125,19 @@ def test_a_radial_with_a_master_rod_shakes_forward_in_the_second_order():
     assert after is not None
     assert before.balanced[0]
     assert abs(after.forward[0]) > 50 * abs(after.backward[0]) > 0
+
+
+@pytest.mark.parametrize("angles", [(0, 60, 120), (0, 60, -60), (0, 120, -120)])
+def test_knuckles_that_differ_in_one_component_alone(angles):
+    """Two rods in one direction, hung on opposite sides of the master's big end: against the momentum of every part."""
+    text = RADIAL.replace("radial = 7", "banks = [0, 60, 60]").replace("knuckle_radius", f"knuckle_angles = {list(angles)}\nknuckle_radius")
+    want = momentum.Engine.read(text).curves()
+    found = spectrum.spectra(built(("radial = 7", "banks = [0, 60, 60]"),
+                                   ("knuckle_radius", f"knuckle_angles = {list(angles)}\nknuckle_radius")), [1.0, 2.0, 3.0])
+    for quantity, phasors in found.items():
+        size = max(sum(map(abs, want.order(quantity, n))) for n in (1, 2, 3))
+        for row, n in enumerate((1, 2, 3)):
+            assert (phasors.forward[row], phasors.backward[row]) == pytest.approx(want.order(quantity, n), abs=1e-10 * size + 1e-9)
 
 
 def test_knuckle_pins_on_the_crank_pin_are_equal_rods():

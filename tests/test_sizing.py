@@ -132,8 +132,16 @@ def test_tables_are_in_the_units_of_the_file():
     assert (weight.unbalance, weight.angle, weight.position) == (2000.0, 135.0, -42.5)
     turning = shaft(1e-3j, -2, 0.1, -0.04 + 0.06j)
     assert (turning.ratio, turning.unbalance, turning.angle, turning.at, turning.position) == (-2, 1000.0, 90.0, (-40.0, 60.0), 100.0)
-    sliding = slider(-1e-3 + 0j, 2, 90.0, 0.0)
+    sliding = slider(-1e-3 + 0j, 2, 90.0, 0.0, 0j)
     assert (sliding.order, sliding.unbalance, sliding.direction, sliding.angle) == (2, 1000.0, 90.0, 180.0)
+
+
+def test_places_are_written_as_people_would():
+    """Tenths of a millimetre, whatever metres times 1000 is in binary; and 0 without a sign."""
+    assert all(counterweight(1e-3, tenth / 1e4, 0.0).position == tenth / 10 for tenth in range(-3000, 3001))
+    nothing = counterweight(complex(1e-3, -0.0), -0.0, 0.0)
+    assert (str(nothing.position), str(nothing.angle)) == ("0.0", "0.0")
+    assert counterweight(1e-3, 0.1 / 3, 0.0).position == 100 / 3            # what has no short form keeps its digits
 
 
 # ------------------------------------------------------------------ auto
@@ -215,6 +223,7 @@ def test_places_along_the_crank_are_figures_that_people_can_read():
             crank_text = crank.format(first, second)
             remedy = auto(build(parse(engine_text(crank=crank_text) + f"[cylinder.2]\npiston_mass = {share}\n")))
             assert {d.position for d in remedy.shafts} == {round((first + share * second) / (1 + share), 9)}
+            assert [d.position for d in remedy.counterweights] == [first, second]           # at both throws
 
 
 def test_what_is_in_the_middle_of_the_throws():
