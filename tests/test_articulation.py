@@ -93,18 +93,20 @@ def test_one_cylinder_with_too_short_a_rod_of_its_own():
 
 
 # ------------------------------------------------------------------ strokes and dead centres
-def test_strokes_and_dead_centres_against_fine_sampling():
+@pytest.mark.parametrize("offset", [0, 7])
+def test_strokes_and_dead_centres_against_fine_sampling(offset):
     """Places straight from docs/theory.md, on a grid of 0.001 degrees."""
     psi = np.radians(np.arange(0, 360, 0.001))
-    lean = np.arcsin(60 / 240 * np.sin(psi))
-    found = travel(built().cylinders)
+    lean = np.arcsin((60 * np.sin(psi) - offset) / 240)
+    found = travel(built(("mass = 1.3", f"mass = 1.3\noffset = {offset}")).cylinders)
     for k in range(7):
         bank = 2 * math.pi * k / 7
         knuckle = (60 * np.exp(1j * psi) + 52 * (k > 0) * np.exp(1j * (bank - lean))) * np.exp(-1j * bank)
-        place = knuckle.real + np.sqrt((188 if k else 240) ** 2 - knuckle.imag**2)
+        place = knuckle.real + np.sqrt((188 if k else 240) ** 2 - (knuckle.imag - offset) ** 2)
         assert found.stroke[k] * 1e3 == pytest.approx(np.ptp(place), abs=1e-7)
-        top = (math.degrees(psi[place.argmax()] - bank) + 180) % 360 - 180
-        assert found.top_deg[k] == pytest.approx(top, abs=1e-3)
+        top, bottom = (math.degrees(psi[at] - bank) for at in (place.argmax(), place.argmin()))
+        assert found.top_deg[k] == pytest.approx((top + 180) % 360 - 180, abs=1e-3)
+        assert found.bottom_deg[k] == pytest.approx(bottom % 360 - 180, abs=1e-3)
 
 
 def test_an_offset_slider_crank_has_its_stroke_in_closed_form():
