@@ -264,6 +264,30 @@ def test_a_remedy_says_its_scheme_and_its_order(scheme, name, order):
     assert (remedy.scheme, remedy.order) == (scheme, order)
 
 
+WISHES = {"order": 2, "at": (0.02 + 0.03j,), "position": 0.033, "planes": (-0.02, 0.09), "factor": (0.3,), "roll": "zero"}
+TAKEN = {
+    "auto": "", "counterweights": "order planes", "factor": "factor", "minimax": "planes position", "four-shaft": "at position",
+    "single-shaft": "order at position", "two-shaft": "order at position roll", "couple-shaft": "order at planes",
+    "slider": "order at position"}
+
+
+@pytest.mark.parametrize("option", WISHES)
+@pytest.mark.parametrize("scheme", TAKEN)
+def test_an_option_makes_a_difference_or_is_refused(scheme, option):
+    engine = build(parse(ENGINES["vee"]))
+    wish = Wish(**{option: 1 if scheme == "counterweights" and option == "order" else WISHES[option]})
+    if option not in TAKEN[scheme]:
+        with pytest.raises(BalcliError, match=f"scheme {scheme} has no --{option}; it takes"):
+            remedy_for(engine, scheme, wish)
+    elif (scheme, option) != ("counterweights", "order"):
+        assert devices(remedy_for(engine, scheme, wish)) != devices(remedy_for(engine, scheme))
+
+
+def test_without_a_scheme_it_is_auto():
+    engine = build(parse(ENGINES["three"]))
+    assert remedy_for(engine) == remedy_for(engine, "auto") == auto(engine)
+
+
 # ------------------------------------------------------------------ shafts and sliders
 @pytest.mark.parametrize("name", ["two", "vee"])
 def test_a_single_shaft_stands_where_its_couple_is_smallest(name):

@@ -18,6 +18,7 @@ import importlib
 import os
 import pickle
 import random
+import re
 import resource
 import signal
 import sys
@@ -315,6 +316,8 @@ class Runner:
 
     def _module(self, module: str, lines: set[int]) -> None:
         chosen = [m for m in mutants(SOURCE / module) if not lines or m.line in lines]
+        if self.options.again:
+            chosen = [m for m in chosen if (module, m.text) in self.options.again]
         total = len(chosen)
         if self.options.sample < total:
             chosen = sorted(random.Random(self.options.seed).sample(chosen, self.options.sample), key=lambda m: m.line)
@@ -384,6 +387,12 @@ def wanted(names: Iterable[str]) -> list[tuple[str, set[int]]]:
     return list(found.items())
 
 
+def printed(log: str) -> set[tuple[str, str]]:
+    """Module and change of the survivors that an earlier run printed; their lines may have moved since."""
+    found = re.findall(r"(?m)^([\w/]+\.py):\d+: (.*) \(\d+ tests\)$", Path(log).read_text(encoding="utf-8"))
+    return {(module, text) for module, text in found}
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("modules", nargs="*", default=["core", "sizing"], help="below src/balcli, with or without a line")
@@ -391,6 +400,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--seconds", type=float, default=15.0, help="usual duration of the tests of one mutant at most")
     parser.add_argument("--trace", type=Path, help="file that keeps what each test reaches for the next run")
+    parser.add_argument("--again", type=printed, help="what an earlier run printed: its survivors alone")
     parser.add_argument("--tests", nargs="*", help="files of tests (default: all quick ones)")
     options = parser.parse_args()
     options.modules = wanted(options.modules)
