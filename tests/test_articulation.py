@@ -153,9 +153,13 @@ def test_knuckle_pins_on_the_crank_pin_are_equal_rods():
         assert np.abs(a.forward - b.forward).max() < 1e-8 + 1e-12 * np.abs(b.forward).max(), quantity
 
 
+def highest(c):
+    return c.linkage.highest(c.lam, c.eps)
+
+
 def test_variants_on_a_trailing_axis():
-    """A sweep of knuckle radius and rod length gives what each variant alone gives."""
-    file = enginefile.parse(RADIAL)
+    """A sweep of knuckle radius and rod length gives what each variant alone gives, also at an uneven speed."""
+    file = enginefile.parse(RADIAL + "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.1, angle = 20 }]\n")
     table = file.articulation
     assert table is not None
     radii, lengths = np.array([40.0, 52.0, 60.0]), np.array([180.0, 188.0, 230.0])
@@ -163,7 +167,10 @@ def test_variants_on_a_trailing_axis():
         rod = table.rod.model_copy(update={"length": length})
         return file.model_copy(update={"articulation": table.model_copy(update={"knuckle_radius": radius, "rod": rod})})
     orders = np.arange(1.0, 7.0)
-    together = spectrum.spectra(engine.build(variant(radii, lengths), rank=1), orders)
+    many = engine.build(variant(radii, lengths), rank=1)
+    together = spectrum.spectra(many, orders)
+    of_each = [engine.build(variant(radius, length)).cylinders for radius, length in zip(radii, lengths, strict=True)]
+    assert highest(many.cylinders) == max(map(highest, of_each))
     for k in range(3):
         alone = spectrum.spectra(engine.build(variant(radii[k], lengths[k])), orders)
         for (quantity, many), (_, one) in zip(together.items(), alone.items(), strict=True):

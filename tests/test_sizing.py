@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -107,6 +108,13 @@ def test_one_slot_does_what_it_can(scale):
     assert fit.left == pytest.approx(1 / 5**0.5)                            # (f - m/z)/sqrt 2 of |f, m/z|, f = 1, m/z = 3
     with pytest.raises(BalcliError, match="the reason"):
         exactly([Slot("counterweight", 1, 1, 0.2)] * 2, asked, (FORCE, MOMENT), "the reason")
+
+
+def test_arms_count_from_the_point_of_reference_in_all_directions():
+    """A slot beside the crank on that point's own axis has no arm but along it: u = -(f + m/z)/2 at z from there."""
+    asked = replace(wish(forward=1, moment=0.6), arm=(0.3 + 0.4j, 0.1))
+    fit = solve([Slot("shaft", 2, 1, 0.3, 0.3 + 0.4j)], asked, (FORCE, MOMENT))
+    assert fit.unbalances == pytest.approx([-(1 + 0.6 / 0.2) / 2])
 
 
 def test_a_slot_without_an_arm_can_do_nothing_about_a_moment():
@@ -283,6 +291,29 @@ def test_an_option_makes_a_difference_or_is_refused(scheme, option):
         assert devices(remedy_for(engine, scheme, wish)) != devices(remedy_for(engine, scheme))
 
 
+def test_planes_are_named_or_given():
+    engine = build(parse(ENGINES["vee"]))
+    with pytest.raises(BalcliError, match=r'--planes "left": give ends, throws, or places along z in mm, such as -200,200$'):
+        remedy_for(engine, "counterweights", Wish(planes="left"))
+    with pytest.raises(BalcliError, match=r"--planes: opposite eccentrics stand in two planes; give ends, or two places along z in mm, "
+                                          r"such as -200,200$"):
+        remedy_for(engine, "couple-shaft", Wish(planes=(-0.1, 0.0, 0.1)))
+    ends = [devices(remedy_for(engine, "couple-shaft", Wish(planes=planes))) for planes in (None, "ends", (-0.05, 0.05))]
+    assert ends[0] == ends[1] == ends[2]
+    with pytest.raises(BalcliError, match=r"--at: this scheme has one place; give it once$"):
+        remedy_for(engine, "slider", Wish(at=(0j, 1j)))
+
+
+def test_what_a_single_plane_leaves_is_said():
+    engine = build(parse(ENGINES["vee"]))
+    remedy = remedy_for(engine, "counterweights", Wish(planes=(0.0,)))
+    after = spectra(fitted(engine, remedy), [1], ("force", "moment"))
+    assert remedy.details["left_force_N"] == pytest.approx(abs(after.force.forward[0]), abs=1e-9)
+    assert remedy.details["left_moment_Nm"] == pytest.approx(abs(after.moment.forward[0]), rel=1e-12)
+    assert remedy.details["left_moment_Nm"] > 1
+    assert remedy.details["note"].startswith("one plane, or planes at the same z, cannot take a moment")
+
+
 def test_without_a_scheme_it_is_auto():
     engine = build(parse(ENGINES["three"]))
     assert remedy_for(engine) == remedy_for(engine, "auto") == auto(engine)
@@ -430,7 +461,8 @@ def test_minimax_in_several_planes_takes_the_moment_too():
         cmath.rect(one.devices[0].unbalance, math.radians(one.devices[0].angle)), rel=1e-12)
     after = spectra(fitted(engine, several), [1], ("moment",)).moment
     assert abs(after.forward[0]) <= 1e-13 * abs(after.backward[0])
-    with pytest.raises(BalcliError, match="--planes: one plane, or planes at the same z, cannot take a moment"):
+    with pytest.raises(BalcliError, match=r"--planes: one plane, or planes at the same z, cannot take a moment; "
+                                         r"choose two planes with some distance between them$"):
         remedy_for(engine, "minimax", Wish(planes=(0.1,)))
 
 
@@ -442,13 +474,15 @@ def test_minimax_without_a_force():
     assert "no counterweight makes the largest force smaller than it is" in remedy.details["note"]
     in_planes = remedy_for(engine, "minimax", Wish(planes="ends"))
     assert [d.position for d in in_planes.counterweights] == [-100, 100]
-    assert in_planes.details["improvement"] == 0
+    assert (in_planes.details["improvement"], in_planes.details["relative_error_bound"]) == (0, 0)
 
 
 # ------------------------------------------------------------------ the shop's factor
 def test_a_single_factor_is_no_sweep():
-    told = remedy_for(build(parse(ENGINES["vee"])), "factor", Wish(factor=(0.4,))).details
+    engine = build(parse(ENGINES["vee"]))
+    told = remedy_for(engine, "factor", Wish(factor=(0.4,))).details
     assert "sweep" not in told
+    assert [row["factor"] for row in remedy_for(engine, "factor", Wish(factor=(0.4, 0.5))).details["sweep"]] == [0.4, 0.5]
     assert "note" not in told
     assert [(entry["throw"], entry["cylinders"], entry["factor"]) for entry in told["card"]] == [(1, [1, 3], 0.4), (2, [2, 4], 0.4)]
 
