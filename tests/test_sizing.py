@@ -210,6 +210,9 @@ ENGINES = {
 }
 
 
+UNEVEN = ENGINES["vee"] + "[cylinder.3]\npiston_mass = 2.5\n"       # its two vectors act at different places
+
+
 def devices(remedy: Remedy) -> list[tuple[float, ...]]:
     """What each device is, and where."""
     return [(d.unbalance, *(cmath.rect(1, math.radians(d.angle)).real, cmath.rect(1, math.radians(d.angle)).imag), d.position,
@@ -225,6 +228,8 @@ def test_a_remedy_does_not_depend_on_the_point_of_reference(name, scheme):
     assert len(there.devices) == len(here.devices)
     for one, other in zip(devices(here), devices(there), strict=True):
         assert other == pytest.approx(one, rel=1e-10, abs=1e-9)
+    if scheme == "single-shaft":
+        assert there.details["axial_distance_mm"] == pytest.approx(here.details["axial_distance_mm"], rel=1e-9, abs=1e-9)
 
 
 def test_no_roll_about_the_crank_whatever_the_point_of_reference():
@@ -320,10 +325,11 @@ def test_without_a_scheme_it_is_auto():
 
 
 # ------------------------------------------------------------------ shafts and sliders
-@pytest.mark.parametrize("name", ["two", "vee"])
+@pytest.mark.parametrize("name", ["two", "vee", "uneven"])
 def test_a_single_shaft_stands_where_its_couple_is_smallest(name):
-    engine = build(parse(ENGINES[name]))
+    engine = build(parse(UNEVEN if name == "uneven" else ENGINES[name]))
     here = remedy_for(engine, "single-shaft")
+    assert "turning against the crank" in here.reasons[-1]
     place = here.shafts[0].position / 1e3
     for other in (-0.05, 0.0, 0.05, max(place - 1e-3, -0.05), min(place + 1e-3, 0.05)):             # between the throws
         there = remedy_for(engine, "single-shaft", Wish(position=other))
@@ -333,9 +339,27 @@ def test_a_single_shaft_stands_where_its_couple_is_smallest(name):
         assert there.details["roll_left_Nm"] == pytest.approx(left.roll.major[0], rel=1e-12)
 
 
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("bank", [50, 130])
+def test_sliders_stand_where_the_stronger_part_acts(bank, order):
+    """Between the throws, so that it leaves the least moment."""
+    engine = build(parse(UNEVEN.replace("bank_angle = 50", f"bank_angle = {bank}")))
+    force = spectra(engine, [order], ("force",)).force
+    stronger = "forward" if abs(force.forward[0]) > abs(force.backward[0]) else "backward"
+    place = remedy_for(engine, "slider", Wish(order=order)).sliders[0].position / 1e3
+
+    def left(position):
+        after = fitted(engine, remedy_for(engine, "slider", Wish(order=order, position=position)))
+        return abs(getattr(spectra(after, [order], ("moment",)).moment, stronger)[0])
+    least = left(place) * (1 - 1e-9) - 1e-9
+    assert all(left(min(max(other, -0.06), 0.06)) >= least for other in (-0.06, 0.0, 0.06, place - 1e-3, place + 1e-3))
+
+
 def test_a_pair_of_shafts_stands_on_the_crank_axis_if_nothing_is_said():
     remedy = remedy_for(build(parse(ENGINES["vee"])), "two-shaft")
     assert [s.at for s in remedy.shafts] == [(0, 0), (0, 0)]
+    assert remedy.reasons[0] == ("Order 1 force and moment turning against the crank: nothing on the crankshaft can cancel it; "
+                                 "one eccentric on a shaft at -1 times crank speed can")
     assert "radius_ratio" not in remedy.details["order_1"]
 
 
@@ -343,9 +367,9 @@ def test_a_pair_of_shafts_stands_on_the_crank_axis_if_nothing_is_said():
 @pytest.mark.parametrize("order", [1, 2])
 def test_no_roll_by_the_nearest_places(order, frame):
     """Of all pairs of places that take force and roll, those with the least sum of squares; about the crank axis."""
-    at_crank = build(parse(ENGINES["vee"]))
+    at_crank = build(parse(UNEVEN))
     wish = Wish(order=order, roll="zero")
-    remedy = remedy_for(build(parse(ENGINES["vee"] + frame)), "two-shaft", wish)
+    remedy = remedy_for(build(parse(UNEVEN + frame)), "two-shaft", wish)
     before, after = (spectra(e, [order], ("force", "roll")) for e in (at_crank, fitted(at_crank, remedy)))
     assert after.force.balanced.all()
     assert after.roll.major[0] <= 1e-13 * before.roll.major[0]
@@ -371,6 +395,7 @@ def test_the_geometry_of_a_pair_in_the_details():
 
 def test_four_shafts_are_for_the_orders_that_are_there():
     assert [key for key in remedy_for(build(parse(ENGINES["four"])), "four-shaft").details if key.startswith("order")] == ["order_2"]
+    assert {s.ratio for s in remedy_for(star(3), "four-shaft").shafts} == {1, -2}
     assert "there is no free force of orders 1 and 2" in remedy_for(build(parse(ENGINES["three"])), "four-shaft").details["note"]
 
 
@@ -388,9 +413,12 @@ def test_a_force_in_one_sense_leaves_no_shaft_for_the_roll(order, turning):
         ["radius_with_crank_mm"] if turning == "with" else ["radius_against_crank_mm"])
 
 
-def test_couple_shafts_say_what_is_left():
+def test_couple_shafts_say_what_they_do_and_what_is_left():
     engine = build(parse(ENGINES["vee"]))
     remedy = remedy_for(engine, "couple-shaft", Wish(order=1))
+    assert list(remedy.reasons[::2]) == [
+        f"Order 1 moment turning {turning} the crank: two opposite eccentrics on a shaft at {ratio} times crank speed make the opposite "
+        "moment and no force" for turning, ratio in (("with", "+1"), ("against", "-1"))]
     after = spectra(fitted(engine, remedy), [1], ("force", "moment"))
     assert after.moment.balanced.all()
     assert (remedy.details["moment_left_Nm"], remedy.details["force_left_N"]) == pytest.approx((0, after.force.major[0]), rel=1e-12)

@@ -130,7 +130,7 @@ def solve(slots: Sequence[Slot], wish: Rest, parts: Sequence[Part]) -> Fit:
         x = x + inverse @ (scale * (target - matrix @ x))
     size = float(np.linalg.norm(scale * target))
     left = float(np.linalg.norm(scale * (target - matrix @ x))) / (size or 1.0)
-    x[np.abs(x) <= 4 * EPS * np.abs(x).max(initial=0)] = 0
+    x[np.abs(x) <= 4 * EPS * np.abs(x).max()] = 0
     return Fit(tuple(complex(a, b) for a, b in x.reshape(-1, 2)), condition, left)
 
 
