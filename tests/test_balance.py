@@ -148,6 +148,7 @@ def test_practical_figures_follow_from_their_definitions():
     omega = engine().omega
     assert weight.mass == pytest.approx(weight.unbalance / 0.06)
     assert shaft.force == pytest.approx(shaft.unbalance * omega**2)
+    assert (weight.force, weight.speed_rpm) == (pytest.approx(weight.unbalance * omega**2), engine().speed_rpm)
     assert shaft.speed_rpm == engine().speed_rpm
     # half disc: mass pi R^2/2 t density, centroid at 4R/(3 pi)
     assert STEEL * math.pi * 0.05**2 / 2 * weight.disc_thickness * 4 * 0.05 / (3 * math.pi) == pytest.approx(weight.unbalance)

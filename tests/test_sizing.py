@@ -434,6 +434,9 @@ def test_the_lowest_order_that_is_there_up_to_8():
     assert remedy_for(star(11), "single-shaft").details["note"].startswith(
         "there is no free force turning against the crank of orders 1 to 8: nothing to balance")
     assert remedy_for(star(11), "single-shaft", Wish(order=10)).order == 10
+    ninth = build(parse(text(0, layout="radial = 10", piston="mass = 1\noffset = 3")))             # an offset makes odd orders
+    assert "of orders 1 to 8" in remedy_for(ninth, "single-shaft").details["note"]
+    assert remedy_for(ninth, "single-shaft", Wish(order=9)).devices
     weighted = fitted(star(3), remedy_for(star(3), "counterweights"))
     assert remedy_for(weighted, "two-shaft").order == 2
     assert remedy_for(star(3), "two-shaft", Wish(order=1000)).details["note"].startswith("order 1000 has no free force: nothing")
@@ -446,6 +449,8 @@ def test_what_else_an_order_has_is_said():
         "order 1 has no free force: nothing to balance; it has a free moment: couple-shaft")
     assert remedy_for(vee, "couple-shaft", Wish(order=2)).details["note"] == (
         "order 2 has no free moment: nothing to balance; it has a free force: two-shaft")
+    cross = build(parse(text(0, 90, 270, 180, layout="bank_angle = 90")))                           # a moment with the crank alone
+    assert remedy_for(cross, "two-shaft", Wish(order=1)).details["note"].endswith("; it has a free moment: couple-shaft")
     assert remedy_for(three, "two-shaft", Wish(order=3)).details["note"] == "order 3 has no free force: nothing to balance"
 
 

@@ -117,6 +117,7 @@ def test_eccentric_slider_of_any_mass_in_any_direction():
     remedy = remedy_for(other, "eccentric-slider")
     weight, = remedy.counterweights
     assert weight.unbalance / 1e6 == pytest.approx(0.7 * R, rel=1e-12)
+    assert all(device.place == 0 for device in remedy.beyond)
     one, many = (spectra(fitted(e, remedy_for(e, "eccentric-slider")), np.arange(0.0, 12), ("force", "moment")) for e in (plain, other))
     unit = [m * R * e.omega**2 for m, e in ((M, plain), (mass, other))]
     turn = np.exp(1j * math.radians(bank))
@@ -149,6 +150,12 @@ def test_oldham_couplings_cancel_orders_1_and_2(bank):
     assert remedy.details["first_order_kg_m"] == pytest.approx(M * R / 2, rel=1e-14)
     assert remedy.details["block_kg_m"] == pytest.approx(float(harmonics.piston([2], 0.3)[0]) * M * R / 8, rel=1e-14)
     assert all(device.place == 0 for device in remedy.beyond)
+
+
+def test_oldham_couplings_suit_an_offset_too():
+    """The two vectors of an order then differ in phase."""
+    engine = single(0.3, layout="banks = [20]", piston="mass = 1\noffset = 6")
+    assert spectra(fitted(engine, remedy_for(engine, "oldham")), [1, 2], ("force",)).force.balanced.all()
 
 
 def test_two_and_four_shafts():
