@@ -15,6 +15,7 @@ from balcli.core.peaks import peak
 from balcli.engine import build
 from balcli.enginefile import parse
 from balcli.errors import BalcliError
+from balcli.model import Counterweight
 from balcli.sizing import Remedy, Wish, auto, fitted, remedy_for
 from balcli.sizing.remedy import counterweight, degrees, shaft, slider
 from balcli.sizing.solver import Part, Rest, Slot, effect, exactly, rest, solve
@@ -330,6 +331,7 @@ def test_a_single_shaft_stands_where_its_couple_is_smallest(name):
     engine = build(parse(UNEVEN if name == "uneven" else ENGINES[name]))
     here = remedy_for(engine, "single-shaft")
     assert "turning against the crank" in here.reasons[-1]
+    assert "one eccentric on a shaft at -" in here.reasons[-1]
     place = here.shafts[0].position / 1e3
     for other in (-0.05, 0.0, 0.05, max(place - 1e-3, -0.05), min(place + 1e-3, 0.05)):             # between the throws
         there = remedy_for(engine, "single-shaft", Wish(position=other))
@@ -380,6 +382,17 @@ def test_no_roll_by_the_nearest_places(order, frame):
         assert sum(abs(complex(*s.at)) ** 2 for s in other.shafts) > near
 
 
+@pytest.mark.parametrize("scheme", ["single-shaft", "four-shaft", "couple-shaft", "slider"])
+def test_other_devices_do_so_too(scheme):
+    remedy = remedy_for(build(parse(ENGINES["vee"])), scheme)
+    assert {d.at for d in remedy.devices if not isinstance(d, Counterweight)} == {(0, 0)}
+
+
+def test_a_single_shaft_has_counterweights_at_both_throws():
+    """As `auto` has, though one plane would do."""
+    assert [d.position for d in remedy_for(build(parse(text(0, 0))), "single-shaft").counterweights] == [-50, 50]
+
+
 def test_the_geometry_of_a_pair_in_the_details():
     engine = build(parse(ENGINES["vee"]))
     remedy = remedy_for(engine, "two-shaft", Wish(order=2, at=(-0.03 + 0.04j, 0.12j)))
@@ -408,6 +421,7 @@ def test_a_force_in_one_sense_leaves_no_shaft_for_the_roll(order, turning):
     remedy = remedy_for(engine, "two-shaft", Wish(order=order, at=(0.03j,)))
     assert [s.at for s in remedy.shafts] == [(0, 30), (0, -30)]
     assert {s.ratio for s in remedy.shafts} == {order if turning == "with" else -order}
+    assert remedy.details[f"order_{order}"][f"direction_{turning}_crank_deg"] == 90
     assert all("in two halves on opposite sides of the crank" in reason for reason in remedy.reasons)
     assert [key for key in remedy.details[f"order_{order}"] if key.startswith("radius")] == (
         ["radius_with_crank_mm"] if turning == "with" else ["radius_against_crank_mm"])
@@ -460,7 +474,7 @@ def test_sliders_lie_along_the_axes_above_minus_90_up_to_90(bank):
     single = text(0, layout=f"banks = [{bank}]")
     along, = remedy_for(build(parse(single)), "slider", Wish(order=2)).sliders
     assert along.direction == pytest.approx(90 if bank == -90 else bank)
-    two = remedy_for(build(parse(text(0, layout=f"banks = [{bank}, {bank + 70}]"))), "slider", Wish(order=2)).sliders
+    two = remedy_for(build(parse(text(0, layout=f"banks = [{bank - 35}, {bank + 35}]"))), "slider", Wish(order=2)).sliders
     assert all(-90 < s.direction <= 90 for s in two)
     assert abs(two[0].direction - two[1].direction) == pytest.approx(90)
 

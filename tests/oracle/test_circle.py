@@ -105,6 +105,7 @@ def test_nothing_near_is_better(tables):
     found = circle.enclosing(curve)
     samples = seen(curve, np.linspace(0, 2 * np.pi, 20001))
     assert np.abs(samples - found.centre).max() <= found.radius * (1 + 1e-13)
+    assert np.abs(seen(curve, found.theta) - found.centre) == pytest.approx(found.radius, rel=1e-10)       # lower peaks are not named
     for step in (1e-3, 1e-5):
         for direction in np.exp(1j * np.linspace(0, 2 * np.pi, 24)):
             other = found.centre + step * found.radius * direction
