@@ -524,6 +524,13 @@ def test_minimax_without_a_force():
     assert (in_planes.details["improvement"], in_planes.details["relative_error_bound"]) == (0, 0)
 
 
+def test_minimax_of_an_engine_without_any_force():
+    """A boxer twin: whatever one piston does, the other does against it; its moment has a part that turns with the crank."""
+    engine = build(parse(text(0, 180, layout='banks = [0, 180]\nrods = "alternating"')))
+    told = remedy_for(engine, "minimax", Wish(planes="ends")).details
+    assert (told["peak_force_N"], told["relative_error_bound"], told["factor_half_peak_N"], told["improvement"]) == (0, 0, 0, 0)
+
+
 # ------------------------------------------------------------------ the shop's factor
 def test_a_single_factor_is_no_sweep():
     engine = build(parse(ENGINES["vee"]))
