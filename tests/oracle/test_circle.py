@@ -153,3 +153,8 @@ def test_cardioids_and_a_deltoid(forward, backward, centre, radius, touching, fi
     assert found.radius == pytest.approx(radius, rel=1e-14)
     assert sorted((np.degrees(found.theta) + 1) % 360 - 1) == pytest.approx(touching, abs=1e-5)
     assert found.excess <= 1e-14 * radius
+
+
+def test_angles_on_both_sides_of_0_are_one():
+    assert circle._distinct(np.array([1e-5, 3, 2 * np.pi - 1e-5])).tolist() == [3, 2 * np.pi - 1e-5]
+    assert len(circle._distinct(np.array([0.1, 3, 2 * np.pi - 0.1]))) == 3
