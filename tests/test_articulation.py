@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 import pytest
+from oracle import momentum
 
 from balcli import engine, enginefile, spectrum
 from balcli.core.travel import travel
@@ -92,18 +93,20 @@ def test_one_cylinder_with_too_short_a_rod_of_its_own():
 
 
 # ------------------------------------------------------------------ strokes and dead centres
-def test_strokes_and_dead_centres_against_fine_sampling():
+@pytest.mark.parametrize("offset", [0, 7])
+def test_strokes_and_dead_centres_against_fine_sampling(offset):
     """Places straight from docs/theory.md, on a grid of 0.001 degrees."""
     psi = np.radians(np.arange(0, 360, 0.001))
-    lean = np.arcsin(60 / 240 * np.sin(psi))
-    found = travel(built().cylinders)
+    lean = np.arcsin((60 * np.sin(psi) - offset) / 240)
+    found = travel(built(("mass = 1.3", f"mass = 1.3\noffset = {offset}")).cylinders)
     for k in range(7):
         bank = 2 * math.pi * k / 7
         knuckle = (60 * np.exp(1j * psi) + 52 * (k > 0) * np.exp(1j * (bank - lean))) * np.exp(-1j * bank)
-        place = knuckle.real + np.sqrt((188 if k else 240) ** 2 - knuckle.imag**2)
+        place = knuckle.real + np.sqrt((188 if k else 240) ** 2 - (knuckle.imag - offset) ** 2)
         assert found.stroke[k] * 1e3 == pytest.approx(np.ptp(place), abs=1e-7)
-        top = (math.degrees(psi[place.argmax()] - bank) + 180) % 360 - 180
-        assert found.top_deg[k] == pytest.approx(top, abs=1e-3)
+        top, bottom = (math.degrees(psi[at] - bank) for at in (place.argmax(), place.argmin()))
+        assert found.top_deg[k] == pytest.approx((top + 180) % 360 - 180, abs=1e-3)
+        assert found.bottom_deg[k] == pytest.approx(bottom % 360 - 180, abs=1e-3)
 
 
 def test_an_offset_slider_crank_has_its_stroke_in_closed_form():
@@ -126,6 +129,19 @@ def test_a_radial_with_a_master_rod_shakes_forward_in_the_second_order():
     assert abs(after.forward[0]) > 50 * abs(after.backward[0]) > 0
 
 
+@pytest.mark.parametrize("angles", [(0, 60, 120), (0, 60, -60), (0, 120, -120)])
+def test_knuckles_that_differ_in_one_component_alone(angles):
+    """Two rods in one direction, hung on opposite sides of the master's big end: against the momentum of every part."""
+    text = RADIAL.replace("radial = 7", "banks = [0, 60, 60]").replace("knuckle_radius", f"knuckle_angles = {list(angles)}\nknuckle_radius")
+    want = momentum.Engine.read(text).curves()
+    found = spectrum.spectra(built(("radial = 7", "banks = [0, 60, 60]"),
+                                   ("knuckle_radius", f"knuckle_angles = {list(angles)}\nknuckle_radius")), [1.0, 2.0, 3.0])
+    for quantity, phasors in found.items():
+        size = max(sum(map(abs, want.order(quantity, n))) for n in (1, 2, 3))
+        for row, n in enumerate((1, 2, 3)):
+            assert (phasors.forward[row], phasors.backward[row]) == pytest.approx(want.order(quantity, n), abs=1e-10 * size + 1e-9)
+
+
 def test_knuckle_pins_on_the_crank_pin_are_equal_rods():
     """With a vanishing knuckle radius and equal rods nothing is left of the articulation."""
     articulated = built(("knuckle_radius = 52", "knuckle_radius = 1e-11"),
@@ -137,9 +153,13 @@ def test_knuckle_pins_on_the_crank_pin_are_equal_rods():
         assert np.abs(a.forward - b.forward).max() < 1e-8 + 1e-12 * np.abs(b.forward).max(), quantity
 
 
+def highest(c):
+    return c.linkage.highest(c.lam, c.eps)
+
+
 def test_variants_on_a_trailing_axis():
-    """A sweep of knuckle radius and rod length gives what each variant alone gives."""
-    file = enginefile.parse(RADIAL)
+    """A sweep of knuckle radius and rod length gives what each variant alone gives, also at an uneven speed."""
+    file = enginefile.parse(RADIAL + "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.1, angle = 20 }]\n")
     table = file.articulation
     assert table is not None
     radii, lengths = np.array([40.0, 52.0, 60.0]), np.array([180.0, 188.0, 230.0])
@@ -147,7 +167,10 @@ def test_variants_on_a_trailing_axis():
         rod = table.rod.model_copy(update={"length": length})
         return file.model_copy(update={"articulation": table.model_copy(update={"knuckle_radius": radius, "rod": rod})})
     orders = np.arange(1.0, 7.0)
-    together = spectrum.spectra(engine.build(variant(radii, lengths), rank=1), orders)
+    many = engine.build(variant(radii, lengths), rank=1)
+    together = spectrum.spectra(many, orders)
+    of_each = [engine.build(variant(radius, length)).cylinders for radius, length in zip(radii, lengths, strict=True)]
+    assert highest(many.cylinders) == max(map(highest, of_each))
     for k in range(3):
         alone = spectrum.spectra(engine.build(variant(radii[k], lengths[k])), orders)
         for (quantity, many), (_, one) in zip(together.items(), alone.items(), strict=True):

@@ -16,6 +16,7 @@ from balcli.cli import app
 from balcli.engine import build
 from balcli.enginefile import parse
 from balcli.errors import BalcliError
+from balcli.model import Counterweight, Slider
 from balcli.sizing import SCHEMES, Remedy, Tools, Wish, practical
 from balcli.sizing.shop import STEEL, drill_depth
 
@@ -181,6 +182,7 @@ def test_practical_figures_follow_from_their_definitions():
     omega = engine().omega
     assert weight.mass == pytest.approx(weight.unbalance / 0.06)
     assert shaft.force == pytest.approx(shaft.unbalance * omega**2)
+    assert (weight.force, weight.speed_rpm) == (pytest.approx(weight.unbalance * omega**2), engine().speed_rpm)
     assert shaft.speed_rpm == engine().speed_rpm
     # half disc: mass pi R^2/2 t density, centroid at 4R/(3 pi)
     assert STEEL * math.pi * 0.05**2 / 2 * weight.disc_thickness * 4 * 0.05 / (3 * math.pi) == pytest.approx(weight.unbalance)
@@ -206,3 +208,35 @@ def test_drill_depth_removes_the_unbalance():
     assert STEEL * area * (0.08**2 - (0.08 - depth) ** 2) / 2 == pytest.approx(1e-3, rel=1e-13)
     assert math.isnan(drill_depth(1.0, 0.08, 0.012))
     assert drill_depth(0.0, 0.08, 0.012) == 0
+
+
+def test_a_first_guess_of_a_device_in_steel():
+    """A half disc 20 mm thick (if nothing else is said) of 50 mm radius, 7850 kg/m3: its unbalance `t 2/3 R^3` times that."""
+    weight = Remedy("", counterweights=(Counterweight(unbalance=7850 * 0.02 * 2 / 3 * 0.05**3 * 1e6, angle=0, position=0),))
+    figures, = practical(engine(), weight, Tools())
+    assert (figures.disc_radius, figures.disc_thickness) == pytest.approx((0.05, 0.02), rel=1e-14)
+    assert (figures.radius, figures.mass) == (0.045, pytest.approx(figures.unbalance / 0.045))
+    assert figures.depth is None
+
+
+@pytest.mark.parametrize("name", ["radius", "thickness", "disc", "drill"])
+@pytest.mark.parametrize("length", [0.0, -1e-3, math.inf, math.nan])
+def test_lengths_of_tools_are_positive(name, length):
+    with pytest.raises(BalcliError, match="must be positive lengths in mm"):
+        practical(engine(), Remedy(""), Tools(**{name: length}))
+
+
+def test_a_hole_ends_at_the_axis():
+    """Drilled from the rim to the axis, `rim^2/2` times area and density is removed: that much, and no more."""
+    most = STEEL * math.pi / 4 * 0.01**2 * 0.05**2 / 2
+    assert drill_depth(most * (1 - 1e-14), 0.05, 0.01) == pytest.approx(0.05, rel=1e-6)
+    assert math.isnan(drill_depth(most * (1 + 1e-14), 0.05, 0.01))
+
+
+def test_sliders_move_at_their_order():
+    """n times the crank's speed, n^2 times the force."""
+    remedy = Remedy("", sliders=(Slider(order=3, unbalance=1e6, direction=0, angle=0),))
+    figures, = practical(engine(), remedy, Tools(radius=0.5, drill=1.0))
+    assert (figures.mass, figures.speed_rpm) == (2, 9000)
+    assert figures.force == pytest.approx((9000 * math.pi / 30) ** 2, rel=1e-14)
+    assert STEEL * math.pi / 4 * (0.5**2 - (0.5 - figures.depth) ** 2) / 2 == pytest.approx(1, rel=1e-12)

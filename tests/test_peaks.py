@@ -62,6 +62,11 @@ def test_a_narrow_peak_between_samples():
     assert found.theta == pytest.approx(at, abs=1e-9)
 
 
+def test_the_highest_of_hundreds():
+    """cos 100 t + 0.01 cos t: two hundred peaks, all within 2 %."""
+    assert peak(curve((1, 0.005, 0.005), (100, 0.5, 0.5))).value == pytest.approx(1.01, rel=RELATIVE)
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_random_curves_against_many_samples(seed):
     random = np.random.default_rng(seed)
@@ -73,11 +78,14 @@ def test_random_curves_against_many_samples(seed):
     sampled = np.abs(phasors.values(np.linspace(0, 2 * np.pi, 40_001))).max()
     assert sampled * (1 - 1e-15) <= found.value <= sampled * (1 + 1e-5)
     assert abs(phasors.values(found.theta)) == pytest.approx(found.value, rel=RELATIVE)
+    there = np.exp(1j * orders * found.theta)
+    rate = np.sum(1j * orders * (phasors.forward * there - phasors.backward / there))
+    assert abs((np.conj(phasors.values(found.theta)) * rate).real) <= 1e-13 * orders[-1] * found.value**2       # level to rounding
 
 
 def test_of_equal_peaks_the_first_counts():
     """|cos 3 theta| is 1 at 0, 60, 120 .. deg, |sin 3 theta| at 30, 90 ..; rounding must not choose."""
-    for turned, first in ((1, 0.0), (1j, 30.0), (1 - 1e-13j, 0.0)):
+    for turned, first in ((1, 0.0), (1j, 30.0), (1 - 1e-13j, 0.0), (1 + 1e-13j, 0.0)):          # the last a whole turn, nearly
         half = np.array([turned / 2])
         found = peak(Phasors(np.array([3.0]), half, np.conj(half), np.zeros(1)))
         assert found.value == pytest.approx(1, rel=1e-14)

@@ -113,7 +113,39 @@ def test_the_rounding_error_grows_with_the_parts_and_never_vanishes_where_they_d
     small, large = (ripple.force(Phasors(ORDERS, FORWARD, BACKWARD, np.full(15, size)), w).noise
                     for size in (1e-16, 1e-14))
     assert np.all(small > 0)
-    assert large == pytest.approx(100 * small)
+    assert large == pytest.approx(100 * small, rel=1e-12, abs=0)
+
+
+@pytest.mark.parametrize("mean", [0.0, 300.0, -300.0])
+@pytest.mark.parametrize("lines", [[(2, 0.3, 40.0)], [(1, 0.2, 170.0), (3, 0.1, -120.0)]])
+def test_the_bound_holds_for_errors_of_the_parts(lines, mean):
+    """Errors of the size that the parts' noise tells, with signs as they come, move no order by more than the bound; and the bound
+    knows of lines no more than their sizes."""
+    w, level = ripple.speed(lines), ripple.speed([(order, size, 0.0) for order, size, _ in lines])
+    random = np.random.default_rng(7)
+    for rule in (ripple.force, ripple.torque):
+        backward = np.conj(FORWARD) if rule is ripple.torque else BACKWARD
+        noise = 1e-9 * random.uniform(1, 2, 15)
+        found = rule(Phasors(ORDERS, FORWARD, backward, noise), w, mean)
+        assert found.noise == pytest.approx(rule(Phasors(ORDERS, FORWARD, backward, noise), level, mean).noise, rel=1e-12, abs=0)
+        for _ in range(20):
+            errors = [noise * np.where(ORDERS > 0, np.exp(2j * np.pi * random.random(15)), 0) for _ in range(2)]
+            if rule is ripple.torque:
+                errors[1] = np.conj(errors[0])
+            moved = rule(Phasors(ORDERS, FORWARD + errors[0], backward + errors[1], noise), w, mean) - found
+            assert np.all(np.abs(moved.forward) <= found.noise + 1e-13)
+            assert np.all(np.abs(moved.backward) <= found.noise + 1e-13)
+
+
+@pytest.mark.parametrize("mean", [300.0, -300.0])
+def test_a_mean_momentum_is_rounded_too(mean):
+    """Where nothing else is, the force is `-W W' mean`, and its bound not below its own rounding."""
+    nothing = Phasors(ORDERS, np.zeros(15, complex), np.zeros(15, complex), np.zeros(15))
+    for rule in (ripple.force, ripple.torque):
+        found = rule(nothing, ripple.speed([(2, 0.3, 40.0)]), mean)
+        assert np.abs(found.forward).max() > 10
+        assert np.all(found.noise >= np.finfo(float).eps * np.abs(found.forward))
+        assert np.all(found.noise <= 4 * np.finfo(float).eps * np.abs(found.forward).max())
 
 
 def test_at_steady_speed_nothing_changes_not_even_the_bound():
@@ -122,7 +154,7 @@ def test_at_steady_speed_nothing_changes_not_even_the_bound():
     steady = Phasors(ORDERS, FORWARD.astype(complex), BACKWARD.astype(complex), noise)
     for rule in (ripple.force(steady, np.ones(1, complex)), ripple.torque(steady, np.ones(1, complex), 0.0)):
         assert rule.forward == pytest.approx(FORWARD, rel=1e-15)
-        assert rule.noise[1:] == pytest.approx(noise[1:], rel=1e-12)
+        assert rule.noise[1:] == pytest.approx(noise[1:], rel=1e-12, abs=0)
 
 
 def test_variants_side_by_side_are_what_each_is_alone():

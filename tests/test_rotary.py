@@ -135,8 +135,9 @@ def test_the_page_has_the_knuckle_pins_of_turning_cylinders():
 
 
 def test_variants_along_two_axes():
-    """Strokes along one axis, rod lengths along the other: what each variant alone gives."""
-    file = enginefile.parse(GNOME.format(layout="radial = 3", offset=4))
+    """Strokes along one axis, rod lengths along the other: what each variant alone gives, also at an uneven speed."""
+    ripple = "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.1, angle = 20 }]\n"
+    file = enginefile.parse(GNOME.format(layout="radial = 3", offset=4) + ripple)
     strokes, lengths = np.array([[100.0], [120.0], [130.0]]), np.array([[220.0, 240.0]])
 
     def variant(stroke, length):

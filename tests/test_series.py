@@ -61,3 +61,13 @@ def test_to_any_power_and_without_zeros():
     assert series.piston(0, 20) == {}
     assert series.displacement(0, 3) == {0: 1, 1: Fraction(1, 4), 3: Fraction(3, 64)}
     assert series.from_shaft(0, 1) == {-1: 1, 1: Fraction(-1, 4)}
+
+
+@pytest.mark.parametrize("power", range(1, 9))
+@pytest.mark.parametrize("generate", [series.piston, series.rod, series.velocity, series.displacement, series.cos_beta, series.beta])
+def test_no_power_beyond_the_one_asked_for(generate, power):
+    """And all up to it: one more power adds that power alone."""
+    for order in range(8):
+        terms, more = generate(order, power), generate(order, power + 1)
+        assert all(p <= power for p in terms)
+        assert terms == {p: c for p, c in more.items() if p <= power}

@@ -131,3 +131,11 @@ def test_no_denominator_above_5040_and_no_more_than_two_ulp_of_a_turn():
 def test_a_weight_without_an_angle_is_no_sum():
     with pytest.raises(ValueError, match="argument 2 is shorter"):
         vanishes([1, -1], [Fraction(0)])
+
+
+def test_even_intervals_may_begin_anywhere():
+    """Instants in any order, before the cycle or beyond it."""
+    cycle = Fraction(720)
+    assert even([Fraction(100), Fraction(-140), Fraction(340 + 720)], cycle)
+    assert not even([Fraction(100), Fraction(-140), Fraction(341)], cycle)
+    assert even([Fraction(7)], cycle)

@@ -17,6 +17,7 @@ from balcli.enginefile import parse
 from balcli.spectrum import relevant_orders, spectra
 
 TRUE = 1e-10                            # relative to the true optimum
+VECTORS = st.complex_numbers(max_magnitude=1e3, allow_nan=False, allow_infinity=False)
 
 
 def force(**tables: str) -> Phasors:
@@ -40,13 +41,23 @@ def smallest_of_points(points: np.ndarray) -> float:
     return max(around(triple) for triple in itertools.combinations(points, 3))
 
 
-@given(st.lists(st.complex_numbers(max_magnitude=1e3, allow_nan=False, allow_infinity=False), min_size=3, max_size=12, unique=True))
+@given(st.lists(VECTORS, min_size=3, max_size=12, unique=True))
 def test_points(points):
     points = np.array(points)
     centre, radius, fixing = circle.around(points)
     assert np.all(np.abs(points - centre) <= radius * (1 + 1e-9) + 1e-12)
     assert radius == pytest.approx(smallest_of_points(points), rel=1e-9, abs=1e-12)
     assert len(fixing) <= 3
+
+
+@given(st.lists(VECTORS, min_size=3, max_size=3, unique=True), VECTORS)
+def test_the_lower_bound_is_one_about_any_centre(points, centre):
+    """However badly the centre is guessed; about the true one it is the radius itself."""
+    points = np.array(points)
+    radius = smallest_of_points(points)
+    assert circle._bound(points, centre) <= radius * (1 + 1e-9) + 1e-9
+    true, _, fixing = circle.around(points)
+    assert circle._bound(points[fixing], true) == pytest.approx(radius, rel=1e-6, abs=1e-9)
 
 
 @pytest.mark.parametrize("offset", [0, 4, -15])
@@ -94,6 +105,7 @@ def test_nothing_near_is_better(tables):
     found = circle.enclosing(curve)
     samples = seen(curve, np.linspace(0, 2 * np.pi, 20001))
     assert np.abs(samples - found.centre).max() <= found.radius * (1 + 1e-13)
+    assert np.abs(seen(curve, found.theta) - found.centre) == pytest.approx(found.radius, rel=1e-10)       # lower peaks are not named
     for step in (1e-3, 1e-5):
         for direction in np.exp(1j * np.linspace(0, 2 * np.pi, 24)):
             other = found.centre + step * found.radius * direction
@@ -122,3 +134,27 @@ def test_angles_are_those_at_which_the_circle_is_touched():
 def test_no_force_is_a_circle_without_points():
     nothing = circle.enclosing(Phasors(np.array([1.0, 2.0]), np.zeros(2, complex), np.zeros(2, complex), np.zeros(1)))
     assert (nothing.centre, nothing.radius, nothing.theta.tolist(), nothing.excess) == (0, 0, [], 0)
+
+
+@pytest.mark.parametrize("first", [0, 3 + 4j])
+@pytest.mark.parametrize(("forward", "backward", "centre", "radius", "touching"), [
+    ((0, 0, 2, 1), (0, 0, 0, 0), 0.5, 1.5 * 3**0.5, (60, 300)),
+    ((2, 0, 0, 0), (0, 1, 0, 0), 0.5, 1.5 * 3**0.5, (60, 300)),
+    ((0, 0, -2j, -1), (0, 0, 0, 0), 0.5, 1.5 * 3**0.5, (30, 150)),
+    ((0, 0, 2, 0), (0, 1, 0, 0), 0, 3, (0, 120, 240)),
+])
+def test_cardioids_and_a_deltoid(forward, backward, centre, radius, touching, first):
+    """Seen from the crank: a cardioid `2 e^{it} + e^{2it}` (mirrored, begun elsewhere) in a circle about 1/2 that it touches at
+    t = +-60 deg, the deltoid `2 e^{it} + e^{-2it}` in one about 0. Whatever turns with the crank moves the centre alone."""
+    orders = np.arange(4.0)
+    whole = np.array(forward, complex) + np.where(orders == 1, first, 0)
+    found = circle.enclosing(Phasors(orders, whole, np.array(backward, complex), np.zeros(1)))
+    assert found.centre == pytest.approx(first + centre, abs=1e-14)
+    assert found.radius == pytest.approx(radius, rel=1e-14)
+    assert sorted((np.degrees(found.theta) + 1) % 360 - 1) == pytest.approx(touching, abs=1e-5)
+    assert found.excess <= 1e-14 * radius
+
+
+def test_angles_on_both_sides_of_0_are_one():
+    assert circle._distinct(np.array([1e-5, 3, 2 * np.pi - 1e-5])).tolist() == [3, 2 * np.pi - 1e-5]
+    assert len(circle._distinct(np.array([0.1, 3, 2 * np.pi - 0.1]))) == 3

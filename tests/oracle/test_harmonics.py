@@ -199,3 +199,15 @@ def test_equal_mechanisms_are_gathered_in_their_places():
 def test_orders_beyond_the_samples_vanish():
     """Order 4096 of a mild offset is far below every number that could be sampled; it must not be an alias."""
     assert harmonics.of([4096], np.array([0.25]), np.array([0.01])).piston.c == 0
+
+
+@pytest.mark.parametrize(("lam", "eps"), [(0.3, 0.1), (0.6, 0.39), (0.05, 0.9)])
+def test_an_offset_to_the_other_side_is_the_mirror_image(lam, eps):
+    """Seen in a mirror along the cylinder's axis the crank turns backward: coefficients become conjugate, those of the rod's angle
+    change sign besides; as many samples either way."""
+    assert harmonics.points(lam, eps) == harmonics.points(lam, -eps)
+    orders = np.arange(1, 40)
+    one, other = (harmonics.sampled(orders, np.array([lam]), np.array([e])) for e in (eps, -eps))
+    mirrored = np.conj(one.piston.c[:, 0])
+    assert np.abs(other.piston.c[:, 0] - mirrored).max() <= 1e-14 * np.abs(mirrored).max()
+    assert np.abs(other.rod.c[:, 0] + np.conj(one.rod.c[:, 0])).max() <= 1e-14 * np.abs(one.rod.c).max()

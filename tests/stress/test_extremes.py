@@ -133,16 +133,17 @@ def test_near_its_lock_an_offset_engine_without_a_resultant_is_exactly_balanced(
 DEAD = 42.869366513132036           # mm, farthest that the knuckle pin of `vee` comes beside the second cylinder's axis
 
 
-def vee(short: float) -> Engine:
-    """A V twin whose articulated rod comes this close to dead lock: its angle's sine reaches 1 - short."""
+def vee(short: float, master: int = 1) -> Engine:
+    """A V twin whose articulated rod comes this close to dead lock: its angle's sine reaches 1 - short, or short - 1 where the
+    second cylinder has the master rod."""
     return engine(crank={"stroke": 100}, rod={"length": 180, "mass": 1, "cg": 50}, layout={"banks": [-22.5, 22.5]},
-                  articulation={"master": 1, "knuckle_radius": 40, "rod": {"length": DEAD / (1 - short), "mass": 0.8, "cg": 40}})
+                  articulation={"master": master, "knuckle_radius": 40, "rod": {"length": DEAD / (1 - short), "mass": 0.8, "cg": 40}})
 
 
-@pytest.mark.parametrize("short", [0.5, 1e-2, 1e-3])
-def test_articulated_rods_near_dead_lock_keep_the_bound_they_state(short):
+@pytest.mark.parametrize(("short", "master"), [(0.5, 1), (1e-2, 1), (1e-2, 2), (1e-3, 1)])
+def test_articulated_rods_near_dead_lock_keep_the_bound_they_state(short, master):
     """16 roundings of the root mean square of the curve, and of its mean by 1/(1 - |sin|) of the rod's angle."""
-    c = vee(short).cylinders
+    c = vee(short, master).cylinders
     row = 1 - int(c.linkage.master[0])
     ratio, chief = (mp.mpf(float(np.broadcast_to(c.lam, 2)[k])) for k in (row, 1 - row))
     pin = mp.mpmathify(complex(c.linkage.knuckle[row]))
@@ -163,9 +164,19 @@ def test_articulated_rods_near_dead_lock_keep_the_bound_they_state(short):
     orders = [0, 1, 2, 3, 7]
     with mp.workdps(30):
         want = revolution(motion, 2 * c.linkage.highest(c.lam, c.eps), orders)
-    found = c.linkage.harmonics(orders, c.lam, c.eps)
+    found = c.linkage.harmonics(orders, c.lam, c.eps, rod=True, energy=True)
     assert share_of_bound(found.piston, row, want[0]) < 0.5
     assert share_of_bound(found.rod, row, want[1]) < 0.5
+
+
+def test_the_mirror_image_of_an_articulated_rod_has_the_same_bound():
+    """It leans to the other side."""
+    bounds = []
+    for master in (1, 2):
+        c = vee(1e-2, master).cylinders
+        found, row = c.linkage.harmonics([1, 2], c.lam, c.eps, rod=True, energy=False), 2 - master
+        bounds.append((found.piston.noise[row], found.rod.noise[row], found.piston.noise[1 - row]))
+    assert bounds[0] == pytest.approx(bounds[1], rel=1e-6, abs=0)
 
 
 def test_an_articulated_rod_nearer_to_dead_lock_is_refused_with_the_number():

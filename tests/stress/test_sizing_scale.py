@@ -101,13 +101,15 @@ def test_planes_next_to_each_other(apart):
     assert remedy.details["condition_number"] == pytest.approx(np.linalg.cond(system), rel=1e-6)
 
 
-def test_hopeless_planes_are_refused_with_their_condition_number():
+@pytest.mark.parametrize("apart", [1e-9, 1e-6])
+def test_hopeless_planes_are_refused_with_their_condition_number(apart):
+    """A nanometre, or a micrometre: rounding alone would leave more than the promised 1e-12."""
     engine = build(parse(engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100")))
     with pytest.raises(BalcliError) as caught:
-        remedy_for(engine, "counterweights", Wish(planes=(0.05, 0.05 + 1e-9)))
+        remedy_for(engine, "counterweights", Wish(planes=(0.05, 0.05 + apart)))
     told = re.search(r"condition number ([0-9.e+]+)\)", str(caught.value))
     assert told is not None
-    assert float(told[1]) == pytest.approx(2e8, rel=1)
+    assert float(told[1]) == pytest.approx(0.2 / apart, rel=0.01)           # |1, 1| / (apart / 0.05 sqrt 2), times sqrt 2
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1, 1e6])

@@ -108,12 +108,55 @@ def test_eccentric_slider_leaves_its_residual():
     assert np.abs(force - two_terms).max() == pytest.approx(0.017595, abs=1e-6)
 
 
-def test_oldham_couplings_cancel_orders_1_and_2():
-    engine = single(0.3)
+def test_eccentric_slider_of_any_mass_in_any_direction():
+    """What is left is that of 1 kg times the mass, along the cylinder axis; no moment arises and no mean is left."""
+    plain, mass, bank, z = single(0.25), 0.4, 37, 60
+    other = build(parse(engine_text(
+        rod="ratio = 0.25", crank=f"stroke = 100\nthrow_mass = 0.7\nthrows = [0]\npositions = [{z}]", piston=f"mass = {mass}",
+        layout=f"banks = [{bank}]", frame=f"reference = [0, 0, {z}]", operation="speed = 2300")))
+    remedy = remedy_for(other, "eccentric-slider")
+    weight, = remedy.counterweights
+    assert weight.unbalance / 1e6 == pytest.approx(0.7 * R, rel=1e-12)
+    assert all(device.place == 0 for device in remedy.beyond)
+    one, many = (spectra(fitted(e, remedy_for(e, "eccentric-slider")), np.arange(0.0, 12), ("force", "moment")) for e in (plain, other))
+    unit = [m * R * e.omega**2 for m, e in ((M, plain), (mass, other))]
+    turn = np.exp(1j * math.radians(bank))
+    assert many.force.forward / unit[1] == pytest.approx(one.force.forward / unit[0] * turn, rel=1e-9, abs=1e-13)
+    assert many.force.backward / unit[1] == pytest.approx(one.force.backward / unit[0] * turn, rel=1e-9, abs=1e-13)
+    assert np.abs(many.moment.major).max() <= 1e-14 * unit[1]
+    assert one.force.forward[0] == 0
+    assert remedy.details["unit_force_N"] == pytest.approx(unit[1], rel=1e-12)
+    used = remedy.details["fitted"]
+    assert (used["design"], used["criterion"], used["engine_force"], used["k"]) == ("a", "largest", "orders 1+2", pytest.approx(8.016007))
+    assert used["unbalance_kg_m"] == pytest.approx(used["mu"] * mass * R, rel=1e-12)
+    assert used in remedy.details["optima"]
+    assert {(found["design"], found["criterion"], found["engine_force"]) for found in remedy.details["optima"]} == {
+        (design, by, of) for design in "ab" for by in ("largest", "mean") for of in ("orders 1+2", "all orders")}
+
+
+def test_shafts_of_variable_speed_leave_only_what_turns_with_the_throw_to_the_counterweight():
+    """Without a rotating mass no counterweight is fitted."""
+    light = build(parse(engine_text(rod="ratio = 0.25")))
+    for scheme in ("eccentric-slider", "oldham"):
+        assert not remedy_for(light, scheme).counterweights
+
+
+@pytest.mark.parametrize("bank", [0, 37, 90])
+def test_oldham_couplings_cancel_orders_1_and_2(bank):
+    engine = single(0.3, layout=f"banks = [{bank}]")
     remedy = remedy_for(engine, "oldham")
     assert spectra(fitted(engine, remedy), [1, 2], ("force",)).force.balanced.all()
+    weight, = remedy.counterweights
+    assert weight.unbalance / 1e6 == pytest.approx(0.7 * R, rel=1e-13)
     assert remedy.details["first_order_kg_m"] == pytest.approx(M * R / 2, rel=1e-14)
     assert remedy.details["block_kg_m"] == pytest.approx(float(harmonics.piston([2], 0.3)[0]) * M * R / 8, rel=1e-14)
+    assert all(device.place == 0 for device in remedy.beyond)
+
+
+def test_oldham_couplings_suit_an_offset_too():
+    """The two vectors of an order then differ in phase."""
+    engine = single(0.3, layout="banks = [20]", piston="mass = 1\noffset = 6")
+    assert spectra(fitted(engine, remedy_for(engine, "oldham")), [1, 2], ("force",)).force.balanced.all()
 
 
 def test_two_and_four_shafts():

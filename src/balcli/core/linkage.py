@@ -97,7 +97,7 @@ class Linkage(ABC):
         """The mechanisms that differ, their lam and eps, and which of them each cylinder has."""
         return self, lam, eps, slice(None)
 
-    def harmonics(self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: bool = True) -> Harmonics:
+    def harmonics(self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> Harmonics:
         """Harmonics of all cylinders for whole orders; accelerations are sampled as such, so that no order's error grows."""
         few, *mechanisms, which = self.distinct(lam, eps)
         return few._harmonics(orders, *mechanisms, rod=rod, energy=energy).of_rows(which)

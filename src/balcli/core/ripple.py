@@ -57,7 +57,7 @@ def _transformed(steady: Phasors, w: Complex, mean: Any, shake: Callable[[Comple
     result = shake(momentum, w, 1j * order)
     error = EPS * np.abs(shake(scale + 0j, np.abs(w) + 0j, np.abs(order) + 0j))
     backward = np.where(order[n:] > 0, result[n::-1], 0)
-    return Phasors(steady.orders, result[n:], backward, np.maximum(error[n:], error[n::-1]))
+    return Phasors(steady.orders, result[n:], backward, error[n:])                       # the bound of -n is that of n
 
 
 def _convolved(series: Complex, w: Complex) -> Complex:

@@ -40,7 +40,7 @@ def _sampled(c: Cylinders, linkage: Linkage) -> tuple[Array, ...]:
     bottom = _refined(c, linkage, psi[place.argmin(axis=-1)])
     high, low = (linkage.motion(at[..., None], c.lam, c.eps).place[..., 0] for at in (top, bottom))
     centred = np.remainder(np.degrees(top) + 180, 360) - 180
-    return c.radius * (high - low), centred, np.remainder(np.degrees(bottom), 360) - 180
+    return c.radius * (high - low), centred, np.degrees(bottom) - 180
 
 
 def _refined(c: Cylinders, linkage: Linkage, psi: Array) -> Array:

@@ -37,7 +37,7 @@ def counterweights(engine: Engine, wish: Wish) -> Remedy:
         raise NoNeedError("there is no free force or moment of order 1 turning with the crank: no counterweight is needed")
     where = _planes(engine, wish) if wish.planes is not None else _own_planes(engine, fitting)
     slots = [Slot("counterweight", 1, 1, z) for z in where]
-    if len(set(where)) > 1 or len(where) > 1:
+    if len(where) > 1:
         return fitting.cancel(slots, FORWARD, why_weights(left)).remedy
     fit = solve(slots, left, FORWARD)
     fitting = fitting.add(slots, fit.unbalances, "One plane takes the force and moment of order 1 turning with the crank as well as "

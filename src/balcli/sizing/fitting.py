@@ -1,6 +1,7 @@
 """A remedy in the making: devices are added order by order, each with its reason, and the next ones see what is left."""
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
@@ -53,8 +54,7 @@ class Fitting(NamedTuple):
         if not slots:
             return self
         fit = exactly(slots, self.rest(slots[0].order), parts, impossible)
-        worst = max(fit.condition, self.details.get("condition_number", 1.0)) if len(slots) > 1 else None
-        told = self if worst is None or worst == float("inf") else self.note(condition_number=worst)
+        told = self.note(condition_number=fit.condition) if len(slots) > 1 and fit.condition < math.inf else self
         return told.add(slots, fit.unbalances, reason)
 
     def note(self, **details: Any) -> Fitting:

@@ -51,13 +51,13 @@ def counterweight(unbalance: complex, z: float, first_axis_deg: float) -> Counte
     return Counterweight.model_construct(unbalance=size, angle=angle, position=_millimetres(z))
 
 
-def shaft(unbalance: complex, ratio: int, z: float, place: complex = 0j) -> Shaft:
+def shaft(unbalance: complex, ratio: int, z: float, place: complex) -> Shaft:
     """An eccentric of a balancer shaft; its angle counts from x."""
     size, angle = _polar(unbalance)
     return Shaft.model_construct(ratio=ratio, unbalance=size, angle=angle, at=_at(place), position=_millimetres(z))
 
 
-def slider(amplitude: complex, order: int, direction_deg: float, z: float, place: complex = 0j) -> Slider:
+def slider(amplitude: complex, order: int, direction_deg: float, z: float, place: complex) -> Slider:
     """A reciprocating mass whose displacement is the real part of `amplitude e^{i n theta}` along its direction."""
     size, angle = _polar(amplitude)
     return Slider.model_construct(order=order, unbalance=size, direction=direction_deg, angle=angle, at=_at(place),

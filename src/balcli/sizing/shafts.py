@@ -80,8 +80,7 @@ def slider(engine: Engine, wish: Wish) -> Remedy:
     """Two reciprocating masses along the axes of the ellipse of order N: `m r = (|V+| +- |V-|) / (n^2 omega^2)`."""
     left = chosen(engine, wish, "force")
     forward, backward = left.at("force", 1), left.at("force", -1)
-    axis = degrees(cmath.sqrt(forward * backward)) if forward and backward else 0.0
-    axis = float(reduced(axis, 180))
+    axis = float(reduced(degrees(cmath.sqrt(forward * backward)), 180))
     z, place = _along(engine, wish, left, 1 if abs(forward) >= abs(backward) else -1), _only(wish)
     slots = [Slot("slider", left.order, 0, z, place, direction) for direction in (axis, axis + 90 if axis <= 0 else axis - 90)]
     reason = (f"Order {left.order} force: sliders driven at "
@@ -163,8 +162,9 @@ def _geometry(places: dict[int, tuple[complex, ...]]) -> dict[str, Any]:
     for sense, name in ((1, "with_crank"), (-1, "against_crank")):
         for place in places.get(sense, ())[:1]:
             found |= {f"radius_{name}_mm": abs(place) * 1e3, f"direction_{name}_deg": math.degrees(cmath.phase(place))}
-    with_crank, against = (abs(places.get(sense, (0j,))[0]) for sense in (1, -1))
-    return found | ({"radius_ratio": with_crank / against} if against else {})
+    if len(places) == 2 and (against := abs(places[-1][0])):
+        found["radius_ratio"] = abs(places[1][0]) / against
+    return found
 
 
 def _why_pair(left: Rest, sense: int, count: int) -> str:

@@ -129,7 +129,7 @@ def solve(slots: Sequence[Slot], wish: Rest, parts: Sequence[Part]) -> Fit:
         x = x + inverse @ (scale * (target - matrix @ x))
     size = float(np.linalg.norm(scale * target))
     left = float(np.linalg.norm(scale * (target - matrix @ x))) / (size or 1.0)
-    x[np.abs(x) <= 4 * EPS * np.abs(x).max(initial=0)] = 0
+    x[np.abs(x) <= 4 * EPS * np.abs(x).max()] = 0
     return Fit(tuple(complex(a, b) for a, b in x.reshape(-1, 2)), condition, left)
 
 
@@ -140,10 +140,10 @@ def exactly(slots: Sequence[Slot], wish: Rest, parts: Sequence[Part], reason: st
     """
     fit = solve(slots, wish, parts)
     length = _length(slots, wish)
-    size, noise = (max(abs(of.get(p, 0.0)) / (1 if p.quantity == "force" else length) for p in parts) for of in (wish.parts, wish.noise))
+    size, noise = (max(abs(of[p]) / (1 if p.quantity == "force" else length) for p in parts) for of in (wish.parts, wish.noise))
     if fit.condition == np.inf and fit.left * size > noise:
         raise BalcliError(reason)
-    largest = max(map(abs, fit.unbalances), default=0.0)
+    largest = max(map(abs, fit.unbalances))
     left = fit.left * size + 2 * EPS * largest
     if left > max(noise, LEFT * size):
         raise BalcliError(f"order {wish.order}: the places given are too much alike: unbalances of {largest * 1e6:.3g} g mm would work "
@@ -162,7 +162,7 @@ def _inverse(matrix: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
     u, s, vt = np.linalg.svd(matrix, full_matrices=False)
     kept = s > _LOST * s[0]
     inverse: NDArray[np.float64] = (vt[kept].T / s[kept]) @ u[:, kept].T
-    return inverse, float(s[0] / s[-1]) if kept.all() and len(s) else float("inf")
+    return inverse, float(s[0] / s[-1]) if kept.all() else float("inf")
 
 
 def _real(parts: NDArray[np.complex128]) -> NDArray[np.float64]:

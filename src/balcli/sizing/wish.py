@@ -48,7 +48,7 @@ class Wish(NamedTuple):
             raise BalcliError(f'--roll "{self.roll}": only "zero" can be asked for')
 
 
-def lowest(engine: Engine, quantity: str, senses: Sequence[int] = (1, -1)) -> Rest:
+def lowest(engine: Engine, quantity: str, senses: Sequence[int]) -> Rest:
     """The lowest order at which a free force (or moment) is left; NoNeedError if there is none."""
     for order in range(1, HIGHEST + 1):
         found = rest(engine, order)
@@ -59,7 +59,7 @@ def lowest(engine: Engine, quantity: str, senses: Sequence[int] = (1, -1)) -> Re
 
 
 def _turning(senses: Sequence[int]) -> str:
-    return "" if len(senses) > 1 else " turning with the crank" if senses[0] > 0 else " turning against the crank"
+    return " turning against the crank" if tuple(senses) == (-1,) else ""
 
 
 def chosen(engine: Engine, wish: Wish, quantity: str, senses: Sequence[int] = (1, -1)) -> Rest:
