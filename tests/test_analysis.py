@@ -147,12 +147,12 @@ def test_only_one_quantity(quantity):
 def test_what_is_not_asked_for_is_not_computed(monkeypatch):
     """Without couple, torque and roll no harmonics of rod and energy; with explicit orders and no peak, no others."""
     asked = []
-    original = harmonics.of
+    original = harmonics.of_distinct
 
     def spy(orders, *rest, rod=True, energy=True):
         asked.append((list(orders), rod, energy))
         return original(orders, *rest, rod=rod, energy=energy)
-    monkeypatch.setattr(harmonics, "of", spy)
+    monkeypatch.setattr(harmonics, "of_distinct", spy)
     analyze(example("i4"), [1, 2], only=["force"])
     assert [(orders, energy) for orders, _, energy in asked] == [([1, 2], False)]
 

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from . import articulation
 from .arrays import column, shared
+from .core import harmonics
 from .core.inertia import Cylinders, Device
 from .devices import devices
 from .errors import InputError, Problem
@@ -21,6 +22,9 @@ from .stations import by_axis, one_object, pins, places, reference, strangers
 
 if TYPE_CHECKING:
     from .core.rotary import Rotary
+
+
+MOST_SAMPLES = 1 << 20          # of a revolution, of all mechanisms that differ; far from their lock they take 64 to 256 each
 
 
 class Ripple(NamedTuple):
@@ -123,6 +127,8 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
     along, throws = places(file, layout, rank)
     cylinders, numbers = _cylinders(file, layout, rods, axis, pin, along, rank)
     _refuse(articulation.locked(file, cylinders, numbers))
+    if not rank:
+        _refuse(_strained(cylinders))
     return Engine(
         name=file.name, source=file.source, numbers=numbers, cylinders=cylinders, fires_deg=fires, strokes=file.layout.strokes,
         bore_m=math.nan if file.piston.bore is None else file.piston.bore / 1e3,
@@ -205,6 +211,17 @@ def _at_pin(file: EngineFile, layout: Plan, rod: Parts, articulated: bool) -> An
     if file.layout.rotary:
         return 0.0
     return (0.0 if articulated else rod.big_end) + file.crank.throw_mass / layout.rods_on_throw
+
+
+def _strained(c: Cylinders) -> Iterator[Problem]:
+    """So many different mechanisms so near their lock that they would take minutes."""
+    if c.count * harmonics.HARDEST <= MOST_SAMPLES:
+        return
+    different, samples = c.linkage.samples(c.lam, c.eps) if c.linkage else harmonics.samples(c.lam, c.eps)
+    if samples > MOST_SAMPLES:
+        yield Problem("cylinder", f"the cylinders have {different} different mechanisms, some so near their lock that all of them need "
+                                  f"{samples} samples of a revolution; at most {MOST_SAMPLES} are taken: make these rods longer, or more "
+                                  "of them equal")
 
 
 def _refuse(problems: Iterable[Problem]) -> None:

@@ -249,7 +249,8 @@ def test_another_point_of_reference_adds_the_force_times_its_arm(model, x, y, z)
     arm = 1 + abs(z) / 1e3 + abs(p)
     for way in ("forward", "backward"):
         want = getattr(before.moment, way) - 1j * z / 1e3 * getattr(before.force, way)
-        assert np.abs(getattr(after.moment, way) - want).max() <= SCALED * (scale["moment"] + arm * scale["force"]) + rounding(before.moment, after.moment)
+        error = np.abs(getattr(after.moment, way) - want).max()
+        assert error <= SCALED * (scale["moment"] + arm * scale["force"]) + rounding(before.moment, after.moment)
     theta = np.linspace(0, 6, 13)
     want = before.couple.values(theta).real - (np.conj(p) * before.force.values(theta)).imag
     error = np.abs(after.couple.values(theta).real - want).max()
