@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from . import articulation
 from .arrays import column, shared
-from .core import harmonics
+from .core import harmonics, ripple
 from .core.inertia import Cylinders, Device
 from .devices import devices
 from .errors import InputError, Problem
@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 
 
 MOST_SAMPLES = 1 << 20          # of a revolution, of all mechanisms that differ; far from their lock they take 64 to 256 each
+
+
+STANDSTILL = 1e-12              # of the mean speed: rounding
 
 
 class Ripple(NamedTuple):
@@ -144,12 +147,27 @@ def _parts(file: EngineFile) -> tuple[Plan, dict[int, int], dict[int, Parts]]:
     try:
         layout = plan(file.crank, file.layout)
     except InputError as error:                         # the engine's own rod can be looked at all the same
-        _refuse([*error.problems, *_rods(file, (0,), {})[1]])
+        _refuse([*error.problems, *_rods(file, (0,), {})[1], *_stopped(file)])
         raise
     masters = articulation.masters(file, layout)
     rods, faults = _rods(file, layout.numbers, masters)
-    _refuse([*articulation.mistakes(file, layout), *strangers(layout, file.cylinder), *faults])
+    _refuse([*articulation.mistakes(file, layout), *strangers(layout, file.cylinder), *faults, *_stopped(file)])
     return layout, masters, rods
+
+
+def _stopped(file: EngineFile) -> Iterator[Problem]:
+    """An uneven speed (or the first of its variants) at which the crank would not turn on."""
+    lines = file.operation.speed_ripple
+    figures = np.broadcast_arrays(0.0, *(figure for line in lines for figure in (line.amplitude, line.angle)))[1:]
+    for variant in zip(*map(np.ravel, figures), strict=True):
+        if sum(map(abs, variant[::2])) < 1 - STANDSTILL:
+            continue
+        least, theta = ripple.slowest([(line.order, *own) for line, *own in zip(lines, variant[::2], variant[1::2], strict=True)])
+        if least <= STANDSTILL:
+            yield Problem("operation.speed_ripple", f"the crank would {'turn back' if least < -STANDSTILL else 'stop'}: at crank angle "
+                          f"{math.degrees(theta):.4g} deg its speed is {least if abs(least) > STANDSTILL else 0:.4g} of the mean; it must "
+                          "stay above 0: make the amplitudes smaller, they are shares of the mean speed (0.01 is one per cent)")
+            return
 
 
 def _rods(file: EngineFile, numbers: Iterable[int], masters: Mapping[int, int]) -> tuple[dict[int, Parts], list[Problem]]:

@@ -83,9 +83,9 @@ class Harmonics(NamedTuple):
 
     def _each(self, change: Callable[[Series], Series]) -> Harmonics:
         """With every series changed."""
-        piston, rod, kinetic, rod_kinetic = map(change, self[:4])
-        curve = self.curve and Curve(*map(change, self.curve[:4]), self.curve.momentum)
-        return Harmonics(piston, rod, kinetic, rod_kinetic, curve, self.turns)
+        c = self.curve
+        return Harmonics(change(self.piston), change(self.rod), change(self.kinetic), change(self.rod_kinetic),
+                         c and Curve(change(c.along), change(c.across), change(c.couple), change(c.kinetic), c.momentum), self.turns)
 
 
 NONE = Series(np.zeros((1, 1)))         # what is left out
