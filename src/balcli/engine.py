@@ -23,7 +23,7 @@ from .stations import by_axis, one_object, pins, places, reference, strangers
 if TYPE_CHECKING:
     from .core.rotary import Rotary
 
-MOST_SAMPLES = 1 << 20          # of a revolution, of all mechanisms that differ; far from their lock they take 64 to 256 each
+MOST_SAMPLES = 1 << 19          # of a revolution, of all mechanisms that differ; far from their lock they take 64 to 256 each
 STANDSTILL = 1e-12              # of the mean speed: rounding
 
 

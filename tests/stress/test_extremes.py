@@ -193,7 +193,7 @@ def test_too_many_different_mechanisms_near_their_lock_are_refused_with_the_numb
         engine(crank={"stroke": 100, "throws": [0] * 64}, **parts)
     assert str(caught.value).startswith(
         f"engine: cylinder: the cylinders have {different} different mechanisms, some so near their lock that all of them need {samples} "
-        "samples of a revolution; at most 1048576 are taken: "), caught.value
+        "samples of a revolution; at most 524288 are taken: "), caught.value
 
 
 @pytest.mark.parametrize(("ratio", "offset", "number"), [
