@@ -164,6 +164,14 @@ def test_an_unknown_quantity():
                                  "peak, sizing, inner, guide")
 
 
+def test_more_by_cylinder_than_anyone_reads_is_refused():
+    """1000 cylinders to order 512 would be gigabytes of text."""
+    with pytest.raises(BalcliError) as caught:
+        analyze(example("v8_crossplane"), range(1, 2050), by_cylinder=True, only=["force"])
+    assert str(caught.value) == ("by cylinder, 2049 orders of 8 cylinders are 16392 results, and at most 16384 are told: "
+                                 "ask for fewer orders")
+
+
 def test_everything_by_default():
     result = analyze(example("vr6"))
     assert [q for q, _ in result.spectra.items()] == list(SPECTRAL)
