@@ -147,12 +147,12 @@ def test_only_one_quantity(quantity):
 def test_what_is_not_asked_for_is_not_computed(monkeypatch):
     """Without couple, torque and roll no harmonics of rod and energy; with explicit orders and no peak, no others."""
     asked = []
-    original = harmonics.of
+    original = harmonics.of_distinct
 
     def spy(orders, *rest, rod=True, energy=True):
         asked.append((list(orders), rod, energy))
         return original(orders, *rest, rod=rod, energy=energy)
-    monkeypatch.setattr(harmonics, "of", spy)
+    monkeypatch.setattr(harmonics, "of_distinct", spy)
     analyze(example("i4"), [1, 2], only=["force"])
     assert [(orders, energy) for orders, _, energy in asked] == [([1, 2], False)]
 
@@ -162,6 +162,14 @@ def test_an_unknown_quantity():
         analyze(example("i4"), only=["force", "weight", "noise"])
     assert str(caught.value) == ("there is no quantity noise, weight: choose from force, moment, couple, torque, roll, "
                                  "peak, sizing, inner, guide")
+
+
+def test_more_by_cylinder_than_anyone_reads_is_refused():
+    """1000 cylinders to order 512 would be gigabytes of text."""
+    with pytest.raises(BalcliError) as caught:
+        analyze(example("v8_crossplane"), range(1, 2050), by_cylinder=True, only=["force"])
+    assert str(caught.value) == ("by cylinder, 2049 orders of 8 cylinders are 16392 results, and at most 16384 are told: "
+                                 "ask for fewer orders")
 
 
 def test_everything_by_default():

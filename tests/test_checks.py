@@ -84,13 +84,6 @@ def test_ordinary_engines_pass(text):
             "piston.offset is -20 mm, more than 20% of the stroke (18 mm); is it in mm?",
         ),
         (
-            changed(("speed = 3000", "speed = 3000\nspeed_ripple = [{ order = 2, amplitude = -0.9 }]")),
-            (
-                "operation.speed_ripple adds up to 0.9 of the mean speed, more than 0.5; amplitudes are shares of it "
-                "(0.01 is one per cent)"
-            ),
-        ),
-        (
             changed(("[layout]", "[layout]\nstagger = 220"), ("spacing = 100", "positions = [-90, -30, 40, 90]")),
             (
                 "layout.stagger is 220 mm, more than the distance of neighbouring throws (50 mm); it is the "

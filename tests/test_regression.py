@@ -6,9 +6,11 @@ import shutil
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from kit import GOOD, changed
 
+from balcli.analysis import analyze
 from balcli.cli import main
 from balcli.engine import build
 from balcli.enginefile import parse
@@ -114,6 +116,24 @@ def test_the_tolerance_is_a_share_of_the_largest_order(file, share, moved):
     found = differences("four", build(parse(GOOD)), recorded_at(file))
     assert len(found) == moved
     assert all(str(d).startswith("four: force order ") for d in found)
+
+
+@pytest.mark.parametrize(("roundings", "moved"), [(1.9, False), (4, True)])
+def test_where_all_large_orders_cancel_rounding_is_no_difference(tmp_path, roundings, moved):
+    """The rotary's only forces are millionths of what each cylinder makes: their rounding is more than 1e-9 of them."""
+    engine_file = Path(shutil.copy(ENGINES / "rotary9.toml", tmp_path))
+    recorded_at(engine_file).parent.mkdir()
+    shutil.copy(recorded_at(ENGINES / "rotary9.toml"), recorded_at(engine_file))
+    engine = build(parse(engine_file.read_text()))
+    force = analyze(engine).spectra.force
+    noise = float(np.broadcast_to(force.noise, force.forward.shape)[force.orders == 9][0])
+    assert noise > TOLERANCE * force.major.max() > 0
+
+    def edit(document):
+        (entry,) = [entry for entry in document["orders"] if entry["order"] == 9]
+        entry["force_N"]["forward"][0] += roundings * noise
+    edited(engine_file, edit)
+    assert [str(d)[:28] for d in differences("rotary9", engine, recorded_at(engine_file))] == ["rotary9: force order 9 forwa"] * moved
 
 
 def test_an_order_that_is_not_recorded_and_one_that_is_no_more(check, file):

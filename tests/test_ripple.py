@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from kit import engine, refused
 
 from balcli.core import ripple
 from balcli.core.phasors import Phasors
@@ -91,6 +92,42 @@ def test_torque(lines):
     found = ripple.torque(steady(scalar=True), ripple.speed(lines), mean).values(THETA)
     assert np.abs(found - want).max() < RELATIVE * np.abs(want).max()
     assert abs(ripple.torque(steady(scalar=True), ripple.speed(lines), mean).forward[0]) < 1e-15      # T has no mean
+
+
+@pytest.mark.parametrize("lines", [*LINES.values(), [(1, 0.9, 0.0), (2, 0.4, 180.0)], [(3, 0.7, 10.0), (256, 0.6, -50.0), (4, -0.4, 0.0)]])
+def test_the_least_speed_is_that_of_a_dense_grid(lines):
+    theta = np.linspace(0, 2 * np.pi, 400_001)
+    least, at = ripple.slowest(lines)
+    grid = speed(lines, theta).min()
+    bend = sum(n**2 * abs(a) for n, a, _ in lines)
+    assert grid - bend * theta[1] ** 2 / 8 - 1e-14 <= least <= grid + 1e-14
+    assert speed(lines, at) == pytest.approx(least, abs=1e-12)
+
+
+def test_amplitudes_of_more_than_one_may_leave_the_crank_turning():
+    """0.7 cos t + 0.4 cos 2t: where the first is -0.7 the second is +0.4."""
+    lines = [{"order": 1, "amplitude": 0.7, "angle": 0}, {"order": 2, "amplitude": 0.4, "angle": 0}]
+    assert len(engine(operation={"speed": 60, "speed_ripple": lines}).ripple) == 2          # least: 0.4469 at 116 deg
+
+
+@pytest.mark.parametrize(("lines", "what"), [
+    ([(2, 1.0, 0.0)], "stop: at crank angle 90 deg its speed is 0 of the mean"),
+    ([(1, -1.0, 30.0)], "stop: at crank angle 30 deg its speed is 0 of the mean"),
+    ([(1, 0.7, 0.0), (2, 0.4, 180.0)], "turn back: at crank angle 180 deg its speed is -0.1 of the mean"),
+])
+def test_a_crank_that_stops_or_turns_back_is_refused(lines, what):
+    tables = [{"order": n, "amplitude": a, "angle": angle} for n, a, angle in lines]
+    assert refused(operation={"speed": 60, "speed_ripple": tables}) == (
+        f"engine: operation.speed_ripple: the crank would {what}; it must stay above 0: make the amplitudes smaller, they are shares of "
+        "the mean speed (0.01 is one per cent)")
+
+
+def test_a_crank_that_stops_is_told_with_the_other_mistakes():
+    said = refused(crank={"throws": [0, 180], "positions": [0]}, operation={"speed": 60, "speed_ripple": [{"order": 2, "amplitude": 1}]})
+    assert "crank: positions" in said
+    said = refused(rod={"ratio": 1.0 - 1e-9}, operation={"speed": 60, "speed_ripple": [{"order": 2, "amplitude": 1}]})
+    assert "the crank cannot turn" in said
+    assert "operation.speed_ripple: the crank would stop" in said
 
 
 def test_an_amplitude_of_zero_changes_nothing():

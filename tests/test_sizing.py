@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -113,7 +112,7 @@ def test_one_slot_does_what_it_can(scale):
 
 def test_arms_count_from_the_point_of_reference_in_all_directions():
     """A slot beside the crank on that point's own axis has no arm but along it: u = -(f + m/z)/2 at z from there."""
-    asked = replace(wish(forward=1, moment=0.6), arm=(0.3 + 0.4j, 0.1))
+    asked = wish(forward=1, moment=0.6)._replace(arm=(0.3 + 0.4j, 0.1))
     fit = solve([Slot("shaft", 2, 1, 0.3, 0.3 + 0.4j)], asked, (FORCE, MOMENT))
     assert fit.unbalances == pytest.approx([-(1 + 0.6 / 0.2) / 2])
 

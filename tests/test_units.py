@@ -69,7 +69,7 @@ def test_the_table_agrees_with_pint(name):
         ("1 yard", LENGTH, 914.4),
         ("1 slug", MASS, 14.5939029372064),  # 1 lbf s^2/ft; NIST SP 811, appendix B
         ("10 inches", LENGTH, 254.0),
-        ("100 gradian", ANGLE, 90.0),
+        ("100 gon", ANGLE, 90.0),
         ("1 lbf s^2 in", INERTIA, 4.4482216152605 * 0.0254 * 1e6),  # lbf from NIST SP 811
         ("1 ounce inch", UNBALANCE, 28.349523125 * 25.4),
     ],

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 QUANTITIES = (*SPECTRAL, "peak", "sizing")
 EXTRAS = ("inner", "guide")     # computed only when they are named
 HIGHEST = 4096                  # order that may be asked for
+MOST_APART = 1 << 14            # cylinders x orders that are told one by one
 
 
 class Sizing(NamedTuple):
@@ -89,7 +90,7 @@ def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collect
         reasons: also why each order is balanced, or is not.
 
     Raises:
-        BalcliError: an unknown quantity, an order that is negative or above HIGHEST.
+        BalcliError: an unknown quantity, an order that is negative or above HIGHEST, too many orders of too many cylinders.
     """
     wanted = set(QUANTITIES if only is None else only)
     if strangers := sorted(wanted.difference(QUANTITIES, EXTRAS)):
@@ -101,6 +102,9 @@ def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collect
     everything = spectra(engine, sorted({*whole, *([1.0, 2.0] if asked is None else asked)}), shown | curves)
     visible = Spectra(everything.orders, **{q: p for q, p in everything.items() if q in shown})
     visible = visible.at(shown_orders(visible) if asked is None else asked)
+    if by_cylinder and (apart := len(visible.orders) * len(engine.numbers)) > MOST_APART:
+        raise BalcliError(f"by cylinder, {len(visible.orders)} orders of {len(engine.numbers)} cylinders are {apart} results, and at most "
+                          f"{MOST_APART} are told: ask for fewer orders")
     peaks = {q: peak(getattr(everything, q)) for q in curves}
     return Analysis(
         engine, visible, peaks.get("force"), peaks.get("moment"),

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from .core.articulated import Articulated
 
 NEAREST_TO_LOCK = 1e-6              # how far the sine of an articulated rod's angle must stay below 1
-_STEPS = 1440
 
 
 def masters(file: EngineFile, layout: Plan) -> dict[int, int]:
@@ -99,19 +98,19 @@ def locked(file: EngineFile, c: Cylinders, numbers: Sequence[int]) -> Iterator[P
     if file.articulation is None or c.linkage is None:
         return
     from .core.articulated import Articulated
-    from .core.linkage import revolution
+    from .core.linkage import STEPS, revolution
     from .core.rotary import Rotary
 
     linkage = c.linkage
     hung = cast(Articulated, linkage.hung if isinstance(linkage, Rotary) else linkage)
     with np.errstate(invalid="ignore"):                                     # beyond 1 there is no angle
-        leans = np.abs(linkage.motion(revolution(_STEPS), c.lam, c.eps).lean).reshape(len(numbers), -1, _STEPS).max(axis=1)
+        leans = np.abs(linkage.each("lean", revolution(STEPS), c.lam, c.eps)).reshape(len(numbers), -1, STEPS).max(axis=1)
     turned = c.angle_deg.reshape(len(numbers), -1)[:, 0]
     for row, number in enumerate(numbers):
         worst = int(leans[row].argmax())
         lean = leans[row, worst] + _rise(leans[row], worst)
         if hung.master[row] != row and lean > 1 - NEAREST_TO_LOCK:
-            yield _lock(file, number, lean, (360 / _STEPS * worst - turned[row]) % 360)
+            yield _lock(file, number, lean, (360 / STEPS * worst - turned[row]) % 360)
 
 
 def _lock(file: EngineFile, number: int, lean: float, crank: float) -> Problem:

@@ -21,7 +21,6 @@ INERTIA_LOW, INERTIA_HIGH = 0.02, 0.4
 PISTON_SPEED = 40.0                              # m/s, mean; racing engines stay below 30
 OFFSET_SHARE = 0.2                               # of the stroke; pin offsets have up to 0.05, narrow-angle vees up to 0.15
 UNBALANCE_SHARE = 5.0                            # of all moving masses x crank radius; balancing needs 1 or 2
-RIPPLE = 0.5                                     # of the mean speed; the slowest idling engines reach 0.2
 
 
 def suspicious(model: EngineFile) -> list[str]:
@@ -84,10 +83,6 @@ def _motion(model: EngineFile) -> Iterator[str]:
     if abs(model.piston.offset) > OFFSET_SHARE * stroke:
         yield (f"piston.offset is {model.piston.offset:g} mm, more than {OFFSET_SHARE:.0%} of the stroke "
                f"({OFFSET_SHARE * stroke:g} mm); is it in mm?")
-    ripple = sum(abs(part.amplitude) for part in model.operation.speed_ripple)
-    if ripple > RIPPLE:
-        yield (f"operation.speed_ripple adds up to {ripple:g} of the mean speed, more than {RIPPLE:g}; "
-               "amplitudes are shares of it (0.01 is one per cent)")
 
 
 def _layout(model: EngineFile) -> Iterator[str]:

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from . import articulation
 from .arrays import column, shared
+from .core import harmonics, ripple
 from .core.inertia import Cylinders, Device
 from .devices import devices
 from .errors import InputError, Problem
@@ -22,6 +23,9 @@ from .stations import by_axis, one_object, pins, places, reference, strangers
 if TYPE_CHECKING:
     from .core.articulated import Articulated
     from .core.rotary import Rotary
+
+MOST_SAMPLES = 1 << 19          # of a revolution, of all mechanisms that differ; far from their lock they take 64 to 256 each
+STANDSTILL = 1e-12              # of the mean speed: rounding
 
 
 class Ripple(NamedTuple):
@@ -124,6 +128,8 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
     along, throws = places(file, layout, rank)
     cylinders, numbers = _cylinders(file, layout, rods, axis, pin, along, rank)
     _refuse(articulation.locked(file, cylinders, numbers))
+    if not rank:
+        _refuse(_strained(cylinders))
     return Engine(
         name=file.name, source=file.source, numbers=numbers, cylinders=cylinders, fires_deg=fires, strokes=file.layout.strokes,
         bore_m=math.nan if file.piston.bore is None else file.piston.bore / 1e3,
@@ -139,12 +145,27 @@ def _parts(file: EngineFile) -> tuple[Plan, dict[int, int], dict[int, Parts]]:
     try:
         layout = plan(file.crank, file.layout)
     except InputError as error:                         # rods can be looked at all the same, as far as it is known which they are
-        _refuse([*error.problems, *_rods(file, (0, *(() if file.articulation else file.cylinder)), {})[1]])
+        _refuse([*error.problems, *_rods(file, (0, *(() if file.articulation else file.cylinder)), {})[1], *_stopped(file)])
         raise
     masters = articulation.masters(file, layout)
     rods, faults = _rods(file, layout.numbers, masters)
-    _refuse([*articulation.mistakes(file, layout), *strangers(layout, file.cylinder), *faults])
+    _refuse([*articulation.mistakes(file, layout), *strangers(layout, file.cylinder), *faults, *_stopped(file)])
     return layout, masters, rods
+
+
+def _stopped(file: EngineFile) -> Iterator[Problem]:
+    """An uneven speed (or the first of its variants) at which the crank would not turn on."""
+    lines = file.operation.speed_ripple
+    figures = np.broadcast_arrays(0.0, *(figure for line in lines for figure in (line.amplitude, line.angle)))[1:]
+    for variant in zip(*map(np.ravel, figures), strict=True):
+        if sum(map(abs, variant[::2])) < 1 - STANDSTILL:
+            continue
+        least, theta = ripple.slowest([(line.order, *own) for line, *own in zip(lines, variant[::2], variant[1::2], strict=True)])
+        if least <= STANDSTILL:
+            yield Problem("operation.speed_ripple", f"the crank would {'turn back' if least < -STANDSTILL else 'stop'}: at crank angle "
+                          f"{math.degrees(theta):.4g} deg its speed is {least if abs(least) > STANDSTILL else 0:.4g} of the mean; it must "
+                          "stay above 0: make the amplitudes smaller, they are shares of the mean speed (0.01 is one per cent)")
+            return
 
 
 def _rods(file: EngineFile, numbers: Iterable[int], masters: Mapping[int, int]) -> tuple[dict[int, Parts], list[Problem]]:
@@ -207,6 +228,17 @@ def _at_pin(file: EngineFile, layout: Plan, rod: Parts, articulated: bool) -> An
     if file.layout.rotary:
         return 0.0
     return (0.0 if articulated else rod.big_end) + file.crank.throw_mass / layout.rods_on_throw
+
+
+def _strained(c: Cylinders) -> Iterator[Problem]:
+    """So many different mechanisms so near their lock that they would take minutes."""
+    if c.count * harmonics.HARDEST <= MOST_SAMPLES:
+        return
+    different, samples = c.linkage.samples(c.lam, c.eps) if c.linkage else harmonics.samples(c.lam, c.eps)
+    if samples > MOST_SAMPLES:
+        yield Problem("cylinder", f"the cylinders have {different} different mechanisms, some so near their lock that all of them need "
+                                  f"{samples} samples of a revolution; at most {MOST_SAMPLES} are taken: make these rods longer, or more "
+                                  "of them equal")
 
 
 def _refuse(problems: Iterable[Problem]) -> None:

@@ -18,6 +18,7 @@ from .model import MOST, MOST_PARTS, EngineFile, Override, Piston, Rod, Table, m
 
 LARGEST = 6_000_000              # bytes of an engine file
 MOST_MARKS = 180_000             # of "[", "{", ".", ",", "=": what each stands for takes tomllib up to a kilobyte
+LONGEST_NAME = 200               # characters
 MOST_SHOWN = 20                  # mistakes of one file
 DEEPEST = 32                     # parts of a dotted key; tomllib's memory grows with their square
 MOST_VALUES = 2 * MOST           # of one key, inner lists included; to refuse millions one by one takes gigabytes
@@ -177,6 +178,8 @@ class _Reader:
             self._add(key, f"{shorten(value)} is not text; write it in quotes")
         elif strange := CONTROL[key].search(value):
             self._add(key, f"has the control character U+{ord(strange[0]):04X}, which could command a terminal; leave it out")
+        elif key == "name" and len(value) > LONGEST_NAME:
+            self._add(key, f"has {len(value)} characters; it stands in every line of a CSV, at most {LONGEST_NAME} are taken")
         return value
 
     def _table(self, path: str, value: object, table: type[T]) -> T | None:

@@ -7,14 +7,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from .analysis import analyze
 from .engine import Engine
 from .errors import BalcliError
 from .render import json as documents
 from .render.figures import KEYS
-from .spectrum import SPECTRAL
+from .spectrum import SPECTRAL, Spectra
 
-TOLERANCE = 1e-9                # of a quantity's largest order
+TOLERANCE = 1e-9                # of a quantity's largest order, beyond what rounding may do
 RECORDED = (*SPECTRAL, "peak")
 _PARTS = ("forward", "backward", "cos", "sin")
 _UNITS = {"force": "N"}
@@ -54,12 +56,13 @@ def differences(name: str, engine: Engine, file: Path) -> list[Difference]:
     try:
         recorded = json.loads(file.read_text(encoding="utf-8"))
         old, before = dict(_figures(recorded)), _plain(recorded)
-        now = documents.analysis(analyze(engine, {*(entry["order"] for entry in recorded["orders"]), *shown.orders}, RECORDED))
+        found = analyze(engine, {*(entry["order"] for entry in recorded["orders"]), *shown.orders}, RECORDED)
+        now = documents.analysis(found)
     except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError, BalcliError) as error:
         return [Difference(name, f"the result recorded in {file.parent.name}/{file.name} cannot be read "
                                  f"({type(error).__name__}: {error}); check --update records it anew")]
     plain = [Difference(name, f"{what}: {before[what]} -> {new}") for what, new in _plain(now).items() if before[what] != new]
-    return [*plain, *_moved(name, old, dict(_figures(now)))]
+    return [*plain, *_moved(name, old, dict(_figures(now)), _roundings(found.spectra))]
 
 
 def _plain(document: dict[str, Any]) -> dict[str, Any]:
@@ -67,15 +70,27 @@ def _plain(document: dict[str, Any]) -> dict[str, Any]:
     return {"number of cylinders": document["engine"]["cylinders"], "speed, rpm": document["speed_rpm"]}
 
 
-def _moved(name: str, old: dict[tuple[str, str, str], float], new: dict[tuple[str, str, str], float]) -> Iterator[Difference]:
+def _moved(name: str, old: dict[tuple[str, str, str], float], new: dict[tuple[str, str, str], float],
+           roundings: dict[tuple[str, str], float]) -> Iterator[Difference]:
     scale: dict[str, float] = {}
     for figures in (old, new):
         for (quantity, _, _), value in figures.items():
             scale[quantity] = max(scale.get(quantity, 0.0), abs(value))
     for key in dict.fromkeys((*new, *old)):
         before, after = old.get(key, 0.0), new.get(key, 0.0)
-        if not abs(after - before) <= TOLERANCE * scale[key[0]]:
+        if not abs(after - before) <= TOLERANCE * scale[key[0]] + roundings.get(key[:2], 0.0):
             yield Difference(name, " ".join(filter(None, key)), before, after, abs(after - before) / scale[key[0]])
+
+
+def _roundings(found: Spectra) -> dict[tuple[str, str], float]:
+    """How far rounding may move a figure, by (quantity, order): what decides whether an order is balanced. Where all large orders
+    cancel, that is more than TOLERANCE of what is left, and the next processor may round otherwise."""
+    errors: dict[tuple[str, str], float] = {}
+    for quantity, phasors in found.items():
+        each = 2 * np.broadcast_to(phasors.noise, phasors.forward.shape)
+        errors |= {(quantity, f"order {order:g}"): float(error) for order, error in zip(phasors.orders, each, strict=True)}
+        errors[quantity, "peak,"] = float(each.sum())
+    return errors
 
 
 def _figures(document: dict[str, Any]) -> Iterator[tuple[tuple[str, str, str], float]]:

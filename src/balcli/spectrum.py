@@ -16,7 +16,8 @@ from .engine import Engine
 SPECTRAL = ("force", "moment", "couple", "torque", "roll")
 _ONLY_FORCES = {"force", "moment"}
 SHOWN = 1e-6                    # share of a quantity's largest order below which an order is not worth showing
-_AT_ONCE = 1 << 19              # orders x cylinders that are computed together: bounds the memory, about 16 arrays of complex numbers
+_ALL = slice(None)
+_AT_ONCE = 1 << 18              # orders x cylinders that are computed together: bounds the memory, about 16 arrays of complex numbers
 
 
 class Spectra(NamedTuple):
@@ -82,26 +83,22 @@ def alone(engine: Engine, number: int) -> Engine:
 
 def _steady(engine: Engine, orders: Array, quantities: Collection[str]) -> tuple[dict[str, Phasors], Loads]:
     """Phasors at a steady speed, and the loads of the lowest orders."""
-    names = [q for q in SPECTRAL[:4] if q in quantities]
-    most = max(_AT_ONCE // engine.cylinders.count, 1)
-    if len(orders) <= most:
-        loads = _loads(engine, orders, quantities)
-        return {q: getattr(loads, q) for q in names}, loads
-    lowest = _loads(engine, orders[:most], quantities)
-    parts = [{q: getattr(lowest, q) for q in names}]
-    for start in range(most, len(orders), most):
-        loads = _loads(engine, orders[start:start + most], quantities)
-        parts.append({q: getattr(loads, q) for q in names})
-    return {q: joined([part[q] for part in parts]) for q in names}, lowest
-
-
-def _loads(engine: Engine, orders: Array, quantities: Collection[str]) -> Loads:
-    c = engine.cylinders
-    find = c.linkage.harmonics if c.linkage else harmonics.of
-    x, y, z = engine.reference_m
+    c, names, (x, y, z) = engine.cylinders, [q for q in SPECTRAL[:4] if q in quantities], engine.reference_m
+    find = c.linkage.harmonics if c.linkage else harmonics.of_distinct
     rod = bool(np.count_nonzero(c.couple)) and not _ONLY_FORCES.issuperset(quantities)
-    return Loads(c, engine.devices, (x + 1j * y, z), orders,
-                 find(orders, c.lam, c.eps, rod=rod, energy="torque" in quantities), engine.omega**2)
+    few, which = find(orders, c.lam, c.eps, rod=rod, energy="torque" in quantities)
+
+    def loads(block: slice) -> Loads:
+        own = few if block == _ALL else few.of_orders(block)
+        return Loads(c, engine.devices, (x + 1j * y, z), orders[block], own.of_rows(which), engine.omega**2)
+    most = max(_AT_ONCE // c.count, 1)
+    blocks = [slice(k, k + most) for k in range(0, len(orders), most)] if len(orders) > most else [_ALL]
+    lowest = loads(blocks[0])
+    parts = [{q: getattr(lowest, q) for q in names}]
+    for block in blocks[1:]:
+        these = loads(block)
+        parts.append({q: getattr(these, q) for q in names})
+    return {q: joined([part[q] for part in parts]) if parts[1:] else parts[0][q] for q in names}, lowest
 
 
 def _uneven(engine: Engine, orders: Array, quantities: Collection[str]) -> dict[str, Phasors]:

@@ -2,6 +2,8 @@
 from __future__ import annotations
 
 import itertools
+import math
+from fractions import Fraction
 
 import mpmath
 import numpy as np
@@ -30,15 +32,18 @@ def seen(curve: Phasors, theta: np.ndarray) -> np.ndarray:
 
 
 def smallest_of_points(points: np.ndarray) -> float:
-    """Radius by all pairs and triples: the largest of the smallest circles around three points (Helly)."""
-    def around(triple):
-        a, b, c = triple
-        for p, q, r in ((a, b, c), (b, c, a), (c, a, b)):
-            if abs(r - (p + q) / 2) <= abs(p - q) / 2:
-                return abs(p - q) / 2
-        sides = abs(a - b), abs(b - c), abs(c - a)
-        return np.prod(sides) / (2 * abs(((b - a).conjugate() * (c - a)).imag))
-    return max(around(triple) for triple in itertools.combinations(points, 3))
+    """Radius by all triples, in exact fractions: the largest of the smallest circles around three points (Helly)."""
+    def square(p, q) -> Fraction:
+        return (p[0] - q[0]) ** 2 + (p[1] - q[1]) ** 2
+
+    def around(a, b, c) -> Fraction:
+        short, middle, long = sorted((square(a, b), square(b, c), square(c, a)))
+        if short + middle <= long:                          # obtuse, or in line
+            return long / 4
+        area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        return short * middle * long / (4 * area**2)
+    exact = [(Fraction(p.real), Fraction(p.imag)) for p in points.tolist()]
+    return math.sqrt(max(around(*triple) for triple in itertools.combinations(exact, 3)))
 
 
 @given(st.lists(VECTORS, min_size=3, max_size=12, unique=True))

@@ -428,6 +428,7 @@ def main() -> None:
             accepted += done.status == 0
             slowest = max(slowest, (done.seconds, case.number))
             if memory() > most + 8:
+                faults += memory() > MOST_MEMORY >= most
                 most = memory()
                 print(f"{case.number}: memory {most} MB, {done.seconds:.2f} s, {' '.join(case.args)}", flush=True)
             if wrong := fault(case, done):

@@ -164,7 +164,8 @@ def test_articulated_rods_near_dead_lock_keep_the_bound_they_state(short, master
     orders = [0, 1, 2, 3, 7]
     with mp.workdps(30):
         want = revolution(motion, 2 * c.linkage.highest(c.lam, c.eps), orders)
-    found = c.linkage.harmonics(orders, c.lam, c.eps, rod=True, energy=True)
+    few, which = c.linkage.harmonics(orders, c.lam, c.eps, rod=True, energy=True)
+    found = few.of_rows(which)
     assert share_of_bound(found.piston, row, want[0]) < 0.5
     assert share_of_bound(found.rod, row, want[1]) < 0.5
 
@@ -174,7 +175,8 @@ def test_the_mirror_image_of_an_articulated_rod_has_the_same_bound():
     bounds = []
     for master in (1, 2):
         c = vee(1e-2, master).cylinders
-        found, row = c.linkage.harmonics([1, 2], c.lam, c.eps, rod=True, energy=False), 2 - master
+        few, which = c.linkage.harmonics([1, 2], c.lam, c.eps, rod=True, energy=False)
+        found, row = few.of_rows(which), 2 - master
         bounds.append((found.piston.noise[row], found.rod.noise[row], found.piston.noise[1 - row]))
     assert bounds[0] == pytest.approx(bounds[1], rel=1e-6, abs=0)
 
@@ -183,6 +185,27 @@ def test_an_articulated_rod_nearer_to_dead_lock_is_refused_with_the_number():
     assert len(relevant_orders(vee(2e-6))) == 1 << 15
     with pytest.raises(InputError, match=r"stands 0\.9999995\d* rod lengths beside .*at most 1 - 1e-06 is allowed"):
         vee(5e-7)
+
+
+def short(number: int) -> float:
+    """Of the lock, by the number of a cylinder."""
+    return 1e-6 * (1.1 + number / 1000)
+
+
+@pytest.mark.parametrize(("kind", "parts", "different", "samples"), [
+    ("centred", {"rod": {"ratio": 0.9}, "cylinder": {str(n): {"rod_ratio": 1 - short(n)} for n in range(1, 65)}}, 64, 64 << 16),
+    ("offset", {"rod": {"ratio": 0.3}, "cylinder": {str(n): {"piston_offset": 50 / 0.3 * (0.7 - short(n))} for n in range(1, 65)}},
+     64, 64 << 15),
+    ("articulated", {"rod": {"length": 180}, "layout": {"banks": [-22.5, 22.5]},
+                     "articulation": {"master": 1, "knuckle_radius": 40, "rod": {"length": 80}},
+                     "cylinder": {str(n): {"rod_length": DEAD / (1 - short(n))} for n in range(65, 129)}}, 65, 65 << 16)])
+def test_too_many_different_mechanisms_near_their_lock_are_refused_with_the_number(kind, parts, different, samples):
+    """Each takes milliseconds, and megabytes where rods are articulated; equal ones are computed once."""
+    with pytest.raises(InputError) as caught:
+        engine(crank={"stroke": 100, "throws": [0] * 64}, **parts)
+    assert str(caught.value).startswith(
+        f"engine: cylinder: the cylinders have {different} different mechanisms, some so near their lock that all of them need {samples} "
+        "samples of a revolution; at most 524288 are taken: "), caught.value
 
 
 @pytest.mark.parametrize(("ratio", "offset", "number"), [

@@ -141,6 +141,13 @@ def test_a_name_that_commands_a_terminal_is_refused(place, name):
     )
 
 
+def test_a_name_that_would_fill_gigabytes_is_refused(place):
+    """It stands in every line of a CSV: 5000 characters made 100 MB of the orders 1 to 512."""
+    done = fuzz.run(fuzz.Case(0, f'name = "{"x" * 201}"\n{body()}'.encode(), ("analyze", "FILE")), place)
+    assert (done.status, done.out) == (2, "")
+    assert done.err == "balcli: case.toml: name: has 201 characters; it stands in every line of a CSV, at most 200 are taken\n"
+
+
 def test_a_source_may_have_lines(place):
     data = f'source = """weighed,\n\tin May"""\n{body()}'.encode()
     assert fuzz.run(fuzz.Case(0, data, ("analyze", "FILE")), place).status == 0

@@ -7,15 +7,18 @@ order and for every lambda in (0, 1); offset ones are sampled, which is good to 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[Any]
+Rows: TypeAlias = NDArray[np.intp] | slice
 EPS = float(np.finfo(float).eps)
+HARDEST = 1 << 16               # samples of a revolution that a mechanism takes at 1 - 1e-6 of its lock
 CLOSED_FORM = 4096              # highest order of closed forms; only mechanisms near their lock have more
 _AT_ONCE = 1 << 18              # factors of Gauss's functions that are kept in memory
 
@@ -31,6 +34,10 @@ class Series:
 
     def __add__(self, other: Series) -> Series:
         return Series(self.c + other.c, self.noise + other.noise)
+
+    def of_orders(self, which: slice) -> Series:
+        """Those of the orders in these rows; what is left out has none."""
+        return self if self is NONE else Series(self.c[which], self.noise)
 
     def of_rows(self, which: NDArray[np.intp]) -> Series:
         """Those of these cylinders; a single row stands for all."""
@@ -62,38 +69,67 @@ class Harmonics(NamedTuple):
     curve: Curve | None = None          # of a further mass, where a mechanism has one that moves in the plane
     turns: Array | float = 0.0          # of the rod for each of the crank
 
-    def of_rows(self, which: NDArray[np.intp] | slice) -> Harmonics:
+    def of_orders(self, which: slice) -> Harmonics:
+        """Of the orders in these rows."""
+        return self._each(lambda series: series.of_orders(which))
+
+    def of_rows(self, which: Rows) -> Harmonics:
         """With the mechanisms of these rows."""
-        if self.curve is None or isinstance(which, slice):
+        if isinstance(which, slice):
             return self
-        series = {name: getattr(self, name).of_rows(which) for name in ("piston", "rod", "kinetic", "rod_kinetic")}
-        lines = {name: getattr(self.curve, name).of_rows(which) for name in ("along", "across", "couple", "kinetic")}
-        return Harmonics(**series, curve=Curve(**lines, momentum=self.curve.momentum[which]), turns=np.asarray(self.turns)[which])
+        chosen = self._each(lambda series: series.of_rows(which))
+        curve = chosen.curve and chosen.curve._replace(momentum=chosen.curve.momentum[which])
+        return chosen._replace(curve=curve, turns=np.asarray(self.turns)[which] if np.ndim(self.turns) else self.turns)
+
+    def _each(self, change: Callable[[Series], Series]) -> Harmonics:
+        """With every series changed."""
+        c = self.curve
+        return Harmonics(change(self.piston), change(self.rod), change(self.kinetic), change(self.rod_kinetic),
+                         c and Curve(change(c.along), change(c.across), change(c.couple), change(c.kinetic), c.momentum), self.turns)
 
 
-NONE = Series(np.zeros((1, 1)))
+NONE = Series(np.zeros((1, 1)))         # what is left out
 
 
 def of(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: bool = True) -> Harmonics:
-    """Harmonics of mechanisms by lambda and offset ratio, shapes (cylinders, *trailing); equal ones are computed once.
+    """Harmonics of mechanisms by lambda and offset ratio, shapes (cylinders, *trailing).
 
     Raises nothing: that every mechanism turns (`lambda + |eps| < 1`) is the caller's to see to.
     """
+    few, which = of_distinct(orders, lam, eps, rod=rod, energy=energy)
+    return few.of_rows(which)
+
+
+def of_distinct(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: bool = True) -> tuple[Harmonics, Rows]:
+    """Those of the mechanisms that differ, and which of them each cylinder has."""
     if lam.ndim > 1 or lam.size * eps.size == 1:
-        return _of_distinct(orders, lam, eps, rod=rod, energy=energy)
-    pairs = list(zip(*(v.tolist() for v in np.broadcast_arrays(lam, eps)), strict=True))
-    distinct = list(dict.fromkeys(pairs))
-    which = [distinct.index(pair) for pair in pairs]
-    each = [_of_distinct(orders, *np.array([pair]).T, rod=rod, energy=energy) for pair in distinct]
+        return _of_all(orders, lam, eps, rod=rod, energy=energy), slice(None)
+    pairs, which = distinct(lam, eps)
+    each = [_of_all(orders, *np.array([pair]).T, rod=rod, energy=energy) for pair in pairs]
 
     def gather(name: str) -> Series:
         series: list[Series] = [getattr(one, name) for one in each]
+        if series[0] is NONE:
+            return NONE
         noise = np.concatenate([np.broadcast_to(s.noise, s.c.shape[1:]) for s in series])
-        return Series(np.concatenate([s.c for s in series], axis=1)[:, which], noise[which])
-    return Harmonics(gather("piston"), gather("rod"), gather("kinetic"), gather("rod_kinetic"))
+        return Series(np.concatenate([s.c for s in series], axis=1), noise)
+    return Harmonics(gather("piston"), gather("rod"), gather("kinetic"), gather("rod_kinetic")), which
 
 
-def _of_distinct(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> Harmonics:
+def samples(lam: Array, eps: Array) -> tuple[int, int]:
+    """How many mechanisms differ, and how many samples of a revolution they take together."""
+    pairs, _ = distinct(lam, eps)
+    return len(pairs), sum(points(*pair) for pair in pairs)
+
+
+def distinct(lam: Array, eps: Array) -> tuple[list[tuple[float, float]], NDArray[np.intp]]:
+    """(lambda, eps) of the mechanisms that differ, of shapes (cylinders or 1,), and which of them each cylinder has."""
+    pairs = list(zip(*(v.tolist() for v in np.broadcast_arrays(lam, eps)), strict=True))
+    place = {pair: k for k, pair in enumerate(dict.fromkeys(pairs))}
+    return list(place), np.array([place[pair] for pair in pairs])
+
+
+def _of_all(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> Harmonics:
     if np.count_nonzero(eps) or np.max(orders, initial=0) > CLOSED_FORM:
         return sampled(orders, lam, eps, rod=rod, energy=energy)
     if lam.size == 1:

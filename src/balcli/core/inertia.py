@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from .linkage import Linkage
 
 _SUM = 8 * EPS              # rounding error of a sum, per term and size of the terms
+_KEPT = 1 << 16             # orders x cylinders of which the phases are kept
 _TURN = np.pi * EPS         # rounding error of an angle in the file (half an ulp of 360 deg), which order n multiplies
 
 
@@ -106,8 +107,8 @@ class Loads:
         self._cylinders, self._devices, self._harmonics = cylinders, devices, harmonics
         self._place, self._z_ref = reference
         self._orders, self._square = orders, square
-        single = cylinders.pin_deg.ndim == 1                                # many variants are too large to be kept
-        self._phases = _kept(cylinders, orders.tobytes()) if single else _Phases(cylinders, orders)
+        small = cylinders.pin_deg.ndim == 1 and len(orders) * cylinders.count <= _KEPT
+        self._phases = _kept(cylinders, orders.tobytes()) if small else _Phases(cylinders, orders)
         self._n, self._once, self._rounding = self._phases.n, self._phases.once, self._phases.rounding
         self._of_devices = [self._of_device(device) for device in devices]
 

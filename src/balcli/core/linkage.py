@@ -15,9 +15,11 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .harmonics import NONE, SAMPLING, Array, Curve, Harmonics, circle, from_samples, rounding
+from .harmonics import NONE, SAMPLING, Array, Curve, Harmonics, Rows, circle, from_samples, points, rounding
 
+STEPS = 1440                        # crank angles that do not miss a lock
 FEWEST, MOST = 64, 1 << 18          # samples
+_AT_ONCE = 1 << 16                  # cylinders x angles of figures by themselves
 
 
 class Point(NamedTuple):
@@ -93,14 +95,15 @@ class Linkage(ABC):
     def motion(self, psi: Array, lam: Array, eps: Array) -> Motion:
         """The cylinders at their own crank angles psi, shape (samples,) or one row each, or at e^{i psi}; lam and eps as in `Cylinders`."""
 
-    def distinct(self, lam: Array, eps: Array) -> tuple[Linkage, Array, Array, NDArray[np.intp] | slice]:
+    def distinct(self, lam: Array, eps: Array) -> tuple[Linkage, Array, Array, Rows]:
         """The mechanisms that differ, their lam and eps, and which of them each cylinder has."""
         return self, lam, eps, slice(None)
 
-    def harmonics(self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> Harmonics:
-        """Harmonics of all cylinders for whole orders; accelerations are sampled as such, so that no order's error grows."""
+    def harmonics(self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> tuple[Harmonics, Rows]:
+        """Those of the mechanisms that differ, for whole orders, and which of them each cylinder has; accelerations are sampled as
+        such, so that no order's error grows."""
         few, *mechanisms, which = self.distinct(lam, eps)
-        return few._harmonics(orders, *mechanisms, rod=rod, energy=energy).of_rows(which)
+        return few._harmonics(orders, *mechanisms, rod=rod, energy=energy), which
 
     def _harmonics(self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> Harmonics:
         m = self._sampled(lam, eps)
@@ -117,6 +120,18 @@ class Linkage(ABC):
                 kinetic=from_samples(m.energy, orders) if energy else NONE,
                 momentum=m.swirl.mean(axis=-1)),
             turns=m.spin.mean(axis=-1))
+
+    def each(self, name: str, psi: Array, lam: Array, eps: Array) -> Array:
+        """One figure of `Motion` at crank angles that all cylinders share, by so many at a time that memory stays small."""
+        count = max(len(self.mass), lam.size, eps.size)
+        step = max(_AT_ONCE // count, 1)
+        return np.concatenate([getattr(self.motion(psi[k:k + step], lam, eps), name) for k in range(0, len(psi), step)], axis=-1)
+
+    def samples(self, lam: Array, eps: Array) -> tuple[int, int]:
+        """How many mechanisms differ, and about how many samples of a revolution they take together."""
+        few, *mechanisms, _ = self.distinct(lam, eps)
+        lean = np.abs(few.each("lean", revolution(STEPS), *mechanisms)).max(axis=-1)
+        return lean.size, lean.size * points(lean.max(), 0.0)
 
     def highest(self, lam: Array, eps: Array) -> int:
         """The order beyond which nothing exceeds rounding errors."""

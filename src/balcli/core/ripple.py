@@ -6,12 +6,13 @@ coefficients all of these are short convolutions, so that every order stays as e
 """
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .peaks import Peak, peak
 from .phasors import EPS, Complex, Phasors, unit
 
 
@@ -25,6 +26,18 @@ def speed(lines: Iterable[tuple[int, Any, Any]]) -> Complex:
         w[highest + order] += half
         w[highest - order] += half.conj()
     return w
+
+
+def slowest(lines: Sequence[tuple[int, float, float]]) -> Peak:
+    """The least W over a revolution, to rounding, and a crank angle (rad) at which it is reached, for lines as of `speed`.
+
+    It is where `sum |amplitude| + 1 - W`, which is nowhere negative, has its peak.
+    """
+    w, size = speed(lines), sum(abs(amplitude) for _, amplitude, _ in lines)
+    orders = np.arange(len(w) // 2 + 1.0)
+    rest = np.where(orders, -w[len(w) // 2:], size)
+    top = peak(Phasors(orders, rest, np.where(orders, rest.conj(), 0), np.zeros(1)))
+    return Peak(1 + size - top.value, top.theta)
 
 
 def force(steady: Phasors, w: Complex, mean: Any = 0.0) -> Phasors:

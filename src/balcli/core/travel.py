@@ -35,7 +35,7 @@ def _plain(c: Cylinders) -> tuple[Array, ...]:
 
 def _sampled(c: Cylinders, linkage: Linkage) -> tuple[Array, ...]:
     psi = revolution(_STEPS)
-    place = linkage.motion(psi, c.lam, c.eps).place
+    place = linkage.each("place", psi, c.lam, c.eps)
     top = _refined(c, linkage, psi[place.argmax(axis=-1)])
     bottom = _refined(c, linkage, psi[place.argmin(axis=-1)])
     high, low = (linkage.motion(at[..., None], c.lam, c.eps).place[..., 0] for at in (top, bottom))

@@ -104,7 +104,7 @@ def _grid(grid: Grid, widths: dict[int, int], gap: int) -> Table:
     table = Table(box=box.SIMPLE_HEAD, padding=(0, gap - 2, 0, 1), pad_edge=False, show_edge=False)
     for k, width in widths.items():
         table.add_column(grid.columns[k], justify="left" if k in grid.words else "right", overflow="fold",
-                         style="bold" if k == 0 else "", width=width)
+                         style="bold" if k == 0 else "", max_width=width)
     for i, row in enumerate(grid.rows):
         table.add_row(*(Cell(row[k], style="bold red" if (i, k) in grid.marked else "") for k in widths))
     return table
