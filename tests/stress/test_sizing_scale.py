@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from kit import engine_text
 
@@ -40,6 +40,9 @@ def random_engine(seed: int) -> Engine:
 
 
 @given(st.integers(0, 2**32))
+@example(409)
+@example(790)
+@example(33446)
 def test_auto_leaves_nothing_in_any_engine(seed):
     engine = random_engine(seed)
     after = spectra(fitted(engine, auto(engine)), [1, 2], ("force", "moment"))

@@ -36,8 +36,7 @@ def single(wish: Rest, sense: int, within: tuple[float, float]) -> float | None:
     near = min(max(z, low), high)
     for place in (round(near, 12), near):               # a thousandth of a nanometre: figures that people can read
         arm = place - wish.arm[1]
-        noise = wish.noise[Part("moment", sense)] + abs(arm) * wish.noise[Part("force", sense)]
-        if abs(moment - arm * force) <= noise:
+        if abs(moment - arm * force) <= wish.noise[Part("moment", sense)]:
             return place
     return None
 

@@ -149,6 +149,8 @@ def exactly(slots: Sequence[Slot], wish: Rest, parts: Sequence[Part], reason: st
         raise BalcliError(f"order {wish.order}: the places given are too much alike: unbalances of {largest * 1e6:.3g} g mm would work "
                           f"against each other (condition number {fit.condition:.3g}), and their rounding alone would leave "
                           f"{left / size:.1g} of what shakes; choose planes farther apart")
+    if len(slots) == 1:                                                     # a compromise would leave rounding in the force, too
+        return fit._replace(unbalances=solve(slots, wish, parts[:1]).unbalances)
     return fit
 
 
