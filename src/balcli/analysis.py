@@ -98,8 +98,8 @@ def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collect
     asked = None if orders is None else checked_orders(orders)
     curves = {"force", "moment"} if "peak" in wanted else set()
     shown = wanted.intersection(SPECTRAL)
-    whole = relevant_orders(engine) if asked is None or curves else np.empty(0)
-    everything = spectra(engine, sorted({*whole, *([1.0, 2.0] if asked is None else asked)}), shown | curves)
+    due = np.array([1.0, 2.0]) if asked is None else asked
+    everything = spectra(engine, np.union1d(relevant_orders(engine), due) if asked is None or curves else due, shown | curves)
     visible = Spectra(everything.orders, **{q: p for q, p in everything.items() if q in shown})
     visible = visible.at(shown_orders(visible) if asked is None else asked)
     if by_cylinder and (apart := len(visible.orders) * len(engine.numbers)) > MOST_APART:
@@ -169,7 +169,7 @@ def _sized(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizi
 def checked_orders(orders: Iterable[float]) -> Array:
     """Orders that were asked for, ascending; BalcliError unless they are whole numbers up to HIGHEST."""
     asked = np.array(sorted(set(orders)), float)
-    if not len(asked) or asked[0] < 0 or asked[-1] > HIGHEST or np.any(asked % 1):
+    if not len(asked) or asked[0] < 0 or asked[-1] > HIGHEST or (asked % 1).any():
         raise BalcliError(f"orders must be whole numbers from 0 to {HIGHEST}, not {', '.join(f'{n:g}' for n in asked[:8]) or 'none'}")
     return asked
 

@@ -32,6 +32,8 @@ class Spectra(NamedTuple):
 
     def at(self, orders: ArrayLike) -> Spectra:
         """Only these orders."""
+        if orders is self.orders:
+            return self
         rows = {q: phasors.at(orders) for q, phasors in self.items()}
         return Spectra(np.asarray(orders, float), **rows)
 

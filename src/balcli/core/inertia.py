@@ -200,20 +200,19 @@ class Loads:
     def _forces(self, arms: Array | None = None) -> Phasors:
         """Sum over the cylinders of their forces, or of these (real) multiples of them."""
         forward, mirrored, error = self._pull
-        ahead, astern = self._phases.sides
         size = self._once if arms is None else np.abs(self._cylinders.z) + abs(self._z_ref)
-        return Phasors(self._orders, self._sum(forward, arms, ahead), self._sum(mirrored, arms, astern.conj()).conj(), _total(error, size))
+        return Phasors(self._orders, self._sum(forward, arms, "ahead"), self._sum(mirrored, arms, "astern").conj(), _total(error, size))
 
     def _about_z(self, series: Series) -> Phasors:
         """Sum over the cylinders of scalars."""
         error = self._rounding * np.abs(series.c) + series.noise
-        return Phasors.real(self._orders, self._sum(series.c, None, self._phases.banks), _total(error, self._once))
+        return Phasors.real(self._orders, self._sum(series.c, None, "scalar"), _total(error, self._once))
 
-    def _sum(self, vectors: Complex | Array, arms: Array | None, axes: Complex) -> Complex:
+    def _sum(self, vectors: Complex | Array, arms: Array | None, side: str) -> Complex:
         """`sum over banks of axes * sum over its cylinders of arms * vectors * e^{i n pin}`; equal vectors are taken out of the sum."""
         if vectors.shape[1] > 1:
-            return self._phases.summed(axes, vectors if arms is None else arms * vectors)
-        return vectors[:, 0] * self._phases.summed(axes, None if arms is None else arms[None])
+            return self._phases.summed(side, vectors if arms is None else arms * vectors)
+        return vectors[:, 0] * (self._phases.whole(side) if arms is None else self._phases.summed(side, arms[None]))
 
 
 class _Phases:
@@ -225,7 +224,7 @@ class _Phases:
         self.once = np.ones((cylinders.count, *(1,) * (pin.ndim - 1)))
         self.rounding = cylinders.count * _SUM + _TURN * self.n             # of a sum over cylinders, relative to its terms
         self._axis, self._apart = axis, self.n * (axis - axis[cylinders.first])
-        self._starts = cylinders.starts
+        self._starts, self._whole = cylinders.starts, dict[str, Complex]()
         rows = [_narrow(row) for row in pin]                                # a sweep of one throw leaves the others where they are
         still = np.array([row.size == 1 for row in rows]).reshape(self.once.shape)
         first = pin[(slice(None), *(slice(1),) * (pin.ndim - 1))]
@@ -240,22 +239,36 @@ class _Phases:
             found[k] = unit(self.n[:, 0] * pin) if twin is None else found[twin]
         return found
 
-    def summed(self, axes: Complex, factors: Complex | Array | None) -> Complex:
+    def summed(self, side: str, factors: Complex | Array) -> Complex:
         """`sum over banks of axes * sum over its cylinders of factors * e^{i n pin}`, shape (orders, *trailing)."""
-        still: Complex = np.add.reduceat(self._still if factors is None else factors * self._still, self._starts, axis=1)
-        total: Complex = np.add.reduce(axes * still, axis=1)
+        axes: Complex = getattr(self, side)
+        total: Complex = np.add.reduce(axes * np.add.reduceat(factors * self._still, self._starts, axis=1), axis=1)
         for bank, rows in groupby(self._moving, lambda k: int(np.searchsorted(self._starts, k, "right")) - 1):
-            turned = (self._moving[k] if factors is None else factors[:, k] * self._moving[k] for k in rows)
-            total = total + axes[:, bank] * sum(turned)
+            total = total + axes[:, bank] * sum(factors[:, k] * self._moving[k] for k in rows)
         return total
 
+    def whole(self, side: str) -> Complex:
+        """The same without factors, once for all."""
+        if side not in self._whole:
+            self._whole[side] = self.summed(side, np.ones((1, *self.once.shape)))
+        return self._whole[side]
+
     @cached_property
-    def sides(self) -> Complex:
+    def _sides(self) -> Complex:
         """Turn of each bank's forward and backward vectors: `e^{i (axis -+ n (axis - axis_1))}`, (2, orders, banks, *trailing)."""
         return unit(np.array((self._axis - self._apart, self._axis + self._apart)))
 
+    @property
+    def ahead(self) -> Complex:
+        return self._sides[0]
+
     @cached_property
-    def banks(self) -> Complex:
+    def astern(self) -> Complex:
+        """Conjugate, as the sum that it turns."""
+        return self._sides[1].conj()
+
+    @cached_property
+    def scalar(self) -> Complex:
         """Turn of each bank's scalars: `e^{-i n (axis - axis_1)}`, (orders, banks, *trailing)."""
         return unit(-self._apart)
 

@@ -94,10 +94,10 @@ def _over_firing_order(file: EngineFile, objective: Objective, top: int, even: b
     late = np.degrees(np.arcsin(np.broadcast_to(c.eps / (1 + c.lam), c.pin_deg.shape)))
     lead = {cell.number: cell.bank * file.crank.splay for cell in layout.cells}
     slots = Slots(layout.cells, {n: axis[n] + float(t) - lead[n] for n, t in zip(engine.numbers, late, strict=True)}, cycle(file.layout))
-    cranks = [file.crank.throws] if file.crank.throws else slots.cranks()
-    if not cranks or next(slots.orders(cranks[0]), None) is None:
+    possible = [file.crank.throws] if file.crank.throws else slots.cranks()
+    if not possible or next(slots.orders(possible[0]), None) is None:
         raise BalcliError("these throws allow no even firing order")
-    throws = np.array(cranks)
+    throws = np.array(possible)
     best = _figures(file, {"throws": np.round(np.mod(throws - throws[:, :1], 360.0), 9) % 360.0}, objective)
     return (Found({"firing_order": list(order), **one.arrangement}, one.objective, one.figures)
             for one in best for order in slots.orders(one.arrangement["throws"]))
