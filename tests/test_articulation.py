@@ -157,6 +157,16 @@ def highest(c):
     return c.linkage.highest(c.lam, c.eps)
 
 
+@pytest.mark.parametrize("angle", [60, 89.999, 90, 90.001, 120, 180])
+@pytest.mark.parametrize("rotary", ["", "rotary = true"])
+def test_few_orders_far_from_the_lock(angle, rotary):
+    """Wherever the master's crank angle comes to a multiple of 90 degrees in a cylinder's frame, too."""
+    for master in (1, 2):
+        e = built(("radial = 7", f"bank_angle = {angle}\n{rotary}"), ("mass = 1.3", "mass = 1.3\noffset = 2.5"),
+                  ("[articulation]", f"[articulation]\nmaster = {master}"))
+        assert len(spectrum.relevant_orders(e)) <= 64
+
+
 def test_variants_on_a_trailing_axis():
     """A sweep of knuckle radius and rod length gives what each variant alone gives, also at an uneven speed."""
     file = enginefile.parse(RADIAL + "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.1, angle = 20 }]\n")

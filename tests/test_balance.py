@@ -162,6 +162,12 @@ def test_refusals(file, options, told):
     assert told in refusal(file, *options)
 
 
+def test_a_rotary_engine_has_no_factor(tmp_path):
+    file = tmp_path / "rotary.toml"
+    file.write_text(GOOD.replace("throws = [0, 180, 180, 0]\n", "").replace("firing_order = [1, 3, 4, 2]", "radial = 5\nrotary = true"))
+    assert "the cylinders turn and the crank pins stand still" in refusal(file, "--scheme", "factor")
+
+
 def test_the_engine_file_itself_is_never_written(file):
     assert "choose another name" in refusal(file, "--write", file)
     assert file.read_text() == GOOD

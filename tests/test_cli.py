@@ -448,6 +448,7 @@ def test_only_what_is_needed_is_imported(args, allowed):
     "from importlib.metadata import version; print(version('numpy'))",
     "from importlib.metadata import entry_points; print(len(entry_points(group='console_scripts')) > 0)",
     "import importlib.metadata._meta as m; print(m.__name__)",
+    "import importlib.util as u; s = u.find_spec('importlib.metadata'); print(s.name, s.origin)",
     "import importlib.metadata as m; m.version; import sys; print(type(sys.modules[m.__name__]) is type(sys))",
 ])
 def test_what_is_deferred_is_there_when_it_is_asked_for(use):

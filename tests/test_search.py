@@ -103,12 +103,16 @@ def test_v8_firing_orders_fit_their_crank() -> None:
     ("firing_order = [1, 5, 3, 6, 2, 4]", 0), ("bank_angle = 120\nfiring_order = [1, 4, 2, 5, 3, 6]", 0),
     ("banks = [-90, 90]\nfiring_order = [1, 4, 5, 2, 3, 6]\nrods = \"alternating\"", 0),
     ("bank_angle = 90\nfiring_order = [1, 4, 2, 5, 3, 6]", -30), ("strokes = 2\nfiring_order = [1, 5, 3, 6, 2, 4]", 0),
+    ("radial = 5\nfiring_order = [1, 3, 5, 2, 4]", 0), ("radial = 5\nrotary = true\nfiring_order = [1, 3, 5, 2, 4]", 0),
+    ("bank_angle = 180\nrotary = true\nfiring_order = [1, 2, 4, 3]", 0),
+    ("radial = 5\nfiring_order = [1, 3, 5, 2, 4]\n[articulation]\nknuckle_radius = 30\n[articulation.rod]\nlength = 130", 0),
 ])
 def test_firing_orders_are_those_that_an_engine_file_may_have(layout: str, splay: float) -> None:
     def text(order: tuple[int, ...]) -> str:
         at = layout.index("firing_order"), layout.index("]", layout.index("firing_order")) + 1
         own = layout[:at[0]] + f"firing_order = {list(order)}" + layout[at[1]:]
-        return changed(("throws = [0, 180, 180, 0]\n", f"splay = {splay}\n"), ("firing_order = [1, 3, 4, 2]", own))
+        return changed(("throws = [0, 180, 180, 0]\n", f"splay = {splay}\n"), ("firing_order = [1, 3, 4, 2]", own),
+                       ("[piston]\n", "[piston]\noffset = 5\n"))
 
     def fits(order: tuple[int, ...]) -> bool:
         try:
@@ -117,7 +121,8 @@ def test_firing_orders_are_those_that_an_engine_file_may_have(layout: str, splay
             return False
         return True
 
-    every = {order for rest in permutations(range(2, 7)) if fits(order := (1, *rest))}
+    count = layout[layout.index("firing_order"):].partition("]")[0].count(",") + 1
+    every = {order for rest in permutations(range(2, count + 1)) if fits(order := (1, *rest))}
     given = load(text(next(iter(every))))
     found = [tuple(r.arrangement["firing_order"]) for r in search(given, "firing_order", objective("moment.1.major"), 1000).results]
     mirrored = {other for order in found for other in _images(order, given)}

@@ -44,6 +44,16 @@ def test_a_refused_sweep_leaves_the_older_file(engine: str, tmp_path: Path) -> N
     assert sorted(p.name for p in tmp_path.iterdir()) == ["four.toml", "x.csv"]
 
 
+def test_a_variant_that_cannot_be_is_told_before_anything_is_written(tmp_path: Path) -> None:
+    """One between the corners of the grid: the ripple's angle."""
+    file = tmp_path / "rip.toml"
+    file.write_text("[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n[operation]\nspeed_ripple = ["
+                    "{ order = 1, amplitude = 0.6 }, { order = 2, amplitude = 0.5 }]\n")
+    done = run("sweep", str(file), "--vary", "operation.speed_ripple.2.angle=0:360:30", "--quantity", "force.1.major")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(f"balcli: {file}: operation.speed_ripple: the crank would turn back: at crank angle ")
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_ctrl_c_leaves_a_valid_part(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "x.json"

@@ -5,6 +5,7 @@ import gc
 import importlib
 import os
 import sys
+from importlib.machinery import PathFinder
 from types import ModuleType
 from typing import Any
 
@@ -32,7 +33,9 @@ class _Metadata(ModuleType):
         """Stand in for the module, unless it is there already."""
         if cls.NAME not in sys.modules:
             later = sys.modules[cls.NAME] = importlib.metadata = cls(cls.NAME)
-            later.__path__ = [os.path.join(folder, "metadata") for folder in importlib.__path__]
+            spec = later.__spec__ = PathFinder.find_spec(cls.NAME, importlib.__path__)
+            if spec is not None:
+                later.__file__, later.__path__ = spec.origin, list(spec.submodule_search_locations or ())
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._real(), name)

@@ -122,9 +122,9 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
     Raises:
         InputError: what does not fit together, by its path in the file.
     """
-    layout, masters, rods, radius = *_parts(file), file.crank.stroke / 2e3
-    axis = {c.number: own_or(file, c.number, "bank", layout.banks[c.bank]) for c in layout.cells}
-    pin, fires = pins(file, layout, _tops(file, rods, axis, radius) | {n: axis[n] for n in masters})
+    layout, rods = _parts(file)
+    axis = _axes(file, layout)
+    pin, fires = pins(file, layout, _tops(file, rods, axis))
     along, throws = places(file, layout, rank)
     cylinders, numbers = _cylinders(file, layout, rods, axis, pin, along, rank)
     _refuse(articulation.locked(file, cylinders, numbers))
@@ -140,8 +140,8 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
     )
 
 
-def _parts(file: EngineFile) -> tuple[Plan, dict[int, int], dict[int, Parts]]:
-    """Cylinders, master of each articulated one, and rods; InputError with all that does not fit together in them."""
+def _parts(file: EngineFile) -> tuple[Plan, dict[int, Parts]]:
+    """Cylinders and rods; InputError with all that does not fit together in them."""
     try:
         layout = plan(file.crank, file.layout)
     except InputError as error:                         # rods can be looked at all the same, as far as it is known which they are
@@ -150,7 +150,7 @@ def _parts(file: EngineFile) -> tuple[Plan, dict[int, int], dict[int, Parts]]:
     masters = articulation.masters(file, layout)
     rods, faults = _rods(file, layout.numbers, masters)
     _refuse([*articulation.mistakes(file, layout), *strangers(layout, file.cylinder), *faults, *_stopped(file)])
-    return layout, masters, rods
+    return layout, rods
 
 
 def _stopped(file: EngineFile) -> Iterator[Problem]:
@@ -174,10 +174,24 @@ def _rods(file: EngineFile, numbers: Iterable[int], masters: Mapping[int, int]) 
     return rods, [p for n, rod in rods.items() for p in mistakes(file, n, rod, file.crank.stroke / 2e3, n in masters)]
 
 
-def _tops(file: EngineFile, rods: Mapping[int, Parts], axis: Mapping[int, Any], radius: Any) -> dict[int, Any]:
-    """Where each piston's top dead centre points, deg from x (nominally its axis for an articulated one)."""
+def tops(file: EngineFile) -> dict[int, Any]:
+    """Where the crank pin of each cylinder stands when it is at top dead centre, deg from x; InputError with mistakes of the file.
+
+    Nominally on its axis where rods are articulated: only then do all cylinders of a throw fire evenly.
+    """
+    layout, rods = _parts(file)
+    return _tops(file, rods, _axes(file, layout))
+
+
+def _tops(file: EngineFile, rods: Mapping[int, Parts], axis: Mapping[int, Any]) -> dict[int, Any]:
+    if file.articulation is not None:
+        return dict(axis)
     sense = -1 if file.layout.rotary else 1             # in which the crank turns, seen from a cylinder
-    return {n: axis[n] + sense * rod.top_deg(radius) for n, rod in rods.items()}
+    return {n: axis[n] + sense * rod.top_deg(file.crank.stroke / 2e3) for n, rod in rods.items()}
+
+
+def _axes(file: EngineFile, layout: Plan) -> dict[int, Any]:
+    return {c.number: own_or(file, c.number, "bank", layout.banks[c.bank]) for c in layout.cells}
 
 
 def _cylinders(file: EngineFile, layout: Plan, rods: Mapping[int, Parts], axis: Mapping[int, Any], pin: Mapping[int, Any],

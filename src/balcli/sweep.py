@@ -41,6 +41,7 @@ class Sweep:
     file: EngineFile
     parameters: tuple[Parameter, ...]
     quantities: tuple[Quantity, ...]
+    name: str = "engine"                # of the file, in messages
 
     @property
     def columns(self) -> list[str]:
@@ -64,7 +65,10 @@ class Sweep:
         axes = {p.path: p.values[cut].reshape(-1, *(1,) * (rank - 1 - k))
                 for k, (p, cut) in enumerate(zip(self.parameters, box, strict=True))}
         arrays = {path: values.reshape((1,) * (rank - values.ndim) + values.shape) for path, values in axes.items()}
-        return build(varied(self.file, arrays), rank)
+        try:
+            return build(varied(self.file, arrays), rank)
+        except InputError as error:
+            raise InputError(error.problems, self.name) from None
 
 
 def ask(file: str, vary: Sequence[str], quantities: str) -> Sweep:
@@ -78,22 +82,20 @@ def ask(file: str, vary: Sequence[str], quantities: str) -> Sweep:
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
-    sweep = Sweep(model, parameters, quantity.parse(quantities))
-    try:
-        check(sweep)
-    except InputError as error:
-        raise InputError(error.problems, enginefile.name_of(file)) from None
+    sweep = Sweep(model, parameters, quantity.parse(quantities), enginefile.name_of(file))
+    check(sweep)
     return sweep
 
 
 def check(sweep: Sweep) -> None:
-    """Whether all variants can be, seen at the corners of the grid: what can lock a mechanism grows towards one of them.
+    """A first look whether all variants can be, at the corners of the grid: what can lock a mechanism grows towards one of them (what an
+    uneven speed can do to it may lie between them, and is found on the way).
 
     Raises:
         InputError: one of them cannot be.
     """
     corners = tuple(Parameter(p.path, np.array([p.values.min(), p.values.max()])) for p in sweep.parameters)
-    Sweep(sweep.file, corners, ()).engine((slice(None),) * len(corners))
+    Sweep(sweep.file, corners, (), sweep.name).engine((slice(None),) * len(corners))
 
 
 def values(sweep: Sweep, box: Box) -> list[Array]:

@@ -94,6 +94,13 @@ def test_offset_velocity_vanishes_at_both_dead_centres():
     assert np.abs(sc.velocity([top, bottom], lam, eps)).max() < 1e-15
 
 
+@pytest.mark.parametrize("what", [sc.velocity, sc.acceleration, sc.rod_rate, sc.rod_acceleration])
+@pytest.mark.parametrize("cosine", [1.0, -1.0])
+def test_the_sign_of_a_zero_means_nothing(what, cosine):
+    for eps in (-0.05, 0.05):
+        assert what(np.array(complex(cosine, -0.0)), 0.3, eps) == what(np.array(complex(cosine, 0.0)), 0.3, eps)
+
+
 def test_arguments_broadcast():
     psi, lam, eps = np.zeros((5, 1, 1)), np.full((4, 1), 0.3), np.zeros(3)
     sine, cosine = sc.rod_angle(psi, lam, eps)

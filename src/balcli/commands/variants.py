@@ -5,6 +5,7 @@ import signal
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -38,7 +39,8 @@ def write(sweep: Sweep, chunks: Iterable[Chunk], form: str, output: Path | None)
 
 
 def _copy(sweep: Sweep, chunks: Iterable[Chunk], form: str, stream: Any) -> None:
-    for text in (json_text if form == "json" else csv_text)(sweep, chunks):
+    first = next(iter(chunks := iter(chunks)), None)                        # a variant that cannot be is told before a heading is written
+    for text in (json_text if form == "json" else csv_text)(sweep, chunks if first is None else chain([first], chunks)):
         stream.write(text)
 
 

@@ -112,7 +112,7 @@ def rod_acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Re
     height, lean = np.abs(sine), np.where(sine < 0, -eps, eps)
     short = cosine**2 / (1 + height)
     bracket = height * _clearance(lam, lean) * ((1 - lean) + lam) + lean * lam * short**2
-    return _real(-lam * np.copysign(1.0, sine) * bracket / cos_beta**3)
+    return _real(-lam * np.where(sine < 0, -1.0, 1.0) * bracket / cos_beta**3)      # as in lean, whatever the sign of zero is
 
 
 # ---------------------------------------------------------------- extremes of the velocity

@@ -58,15 +58,16 @@ def facts(engine: Engine, system: System) -> Facts:
     crank = (f"r = {number(length.of(radius))} {length.name}, rod {number(length.of(radius / lam))} {length.name}, "
              f"λ = {number(lam, 4)}{unequal}")
     masses = (f"reciprocating {number(mass.of(weighed.piston + weighed.small_end), 4)} {mass.name} a cylinder (piston, rod's "
-              f"share at its pin), rotating {number(mass.of(weighed.big_end + weighed.share), 4)} {mass.name} a pin (rod's share, "
-              f"throw){unequal}")
+              "share at its pin)")
+    if c.linkage is None or not c.linkage.turning:                          # else the pins stand still
+        masses += f", rotating {number(mass.of(weighed.big_end + weighed.share), 4)} {mass.name} a pin (rod's share, throw)"
     about = ", ".join(number(length.of(float(v))) for v in engine.reference_m)
     pairs = [
         ("cylinders", f"{c.count}{_banks(engine)}{_bore(engine, system)}"),
         ("crank", crank),
         ("firing", _firing(engine)),
         ("speed", f"{number(engine.speed_rpm, 6)} rpm{', uneven: figures are those of the uneven speed' if engine.ripple else ''}"),
-        ("masses", masses),
+        ("masses", masses + unequal),
         ("reference", f"moments about x, y, z = {about} {length.name}"),
         ("devices", _counted(engine)),
         ("source", engine.source),

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..analysis import Textbook, textbook
-from ..engine import Engine, build
+from ..engine import Engine, build, tops
 from ..errors import BalcliError
 from ..fields import nearest
 from ..firing import TOLERANCE
@@ -87,13 +87,11 @@ def _over_throws(file: EngineFile, objective: Objective, top: int, even: bool) -
 
 
 def _over_firing_order(file: EngineFile, objective: Objective, top: int, even: bool) -> Iterator[Found]:
-    engine, layout = build(_without_order(file)), plan(file.crank, file.layout)
-    axis = {n: float(a) for n, a in zip(engine.numbers, np.repeat(
-        engine.cylinders.axis_deg, np.diff([*engine.cylinders.starts, engine.cylinders.count])), strict=True)}
-    c = engine.cylinders
-    late = np.degrees(np.arcsin(np.broadcast_to(c.eps / (1 + c.lam), c.pin_deg.shape)))
-    lead = {cell.number: cell.bank * file.crank.splay for cell in layout.cells}
-    slots = Slots(layout.cells, {n: axis[n] + float(t) - lead[n] for n, t in zip(engine.numbers, late, strict=True)}, cycle(file.layout))
+    layout, top_deg = plan(file.crank, file.layout), tops(file)
+    if any(own.throw is not None for own in file.cylinder.values()):
+        raise BalcliError("cylinders with throws of their own leave no firing order to look for: give crank.throws and splay alone")
+    at_throw = {cell.number: float(top_deg[cell.number]) - cell.bank * file.crank.splay for cell in layout.cells}
+    slots = Slots(layout.cells, at_throw, cycle(file.layout), -1 if file.layout.rotary else 1)
     possible = [file.crank.throws] if file.crank.throws else slots.cranks()
     if not possible or next(slots.orders(possible[0]), None) is None:
         raise BalcliError("these throws allow no even firing order")
@@ -148,7 +146,7 @@ def fires_evenly(engine: Engine, file: EngineFile, tolerance: float = TOLERANCE)
     """Whether the cylinders reach top dead centre in turn at even distances (within a tolerance, deg), shape (variants,)."""
     c = engine.cylinders
     axis = np.repeat(c.axis_deg, np.diff([*c.starts, c.count]), axis=0)
-    late = np.degrees(np.arcsin(c.eps / (1 + c.lam)))
+    late = 0.0 if file.articulation else np.degrees(np.arcsin(c.eps / (1 + c.lam)))       # see engine.tops
     ready = axis + late - c.pin_deg
     ready = np.sort(np.mod(ready - ready[engine.numbers.index(1)] + tolerance, 360.0), axis=0)
     even = np.sort(np.mod(np.arange(c.count) * cycle(file.layout) / c.count, 360.0)).reshape(-1, *(1,) * (ready.ndim - 1))

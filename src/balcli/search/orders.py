@@ -29,11 +29,13 @@ class Slots:
         cells: the cylinders.
         top: what the pin of each cylinder stands at when it is at top dead centre, less its lead over its throw, deg, by number.
         cycle: deg.
+        sense: -1 where the cylinders turn and the pins stand still.
     """
 
     cells: tuple[Cell, ...]
     top: Mapping[int, float]
     cycle: float
+    sense: int = 1
 
     def __post_init__(self) -> None:
         if len(self.cells) > MOST_CYLINDERS:
@@ -59,7 +61,7 @@ class Slots:
             return
         cells = [c for c in self.cells if c.throw == free[0]]
         for slot in sorted(left) if throws else [0.0]:
-            angle = (self.top[cells[0].number] - self.top[1] - slot) % 360.0 if throws else 0.0
+            angle = (self.top[cells[0].number] - self.top[1] - self.sense * slot) % 360.0 if throws else 0.0
             taken = Counter(self._slot(c, angle) for c in cells)
             if all(left[kind] >= count for kind, count in taken.items()):
                 yield from self._cranks(throws | {free[0]: angle}, free[1:], left - taken)
@@ -86,5 +88,5 @@ class Slots:
 
     def _slot(self, cell: Cell, throw: float) -> float:
         """Where the crank stands when this cylinder is at top dead centre; nan if nothing fires there."""
-        ready = self.top[cell.number] - self.top[1] - throw
+        ready = self.sense * (self.top[cell.number] - self.top[1] - throw)
         return next((slot for slot in self._slots if abs((ready - slot + 180.0) % 360.0 - 180.0) <= TOLERANCE), math.nan)

@@ -70,6 +70,9 @@ def factor(engine: Engine, wish: Wish) -> Remedy:
 
     Of several factors, peaks of all are in the details, and the one of the smallest peak force (among equals, moment) is fitted.
     """
+    if engine.cylinders.linkage is not None and engine.cylinders.linkage.turning:
+        raise BalcliError("scheme factor: the cylinders turn and the crank pins stand still, with all that is on them: there is no "
+                          "rotating mass to balance opposite a pin; counterweights or auto can balance what is left")
     wanted = wish.factor or (0.5,)
     if not all(math.isfinite(k) and -10 <= k <= 10 for k in wanted):
         raise BalcliError("--factor: give a share of the reciprocating mass such as 0.5, or a range such as 0:1:0.1")
