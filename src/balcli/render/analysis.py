@@ -10,7 +10,7 @@ from ..analysis import Analysis, Sizing, Textbook, textbook
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
 from ..engine import Engine
-from ..spectrum import Spectra
+from ..spectrum import UNASKED, Spectra, relevant_orders
 from .devices import device_grid
 from .figures import Result, order_number, peak_deg, phase_deg
 from .sheet import Facts, Grid, Sheet, Text, degrees, number
@@ -67,6 +67,7 @@ def facts(engine: Engine, system: System) -> Facts:
         ("firing", _firing(engine)),
         ("speed", f"{number(engine.speed_rpm, 6)} rpm{', uneven: figures are those of the uneven speed' if engine.ripple else ''}"),
         ("masses", masses),
+        ("orders", f"to {UNASKED}; --orders asks for higher ones" if relevant_orders(engine)[-1] > UNASKED else ""),
         ("reference", f"moments about x, y, z = {about} {length.name}"),
         ("devices", _counted(engine)),
         ("source", engine.source),
