@@ -128,9 +128,9 @@ def test_each_cylinder_is_what_it_is_alone(name):
             np.testing.assert_array_equal(getattr(one, quantity).noise, np.broadcast_to(single.noise, one.orders.shape))
 
 
-def near_the_lock(throws):
+def near_the_lock(throws, more=""):
     text = FILE.format(throws=throws, layout="").replace("length = 160", "ratio = 0.999999").replace("cg = 45\n", "cg = 20\n")
-    return engine.build(enginefile.parse(text))
+    return engine.build(enginefile.parse(text + more))
 
 
 def test_near_the_lock_only_orders_to_512_are_told_unasked_but_the_largest_values_are_of_all():
@@ -145,6 +145,8 @@ def test_near_the_lock_only_orders_to_512_are_told_unasked_but_the_largest_value
 
 
 def test_so_many_loads_that_they_would_fill_the_memory_are_refused():
-    with pytest.raises(BalcliError, match=r"^32768 orders of 33 cylinders and counterweights one by one are 1081344 forces, "
-                                          r"and at most 1048576 are kept: an engine farther from its lock has fewer orders$"):
-        inner(near_the_lock([10 * k for k in range(33)]))
+    with pytest.raises(BalcliError, match=r"^32768 orders of 34 cylinders and counterweights one by one are 1114112 forces, "
+                                          r"and at most 1100000 are kept: an engine farther from its lock has fewer orders$"):
+        inner(near_the_lock([10 * k for k in range(34)]))
+    with pytest.raises(BalcliError, match=r"32773 orders of 17 cylinders .* at most 550000 are kept"):
+        guide(near_the_lock([10 * k for k in range(17)], "speed_ripple = [{order = 2, amplitude = 0.01}]\n"))

@@ -97,7 +97,7 @@ def _shares(z: Array, span: Array) -> Array:
 def _loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
     """Forces of each cylinder and counterweight, phasors of shape (orders, loads), and their places."""
     counterweights = [device for device in engine.devices if on_crank(device)]
-    few_enough(len(orders), engine.cylinders.count + len(counterweights))
+    few_enough(engine, len(orders), engine.cylinders.count + len(counterweights))
     forces = [each(engine, orders, ["force"]).force, *(weight(engine, device, orders) for device in counterweights)]
     columns = [[f.forward, f.backward, np.broadcast_to(f.noise, f.forward.shape)] for f in forces if f is not None]
     forward, backward, noise = (np.column_stack(column) for column in zip(*columns, strict=True))

@@ -18,7 +18,7 @@ SPECTRAL = ("force", "moment", "couple", "torque", "roll")
 _ONLY_FORCES = {"force", "moment"}
 SHOWN = 1e-6                    # share of a quantity's largest order below which an order is not worth showing
 UNASKED = 512                   # highest order that is shown unless it is asked for: only a mechanism near its lock has more
-MOST_APART = 1 << 20            # orders x loads that are kept one by one
+MOST_APART = 1_100_000          # orders x loads that are kept one by one at a steady speed; half as many at an uneven one
 _ALL = slice(None)
 _AT_ONCE = 1 << 18              # orders x cylinders that are computed together: bounds the memory, about 16 arrays of complex numbers
 
@@ -66,15 +66,16 @@ def each(engine: Engine, orders: ArrayLike, quantities: Collection[str] = SPECTR
     Raises:
         BalcliError: more than MOST_APART of them.
     """
-    few_enough(np.size(orders), engine.cylinders.count)
+    few_enough(engine, np.size(orders), engine.cylinders.count)
     return _spectra(replace(engine, devices=()), orders, quantities, apart=True)
 
 
-def few_enough(orders: int, loads: int) -> None:
+def few_enough(engine: Engine, orders: int, loads: int) -> None:
     """BalcliError for so many orders of so many loads one by one that they would fill the memory."""
-    if orders * loads > MOST_APART:
+    most = MOST_APART // 2 if engine.ripple else MOST_APART
+    if orders * loads > most:
         raise BalcliError(f"{orders} orders of {loads} cylinders and counterweights one by one are {orders * loads} forces, and at most "
-                          f"{MOST_APART} are kept: an engine farther from its lock has fewer orders")
+                          f"{most} are kept: an engine farther from its lock has fewer orders")
 
 
 def weight(engine: Engine, device: Device, orders: Array) -> Phasors:
