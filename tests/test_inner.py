@@ -150,3 +150,9 @@ def test_so_many_loads_that_they_would_fill_the_memory_are_refused():
         inner(near_the_lock([10 * k for k in range(34)]))
     with pytest.raises(BalcliError, match=r"32773 orders of 17 cylinders .* at most 550000 are kept"):
         guide(near_the_lock([10 * k for k in range(17)], "speed_ripple = [{order = 2, amplitude = 0.01}]\n"))
+
+
+def test_more_results_along_the_crank_than_anybody_reads_are_refused():
+    with pytest.raises(BalcliError, match=r"^along the crankshaft, 4096 orders of 9 cylinders and counterweights are 36864 results, "
+                                          r"and at most 32768 are told: ask for fewer orders$"):
+        inner(built([0] * 9), np.arange(1.0, 4097))

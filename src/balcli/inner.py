@@ -14,7 +14,10 @@ from .core.inertia import Device
 from .core.peaks import Peak, peak
 from .core.phasors import Array, Phasors
 from .engine import Engine
+from .errors import BalcliError
 from .spectrum import considerable, each, few_enough, relevant_orders, weight
+
+MOST_TOLD = 1 << 15             # orders x loads
 
 
 @dataclass(frozen=True)
@@ -68,6 +71,9 @@ def inner(engine: Engine, orders: Array | None = None) -> Inner:
     span, moments = bearings(engine.throws_m), 1j * _weighted(loads, arms, size)
     if orders is None:
         orders = every[considerable(moments) | (every <= 2)]
+    if (told := len(orders) * len(z)) > MOST_TOLD:
+        raise BalcliError(f"along the crankshaft, {len(orders)} orders of {len(z)} cylinders and counterweights are {told} results, and at "
+                          f"most {MOST_TOLD} are told: ask for fewer orders")
     return Inner(
         shear=_along(sections, _weighted(loads, ahead, ahead), orders),
         bending=_along(sections, moments, orders),
