@@ -14,7 +14,7 @@ from .engine import Engine
 from .errors import BalcliError
 from .sizing import Remedy, auto, fitted
 from .spectrum import SHOWN as SHOWN
-from .spectrum import SPECTRAL, Spectra, considerable, each, relevant_orders, spectra
+from .spectrum import SPECTRAL, UNASKED, Spectra, considerable, each, relevant_orders, spectra
 from .spectrum import alone as alone
 
 if TYPE_CHECKING:
@@ -66,6 +66,11 @@ class Analysis:
     @property
     def orders(self) -> Array:
         return self.spectra.orders
+
+    @property
+    def beyond(self) -> bool:
+        """Whether there may be orders above those that are shown unless they are asked for."""
+        return bool(relevant_orders(self.engine)[-1] > UNASKED)
 
     @property
     def of_one_cylinder(self) -> dict[str, float]:
