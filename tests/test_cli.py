@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 import pytest
+import typer
 from kit import GOOD, changed
 
 from balcli import __version__
@@ -457,3 +458,10 @@ def test_what_is_deferred_is_there_when_it_is_asked_for(use):
                               env={**os.environ, "PYTHONPATH": str(ROOT / "src")})
         return done.stdout
     assert run("from balcli.__main__ import _Metadata as M; M.defer(); M.defer()\n") == run("")
+
+
+def test_an_interruption_has_its_own_status(balcli, monkeypatch, good):
+    def interrupted(**_):
+        raise typer.Abort
+    monkeypatch.setattr("balcli.cli.app", interrupted)
+    assert balcli("analyze", good) == (130, "", "")

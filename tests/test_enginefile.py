@@ -307,3 +307,25 @@ def test_any_value_is_accepted_or_refused_by_its_key(key, value):
         parse(text)
         return
     assert key in refusal(text)
+
+
+@pytest.mark.parametrize("lost", [("stroke = 90", "stroke = -90"), ("firing_order = [1, 3, 4, 2]", "firing_order = 5")])
+def test_a_table_that_cannot_be_read_does_not_hide_what_others_say(lost):
+    stopping = ("speed = 3000", "speed = 3000\nspeed_ripple = [{order = 1, amplitude = 0.7}, {order = 3, amplitude = 0.7}]")
+    with pytest.raises(InputError) as caught:
+        parse(changed(lost, stopping, ("cg = 45", "cg = 450")))
+    assert [problem.path for problem in caught.value.problems][1:] == ["rod.cg", "operation.speed_ripple"]
+
+
+def test_a_rod_by_its_ratio_has_no_length_without_a_crank():
+    assert refusal(changed(("stroke = 90", "stroke = -90"), ("length = 160", "ratio = 0.28"), ("cg = 45", "cg = 450"))).count("\n") == 0
+
+
+def test_one_of_something_is_not_several():
+    text = changed(("throws = [0, 180, 180, 0]\nspacing = 100", "throws = [0]\npositions = [0, 1]"), ("firing_order = [1, 3, 4, 2]", ""))
+    assert refusal(text) == "crank: positions has 2 places for 1 throw; give one for each throw"
+
+
+def test_without_its_layout_nothing_is_said_of_a_cranks_throws():
+    text = changed(("throws = [0, 180, 180, 0]\nspacing = 100", "positions = [0, 100, 200, 300]"), ("[1, 3, 4, 2]", "5"))
+    assert refusal(text) == "layout.firing_order: 5 is not a list; write it in square brackets, such as [0, 180]"

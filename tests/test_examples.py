@@ -64,3 +64,9 @@ def test_a_wheel_has_the_examples_and_the_page(tmp_path):
         content.extractall(tmp_path / "installed")
     listed = balcli("engines", PYTHONPATH=str(tmp_path / "installed")).stdout
     assert listed == balcli("engines").stdout
+
+
+def test_an_installation_without_them_says_so(monkeypatch, tmp_path):
+    monkeypatch.setattr(examples, "_PLACES", (tmp_path / "engines",))
+    with pytest.raises(BalcliError, match=r"the example engines are missing from this installation .*: install balcli again"):
+        examples.names()

@@ -1,13 +1,18 @@
 """Inner forces and moments against statics worked out here, and the classical comparison of in-line engines."""
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from balcli import engine, enginefile, spectrum
+from balcli.core.peaks import peak
+from balcli.errors import BalcliError
 from balcli.guide import guide
 from balcli.inner import bearings, inner
 
+ENGINES = Path(__file__).parents[1] / "engines"
 ORDERS = np.arange(1.0, 5.0)
 FILE = """\
 [crank]
@@ -106,3 +111,48 @@ def test_guide_force_moments():
 
 def test_one_throw_has_no_x_type():
     assert guide(built([0]), ORDERS).x is None
+
+
+# ------------------------------------------------------------------ cylinder by cylinder, and near the lock
+@pytest.mark.parametrize("name", ["w12", "vr6", "radial9", "tsinghua_ca72", "ripple"])
+def test_each_cylinder_is_what_it_is_alone(name):
+    layout = "firing_order = [1, 3, 4, 2]" if name == "ripple" else ""
+    ripple = "speed_ripple = [{order = 2, amplitude = 0.02, angle = 30}]\n"
+    subject = built([0, 180, 180, 0], layout, ripple) if name == "ripple" else enginefile.load(ENGINES / f"{name}.toml")
+    together = spectrum.each(subject, ORDERS)
+    for row, number in enumerate(subject.numbers):
+        for quantity, single in spectrum.spectra(spectrum.alone(subject, number), ORDERS).items():
+            one = together.of(row)
+            np.testing.assert_allclose(getattr(one, quantity).forward, single.forward, rtol=1e-14)
+            np.testing.assert_allclose(getattr(one, quantity).backward, single.backward, rtol=1e-14)
+            np.testing.assert_array_equal(getattr(one, quantity).noise, np.broadcast_to(single.noise, one.orders.shape))
+
+
+def near_the_lock(throws, more=""):
+    text = FILE.format(throws=throws, layout="").replace("length = 160", "ratio = 0.999999").replace("cg = 45\n", "cg = 20\n")
+    return engine.build(enginefile.parse(text + more))
+
+
+def test_near_the_lock_only_orders_to_512_are_told_unasked_but_the_largest_values_are_of_all():
+    subject = near_the_lock([0, 10, 20, 45])
+    found = inner(subject)
+    assert 100 < len(found.bending.phasors.orders) <= 512
+    assert found.bending.phasors.orders[-1] <= 512
+    force = spectrum.spectra(subject, spectrum.relevant_orders(subject), ["force"]).force
+    assert force is not None
+    assert found.shear.peaks[-1].value == pytest.approx(peak(force).value, rel=1e-12)
+    assert list(inner(subject, np.array([1.0, 4096.0])).shear.phasors.orders) == [1, 4096]
+
+
+def test_so_many_loads_that_they_would_fill_the_memory_are_refused():
+    with pytest.raises(BalcliError, match=r"^32768 orders of 34 cylinders and counterweights one by one are 1114112 forces, "
+                                          r"and at most 1100000 are kept: an engine farther from its lock has fewer orders$"):
+        inner(near_the_lock([10 * k for k in range(34)]))
+    with pytest.raises(BalcliError, match=r"32773 orders of 17 cylinders .* at most 550000 are kept"):
+        guide(near_the_lock([10 * k for k in range(17)], "speed_ripple = [{order = 2, amplitude = 0.01}]\n"))
+
+
+def test_more_results_along_the_crank_than_anybody_reads_are_refused():
+    with pytest.raises(BalcliError, match=r"^along the crankshaft, 4096 orders of 9 cylinders and counterweights are 36864 results, "
+                                          r"and at most 32768 are told: ask for fewer orders$"):
+        inner(built([0] * 9), np.arange(1.0, 4097))

@@ -102,7 +102,7 @@ ONCE = "each of the cylinders 1 to {} must stand once"
      'layout.rods: "alternating" gives every throw one rod, but there are 2 banks and only 1 throw: '
      'give more throws, or "shared"'),
     ({"crank": {"positions": [0, 10, 20]}, "layout": {"firing_order": [1, 2]}},
-     "crank.positions: has 3 values, but there are 2 throws: give one position a throw"),
+     "crank.positions: has 3 values for 2 throws: give one position a throw"),
     ({"layout": {"firing_order": [1, 2, 3], "bank_angle": 90}},
      "layout.firing_order: has 3 cylinders, which 2 banks cannot share evenly: "
      "give crank.throws, or a multiple of 2 cylinders"),

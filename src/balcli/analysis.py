@@ -14,7 +14,7 @@ from .engine import Engine
 from .errors import BalcliError
 from .sizing import Remedy, auto, fitted
 from .spectrum import SHOWN as SHOWN
-from .spectrum import SPECTRAL, Spectra, considerable, relevant_orders, spectra
+from .spectrum import SPECTRAL, UNASKED, Spectra, considerable, each, relevant_orders, spectra
 from .spectrum import alone as alone
 
 if TYPE_CHECKING:
@@ -68,6 +68,11 @@ class Analysis:
         return self.spectra.orders
 
     @property
+    def beyond(self) -> bool:
+        """Whether there may be orders above those that are shown unless they are asked for."""
+        return bool(relevant_orders(self.engine)[-1] > UNASKED)
+
+    @property
     def of_one_cylinder(self) -> dict[str, float]:
         """Force of cylinder 1's piston and rod end, `m r omega^2` (N), and its moment over the length of the crank (N m): what
         is small beside them is small."""
@@ -84,7 +89,7 @@ def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collect
     Args:
         engine: without trailing axes.
         orders: which orders to show; default: 1 and 2 (0 too under uneven speed) and all in which a quantity that was asked
-            for exceeds 1e-6 of its own largest order.
+            for exceeds 1e-6 of its own largest order, up to 512.
         only: any of QUANTITIES and EXTRAS; default: all QUANTITIES.
         by_cylinder: also the phasors of every cylinder alone.
         reasons: also why each order is balanced, or is not.
@@ -109,10 +114,15 @@ def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collect
     return Analysis(
         engine, visible, peaks.get("force"), peaks.get("moment"),
         sizing=_sized(engine, asked, wanted) if "sizing" in wanted else None,
-        cylinders=tuple((n, spectra(alone(engine, n), visible.orders, shown)) for n in sorted(engine.numbers)) if by_cylinder else (),
+        cylinders=_by_cylinder(engine, visible.orders, shown) if by_cylinder else (),
         why=_explained(engine, visible.orders, shown) if reasons else None,
         **_extras(engine, asked, wanted),
     )
+
+
+def _by_cylinder(engine: Engine, orders: Array, quantities: Collection[str]) -> tuple[tuple[int, Spectra], ...]:
+    own = each(engine, orders, quantities)
+    return tuple((n, own.of(engine.numbers.index(n))) for n in sorted(engine.numbers))
 
 
 class Textbook(NamedTuple):
@@ -175,7 +185,7 @@ def checked_orders(orders: Iterable[float]) -> Array:
 
 
 def shown_orders(found: Spectra) -> Array:
-    """Orders to 2, and those in which a quantity exceeds SHOWN of its own largest order."""
+    """Orders to 2, and those up to UNASKED in which a quantity exceeds SHOWN of its own largest order."""
     due = found.orders <= 2
     for _, phasors in found.items():
         due |= considerable(phasors)

@@ -9,6 +9,7 @@ import numpy as np
 from .arrays import column
 from .core.inertia import Cylinders
 from .errors import Problem
+from .fields import counted
 from .layout import Plan
 from .model import Articulation, EngineFile
 
@@ -60,7 +61,7 @@ def _no_place(master: int, layout: Plan) -> Problem | None:
 def _wrong_angles(table: Articulation, banks: int) -> Iterator[Problem]:
     path, angles, own = "articulation.knuckle_angles", table.knuckle_angles, table.master - 1
     if angles is not None and len(angles) != banks:
-        yield Problem(path, f"has {len(angles)} angles for {banks} banks: give one for each, the master's own is 0")
+        yield Problem(path, f"has {counted(len(angles), 'angle')} for {counted(banks, 'bank')}: give one for each, the master's own is 0")
     elif angles is not None and np.any(np.asarray(angles[own]) != 0):
         angle = max(np.ravel(angles[own]), key=abs)
         yield Problem(path, f"has {angle:g} for bank {own + 1}, which carries the master rod: its own is 0")

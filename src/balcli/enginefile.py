@@ -14,7 +14,7 @@ from .engine import Engine, build
 from .errors import BalcliError, InputError, Problem
 from .fields import printable, shorten
 from .mistakes import DEVICES, INNER, KNOWN, TABLES, TEXTS, miscounted, path_of, plain, unknown_key
-from .model import MOST, MOST_PARTS, EngineFile, Override, Piston, Rod, Table, mistakes_of_choice
+from .model import MOST, MOST_PARTS, Crank, EngineFile, Override, Piston, Rod, Table, mistakes_of_choice
 
 LARGEST = 6_000_000              # bytes of an engine file
 MOST_MARKS = 180_000             # of "[", "{", ".", ",", "=": what each stands for takes tomllib up to a kilobyte
@@ -123,19 +123,29 @@ def _count(value: object) -> int:
 def misfits(parts: Mapping[str, Any]) -> tuple[Problem, ...]:
     """What the tables that could be read say against each other; those that could not are taken as harmless."""
     whole = {key: part for key, part in parts.items() if part is not None and key not in TEXTS and key not in DEVICES}
-    if "crank" not in whole:
-        return ()
-    cylinders, legible = whole.get("cylinder", {}), parts.get("layout", True) is not None
+    cylinders, legible = whole.get("cylinder", {}), "crank" in whole and parts.get("layout", True) is not None
     if None in cylinders.values() or not legible:
         plain = legible and "articulation" not in whole             # else it is not known which rods these cylinders have
-        whole = {key: part for key, part in whole.items() if key in ("crank", "rod", "piston", "layout")}
+        known = ("crank", "rod", "piston", "operation", *(["layout"] if legible else []))
+        whole = {key: part for key, part in whole.items() if key in known}
         whole["cylinder"] = {number: own for number, own in cylinders.items() if plain and own is not None}
+    if not legible:
+        whole = _with_one_throw(whole)
     harmless = {"rod": Rod.model_construct(length=1e3 * whole["crank"].stroke), "piston": Piston.model_construct(mass=0.0)}
     try:
         build(EngineFile.model_construct(**harmless | whole))
     except InputError as error:
         return error.problems
     return ()
+
+
+def _with_one_throw(whole: Mapping[str, Any]) -> dict[str, Any]:
+    """The same with a crank of one throw, as it is not known how many there are; without a crank, a rod's ratio says no length."""
+    if "crank" in whole:
+        return {**whole, "crank": Crank.model_construct(stroke=whole["crank"].stroke, throws=(0.0,))}
+    if "rod" in whole and whole["rod"].length:
+        return {**whole, "crank": Crank.model_construct(stroke=whole["rod"].length / 2, throws=(0.0,))}
+    return {**{key: part for key, part in whole.items() if key != "rod"}, "crank": Crank.model_construct(stroke=1.0, throws=(0.0,))}
 
 
 class _Reader:

@@ -13,12 +13,12 @@ _PLACES = (Path(__file__).with_name("engines"), Path(__file__).parents[2] / "eng
 
 def names() -> dict[str, str]:
     """What each example is called in its file, by its short name."""
-    return {path.stem: tomllib.loads(path.read_text(encoding="utf-8"))["name"] for path in sorted(_folder().glob("*.toml"))}
+    return {path.stem: tomllib.loads(path.read_text(encoding="utf-8"))["name"] for path in sorted(folder().glob("*.toml"))}
 
 
 def text(name: str) -> str:
     """The engine file of an example. BalcliError for an unknown name, with the nearest ones."""
-    known = {path.stem: path for path in _folder().glob("*.toml")}
+    known = {path.stem: path for path in folder().glob("*.toml")}
     if name not in known:
         near = get_close_matches(name.lower()[:100], sorted(known), 3)
         hint = f" Did you mean {' or '.join(near)}?" if near else ""
@@ -26,7 +26,8 @@ def text(name: str) -> str:
     return known[name].read_text(encoding="utf-8")
 
 
-def _folder() -> Path:
+def folder() -> Path:
+    """Where they are. BalcliError for an installation without them."""
     for place in _PLACES:
         if place.is_dir():
             return place

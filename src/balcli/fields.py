@@ -38,6 +38,11 @@ def shorten(value: object) -> str:
     return f"{value:.15g}" if isinstance(value, float) else str(value)[:SHOWN]
 
 
+def counted(count: int, what: str) -> str:
+    """"1 place", "2 places"."""
+    return f"{count} {what}{'s' * (count != 1)}"
+
+
 def nearest(word: str, known: Iterable[str]) -> str:
     """The known word that was probably meant; empty if none is near."""
     from difflib import get_close_matches

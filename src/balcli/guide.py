@@ -7,7 +7,7 @@ import numpy as np
 
 from .core.phasors import Array, Phasors
 from .engine import Engine
-from .spectrum import alone, considerable, relevant_orders, spectra
+from .spectrum import considerable, each, relevant_orders
 
 
 @dataclass(frozen=True)
@@ -26,15 +26,15 @@ def guide(engine: Engine, orders: Array | None = None) -> Guide:
     """
     axis = replace(engine, reference_m=(0.0, 0.0, engine.reference_m[2]))
     every = relevant_orders(engine) if orders is None else orders
-    rolls = [spectra(alone(axis, number), every, ["roll"]).roll for number in engine.numbers]
+    rolls = dict(each(axis, every, ["roll"]).items())["roll"]
     length = float(np.ptp(engine.throws_m))
     arms = (np.ravel(engine.cylinders.z) - engine.reference_m[2]) / length if length else None
-    h, x = _sum(rolls, np.ones(len(rolls))), None if arms is None else _sum(rolls, arms)
+    h, x = _sum(rolls, np.ones(engine.cylinders.count)), None if arms is None else _sum(rolls, arms)
     if orders is None:
         orders = every[considerable(h) | (False if x is None else considerable(x))]
     return Guide(h.at(orders), None if x is None else x.at(orders))
 
 
-def _sum(rolls: list[Phasors | None], weights: Array) -> Phasors:
-    total = [float(w) * roll for w, roll in zip(weights, rolls, strict=True) if roll is not None]
+def _sum(rolls: Phasors, weights: Array) -> Phasors:
+    total = [float(w) * rolls.of(k) for k, w in enumerate(weights)]
     return sum(total[1:], total[0]).settled()

@@ -6,7 +6,7 @@ about the last load). Between loads the bending moment runs straight, so that it
 """
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,7 +14,10 @@ from .core.inertia import Device
 from .core.peaks import Peak, peak
 from .core.phasors import Array, Phasors
 from .engine import Engine
-from .spectrum import alone, considerable, relevant_orders, spectra
+from .errors import BalcliError
+from .spectrum import considerable, each, few_enough, relevant_orders, weight
+
+MOST_TOLD = 1 << 15             # orders x loads
 
 
 @dataclass(frozen=True)
@@ -33,8 +36,7 @@ class Along:
 
     def at(self, place: int) -> Phasors:
         """Phasors at one of the places."""
-        p = self.phasors
-        return Phasors(p.orders, p.forward[:, place], p.backward[:, place], p.noise[:, place])
+        return self.phasors.of(place)
 
     @property
     def largest(self) -> int:
@@ -58,7 +60,7 @@ class Inner:
 def inner(engine: Engine, orders: Array | None = None) -> Inner:
     """Inner forces and moments of an engine without trailing axes, for these orders, and their peaks over all orders.
 
-    By default orders 1 and 2 and those in which the bending moment is worth showing.
+    By default orders 1 and 2 and those in which the bending moment is worth showing. BalcliError where they are too many.
     """
     every = np.union1d(relevant_orders(engine), [1, 2] if orders is None else orders)
     loads, z = _loads(engine, every)
@@ -69,6 +71,9 @@ def inner(engine: Engine, orders: Array | None = None) -> Inner:
     span, moments = bearings(engine.throws_m), 1j * _weighted(loads, arms, size)
     if orders is None:
         orders = every[considerable(moments) | (every <= 2)]
+    if (told := len(orders) * len(z)) > MOST_TOLD:
+        raise BalcliError(f"along the crankshaft, {len(orders)} orders of {len(z)} cylinders and counterweights are {told} results, and at "
+                          f"most {MOST_TOLD} are told: ask for fewer orders")
     return Inner(
         shear=_along(sections, _weighted(loads, ahead, ahead), orders),
         bending=_along(sections, moments, orders),
@@ -97,14 +102,12 @@ def _shares(z: Array, span: Array) -> Array:
 
 def _loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
     """Forces of each cylinder and counterweight, phasors of shape (orders, loads), and their places."""
-    nothing = replace(engine, cylinders=alone(engine, 0).cylinders)
-    parts = [alone(engine, number) for number in engine.numbers]
-    parts += [replace(nothing, devices=(device,)) for device in engine.devices if on_crank(device)]
-    forces = [spectra(part, orders, ["force"]).force for part in parts]
+    counterweights = [device for device in engine.devices if on_crank(device)]
+    few_enough(engine, len(orders), engine.cylinders.count + len(counterweights))
+    forces = [each(engine, orders, ["force"]).force, *(weight(engine, device, orders) for device in counterweights)]
     columns = [[f.forward, f.backward, np.broadcast_to(f.noise, f.forward.shape)] for f in forces if f is not None]
-    forward, backward, noise = (np.stack(column, axis=1) for column in zip(*columns, strict=True))
-    places = [*np.ravel(engine.cylinders.z), *(device.z for device in engine.devices if on_crank(device))]
-    return Phasors(orders, forward, backward, noise.real), np.array(places, float)
+    forward, backward, noise = (np.column_stack(column) for column in zip(*columns, strict=True))
+    return Phasors(orders, forward, backward, noise), np.array([*np.ravel(engine.cylinders.z), *(d.z for d in counterweights)], float)
 
 
 def on_crank(device: Device) -> bool:

@@ -9,6 +9,7 @@ from itertools import count
 from typing import Any, NamedTuple
 
 from .errors import InputError, Problem
+from .fields import counted
 from .model import MOST_PARTS, Crank, Layout
 
 TURN = 360.0
@@ -52,7 +53,7 @@ def plan(crank: Crank, layout: Layout) -> Plan:
     problems += misnumbered + _positions(crank, throws)
     if not shared and throws < len(banks):
         problems.append(Problem("layout.rods", f'"alternating" gives every throw one rod, but there are {len(banks)} banks and only '
-                                               f'{throws} throw{"s" * (throws > 1)}: give more throws, or "shared"'))
+                                               f'{counted(throws, "throw")}: give more throws, or "shared"'))
     problems += _firing(layout, sorted(numbers))
     if problems:
         raise InputError(problems)
@@ -89,14 +90,15 @@ def _too_many(throws: int, banks: int, shared: bool) -> list[Problem]:
     """Banks x throws of a short file can be more cylinders than there is memory for."""
     if max(banks, throws, throws * banks * shared) <= MOST_PARTS:
         return []
-    return [Problem("layout" if banks > 1 else "crank.throws", f"{banks} banks on {throws} throws are too many; "
+    return [Problem("layout" if banks > 1 else "crank.throws", f"{counted(banks, 'bank')} on {counted(throws, 'throw')} are too many; "
                                                                f"no engine has more than {MOST_PARTS} cylinders")]
 
 
 def _positions(crank: Crank, throws: int) -> list[Problem]:
     if crank.positions is None or len(crank.positions) == throws:
         return []
-    return [Problem("crank.positions", f"has {len(crank.positions)} values, but there are {throws} throws: give one position a throw")]
+    return [Problem("crank.positions", f"has {counted(len(crank.positions), 'value')} for {counted(throws, 'throw')}: "
+                                       "give one position a throw")]
 
 
 def _numbers(layout: Layout, places: list[tuple[int, int]], banks: int) -> tuple[list[int], list[Problem]]:

@@ -12,7 +12,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from .choices import Choice, repeated
-from .fields import Flag, Number, OneOf, Whole
+from .fields import Flag, Number, OneOf, Whole, counted
 from .units import ANGLE, INERTIA, LENGTH, MASS, PLAIN, SPEED, TIME, UNBALANCE
 
 GRAVITY = 9.80665                # m/s^2, standard
@@ -87,7 +87,7 @@ class Crank(Table):
 
     def contradictions(self) -> Iterator[str]:
         if self.throws and self.positions and len(self.throws) != len(self.positions):
-            yield f"positions has {len(self.positions)} places for {len(self.throws)} throws; give one for each throw"
+            yield f"positions has {counted(len(self.positions), 'place')} for {counted(len(self.throws), 'throw')}; give one for each throw"
 
 
 class Pendulum(Table):
@@ -186,7 +186,7 @@ class Layout(Table):
         if self.firing_order is None:
             yield "firing_intervals is given without firing_order; give both, or neither"
         elif len(intervals) != len(self.firing_order):
-            yield (f"firing_intervals has {len(intervals)} intervals for {len(self.firing_order)} firings; "
+            yield (f"firing_intervals has {counted(len(intervals), 'interval')} for {counted(len(self.firing_order), 'firing')}; "
                    "give one for each, the last one back to the first cylinder")
         elif abs(sum(intervals) - 180 * self.strokes) > INTERVAL_TOLERANCE_DEG:
             yield (f"firing_intervals add up to {sum(intervals):g} degrees; the cycle of a {self.strokes}-stroke has "

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from .core.phasors import Array
 from .core.unity import even, rational, turns, vanishes
 from .engine import Engine
-from .spectrum import SPECTRAL, alone, spectra
+from .spectrum import SPECTRAL, each, spectra
 
 Verdict = Literal["none", "exact", "rounding", "nearly", "free"]
 Quantity = Literal["force", "moment", "turning"]        # turning: couple, torque and roll
@@ -106,11 +106,11 @@ class _Layout:
         self._axis_deg = np.repeat(c.axis_deg, np.diff([*c.starts, c.count]))
         self._arms = (c.z - engine.reference_m[2]) * 1e3
         self._whole = spectra(engine, orders, SPECTRAL[:4])
-        self._each = [spectra(alone(engine, n), orders, SPECTRAL[:4]) for n in engine.numbers]
+        self._single = {name: phasors.major for name, phasors in each(engine, orders, SPECTRAL[:4]).items()}
 
     def reason(self, row: int, quantity: Quantity) -> Reason:
         order, names = int(self._orders[row]), ("couple", "torque") if quantity == "turning" else (quantity,)
-        single = {name: np.array([getattr(one, name).major[row] for one in self._each]) for name in names}
+        single = {name: self._single[name][row] for name in names}
         whole = {name: getattr(self._whole, name).major[row] for name in names}
         sizes = [whole[name] / single[name].max() for name in names if single[name].any()]
         if not sizes:

@@ -29,7 +29,9 @@ from typing import Any
 import tomli_w
 
 ROOT = Path(__file__).parents[2]
-SLOWEST = 2.0                   # seconds of the processor for one case
+TRACED = "coverage" in sys.modules and sys.modules["coverage"].Coverage.current() is not None   # which takes its own time
+SLOWEST = 10.0 if TRACED else 2.0   # seconds of the processor for one case
+PER_MB = 0.1                    # further seconds for each MB of results that a case asks for
 ALARM = 20.0                    # seconds after which a case is taken for hung
 MOST_MEMORY = 300               # MB of the process
 Tree = Any                      # what TOML can hold
@@ -384,7 +386,7 @@ def fault(case: Case, done: Outcome, slowest: float = SLOWEST) -> str:
         return f"status {done.status}: {done.err[-500:]}"
     if "Traceback" in done.err + done.out or "Warning:" in done.err:
         return done.err
-    if done.seconds > slowest:
+    if done.seconds > slowest + PER_MB * len(done.out) / 1e6:
         return f"took {done.seconds:.1f} s"
     if found := _CONTROL.search(done.out + done.err):
         return f"control character {found[0]!r}: {(done.out + done.err)[max(found.start() - 60, 0):found.start() + 60]!r}"

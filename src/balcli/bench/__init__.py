@@ -200,7 +200,7 @@ def _unseen(engine: Engine) -> Callable[[], Engine]:
     return lambda: replace(engine, cylinders=replace(c, lam=c.lam * (1 + next(ulps) * EPS)))
 
 
-def _imports() -> Iterator[Ratio]:
+def _imports() -> Iterator[Ratio]:          # pragma: no cover: measures cold starts for minutes; the tests leave it out
     """Cold starts of the whole program."""
     def start(*argv: str) -> Callable[[], Any]:
         return lambda: subprocess.run([sys.executable, *argv], input=V8.encode(), capture_output=True, check=True, env=os.environ)

@@ -20,7 +20,7 @@ UnitsOption = Annotated[Units, typer.Option("--units", help="imperial: lbf, lbfÂ
 Output = Annotated[Path | None, typer.Option("--output", "-o", metavar="FILE", help="Write into this file instead.", show_default=False)]
 Speed = Annotated[float | None, typer.Option("--speed", metavar="RPM", help="Crank speed instead of the file's.", show_default=False)]
 Orders = Annotated[str | None, typer.Option("--orders", metavar="1-8|1,2,4", show_default=False,
-                                               help="Orders to show; default: 1, 2 and all that are not negligible.")]
+                                               help="Orders to show; default: 1, 2 and all to 512 that are not negligible.")]
 Only = Annotated[str | None, typer.Option("--only", metavar="WHAT,...", show_default=False,
                                              help="Compute only some of force, moment, couple, torque, roll, peak, sizing; or inner "
                                                   "(shear, bending, bearing loads along the crankshaft) and guide (H- and X-type).")]

@@ -91,6 +91,13 @@ class Device(NamedTuple):
     rank: int = 3
 
 
+def turning(d: Device, n: Array, square: Any) -> Phasors:
+    """Force of a device, for orders n, shape (orders, *trailing), and the square of the crank speed."""
+    size = (n == d.order) * (d.order**2 * square)
+    forward, backward = size * d.forward, size * d.backward
+    return Phasors(n.reshape(-1), forward, backward, _SUM * (np.abs(forward) + np.abs(backward)))
+
+
 class Loads:
     """Free forces and moments of cylinders and devices at a steady crank speed, each computed when it is asked for.
 
@@ -100,17 +107,18 @@ class Loads:
         orders: shape (orders,), ascending.
         harmonics: of the cylinders' mechanisms for these orders.
         square: of the crank speed, rad2/s2.
+        apart: not summed: what each cylinder does by itself, shape (orders, cylinders); for engines without devices and trailing axes.
     """
 
     def __init__(self, cylinders: Cylinders, devices: tuple[Device, ...], reference: tuple[Any, Any],
-                 orders: Array, harmonics: Harmonics, square: Any = 1.0) -> None:
+                 orders: Array, harmonics: Harmonics, square: Any = 1.0, *, apart: bool = False) -> None:
         self._cylinders, self._devices, self._harmonics = cylinders, devices, harmonics
         self._place, self._z_ref = reference
-        self._orders, self._square = orders, square
+        self._orders, self._square, self._apart = orders, square, apart
         small = cylinders.pin_deg.ndim == 1 and len(orders) * cylinders.count <= _KEPT
         self._phases = _kept(cylinders, orders.tobytes()) if small else _Phases(cylinders, orders)
         self._n, self._once, self._rounding = self._phases.n, self._phases.once, self._phases.rounding
-        self._of_devices = [self._of_device(device) for device in devices]
+        self._of_devices = [turning(device, self._n[:, 0], square) for device in devices]
 
     @property
     def force(self) -> Phasors:
@@ -127,7 +135,8 @@ class Loads:
     @property
     def couple(self) -> Phasors:
         """Free transverse couple about z, N m: `H sum D_k sin k psi - m_rec e (-s'')` and the forces' arms in x and y."""
-        c, nothing = self._cylinders, np.zeros(self._n.shape[:1] + self._n.shape[2:])
+        c = self._cylinders
+        nothing = np.zeros((len(self._n), c.count) if self._apart else self._n.shape[:1] + self._n.shape[2:])
         total = Phasors(self._orders, nothing, nothing, nothing)
         if np.count_nonzero(c.couple):
             total += self._about_z((c.couple * self._square) * self._harmonics.rod)
@@ -150,14 +159,14 @@ class Loads:
         """Mean over a revolution of I (needs order 0) times the square of the speed, N m."""
         c = self._cylinders
         mean = self._inertia.c[self._orders == 0].real[0] + c.rotating * c.radius**2 * self._square
-        return _total(mean[None], self._once)[0]
+        return self._total(mean[None], self._once)[0]
 
     @property
     def mean_momentum(self) -> Array:
         """Mean moment of momentum of the cylinders about z times the speed, N m: that of masses and rods that turn."""
         c, h = self._cylinders, self._harmonics
         mean = (c.rotating * c.radius**2 - c.couple * h.turns) * self._square
-        return _total((mean if h.curve is None else mean + self._on_curve * c.radius * h.curve.momentum)[None], self._once)[0]
+        return self._total((mean if h.curve is None else mean + self._on_curve * c.radius * h.curve.momentum)[None], self._once)[0]
 
     @cached_property
     def _inertia(self) -> Series:
@@ -172,12 +181,6 @@ class Loads:
         """What a linkage's masses on their curves weigh in forces: mass x radius x square of the speed, N."""
         c = self._cylinders
         return np.zeros(1) if c.linkage is None else c.linkage.mass * c.radius * self._square
-
-    def _of_device(self, d: Device) -> Phasors:
-        """Its force."""
-        size = (self._n[:, 0] == d.order) * (d.order**2 * self._square)
-        forward, backward = size * d.forward, size * d.backward
-        return Phasors(self._orders, forward, backward, _SUM * (np.abs(forward) + np.abs(backward)))
 
     # -------------------------------------------------------------- sums over the cylinders
     @cached_property
@@ -201,18 +204,27 @@ class Loads:
         """Sum over the cylinders of their forces, or of these (real) multiples of them."""
         forward, mirrored, error = self._pull
         size = self._once if arms is None else np.abs(self._cylinders.z) + abs(self._z_ref)
-        return Phasors(self._orders, self._sum(forward, arms, "ahead"), self._sum(mirrored, arms, "astern").conj(), _total(error, size))
+        return Phasors(self._orders, self._sum(forward, arms, "ahead"), self._sum(mirrored, arms, "astern").conj(),
+                       self._total(error, size))
 
     def _about_z(self, series: Series) -> Phasors:
         """Sum over the cylinders of scalars."""
         error = self._rounding * np.abs(series.c) + series.noise
-        return Phasors.real(self._orders, self._sum(series.c, None, "scalar"), _total(error, self._once))
+        return Phasors.real(self._orders, self._sum(series.c, None, "scalar"), self._total(error, self._once))
 
     def _sum(self, vectors: Complex | Array, arms: Array | None, side: str) -> Complex:
         """`sum over banks of axes * sum over its cylinders of arms * vectors * e^{i n pin}`; equal vectors are taken out of the sum."""
+        if self._apart:
+            return self._phases.apart(side, vectors if arms is None else arms * vectors)
         if vectors.shape[1] > 1:
             return self._phases.summed(side, vectors if arms is None else arms * vectors)
         return vectors[:, 0] * (self._phases.whole(side) if arms is None else self._phases.summed(side, arms[None]))
+
+    def _total(self, values: Array, size: Array) -> Array:
+        """Sum over the cylinders of `values * size`, shape (orders, *trailing); a single row of values stands for all cylinders."""
+        if self._apart:
+            return values * size
+        return values[:, 0] * np.add.reduce(size, axis=0) if values.shape[1] == 1 else np.add.reduce(values * size, axis=1)
 
 
 class _Phases:
@@ -253,6 +265,11 @@ class _Phases:
             self._whole[side] = self.summed(side, np.ones((1, *self.once.shape)))
         return self._whole[side]
 
+    def apart(self, side: str, factors: Complex | Array) -> Complex:
+        """The terms of this sum, shape (orders, cylinders), of an engine without trailing axes."""
+        counts = np.diff([*self._starts, len(self.once)])
+        return np.repeat(getattr(self, side), counts, axis=1) * (factors * self._still)
+
     @cached_property
     def _sides(self) -> Complex:
         """Turn of each bank's forward and backward vectors: `e^{i (axis -+ n (axis - axis_1))}`, (2, orders, banks, *trailing)."""
@@ -285,8 +302,3 @@ def _narrow(values: Array) -> Array:
         if length > 1 and (values == (first := values.take([0], axis))).all():
             values = first
     return values
-
-
-def _total(values: Array, size: Array) -> Array:
-    """Sum over the cylinders of `values * size`, shape (orders, *trailing); a single row of values stands for all cylinders."""
-    return values[:, 0] * np.add.reduce(size, axis=0) if values.shape[1] == 1 else np.add.reduce(values * size, axis=1)

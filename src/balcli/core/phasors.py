@@ -106,6 +106,11 @@ class Phasors:
         noise = np.broadcast_to(self.noise, self.forward.shape)
         return Phasors(self.orders[rows], self.forward[rows], self.backward[rows], noise[rows])
 
+    def of(self, place: int) -> Phasors:
+        """Those at one place of the trailing axis."""
+        noise = np.broadcast_to(self.noise, self.forward.shape)
+        return Phasors(self.orders, self.forward[:, place], self.backward[:, place], noise[:, place])
+
     # -------------------------------------------------------------- what a reader asks of an order
     @property
     def balanced(self) -> NDArray[np.bool_]:

@@ -10,7 +10,7 @@ from ..analysis import Analysis, Sizing, Textbook, textbook
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
 from ..engine import Engine
-from ..spectrum import Spectra
+from ..spectrum import UNASKED, Spectra
 from .devices import device_grid
 from .figures import Result, order_number, peak_deg, phase_deg
 from .sheet import Facts, Grid, Sheet, Text, degrees, number
@@ -23,7 +23,7 @@ _SCALARS = {"couple": "couple C", "torque": "inertia torque T", "roll": "roll C 
 def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
     """The whole analysis: what the engine is, what it does order by order, peaks, verdict, sizing; pictures of characters."""
     engine, spectra = result.engine, result.spectra
-    parts: list[Grid | Facts | Text] = [facts(engine, system)]
+    parts: list[Grid | Facts | Text] = [facts(result, system)]
     parts += order_by_order(spectra, system)
     if spectra.force is not None or spectra.moment is not None:
         parts += _textbook(spectra, textbook(engine, spectra.orders), system)
@@ -46,9 +46,10 @@ def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
 
 
 # ------------------------------------------------------------------ what it is
-def facts(engine: Engine, system: System) -> Facts:
+def facts(result: Analysis, system: System) -> Facts:
     """The engine in a few lines, with the masses that the figures include."""
-    c, length, mass = engine.cylinders, system.length, system.mass
+    engine, length, mass = result.engine, system.length, system.mass
+    c = engine.cylinders
     first = engine.numbers.index(1)
 
     def of_first(values: np.ndarray) -> float:
@@ -68,6 +69,7 @@ def facts(engine: Engine, system: System) -> Facts:
         ("firing", _firing(engine)),
         ("speed", f"{number(engine.speed_rpm, 6)} rpm{', uneven: figures are those of the uneven speed' if engine.ripple else ''}"),
         ("masses", masses + unequal),
+        ("orders", f"to {UNASKED}; --orders asks for higher ones" if result.beyond else ""),
         ("reference", f"moments about x, y, z = {about} {length.name}"),
         ("devices", _counted(engine)),
         ("source", engine.source),

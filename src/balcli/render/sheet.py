@@ -1,7 +1,6 @@
 """A sheet: what a person reads, before it is known where. Terminal, Markdown and HTML are made of it."""
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 
@@ -60,8 +59,3 @@ def number(value: float, digits: int = 5) -> str:
 def degrees(value: float) -> str:
     """An angle to a tenth of a degree, or a dash where there is none."""
     return "–" if value != value else f"{value + 0.0:.1f}".replace("-0.0", "0.0")
-
-
-def columns(cells: Sequence[Sequence[str]]) -> tuple[tuple[str, ...], ...]:
-    """Rows as a Grid wants them."""
-    return tuple(tuple(row) for row in cells)

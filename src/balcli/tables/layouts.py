@@ -6,14 +6,11 @@ distance of neighbouring throws; moments are about the middle of the crankshaft.
 """
 from __future__ import annotations
 
-from importlib.resources import files
-from importlib.resources.abc import Traversable
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..errors import BalcliError
+from ..examples import folder
 from .options import Options
 from .printed import Print
 from .table import Row, Table
@@ -37,7 +34,7 @@ def _row(name: str) -> Row:
     from ..engine import build
     from ..enginefile import parse
     from ..spectrum import spectra
-    file = parse((_folder() / f"{name}.toml").read_text(encoding="utf-8"), name)
+    file = parse((folder() / f"{name}.toml").read_text(encoding="utf-8"), name)
     engine = build(_bare(file))
     found = dict(spectra(engine, ORDERS, ("force", "moment")).items())
     c = engine.cylinders
@@ -64,12 +61,3 @@ def _distance(engine: Engine) -> float:
     """Of neighbouring throws, m; 1 for a single throw, which has no moment."""
     gaps = np.diff(np.unique(np.round(np.asarray(engine.throws_m, float).ravel(), 9)))
     return float(gaps.min()) if gaps.size else 1.0
-
-
-def _folder() -> Traversable | Path:
-    """The example engines: inside the installed package, or beside `src` in a checkout."""
-    places: list[Traversable | Path] = [files("balcli") / "engines", Path(__file__).parents[3] / "engines"]
-    for place in places:
-        if place.is_dir():
-            return place
-    raise BalcliError("the example engines are not installed with this package; reinstall balcli")
