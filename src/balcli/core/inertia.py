@@ -103,7 +103,7 @@ class Loads:
     """
 
     def __init__(self, cylinders: Cylinders, devices: tuple[Device, ...], reference: tuple[Any, Any],
-                 orders: Array, harmonics: Harmonics, square: Any = 1.0) -> None:
+                 orders: Array, harmonics: Harmonics, square: Any) -> None:
         self._cylinders, self._devices, self._harmonics = cylinders, devices, harmonics
         self._place, self._z_ref = reference
         self._orders, self._square = orders, square
