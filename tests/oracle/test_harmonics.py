@@ -141,6 +141,20 @@ def test_means_of_the_squares(lam):
         assert getattr(harmonics, name)([0], lam)[0] == pytest.approx(float(mp.re(want[name][0])), rel=RELATIVE)
 
 
+@pytest.mark.parametrize("lam", [0.9, 0.97, 0.995])
+def test_high_orders_are_no_less_accurate(lam):
+    """Orders about 600 are 1e-29 to 1e-121 and have the error of a few roundings: that of x = tan(arcsin(lambda)/2) is not multiplied."""
+    with mp.workdps(145):
+        count = 1700                                        # aliases of orders above 1098
+        turn = [mp.expjpi(mp.mpf(2 * k) / count) for k in range(count)]
+        curves = dict(zip(SERIES, zip(*(motion(e.imag, e.real, mp.mpf(lam), mp.mpf(0)) for e in turn), strict=True), strict=True))
+        for name, n in (("piston", 600), ("rod", 601), ("kinetic", 600), ("kinetic", 601), ("rod_kinetic", 600)):
+            waves = ((e.imag if name == "rod" else e.real) for e in (turn[n * k % count] for k in range(count)))
+            want = 2 * mp.fdot(curves[name], waves) / count
+            got = getattr(harmonics, name)([n], lam)[0]
+            assert abs(mp.mpf(float(got)) / want - 1) < 2e-15, (name, n)
+
+
 def test_first_coefficients_are_those_of_the_books():
     """A_2 = lambda + lambda^3/4 + 15 lambda^5/128, A_4 = -(lambda^3/4 + 3 lambda^5/16), A_6 = 9 lambda^5/128,
     A_8 = -5 lambda^7/256; D_1 = lambda (1 + lambda^2/8), D_3 = -3 lambda^3/8, each up to its next term."""
