@@ -210,6 +210,21 @@ def test_equal_mechanisms_are_gathered_in_their_places():
     assert found.noise[1] > 0
 
 
+@pytest.mark.parametrize("eps", [0.0, 0.02])
+def test_mechanisms_given_as_several_may_be_one(eps):
+    """Three cylinders, each with a rod of its own, all of them equal."""
+    found = harmonics.of([0, 1, 2, 3], np.full(3, 0.3), np.full(3, eps))
+    single = harmonics.of([0, 1, 2, 3], np.array([0.3]), np.array([eps]))
+    for name in SERIES:
+        assert np.array_equal(np.broadcast_to(getattr(found, name).c, (4, 3)), np.repeat(getattr(single, name).c, 3, axis=1))
+
+
+def test_multiples_and_sums_of_series_keep_bounds_of_their_errors():
+    one, other = harmonics.Series(np.ones((1, 1)), 0.25), harmonics.Series(np.full((1, 1), 3.0), 0.5)
+    found = np.array([-2.0]) * one + other
+    assert (found.c.item(), found.noise) == (1, 1)
+
+
 def test_orders_beyond_the_samples_vanish():
     """Order 4096 of a mild offset is far below every number that could be sampled; it must not be an alias."""
     assert harmonics.of([4096], np.array([0.25]), np.array([0.01])).piston.c == 0
