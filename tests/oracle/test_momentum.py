@@ -64,6 +64,8 @@ CASES = {
     "offset": {"layout": "banks = [-30, 35]", "crank": "throws = [0, 130]\nspacing = 110\nsplay = 12", "piston": "offset = 9"},
     "displaced reference": {"layout": "bank_angle = 70", "piston": "offset = -7", "more": DISPLACED},
     "uneven speed": {"layout": "bank_angle = 70", "piston": "offset = -7", "operation": RIPPLE, "more": DISPLACED},
+    "two unlike cylinders, uneven speed": {"layout": "bank_angle = 60", "operation": RIPPLE,
+                                           "more": "[cylinder.2]\npiston_mass = 2.5\nrod_length = 200\n"},
     "radial with master rod": {"layout": "radial = 7", "more": ARTICULATED},
     "two rows with master rods": {"layout": "radial = 5\nstagger = 4", "crank": "throws = [0, 180]\nspacing = 160", "piston": "offset = 6",
                                   "more": ARTICULATED + "[cylinder.4]\nrod_length = 180\npiston_mass = 1.5"},
