@@ -219,6 +219,16 @@ def test_mechanisms_given_as_several_may_be_one(eps):
         assert np.array_equal(np.broadcast_to(getattr(found, name).c, (4, 3)), np.repeat(getattr(single, name).c, 3, axis=1))
 
 
+def test_side_by_side_the_steepest_mechanism_says_how_many_samples():
+    lam, eps = np.array([0.1, 0.6, 0.3]), np.array([0.3, 0.35, -0.2])
+    most = harmonics.points(0.6, 0.35)
+    assert harmonics.points(lam, eps) == most > max(harmonics.points(0.1, 0.3), harmonics.points(0.3, -0.2))
+    found = harmonics.of(np.arange(9), lam[None], eps[None])
+    for k in range(3):
+        single = harmonics.of(np.arange(9), lam[k:k + 1], eps[k:k + 1])
+        assert np.abs(found.piston.c[:, 0, k] - single.piston.c[:, 0]).max() < ABSOLUTE
+
+
 def test_multiples_and_sums_of_series_keep_bounds_of_their_errors():
     one, other = harmonics.Series(np.ones((1, 1)), 0.25), harmonics.Series(np.full((1, 1), 3.0), 0.5)
     found = np.array([-2.0]) * one + other
