@@ -219,6 +219,14 @@ def test_mechanisms_given_as_several_may_be_one(eps):
         assert np.array_equal(np.broadcast_to(getattr(found, name).c, (4, 3)), np.repeat(getattr(single, name).c, 3, axis=1))
 
 
+@pytest.mark.parametrize(("lam", "eps"), OFFSETS)
+def test_an_order_of_one_engine_is_the_same_among_any_others(lam, eps):
+    """To the last bit: what a report says of an order does not depend on what else it says."""
+    alone, among = (harmonics.of(orders, np.array([lam]), np.array([eps])) for orders in ([1], np.arange(40)))
+    for name in SERIES:
+        assert getattr(alone, name).c[0] == getattr(among, name).c[1], name
+
+
 def test_side_by_side_the_steepest_mechanism_says_how_many_samples():
     lam, eps = np.array([0.1, 0.6, 0.3]), np.array([0.3, 0.35, -0.2])
     most = harmonics.points(0.6, 0.35)

@@ -100,7 +100,7 @@ def of(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: b
     return few.of_rows(which)
 
 
-def of_distinct(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: bool = True) -> tuple[Harmonics, Rows]:
+def of_distinct(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> tuple[Harmonics, Rows]:
     """Those of the mechanisms that differ, and which of them each cylinder has."""
     if lam.ndim > 1 or lam.size * eps.size == 1:
         return _of_all(orders, lam, eps, rod=rod, energy=energy), slice(None)
