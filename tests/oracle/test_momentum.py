@@ -68,7 +68,7 @@ CASES = {
                                            "more": "[cylinder.2]\npiston_mass = 2.5\nrod_length = 200\n"},
     "radial with master rod": {"layout": "radial = 7", "more": ARTICULATED},
     "two rows with master rods": {"layout": "radial = 5\nstagger = 4", "crank": "throws = [0, 180]\nspacing = 160", "piston": "offset = 6",
-                                  "more": ARTICULATED + "[cylinder.4]\nrod_length = 180\npiston_mass = 1.5"},
+                                  "operation": RIPPLE, "more": ARTICULATED + "[cylinder.4]\nrod_length = 180\npiston_mass = 1.5"},
     "vee with articulated rods": {"layout": "bank_angle = 60", "crank": "throws = [0, 120, 240, 240, 120, 0]\nspacing = 160",
                                   "more": ARTICULATED.replace("knuckle", "master = 2\nknuckle_angles = [-66.5, 0]\nknuckle")},
     "rotary": {"layout": "radial = 5\nrotary = true"},
