@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -186,3 +187,13 @@ def test_variants_on_a_trailing_axis():
         for (quantity, many), (_, one) in zip(together.items(), alone.items(), strict=True):
             difference = np.abs(np.broadcast_to(many.forward, (6, 3))[:, k] - one.forward).max()
             assert difference <= 1e-12 * np.abs(one.forward).max(initial=1e-9), quantity
+
+
+def test_many_variants_are_taken_some_angles_at_a_time():
+    """420 mechanisms x 1440 angles: more than are computed at once."""
+    c = built().cylinders
+    assert c.linkage is not None
+    column = {name: getattr(c.linkage, name)[:, None] for name in ("mass", "knuckle", "lead_deg")}
+    linkage = replace(c.linkage, **column)
+    lam, eps, psi = np.broadcast_to(c.lam, c.count)[:, None] * np.linspace(0.9, 1, 60), np.zeros((1, 1)), np.linspace(0, 7, 1440)
+    assert np.array_equal(linkage.each("lean", psi, lam, eps), linkage.motion(psi, lam, eps).lean)

@@ -17,7 +17,6 @@ from balcli import bench
 from balcli.bench import Bench, Case, Ratio, Row
 from balcli.cli import main
 from balcli.errors import BalcliError, InputError
-from balcli.sizing import eccentric
 
 ENGINES = Path(__file__).parents[1] / "engines"
 MEASURED = Bench((Row("A_2", "closed form", 2e-6, 0.0), Row("A_2", "two-term formula", 1e-6, 3.2e-2), Row("sweep", "exp alone", 5e-8, None),
@@ -241,13 +240,6 @@ def test_a_minimax_weight_in_two_planes_leaves_the_moment_that_turns_with_the_cr
     assert status == 0
     halves, (whole,) = (json.loads(text)["counterweights"] for text in (out, alone))
     assert [h["unbalance_kg_m"] for h in halves] == pytest.approx([whole["unbalance_kg_m"] / 2] * 2, rel=1e-9)
-
-
-@pytest.mark.parametrize(("design", "lam"), [("a", 0.99), ("b", 0.9)])
-@pytest.mark.parametrize("criterion", ["largest", "mean"])
-def test_an_eccentric_has_no_optimum_near_lambda_1(design, criterion, lam):
-    with pytest.raises(BalcliError, match=f"no optimum was found for design {design} at lambda = {lam}"):
-        eccentric.best(design, criterion, "all orders", lam)
 
 
 def test_mistakes_of_a_built_model_name_its_file():

@@ -50,6 +50,14 @@ def test_orders_that_no_cylinder_has():
     assert found[2] == "order 3 couple, torque and roll: free: 3 of one cylinder"
 
 
+def test_master_and_articulated_rods_of_a_rotary_engine_are_not_alike():
+    """Alike in mass and length, they differ in where they hang: without knuckle pins the first order would vanish by symmetry."""
+    star = "[layout]\nradial = 5\nrotary = true\n"
+    hung = "[articulation]\nknuckle_radius = 30\nrod = { length = 160, mass = 0 }\n"
+    assert sentences([0], more=star)[0] == "order 1 force: balanced exactly, by symmetry"
+    assert sentences([0], more=star + hung)[0].startswith("order 1 force: free: ")
+
+
 def test_a_hundredth_of_a_degree_is_nearly_balanced():
     """|1 + e^{i 120.01 deg} + e^{i 240 deg}| = 2 sin(0.005 deg)."""
     assert sentences([0, 120.01, 240])[0] == f"order 1 force: nearly balanced: {2 * np.sin(np.radians(0.005)):.1g} of one cylinder"

@@ -163,3 +163,19 @@ def test_cardioids_and_a_deltoid(forward, backward, centre, radius, touching, fi
 def test_angles_on_both_sides_of_0_are_one():
     assert circle._distinct(np.array([1e-5, 3, 2 * np.pi - 1e-5])).tolist() == [3, 2 * np.pi - 1e-5]
     assert len(circle._distinct(np.array([0.1, 3, 2 * np.pi - 0.1]))) == 3
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1e-3, 1e6])
+def test_a_curve_of_any_size_is_treated_alike(scale):
+    """Nanonewtons or meganewtons: the same circle, touched at the same angles, its error as small."""
+    curve = force(layout="radial = 5", **{"cylinder.3": "piston_mass = 1.5"})
+    small = Phasors(curve.orders, scale * curve.forward, scale * curve.backward, scale * np.asarray(curve.noise))
+    whole, found = circle.enclosing(curve), circle.enclosing(small)
+    assert found.centre / scale == pytest.approx(whole.centre, rel=1e-12)
+    assert found.radius / scale == pytest.approx(whole.radius, rel=1e-13)
+    assert found.theta == pytest.approx(whole.theta, abs=1e-7)
+    assert 0 <= found.excess <= 1e-13 * found.radius
+    points = scale * np.array([1, 1j, -1, 0.2 + 0.1j])
+    centre, radius, fixing = circle.around(points)
+    assert (abs(centre) / scale, radius / scale) == pytest.approx((0, 1), abs=1e-12)
+    assert len(fixing) >= 2

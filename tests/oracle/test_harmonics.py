@@ -141,6 +141,20 @@ def test_means_of_the_squares(lam):
         assert getattr(harmonics, name)([0], lam)[0] == pytest.approx(float(mp.re(want[name][0])), rel=RELATIVE)
 
 
+@pytest.mark.parametrize("lam", [0.9, 0.97, 0.995])
+def test_high_orders_are_no_less_accurate(lam):
+    """Orders about 600 are 1e-29 to 1e-121 and have the error of a few roundings: that of x = tan(arcsin(lambda)/2) is not multiplied."""
+    with mp.workdps(145):
+        count = 1700                                        # aliases of orders above 1098
+        turn = [mp.expjpi(mp.mpf(2 * k) / count) for k in range(count)]
+        curves = dict(zip(SERIES, zip(*(motion(e.imag, e.real, mp.mpf(lam), mp.mpf(0)) for e in turn), strict=True), strict=True))
+        for name, n in (("piston", 600), ("rod", 601), ("kinetic", 600), ("kinetic", 601), ("rod_kinetic", 600)):
+            waves = ((e.imag if name == "rod" else e.real) for e in (turn[n * k % count] for k in range(count)))
+            want = 2 * mp.fdot(curves[name], waves) / count
+            got = getattr(harmonics, name)([n], lam)[0]
+            assert abs(mp.mpf(float(got)) / want - 1) < 2e-15, (name, n)
+
+
 def test_first_coefficients_are_those_of_the_books():
     """A_2 = lambda + lambda^3/4 + 15 lambda^5/128, A_4 = -(lambda^3/4 + 3 lambda^5/16), A_6 = 9 lambda^5/128,
     A_8 = -5 lambda^7/256; D_1 = lambda (1 + lambda^2/8), D_3 = -3 lambda^3/8, each up to its next term."""
@@ -194,6 +208,39 @@ def test_equal_mechanisms_are_gathered_in_their_places():
     assert found.c[2, 1] != 0
     assert list(found.noise[[0, 2]]) == [0, 0]
     assert found.noise[1] > 0
+
+
+@pytest.mark.parametrize("eps", [0.0, 0.02])
+def test_mechanisms_given_as_several_may_be_one(eps):
+    """Three cylinders, each with a rod of its own, all of them equal."""
+    found = harmonics.of([0, 1, 2, 3], np.full(3, 0.3), np.full(3, eps))
+    single = harmonics.of([0, 1, 2, 3], np.array([0.3]), np.array([eps]))
+    for name in SERIES:
+        assert np.array_equal(np.broadcast_to(getattr(found, name).c, (4, 3)), np.repeat(getattr(single, name).c, 3, axis=1))
+
+
+@pytest.mark.parametrize(("lam", "eps"), OFFSETS)
+def test_an_order_of_one_engine_is_the_same_among_any_others(lam, eps):
+    """To the last bit: what a report says of an order does not depend on what else it says."""
+    alone, among = (harmonics.of(orders, np.array([lam]), np.array([eps])) for orders in ([1], np.arange(40)))
+    for name in SERIES:
+        assert getattr(alone, name).c[0] == getattr(among, name).c[1], name
+
+
+def test_side_by_side_the_steepest_mechanism_says_how_many_samples():
+    lam, eps = np.array([0.1, 0.6, 0.3]), np.array([0.3, 0.35, -0.2])
+    most = harmonics.points(0.6, 0.35)
+    assert harmonics.points(lam, eps) == most > max(harmonics.points(0.1, 0.3), harmonics.points(0.3, -0.2))
+    found = harmonics.of(np.arange(9), lam[None], eps[None])
+    for k in range(3):
+        single = harmonics.of(np.arange(9), lam[k:k + 1], eps[k:k + 1])
+        assert np.abs(found.piston.c[:, 0, k] - single.piston.c[:, 0]).max() < ABSOLUTE
+
+
+def test_multiples_and_sums_of_series_keep_bounds_of_their_errors():
+    one, other = harmonics.Series(np.ones((1, 1)), 0.25), harmonics.Series(np.full((1, 1), 3.0), 0.5)
+    found = np.array([-2.0]) * one + other
+    assert (found.c.item(), found.noise) == (1, 1)
 
 
 def test_orders_beyond_the_samples_vanish():

@@ -88,6 +88,18 @@ def test_offset_travel_near_its_own_top_dead_centre(lam, eps, delta):
     assert abs(mp.mpf(float(got)) - want) <= 1e-15 / delta * want
 
 
+@pytest.mark.parametrize("lam", [0.01, 0.1, 0.3, 0.45, 0.7])
+@pytest.mark.parametrize("clearance", [1e-12, 1e-9, 1e-4])
+@pytest.mark.parametrize("side", [1, -1])
+def test_the_rod_is_accurate_however_near_to_its_lock(lam, clearance, side):
+    """At 90 degrees, where it lies almost across: its cosine is the root of what is left of 1 - lambda - |eps|."""
+    eps = side * (1 - lam - clearance)
+    sine, cosine = sc.rod_angle(-side * 1j, lam, eps)
+    exact = -side * mp.mpf(lam) - mp.mpf(eps)
+    assert abs(cosine / mp.sqrt((1 - exact) * (1 + exact)) - 1) < RELATIVE
+    assert abs(sine - exact) < RELATIVE
+
+
 def test_offset_velocity_vanishes_at_both_dead_centres():
     lam, eps = 0.3, 0.1
     top, bottom = np.arcsin(eps / (1 + lam)), np.pi + np.arcsin(eps / (1 - lam))

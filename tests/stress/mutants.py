@@ -174,12 +174,9 @@ def _nodes(node: ast.AST, near: tuple[range, ...]) -> Iterator[tuple[Any, Any, a
         for holder, key, child in children:
             if not isinstance(child, ast.AST) or _without_effect(child):
                 continue
-            inner = near
-            if isinstance(child, (ast.stmt, ast.comprehension)) or field == "test":
-                if isinstance(child, ast.stmt) and not hasattr(child, "body"):
-                    inner = (range(child.lineno, child.end_lineno + 1), *near)
-            elif isinstance(child, ast.expr) and isinstance(node, (ast.If, ast.While, ast.For)):
-                inner = (range(child.lineno, child.end_lineno + 1), *near)
+            simple = isinstance(child, ast.stmt) and not hasattr(child, "body")
+            loop = isinstance(child, ast.expr) and isinstance(node, ast.For)
+            inner = (range(child.lineno, child.end_lineno + 1), *near) if simple or loop else near
             yield holder, key, child, inner
             yield from _nodes(child, inner)
 
@@ -262,6 +259,7 @@ class Runner:
     def __init__(self, options: argparse.Namespace) -> None:
         self.options = options
         self.failed = ""
+        self.traced: dict[str, Trace] = {}
         self.survivors: list[Mutant] = []
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
@@ -279,16 +277,18 @@ class Runner:
         return True
 
     def _trace(self) -> None:
-        """What each test reaches, and how long it takes; of tests that the file of an earlier run knows, from there."""
-        kept = self.options.trace
-        self.traced: dict[str, Trace] = pickle.loads(kept.read_bytes()) if kept and kept.exists() else {}
+        """What each test reaches, and how long it takes; from the file of an earlier run, unless a module that it reaches has changed."""
+        kept, sources = self.options.trace, {p.relative_to(SOURCE).as_posix(): p.read_bytes() for p in SOURCE.rglob("*.py")}
+        before, self.traced = pickle.loads(kept.read_bytes()) if kept and kept.exists() else ({}, {})
+        moved = {module for module in before if before[module] != sources.get(module)}
+        self.traced = {name: t for name, t in self.traced.items() if moved.isdisjoint(module for module, _ in t.places)}
         new = [name for name in self.items if name not in self.traced]
         found = in_child(lambda: self._traced(new))
         if found is None or self.failed:
             raise pytest.UsageError("the tests must pass without any change")
         self.traced |= found
         if kept:
-            kept.write_bytes(pickle.dumps(self.traced))
+            kept.write_bytes(pickle.dumps((sources, self.traced)))
         self.reached: defaultdict[tuple[str, int], set[str]] = defaultdict(set)
         for name in self.items:
             for place in self.traced[name].places:

@@ -12,7 +12,7 @@ import pytest
 from kit import engine_text
 
 from balcli.analysis import analyze
-from balcli.core import harmonics
+from balcli.core import harmonics, slidercrank
 from balcli.engine import Engine, build
 from balcli.enginefile import parse
 from balcli.errors import BalcliError
@@ -94,6 +94,26 @@ def test_eccentric_slider_beats_its_neighbours(design):
     best = eccentric.best(design, "largest", "orders 1+2", lam)
     assert largest(best.k, best.mu) == pytest.approx(best.largest, abs=2e-5)
     assert all(largest(best.k * (1 + dk), best.mu * (1 + dm)) > best.largest for dk, dm in ((.01, 0), (-.01, 0), (0, .002), (0, -.002)))
+
+
+@pytest.mark.parametrize(("design", "lam"), [("a", 0.99), ("b", 0.9)])
+@pytest.mark.parametrize("criterion", ["largest", "mean"])
+def test_an_eccentric_slider_has_no_optimum_near_lambda_1(design, criterion, lam):
+    with pytest.raises(BalcliError, match=f"no optimum was found for design {design} at lambda = {lam}"):
+        eccentric.best(design, criterion, "all orders", lam)
+
+
+@pytest.mark.parametrize(("design", "criterion", "lam"), [("a", "mean", 0.2), ("b", "mean", 0.6), ("b", "largest", 0.4)])
+def test_eccentric_slider_says_the_largest_of_what_remains(design, criterion, lam):
+    """Of either sign, by samples; the shafts' cosine from the triangle of disc centre, shaft and pin, differentiated by Fourier."""
+    best = eccentric.best(design, criterion, "all orders", lam)
+    theta = np.arange(4096) * (2 * np.pi / 4096)
+    phi = theta + (np.arctan2(np.sin(theta), best.k - np.cos(theta)) if design == "b" else np.arcsin(np.sin(theta) / best.k))
+    waves = np.fft.rfft(np.cos(phi))
+    order = np.where(np.arange(len(waves)) < 100, np.arange(len(waves)), 0)
+    rest = slidercrank.acceleration(theta, lam) - 2 * best.mu * np.fft.irfft(order**2 * waves)
+    assert np.abs(rest).max() == pytest.approx(best.largest, rel=1e-5)
+    assert np.abs(rest).mean() == pytest.approx(best.mean, rel=1e-4)
 
 
 def test_eccentric_slider_leaves_its_residual():

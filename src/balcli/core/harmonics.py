@@ -67,7 +67,7 @@ class Harmonics(NamedTuple):
     kinetic: Series                     # (s'/r)^2
     rod_kinetic: Series                 # beta'^2
     curve: Curve | None = None          # of a further mass, where a mechanism has one that moves in the plane
-    turns: Array | float = 0.0          # of the rod for each of the crank
+    turns: float = 0.0                  # of the rod for each of the crank
 
     def of_orders(self, which: slice) -> Harmonics:
         """Of the orders in these rows."""
@@ -79,7 +79,7 @@ class Harmonics(NamedTuple):
             return self
         chosen = self._each(lambda series: series.of_rows(which))
         curve = chosen.curve and chosen.curve._replace(momentum=chosen.curve.momentum[which])
-        return chosen._replace(curve=curve, turns=np.asarray(self.turns)[which] if np.ndim(self.turns) else self.turns)
+        return chosen._replace(curve=curve)
 
     def _each(self, change: Callable[[Series], Series]) -> Harmonics:
         """With every series changed."""
@@ -100,7 +100,7 @@ def of(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: b
     return few.of_rows(which)
 
 
-def of_distinct(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: bool = True) -> tuple[Harmonics, Rows]:
+def of_distinct(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> tuple[Harmonics, Rows]:
     """Those of the mechanisms that differ, and which of them each cylinder has."""
     if lam.ndim > 1 or lam.size * eps.size == 1:
         return _of_all(orders, lam, eps, rod=rod, energy=energy), slice(None)

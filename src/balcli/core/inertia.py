@@ -111,7 +111,7 @@ class Loads:
     """
 
     def __init__(self, cylinders: Cylinders, devices: tuple[Device, ...], reference: tuple[Any, Any],
-                 orders: Array, harmonics: Harmonics, square: Any = 1.0, *, apart: bool = False) -> None:
+                 orders: Array, harmonics: Harmonics, square: Any, *, apart: bool = False) -> None:
         self._cylinders, self._devices, self._harmonics = cylinders, devices, harmonics
         self._place, self._z_ref = reference
         self._orders, self._square, self._apart = orders, square, apart

@@ -84,12 +84,12 @@ class Linkage(ABC):
     """
 
     mass: Array
-    turning: ClassVar[bool] = False     # whether the cylinders turn about a crank that stands still
+    turning: ClassVar[bool] = False     # whether the cylinders, and so the rods, turn about a crank that stands still
 
     @property
+    @abstractmethod
     def figures(self) -> tuple[NDArray[Any], ...]:
         """What distinguishes the cylinders, each of shape (cylinders or 1, *trailing)."""
-        return (self.mass,)
 
     @abstractmethod
     def motion(self, psi: Array, lam: Array, eps: Array) -> Motion:
@@ -119,7 +119,7 @@ class Linkage(ABC):
                 couple=from_samples(-m.swirl_rate, orders),
                 kinetic=from_samples(m.energy, orders) if energy else NONE,
                 momentum=m.swirl.mean(axis=-1)),
-            turns=m.spin.mean(axis=-1))
+            turns=float(self.turning))
 
     def each(self, name: str, psi: Array, lam: Array, eps: Array) -> Array:
         """One figure of `Motion` at crank angles that all cylinders share, by so many at a time that memory stays small."""

@@ -42,7 +42,7 @@ class Rotary(Linkage):
     def motion(self, psi: Array, lam: Array, eps: Array) -> Motion:
         m = _plain(psi, lam, eps) if self.hung is None else self.hung.motion(psi, lam, eps)
         turned = slidercrank.on_circle(psi)
-        piston = m.place + 1j * (eps / lam)[..., None], m.velocity + 0j, m.acceleration + 0j
+        piston = m.place + 1j * (eps / lam)[..., None], m.velocity, m.acceleration
         points = [_seen(turned, *piston)]
         if self.on_knuckle is not None:
             share, (knuckle,) = self.on_knuckle[..., None], m.points

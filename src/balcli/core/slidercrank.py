@@ -63,7 +63,7 @@ def velocity(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
     sin_beta, cos_beta = rod_angle(psi, lam, eps)
     sine, cosine, lam, eps = _given(psi, lam, eps)
     crank, rod = sine * cos_beta, cosine * sin_beta
-    opposed = np.sign(crank) * np.sign(rod) < 0
+    opposed = crank * rod < 0
     safe = np.where(opposed, crank - rod, 1.0)
     product = ((1 - lam) * sine + eps) * (((1 + lam) * sine - eps) / safe)
     return _real(np.where(opposed, product, crank + rod) / cos_beta)
@@ -89,7 +89,7 @@ def _centred_acceleration(sine: Real, cosine: Real, lam: Real, cos_beta: Real) -
     w2, s2, cube = (1 - lam) * (1 + lam), sine**2, cos_beta**3
     w = np.sqrt(w2)
     rod = lam * (cosine**2 - w * s2) * (cosine**2 + w * s2)
-    opposed = np.sign(rod) * np.sign(cosine) < 0
+    opposed = rod * cosine < 0
     safe = np.where(opposed, rod - cube * cosine, 1.0)
     product = -w2 * (cosine - lam * s2 * cos_beta) * (cosine + lam * s2 * cos_beta) / safe
     return _real(np.where(opposed, product, rod + cube * cosine) / cube)

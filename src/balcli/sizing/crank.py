@@ -93,7 +93,7 @@ def card(engine: Engine, share: float) -> list[dict[str, Any]]:
         grams = {key: 1e3 * sum(float(getattr(m, key)) for m in masses) for key in ("piston", "small_end", "big_end", "rod_bearing", "oil")}
         rotating = grams["big_end"] + grams["rod_bearing"] + grams["oil"]
         reciprocating = grams["piston"] + grams["small_end"]
-        entries.append({"throw": masses[0].throw + 1, "cylinders": sorted(engine.numbers[row] for row in rows),
+        entries.append({"throw": masses[0].throw + 1, "cylinders": [engine.numbers[row] for row in rows],
                         **{f"{key}_g": value for key, value in grams.items()}, "rotating_g": rotating, "reciprocating_g": reciprocating,
                         "factor": share, "bobweight_g": rotating + share * reciprocating})
     return entries
@@ -117,7 +117,7 @@ def _weights(fitting: Fitting, share: float) -> Fitting:
             continue
         z = float(masses @ engine.cylinders.z[rows]) / total
         pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
-        names = ", ".join(str(n) for n in sorted(engine.numbers[row] for row in rows))
+        names = ", ".join(str(engine.numbers[row]) for row in rows)
         reason = (f"Opposite the pin of cylinder{'s' if len(rows) > 1 else ''} {names}: all rotating mass and {share:g} "
                   "of the reciprocating mass")
         fitting = fitting.add([Slot("counterweight", 1, 1, z)], [-total * float(engine.cylinders.radius) * pin], reason)
@@ -145,7 +145,7 @@ def _component(curve: Phasors, direction: complex) -> float:
 
 def _curve(engine: Engine, quantity: str) -> Phasors:
     """Force or moment, all orders."""
-    found: Phasors = getattr(spectra(engine, np.union1d([1.0], relevant_orders(engine)), (quantity,)), quantity)
+    found: Phasors = getattr(spectra(engine, relevant_orders(engine), (quantity,)), quantity)
     return found
 
 

@@ -193,8 +193,7 @@ def _along(engine: Engine, wish: Wish, left: Rest, sense: int) -> float:
     found = planes.single(left, sense, bounds)
     if found is not None:
         return found
-    force = left.at("force", sense)
-    z = left.arm[1] + ((left.at("moment", sense) / force).real if force else 0.0)
+    z = left.arm[1] + (left.at("moment", sense) / left.at("force", sense)).real
     return round(min(max(z, bounds[0]), bounds[1]), 9)
 
 
