@@ -104,7 +104,10 @@ def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collect
     curves = {"force", "moment"} if "peak" in wanted else set()
     shown = wanted.intersection(SPECTRAL)
     due = np.array([1.0, 2.0]) if asked is None else asked
-    everything = spectra(engine, np.union1d(relevant_orders(engine), due) if asked is None or curves else due, shown | curves)
+    whole = due
+    if asked is None or curves:                         # a set: np.union1d imports masked arrays, which takes longer than all the rest
+        whole = np.array(sorted({*relevant_orders(engine).tolist(), *due.tolist()}))
+    everything = spectra(engine, whole, shown | curves)
     visible = Spectra(everything.orders, **{q: p for q, p in everything.items() if q in shown})
     visible = visible.at(shown_orders(visible) if asked is None else asked)
     if by_cylinder and (apart := len(visible.orders) * len(engine.numbers)) > MOST_APART:
