@@ -449,6 +449,8 @@ def test_only_what_is_needed_is_imported(args, allowed):
     "from importlib.metadata import version; print(version('numpy'))",
     "from importlib.metadata import entry_points; print(len(entry_points(group='console_scripts')) > 0)",
     "import importlib.metadata._meta as m; print(m.__name__)",
+    "import secrets; from secrets import token_hex; print(secrets.compare_digest('a', 'a'), len(token_hex(3)))",
+    "import secrets; print(hasattr(secrets, 'no_such_thing'), hasattr(secrets, '__path__'))",
     "import importlib.util as u; s = u.find_spec('importlib.metadata'); print(s.name, s.origin)",
     "import importlib.metadata as m; m.version; import sys; print(type(sys.modules[m.__name__]) is type(sys))",
 ])
@@ -457,7 +459,7 @@ def test_what_is_deferred_is_there_when_it_is_asked_for(use):
         done = subprocess.run([sys.executable, "-c", first + use], capture_output=True, text=True, check=True,
                               env={**os.environ, "PYTHONPATH": str(ROOT / "src")})
         return done.stdout
-    assert run("from balcli.__main__ import _Metadata as M; M.defer(); M.defer()\n") == run("")
+    assert run("from balcli.__main__ import _Later as L; [L.defer(n) for n in 2 * ('importlib.metadata', 'secrets')]\n") == run("")
 
 
 def test_an_interruption_has_its_own_status(balcli, monkeypatch, good):

@@ -14,40 +14,46 @@ def main() -> None:
     """Entry point of `balcli` and `python -m balcli`."""
     gc.set_threshold(100_000)                                           # start-up makes many objects, but no garbage
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")              # looking for plugins takes longer than an analysis
-    _Metadata.defer()
+    for name in ("importlib.metadata", "secrets"):
+        _Later.defer(name)
     from .cli import main as run
 
     run()
 
 
-class _Metadata(ModuleType):
-    """`importlib.metadata`, imported when something is asked of it.
+class _Later(ModuleType):
+    """A module of the standard library that is imported when something is asked of it.
 
-    pydantic imports it even where plugins are off, and with it e-mail, archives and sockets: as much as all of our own modules.
+    pydantic imports `importlib.metadata` even where plugins are off, and with it e-mail, archives and sockets, and `secrets` for
+    random strings of which we have none, and with it OpenSSL: together as much as half of our own modules.
     """
 
-    NAME = "importlib.metadata"
-
     @classmethod
-    def defer(cls) -> None:
+    def defer(cls, name: str) -> None:
         """Stand in for the module, unless it is there already."""
-        if cls.NAME not in sys.modules:
-            later = sys.modules[cls.NAME] = importlib.metadata = cls(cls.NAME)
-            spec = later.__spec__ = PathFinder.find_spec(cls.NAME, importlib.__path__)
-            if spec is not None:
-                later.__file__, later.__path__ = spec.origin, list(spec.submodule_search_locations or ())
+        if name in sys.modules:
+            return
+        home, _, last = name.rpartition(".")
+        later = sys.modules[name] = cls(name)
+        spec = later.__spec__ = PathFinder.find_spec(name, sys.modules[home].__path__ if home else None)
+        if spec is not None:
+            later.__file__ = spec.origin
+            if spec.submodule_search_locations is not None:
+                later.__path__ = list(spec.submodule_search_locations)
+        if home:
+            setattr(sys.modules[home], last, later)
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._real(), name)
 
     def entry_points(self, **chosen: Any) -> Any:
-        """What pydantic imports by name."""
+        """Of `importlib.metadata`: pydantic imports it by name."""
         return self._real().entry_points(**chosen)
 
     def _real(self) -> ModuleType:
-        if sys.modules.get(self.NAME) is self:
-            del sys.modules[self.NAME]
-        return importlib.import_module(self.NAME)
+        if sys.modules.get(self.__name__) is self:
+            del sys.modules[self.__name__]
+        return importlib.import_module(self.__name__)
 
 
 if __name__ == "__main__":
