@@ -27,6 +27,22 @@ firing_order = [1, 3, 4, 2]
 speed = 3000
 """
 
+RADIAL = """\
+[crank]
+stroke = 120
+[rod]
+length = 240
+mass = 1.9
+cg = 55
+[piston]
+mass = 1.3
+[layout]
+radial = 7
+[articulation]
+knuckle_radius = 52
+rod = { length = 188, mass = 0.62, cg = 90 }
+"""
+
 
 def changed(*replacements: tuple[str, str], more: str = "") -> str:
     """GOOD with each old text (which must be there) replaced by the new one, and `more` at its end."""

@@ -7,28 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from kit import RADIAL
 from oracle import momentum
 
 from balcli import engine, enginefile, spectrum
 from balcli.core.travel import travel
 from balcli.errors import InputError
 from balcli.parameters import varied
-
-RADIAL = """\
-[crank]
-stroke = 120
-[rod]
-length = 240
-mass = 1.9
-cg = 55
-[piston]
-mass = 1.3
-[layout]
-radial = 7
-[articulation]
-knuckle_radius = 52
-rod = { length = 188, mass = 0.62, cg = 90 }
-"""
 
 
 def built(*changes: tuple[str, str], more: str = "") -> engine.Engine:

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from kit import GOOD, changed
+from kit import GOOD, RADIAL, changed
 
 from balcli.engine import build
 from balcli.enginefile import parse as load
@@ -99,21 +99,7 @@ def test_percentiles_are_those_of_the_samples() -> None:
     assert np.isfinite(result.spreads[0].mean)
 
 
-ARTICULATED = """\
-[crank]
-stroke = 120
-[rod]
-length = 240
-mass = 1.9
-cg = 55
-[piston]
-mass = 1.3
-[layout]
-radial = 5
-[articulation]
-knuckle_radius = 52
-rod = { length = 188, mass = 0.62, cg = 30 }
-"""
+ARTICULATED = RADIAL.replace("radial = 7", "radial = 5").replace("cg = 90", "cg = 30")
 
 
 def test_an_articulated_rods_mass_deviates_at_its_knuckle_pin_too() -> None:

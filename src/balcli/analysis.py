@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 QUANTITIES = (*SPECTRAL, "peak", "sizing")
 EXTRAS = ("inner", "guide")     # computed only when they are named
 HIGHEST = 4096                  # order that may be asked for
-MOST_APART = 1 << 14            # cylinders x orders that are told one by one
+MOST_TOLD = 1 << 14            # cylinders x orders that are told one by one
 
 
 class Sizing(NamedTuple):
@@ -110,9 +110,9 @@ def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collect
     everything = spectra(engine, whole, shown | curves)
     visible = Spectra(everything.orders, **{q: p for q, p in everything.items() if q in shown})
     visible = visible.at(shown_orders(visible) if asked is None else asked)
-    if by_cylinder and (apart := len(visible.orders) * len(engine.numbers)) > MOST_APART:
+    if by_cylinder and (apart := len(visible.orders) * len(engine.numbers)) > MOST_TOLD:
         raise BalcliError(f"by cylinder, {len(visible.orders)} orders of {len(engine.numbers)} cylinders are {apart} results, and at most "
-                          f"{MOST_APART} are told: ask for fewer orders")
+                          f"{MOST_TOLD} are told: ask for fewer orders")
     peaks = {q: peak(getattr(everything, q)) for q in curves}
     return Analysis(
         engine, visible, peaks.get("force"), peaks.get("moment"),
