@@ -15,26 +15,13 @@ import typer
 from kit import GOOD, changed
 
 from balcli import __version__
-from balcli.cli import COMMANDS, main
+from balcli.cli import COMMANDS
 from balcli.render.formats import Format
 
 ROOT = Path(__file__).parents[1]
 V8 = str(ROOT / "engines" / "v8_crossplane.toml")
 POUND_FORCE, FOOT = 0.45359237 * 9.80665, 0.3048        # N, m by definition
 ESCAPE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
-
-
-@pytest.fixture
-def balcli(capsys, monkeypatch):
-    """Runs a command in this process: (exit status, standard output, standard error)."""
-    def run(*args: object, stdin: str = "") -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["balcli", *map(str, args)])
-        monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(stdin.encode())))
-        with pytest.raises(SystemExit) as done:
-            main()
-        out, err = capsys.readouterr()
-        return int(done.value.code or 0), out, err
-    return run
 
 
 def process(*args: str, **more) -> subprocess.CompletedProcess:

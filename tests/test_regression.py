@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import json
 import shutil
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +10,6 @@ import pytest
 from kit import GOOD, changed
 
 from balcli.analysis import analyze
-from balcli.cli import main
 from balcli.engine import build
 from balcli.enginefile import parse
 from balcli.regression import TOLERANCE, differences, record, recorded_at
@@ -20,14 +18,8 @@ ENGINES = Path(__file__).parents[1] / "engines"
 
 
 @pytest.fixture
-def check(capsys, monkeypatch):
-    def run(*args: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["balcli", "check", *map(str, args)])
-        with pytest.raises(SystemExit) as done:
-            main()
-        out, err = capsys.readouterr()
-        return int(done.value.code or 0), out, err
-    return run
+def check(balcli):
+    return lambda *args: balcli("check", *args)
 
 
 @pytest.fixture

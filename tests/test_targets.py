@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import os
 import signal
 import subprocess
@@ -13,25 +12,14 @@ from pathlib import Path
 import pytest
 from kit import GOOD
 
-from balcli.cli import main
-
 ROOT = Path(__file__).parents[1]
 unix = pytest.mark.skipif(sys.platform == "win32", reason="needs links, pipes and signals")
 
 
 @pytest.fixture
-def balcli(capsys, monkeypatch):
-    """Runs a command in this process: (exit status, standard output, standard error)."""
-
-    def run(*args: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["balcli", *map(str, args)])
-        monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(GOOD.encode())))
-        with pytest.raises(SystemExit) as done:
-            main()
-        out, err = capsys.readouterr()
-        return int(done.value.code or 0), out, err
-
-    return run
+def balcli(balcli):
+    """Runs a command in this process, with an engine file as standard input."""
+    return lambda *args: balcli(*args, stdin=GOOD)
 
 
 @pytest.fixture
