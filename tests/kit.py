@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from balcli.engine import Engine
+    from balcli.engine.build import Engine
 
 GOOD = """\
 name = "in-line four"
@@ -69,8 +69,8 @@ def engine(**parts: dict[str, Any] | list[dict[str, Any]]) -> Engine:
     """The same, built: through TOML and the loader, as a user's file would be."""
     import tomli_w
 
-    from balcli.engine import build
-    from balcli.enginefile import parse
+    from balcli.engine.build import build
+    from balcli.engine.load import parse
 
     return build(parse(tomli_w.dumps(tables(**parts))))
 

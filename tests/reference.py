@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from balcli.mistakes import DEVICES, TABLES
-from balcli.model import EngineFile, Override, Table
-from balcli.schema import schema
+from balcli.enginefile.messages import DEVICES, TABLES
+from balcli.enginefile.model import EngineFile, Override, Table
+from balcli.enginefile.schema import schema
 
 DOCUMENT = Path(__file__).resolve().parent.parent / "docs" / "engine-file.md"
 BEGIN, END = "<!-- tables: python tests/reference.py -->\n", "<!-- end of tables -->\n"
@@ -67,7 +67,7 @@ def _inner(table: type[Table]) -> Iterator[tuple[str, type[Table]]]:
     """Tables within a table."""
     for key, field in table.model_fields.items():
         for name in re.findall(r"balcli\.model\.(\w+)", str(field.annotation)):
-            import balcli.model
+            import balcli.enginefile.model
 
             yield key, getattr(balcli.model, name)
 

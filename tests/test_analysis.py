@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from kit import engine
 
-from balcli.analysis import HIGHEST, QUANTITIES, Analysis, alone, analyze, textbook
-from balcli.core import harmonics
-from balcli.engine import Engine, build
-from balcli.enginefile import read
+from balcli.results.analysis import HIGHEST, QUANTITIES, Analysis, alone, analyze, textbook
+from balcli.core.mechanisms import harmonics
+from balcli.engine.build import Engine, build
+from balcli.engine.load import read
 from balcli.errors import BalcliError
-from balcli.spectrum import SHOWN, SPECTRAL, relevant_orders, spectra
+from balcli.forces.spectrum import SHOWN, SPECTRAL, relevant_orders, spectra
 
 FOLDER = Path(__file__).parents[1] / "engines"
 NAMES = sorted(file.stem for file in FOLDER.glob("*.toml"))

@@ -10,10 +10,11 @@ import pytest
 from kit import RADIAL
 from oracle import momentum
 
-from balcli import engine, enginefile, spectrum
-from balcli.core.travel import travel
+from balcli.engine import build as engine, load as enginefile
+from balcli.forces import spectrum
+from balcli.core.strokes import travel
 from balcli.errors import InputError
-from balcli.parameters import varied
+from balcli.studies.parameters import varied
 
 
 def built(*changes: tuple[str, str], more: str = "") -> engine.Engine:

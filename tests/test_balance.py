@@ -11,14 +11,14 @@ import pytest
 from kit import GOOD, changed
 from typer.testing import CliRunner
 
-from balcli.balancing import balance
+from balcli.results.balance import balance
 from balcli.cli import app
-from balcli.engine import build
-from balcli.enginefile import parse
+from balcli.engine.build import build
+from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.model import Counterweight, Slider
-from balcli.sizing import SCHEMES, Remedy, Tools, Wish, practical
-from balcli.sizing.shop import STEEL, drill_depth
+from balcli.enginefile.model import Counterweight, Slider
+from balcli.sizing.sizing import SCHEMES, Remedy, Tools, Wish, practical
+from balcli.sizing.workshop import STEEL, drill_depth
 
 SINGLE = changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4"))
 

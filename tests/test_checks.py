@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from kit import GOOD, changed
 
-from balcli import new
-from balcli.checks import suspicious
-from balcli.enginefile import parse
+from balcli.enginefile import templates as new
+from balcli.enginefile.suspicious import suspicious
+from balcli.engine.load import parse
 
 
 @pytest.mark.parametrize("text", [GOOD, *map(new.template, new.KINDS)], ids=["good", *new.KINDS])

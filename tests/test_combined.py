@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from balcli import engine, enginefile, spectrum
+from balcli.engine import build as engine, load as enginefile
+from balcli.forces import spectrum
 from balcli.cli import app
-from balcli.combined import Arrangement, combine
+from balcli.results.two_engines import Arrangement, combine
 
 ORDERS = np.arange(1.0, 9.0)
 RELATIVE = 1e-12

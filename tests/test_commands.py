@@ -13,8 +13,8 @@ from types import ModuleType
 import pytest
 from kit import GOOD, tables
 
-from balcli import bench
-from balcli.bench import Bench, Case, Ratio, Row
+from balcli.bench import bench
+from balcli.bench.bench import Bench, Case, Ratio, Row
 from balcli.cli import main
 from balcli.errors import BalcliError, InputError
 
@@ -145,7 +145,7 @@ def test_no_dask_no_cluster(balcli, four, monkeypatch):
 
 
 def test_a_cluster_that_does_not_answer(monkeypatch):
-    from balcli import cluster
+    from balcli.studies import dask_cluster as cluster
 
     def refuse(address: str, timeout: float) -> None:
         raise OSError(f"nobody at {address}")
@@ -156,7 +156,7 @@ def test_a_cluster_that_does_not_answer(monkeypatch):
 
 
 def test_a_cluster_of_our_own_and_one_by_address(monkeypatch):
-    from balcli import cluster
+    from balcli.studies import dask_cluster as cluster
 
     monkeypatch.setitem(sys.modules, "distributed", dask(
         LocalCluster=lambda **options: nullcontext("own"), Client=lambda at, **options: nullcontext(f"client of {at}")))
@@ -174,15 +174,15 @@ def test_no_pyarrow_no_parquet(balcli, four, tmp_path, monkeypatch):
 
 def test_row_groups_of_a_parquet_file_hold_all_rows(balcli, four, tmp_path, monkeypatch):
     parquet = pytest.importorskip("pyarrow.parquet")
-    monkeypatch.setattr("balcli.commands.variants.ROWS_A_GROUP", 1)
+    monkeypatch.setattr("balcli.commands.sweep_output.ROWS_A_GROUP", 1)
     assert balcli("sweep", four, *SWEEP, "-o", tmp_path / "x.parquet")[0] == 0
     assert parquet.read_table(tmp_path / "x.parquet")["rod.ratio"].to_pylist() == [0.2, 0.25, 0.3]
 
 
 def test_progress_changes_no_chunk(monkeypatch, capsys):
-    from balcli.commands.variants import with_progress
+    from balcli.commands.sweep_output import with_progress
     from balcli.core.phasors import np
-    from balcli.sweep import Chunk
+    from balcli.studies.sweep import Chunk
 
     chunks = [Chunk(((0, 2),), [np.zeros(2)]), Chunk(((2, 3),), [np.zeros(1)])]
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
@@ -245,7 +245,7 @@ def test_a_minimax_weight_in_two_planes_leaves_the_moment_that_turns_with_the_cr
 def test_mistakes_of_a_built_model_name_its_file():
     import tomli_w
 
-    from balcli.enginefile import built, parse
+    from balcli.engine.load import built, parse
 
     model = parse(tomli_w.dumps(tables(crank={"throws": [0, 180], "spacing": 100})))
     broken = model.model_copy(update={"rod": model.rod.model_copy(update={"length": 40.0})})
@@ -256,6 +256,6 @@ def test_mistakes_of_a_built_model_name_its_file():
 def test_more_devices_than_any_engine_has():
     from kit import refused
 
-    from balcli.model import MOST_PARTS
+    from balcli.enginefile.model import MOST_PARTS
     assert f"counterweight: stands {MOST_PARTS + 1} times; no engine has more than {MOST_PARTS}" in refused(
         counterweight=[{"mass": 1, "radius": 10}] * (MOST_PARTS + 1))

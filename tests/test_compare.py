@@ -6,9 +6,9 @@ import math
 import pytest
 from kit import GOOD, changed
 
-from balcli.compare import compare
-from balcli.engine import build
-from balcli.enginefile import parse
+from balcli.results.comparison import compare
+from balcli.engine.build import build
+from balcli.engine.load import parse
 from balcli.errors import BalcliError
 
 

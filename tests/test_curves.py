@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from balcli.curves import crank_angles, cylinder_curves, engine_curves
-from balcli.engine import build
-from balcli.enginefile import parse
+from balcli.forces.curves import crank_angles, cylinder_curves, engine_curves
+from balcli.engine.build import build
+from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.render.json import orders
-from balcli.spectrum import relevant_orders, spectra
+from balcli.forces.spectrum import relevant_orders, spectra
 
 ENGINES = Path(__file__).parents[1] / "engines"
 RELATIVE = 1e-12                # of the largest parts that are added up

@@ -6,7 +6,7 @@ import tomllib
 import pytest
 from kit import changed
 
-from balcli.edit import changed as edited
+from balcli.enginefile.edit import changed as edited
 
 COMMENTED = changed(("throws = [0, 180, 180, 0]", "throws     = [0, 180,\n  180, 0]   # deg, free end first"),
                     ("[crank]", "[crank]  # forged"), ("speed = 3000", "speed = 3000  # rpm"), more="# the end\n")

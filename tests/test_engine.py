@@ -8,7 +8,7 @@ import pytest
 from kit import engine, refused
 
 from balcli.core.phasors import unit
-from balcli.rods import STANDARD_GRAVITY
+from balcli.engine.rods import STANDARD_GRAVITY
 
 TIGHT = 1e-14
 

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from kit import GOOD, changed
 
-from balcli.enginefile import LARGEST, parse, read
+from balcli.engine.load import LARGEST, parse, read
 from balcli.errors import BalcliError, InputError
 
 LENGTH = 'a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"'

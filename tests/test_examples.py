@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from balcli import examples
+from balcli.enginefile import examples
 from balcli.errors import BalcliError
 
 ENGINES = Path(__file__).parents[1] / "engines"

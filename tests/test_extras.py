@@ -10,7 +10,8 @@ from test_articulation import RADIAL
 from test_inner import built
 from test_rotary import GNOME
 
-from balcli import analysis, engine, enginefile
+from balcli.results import analysis
+from balcli.engine import build as engine, load as enginefile
 from balcli.errors import BalcliError
 from balcli.render import csv as as_csv
 from balcli.render import json as as_json

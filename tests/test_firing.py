@@ -6,7 +6,7 @@ import math
 import pytest
 from kit import engine, refused
 
-from balcli.firing import disagreement, from_pins
+from balcli.engine.firing import disagreement, from_pins
 
 TIGHT = 1e-9                    # deg
 

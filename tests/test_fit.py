@@ -6,12 +6,12 @@ from pathlib import Path
 import pytest
 from kit import GOOD, changed
 
-from balcli.analysis import analyze
-from balcli.engine import build
-from balcli.enginefile import parse
+from balcli.results.analysis import analyze
+from balcli.engine.build import build
+from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.fit import fit
-from balcli.sizing import SCHEMES, Remedy, Wish, fitted, remedy_for
+from balcli.sizing.write import fit
+from balcli.sizing.sizing import SCHEMES, Remedy, Wish, fitted, remedy_for
 
 SINGLE = changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4"))
 

@@ -6,11 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from balcli import engine, enginefile, spectrum
+from balcli.engine import build as engine, load as enginefile
+from balcli.forces import spectrum
 from balcli.core.peaks import peak
 from balcli.errors import BalcliError
-from balcli.guide import guide
-from balcli.inner import bearings, inner
+from balcli.forces.guide_moments import guide
+from balcli.forces.crankshaft import bearings, inner
 
 ENGINES = Path(__file__).parents[1] / "engines"
 ORDERS = np.arange(1.0, 5.0)

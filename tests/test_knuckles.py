@@ -9,10 +9,10 @@ import pytest
 from test_articulation import RADIAL
 from typer.testing import CliRunner
 
-from balcli import enginefile
+from balcli.engine import load as enginefile
 from balcli.cli import app
 from balcli.errors import BalcliError
-from balcli.knuckles import even_knuckles
+from balcli.results.knuckles import even_knuckles
 
 
 def test_dead_centres_at_even_intervals():

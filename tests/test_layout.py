@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from kit import engine, refused
 
-from balcli.layout import bank_angles, cycle, plan
-from balcli.model import Crank, Layout
+from balcli.engine.layout import bank_angles, cycle, plan
+from balcli.enginefile.model import Crank, Layout
 
 
 def planned(throws=None, **layout):

@@ -8,8 +8,8 @@ import pytest
 from kit import GOOD, changed
 from pydantic import ValidationError
 
-from balcli import model
-from balcli.enginefile import parse
+from balcli.enginefile import model
+from balcli.engine.load import parse
 from balcli.errors import InputError
 
 

@@ -8,9 +8,9 @@ import tomllib
 
 import pytest
 
-from balcli.enginefile import parse
+from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.new import KINDS, template
+from balcli.enginefile.templates import KINDS, template
 
 OPTION = re.compile(r"^# *((?:\[+[a-z.0-9]+\]+)|(?:[a-z_]+ *= .*))")
 CYLINDERS = {"single": (1, 1), "inline": (4, 1), "vee": (4, 2), "boxer": (4, 2), "radial": (1, 9), "w": (4, 3)}

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from kit import GOOD, changed
 
-from balcli.enginefile import parse as load
+from balcli.engine.load import parse as load
 from balcli.errors import BalcliError
-from balcli.parameters import ladder, numeric, parse, varied
+from balcli.studies.parameters import ladder, numeric, parse, varied
 
 DEVICES = """
 [[shaft]]

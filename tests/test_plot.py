@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from kit import GOOD, changed
 
-from balcli.analysis import analyze
+from balcli.results.analysis import analyze
 from balcli.commands.plot import What
-from balcli.engine import build
-from balcli.enginefile import parse
+from balcli.engine.build import build
+from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.render.plot import draw, style
 from balcli.render.plot.pages import PAGES, Subject, form_of, picture

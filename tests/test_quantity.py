@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 from kit import changed
 
-from balcli.analysis import analyze
-from balcli.engine import build
-from balcli.enginefile import parse as load
+from balcli.results.analysis import analyze
+from balcli.engine.build import build
+from balcli.engine.load import parse as load
 from balcli.errors import BalcliError
-from balcli.quantity import evaluate, parse
-from balcli.spectrum import spectra
+from balcli.forces.quantity import evaluate, parse
+from balcli.forces.spectrum import spectra
 
 UNEVEN = changed(("[0, 180, 180, 0]", "[0, 100, 250, 190]"), ('firing_order = [1, 3, 4, 2]', 'bank_angle = 70\nstagger = 20'))
 

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from kit import GOOD, changed
 
-from balcli.analysis import analyze
-from balcli.engine import build
-from balcli.enginefile import parse
+from balcli.results.analysis import analyze
+from balcli.engine.build import build
+from balcli.engine.load import parse
 from balcli.regression import TOLERANCE, differences, record, recorded_at
 
 ENGINES = Path(__file__).parents[1] / "engines"

@@ -10,13 +10,13 @@ import pytest
 from browser import CHROMIUM, Browser
 from kit import GOOD, changed
 
-from balcli.analysis import analyze
-from balcli.balancing import balance
-from balcli.engine import build
-from balcli.enginefile import parse
+from balcli.results.analysis import analyze
+from balcli.results.balance import balance
+from balcli.engine.build import build
+from balcli.engine.load import parse
 from balcli.render.html import page
 from balcli.render.units import IMPERIAL, SI
-from balcli.spectrum import SPECTRAL
+from balcli.forces.spectrum import SPECTRAL
 
 HOSTILE = "</script><script>alert('name')</script><img src=x onerror=alert(1)> & \"quoted\" {{ 7 * 7 }} 发动机"
 RADIAL = """\

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from kit import engine, refused
 
-from balcli.core import ripple
+from balcli.core import speed_ripple as ripple
 from balcli.core.phasors import Phasors
 
 RELATIVE = 1e-9                 # central differences of sixth order at STEP

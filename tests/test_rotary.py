@@ -4,12 +4,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balcli import engine, enginefile, spectrum
-from balcli.analysis import analyze
-from balcli.core.travel import travel
+from balcli.engine import build as engine, load as enginefile
+from balcli.forces import spectrum
+from balcli.results.analysis import analyze
+from balcli.core.strokes import travel
 from balcli.errors import BalcliError, InputError
-from balcli.knuckles import even_knuckles
-from balcli.render.scene import scene
+from balcli.results.knuckles import even_knuckles
+from balcli.render.page_scene import scene
 from balcli.render.units import SYSTEMS
 
 GNOME = """\

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from kit import GOOD, RADIAL, changed
 
-from balcli.engine import build
-from balcli.enginefile import parse as load
+from balcli.engine.build import build
+from balcli.engine.load import parse as load
 from balcli.errors import BalcliError
-from balcli.quantity import evaluate, parse
-from balcli.scatter import Tolerances, scatter, tolerances
+from balcli.forces.quantity import evaluate, parse
+from balcli.studies.tolerances import Tolerances, scatter, tolerances
 
 FORCES = parse("force.1.major,force.2.major,moment.1.major")
 TWIN = changed(("[0, 180, 180, 0]", "[0, 180]"), ("throw_mass = 0.8", ""), ("mass = 0.6\ncg = 45\n", ""),

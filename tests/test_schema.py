@@ -10,9 +10,9 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from balcli.mistakes import DEVICES, TABLES
-from balcli.model import Override, Pendulum, Ripple, Table
-from balcli.schema import DIALECT, schema
+from balcli.enginefile.messages import DEVICES, TABLES
+from balcli.enginefile.model import Override, Pendulum, Ripple, Table
+from balcli.enginefile.schema import DIALECT, schema
 
 DOCUMENT = schema()
 MODELS: list[type[Table]] = [*TABLES.values(), *DEVICES.values(), Override, Pendulum, Ripple]

@@ -7,17 +7,18 @@ import numpy as np
 import pytest
 from kit import GOOD, changed, engine_text
 
-from balcli.engine import build
-from balcli.enginefile import parse as load
+from balcli.engine.build import build
+from balcli.engine.load import parse as load
 from balcli.errors import BalcliError, InputError
-from balcli.layout import plan
-from balcli.model import EngineFile
-from balcli.parameters import varied
-from balcli.quantity import evaluate, parse
-from balcli.search import fires_evenly, objective, search
-from balcli.search.cranks import best
-from balcli.search.shares import shares
-from balcli.search.write import arranged
+from balcli.engine.layout import plan
+from balcli.enginefile.model import EngineFile
+from balcli.studies.parameters import varied
+from balcli.forces.quantity import evaluate, parse
+from balcli.studies.search.search import fires_evenly, search
+from balcli.studies.search import objective
+from balcli.studies.search.throws import best
+from balcli.studies.search.throw_contributions import shares
+from balcli.studies.search.write import arranged
 
 NO_ORDER = ("[layout]\nfiring_order = [1, 3, 4, 2]\n", "")
 SHUFFLED = changed(("[0, 180, 180, 0]", "[0, 0, 180, 180]"), NO_ORDER)

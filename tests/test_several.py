@@ -1,5 +1,5 @@
 """Several engines side by side are told apart."""
-from balcli.commands.several import distinct
+from balcli.commands.inputs import distinct
 
 
 def test_engines_of_one_name_and_nameless_ones_go_by_their_files():

@@ -11,14 +11,15 @@ from hypothesis import strategies as st
 from kit import engine_text
 
 from balcli.core.peaks import peak
-from balcli.engine import build
-from balcli.enginefile import parse
+from balcli.engine.build import build
+from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.model import Counterweight
-from balcli.sizing import Remedy, Wish, auto, fitted, remedy_for
+from balcli.enginefile.model import Counterweight
+from balcli.sizing.sizing import Remedy, Wish, fitted, remedy_for
+from balcli.sizing.auto import auto
 from balcli.sizing.remedy import counterweight, degrees, shaft, slider
-from balcli.sizing.solver import Part, Rest, Slot, effect, exactly, rest, solve
-from balcli.spectrum import spectra
+from balcli.sizing.effects import Part, Rest, Slot, effect, exactly, rest, solve
+from balcli.forces.spectrum import spectra
 
 FORCE, MOMENT = Part("force", 1), Part("moment", 1)
 BACK, ROLL = Part("force", -1), Part("roll", 0)

@@ -11,7 +11,7 @@ import pytest
 from kit import GOOD
 
 from balcli.core.phasors import Phasors
-from balcli.render.sketch import BAR, SIDE, bars, locus
+from balcli.render.terminal_plot import BAR, SIDE, bars, locus
 from balcli.render.units import SI
 
 

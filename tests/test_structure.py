@@ -97,10 +97,10 @@ def test_core_knows_numpy_and_the_standard_library_alone(file):
 
 
 # Types and constants of a room may be named by what shows them, functions not: these shape figures for the eye.
-SHAPING = {("balcli.analysis", "textbook"), ("balcli.tables.table", "deviates"), ("balcli.tables.table", "figure"),
+SHAPING = {("balcli.results.analysis", "textbook"), ("balcli.tables.table", "deviates"), ("balcli.tables.table", "figure"),
            ("balcli.tables.table", "rational"), ("balcli.tables.table", "rounded")}
-COMPUTING = ("balcli.analysis", "balcli.balancing", "balcli.spectrum", "balcli.sizing", "balcli.core", "balcli.engine",
-             "balcli.enginefile", "balcli.sweep", "balcli.scatter", "balcli.search", "balcli.compare", "balcli.curves",
+COMPUTING = ("balcli.results.analysis", "balcli.results.balance", "balcli.forces.spectrum", "balcli.sizing.sizing", "balcli.core", "balcli.engine.build",
+             "balcli.engine.load", "balcli.studies.sweep", "balcli.studies.tolerances", "balcli.studies.search.search", "balcli.results.comparison", "balcli.forces.curves",
              "balcli.tables")
 
 

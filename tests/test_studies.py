@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 from kit import GOOD, changed
 
-from balcli.core import harmonics
-from balcli.engine import build
-from balcli.enginefile import parse
+from balcli.core.mechanisms import harmonics
+from balcli.engine.build import build
+from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.render.plot.pages import Subject, picture
-from balcli.studies import over_bank_angle, study
+from balcli.studies.pictures import over_bank_angle, study
 
 VEE = changed(("firing_order = [1, 3, 4, 2]", "bank_angle = 75\nstagger = 20"))
 SINGLE = changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", ""))

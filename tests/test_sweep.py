@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from kit import GOOD, changed
 
-from balcli.engine import build
-from balcli.enginefile import parse as load
+from balcli.engine.build import build
+from balcli.engine.load import parse as load
 from balcli.errors import BalcliError, InputError
-from balcli.parameters import parse, varied
-from balcli.quantity import evaluate
-from balcli.quantity import parse as quantities
-from balcli.render.variants import csv_text, json_text
-from balcli.sweep import Sweep, boxes, check, chunks, columns, grid
+from balcli.studies.parameters import parse, varied
+from balcli.forces.quantity import evaluate
+from balcli.forces.quantity import parse as quantities
+from balcli.render.sweep import csv_text, json_text
+from balcli.studies.sweep import Sweep, boxes, check, chunks, columns, grid
 
 SAME = 1e-12                    # of the largest value of a column
 VEE = changed(("[0, 180, 180, 0]", "[0, 100, 250, 190]"), ("firing_order = [1, 3, 4, 2]", "bank_angle = 70\nstagger = 20"))
@@ -138,7 +138,7 @@ def test_a_picture_of_too_many_variants_is_refused() -> None:
 
 def test_cluster_gives_identical_rows() -> None:
     distributed = pytest.importorskip("distributed")
-    from balcli import cluster
+    from balcli.studies import dask_cluster as cluster
 
     sweep = asked(VEE, "layout.bank_angle=0:100:1", "rod.ratio=0.2:0.3:0.0002", of="force.2.major,moment.1.backward")
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None) as local, \

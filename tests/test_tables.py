@@ -12,7 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 from balcli.cli import app
-from balcli.core import slidercrank as sc
+from balcli.core.mechanisms import slidercrank as sc
 from balcli.errors import BalcliError
 from balcli.tables import NAMES, Options, recompute, select
 from balcli.tables.ranges import crank_ratios, headings

@@ -174,7 +174,7 @@ def test_a_disk_that_fills_up_during_a_sweep(balcli, good, monkeypatch):
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("balcli.commands.variants._copy", full)
+    monkeypatch.setattr("balcli.commands.sweep_output._copy", full)
     assert balcli("sweep", good, "--vary", "crank.stroke=80,90", "-o", "out.csv") == (
         2,
         "",

@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from balcli import units
-from balcli.units import ANGLE, INERTIA, LENGTH, MASS, PLAIN, SPEED, TIME, UNBALANCE, convert
+from balcli.enginefile import units
+from balcli.enginefile.units import ANGLE, INERTIA, LENGTH, MASS, PLAIN, SPEED, TIME, UNBALANCE, convert
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ import pytest
 from balcli.core.phasors import Phasors
 from balcli.render.units import SI
 from balcli.render.verdict import verdict
-from balcli.spectrum import Spectra
+from balcli.forces.spectrum import Spectra
 
 CASES = [
     (1, "force", (0, 0), "First order: free of force."),

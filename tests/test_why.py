@@ -8,9 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from balcli import analysis, engine, enginefile, spectrum
+from balcli.results import analysis
+from balcli.engine import build as engine, load as enginefile
+from balcli.forces import spectrum
 from balcli.render import json as as_json
-from balcli.why import why
+from balcli.forces.symmetry import why
 
 ENGINES = sorted((Path(__file__).parents[1] / "engines").glob("*.toml"))
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from balcli.core import slidercrank
+from balcli.core.mechanisms import slidercrank
 
 PSI = np.radians(np.arange(0.5, 180.0, 0.01))           # travel and velocity vanish at both ends
 

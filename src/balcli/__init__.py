@@ -10,17 +10,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .analysis import Analysis, analyze
-    from .balancing import Balance, balance
-    from .engine import Engine
-    from .enginefile import load
+    from .engine.build import Engine
+    from .engine.load import load
     from .errors import BalcliError, InputError
+    from .results.analysis import Analysis, analyze
+    from .results.balance import Balance, balance
 
 __version__ = "0.1.0"
 __all__ = ["Analysis", "Balance", "BalcliError", "Engine", "InputError", "__version__", "analyze", "balance", "load"]
 
-_ROOMS = {"Analysis": "analysis", "analyze": "analysis", "Balance": "balancing", "balance": "balancing",
-          "Engine": "engine", "load": "enginefile", "BalcliError": "errors", "InputError": "errors"}
+_ROOMS = {"Analysis": "results.analysis", "analyze": "results.analysis", "Balance": "results.balance", "balance": "results.balance",
+          "Engine": "engine.build", "load": "engine.load", "BalcliError": "errors", "InputError": "errors"}
 
 
 def __getattr__(name: str) -> Any:

@@ -33,7 +33,7 @@ class _OnDemand(TyperGroup):
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         if cmd_name not in COMMANDS:
             return None
-        from .commands.apart import guarded
+        from .commands.overwrite_guard import guarded
 
         single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
         single.command(cmd_name)(guarded(getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name)))

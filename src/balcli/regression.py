@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from .analysis import analyze
-from .engine import Engine
+from .engine.build import Engine
 from .errors import BalcliError
+from .forces.spectrum import SPECTRAL, Spectra
 from .render import json as documents
 from .render.figures import KEYS
-from .spectrum import SPECTRAL, Spectra
+from .results.analysis import analyze
 
 TOLERANCE = 1e-9                # of a quantity's largest order, beyond what rounding may do
 RECORDED = (*SPECTRAL, "peak")

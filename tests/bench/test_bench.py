@@ -6,7 +6,8 @@ from pathlib import Path
 import mpmath
 import pytest
 
-from balcli.bench import LAM, cases, methods
+from balcli.bench.bench import LAM, cases
+from balcli.bench import methods
 
 ROUNDING = 1e-13                # errors below it are rounding, and differ from machine to machine
 

@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 from kit import engine, engine_text
 
-from balcli.core.harmonics import Series
-from balcli.core.inertia import Loads
+from balcli.core.mechanisms.harmonics import Series
+from balcli.core.loads import Loads
 from balcli.core.phasors import EPS
-from balcli.engine import build
-from balcli.enginefile import parse
-from balcli.parameters import parse as parameter
-from balcli.parameters import varied
-from balcli.spectrum import alone, spectra
-from balcli.sweep import Sweep
+from balcli.engine.build import build
+from balcli.engine.load import parse
+from balcli.studies.parameters import parse as parameter
+from balcli.studies.parameters import varied
+from balcli.forces.spectrum import alone, spectra
+from balcli.studies.sweep import Sweep
 
 QUANTITIES = ("force", "moment", "couple", "torque", "roll")
 ENGINES = {

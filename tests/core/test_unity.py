@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from balcli.core.unity import even, rational, turns, vanishes
+from balcli.core.roots_of_unity import even, rational, turns, vanishes
 
 
 def cyclotomic(n: int) -> list[int]:

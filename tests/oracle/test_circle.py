@@ -12,11 +12,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from kit import engine_text
 
-from balcli.core import circle
+from balcli.core import enclosing_circle as circle
 from balcli.core.phasors import Phasors
-from balcli.engine import build
-from balcli.enginefile import parse
-from balcli.spectrum import relevant_orders, spectra
+from balcli.engine.build import build
+from balcli.engine.load import parse
+from balcli.forces.spectrum import relevant_orders, spectra
 
 TRUE = 1e-10                            # relative to the true optimum
 VECTORS = st.complex_numbers(max_magnitude=1e3, allow_nan=False, allow_infinity=False)

@@ -13,7 +13,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from balcli.core import harmonics
+from balcli.core.mechanisms import harmonics
 
 RELATIVE = 2e-14                # of each coefficient of the centred mechanism, where it is above 1e-290
 ABSOLUTE = 1e-15                # of the offset mechanism, in units of the first order

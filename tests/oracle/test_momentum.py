@@ -7,7 +7,9 @@ import momentum
 import numpy as np
 import pytest
 
-from balcli import analysis, engine, enginefile, spectrum
+from balcli.results import analysis
+from balcli.engine import build as engine, load as enginefile
+from balcli.forces import spectrum
 
 TOLERANCE = 1e-11           # of the largest first-order amplitude of one cylinder
 ORDERS = np.arange(0.0, 11.0)

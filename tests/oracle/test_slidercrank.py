@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import two_term
 
-from balcli.core import slidercrank as sc
+from balcli.core.mechanisms import slidercrank as sc
 
 RELATIVE = 1e-14
 LAMBDAS = [1e-12, 1e-6, 0.01, 0.2, 0.2632, 0.3, 1 / 3, 0.5, 0.75, 0.9, 0.99, 0.999]

@@ -105,7 +105,7 @@ def _bases() -> list[dict[str, Tree]]:
 
 
 def _keys() -> tuple[str, ...]:
-    from balcli import mistakes
+    from balcli.enginefile import messages as mistakes
 
     tables = (*mistakes.TABLES.values(), *mistakes.DEVICES.values(), *mistakes.INNER.values())
     own = {key for table in tables for key in table.model_fields}

@@ -13,13 +13,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from kit import engine
 
-from balcli.analysis import analyze
-from balcli.core import harmonics
-from balcli.core.harmonics import EPS
+from balcli.results.analysis import analyze
+from balcli.core.mechanisms import harmonics
+from balcli.core.mechanisms.harmonics import EPS
 from balcli.core.peaks import peak
-from balcli.engine import Engine
+from balcli.engine.build import Engine
 from balcli.errors import InputError
-from balcli.spectrum import Spectra, relevant_orders, spectra
+from balcli.forces.spectrum import Spectra, relevant_orders, spectra
 
 BOUNDS = {                          # by row of docs/accuracy.md; roundings, or relative errors
     "closed forms": 2e-15, "closed forms, near the lock": 2e-14, "offset pistons": 16, "articulated rods": 16, "throws 1e-9° off": 24,

@@ -14,7 +14,7 @@ import fuzz
 import numpy as np
 import pytest
 
-from balcli.search.angles import valleys
+from balcli.studies.search.angles import valleys
 
 ROOT = Path(__file__).parents[2]
 SEED = 20

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from kit import engine
 
-from balcli.core.harmonics import EPS
-from balcli.engine import Engine
-from balcli.spectrum import SPECTRAL, spectra
+from balcli.core.mechanisms.harmonics import EPS
+from balcli.engine.build import Engine
+from balcli.forces.spectrum import SPECTRAL, spectra
 
 ENGINES = Path(__file__).parents[2] / "engines"
 ORDERS = np.arange(1.0, 17.0)
@@ -55,7 +55,7 @@ def test_the_order_of_cylinders_in_the_file_does_not_matter(seed):
 
 
 def alone_each(whole: Engine) -> list:
-    from balcli.spectrum import alone
+    from balcli.forces.spectrum import alone
 
     return [spectra(alone(whole, n), ORDERS) for n in whole.numbers]
 

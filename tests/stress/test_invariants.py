@@ -15,9 +15,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from balcli.core.phasors import Phasors
-from balcli.engine import Engine, build
-from balcli.enginefile import parse
-from balcli.spectrum import SPECTRAL, Spectra, alone, spectra
+from balcli.engine.build import Engine, build
+from balcli.engine.load import parse
+from balcli.forces.spectrum import SPECTRAL, Spectra, alone, spectra
 
 SCALED = 1e-12
 ORDERS = np.arange(0.0, 9.0)

@@ -9,11 +9,12 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from kit import engine_text
 
-from balcli.engine import Engine, build
-from balcli.enginefile import parse
+from balcli.engine.build import Engine, build
+from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.sizing import SCHEMES, Wish, auto, fitted, remedy_for
-from balcli.spectrum import spectra
+from balcli.sizing.sizing import SCHEMES, Wish, fitted, remedy_for
+from balcli.sizing.auto import auto
+from balcli.forces.spectrum import spectra
 
 LEFT = 1e-12
 

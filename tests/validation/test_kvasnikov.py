@@ -9,7 +9,7 @@ from math import sqrt
 import numpy as np
 import pytest
 
-from balcli.core import harmonics, series
+from balcli.core.mechanisms import harmonics, power_series as series
 from balcli.core.phasors import unit
 from balcli.tables import recompute
 

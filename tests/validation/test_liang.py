@@ -9,7 +9,7 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
-from balcli.core import harmonics, series
+from balcli.core.mechanisms import harmonics, power_series as series
 from balcli.tables import recompute
 
 P = 2 / 7

@@ -10,9 +10,9 @@ from math import atan, cos, degrees, pi, radians, sqrt
 import numpy as np
 import pytest
 
-from balcli.engine import build
-from balcli.enginefile import parse
-from balcli.spectrum import spectra
+from balcli.engine.build import build
+from balcli.engine.load import parse
+from balcli.forces.spectrum import spectra
 from balcli.tables import recompute
 
 GAMMA = np.radians(np.arange(0.0, 180.0, 0.01))
@@ -38,7 +38,7 @@ def flat_plane(gamma):
 
 def vectors(gamma):
     """|V+| and |V-| of the second order over 4 m r omega^2 A_2 = K, from the engine itself."""
-    from balcli.core.harmonics import piston
+    from balcli.core.mechanisms.harmonics import piston
     engine = flat_plane(gamma)
     force = spectra(engine, [2], ["force"]).force
     k = 4 * 0.5 * 0.04 * engine.omega**2 * float(piston([2], 0.28)[0])

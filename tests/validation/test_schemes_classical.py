@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 from kit import engine_text
 
-from balcli.analysis import analyze
-from balcli.core import harmonics
-from balcli.engine import Engine, build
-from balcli.enginefile import parse
+from balcli.results.analysis import analyze
+from balcli.core.mechanisms import harmonics
+from balcli.engine.build import Engine, build
+from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.sizing import Wish, auto, fitted, remedy_for
-from balcli.spectrum import spectra
+from balcli.sizing.sizing import Wish, fitted, remedy_for
+from balcli.sizing.auto import auto
+from balcli.forces.spectrum import spectra
 
 M, R, LAM = 1.0, 0.05, 0.25
 A2 = float(harmonics.piston([2], LAM)[0])

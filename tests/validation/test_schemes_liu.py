@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 from kit import engine_text
 
-from balcli.core import harmonics
-from balcli.engine import Engine, build
-from balcli.enginefile import parse
-from balcli.sizing import Wish, fitted, remedy_for
-from balcli.spectrum import spectra
+from balcli.core.mechanisms import harmonics
+from balcli.engine.build import Engine, build
+from balcli.engine.load import parse
+from balcli.sizing.sizing import Wish, fitted, remedy_for
+from balcli.forces.spectrum import spectra
 
 K = 4 * float(harmonics.piston([2], 0.25)[0]) * 1.0 * 0.05           # per omega^2 (kg m): A2 m r, four cylinders in a row
 EVERY_ANGLE = [0, 15, 30, 45, 59, 60, 61, 75, 90, 105, 120, 135, 150, 165, 179, 180]

@@ -11,13 +11,14 @@ import numpy as np
 import pytest
 from kit import engine_text
 
-from balcli.analysis import analyze
-from balcli.core import harmonics, slidercrank
-from balcli.engine import Engine, build
-from balcli.enginefile import parse
+from balcli.results.analysis import analyze
+from balcli.core.mechanisms import harmonics, slidercrank
+from balcli.engine.build import Engine, build
+from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.sizing import Wish, eccentric, fitted, remedy_for
-from balcli.spectrum import spectra
+from balcli.sizing.sizing import Wish, fitted, remedy_for
+from balcli.sizing import eccentric_slider as eccentric
+from balcli.forces.spectrum import spectra
 
 M, R = 1.0, 0.05
 

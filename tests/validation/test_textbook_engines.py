@@ -14,8 +14,8 @@ from typing import Any
 import pytest
 from kit import engine
 
-from balcli.core import harmonics
-from balcli.spectrum import Spectra, spectra
+from balcli.core.mechanisms import harmonics
+from balcli.forces.spectrum import Spectra, spectra
 
 RELATIVE = 1e-13
 LAM = 0.25

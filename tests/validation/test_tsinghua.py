@@ -11,7 +11,7 @@ import pytest
 import two_term
 from two_term import PSI, largest_error
 
-from balcli.core import slidercrank as sc
+from balcli.core.mechanisms import slidercrank as sc
 from balcli.tables import recompute
 
 LAM = 0.32                                              # the largest ratio of the tables

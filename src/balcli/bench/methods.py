@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core import harmonics, series
-from ..engine import Engine
-from ..spectrum import spectra
+from ..core.mechanisms import harmonics
+from ..core.mechanisms import power_series as series
+from ..engine.build import Engine
+from ..forces.spectrum import spectra
 
 Complex = NDArray[np.complex128]
 POWERS = (3, 5, 7)              # of lambda, up to which books print the series

@@ -22,10 +22,10 @@ def analyze(
     output: Output = None,
 ) -> None:
     """Free forces and moments by order, couple, inertia torque and roll, peaks, and what would balance them."""
-    from ..analysis import analyze as analyzed
     from ..render.formats import analyses
+    from ..results.analysis import analyze as analyzed
+    from .inputs import distinct, each, engine_of, tell
     from .output import emit
-    from .several import distinct, each, engine_of, tell
 
     if by not in ("", "cylinder"):
         raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")

@@ -1,8 +1,8 @@
 """`balcli balance`"""
 from __future__ import annotations
 
-from ..schemes import KNUCKLES
-from . import wishes
+from ..sizing.schemes import KNUCKLES
+from . import balance_options as wishes
 from .options import EngineFile, Format, FormatOption, Orders, Output, Speed, Units, UnitsOption, checked_speed, order_list
 
 
@@ -28,12 +28,12 @@ def balance(
     output: Output = None,
 ) -> None:
     """Size counterweights, balancer shafts or sliders, and show what is left with them."""
-    from ..balancing import balance as balanced
-    from ..enginefile import name_of, parse
+    from ..engine.load import name_of, parse
     from ..render.formats import balances
+    from ..results.balance import balance as balanced
+    from .fitted_engine import write_fitted
+    from .inputs import engine_and_text
     from .output import emit
-    from .several import engine_and_text
-    from .writing import write_fitted
 
     wish, tools = wishes.wish_of(order, at, position, planes, factor, roll), wishes.shop_tools(radius, thickness, disc, drill)
     asked = order_list(orders)

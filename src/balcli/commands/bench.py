@@ -10,7 +10,7 @@ def bench(
     output: Output = None,
 ) -> None:
     """Run time against error of every way to the same figures, on this machine; with -o X.svg also as a picture."""
-    from ..bench import bench as measured
+    from ..bench.bench import bench as measured
     from ..render import bench as rendered
     from ..render.formats import render
     from .output import emit, write

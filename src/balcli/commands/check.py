@@ -14,8 +14,8 @@ def check(
     """Recompute engines and compare with their recorded results; exit status 1 if anything moved."""
     from ..errors import Exit, legible
     from ..regression import Difference, differences, record, recorded_at
+    from .inputs import each, engine_files, engine_of, tell
     from .output import emit, made, write
-    from .several import each, engine_files, engine_of, tell
 
     def compared(file: Path) -> list[Difference]:
         _, engine = engine_of(str(file))

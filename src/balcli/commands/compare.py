@@ -15,12 +15,12 @@ def compare(
     output: Output = None,
 ) -> None:
     """Engines side by side: free forces and moments by order, peaks, and their ratios to the first engine's."""
-    from ..compare import compare as compared
-    from ..render import compare as rendered
+    from ..render import comparison as rendered
     from ..render.formats import render
     from ..render.units import SYSTEMS
+    from ..results.comparison import compare as compared
+    from .inputs import distinct, engine_of
     from .output import emit
-    from .several import distinct, engine_of
 
     rpm, asked = checked_speed(speed), order_list(orders)
     engines = [engine_of(file, rpm)[1] for file in files]

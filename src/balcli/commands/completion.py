@@ -6,14 +6,14 @@ from collections.abc import Iterable
 
 def kinds(incomplete: str) -> list[str]:
     """Of `balcli new`."""
-    from ..new import KINDS
+    from ..enginefile.templates import KINDS
 
     return _beginning(incomplete, KINDS)
 
 
 def schemes(incomplete: str) -> list[str]:
     """Of `--scheme`."""
-    from ..schemes import NAMES
+    from ..sizing.schemes import NAMES
 
     return _beginning(incomplete, NAMES)
 
@@ -27,7 +27,7 @@ def tables(incomplete: str) -> list[str]:
 
 def examples(incomplete: str) -> list[str]:
     """Of `balcli engines`."""
-    from .. import examples as shipped
+    from ..enginefile import examples as shipped
 
     return _beginning(incomplete, shipped.names())
 

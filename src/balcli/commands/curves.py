@@ -25,10 +25,10 @@ Form = Annotated[CurveFormat, typer.Option("--format", "-f", help="How to write 
 def curves(file: EngineFile, cylinder: Cylinder = None, step: Step = 1.0, speed: Speed = None,
            form: Form = CurveFormat.CSV, output: Output = None) -> None:
     """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston."""
-    from ..curves import crank_angles, cylinder_curves, engine_curves
+    from ..forces.curves import crank_angles, cylinder_curves, engine_curves
     from ..render.curves import curves_csv, curves_json
+    from .inputs import engine_of
     from .output import emit
-    from .several import engine_of
 
     angles = crank_angles(step)
     _, engine = engine_of(file, checked_speed(speed))

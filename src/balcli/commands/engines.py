@@ -16,7 +16,7 @@ def engines(
     force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
 ) -> None:
     """List the example engines that come with balcli, print one, or copy it."""
-    from .. import examples
+    from ..enginefile import examples
     from .output import emit, keep
 
     if name is None:

@@ -17,7 +17,7 @@ def new(
     force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
 ) -> None:
     """Write a commented, valid engine file to start from."""
-    from ..new import template
+    from ..enginefile.templates import template
     from .output import emit, keep
 
     text = template(kind)

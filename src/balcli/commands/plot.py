@@ -35,9 +35,9 @@ def plot(file: EngineFile, output: Picture, what: Page = What.ALL, scheme: Schem
     """Draw free forces and moments: loci over a revolution, order by order, and over the crank angle."""
     from ..render.plot.pages import Subject, form_of, picture
     from ..render.units import SYSTEMS
-    from ..studies import study
+    from ..studies.pictures import study
+    from .inputs import engine_of
     from .output import write
-    from .several import engine_of
 
     form, asked = form_of(output), order_list(orders)
     _, engine = engine_of(file, checked_speed(speed))

@@ -15,13 +15,13 @@ Page = Annotated[Path, typer.Option("--output", "-o", metavar="FILE.html", help=
 def report(file: EngineFile, output: Page, scheme: Scheme = "auto", speed: Speed = None, orders: Orders = None,
            units: UnitsOption = Units.SI) -> None:
     """Write one self-contained page: the engine in motion, what it shakes, and a balance scheme before and after."""
-    from ..analysis import analyze
-    from ..balancing import balance
+    from ..forces.spectrum import SPECTRAL
     from ..render.html import page
     from ..render.units import SYSTEMS
-    from ..spectrum import SPECTRAL
+    from ..results.analysis import analyze
+    from ..results.balance import balance
+    from .inputs import engine_of
     from .output import emit
-    from .several import engine_of
 
     asked = order_list(orders)
     _, engine = engine_of(file, checked_speed(speed))

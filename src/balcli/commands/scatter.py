@@ -32,12 +32,12 @@ def scatter(
     output: Output = None,
 ) -> None:
     """How free forces and moments spread when masses (rod lengths, throw angles) vary, and which tolerance matters most."""
-    from .. import quantity as quantities
-    from .. import scatter as scatters
-    from ..render import scatter as rendered
+    from ..forces import quantity as quantities
+    from ..render import tolerances as rendered
     from ..render.formats import render
+    from ..studies import tolerances as scatters
+    from .inputs import engine_of
     from .output import emit
-    from .several import engine_of
 
     tolerances = scatters.tolerances(mass, length, angle)
     found = scatters.scatter(engine_of(file)[0], tolerances, quantities.parse(quantity), samples, seed, distribution.value)

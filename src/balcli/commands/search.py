@@ -27,11 +27,11 @@ def search(
         "Write the engine file with the best one."))] = None,
 ) -> None:
     """The best crank, firing order, bank angle or splay; mirror images and rotations once."""
-    from .. import enginefile
-    from .. import search as searches
+    from ..engine import load as enginefile
     from ..render import search as rendered
     from ..render.formats import render
-    from ..search.write import arranged
+    from ..studies.search import search as searches
+    from ..studies.search.write import arranged
     from .output import emit
     from .output import write as write_file
 

@@ -22,11 +22,11 @@ def sum(                                                                    # no
     output: Output = None,
 ) -> None:
     """Two engines on one frame, geared one to one: H, U and opposed-piston engines."""
-    from ..combined import combine
     from ..render.formats import sums
+    from ..results.two_engines import combine
+    from .arrangement_options import arrangement
+    from .inputs import engine_of, named
     from .output import emit
-    from .places import arrangement
-    from .several import engine_of, named
 
     rpm, asked, placed = checked_speed(speed), order_list(orders), arrangement(phase, at, turn, reverse)
     engines = [named(engine_of(file, rpm)[1], file) for file in (first, second)]

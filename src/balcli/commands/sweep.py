@@ -35,9 +35,9 @@ def sweep(
     dask: Annotated[str, typer.Option("--dask", metavar="ADDRESS|local", show_default=False, help="Compute on a dask cluster.")] = "",
 ) -> None:
     """Figures of many variants of an engine: numbers of its file over ranges, as CSV, JSON or (by the name of -o) Parquet."""
-    from .. import cluster
-    from .. import sweep as sweeps
-    from .variants import heeding, interruptible, with_progress, write
+    from ..studies import dask_cluster as cluster
+    from ..studies import sweep as sweeps
+    from .sweep_output import heeding, interruptible, with_progress, write
 
     job = sweeps.ask(file, vary, quantity)
     form = "parquet" if output is not None and output.suffix == ".parquet" else format.value
@@ -48,6 +48,6 @@ def sweep(
         typer.echo(f"balcli: stopped after {stopped.at} of {job.variants} variants", err=True)
         raise typer.Exit(130)
     if plot:
-        from ..render.variants_plot import draw
+        from ..render.sweep_plot import draw
         from .output import write as write_file
         write_file(draw(job, sweeps.grid(job)), plot)

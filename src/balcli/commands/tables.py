@@ -25,7 +25,7 @@ Digits = Annotated[int | None, typer.Option(min=0, max=17, show_default=False,
 def tables(name: Name = None, errata: Errata = False, lam: Lam = None, angle: Angle = None, power: Power = None,
            digits: Digits = None, form: FormatOption = Format.TABLE, output: Output = None) -> None:
     """The printed coefficient tables of five books and papers, recomputed, and every misprint in them."""
-    from ..render import printed
+    from ..render import tables as printed
     from ..tables import select
     from .output import emit
 

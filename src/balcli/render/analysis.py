@@ -6,11 +6,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..analysis import Analysis, Sizing, Textbook, textbook
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
-from ..engine import Engine
-from ..spectrum import UNASKED, Spectra
+from ..engine.build import Engine
+from ..forces.spectrum import UNASKED, Spectra
+from ..results.analysis import Analysis, Sizing, Textbook, textbook
 from .devices import device_grid
 from .figures import Result, order_number, peak_deg, phase_deg
 from .sheet import Facts, Grid, Sheet, Text, degrees, number
@@ -40,7 +40,7 @@ def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
     if result.sizing is not None:
         parts += _sizing(result.sizing, system)
     if pictures:
-        from .sketch import sketches
+        from .terminal_plot import sketches
         parts += sketches(result, system)
     return Sheet(engine.name or "engine without a name", tuple(parts))
 

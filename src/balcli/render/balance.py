@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..balancing import Balance
 from ..core.peaks import Peak
+from ..results.balance import Balance
 from .devices import device_grid
 from .figures import order_number
 from .sheet import Facts, Grid, Sheet, Text, degrees, number

@@ -7,7 +7,7 @@ from .csv import write
 from .sheet import Grid, Sheet, number
 
 if TYPE_CHECKING:
-    from ..bench import Bench, Row
+    from ..bench.bench import Bench, Row
 
 LEAST = 1e-17                   # where a picture shows an error of 0
 

@@ -7,9 +7,9 @@ from io import StringIO
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ..analysis import Analysis
-    from ..balancing import Balance
-    from ..combined import Combined
+    from ..results.analysis import Analysis
+    from ..results.balance import Balance
+    from ..results.two_engines import Combined
     from .units import System, Unit
 
 

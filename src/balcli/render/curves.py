@@ -1,7 +1,7 @@
 """Curves over the crank angle as JSON and CSV, full precision."""
 from __future__ import annotations
 
-from ..curves import Curves
+from ..forces.curves import Curves
 from .csv import write
 from .json import dumps
 

@@ -1,7 +1,7 @@
 """Counterweights, balancer shafts and sliders in a table."""
 from __future__ import annotations
 
-from ..sizing import Remedy
+from ..sizing.sizing import Remedy
 from .sheet import Grid, degrees, number
 from .units import System
 

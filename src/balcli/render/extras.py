@@ -9,12 +9,12 @@ import numpy as np
 from .figures import Row, clean, order_number, order_rows, peak_rows, scalar, vector
 
 if TYPE_CHECKING:
-    from ..analysis import Analysis
     from ..core.phasors import Phasors
-    from ..core.travel import Travel
-    from ..guide import Guide
-    from ..inner import Along, Inner
-    from ..why import Why
+    from ..core.strokes import Travel
+    from ..forces.crankshaft import Along, Inner
+    from ..forces.guide_moments import Guide
+    from ..forces.symmetry import Why
+    from ..results.analysis import Analysis
     from .sheet import Facts, Grid
     from .units import System, Unit
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.peaks import Peak
 from ..core.phasors import Phasors
-from ..spectrum import Spectra
+from ..forces.spectrum import Spectra
 from .units import System, Unit
 
 KEYS = {"force": "force_N", "moment": "moment_Nm", "couple": "couple_Nm", "torque": "inertia_torque_Nm", "roll": "roll_Nm"}

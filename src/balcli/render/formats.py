@@ -6,9 +6,9 @@ from enum import StrEnum
 from typing import TYPE_CHECKING, Any, assert_never
 
 if TYPE_CHECKING:
-    from ..analysis import Analysis
-    from ..balancing import Balance
-    from ..combined import Combined
+    from ..results.analysis import Analysis
+    from ..results.balance import Balance
+    from ..results.two_engines import Combined
     from .sheet import Sheet
     from .units import System
 
@@ -93,7 +93,8 @@ def balances(result: Balance, form: Format, units: Units, *, into_file: bool = F
 
 def sums(result: Combined, form: Format, units: Units, *, into_file: bool = False) -> str:
     """Two engines on one frame."""
-    from . import combined, csv
+    from . import csv
+    from . import two_engines as combined
 
     system = _system(units)
     return render(form, sheets=lambda: [combined.sheet(result, system)], documents=lambda: [combined.document(result)],

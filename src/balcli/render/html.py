@@ -5,11 +5,11 @@ from pathlib import Path
 from typing import Any
 
 from .. import __version__
-from ..analysis import Analysis
-from ..balancing import Balance
+from ..results.analysis import Analysis
+from ..results.balance import Balance
 from . import analysis, balance
+from .page_scene import scene
 from .plot.pages import Subject, panel
-from .scene import scene
 from .sheet import Facts, Grid, Sheet, Text
 from .units import System
 

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 from .figures import clean, entries, order_number, peaks
 
 if TYPE_CHECKING:
-    from ..analysis import Analysis
-    from ..balancing import Balance
-    from ..sizing import Practical, Remedy
-    from ..spectrum import Spectra
+    from ..forces.spectrum import Spectra
+    from ..results.analysis import Analysis
+    from ..results.balance import Balance
+    from ..sizing.sizing import Practical, Remedy
 
 
 def dumps(document: Any) -> str:

@@ -7,7 +7,7 @@ from .csv import write
 from .sheet import Grid, Sheet, number
 
 if TYPE_CHECKING:
-    from ..search import Found, Search
+    from ..studies.search.search import Found, Search
 
 
 def document(result: Search) -> dict[str, Any]:

@@ -6,7 +6,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from ..core.phasors import Phasors
-from ..spectrum import Spectra
+from ..forces.spectrum import Spectra
 from .sheet import degrees, number
 from .units import System, Unit
 

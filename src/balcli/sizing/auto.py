@@ -1,12 +1,12 @@
 """The default remedy: the fewest weights and shafts that leave no free force or moment of orders 1 and 2."""
 from __future__ import annotations
 
-from ..engine import Engine
+from ..engine.build import Engine
 from . import planes
+from .effects import Rest, Slot
 from .fitting import BACKWARD, FORWARD, Fitting
+from .options import Wish
 from .remedy import Remedy
-from .solver import Rest, Slot
-from .wish import Wish
 
 _SHAFTS = ((1, -1), (2, 1), (2, -1))        # order and sense
 

@@ -6,11 +6,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
-from ..core.inertia import Device
-from ..engine import Engine
-from ..model import Counterweight, Shaft, Slider
+from ..core.loads import Device
+from ..engine.build import Engine
+from ..enginefile.model import Counterweight, Shaft, Slider
+from .effects import Part, Rest, Slot, exactly, rest, steady
 from .remedy import Remedy, fitted
-from .solver import Part, Rest, Slot, exactly, rest, steady
 
 FORWARD = (Part("force", 1), Part("moment", 1))
 BACKWARD = (Part("force", -1), Part("moment", -1))

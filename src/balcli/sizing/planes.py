@@ -5,8 +5,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..engine import Engine
-from .solver import Part, Rest
+from ..engine.build import Engine
+from .effects import Part, Rest
 
 
 def ends(engine: Engine) -> tuple[float, float]:

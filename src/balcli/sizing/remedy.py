@@ -8,11 +8,11 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from ..core.inertia import Device
+from ..core.loads import Device
 from ..core.phasors import EPS, reduced
-from ..devices import devices
-from ..engine import Engine
-from ..model import Counterweight, Shaft, Slider
+from ..engine.build import Engine
+from ..engine.devices import devices
+from ..enginefile.model import Counterweight, Shaft, Slider
 
 
 class Remedy(NamedTuple):

@@ -6,14 +6,14 @@ import math
 from typing import Any
 
 from ..core.phasors import reduced
-from ..engine import Engine
+from ..engine.build import Engine
 from ..errors import BalcliError
 from . import planes
 from .auto import why_shaft, why_weights
+from .effects import Part, Rest, Slot, solve
 from .fitting import BACKWARD, FORWARD, SAME_PLACE, Fitting
+from .options import NoNeedError, Wish, chosen
 from .remedy import Remedy, degrees
-from .solver import Part, Rest, Slot, solve
-from .wish import NoNeedError, Wish, chosen
 
 ROLL = Part("roll", 0)
 

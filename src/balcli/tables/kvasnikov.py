@@ -9,8 +9,9 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..core import harmonics, series
-from ..core.slidercrank import Real
+from ..core.mechanisms import harmonics
+from ..core.mechanisms import power_series as series
+from ..core.mechanisms.slidercrank import Real
 from .options import Options
 from .printed import Print, cells
 from .ranges import values

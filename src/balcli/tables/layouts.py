@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..examples import folder
+from ..enginefile.examples import folder
 from .options import Options
 from .printed import Print
 from .table import Row, Table
 
 if TYPE_CHECKING:
-    from ..engine import Engine
-    from ..model import EngineFile
+    from ..engine.build import Engine
+    from ..enginefile.model import EngineFile
 
 ORDERS = (1, 2, 4, 6)
 
@@ -30,10 +30,10 @@ def textbook(printed: Print, options: Options) -> Table:
 
 
 def _row(name: str) -> Row:
-    from ..core import harmonics
-    from ..engine import build
-    from ..enginefile import parse
-    from ..spectrum import spectra
+    from ..core.mechanisms import harmonics
+    from ..engine.build import build
+    from ..engine.load import parse
+    from ..forces.spectrum import spectra
     file = parse((folder() / f"{name}.toml").read_text(encoding="utf-8"), name)
     engine = build(_bare(file))
     found = dict(spectra(engine, ORDERS, ("force", "moment")).items())

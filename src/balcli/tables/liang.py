@@ -11,7 +11,7 @@ from .printed import Print
 from .table import Cell, Explanation, Row, Table
 
 if TYPE_CHECKING:
-    from ..engine import Engine
+    from ..engine.build import Engine
 
 POUND, FOOT, GRAVITY = 0.45359237, 0.3048, 9.80665          # kg, m (international, 1959), m/s^2 (standard)
 POUND_FORCE = POUND * GRAVITY
@@ -61,7 +61,7 @@ def _first() -> Row:
 
 def _acceleration(omega: float | None = None) -> float:
     """At top dead centre, ft/s^2."""
-    from ..curves import cylinder_curves
+    from ..forces.curves import cylinder_curves
     engine = _engine(FIRST)
     greatest = float(cylinder_curves(engine, 1, np.zeros(1)).values["acceleration_m_per_s2"][0]) / FOOT
     return greatest if omega is None else greatest * (omega / engine.omega) ** 2
@@ -69,8 +69,8 @@ def _acceleration(omega: float | None = None) -> float:
 
 def _second(gravity: float = GRAVITY) -> Row:
     """Section 1-4: hk, q^2, their difference, peak of beta''/p, residual couple in ft lb (all at 90 degrees)."""
-    from ..core.slidercrank import rod_acceleration
-    from ..curves import engine_curves
+    from ..core.mechanisms.slidercrank import rod_acceleration
+    from ..forces.curves import engine_curves
     engine = _engine(SECOND)
     lam, c = float(engine.cylinders.lam[0]), engine.cylinders
     hk = 1 / 3 * 2 / 3
@@ -88,8 +88,8 @@ def _third() -> Row:
 
 
 def _engine(text: str) -> Engine:
-    from ..engine import build
-    from ..enginefile import parse
+    from ..engine.build import build
+    from ..engine.load import parse
     return build(parse(text, "example"))
 
 

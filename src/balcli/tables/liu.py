@@ -12,8 +12,8 @@ from typing import TypeAlias
 
 import numpy as np
 
+from ..core.mechanisms.slidercrank import Real
 from ..core.phasors import unit
-from ..core.slidercrank import Real
 from .options import Options
 from .printed import Print, cells
 from .ranges import values

@@ -4,8 +4,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from ..enginefile.fields import nearest
 from ..errors import BalcliError
-from ..fields import nearest
 from . import kvasnikov, layouts, liang, liu, series, tsinghua, wang
 from .options import Options
 from .printed import Print, load

@@ -4,7 +4,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
-from ..core import series
+from ..core.mechanisms import power_series as series
 from .options import Options
 from .printed import Print
 from .table import Row, Table, Words

@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..core import slidercrank as sc
+from ..core.mechanisms import slidercrank as sc
 from .options import Options
 from .printed import Print, cells
 from .ranges import values

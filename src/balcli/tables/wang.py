@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.slidercrank import Real
+from ..core.mechanisms.slidercrank import Real
 from .options import Options
 from .printed import Print, cells
 from .table import Explanation, Row, Table

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...analysis import Analysis
 from ...core.phasors import Phasors
 from ...errors import BalcliError
-from ...inner import Inner
-from ...studies import Banks
+from ...forces.crankshaft import Inner
+from ...results.analysis import Analysis
+from ...studies.pictures import Banks
 from ..units import SI, System, Unit
 from . import draw, studied
 from .style import FORMS, Form, figure, inline, plain, saved

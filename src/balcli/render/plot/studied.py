@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...core.phasors import Phasors
-from ...inner import Along
-from ...studies import Banks
+from ...forces.crankshaft import Along
+from ...studies.pictures import Banks
 from ..units import Unit
 from .draw import FINE, LOOKS, legend_above, plane, scale
 from .style import BLUE, INK, RED, SOFT

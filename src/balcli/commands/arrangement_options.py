@@ -1,0 +1,33 @@
+"""Where the second engine of `balcli sum` stands."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..errors import BalcliError
+from .options import numbers
+
+if TYPE_CHECKING:
+    from ..results.two_engines import Arrangement
+
+MOST = 1e6                      # degrees; metres
+
+
+def arrangement(phase: float, at: str, turn: float, reverse: bool) -> Arrangement:
+    """From the options' text and numbers.
+
+    Raises:
+        BalcliError: a place that is not three numbers, or anything infinite.
+    """
+    from ..results.two_engines import Arrangement
+
+    for option, value in (("--phase", phase), ("--turn", turn)):
+        if not abs(value) <= MOST:
+            raise BalcliError(f"{option} {value:g}: give an angle in degrees, up to {MOST:g}")
+    return Arrangement(phase, _place(at), turn, reverse)
+
+
+def _place(text: str) -> tuple[float, float, float]:
+    x, y, z = (v / 1e3 for v in numbers("--at", text, "three numbers, X,Y,Z in mm, such as 0,300,0", 3))
+    if max(map(abs, (x, y, z))) > MOST:
+        raise BalcliError(f'--at "{text[:60]}": the places may be up to {MOST:g} m')
+    return x, y, z

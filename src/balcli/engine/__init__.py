@@ -1,0 +1,1 @@
+"""An engine file in, an `Engine` out: SI arrays, one row a cylinder."""

@@ -1,0 +1,74 @@
+"""Pictures of characters for a terminal of 80 columns: orders as bars, loci in Braille dots."""
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import zip_longest
+
+import numpy as np
+
+from ..core.phasors import Complex, Phasors
+from ..results.analysis import Analysis
+from .figures import order_number
+from .sheet import Text, number
+from .units import System, Unit
+
+BAR, SIDE = 52, 17              # columns of the longest bar; rows of a locus, which has twice as many columns
+SHARE = 1e-3                    # orders below this share of the largest are left out, but for 1 and 2
+# Bits of the dots in a Braille character, by row and column (Unicode 17.0, chapter 21.1).
+_DOTS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
+
+
+def sketches(result: Analysis, system: System) -> Iterator[Text]:
+    """Bars and loci of the force and the moment that were computed."""
+    spectra = result.spectra
+    both = (("force", spectra.force, system.force), ("moment", spectra.moment, system.moment))
+    shown = [(q, p, unit) for q, p, unit in both if p is not None]
+    for quantity, phasors, unit in shown:
+        yield Text(f"Free {quantity} by order, {unit.name} (█ with the crank, ▒ against it)", tuple(bars(phasors, unit)))
+    if shown:
+        blocks = [[f"{quantity}, {_size(p, unit)}".ljust(2 * SIDE), *locus(p)] for quantity, p, unit in shown]
+        yield Text("Over a revolution: x up, y right, + at crank angle 0",
+                   tuple("   ".join(row).rstrip() for row in zip_longest(*blocks, fillvalue="")))
+
+
+def bars(phasors: Phasors, unit: Unit) -> Iterator[str]:
+    """A line an order: its largest value, as the sum of the two vectors that turn with and against the crank."""
+    largest = phasors.major.max(initial=0)
+    for k, order in enumerate(phasors.orders):
+        if order <= 2 or phasors.major[k] > SHARE * largest:
+            ahead, whole = (round(BAR * float(v) / largest) if largest else 0 for v in (abs(phasors.forward[k]), phasors.major[k]))
+            bar = "█" * ahead + "▒" * (whole - ahead) or ("▏" if phasors.major[k] else "")
+            yield " ".join(filter(None, (f"{order_number(order):>4}", bar, number(unit.of(float(phasors.major[k])), 4))))
+
+
+def locus(phasors: Phasors) -> list[str]:
+    """The way of the vector's tip in a square of SIDE rows with its axes; all dots are equally far apart."""
+    curve = phasors.values(np.radians(np.arange(0, 360, 0.25)))
+    largest = np.abs(curve).max()
+    dots, grid = 4 * SIDE, np.zeros((SIDE, 2 * SIDE), int)
+    middle = dots // 2
+    for k in range(0, dots, 4):
+        _dot(grid, k, middle)
+        _dot(grid, middle, k)
+    for row, column in sorted({_place(v, middle) for v in curve / (largest or 1)}):
+        _dot(grid, row, column)
+    lines = [[chr(0x2800 + bits) if bits else " " for bits in row] for row in grid]
+    if largest:
+        row, column = _place(complex(curve[0] / largest), middle)
+        lines[row // 4][column // 2] = "+"
+    return ["".join(line) for line in lines]
+
+
+def _place(v: complex, middle: int) -> tuple[int, int]:
+    """Row and column of the dot for a vector of at most 1."""
+    return round(middle - (middle - 1) * v.real), round(middle + (middle - 1) * v.imag)
+
+
+def _dot(grid: np.ndarray, row: int, column: int) -> None:
+    grid[row // 4, column // 2] |= _DOTS[row % 4][column % 2]
+
+
+def _size(phasors: Phasors, unit: Unit) -> str:
+    curve: Complex = phasors.values(np.radians(np.arange(0, 360, 0.25)))
+    largest = float(np.abs(curve).max())
+    return f"up to {number(unit.of(largest), 4)} {unit.name}" if largest else "none"

@@ -1,0 +1,1 @@
+"""An `Engine` and a question in, one complete frozen answer out."""

@@ -1,0 +1,1 @@
+"""An engine file and what varies in, figures of many variants out."""

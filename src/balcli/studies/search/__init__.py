@@ -1,0 +1,1 @@
+"""An engine file and what may change in, the best arrangements out."""

@@ -1,0 +1,73 @@
+"""What makes an arrangement good: a weighted sum of quantities, and limits that must be kept."""
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import BalcliError
+from ...forces.quantity import Quantity, parse
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Objective:
+    """Weights by quantity, and upper limits by quantity."""
+
+    weights: dict[Quantity, float]
+    limits: dict[Quantity, float]
+
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        return tuple(dict.fromkeys((*self.weights, *self.limits)))
+
+    def of(self, value: Callable[[Quantity], Any]) -> Array:
+        """The weighted sum, infinite where a limit is broken; `value` gives a quantity for all candidates."""
+        total = np.asarray(sum(weight * value(q) for q, weight in self.weights.items()), float)
+        for q, limit in self.limits.items():
+            total = np.where(value(q) < limit, total, np.inf)
+        return total
+
+
+def objective(minimise: str, limits: Sequence[str] = ()) -> Objective:
+    """`moment.1.major,force.2.major=0.5` and limits such as `moment.2.major<100` (N, N m).
+
+    Raises:
+        BalcliError: what is no quantity, weight or limit.
+    """
+    weights: dict[Quantity, float] = {}
+    for term in minimise.split(","):
+        name, _, weight = term.partition("=")
+        weights |= dict.fromkeys(_quantity(name), _positive(weight, term) if weight else 1.0)
+    bounds: dict[Quantity, float] = {}
+    for text in limits:
+        name, less, bound = text.partition("<")
+        if not less:
+            raise BalcliError(f'--limit "{text}": give a quantity and what it must stay below, such as "moment.2.major<100"')
+        bounds |= dict.fromkeys(_quantity(name), _positive(bound, text))
+    return Objective(weights, bounds)
+
+
+def _quantity(name: str) -> tuple[Quantity, ...]:
+    found = parse(name)
+    for q in found:
+        if q.part == "axis":
+            raise BalcliError(f"{q.name} is a direction, which cannot be large or small; name a size such as {q.kind}.{q.order}.major")
+        if q.signed:
+            raise BalcliError(f"{q.name} may be negative, and then would be the better the larger it is; "
+                              f"name a size such as {q.kind}.{q.order}.major")
+    return found
+
+
+def _positive(text: str, whole: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = float("nan")
+    if not 0 < number < float("inf"):
+        raise BalcliError(f'"{whole}": {text.strip() or "nothing"} is no positive number')
+    return number
