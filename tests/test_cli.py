@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 import typer
-from kit import GOOD, changed
+from support.engines import GOOD, changed
 
 from balcli import __version__
 from balcli.cli import COMMANDS

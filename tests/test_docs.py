@@ -4,9 +4,9 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-import guide
+import docs_examples as guide
 import pytest
-import reference
+import engine_file_reference as reference
 
 from balcli.cli import COMMANDS
 
@@ -20,7 +20,7 @@ def test_everything_shown_is_what_is_printed(document: Path, tmp_path: Path) -> 
         (folder / name).write_text(content, encoding="utf-8")
     wrong = [f"$ {one.command}\n" + "\n".join(found) for one in guide.shown(text)
              if not guide.agrees(one.expected, found := guide.printed(one, folder))]
-    assert not wrong, f"{document.name} shows something else (python tests/guide.py {document.name} renews it):\n" + "\n\n".join(wrong)
+    assert not wrong, f"{document.name} shows something else (python tools/docs_examples.py {document.name} renews it):\n" + "\n\n".join(wrong)
 
 
 def test_comparison_sees_a_changed_figure_and_passes_over_what_is_left_out() -> None:
@@ -57,7 +57,7 @@ def anchors(document: Path) -> set[str]:
 
 
 def test_engine_file_reference_is_up_to_date() -> None:
-    assert reference.DOCUMENT.read_text(encoding="utf-8") == reference.document(), "python tests/reference.py writes it anew"
+    assert reference.DOCUMENT.read_text(encoding="utf-8") == reference.document(), "python tools/engine_file_reference.py writes it anew"
 
 
 def test_every_json_format_is_described() -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from kit import GOOD, changed
+from support.engines import GOOD, changed
 
 from balcli.results.analysis import analyze
 from balcli.engine.build import build

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from kit import engine_text
+from support.engines import engine_text
 
 from balcli.core import enclosing_circle as circle
 from balcli.core.phasors import Phasors

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import momentum
+from oracle import momentum
 import numpy as np
 import pytest
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 import mpmath as mp
 import numpy as np
 import pytest
-import two_term
+from support import two_term
 
 from balcli.core.mechanisms import slidercrank as sc
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from kit import engine
+from support.engines import engine
 
 from balcli.results.analysis import analyze
 from balcli.core.mechanisms import harmonics

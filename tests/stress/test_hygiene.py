@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from kit import engine
+from support.engines import engine
 
 from balcli.core.mechanisms.harmonics import EPS
 from balcli.engine.build import Engine
@@ -62,9 +62,9 @@ def alone_each(whole: Engine) -> list:
 
 LARGEST = """
 import resource
-from kit import engine
+from support.engines import engine
 from balcli.core.peaks import peak
-from balcli.spectrum import relevant_orders, spectra
+from balcli.forces.spectrum import relevant_orders, spectra
 whole = engine(crank={"stroke": 100, "throws": [7.3 * k % 360 for k in range(512)], "spacing": 1}, rod={"ratio": 1 - 1e-6})
 orders = relevant_orders(whole)
 found = spectra(whole, orders, ["force", "moment"])

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
-from kit import engine_text
+from support.engines import engine_text
 
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 import pytest
-from kit import engine_text
+from support.engines import engine_text
 
 from balcli.core.mechanisms import harmonics
 from balcli.engine.build import Engine, build

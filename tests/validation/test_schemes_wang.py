@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 import pytest
-from kit import engine_text
+from support.engines import engine_text
 
 from balcli.results.analysis import analyze
 from balcli.core.mechanisms import harmonics, slidercrank

@@ -12,7 +12,7 @@ from math import cos, pi, radians, sin, sqrt
 from typing import Any
 
 import pytest
-from kit import engine
+from support.engines import engine
 
 from balcli.core.mechanisms import harmonics
 from balcli.forces.spectrum import Spectra, spectra

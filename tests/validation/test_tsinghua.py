@@ -8,8 +8,8 @@ from math import acos, degrees, pi, radians, sqrt
 
 import numpy as np
 import pytest
-import two_term
-from two_term import PSI, largest_error
+from support import two_term
+from support.two_term import PSI, largest_error
 
 from balcli.core.mechanisms import slidercrank as sc
 from balcli.tables import recompute

@@ -8,8 +8,8 @@ from math import cos, radians, sin, sqrt
 
 import numpy as np
 import pytest
-import two_term
-from two_term import largest_error
+from support import two_term
+from support.two_term import largest_error
 
 from balcli.tables import recompute
 

@@ -1,0 +1,109 @@
+"""sweep, search, scatter, compare and bench as commands."""
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from support.engines import GOOD
+
+
+@pytest.fixture
+def engine(tmp_path: Path) -> str:
+    path = tmp_path / "four.toml"
+    path.write_text(GOOD)
+    return str(path)
+
+
+def run(*argv: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-m", "balcli", *argv], capture_output=True, text=True, timeout=120, check=False)
+
+
+SWEEP = ("--vary", "rod.ratio=0.2,0.3", "--quantity", "force.2.major")
+
+
+def test_sweep_writes_what_it_prints(engine: str, tmp_path: Path) -> None:
+    target = tmp_path / "x.csv"
+    printed, written = run("sweep", engine, *SWEEP), run("sweep", engine, *SWEEP, "-o", str(target), "--progress")
+    assert (printed.returncode, written.returncode, written.stdout, written.stderr) == (0, 0, "", "")
+    assert printed.stdout == target.read_text()
+    assert printed.stdout.startswith("rod.ratio,force.2.major\n0.2,")
+
+
+def test_a_refused_sweep_leaves_the_older_file(engine: str, tmp_path: Path) -> None:
+    target = tmp_path / "x.csv"
+    target.write_text("old\n")
+    done = run("sweep", engine, "--vary", "crank.stroke=80:400:10", "--quantity", "force.2.major", "-o", str(target))
+    assert done.returncode == 2
+    assert "the crank cannot turn" in done.stderr
+    assert target.read_text() == "old\n"
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["four.toml", "x.csv"]
+
+
+def test_a_variant_that_cannot_be_is_told_before_anything_is_written(tmp_path: Path) -> None:
+    """One between the corners of the grid: the ripple's angle."""
+    file = tmp_path / "rip.toml"
+    file.write_text("[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n[operation]\nspeed_ripple = ["
+                    "{ order = 1, amplitude = 0.6 }, { order = 2, amplitude = 0.5 }]\n")
+    done = run("sweep", str(file), "--vary", "operation.speed_ripple.2.angle=0:360:30", "--quantity", "force.1.major")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(f"balcli: {file}: operation.speed_ripple: the crank would turn back: at crank angle ")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+def test_ctrl_c_leaves_a_valid_part(engine: str, tmp_path: Path) -> None:
+    target = tmp_path / "x.json"
+    process = subprocess.Popen([sys.executable, "-m", "balcli", "sweep", engine, "--vary", "rod.ratio=0.2:0.3:0.00001", "--vary",
+                                "crank.stroke=80:90:0.001", "-q", "force.2.major", "-f", "json", "-o", str(target)],
+                               stderr=subprocess.PIPE, text=True)
+    time.sleep(2)
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 130
+    rows = json.loads(target.read_text())["rows"]
+    assert errors == f"balcli: stopped after {len(rows)} of 100020001 variants\n"
+    assert len(rows) > 0
+
+
+def test_parquet_and_pictures(engine: str, tmp_path: Path) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    target, picture = tmp_path / "x.parquet", tmp_path / "x.svg"
+    done = run("sweep", engine, *SWEEP, "--vary", "crank.stroke=80,90,100", "-o", str(target), "--plot", str(picture))
+    assert (done.returncode, done.stderr) == (0, "")
+    table = parquet.read_table(target)
+    assert table.column_names == ["rod.ratio", "crank.stroke", "force.2.major"]
+    assert table["rod.ratio"].to_pylist() == [0.2] * 3 + [0.3] * 3
+    assert picture.read_text().lstrip().startswith("<?xml")
+
+
+def test_search_writes_the_best(engine: str, tmp_path: Path) -> None:
+    target = tmp_path / "best.toml"
+    done = run("search", engine, "--over", "throws", "--minimise", "moment.1.major", "-f", "json", "--write", str(target))
+    assert (done.returncode, done.stderr) == (0, "")
+    document = json.loads(done.stdout)
+    assert document["format"] == "balcli.search/1"
+    assert document["results"][0]["throws"] == [0, 180, 180, 0]
+    assert document["results"][0]["objective"] == 0
+    assert run("analyze", str(target)).returncode == 0
+
+
+def test_scatter_as_json_and_table(engine: str) -> None:
+    options = ("scatter", engine, "--mass-scatter", "1%", "--samples", "1000", "--seed", "1", "-q", "force.1.major")
+    document = json.loads(run(*options, "-f", "json").stdout)
+    assert document["format"] == "balcli.scatter/1"
+    assert document["samples"] == 1000
+    figures = document["quantities"]["force.1.major"]
+    assert 0 < figures["p05"] < figures["p50"] < figures["p95"] < figures["max"] < figures["bound"]
+    assert "Spread of 1000 engines" in run(*options).stdout
+
+
+def test_compare_in_every_format(engine: str) -> None:
+    document = json.loads(run("compare", engine, engine, "--orders", "2", "--only", "force", "-f", "json").stdout)
+    (figure,) = document["figures"]
+    assert (figure["quantity"], figure["order"], figure["ratios"]) == ("force_N", 2, [1.0, 1.0])
+    for form, said in (("table", "Free force, N: largest by order"), ("csv", "quantity,order,unit,"), ("markdown", "| order 2 |")):
+        assert said in run("compare", engine, engine, "-f", form).stdout

@@ -1,0 +1,227 @@
+"""Where results go: never onto what is read, through links and into pipes, whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+from support.engines import GOOD
+
+ROOT = Path(__file__).parents[2]
+unix = pytest.mark.skipif(sys.platform == "win32", reason="needs links, pipes and signals")
+
+
+@pytest.fixture
+def balcli(balcli):
+    """Runs a command in this process, with an engine file as standard input."""
+    return lambda *args: balcli(*args, stdin=GOOD)
+
+
+@pytest.fixture
+def good(tmp_path, monkeypatch):
+    """A folder with good.toml, other.toml and a symbolic and a hard link to the first, in which commands run."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("good.toml", "other.toml"):
+        Path(name).write_text(GOOD)
+    if sys.platform != "win32":
+        Path("link.toml").symlink_to("good.toml")
+        os.link("good.toml", "hard.toml")
+    return Path("good.toml")
+
+
+def contents() -> dict[str, str]:
+    return {path.name: path.read_text() for path in Path().iterdir() if path.is_file()}
+
+
+def started(*args: str, **more) -> subprocess.Popen:
+    return subprocess.Popen(
+        [sys.executable, "-m", "balcli", *args], env={**os.environ, "PYTHONPATH": str(ROOT / "src")}, stderr=subprocess.PIPE, **more
+    )
+
+
+COMMANDS = [
+    ["analyze"],
+    ["analyze", "other.toml"],
+    ["balance"],
+    ["balance", "-o", "x", "--write"],
+    ["sum", "other.toml"],
+    ["compare", "other.toml"],
+    ["curves", "--step", "90"],
+    ["report"],
+    ["sweep", "--vary", "crank.stroke=80,90"],
+    ["scatter", "--samples", "9"],
+    ["search", "--over", "throws", "--minimise", "moment.1.major"],
+    ["search", "--over", "throws", "--minimise", "moment.1.major", "--write"],
+    ["sweep", "--vary", "crank.stroke=80,90", "--plot"],
+    ["plot"],
+]
+
+
+# ------------------------------------------------------------------ onto what is read
+@unix
+@pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
+@pytest.mark.parametrize("target", ["good.toml", "./good.toml", "link.toml", "hard.toml"])
+def test_never_onto_the_engine_file(balcli, good, command, target):
+    before, option = contents(), command[-1] if command[-1].startswith("--") else "--output"
+    name, *rest = command if command[-1] != option else command[:-1]
+    status, out, err = balcli(name, good, *rest, option, target)
+    assert (status, out) == (2, "")
+    assert err == f"balcli: {option} {Path(target)}: this is the engine file itself, which stays as it is; choose another name\n"
+    assert contents() == before
+
+
+@pytest.mark.parametrize("before", [{}, {"x.toml": "old"}], ids=["new", "there"])
+def test_two_results_never_go_to_one_place(balcli, good, before):
+    for name, text in before.items():
+        Path(name).write_text(text)
+    assert balcli("balance", good, "-o", "x.toml", "--write", "./x.toml") == (
+        2,
+        "",
+        "balcli: --write x.toml: another result goes there, too; choose another name\n",
+    )
+    assert {name: text for name, text in contents().items() if name == "x.toml"} == before
+
+
+# ------------------------------------------------------------------ links, folders, pipes
+@unix
+@pytest.mark.parametrize("there", [True, False], ids=["there", "dangling"])
+def test_through_a_link_to_what_it_points_to(balcli, good, there):
+    Path("inner").mkdir()
+    if there:
+        Path("inner/real.txt").write_text("old")
+    Path("out.txt").symlink_to("inner/real.txt")
+    assert balcli("analyze", good, "-o", "out.txt") == (0, "", "")
+    assert Path("out.txt").is_symlink()
+    assert Path("inner/real.txt").read_text().startswith("in-line four")
+    assert os.listdir("inner") == ["real.txt"]
+
+
+@unix
+def test_a_link_to_itself_is_refused(balcli, good):
+    Path("loop").symlink_to("loop")
+    assert balcli("analyze", good, "-o", "loop") == (2, "", "balcli: loop: cannot be written (a symbolic link that leads to itself)\n")
+    assert Path("loop").is_symlink()
+
+
+@unix
+def test_a_pipe_is_written_to_and_stays_a_pipe(balcli, good):
+    """As /dev/null must, which whoever may do everything could replace by a file."""
+    os.mkfifo("pipe")
+    read: list[str] = []
+    reader = threading.Thread(target=lambda: read.append(Path("pipe").read_text()))
+    reader.start()
+    assert balcli("analyze", good, "-o", "pipe") == (0, "", "")
+    reader.join(10)
+    assert read[0].startswith("in-line four")
+    assert Path("pipe").is_fifo()
+
+
+@pytest.mark.parametrize(
+    ("target", "reason"), [("x" * 300, "File name too long"), ("good.toml/x", "Not a directory"), ("none/x", "No such file or directory")]
+)
+def test_places_that_cannot_be(balcli, good, target, reason):
+    for command in (["analyze", good, "-o"], ["balance", good, "--write"], ["new", "single"], ["engines", "i4"]):
+        assert balcli(*command, target) == (2, "", f"balcli: {target}: cannot be written ({reason})\n")
+
+
+@pytest.mark.parametrize("path", ["x" * 300, "x" * 300 + "/y"])
+def test_paths_too_long_to_be_read(balcli, path):
+    assert balcli("analyze", path)[0] == balcli("check", path)[0] == balcli("compare", path)[0] == 2
+
+
+def test_new_leaves_even_a_dangling_link_alone(balcli, good):
+    Path("new.toml").symlink_to("nowhere.toml")
+    for command in (["new", "single"], ["engines", "i4"]):
+        assert balcli(*command, "new.toml")[0] == 2
+        assert balcli(*command, good)[0] == 2
+    assert not Path("nowhere.toml").exists()
+    assert good.read_text() == GOOD
+
+
+def test_a_folder_for_records_that_cannot_be_made(balcli, good):
+    Path("expected").write_text("a file")
+    assert balcli("check", good, "--update") == (2, "0 engines recorded\n", "balcli: expected: cannot be made (File exists)\n")
+    assert Path("expected").read_text() == "a file"
+
+
+# ------------------------------------------------------------------ no room, no right
+def _partly(self: Path, data: bytes) -> int:
+    with self.open("wb") as stream:
+        stream.write(data[:100])
+    raise OSError(28, "No space left on device")
+
+
+@pytest.mark.parametrize("command", [["analyze", "-o"], ["balance", "--write"], ["curves", "-o"], ["report", "-o"]], ids=" ".join)
+def test_a_disk_that_fills_up_midway(balcli, good, monkeypatch, command):
+    Path("out.x").write_text("old")
+    before = contents()
+    monkeypatch.setattr(Path, "write_bytes", _partly)
+    name, option = command
+    status, out, err = balcli(name, good, option, "out.x")
+    assert (status, out, err) == (2, "", "balcli: out.x: cannot be written (No space left on device)\n")
+    assert contents() == before
+
+
+def test_a_disk_that_fills_up_during_a_sweep(balcli, good, monkeypatch):
+    Path("out.csv").write_text("old")
+    before = contents()
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("balcli.commands.sweep_output._copy", full)
+    assert balcli("sweep", good, "--vary", "crank.stroke=80,90", "-o", "out.csv") == (
+        2,
+        "",
+        "balcli: out.csv: cannot be written (No space left on device)\n",
+    )
+    assert contents() == before
+
+
+def test_a_folder_in_which_nothing_may_be_made(balcli, good, monkeypatch):
+    def forbidden(*_: object, **__: object) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    Path("out.txt").write_text("old")
+    before = contents()
+    monkeypatch.setattr("tempfile.mkstemp", forbidden)
+    assert balcli("analyze", good, "-o", "out.txt") == (2, "", "balcli: out.txt: cannot be written (Permission denied)\n")
+    assert contents() == before
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+@pytest.mark.parametrize(
+    "command", [["analyze"], ["analyze", "--format", "json"], ["sweep", "--vary", "crank.stroke=1:90:0.01"], ["curves"]], ids=" ".join
+)
+def test_standard_output_that_is_full(good, command):
+    name, *rest = command
+    with Path("/dev/full").open("wb") as full:
+        running = started(name, str(good), *rest, stdout=full)
+        err = running.communicate(timeout=30)[1].decode()
+    assert (running.returncode, err) == (2, "balcli: standard output: cannot be written (No space left on device)\n")
+
+
+@unix
+def test_a_reader_who_leaves_early_ends_a_sweep_quietly(good):
+    reading, writing = os.pipe()
+    os.close(reading)
+    running = started("sweep", str(good), "--vary", "crank.stroke=1:90:0.001", stdout=writing)
+    os.close(writing)
+    assert (running.communicate(timeout=60)[1], running.returncode) == (b"", 0)
+
+
+@unix
+def test_an_interrupt_is_no_traceback():
+    """It waits for the rest of its standard input: more than a pipe holds has been read."""
+    running = started("analyze", "-", stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    assert running.stdin is not None
+    running.stdin.write(b"#\n" * 200_000)
+    running.stdin.flush()
+    running.send_signal(signal.SIGINT)
+    out, err = running.communicate(timeout=30)
+    assert (running.returncode, out, err.strip()) == (130, b"", b"")

@@ -1,0 +1,331 @@
+"""Reading engine files: every mistake at once, by its path, in words; nothing that a file holds can do harm."""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+import sys
+from contextlib import suppress
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from support.engines import GOOD, changed
+
+from balcli.engine.load import LARGEST, parse, read
+from balcli.errors import BalcliError, InputError
+
+LENGTH = 'a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"'
+ANGLE = 'an angle is wanted: a bare number in deg, or "30 deg" or "1.2 rad" or "1/7 turn"'
+MASS = 'a mass is wanted: a bare number in kg, or "650 g" or "0.8 lb"'
+WHOLE = "a whole number from 1 to 10000 is wanted"
+
+
+def refusal(text: str | bytes) -> str:
+    with pytest.raises(InputError) as caught:
+        parse(text, "e.toml")
+    return str(caught.value).removeprefix("e.toml: ")
+
+
+def test_a_good_file(tmp_path):
+    path = tmp_path / "good.toml"
+    path.write_text(GOOD)
+    assert (
+        read(path) == read(str(path)) == parse(GOOD) == parse(GOOD.encode()) == parse("\ufeff".encode() + GOOD.encode())
+    )
+    assert read(path).crank.throws == (0.0, 180.0, 180.0, 0.0)
+
+
+def test_standard_input(monkeypatch):
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(GOOD.encode())))
+    assert read("-") == parse(GOOD)
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(b"[crank")))
+    with pytest.raises(InputError, match=r"^standard input: is not valid TOML"):
+        read("-")
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (changed(("stroke = 90", "stroke = -90")), f"crank.stroke: -90 is not above 0; {LENGTH}, above 0"),
+        (changed(("stroke = 90", "stroke = 1e-300")), f"crank.stroke: 1e-300 is too small; {LENGTH}, at least 1e-12"),
+        (changed(("stroke = 90", "stroke = 1e300")), f"crank.stroke: 1e+300 is more than 1e+09; {LENGTH}, up to 1e+09"),
+        (changed(("cg = 45", "cg = -1e300")), f"rod.cg: -1e+300 is less than -1e+09; {LENGTH}, -1e+09 or more"),
+        (changed(("stroke = 90", "stroke = nan")), f"crank.stroke: nan is no finite number; {LENGTH}"),
+        (changed(("stroke = 90", "stroke = true")), f"crank.stroke: true is not a number; {LENGTH}"),
+        (changed(("stroke = 90", "stroke = [90]")), f"crank.stroke: [90] is not a number; {LENGTH}"),
+        (
+            changed(("stroke = 90", 'stroke = "long"')),
+            f'crank.stroke: "long" is not a number followed by a unit; {LENGTH}',
+        ),
+        (changed(("stroke = 90", 'stroke = "90 kg"')), f'crank.stroke: "90 kg" is a mass, but {LENGTH}'),
+        (
+            changed(("stroke = 90", "stroke = 1" + "0" * 400)),
+            f"crank.stroke: an integer of about 401 digits is too large a number; {LENGTH}",
+        ),
+        (changed(("stroke = 90\n", "")), "crank.stroke: is missing; give it, such as stroke = 90"),
+        (changed(("stroke = 90", "strok = 90")), "crank.strok: is no key of [crank]; did you mean stroke?"),
+        (
+            changed(("stroke = 90", "stroke = 90\nbore = 86")),
+            "crank.bore: is no key of [crank]; bore belongs to [piston]",
+        ),
+        (
+            changed(("stroke = 90", "stroke = 90\nratios = 1")),
+            "crank.ratios: is no key of [crank]; did you mean ratio of [rod]?",
+        ),
+        (
+            changed(("stroke = 90", "stroke = 90\nxyz = 1")),
+            "crank.xyz: is no key of [crank]; it has stroke, throws, spacing, positions, throw_mass, splay",
+        ),
+        (
+            changed(("[piston]", "[pistons]\nmass = 0.5\n[piston]")),
+            "pistons: is no key of an engine file; did you mean piston?",
+        ),
+        ("stroke = 90\n" + GOOD, "stroke: is no key of an engine file; stroke belongs to [crank]"),
+        (
+            changed(("[0, 180, 180, 0]", "180")),
+            "crank.throws: 180 is not a list; write it in square brackets, such as [0, 180]",
+        ),
+        (
+            changed(("[0, 180, 180, 0]", '[0, "half", 180, 0]')),
+            f'crank.throws: the 2nd value "half" is not a number followed by a unit; {ANGLE}',
+        ),
+        (
+            changed(("[0, 180, 180, 0]", "[]")),
+            "crank.throws: is an empty list; give at least one value, or leave the key out",
+        ),
+        (changed(("[0, 180, 180, 0]", str([0] * 10_001))), "crank.throws: has more than 10000 values"),
+        (
+            changed(("[layout]", "[layout]\nnumbering = [[1, 2], [3, 4.5]]")),
+            f"layout.numbering.2: the 2nd value 4.5 is not a whole number; {WHOLE}",
+        ),
+        (changed(("[layout]", "[layout]\nstrokes = 3")), "layout.strokes: 3 is not 2 or 4"),
+        (changed(("[layout]", "[layout]\nstrokes = true")), "layout.strokes: true is not 2 or 4"),
+        (
+            changed(("[layout]", '[layout]\nrods = "alternate"')),
+            'layout.rods: "alternate" is not "shared" or "alternating"; did you mean alternating?',
+        ),
+        (changed(("[layout]", "[layout]\nradial = 0")), f"layout.radial: 0 is out of range; {WHOLE}"),
+        (changed(('"in-line four"', "4")), "name: 4 is not text; write it in quotes"),
+        (
+            "rod = 5\n[crank]\nstroke = 90\n[piston]\nmass = 1\n",
+            "rod: 5 stands where a table belongs; write [rod] and its keys below it",
+        ),
+        (
+            changed(("speed = 3000", "speed_ripple = [{ order = 1.5, amplitude = 0.01 }]")),
+            "operation.speed_ripple.1.order: 1.5 is not a whole number; a whole number from 1 to 256 is wanted",
+        ),
+        (
+            changed(("speed = 3000", "speed_ripple = [{ order = 1, amplitude = 2 }]")),
+            "operation.speed_ripple.1.amplitude: 2 is more than 1; a plain number is wanted, without quotes, up to 1",
+        ),
+        (
+            changed(("speed = 3000", "speed_ripple = [3]")),
+            "operation.speed_ripple: the 1st value 3 is not a table; write it in braces with its keys",
+        ),
+        (
+            changed(("speed = 3000", "speed_ripple = [{ order = 1, amplitud = 0.1 }]")),
+            "operation.speed_ripple.1.amplitud: is no key of [operation]; did you mean amplitude?",
+        ),
+        (GOOD + "[frame]\nreference = [0, 0]\n", "frame.reference: [0, 0] has 2 values where 3 are wanted"),
+        (
+            GOOD + "[shaft]\nratio = 1\n",
+            "shaft: is one of several; write [[shaft]] in double brackets, once for each shaft",
+        ),
+        (GOOD + "[[shaft]]\nratio = 1\nunbalance = 1\nat = [80]\n", "shaft.1.at: [80] has 1 value where 2 are wanted"),
+        (GOOD + "[[slider]]\nunbalance = 1\ndirection = 0\n", "slider.1.order: is missing; give it, such as order = 2"),
+        (GOOD + "[frame]\nreference = [1, inf, 0]\n", f"frame.reference: the 2nd value inf is no finite number; {LENGTH}"),
+        (
+            changed(("firing_order = [1, 3, 4, 2]", "radial = 3"), more="[articulation]\nknuckle_radius = 50\n"),
+            "articulation.rod: is missing; give it, such as rod = { length = 200 }",
+        ),
+        (
+            GOOD + "[articulation]\nknuckle_radius = 50\nrod = { mass = 1 }\n",
+            "articulation.rod.length: is missing; give it, such as length = 200",
+        ),
+        (
+            GOOD + "[cylinder.x]\npiston_mass = 1\n",
+            "cylinder.x: does not name a cylinder; write [cylinder.3] for what differs in cylinder 3",
+        ),
+        (
+            GOOD + "[cylinder]\n3 = 5\n",
+            "cylinder.3: 5 stands where a table belongs; write [cylinder.3] and its keys below it",
+        ),
+        (
+            GOOD + "[cylinder.2]\npiston_mas = 1\n",
+            "cylinder.2.piston_mas: is no key of [cylinder]; did you mean piston_mass?",
+        ),
+    ],
+)
+def test_one_mistake(text, message):
+    assert refusal(text) == message
+
+
+def test_all_mistakes_at_once():
+    text = changed(
+        ("stroke = 90", "stroke = -90"),
+        ("mass = 0.6", 'mass = "heavy"'),
+        ("bore = 86", "bor = 86"),
+        ("length = 160", "length = 160\nratio = 0.3"),
+        more="[[shaft]]\nunbalance = 1\n",
+    )
+    assert (
+        refusal(text)
+        == f"""5 mistakes
+  piston.bor: is no key of [piston]; did you mean bore?
+  crank.stroke: -90 is not above 0; {LENGTH}, above 0
+  rod: has length and ratio; give either length or ratio
+  rod.mass: "heavy" is not a number followed by a unit; {MASS}
+  shaft.1.ratio: is missing; give it, such as ratio = -2"""
+    )
+
+
+def test_missing_tables_come_with_an_example():
+    assert (
+        refusal("")
+        == """3 mistakes
+  crank: is missing; an engine needs it, such as "[crank]" and "stroke = 90" below it
+  rod: is missing; an engine needs it, such as "[rod]" and "length = 160" below it
+  piston: is missing; an engine needs it, such as "[piston]" and "mass = 0.5" below it"""
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            "name = 'x'\n[crank]\nstroke = 90\nthrows = [0, 180\n[rod]\n",
+            "is not valid TOML: Unclosed array (at line 5, column 1)",
+        ),
+        ("[crank]\nstroke = 90\nstroke = 91\n", "is not valid TOML: Cannot overwrite a value (at line 3, column 12)"),
+        (GOOD.encode() + b"# \xff\n", f"is not UTF-8 text (line {GOOD.count(chr(10)) + 1}); save it as UTF-8"),
+        (b"\0" * 9, "is not valid TOML: Invalid statement (at line 1, column 1)"),
+        (
+            "x = " + "[" * 100_000 + "]" * 100_000,
+            "lists or tables are nested too deeply; an engine file needs no more than four levels",
+        ),
+        (
+            "a." * 100_000 + "b = 1",
+            "lists or tables are nested too deeply; an engine file needs no more than four levels",
+        ),
+        (
+            "[" + '"a" . ' * 100_000 + "b]",
+            "lists or tables are nested too deeply; an engine file needs no more than four levels",
+        ),
+        (
+            "[crank]\nstroke = " + "9" * 5000,
+            (
+                "a number cannot be read: Exceeds the limit (4300 digits) for integer string "
+                "conversion: value has 5000 digits"
+            ),
+        ),
+        ("#" * (LARGEST + 1), "has more than 6 MB; no engine file needs that"),
+    ],
+    ids=[
+        "syntax",
+        "key twice",
+        "not UTF-8",
+        "zero bytes",
+        "deep lists",
+        "deep keys",
+        "deep headers",
+        "digits",
+        "too large",
+    ],
+)
+def test_broken_files(text, message):
+    assert refusal(text) == message
+
+
+def test_a_flood_of_mistakes_stays_readable():
+    flood = "".join(f"unknown_key_number_{k} = {k}\n" for k in range(50_000))
+    lines = refusal(changed(("[layout]", "[layout]\n" + flood))).splitlines()
+    assert lines[0] == "50000 mistakes"
+    assert lines[-1] == "  and 49980 more"
+    assert len(lines) == 22
+    assert max(map(len, lines)) < 300
+
+
+def test_huge_values_are_not_repeated_whole():
+    long = changed(("stroke = 90", f'stroke = "{"x" * 100_000}"'))
+    assert refusal(long) == f'crank.stroke: "{"x" * 60}..." is not a number followed by a unit; {LENGTH}'
+    assert len(refusal(changed(("[layout]", f"[layout]\n{'k' * 100_000} = 1")))) < 300
+
+
+def test_messages_carry_no_control_characters():
+    text = changed(("stroke = 90", '"st\\u001b[31mroke" = "9\\n0"\nstroke = "\\u001b]0;x"'))
+    assert (
+        refusal(text)
+        == f"""2 mistakes
+  crank.st?[31mroke: is no key of [crank]; did you mean stroke?
+  crank.stroke: "?]0;x" is not a number followed by a unit; {LENGTH}"""
+    )
+
+
+def test_more_devices_than_an_engine_can_have():
+    text = GOOD + "[[shaft]]\nratio = 1\nunbalance = 1\n" * 1001
+    assert refusal(text) == "shaft: stands 1001 times; no engine has more than 1000"
+
+
+def test_enormous_lists_are_refused_whole():
+    """One by one, their mistakes would take gigabytes."""
+    flood = changed(("[0, 180, 180, 0]", "[" + "[]," * 40_000 + "]"))
+    assert refusal(flood) == "crank.throws: holds 40001 values; no engine needs more than 20000"
+    nested = changed(("[layout]", "[layout]\nnumbering = [" + f"[{'1,' * 300}]," * 300 + "]"))
+    assert refusal(nested) == "layout.numbering: holds 90301 values; no engine needs more than 20000"
+
+
+def test_what_cannot_be_read(tmp_path):
+    missing, folder = tmp_path / "none.toml", tmp_path
+    for path, message in (
+        (missing, f"{missing}: no such file"),
+        (folder, f"{folder}: is a folder; name an engine file in it"),
+        ("a\0b", "'a\\x00b': cannot be read (embedded null byte)"),
+    ):
+        with pytest.raises(BalcliError) as caught:
+            read(path)
+        assert str(caught.value) == message
+
+
+VALUES = st.recursive(
+    st.integers() | st.floats() | st.booleans() | st.text("ab 0.5/mminkg^", max_size=8),
+    lambda inner: st.lists(inner, max_size=3),
+)
+KEYS = ("stroke", "throws", "spacing", "length", "mass", "bore", "firing_order", "speed")
+
+
+@given(st.sampled_from(KEYS), VALUES)
+def test_any_value_is_accepted_or_refused_by_its_key(key, value):
+    text = re.sub(
+        rf"^{key} = .*$",
+        f"{key} = {json.dumps(value).replace('Infinity', 'inf').replace('NaN', 'nan')}",
+        GOOD,
+        flags=re.MULTILINE,
+    )
+    with suppress(InputError):
+        parse(text)
+        return
+    assert key in refusal(text)
+
+
+@pytest.mark.parametrize("lost", [("stroke = 90", "stroke = -90"), ("firing_order = [1, 3, 4, 2]", "firing_order = 5")])
+def test_a_table_that_cannot_be_read_does_not_hide_what_others_say(lost):
+    stopping = ("speed = 3000", "speed = 3000\nspeed_ripple = [{order = 1, amplitude = 0.7}, {order = 3, amplitude = 0.7}]")
+    with pytest.raises(InputError) as caught:
+        parse(changed(lost, stopping, ("cg = 45", "cg = 450")))
+    assert [problem.path for problem in caught.value.problems][1:] == ["rod.cg", "operation.speed_ripple"]
+
+
+def test_a_rod_by_its_ratio_has_no_length_without_a_crank():
+    assert refusal(changed(("stroke = 90", "stroke = -90"), ("length = 160", "ratio = 0.28"), ("cg = 45", "cg = 450"))).count("\n") == 0
+
+
+def test_one_of_something_is_not_several():
+    text = changed(("throws = [0, 180, 180, 0]\nspacing = 100", "throws = [0]\npositions = [0, 1]"), ("firing_order = [1, 3, 4, 2]", ""))
+    assert refusal(text) == "crank: positions has 2 places for 1 throw; give one for each throw"
+
+
+def test_without_its_layout_nothing_is_said_of_a_cranks_throws():
+    text = changed(("throws = [0, 180, 180, 0]\nspacing = 100", "positions = [0, 100, 200, 300]"), ("[1, 3, 4, 2]", "5"))
+    assert refusal(text) == "layout.firing_order: 5 is not a list; write it in square brackets, such as [0, 180]"

@@ -1,0 +1,227 @@
+"""The tables of an engine file: values in the file's units, contradictions refused."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from support.engines import GOOD, changed
+from pydantic import ValidationError
+
+from balcli.enginefile import model
+from balcli.engine.load import parse
+from balcli.errors import InputError
+
+
+def refusal(text: str) -> str:
+    with pytest.raises(InputError) as caught:
+        parse(text, "e.toml")
+    return str(caught.value)
+
+
+def test_defaults():
+    engine = parse("[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n")
+    assert engine.operation.speed == 1000.0
+    assert engine.crank.throws is engine.crank.positions is engine.crank.spacing is None
+    assert (engine.crank.throw_mass, engine.crank.splay, engine.piston.offset, engine.layout.stagger) == (0.0,) * 4
+    assert (engine.layout.rods, engine.layout.strokes) == ("shared", 4)
+    assert engine.frame.reference is engine.bobweight is engine.articulation is None
+    assert (engine.cylinder, engine.counterweight, engine.shaft, engine.slider) == ({}, (), (), ())
+
+
+def test_values_are_numbers_in_the_files_units():
+    engine = parse(
+        changed(
+            ("stroke = 90", 'stroke = "3.5 in"'),
+            ("[0, 180, 180, 0]", '[0, "1/2 turn", "180 deg", 0]'),
+            ("mass = 0.6", 'mass = "600 g"'),
+            ("speed = 3000", 'speed = "50 turn/s"'),
+        )
+    )
+    assert engine.crank.stroke == 88.9
+    assert engine.crank.throws == (0.0, 180.0, 180.0, 0.0)
+    assert engine.rod.mass == 0.6
+    assert engine.operation.speed == 3000.0
+    assert all(type(angle) is float for angle in engine.crank.throws)
+
+
+def test_devices_and_cylinders():
+    engine = parse(
+        GOOD
+        + """
+[cylinder.3]
+piston_mass = 0.502
+rod_pendulum = { pivot = "big_end", period = 0.6 }
+[[counterweight]]
+mass = 0.5
+radius = "40 mm"
+[[shaft]]
+ratio = -2.0
+unbalance = "0.009 kg m"
+at = [-40, "60 mm"]
+[[shaft]]
+ratio = 1
+unbalance = -3
+[[slider]]
+order = 2
+unbalance = 9000
+direction = 90
+"""
+    )
+    assert engine.cylinder[3].piston_mass == 0.502
+    assert engine.cylinder[3].rod_pendulum == model.Pendulum(pivot="big_end", period=0.6)
+    assert (engine.counterweight[0].mass, engine.counterweight[0].radius) == (0.5, 40.0)
+    assert (engine.shaft[0].ratio, type(engine.shaft[0].ratio)) == (-2, int)
+    assert (engine.shaft[0].unbalance, engine.shaft[0].at) == (9000.0, (-40.0, 60.0))
+    assert (engine.shaft[1].unbalance, engine.shaft[1].at) == (-3.0, (0.0, 0.0))
+    assert engine.slider[0].direction == 90.0
+
+
+def test_articulation():
+    engine = parse(
+        changed(
+            ("throws = [0, 180, 180, 0]", "throws = [0]"),
+            ("firing_order = [1, 3, 4, 2]", "radial = 5"),
+            more="""
+[articulation]
+knuckle_radius = 40
+rod = { length = 120, mass = 0.4, cg = 60 }
+""",
+        )
+    )
+    assert engine.articulation is not None
+    assert (engine.articulation.master, engine.articulation.knuckle_angles) == (1, None)
+    assert engine.articulation.rod == model.ArticulatedRod(length=120, mass=0.4, cg=60)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        changed(("stroke = 90", "stroke = 0.005"), ("length = 160", "length = 0.01"), ("mass = 0.5", "mass = 1e-9")),
+        changed(("stroke = 90", "stroke = 1e6"), ("length = 160", "length = 2e6"), ("mass = 0.5", "mass = 1e9")),
+        changed(("speed = 3000", "speed = 1e-3")),
+        changed(("speed = 3000", "speed = 1e6")),
+        changed(("mass = 0.5", "mass = 0")),
+        changed(("cg = 45", "cg = -5")),
+        changed(("cg = 45\n", "")),
+        changed(("mass = 0.6\ncg = 45", "small_end = 0.2\nbig_end = 0.4")),
+    ],
+    ids=[
+        "tiny",
+        "huge",
+        "slow",
+        "fast",
+        "no piston mass",
+        "cg beyond the crank pin",
+        "mass alone",
+        "weighed at its ends",
+    ],
+)
+def test_unusual_but_allowed(text):
+    assert parse(text).name == "in-line four"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            changed(("length = 160", "length = 160\nratio = 0.28")),
+            "e.toml: rod: has length and ratio; give either length or ratio",
+        ),
+        (changed(("length = 160", "")), "e.toml: rod: has neither length nor ratio; give either length or ratio"),
+        (
+            changed(("cg = 45", "cg = 45\nsmall_end = 0.2")),
+            "e.toml: rod: has mass, cg and small_end; give either mass and cg or small_end and big_end",
+        ),
+        (
+            changed(("mass = 0.6\ncg = 45", "small_end = 0.2")),
+            "e.toml: rod: has small_end without big_end; weigh the rod at both ends, or give mass and cg",
+        ),
+        (
+            changed(("cg = 45", 'cg = 45\ninertia = 9\npendulum = { pivot = "small_end", period = 1 }')),
+            "e.toml: rod: has inertia and pendulum; give either inertia or pendulum",
+        ),
+        (
+            changed(("cg = 45", 'cg = 45\npendulum = { pivot = "middle", period = 1 }')),
+            'e.toml: rod.pendulum.pivot: "middle" is not "small_end" or "big_end"',
+        ),
+        (
+            changed(("spacing = 100", "spacing = 100\npositions = [0, 1, 2, 3]")),
+            "e.toml: crank: has spacing and positions; give either spacing or positions",
+        ),
+        (
+            changed(("spacing = 100", "positions = [0, 1, 2]")),
+            "e.toml: crank: positions has 3 places for 4 throws; give one for each throw",
+        ),
+        (
+            changed(("[layout]", "[layout]\nbank_angle = 90\nradial = 5")),
+            "e.toml: layout: has bank_angle and radial; give either bank_angle or banks or radial",
+        ),
+        (
+            changed(("[1, 3, 4, 2]", "[1, 3, 3, 2]")),
+            "e.toml: layout: firing_order has cylinder 3 more than once; name every cylinder once",
+        ),
+        (
+            changed(("[layout]", "[layout]\nnumbering = [[1, 2], [2, 1]]")),
+            "e.toml: layout: numbering has cylinder 1 and 2 more than once; name every cylinder once",
+        ),
+        (
+            changed(("[1, 3, 4, 2]", "[1, 3, 4, 2]\nfiring_intervals = [180, 180, 180]")),
+            (
+                "e.toml: layout: firing_intervals has 3 intervals for 4 firings; give one for each, the last "
+                "one back to the first cylinder"
+            ),
+        ),
+        (
+            changed(("[1, 3, 4, 2]", "[1, 3, 4, 2]\nfiring_intervals = [180, 180, 180, 160]")),
+            "e.toml: layout: firing_intervals add up to 700 degrees; the cycle of a 4-stroke has 720 (within 0.5)",
+        ),
+        (
+            changed(("firing_order = [1, 3, 4, 2]", "firing_intervals = [180, 180, 180, 180]")),
+            "e.toml: layout: firing_intervals is given without firing_order; give both, or neither",
+        ),
+        (
+            GOOD + "[[counterweight]]\nangle = 180\n",
+            (
+                "e.toml: counterweight.1: has neither unbalance nor mass and radius; give either unbalance or "
+                "mass and radius"
+            ),
+        ),
+        (
+            GOOD + "[[counterweight]]\nunbalance = 1\n[[counterweight]]\nmass = 1\n",
+            "e.toml: counterweight.2: has mass without radius; give either unbalance or mass and radius",
+        ),
+        (
+            GOOD + "[[shaft]]\nunbalance = 1\nratio = 0\n",
+            "e.toml: shaft.1.ratio: 0 is out of range; a whole number from -1000 to 1000, not 0, is wanted",
+        ),
+        (
+            GOOD + "[[shaft]]\nunbalance = 1\nratio = 1.5\n",
+            "e.toml: shaft.1.ratio: 1.5 is not a whole number; a whole number from -1000 to 1000, not 0, is wanted",
+        ),
+    ],
+)
+def test_contradictions(text, message):
+    assert refusal(text) == message
+
+
+def test_a_pendulum_is_never_quicker_than_a_point_mass():
+    """J_g = m (g h T^2 / 4 pi^2 - h^2) is positive just above the period of a point mass at h, here 160 - 45 mm."""
+    shortest = 2 * math.pi * math.sqrt(0.115 / 9.80665)
+    text = 'cg = 45\npendulum = {{ pivot = "small_end", period = {!r} }}'
+    parse(changed(("cg = 45", text.format(shortest * 1.000001))))
+    assert refusal(changed(("cg = 45", text.format(0.1)))) == (
+        "e.toml: rod: pendulum.period 0.1 s is too quick: with the centre of mass 115 mm from the pivot a full swing "
+        f"takes more than {shortest:.4g} s"
+    )
+    ends = changed(
+        ("mass = 0.6\ncg = 45", 'small_end = 0.2\nbig_end = 0.6\npendulum = { pivot = "big_end", period = 0.1 }')
+    )
+    assert "with the centre of mass 40 mm from the pivot" in refusal(ends)  # 160 * 0.2 / 0.8
+
+
+def test_models_check_without_a_file_too():
+    with pytest.raises(ValidationError, match="has length and ratio; give either length or ratio"):
+        model.Rod(length=160, ratio=0.28)
+    with pytest.raises(ValidationError, match="frozen"):
+        parse(GOOD).crank.stroke = 80.0

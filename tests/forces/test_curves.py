@@ -1,0 +1,164 @@
+"""Curves by direct evaluation: equal to the sum of all orders, and to what the mechanism must do."""
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from balcli.forces.curves import crank_angles, cylinder_curves, engine_curves
+from balcli.engine.build import build
+from balcli.engine.load import parse
+from balcli.errors import BalcliError
+from balcli.render.json import orders
+from balcli.forces.spectrum import relevant_orders, spectra
+
+ENGINES = Path(__file__).parents[2] / "engines"
+RELATIVE = 1e-12                # of the largest parts that are added up
+
+UNEVEN = """
+crank = { stroke = 86, throws = [0, 180, 180, 0], spacing = 93, throw_mass = 0.8 }
+rod = { length = 143, mass = 0.6, cg = 40, inertia = 2500 }
+piston = { mass = 0.45, offset = 1.2 }
+operation = { speed = 3000, speed_ripple = [{ order = 2, amplitude = 0.02, angle = 40 }] }
+frame = { reference = [30, -20, 55] }
+counterweight = [{ unbalance = 9000, angle = 170, position = -60 }]
+shaft = [{ ratio = -2, unbalance = 700, angle = 20, at = [-40, 60], position = 10 }]
+slider = [{ order = 2, unbalance = 300, direction = 30, angle = 10, at = [5, 9], position = 20 }]
+"""
+
+
+ARTICULATED = UNEVEN.replace("piston =", """layout = { banks = [0, 75, -80] }
+articulation = { knuckle_radius = 35, rod = { length = 105, mass = 0.4, cg = 50, inertia = 900 } }
+piston =""")
+ROTARY = UNEVEN.replace("piston =", "layout = { banks = [0, 100, -80], rotary = true }\npiston =")
+HUNG = ARTICULATED.replace("80] }", "80], rotary = true }")
+TEXTS = {"uneven": UNEVEN, "articulated": ARTICULATED, "rotary": ROTARY, "rotary with a master rod": HUNG}
+
+
+def engine(name):
+    text = TEXTS[name] if name in TEXTS else (ENGINES / f"{name}.toml").read_text(encoding="utf-8")
+    return build(parse(text, name))
+
+
+def summed(subject, crank_deg):
+    found = spectra(subject, relevant_orders(subject))
+    theta = np.radians(crank_deg)
+    force, moment = found.force.values(theta), found.moment.values(theta)
+    return {
+        "force_x_N": force.real, "force_y_N": force.imag, "moment_x_Nm": moment.real, "moment_y_Nm": moment.imag,
+        "couple_Nm": found.couple.values(theta).real, "inertia_torque_Nm": found.torque.values(theta).real,
+        "roll_Nm": found.roll.values(theta).real,
+    }
+
+
+def scale(subject):
+    """Size of what is added up: force of one cylinder times their number; times a length for moments."""
+    c = subject.cylinders
+    moving = c.reciprocating + c.rotating + (0 if c.linkage is None else c.linkage.mass / c.lam)
+    force = c.count * float(subject.omega) ** 2 * float(np.max(c.radius)) * float(np.max(moving))
+    arms = float(np.ptp(c.z)) + float(np.max(np.abs(subject.reference_m))) + float(np.max(c.radius))
+    return {True: force, False: force * arms}
+
+
+@pytest.mark.parametrize("name", ["single", "i3", "i4_shafts", "v6_90_split", "v8_crossplane", "vr6", "boxer6",
+                                  "radial7", "single_shaft", *TEXTS])
+def test_direct_evaluation_is_the_sum_of_all_orders(name):
+    subject, angles = engine(name), crank_angles(7.5)
+    direct, orders = engine_curves(subject, angles).values, summed(engine(name), angles)
+    assert set(direct) == set(orders)
+    for quantity, curve in direct.items():
+        assert np.abs(curve - orders[quantity]).max() <= RELATIVE * scale(subject)[quantity.endswith("_N")], quantity
+
+
+def test_force_of_a_single_at_top_dead_centre():
+    """F = m_rec r omega^2 (1 + lambda) + m_rot r omega^2."""
+    subject = engine("single")
+    c = subject.cylinders
+    m, rot, r, lam = (float(np.ravel(x)[0]) for x in (c.reciprocating, c.rotating, c.radius, c.lam))
+    expected = subject.omega**2 * r * (m * (1 + lam) + rot)
+    expected += sum((d.forward + d.backward).real * d.order**2 * subject.omega**2 for d in subject.devices)
+    assert engine_curves(subject, np.zeros(1)).values["force_x_N"][0] == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize("name", ["single", "i4", "v6_60", "v12_60", "boxer6", "radial7"])
+def test_what_is_zero_is_exactly_zero(name):
+    """No rounding noise and no negative zeros beside real figures, which may be as small as 1e-9 of their parts."""
+    subject = engine(name)
+    curves = engine_curves(subject, crank_angles(15)).values
+    for quantity, curve in curves.items():
+        small = np.abs(curve) <= 1e-13 * scale(subject)[quantity.endswith("_N")]
+        assert not curve[small].any(), quantity
+        assert not np.signbit(curve[small]).any(), quantity
+    if name == "v12_60":
+        assert 0 < curves["force_x_N"][3] < 1e-4
+
+
+def test_a_piston_stands_still_at_its_dead_centres():
+    found = cylinder_curves(engine("single"), 1, np.array([0.0, 180.0])).values
+    assert found["velocity_m_per_s"].tolist() == found["rod_angle_deg"].tolist() == [0, 0]
+
+
+def test_a_mean_under_uneven_speed_keeps_its_sign_where_the_documents_say():
+    """Order 0 is the mean over the crank angle: in `forward` with signs, in the amplitudes of x and y without them."""
+    subject, angles = engine("uneven"), crank_angles(0.5)
+    (order,) = orders(spectra(subject, [0]))
+    mean = {name: float(curve.mean()) for name, curve in engine_curves(subject, angles).values.items()}
+    force, couple = order["force_N"], order["couple_Nm"]
+    assert force["forward"] == pytest.approx([mean["force_x_N"], mean["force_y_N"]], rel=1e-9)
+    assert [force[axis] for axis in "xy"] == [{"amplitude": abs(v), "phase_deg": None} for v in force["forward"]]
+    assert (force["backward"], force["axis_deg"], couple["peak_deg"], couple["sin"]) == ([0, 0], None, None, 0)
+    assert couple["cos"] == pytest.approx(mean["couple_Nm"], rel=1e-9)
+    assert couple["amplitude"] == abs(couple["cos"])
+
+
+def test_piston_motion_is_consistent_with_its_derivatives():
+    """Travel from top dead centre over a stroke; velocity and acceleration as its derivatives (central differences)."""
+    subject, h = engine("i4"), 1e-3
+    angles = crank_angles(30)
+    mid, before, after = (cylinder_curves(subject, 1, angles + d).values for d in (0, -h, h))
+    dt = np.radians(h) / subject.omega
+    stroke = 2 * float(np.ravel(subject.cylinders.radius)[0])
+    assert mid["travel_m"][0] == 0
+    assert mid["travel_m"][6] == pytest.approx(stroke, rel=1e-15)
+    speed = subject.omega * stroke
+    slope = {name: (after[name] - before[name]) / (2 * dt) for name in mid}
+    assert mid["velocity_m_per_s"] == pytest.approx(slope["travel_m"], abs=1e-8 * speed)
+    assert mid["acceleration_m_per_s2"] == pytest.approx(slope["velocity_m_per_s"], abs=1e-8 * speed * subject.omega)
+
+
+def test_cylinders_follow_their_cranks():
+    """Throws at 0, 90, 270, 180 degrees: cylinder 4 is at its top half a turn from cylinder 1."""
+    subject = engine("i4_crossplane")
+    lowest = {n: int(cylinder_curves(subject, n, crank_angles()).values["travel_m"].argmin()) for n in (1, 4)}
+    assert lowest[1] == 0
+    assert lowest[4] == 180
+
+
+def test_crank_angles():
+    assert crank_angles().tolist() == list(range(360))
+    assert crank_angles(0.1).size == 3600
+    assert crank_angles(7)[-1] == 357
+    with pytest.raises(BalcliError, match=r"--step 0: give a step of the crank angle from 0.001 to 360 degrees"):
+        crank_angles(0)
+
+
+def test_an_unknown_cylinder():
+    with pytest.raises(BalcliError, match=r"--cylinder 9: in-line four, 2 litres has the cylinders 1, 2, 3, 4"):
+        cylinder_curves(engine("i4"), 9, crank_angles(90))
+
+
+@pytest.mark.parametrize("name", ["articulated", "rotary"])
+def test_other_mechanisms_by_differences(name):
+    """Velocity and acceleration are the slopes of the travel, which is 0 at the top and nowhere less."""
+    text = TEXTS[name].replace(", speed_ripple = [{ order = 2, amplitude = 0.02, angle = 40 }]", "")
+    subject, fine = build(parse(text)), crank_angles(0.05)
+    omega, step = float(subject.omega), np.radians(0.05)
+    for number in (1, 6):
+        curve = cylinder_curves(subject, number, fine).values
+        travel = curve["travel_m"]
+        assert 0 <= travel.min() < 1e-7
+        slope = (np.roll(travel, -1) - np.roll(travel, 1)) / (2 * step) * omega
+        bend = (np.roll(travel, -1) - 2 * travel + np.roll(travel, 1)) / step**2 * omega**2
+        assert np.abs(slope - curve["velocity_m_per_s"]).max() < 1e-6 * np.abs(slope).max()
+        assert np.abs(bend - curve["acceleration_m_per_s2"]).max() < 1e-5 * np.abs(bend).max()

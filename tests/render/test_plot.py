@@ -1,0 +1,148 @@
+"""Pictures: every page of every form, the same bytes each time, names that look like markup, and values where they belong."""
+from __future__ import annotations
+
+import subprocess
+import sys
+import warnings
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support.engines import GOOD, changed
+
+from balcli.results.analysis import analyze
+from balcli.commands.plot import What
+from balcli.engine.build import build
+from balcli.engine.load import parse
+from balcli.errors import BalcliError
+from balcli.render.plot import draw, style
+from balcli.render.plot.pages import PAGES, Subject, form_of, picture
+from balcli.render.units import IMPERIAL, SI
+
+HOSTILE = '$x_{1}$ </text><script>alert(1)</script> 发动机 №5 & "q" \u0001 _'
+ANALYSES = [what for what in PAGES if what not in ("factor", "bank", "inner")]
+MAGIC = {"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF"}
+
+
+def engine(text: str = GOOD):
+    return build(parse(text))
+
+
+@pytest.fixture(scope="module")
+def four():
+    return analyze(engine())
+
+
+@pytest.mark.parametrize("what", ANALYSES)
+def test_every_page_in_every_form(what, four):
+    for form in style.FORMS:
+        assert picture(Subject(four), what, form).startswith(MAGIC[form])
+
+
+@pytest.mark.parametrize("what", ANALYSES)
+def test_before_and_after(what, four):
+    compared = ET.fromstring(picture(Subject(four.sizing.after, four), what, "svg"))
+    assert ("before" in " ".join(compared.itertext())) == (what != "orders")
+
+
+@pytest.mark.parametrize("form", style.FORMS)
+def test_the_same_picture_is_the_same_bytes(form, four):
+    assert len({picture(Subject(four), "all", form) for _ in range(4)}) == 1
+
+
+@pytest.mark.parametrize("form", style.FORMS)
+def test_a_hostile_name_stays_text_and_warns_of_nothing(form, four):
+    subject = Subject(replace(four, engine=replace(four.engine, name=HOSTILE)))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        data = picture(subject, "polar", form)
+    if form == "svg":
+        root = ET.fromstring(data)
+        assert not [e for e in root.iter() if e.tag.endswith("script")]
+        assert style.plain(HOSTILE) + ", 3000 rpm" in [e.text for e in root.iter() if e.tag.endswith("text")]
+
+
+def test_names_are_cut_to_a_title():
+    assert style.plain("a\nb\x00c  d") == "a b c d"
+    assert style.plain("x" * 500) == "x" * 89 + "…"
+
+
+def test_nothing_global_is_left_changed():
+    import matplotlib
+
+    before = dict(matplotlib.rcParams)
+    with style.figure(2, 2, "png") as figure:
+        figure.subplots()
+    assert dict(matplotlib.rcParams) == before
+
+
+def test_matplotlib_is_imported_for_pictures_only():
+    code = ("import sys\nimport balcli.render.plot.pages\nfrom balcli.render.plot import style\nassert 'matplotlib' not in sys.modules\n"
+            "with style.figure(2, 2, 'png') as f: f.subplots(); style.saved(f, 'png')\nassert 'matplotlib.pyplot' not in sys.modules")
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_the_command_offers_every_page():
+    assert list(What) == list(PAGES)
+
+
+def test_forms_by_name(tmp_path):
+    assert [form_of(tmp_path / f"x.{s}") for s in ("svg", "PNG", "pdf")] == ["svg", "png", "pdf"]
+    with pytest.raises(BalcliError, match=r"x\.jpg: a picture is written as \.svg, \.png or \.pdf; give a name that ends so"):
+        form_of(tmp_path.parent / "x.jpg")
+
+
+# ------------------------------------------------------------------ what is drawn
+@pytest.fixture
+def ax():
+    with style.figure(3, 3, "svg") as figure:
+        yield figure.subplots()
+
+
+def test_locus_has_x_upwards(ax):
+    """One cylinder's rotating mass: m r omega^2 along the crank pin, up at crank angle 0, to the right at 90 degrees."""
+    one = analyze(engine(changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", ""),
+                                 ("mass = 0.5", "mass = 0"), ("mass = 0.6\ncg = 45\n", ""), ("spacing = 100\n", ""))))
+    draw.locus(ax, one.spectra.force, "force", SI.force)
+    right, up = next(line for line in ax.lines if len(line.get_xdata()) > 100).get_data()
+    force = 0.8 * 0.045 * (3000 * np.pi / 30) ** 2
+    assert (right[0], up[0]) == pytest.approx((0, force))
+    assert (right[90], up[90]) == pytest.approx((force, 0), abs=1e-9 * force)
+
+
+def test_bars_are_both_vectors_and_add_up_to_the_largest_value(ax, four):
+    force = four.spectra.force
+    draw.vector_spectrum(ax, force, "force", SI.force)
+    rows = draw.visible(force)
+    heights = np.array([bar.get_height() for bar in ax.patches[:2 * len(rows)]]).reshape(2, -1)
+    unit = 1e3 if force.major.max() >= 5000 else 1
+    assert heights.sum(axis=0) * unit == pytest.approx(force.major[rows])
+    assert heights[0] * unit == pytest.approx(np.abs(force.forward[rows]))
+
+
+def test_a_balanced_quantity_says_so(ax):
+    six = analyze(engine(changed(("throws = [0, 180, 180, 0]", "throws = [0, 240, 120, 120, 240, 0]"),
+                                 ("firing_order = [1, 3, 4, 2]", ""))))
+    draw.locus(ax, six.spectra.moment, "moment", SI.moment)
+    assert "no free moment" in [text.get_text() for text in ax.texts]
+
+
+@pytest.mark.parametrize(("unit", "largest", "name"), [
+    (SI.force, 4999, "N"), (SI.force, 5000, "kN"), (SI.moment, 1e6, "kN·m"), (IMPERIAL.force, 1e9, "lbf")])
+def test_long_figures_get_a_larger_unit(unit, largest, name):
+    assert draw.scale(unit, largest).name == name
+
+
+def test_an_even_engine_repeats_its_locus(four):
+    """Orders 2, 4, 6 of an in-line four: twice a revolution."""
+    assert draw.repeats(four.spectra.force) == 2
+
+
+def test_in_a_page_colours_follow_it_and_ids_are_its_own(four):
+    text = style.inline(picture(Subject(four), "polar", "svg"), "here")
+    assert text.startswith("<svg")
+    assert "var(--ink)" in text
+    assert not any(colour in text for colour in style.NAMES)
+    assert 'id="here-' in text
+    ET.fromstring(text)

@@ -1,0 +1,246 @@
+"""The page: whole without a network, whatever an engine is called; and alive in a real browser."""
+from __future__ import annotations
+
+import json
+import re
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+from support.browser import CHROMIUM, Browser
+from support.engines import GOOD, changed
+
+from balcli.results.analysis import analyze
+from balcli.results.balance import balance
+from balcli.engine.build import build
+from balcli.engine.load import parse
+from balcli.render.html import page
+from balcli.render.units import IMPERIAL, SI
+from balcli.forces.spectrum import SPECTRAL
+
+HOSTILE = "</script><script>alert('name')</script><img src=x onerror=alert(1)> & \"quoted\" {{ 7 * 7 }} 发动机"
+RADIAL = """\
+name = "radial with a master rod"
+[crank]
+stroke = 120
+throw_mass = 3
+[rod]
+length = 230
+mass = 2.5
+cg = 60
+[piston]
+mass = 1.6
+offset = 2
+[layout]
+radial = 5
+[operation]
+speed = 2000
+[articulation]
+knuckle_radius = 55
+rod = { length = 175, mass = 0.9, cg = 80 }
+"""
+ROTARY = RADIAL.partition("[articulation]")[0].replace("radial = 5", "radial = 5\nrotary = true")
+
+
+def report(text: str, scheme: str = "auto", system=SI) -> str:
+    engine = build(parse(text))
+    return page(analyze(engine, None, {*SPECTRAL, "peak"}), balance(engine, scheme), system)
+
+
+class Outline(HTMLParser):
+    """Tags of a page, and whatever it would load."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.loads: list[str] = []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        self.loads += [value for key, value in attrs if key in ("src", "href", "xlink:href") and not value.startswith(("#", "data:"))]
+
+
+def test_it_loads_nothing():
+    outline = Outline(text := report(GOOD))
+    assert outline.loads == []
+    assert "@import" not in text
+    assert {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"} >= set(re.findall(r"https?://[^\"'\s<)]+", text))
+
+
+def test_it_says_what_the_terminal_says():
+    text = report(GOOD)
+    for expected in ("in-line four", "Verdict", "1-3-4-2", "Second order: ", "Practical figures", "What the figures mean"):
+        assert expected in text
+
+
+def test_a_hostile_name_stays_text():
+    tame, wild = report(GOOD), report(changed(('"in-line four"', json.dumps(HOSTILE))))
+    assert Outline(wild).tags == Outline(tame).tags
+    assert "{{ 7 * 7 }}" in wild
+
+
+def test_imperial_units_reach_everything():
+    text = report(GOOD, system=IMPERIAL)
+    scene = json.loads(re.search(r'id="scene">(.*?)</script>', text, re.S)[1])
+    assert scene["units"]["force"] == {"name": "lbf", "thousand": ""}
+    second = next(row for row in scene["variants"][0]["force"] if row[0] == 2)
+    force = analyze(build(parse(GOOD))).spectra.force.at([2])
+    assert second[1] == pytest.approx(float(force.forward[0].real) / 4.4482216152605, rel=1e-12)
+
+
+@pytest.mark.parametrize("text", [RADIAL, ROTARY, changed(("bore = 86\n", "")),
+                                  changed(("mass = 0.5", "mass = 0"), ("mass = 0.6", "mass = 0"))])
+def test_unusual_engines_have_a_page(text):
+    scene = json.loads(re.search(r'id="scene">(.*?)</script>', report(text), re.S)[1])
+    assert scene["bore"] > 0
+
+
+# ------------------------------------------------------------------ in a browser
+def live(test):
+    """A test that needs a browser."""
+    return pytest.mark.browser(pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed")(test))
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    it = Browser(tmp_path_factory.mktemp("profile"))
+    yield it
+    it.close()
+
+
+@pytest.fixture
+def show(browser, tmp_path):
+    def opened(text: str = GOOD, **how):
+        file = tmp_path / "page.html"
+        file.write_text(report(text), encoding="utf-8")
+        browser.open(file, **how)
+        return browser
+    return opened
+
+
+def turn(browser, theta: float) -> None:
+    browser.run(f"angle.value = {theta}; angle.dispatchEvent(new Event('input'))")
+
+
+def numbers(browser, selector: str, *attributes: str) -> list[float]:
+    return [float(browser.run(f"document.querySelector('{selector}').getAttribute('{name}')")) for name in attributes]
+
+
+@live
+def test_nothing_goes_wrong_and_nothing_is_fetched(show):
+    page = show()
+    turn(page, 123)
+    assert page.complaints == []
+    assert [url for url in page.requests if not url.startswith(("file:", "data:"))] == []
+    assert len(page.requests) <= 2
+
+
+@live
+def test_the_keyboard_moves_the_vector(show):
+    """Arrow keys on the slider; the vector's tip is the force, x up and y to the right."""
+    page = show()
+    page.run("angle.focus()")
+    for _ in range(3):
+        page.press("ArrowRight", 39)
+    assert page.run("angle.value") == "3"
+    curve = analyze(build(parse(GOOD))).spectra.force
+    y, x = numbers(page, "#force-vector", "x2", "y2")
+    forces = [float(abs(curve.values(np.radians(t)))) for t in (0, 3)]
+    assert abs(y) < 1e-6
+    turn(page, 0)
+    assert numbers(page, "#force-vector", "y2")[0] / x == pytest.approx(forces[0] / forces[1], rel=1e-4)
+    assert float(page.run("document.getElementById('force-now').textContent").split()[0]) == pytest.approx(forces[0], rel=1e-3)
+
+
+@live
+@pytest.mark.parametrize("text", [GOOD, RADIAL, ROTARY])
+def test_the_rods_keep_their_length_and_pistons_are_where_the_engine_has_them(show, text):
+    page, c = show(text), build(parse(text)).cylinders
+    for theta in (0, 77, 250):
+        turn(page, theta)
+        ends = page.run("[...document.querySelectorAll('#end .rod')]"
+                        ".map((rod) => ['x1', 'y1', 'x2', 'y2'].map((k) => Number(rod.getAttribute(k))))")
+        psi = np.radians(theta + np.ravel(c.angle_deg))
+        if c.linkage is None:
+            lam, eps = float(c.lam.flat[0]), float(c.eps.flat[0])
+            places = np.cos(psi) + np.sqrt(1 - (lam * np.sin(psi) - eps) ** 2) / lam
+        else:
+            places = np.array([c.linkage.motion(psi[[k]], c.lam, c.eps).place[min(k, len(c.linkage.mass) - 1), 0] for k in range(c.count)])
+        lengths = np.broadcast_to(np.ravel(c.radius / c.lam) * 1e3, c.count)
+        drawn = np.array(ends)
+        rods = np.hypot(drawn[:, 2] - drawn[:, 0], drawn[:, 3] - drawn[:, 1])
+        assert np.sort(rods) == pytest.approx(np.sort(lengths), rel=1e-9)
+        assert np.sort(-drawn[:, 3]) == pytest.approx(np.sort(places * float(c.radius) * 1e3), rel=1e-9)
+
+
+@live
+def test_orders_are_switched(show):
+    page = show()
+    before = numbers(page, "#force-vector", "y2")
+    page.run("for (const box of document.querySelectorAll('[name=order]')) if (box.value !== '4') box.click()")
+    fourth = page.run("document.getElementById('force-now').textContent")
+    page.run("document.querySelector('[name=order][value=\"4\"]').click()")
+    assert before != [0]
+    force = analyze(build(parse(GOOD))).spectra.force.at([4])
+    assert float(fourth.split()[0]) == pytest.approx(float(force.major[0]), rel=1e-3)
+    assert page.run("document.getElementById('force-now').textContent") == "none"
+
+
+@live
+def test_the_fitted_engine_shakes_less(show):
+    page = show()
+    page.run("document.querySelectorAll('[name=variant]')[1].click()")
+    after = balance(build(parse(GOOD))).after
+    assert float(page.run("document.getElementById('force-now').textContent").split()[0]) == pytest.approx(
+        float(abs(after.spectra.force.values(0.0))), rel=1e-3)
+    assert page.run("document.querySelectorAll('#end .weight').length") == len(after.engine.devices)
+
+
+@live
+def test_play_and_pause_by_keyboard(show):
+    page = show()
+    page.run("play.focus()")
+    page.press(" ", 32, " ")
+    page.run("new Promise((done) => setTimeout(done, 400))")
+    page.press(" ", 32, " ")
+    reached = float(page.run("angle.value"))
+    page.run("new Promise((done) => setTimeout(done, 200))")
+    assert 5 < reached < 90
+    assert float(page.run("angle.value")) == reached
+
+
+@live
+def test_a_hostile_name_stays_text_in_a_browser(show):
+    page = show(changed(('"in-line four"', json.dumps(HOSTILE))))
+    assert page.complaints == []
+    assert page.run("document.querySelector('h1').textContent") == HOSTILE
+    assert page.run("document.querySelectorAll('img, h1 *').length") == 0
+
+
+@live
+def test_light_and_dark(show):
+    paper = "getComputedStyle(document.body).backgroundColor"
+    page = show(dark=True)
+    dark = page.run(paper)
+    page.run("theme.click()")
+    assert page.run(paper) == "rgb(255, 255, 255)" != dark
+    page = show()
+    assert page.run(paper) == "rgb(255, 255, 255)"
+    page.run("theme.click()")
+    assert page.run(paper) == dark
+
+
+@live
+@pytest.mark.parametrize("width", [400, 800, 1600])
+def test_it_fits_its_window(show, width):
+    assert show(width=width).run("document.documentElement.scrollWidth") <= width
+
+
+@live
+def test_it_prints_in_light_and_without_controls(show):
+    page = show(dark=True)
+    page.call("Emulation.setEmulatedMedia", media="print", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+    assert page.run("getComputedStyle(document.querySelector('.controls')).display") == "none"
+    assert page.run("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
+    page.call("Emulation.setEmulatedMedia", media="")

@@ -1,0 +1,239 @@
+"""Analysis: which orders are shown, what is computed, what balanced means; over all engines of engines/."""
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from support.engines import engine
+
+from balcli.results.analysis import HIGHEST, QUANTITIES, Analysis, alone, analyze, textbook
+from balcli.core.mechanisms import harmonics
+from balcli.engine.build import Engine, build
+from balcli.engine.load import read
+from balcli.errors import BalcliError
+from balcli.forces.spectrum import SHOWN, SPECTRAL, relevant_orders, spectra
+
+FOLDER = Path(__file__).parents[2] / "engines"
+NAMES = sorted(file.stem for file in FOLDER.glob("*.toml"))
+STEADY = ("force", "moment", "couple", "torque", "roll", "peak")
+
+
+@lru_cache
+def example(name: str) -> Engine:
+    return build(read(FOLDER / f"{name}.toml"))
+
+
+@lru_cache
+def analysed(name: str) -> Analysis:
+    return analyze(example(name), only=STEADY)
+
+
+# ------------------------------------------------------------------ orders
+@pytest.mark.parametrize("name", NAMES)
+def test_orders_shown_by_default(name):
+    """1 and 2, and each in which some quantity exceeds 1e-6 of its own largest order; no other."""
+    shown = set(analysed(name).orders)
+    everything = spectra(example(name), relevant_orders(example(name)))
+    due = {1.0, 2.0}
+    for _, phasors in everything.items():
+        due |= set(everything.orders[phasors.major > SHOWN * phasors.major.max()])
+    assert shown == due
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_orders_asked_for_are_the_same_to_the_last_bit(name):
+    """A figure does not depend on which other orders are shown with it."""
+    default = analysed(name)
+    asked = analyze(example(name), default.orders[::-1], only=STEADY)
+    single = analyze(example(name), [2], only=SPECTRAL)
+    many = analyze(example(name), range(1, 300), only=SPECTRAL)
+    for q, phasors in default.spectra.items():
+        again, alone_ = getattr(asked.spectra, q), getattr(single.spectra, q)
+        assert np.array_equal(phasors.forward, again.forward), q
+        assert np.array_equal(phasors.backward, again.backward), q
+        assert np.array_equal(phasors.at([2]).forward, alone_.forward), q
+        assert np.array_equal(phasors.forward, getattr(many.spectra, q).at(default.orders).forward), q
+    assert (asked.force, asked.moment) == (default.force, default.moment)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_nothing_beyond_the_relevant_orders(name):
+    """What lies above them is below the rounding error of the largest order."""
+    highest = relevant_orders(example(name))[-1]
+    beyond = np.arange(highest + 1, highest + 17)
+    for q, phasors in spectra(example(name), beyond).items():
+        assert phasors.major.max() <= 1e-12 * getattr(analysed(name).spectra, q).major.max(), q
+
+
+def test_under_uneven_speed_orders_begin_at_0():
+    uneven = engine(operation={"speed_ripple": [{"order": 2, "amplitude": 0.05}]})
+    assert list(analyze(uneven, only=["force"]).orders[:3]) == [0, 1, 2]
+
+
+@pytest.mark.parametrize("orders", [[1, 2, 3], [5], [0, 1], range(1, 9)])
+def test_exactly_the_orders_asked_for_are_shown(orders):
+    assert list(analyze(example("i4"), orders).orders) == list(orders)
+    assert list(analyze(example("i4"), [*orders, *orders]).orders) == list(orders)
+
+
+@pytest.mark.parametrize(("orders", "told"), [([-1], "-1"), ([HIGHEST + 1], "4097"), ([], "none"), ([1.5], "1.5")])
+def test_orders_that_cannot_be(orders, told):
+    with pytest.raises(BalcliError) as caught:
+        analyze(example("i4"), orders)
+    assert str(caught.value) == f"orders must be whole numbers from 0 to 4096, not {told}"
+
+
+# ------------------------------------------------------------------ balanced, and not swallowed
+BALANCED = {
+    "boxer6": {"force": [1, 2, 3, 4, 6], "moment": [1, 2]}, "i4": {"force": [1, 3], "moment": [1, 2]},
+    "i6": {"force": [1, 2, 3, 4], "moment": [1, 2, 3, 4, 6]}, "i3": {"force": [1, 2, 4]},
+    "i5": {"force": [1, 2, 4, 6, 8]}, "v8_crossplane": {"force": [1, 2, 6], "moment": [2]},
+    "v8_flatplane": {"force": [1], "moment": [1]}, "v12_60": {"force": [1, 2, 4], "moment": [1, 2, 4]},
+    "v16": {"force": [1, 2, 6], "moment": [1, 2]}, "radial5": {"moment": [1, 2, 4, 6]}, "radial7": {"force": [2, 4]},
+    "radial9": {"force": [2, 4, 6]}, "twin270": {"force": [2]}, "flat12": {"force": [1, 2, 4], "moment": [1, 2, 4]},
+}
+
+
+@pytest.mark.parametrize("name", BALANCED)
+def test_a_balanced_order_is_exactly_zero(name):
+    for q, orders in BALANCED[name].items():
+        phasors = getattr(analyze(example(name), orders, only=[q]).spectra, q)
+        assert phasors.balanced.all(), (q, orders)
+        assert np.array_equal(phasors.major, np.zeros(len(orders)))
+
+
+@pytest.mark.parametrize(("name", "order", "factor"), [
+    ("v8_crossplane", 8, 4 * np.sqrt(2)), ("i4", 8, 4), ("i4", 14, 4), ("i6", 12, 6),
+    ("v12_60", 12, 12 * np.cos(np.pi / 6)), ("radial9", 10, 4.5), ("single", 20, 1)])
+def test_a_small_order_that_is_there_is_not_swallowed(name, order, factor):
+    """Eighth orders are 1e-6 to 1e-4 of the first; A_20 is 1e-16."""
+    e = example(name)
+    units = textbook(e, np.array([float(order)]))
+    found = analyze(e, [order], only=["force"]).spectra.force
+    assert not found.balanced[0]
+    assert found.major[0] == pytest.approx(factor * units.force * units.ratios[0], rel=1e-10)
+
+
+def test_a_high_order_beside_it_swallows_no_small_one():
+    """The orders 1 to 4096 of a single cylinder: the first forty are there as they are by themselves."""
+    everything, few = (analyze(example("single"), range(1, last + 1), only=["force"]).spectra.force for last in (4096, 40))
+    assert np.array_equal(everything.forward[:40], few.forward)
+    assert np.array_equal(few.balanced, [n % 2 == 1 and n > 1 for n in range(1, 41)])
+
+
+def test_each_vector_is_settled_for_itself():
+    """The first-order moment of a cross-plane V8 turns with the crank and has no backward part at all."""
+    moment = analysed("v8_crossplane").spectra.moment
+    assert moment.backward[0] == 0
+    assert abs(moment.forward[0]) > 100
+
+
+# ------------------------------------------------------------------ only what is asked for
+@pytest.mark.parametrize("quantity", QUANTITIES)
+def test_only_one_quantity(quantity):
+    result = analyze(example("vr6"), only=[quantity])
+    there = {q for q, _ in result.spectra.items()}
+    assert there == {quantity} & set(SPECTRAL)
+    assert (result.force is not None) == (result.moment is not None) == (quantity == "peak")
+    assert (result.sizing is not None) == (quantity == "sizing")
+    if quantity in SPECTRAL:
+        whole = getattr(analysed("vr6").spectra.at(result.orders), quantity)
+        assert np.array_equal(getattr(result.spectra, quantity).forward, whole.forward)
+
+
+def test_what_is_not_asked_for_is_not_computed(monkeypatch):
+    """Without couple, torque and roll no harmonics of rod and energy; with explicit orders and no peak, no others."""
+    asked = []
+    original = harmonics.of_distinct
+
+    def spy(orders, *rest, rod=True, energy=True):
+        asked.append((list(orders), rod, energy))
+        return original(orders, *rest, rod=rod, energy=energy)
+    monkeypatch.setattr(harmonics, "of_distinct", spy)
+    analyze(example("i4"), [1, 2], only=["force"])
+    assert [(orders, energy) for orders, _, energy in asked] == [([1, 2], False)]
+
+
+def test_an_unknown_quantity():
+    with pytest.raises(BalcliError) as caught:
+        analyze(example("i4"), only=["force", "weight", "noise"])
+    assert str(caught.value) == ("there is no quantity noise, weight: choose from force, moment, couple, torque, roll, "
+                                 "peak, sizing, inner, guide")
+
+
+def test_more_by_cylinder_than_anyone_reads_is_refused():
+    """1000 cylinders to order 512 would be gigabytes of text."""
+    with pytest.raises(BalcliError) as caught:
+        analyze(example("v8_crossplane"), range(1, 2050), by_cylinder=True, only=["force"])
+    assert str(caught.value) == ("by cylinder, 2049 orders of 8 cylinders are 16392 results, and at most 16384 are told: "
+                                 "ask for fewer orders")
+
+
+def test_everything_by_default():
+    result = analyze(example("vr6"))
+    assert [q for q, _ in result.spectra.items()] == list(SPECTRAL)
+    assert None not in (result.force, result.moment, result.sizing)
+    assert result.cylinders == ()
+
+
+# ------------------------------------------------------------------ parts and peaks
+@pytest.mark.parametrize("name", ["v5", "vr6", "i4_shafts", "v8_crossplane", "radial5", "boxer4"])
+def test_cylinders_and_devices_sum_to_the_engine(name):
+    e = example(name)
+    result = analyze(e, range(1, 9), only=SPECTRAL, by_cylinder=True)
+    assert [n for n, _ in result.cylinders] == sorted(e.numbers)
+    nothing = np.zeros_like(e.cylinders.reciprocating)
+    still = replace(e, cylinders=replace(e.cylinders, reciprocating=nothing, rotating=nothing, couple=nothing))
+    parts = [spectra(still, result.orders), *(share for _, share in result.cylinders)]
+    for q, whole in result.spectra.items():
+        scale = sum(getattr(part, q).major.max() for part in parts)
+        for way in ("forward", "backward"):
+            total = sum(getattr(getattr(part, q), way) for part in parts)
+            assert np.abs(total - getattr(whole, way)).max() <= 1e-14 * scale, q
+
+
+def test_one_cylinder_alone_has_no_devices_and_no_other_mass():
+    single = alone(example("i4_shafts"), 3)
+    assert single.devices == ()
+    assert np.count_nonzero(single.cylinders.reciprocating) == 1
+    assert single.numbers[int(np.flatnonzero(single.cylinders.reciprocating)[0])] == 3
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_peaks_are_those_of_the_whole_curve(name):
+    """No sample of the whole curve lies above the peak, and the peak lies on it; whatever orders are shown."""
+    e, theta = example(name), np.linspace(0, 2 * np.pi, 2881)
+    whole = spectra(e, relevant_orders(e), ("force", "moment"))
+    for q in ("force", "moment"):
+        found, phasors = getattr(analysed(name), q), getattr(whole, q)
+        samples = np.abs(phasors.values(theta))
+        assert samples.max() * (1 - 1e-14) <= found.value <= samples.max() * (1 + 1e-3) + 1e-300, q
+        assert abs(phasors.values(found.theta)) == pytest.approx(found.value, rel=1e-13, abs=1e-300)
+    assert analyze(e, [3], only=["peak"]).force == analysed(name).force
+
+
+def test_peak_of_a_single_cylinder_is_at_top_dead_centre():
+    """(1 + lambda) m r w^2, exactly: -s'' at psi = 0."""
+    e = engine(operation={"speed": 600})
+    found = analyze(e, only=["peak"]).force
+    assert found.value == pytest.approx(1.25 * 1 * 0.05 * (20 * np.pi) ** 2, rel=1e-14)
+    assert np.cos(found.theta) == pytest.approx(1, abs=1e-12)
+
+
+# ------------------------------------------------------------------ textbook units
+def test_textbook_units():
+    e = engine(crank={"throws": [0, 240, 120], "positions": [0, 80, 200]}, operation={"speed": 600})
+    units = textbook(e, np.array([1.0, 2.0, 3.0]))
+    assert (units.force, units.arm, units.equal) == (pytest.approx(0.05 * (20 * np.pi) ** 2), pytest.approx(0.1), True)
+    assert list(units.ratios) == list(harmonics.piston([1, 2, 3], 0.25))
+    assert np.isnan(textbook(engine(), np.array([1.0])).arm)
+
+
+def test_textbook_units_of_unequal_cylinders_are_cylinder_1s():
+    e = engine(crank={"throws": [0, 0]}, cylinder={"1": {"piston_mass": 3}}, layout={"numbering": [[2, 1]]})
+    units = textbook(e, np.array([1.0]))
+    assert units.force == pytest.approx(3 * 0.05 * (2 * np.pi) ** 2)
+    assert not units.equal

@@ -1,0 +1,120 @@
+"""Knuckle angles that make strokes or dead centres even."""
+from __future__ import annotations
+
+import json
+import re
+
+import numpy as np
+import pytest
+from engine.test_articulation import RADIAL
+from typer.testing import CliRunner
+
+from balcli.engine import load as enginefile
+from balcli.cli import app
+from balcli.errors import BalcliError
+from balcli.results.knuckles import even_knuckles
+
+
+def test_dead_centres_at_even_intervals():
+    found = even_knuckles(enginefile.parse(RADIAL))
+    assert np.abs(found.before.top_deg).max() > 3
+    assert np.abs(found.after.top_deg).max() < 1e-9
+    assert found.angles_deg[0] == 0
+    assert found.reasons[0].endswith("top dead centres as even as the master's")
+
+
+def test_equal_strokes():
+    found = even_knuckles(enginefile.parse(RADIAL), "strokes")
+    assert np.ptp(found.before.stroke) > 4e-4
+    assert np.ptp(found.after.stroke) < 1e-12
+    assert len(found.reasons) == 1
+
+
+def test_mirror_images_get_mirrored_angles():
+    angles = np.array(even_knuckles(enginefile.parse(RADIAL)).angles_deg)
+    assert np.allclose(angles[1:] + angles[:0:-1], 360, atol=1e-9)
+
+
+def test_two_rows_are_set_by_the_first():
+    text = RADIAL.replace("stroke = 120", "stroke = 120\nthrows = [0, 180]\nspacing = 160")
+    found = even_knuckles(enginefile.parse(text))
+    assert len(found.angles_deg) == 7
+    assert np.abs(found.after.top_deg).max() < 1e-9
+
+
+def test_where_the_knuckle_pin_goes_for_an_even_dead_centre():
+    """On the cylinder's axis when the crank pin is: turned on by the master rod's lean there, arcsin(lambda sin Delta)."""
+    angles = even_knuckles(enginefile.parse(RADIAL)).angles_deg
+    for bank in range(1, 7):
+        apart = 2 * np.pi * bank / 7
+        assert angles[bank] == pytest.approx(np.degrees(apart + np.arcsin(60 / 240 * np.sin(apart))), abs=1e-9)
+
+
+def test_a_bank_that_no_angle_makes_even():
+    """Opposite the master, turning the knuckle pin hardly changes the stroke, and this offset has added too much to it."""
+    text = RADIAL.replace("radial = 7", "banks = [0, 180]") + "[cylinder.2]\npiston_offset = 60\n"
+    found = even_knuckles(enginefile.parse(text), "strokes")
+    assert found.reasons[1:] == ("no angle makes bank 2 even: the knuckle pin stays where it is",)
+    assert found.angles_deg == (0, 180)
+
+
+def test_an_engine_without_articulated_rods():
+    with pytest.raises(BalcliError) as caught:
+        even_knuckles(enginefile.parse(RADIAL[:RADIAL.index("[articulation]")]))
+    assert str(caught.value) == "knuckles: this engine has no articulated rods; an engine file says so with [articulation]"
+
+
+# ------------------------------------------------------------------ the command
+def run(*arguments):
+    return CliRunner().invoke(app, ["balance", *map(str, arguments), "--scheme", "knuckles"])
+
+
+@pytest.mark.parametrize("older", ["", "knuckle_angles = [0, 50, 100, 150, 200, 250, 300]  # measured\n"])
+def test_what_is_written_reads_back_as_it_was_analysed(tmp_path, older):
+    file, out = tmp_path / "radial.toml", tmp_path / "even.toml"
+    file.write_text("# a comment\n" + RADIAL.replace("[articulation]\n", f"[articulation] # seven\n{older}"))
+    document = json.loads(run(file, "--write", out, "--format", "json").stdout)
+    assert document["scheme"] == "knuckles"
+    assert document["counterweights"] == []
+    read = enginefile.read(out)
+    assert list(read.articulation.knuckle_angles) == document["details"]["knuckle_angles_deg"]
+    assert out.read_text().startswith("# a comment\n")
+    assert np.abs(even_knuckles(read).before.top_deg).max() < 1e-9
+
+
+def test_an_articulation_in_one_line_is_written_anew(tmp_path):
+    file, out = tmp_path / "radial.toml", tmp_path / "even.toml"
+    head, table = RADIAL.split("[articulation]")
+    file.write_text(f"articulation = {{ {', '.join(table.strip().splitlines())} }}\n{head}")
+    assert run(file, "--write", out).exit_code == 0
+    assert out.read_text().startswith("# Comments and lay-out of the original could not be kept")
+    assert np.abs(even_knuckles(enginefile.read(out)).before.top_deg).max() < 1e-9
+
+
+def test_for_people(tmp_path):
+    file = tmp_path / "radial.toml"
+    file.write_text(RADIAL)
+    text = run(file, "--even", "strokes", "--speed", "2000").stdout
+    assert "What is changed, and why" in text
+    assert "strokes equal to the master's" in text
+    even = run(file).stdout
+    assert re.search(r"(?m)^knuckle angles  0\.0, .* deg$", even)
+    assert re.search(r"(?m)^stroke least    120 mm$", even)
+    assert re.search(r"(?m)^top least       0\.000 deg$", even)                # and no rounding noise
+
+
+@pytest.mark.parametrize(("options", "message"), [
+    (["--even", "colours"], '--even "colours": choose from dead-centres, strokes'),
+    (["--order", "2"], "scheme knuckles: has no option but --even"),
+])
+def test_mistakes(tmp_path, options, message):
+    file = tmp_path / "radial.toml"
+    file.write_text(RADIAL)
+    assert str(run(file, *options).exception) == message
+
+
+def test_even_without_the_scheme(tmp_path):
+    file = tmp_path / "radial.toml"
+    file.write_text(RADIAL)
+    result = CliRunner().invoke(app, ["balance", str(file), "--even", "strokes"])
+    assert str(result.exception) == "--even belongs to --scheme knuckles; scheme auto has no such option"

@@ -1,0 +1,89 @@
+"""Studies over the balance factor and the bank angle: what books say of them, and their pictures."""
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from support.engines import GOOD, changed
+
+from balcli.core.mechanisms import harmonics
+from balcli.engine.build import build
+from balcli.engine.load import parse
+from balcli.errors import BalcliError
+from balcli.render.plot.pages import Subject, picture
+from balcli.studies.pictures import over_bank_angle, study
+
+VEE = changed(("firing_order = [1, 3, 4, 2]", "bank_angle = 75\nstagger = 20"))
+SINGLE = changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", ""))
+CROSS = changed(("throws = [0, 180, 180, 0]", "throws = [0, 90, 270, 180]"), ("firing_order = [1, 3, 4, 2]", "bank_angle = 90"))
+
+
+def engine(text):
+    return build(parse(text))
+
+
+def test_flat_plane_vee_eight_over_its_bank_angle():
+    """Liu: with K = 4 A_2 m r omega^2 the second order is K cos(gamma/2) with the crank and K cos(3 gamma/2) against it."""
+    vee = engine(VEE)
+    banks = over_bank_angle(vee, 2)
+    c = vee.cylinders
+    ratio = float(harmonics.of([2.0], c.lam, c.eps).piston.c[0, 0].real)
+    K = 4 * ratio * float(c.reciprocating[0] * c.radius) * vee.omega**2
+    gamma = np.radians(banks.angles_deg)
+    assert np.abs(banks.force.forward[0]) == pytest.approx(K * np.abs(np.cos(gamma / 2)), abs=1e-12 * K)
+    assert np.abs(banks.force.backward[0]) == pytest.approx(K * np.abs(np.cos(3 * gamma / 2)), abs=1e-12 * K)
+    assert banks.own_deg == 75
+
+
+def test_its_own_bank_angle_is_the_engine_as_it_is():
+    vee, found = engine(VEE), study(engine(VEE), "bank")
+    at = int(np.flatnonzero(found.banks.angles_deg == 75)[0])
+    force = study(vee, "all").now.spectra.force.at([2])
+    assert found.banks.force.major[0, at] == pytest.approx(float(force.major[0]), rel=1e-12)
+    assert found.banks.order == 2
+
+
+def test_half_the_reciprocating_mass_balances_a_cross_plane_vee_eight():
+    rows = study(engine(CROSS), "factor").factors
+    best = min(rows, key=lambda row: row["peak_moment_Nm"])
+    assert [row["factor"] for row in rows] == pytest.approx(np.linspace(0, 1, 21))
+    assert best["factor"] == 0.5
+    assert best["peak_moment_Nm"] < 1e-2 * rows[0]["peak_moment_Nm"]
+
+
+@pytest.mark.parametrize(("text", "reason"), [
+    (GOOD, "this engine has 1 bank$"),
+    (changed(("firing_order = [1, 3, 4, 2]", "banks = [-60, 0, 60]")), "this engine has 3 banks$")])
+def test_only_a_vee_has_a_bank_angle(text, reason):
+    with pytest.raises(BalcliError, match=reason):
+        study(engine(text), "bank")
+
+
+@pytest.mark.parametrize(("what", "text"), [("factor", CROSS), ("factor", GOOD), ("bank", VEE), ("bank", CROSS), ("inner", VEE),
+                                           ("inner", SINGLE)])
+def test_their_pictures(what, text):
+    subject = Subject(**study(engine(text), what)._asdict())
+    data = picture(subject, what, "svg")
+    assert data == picture(subject, what, "svg")
+    assert "best at 0.5" in data.decode() or (what, text) != ("factor", CROSS)
+
+
+def test_counterweights_unload_the_crankshaft_of_an_in_line_four():
+    """It is balanced outside, and yet bent; weights at every throw take most of that away."""
+    free = study(engine(GOOD), "inner").bent[0]
+    now, before = study(engine(GOOD), "inner", scheme="factor").bent
+    assert max(p.value for p in before.bending.peaks) == max(p.value for p in free.bending.peaks) > 100
+    assert max(p.value for p in now.bending.peaks) < 0.7 * max(p.value for p in before.bending.peaks)
+
+
+def test_a_scheme_compares_before_and_after():
+    found = study(engine(GOOD), "all", scheme="two-shaft")
+    assert found.before.spectra.force.at([2]).major[0] > 100
+    assert found.now.spectra.force.at([2]).balanced[0]
+    with pytest.raises(BalcliError, match="there is no scheme 'tow-shaft'"):
+        study(engine(GOOD), "all", scheme="tow-shaft")
+
+
+@pytest.mark.parametrize("what", ["factor", "bank"])
+def test_a_study_of_the_engine_as_it_is_takes_no_scheme(what):
+    with pytest.raises(BalcliError, match=f"--what {what} shows the engine as it is: leave --scheme auto out"):
+        study(engine(VEE), what, scheme="auto")
