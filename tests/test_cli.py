@@ -1,4 +1,7 @@
-"""The command line: exit statuses, messages, formats, files, pipes, terminals, and what is imported."""
+"""The command line: exit statuses, messages, formats, files, pipes, terminals, and what is
+imported.
+"""
+
 from __future__ import annotations
 
 import csv
@@ -20,14 +23,19 @@ from balcli.render.formats import Format
 
 ROOT = Path(__file__).parents[1]
 V8 = str(ROOT / "engines" / "v8_crossplane.toml")
-POUND_FORCE, FOOT = 0.45359237 * 9.80665, 0.3048        # N, m by definition
+POUND_FORCE, FOOT = 0.45359237 * 9.80665, 0.3048  # N, m by definition
 ESCAPE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 
 
 def process(*args: str, **more) -> subprocess.CompletedProcess:
     """Runs a command as users do."""
     environment = {**os.environ, "PYTHONPATH": str(ROOT / "src"), **more.pop("env", {})}
-    return subprocess.run([sys.executable, "-m", "balcli", *args], env=environment, check=False, **{"capture_output": True, **more})
+    return subprocess.run(
+        [sys.executable, "-m", "balcli", *args],
+        env=environment,
+        check=False,
+        **{"capture_output": True, **more},
+    )
 
 
 @pytest.fixture
@@ -69,54 +77,113 @@ def usage(command: str, message: str) -> str:
     return f"Usage: {name} {form}\nTry '{name} -h' for help.\n\nError: {message}\n"
 
 
-@pytest.mark.parametrize(("args", "command", "message"), [
-    (["frobnicate"], "", "No such command 'frobnicate'."),
-    (["anlyze"], "", "No such command 'anlyze'. Did you mean analyze?"),
-    (["--frob"], "", "No such option: --frob"),
-    (["analyze", V8, "--by", "bank"], "analyze", 'Invalid value for --by: "bank": only "cylinder" can be chosen'),
-])
+@pytest.mark.parametrize(
+    ("args", "command", "message"),
+    [
+        (["frobnicate"], "", "No such command 'frobnicate'."),
+        (["anlyze"], "", "No such command 'anlyze'. Did you mean analyze?"),
+        (["--frob"], "", "No such option: --frob"),
+        (
+            ["analyze", V8, "--by", "bank"],
+            "analyze",
+            'Invalid value for --by: "bank": only "cylinder" can be chosen',
+        ),
+    ],
+)
 def test_bad_usage(balcli, args, command, message):
     status, out, err = balcli(*args)
     assert (status, out) == (2, "")
     assert re.sub(r"\{?FILE\.\.\.\}?(\.\.\.)?", "{FILE...}...", err) == usage(command, message)
 
 
-@pytest.mark.parametrize("args", [["analyze"], ["analyze", V8, "--format", "xml"], ["analyze", V8, "--speed", "fast"],
-                                  ["analyze", V8, "--only"], ["new"]])
+@pytest.mark.parametrize(
+    "args",
+    [
+        ["analyze"],
+        ["analyze", V8, "--format", "xml"],
+        ["analyze", V8, "--speed", "fast"],
+        ["analyze", V8, "--only"],
+        ["new"],
+    ],
+)
 def test_bad_usage_that_the_parser_words(balcli, args):
     """Its text changes with its version; what is needed to mend it stands in the last line."""
     status, out, err = balcli(*args)
     assert (status, out) == (2, "")
     *_, last = err.splitlines()
     assert last.startswith("Error: ")
-    assert {"xml": "'xml' is not one of", "fast": "--speed", "--only": "--only", "analyze": "FILE", "new": "KIND"}[args[-1]] in last
+    assert {
+        "xml": "'xml' is not one of",
+        "fast": "--speed",
+        "--only": "--only",
+        "analyze": "FILE",
+        "new": "KIND",
+    }[args[-1]] in last
     assert "Traceback" not in err
 
 
-@pytest.mark.parametrize(("args", "message"), [
-    (["analyze", "no.toml"], "no.toml: no such file"),
-    (["analyze", str(ROOT / "engines")], f"{ROOT / 'engines'}: is a folder; name an engine file in it"),
-    (["analyze", V8, "--orders", "0x"], '--orders "0x": give whole numbers such as 1-8 or 1,2,4'),
-    (["analyze", V8, "--orders", "8-1"], '--orders "8-1": 8-1 must rise and end at 4096 at most'),
-    (["analyze", V8, "--orders", "1,5000"], '--orders "1,5000": 5000 must rise and end at 4096 at most'),
-    (["analyze", V8, "--orders", ""], '--orders "": give whole numbers such as 1-8 or 1,2,4'),
-    (["analyze", V8, "--orders", "-1"], '--orders "-1": give whole numbers such as 1-8 or 1,2,4'),
-    (["analyze", V8, "--speed", "0"], "--speed 0: the crank speed must be a positive number of rpm, below 1e9"),
-    (["analyze", V8, "--speed", "nan"], "--speed nan: the crank speed must be a positive number of rpm, below 1e9"),
-    (["analyze", V8, "--only", "force,noise"],
-     "there is no quantity noise: choose from force, moment, couple, torque, roll, peak, sizing, inner, guide"),
-    (["analyze", V8, "-o", "/nowhere/x.txt"], "/nowhere/x.txt: cannot be written (No such file or directory)"),
-    (["analyze", V8, "-o", str(ROOT)], f"{ROOT}: is a folder, so no file can be written there"),
-    (["check", "nowhere"], "nowhere: no such file or folder"),
-    (["check", str(ROOT / "src")], f"{ROOT / 'src'}: has no engine files (*.toml)"),
-    (["new", "inlin"], '"inlin" is no kind of engine; there are single, inline, vee, boxer, radial, w. Did you mean inline?'),
-])
+@pytest.mark.parametrize(
+    ("args", "message"),
+    [
+        (["analyze", "no.toml"], "no.toml: no such file"),
+        (
+            ["analyze", str(ROOT / "engines")],
+            f"{ROOT / 'engines'}: is a folder; name an engine file in it",
+        ),
+        (
+            ["analyze", V8, "--orders", "0x"],
+            '--orders "0x": give whole numbers such as 1-8 or 1,2,4',
+        ),
+        (
+            ["analyze", V8, "--orders", "8-1"],
+            '--orders "8-1": 8-1 must rise and end at 4096 at most',
+        ),
+        (
+            ["analyze", V8, "--orders", "1,5000"],
+            '--orders "1,5000": 5000 must rise and end at 4096 at most',
+        ),
+        (["analyze", V8, "--orders", ""], '--orders "": give whole numbers such as 1-8 or 1,2,4'),
+        (
+            ["analyze", V8, "--orders", "-1"],
+            '--orders "-1": give whole numbers such as 1-8 or 1,2,4',
+        ),
+        (
+            ["analyze", V8, "--speed", "0"],
+            "--speed 0: the crank speed must be a positive number of rpm, below 1e9",
+        ),
+        (
+            ["analyze", V8, "--speed", "nan"],
+            "--speed nan: the crank speed must be a positive number of rpm, below 1e9",
+        ),
+        (
+            ["analyze", V8, "--only", "force,noise"],
+            "there is no quantity noise: choose from force, moment, couple, torque, roll, peak, "
+            "sizing, inner, guide",
+        ),
+        (
+            ["analyze", V8, "-o", "/nowhere/x.txt"],
+            "/nowhere/x.txt: cannot be written (No such file or directory)",
+        ),
+        (["analyze", V8, "-o", str(ROOT)], f"{ROOT}: is a folder, so no file can be written there"),
+        (["check", "nowhere"], "nowhere: no such file or folder"),
+        (["check", str(ROOT / "src")], f"{ROOT / 'src'}: has no engine files (*.toml)"),
+        (
+            ["new", "inlin"],
+            '"inlin" is no kind of engine; there are single, inline, vee, boxer, radial, w. Did '
+            "you mean inline?",
+        ),
+    ],
+)
 def test_bad_input(balcli, args, message):
     assert balcli(*args) == (2, "", f"balcli: {message}\n")
 
 
 def test_mistakes_of_a_file(balcli, bad):
-    assert balcli("analyze", bad) == (2, "", f"balcli: {bad}: crank.strok: is no key of [crank]; did you mean stroke?\n")
+    assert balcli("analyze", bad) == (
+        2,
+        "",
+        f"balcli: {bad}: crank.strok: is no key of [crank]; did you mean stroke?\n",
+    )
 
 
 def test_a_warning_does_not_stop_the_analysis(balcli, tmp_path):
@@ -131,19 +198,35 @@ def test_a_warning_does_not_stop_the_analysis(balcli, tmp_path):
 # ------------------------------------------------------------------ formats
 @pytest.mark.parametrize("form", Format)
 def test_every_format(balcli, good, form):
-    """Each is what its name says, ends in one newline, and holds the second-order force of the same analysis."""
+    """Each is what its name says, ends in one newline, and holds the second-order force of the same
+    analysis.
+    """
     status, out, err = balcli("analyze", good, "--format", form)
     assert (status, err) == (0, "")
     assert out.endswith("\n")
     assert not out.endswith("\n\n")
-    force = json.loads(balcli("analyze", good, "--format", "json")[1])["orders"][1]["force_N"]["major"]
+    force = json.loads(balcli("analyze", good, "--format", "json")[1])["orders"][1]["force_N"][
+        "major"
+    ]
     match form:
         case Format.JSON:
             assert json.loads(out)["format"] == "balcli.analysis/1"
         case Format.CSV:
             rows = list(csv.DictReader(io.StringIO(out)))
-            assert set(rows[0]) == {"engine", "cylinder", "quantity", "order", "figure", "value", "unit"}
-            (major,) = (r for r in rows if (r["quantity"], r["order"], r["figure"]) == ("force", "2", "major"))
+            assert set(rows[0]) == {
+                "engine",
+                "cylinder",
+                "quantity",
+                "order",
+                "figure",
+                "value",
+                "unit",
+            }
+            (major,) = (
+                r
+                for r in rows
+                if (r["quantity"], r["order"], r["figure"]) == ("force", "2", "major")
+            )
             assert (float(major["value"]), major["unit"]) == (force, "N")
         case Format.MARKDOWN:
             assert out.startswith("# in-line four\n")
@@ -157,23 +240,53 @@ def test_json_of_analyze_has_the_keys_of_the_contract(balcli):
     document = json.loads(balcli("analyze", V8, "--format", "json", "--orders", "1-4")[1])
     vector = {"forward", "backward", "major", "minor", "axis_deg", "balanced", "x", "y"}
     scalar = {"cos", "sin", "amplitude", "peak_deg", "balanced"}
-    assert list(document) == ["format", "engine", "speed_rpm", "reference_mm", "orders", "peak", "sizing"]
+    assert list(document) == [
+        "format",
+        "engine",
+        "speed_rpm",
+        "reference_mm",
+        "orders",
+        "peak",
+        "sizing",
+    ]
     assert set(document["engine"]) == {"name", "cylinders", "displacement_m3"}
     assert [entry["order"] for entry in document["orders"]] == [1, 2, 3, 4]
     for entry in document["orders"]:
-        assert set(entry) == {"order", "force_N", "moment_Nm", "couple_Nm", "inertia_torque_Nm", "roll_Nm"}
+        assert set(entry) == {
+            "order",
+            "force_N",
+            "moment_Nm",
+            "couple_Nm",
+            "inertia_torque_Nm",
+            "roll_Nm",
+        }
         assert all(set(entry[key]) == vector for key in ("force_N", "moment_Nm"))
-        assert all(set(entry[key]) == scalar for key in ("couple_Nm", "inertia_torque_Nm", "roll_Nm"))
-        assert set(entry["force_N"]["x"]) == set(entry["force_N"]["y"]) == {"amplitude", "phase_deg"}
+        assert all(
+            set(entry[key]) == scalar for key in ("couple_Nm", "inertia_torque_Nm", "roll_Nm")
+        )
+        assert (
+            set(entry["force_N"]["x"]) == set(entry["force_N"]["y"]) == {"amplitude", "phase_deg"}
+        )
     assert set(document["peak"]) == {"force_N", "force_deg", "moment_Nm", "moment_deg"}
     assert set(document["sizing"]) == {"scheme", "counterweights", "shafts", "sliders", "after"}
-    assert set(document["sizing"]["counterweights"][0]) == {"unbalance_kg_m", "angle_deg", "position_mm"}
+    assert set(document["sizing"]["counterweights"][0]) == {
+        "unbalance_kg_m",
+        "angle_deg",
+        "position_mm",
+    }
 
 
-@pytest.mark.parametrize(("only", "keys", "whole"), [
-    ("force", {"order", "force_N"}, set()), ("roll", {"order", "roll_Nm"}, set()), ("peak", {"order"}, {"peak"}),
-    ("moment,peak", {"order", "moment_Nm"}, {"peak"}), ("couple, torque", {"order", "couple_Nm", "inertia_torque_Nm"}, set()),
-    ("sizing", {"order"}, {"sizing"})])
+@pytest.mark.parametrize(
+    ("only", "keys", "whole"),
+    [
+        ("force", {"order", "force_N"}, set()),
+        ("roll", {"order", "roll_Nm"}, set()),
+        ("peak", {"order"}, {"peak"}),
+        ("moment,peak", {"order", "moment_Nm"}, {"peak"}),
+        ("couple, torque", {"order", "couple_Nm", "inertia_torque_Nm"}, set()),
+        ("sizing", {"order"}, {"sizing"}),
+    ],
+)
 def test_what_is_left_out_is_no_key(balcli, only, keys, whole):
     document = json.loads(balcli("analyze", V8, "--format", "json", "--only", only)[1])
     assert set(document["orders"][0]) == keys
@@ -181,7 +294,9 @@ def test_what_is_left_out_is_no_key(balcli, only, keys, whole):
 
 
 def test_by_cylinder(balcli, good):
-    document = json.loads(balcli("analyze", good, "--format", "json", "--by", "cylinder", "--orders", "2")[1])
+    document = json.loads(
+        balcli("analyze", good, "--format", "json", "--by", "cylinder", "--orders", "2")[1]
+    )
     assert [c["cylinder"] for c in document["cylinders"]] == [1, 2, 3, 4]
     total = sum(c["orders"][0]["force_N"]["forward"][0] for c in document["cylinders"])
     assert total == pytest.approx(document["orders"][0]["force_N"]["forward"][0], rel=1e-14)
@@ -189,7 +304,10 @@ def test_by_cylinder(balcli, good):
 
 
 def test_speed_displaces_the_files(balcli, good):
-    one, two = (json.loads(balcli("analyze", good, "--format", "json", *more)[1]) for more in ([], ["--speed", "6000"]))
+    one, two = (
+        json.loads(balcli("analyze", good, "--format", "json", *more)[1])
+        for more in ([], ["--speed", "6000"])
+    )
     assert (one["speed_rpm"], two["speed_rpm"]) == (3000, 6000)
     assert two["orders"][1]["force_N"]["major"] == 4 * one["orders"][1]["force_N"]["major"]
 
@@ -197,8 +315,12 @@ def test_speed_displaces_the_files(balcli, good):
 def test_imperial_units(balcli, good):
     def values(*more):
         rows = csv.DictReader(io.StringIO(balcli("analyze", good, "--format", "csv", *more)[1]))
-        return {(r["quantity"], r["order"], r["figure"]): (float(r["value"]), r["unit"]) for r in rows
-                if r["unit"] not in ("deg", "")}
+        return {
+            (r["quantity"], r["order"], r["figure"]): (float(r["value"]), r["unit"])
+            for r in rows
+            if r["unit"] not in ("deg", "")
+        }
+
     metric, imperial = values(), values("--units", "imperial")
     assert metric.keys() == imperial.keys()
     for key, (value, unit) in metric.items():
@@ -208,12 +330,16 @@ def test_imperial_units(balcli, good):
         text = balcli("analyze", V8, "--format", form, "--units", "imperial")[1]
         assert all(unit in text for unit in ("lbf", "lbf·ft", "oz·in"))
         assert not re.search(r"\bN\b|N·m|g·mm|\bkg\b|\bmm\b", text.partition("Sizing")[0])
-    assert balcli("analyze", good, "--format", "json", "--units", "imperial") == balcli("analyze", good, "--format", "json")
+    assert balcli("analyze", good, "--format", "json", "--units", "imperial") == balcli(
+        "analyze", good, "--format", "json"
+    )
 
 
 # ------------------------------------------------------------------ files in, files out
 def test_standard_input(balcli, good):
-    assert balcli("analyze", "-", "--format", "json", stdin=GOOD) == balcli("analyze", good, "--format", "json")
+    assert balcli("analyze", "-", "--format", "json", stdin=GOOD) == balcli(
+        "analyze", good, "--format", "json"
+    )
     status, out, err = balcli("analyze", "-", stdin="[crank]\nstroke = 90\n")
     assert (status, out) == (2, "")
     assert err.startswith("balcli: standard input: ")
@@ -222,7 +348,9 @@ def test_standard_input(balcli, good):
 @pytest.mark.parametrize("form", ["table", "markdown"])
 def test_an_engines_name_cannot_colour_the_output(balcli, form):
     name = '"in-line \\u001b[31mfour\\u009b2J"'
-    status, out, err = balcli("analyze", "-", "--format", form, stdin=changed(('"in-line four"', name)))
+    status, out, err = balcli(
+        "analyze", "-", "--format", form, stdin=changed(('"in-line four"', name))
+    )
     assert (status, out) == (2, "")
     assert "name: " in err
     assert not {"\x1b", "\x9b"} & set(err)
@@ -231,9 +359,16 @@ def test_an_engines_name_cannot_colour_the_output(balcli, form):
 LOCKED = changed(("length = 160", "length = 40"), ("cg = 45", "cg = 15"))
 
 
-@pytest.mark.parametrize("command", [
-    ("analyze",), ("balance",), ("scatter",), ("sweep", "--vary", "rod.cg=0,1"),
-    ("search", "--over", "throws", "--minimise", "force.1.major")])
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("analyze",),
+        ("balance",),
+        ("scatter",),
+        ("sweep", "--vary", "rod.cg=0,1"),
+        ("search", "--over", "throws", "--minimise", "force.1.major"),
+    ],
+)
 def test_what_cannot_be_an_engine_goes_by_its_file(balcli, tmp_path, command):
     file = tmp_path / "locked.toml"
     file.write_text(LOCKED)
@@ -244,7 +379,9 @@ def test_what_cannot_be_an_engine_goes_by_its_file(balcli, tmp_path, command):
 
 
 def test_several_files_and_a_bad_one_among_them(balcli, good, bad):
-    """One JSON document a line, in order; the bad one is named, the rest is reported, and the status is 2."""
+    """One JSON document a line, in order; the bad one is named, the rest is reported, and the
+    status is 2.
+    """
     status, out, err = balcli("analyze", good, bad, V8, "--format", "json")
     assert status == 2
     assert [json.loads(line)["engine"]["cylinders"] for line in out.splitlines()] == [4, 8]
@@ -264,8 +401,14 @@ def test_rows_of_several_engines_can_be_told_apart(balcli, good, tmp_path):
         status, out, _ = balcli("analyze", *files, "--only", "peak", "--format", "csv", stdin=stdin)
         assert status == 0
         return list(dict.fromkeys(row["engine"] for row in csv.DictReader(io.StringIO(out))))
+
     assert engines(good) == ["in-line four"]
-    assert engines(good, again, V8, nameless) == [str(good), str(again), "90-degree cross-plane V8", str(nameless)]
+    assert engines(good, again, V8, nameless) == [
+        str(good),
+        str(again),
+        "90-degree cross-plane V8",
+        str(nameless),
+    ]
     assert engines("-", stdin=nameless.read_text()) == ["standard input"]
 
 
@@ -286,7 +429,9 @@ def test_a_file_is_written_whole_or_not_at_all(balcli, good, bad, tmp_path, file
     assert sorted(p.name for p in tmp_path.iterdir()) == ["bad.toml", "good.toml", "out.json"]
 
 
-def test_a_replaced_file_keeps_its_permissions_and_a_failed_one_leaves_nothing(balcli, good, tmp_path, monkeypatch):
+def test_a_replaced_file_keeps_its_permissions_and_a_failed_one_leaves_nothing(
+    balcli, good, tmp_path, monkeypatch
+):
     target = tmp_path / "out.txt"
     target.write_text("old")
     target.chmod(0o640)
@@ -295,9 +440,14 @@ def test_a_replaced_file_keeps_its_permissions_and_a_failed_one_leaves_nothing(b
 
     def full(*_, **__):
         raise OSError(28, "No space left on device")
+
     monkeypatch.setattr(Path, "replace", full)
     before = target.read_text()
-    assert balcli("analyze", V8, "-o", target) == (2, "", f"balcli: {target}: cannot be written (No space left on device)\n")
+    assert balcli("analyze", V8, "-o", target) == (
+        2,
+        "",
+        f"balcli: {target}: cannot be written (No space left on device)\n",
+    )
     assert target.read_text() == before
     assert sorted(p.name for p in tmp_path.iterdir()) == ["good.toml", "out.txt"]
 
@@ -307,7 +457,10 @@ def test_new_never_overwrites_without_force(balcli, tmp_path):
     assert balcli("new", "single", target) == (0, "", "")
     written = target.read_text()
     assert balcli("new", "vee", target) == (
-        2, "", f"balcli: {target}: is there already; choose another name, or --force to overwrite it\n")
+        2,
+        "",
+        f"balcli: {target}: is there already; choose another name, or --force to overwrite it\n",
+    )
     assert target.read_text() == written
     assert balcli("new", "vee", target, "--force") == (0, "", "")
     assert target.read_text() == balcli("new", "vee")[1] != written
@@ -328,15 +481,23 @@ def test_a_pipe_gets_no_escape_codes_and_no_width(balcli, monkeypatch):
 def test_headings_of_rows_stay_whole_in_a_narrow_terminal(balcli, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.setattr("balcli.render.table.seen", lambda into_file: True)
-    out = balcli("compare", *(ROOT / "engines" / f"{name}.toml" for name in ("i3", "i4", "i5", "i6")), "--orders", "1,2")[1]
+    out = balcli(
+        "compare",
+        *(ROOT / "engines" / f"{name}.toml" for name in ("i3", "i4", "i5", "i6")),
+        "--orders",
+        "1,2",
+    )[1]
     assert re.findall(r"(?m)^order \d", ESCAPE.sub("", out)) == ["order 1", "order 2"] * 5
 
 
 @pytest.mark.parametrize("columns", [80, 140])
-@pytest.mark.parametrize("name", ["v8_crossplane", "vr6", "radial9", "w12", "i4_shafts", "single", "tsinghua_12v135q"])
+@pytest.mark.parametrize(
+    "name", ["v8_crossplane", "vr6", "radial9", "w12", "i4_shafts", "single", "tsinghua_12v135q"]
+)
 def test_a_terminal_gets_lines_of_its_width(balcli, monkeypatch, name, columns):
     """No line is wider, and none of the table's cells is broken."""
     from rich.cells import cell_len
+
     monkeypatch.setenv("COLUMNS", str(columns))
     monkeypatch.setenv("TERM", "xterm-256color")
     monkeypatch.setattr("balcli.render.table.seen", lambda into_file: True)
@@ -357,8 +518,12 @@ def test_a_real_terminal():
     ours, theirs = pty.openpty()
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 50, 80, 0, 0))
     environment = {k: v for k, v in os.environ.items() if k not in ("COLUMNS", "NO_COLOR")} | {
-        "TERM": "xterm-256color", "PYTHONPATH": str(ROOT / "src")}
-    with subprocess.Popen([sys.executable, "-m", "balcli", "analyze", V8], stdout=theirs, env=environment) as running:
+        "TERM": "xterm-256color",
+        "PYTHONPATH": str(ROOT / "src"),
+    }
+    with subprocess.Popen(
+        [sys.executable, "-m", "balcli", "analyze", V8], stdout=theirs, env=environment
+    ) as running:
         os.close(theirs)
         text = b""
         while chunk := _read(ours):
@@ -372,12 +537,22 @@ def test_a_real_terminal():
 def _read(descriptor: int) -> bytes:
     try:
         return os.read(descriptor, 65536)
-    except OSError:                                     # Linux: the other end is closed
+    except OSError:  # Linux: the other end is closed
         return b""
 
 
-@pytest.mark.parametrize("args", [["analyze", V8], ["schema"], ["new", "single"], ["check", str(ROOT / "engines" / "i4.toml")],
-                                  ["--help"], ["--version"], ["balance", "--help"]])
+@pytest.mark.parametrize(
+    "args",
+    [
+        ["analyze", V8],
+        ["schema"],
+        ["new", "single"],
+        ["check", str(ROOT / "engines" / "i4.toml")],
+        ["--help"],
+        ["--version"],
+        ["balance", "--help"],
+    ],
+)
 def test_a_closed_pipe_ends_quietly(args):
     reading, writing = os.pipe()
     os.close(reading)
@@ -386,7 +561,9 @@ def test_a_closed_pipe_ends_quietly(args):
     assert (done.returncode, done.stderr) == (0, b"")
 
 
-@pytest.mark.parametrize("args", [["analyze", "nowhere.toml"], ["balance", "nowhere.toml"], ["analyze", "--wrong"]])
+@pytest.mark.parametrize(
+    "args", [["analyze", "nowhere.toml"], ["balance", "nowhere.toml"], ["analyze", "--wrong"]]
+)
 def test_mistakes_that_nobody_reads_have_their_status(args):
     reading, writing = os.pipe()
     os.close(reading)
@@ -396,13 +573,33 @@ def test_mistakes_that_nobody_reads_have_their_status(args):
 
 
 def test_any_locale_gets_utf_8():
-    done = process("analyze", V8, env={"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "PYTHONIOENCODING": "ascii"})
+    done = process(
+        "analyze",
+        V8,
+        env={
+            "LC_ALL": "C",
+            "PYTHONUTF8": "0",
+            "PYTHONCOERCECLOCALE": "0",
+            "PYTHONIOENCODING": "ascii",
+        },
+    )
     assert (done.returncode, done.stderr) == (0, b"")
     assert "F1 = m r ω² = " in done.stdout.decode("utf-8")
 
 
 # ------------------------------------------------------------------ what is imported
-HEAVY = {"numpy", "pydantic", "rich", "matplotlib", "pint", "tomli_w", "jinja2", "scipy", "email", "zipfile"}
+HEAVY = {
+    "numpy",
+    "pydantic",
+    "rich",
+    "matplotlib",
+    "pint",
+    "tomli_w",
+    "jinja2",
+    "scipy",
+    "email",
+    "zipfile",
+}
 PROBE = """
 import sys
 from balcli.__main__ import main
@@ -413,44 +610,69 @@ finally:
 """
 
 
-@pytest.mark.parametrize(("args", "allowed"), [
-    (["--help"], {"rich"}),
-    (["--version"], set()),
-    (["new", "single"], {"pydantic"}),                  # typer itself may check arguments with it
-    (["schema"], {"pydantic"}),
-    (["analyze", V8, "--format", "json"], {"numpy", "pydantic"}),
-    (["analyze", V8, "--format", "csv"], {"numpy", "pydantic"}),
-    (["analyze", V8, "--format", "markdown"], {"numpy", "pydantic"}),
-    (["analyze", V8], {"numpy", "pydantic", "rich"}),
-    (["check", str(ROOT / "engines" / "i4.toml")], {"numpy", "pydantic"}),
-])
+@pytest.mark.parametrize(
+    ("args", "allowed"),
+    [
+        (["--help"], {"rich"}),
+        (["--version"], set()),
+        (["new", "single"], {"pydantic"}),  # typer itself may check arguments with it
+        (["schema"], {"pydantic"}),
+        (["analyze", V8, "--format", "json"], {"numpy", "pydantic"}),
+        (["analyze", V8, "--format", "csv"], {"numpy", "pydantic"}),
+        (["analyze", V8, "--format", "markdown"], {"numpy", "pydantic"}),
+        (["analyze", V8], {"numpy", "pydantic", "rich"}),
+        (["check", str(ROOT / "engines" / "i4.toml")], {"numpy", "pydantic"}),
+    ],
+)
 def test_only_what_is_needed_is_imported(args, allowed):
-    done = subprocess.run([sys.executable, "-c", PROBE, *args], capture_output=True, text=True, check=False,
-                          env={**os.environ, "PYTHONPATH": str(ROOT / "src")})
+    done = subprocess.run(
+        [sys.executable, "-c", PROBE, *args],
+        capture_output=True,
+        text=True,
+        check=False,
+        env={**os.environ, "PYTHONPATH": str(ROOT / "src")},
+    )
     assert set(done.stderr.split()) & HEAVY <= allowed
     assert "balcli" in done.stderr.split()
 
 
-@pytest.mark.parametrize("use", [
-    "import importlib.metadata; print(importlib.metadata.version('numpy'))",
-    "from importlib.metadata import version; print(version('numpy'))",
-    "from importlib.metadata import entry_points; print(len(entry_points(group='console_scripts')) > 0)",
-    "import importlib.metadata._meta as m; print(m.__name__)",
-    "import secrets; from secrets import token_hex; print(secrets.compare_digest('a', 'a'), len(token_hex(3)))",
-    "import secrets; print(hasattr(secrets, 'no_such_thing'), hasattr(secrets, '__path__'))",
-    "import importlib.util as u; s = u.find_spec('importlib.metadata'); print(s.name, s.origin)",
-    "import importlib.metadata as m; m.version; import sys; print(type(sys.modules[m.__name__]) is type(sys))",
-])
+@pytest.mark.parametrize(
+    "use",
+    [
+        "import importlib.metadata; print(importlib.metadata.version('numpy'))",
+        "from importlib.metadata import version; print(version('numpy'))",
+        "from importlib.metadata import entry_points; "
+        "print(len(entry_points(group='console_scripts')) > 0)",
+        "import importlib.metadata._meta as m; print(m.__name__)",
+        "import secrets; from secrets import token_hex; print(secrets.compare_digest('a', 'a'), "
+        "len(token_hex(3)))",
+        "import secrets; print(hasattr(secrets, 'no_such_thing'), hasattr(secrets, '__path__'))",
+        "import importlib.util as u; s = u.find_spec('importlib.metadata'); print(s.name, "
+        "s.origin)",
+        "import importlib.metadata as m; m.version; import sys; "
+        "print(type(sys.modules[m.__name__]) is type(sys))",
+    ],
+)
 def test_what_is_deferred_is_there_when_it_is_asked_for(use):
     def run(first: str) -> str:
-        done = subprocess.run([sys.executable, "-c", first + use], capture_output=True, text=True, check=True,
-                              env={**os.environ, "PYTHONPATH": str(ROOT / "src")})
+        done = subprocess.run(
+            [sys.executable, "-c", first + use],
+            capture_output=True,
+            text=True,
+            check=True,
+            env={**os.environ, "PYTHONPATH": str(ROOT / "src")},
+        )
         return done.stdout
-    assert run("from balcli.__main__ import _Later as L; [L.defer(n) for n in 2 * ('importlib.metadata', 'secrets')]\n") == run("")
+
+    assert run(
+        "from balcli.__main__ import _Later as L; [L.defer(n) for n in 2 * ('importlib.metadata', "
+        "'secrets')]\n"
+    ) == run("")
 
 
 def test_an_interruption_has_its_own_status(balcli, monkeypatch, good):
     def interrupted(**_):
         raise typer.Abort
+
     monkeypatch.setattr("balcli.cli.app", interrupted)
     assert balcli("analyze", good) == (130, "", "")

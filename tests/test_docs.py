@@ -1,12 +1,15 @@
-"""README.md and docs/*.md: what they show is what is printed, their links lead somewhere, and every command is described."""
+"""README.md and docs/*.md: what they show is what is printed, their links lead somewhere, and every
+command is described.
+"""
+
 from __future__ import annotations
 
 import re
 from pathlib import Path
 
 import docs_examples as guide
-import pytest
 import engine_file_reference as reference
+import pytest
 
 from balcli.cli import COMMANDS
 
@@ -18,9 +21,15 @@ def test_everything_shown_is_what_is_printed(document: Path, tmp_path: Path) -> 
     text, folder = document.read_text(encoding="utf-8"), guide.project(tmp_path)
     for name, content in guide.files(text).items():
         (folder / name).write_text(content, encoding="utf-8")
-    wrong = [f"$ {one.command}\n" + "\n".join(found) for one in guide.shown(text)
-             if not guide.agrees(one.expected, found := guide.printed(one, folder))]
-    assert not wrong, f"{document.name} shows something else (python tools/docs_examples.py {document.name} renews it):\n" + "\n\n".join(wrong)
+    wrong = [
+        f"$ {one.command}\n" + "\n".join(found)
+        for one in guide.shown(text)
+        if not guide.agrees(one.expected, found := guide.printed(one, folder))
+    ]
+    assert not wrong, (
+        f"{document.name} shows something else (python tools/docs_examples.py {document.name} "
+        "renews it):\n" + "\n\n".join(wrong)
+    )
 
 
 def test_comparison_sees_a_changed_figure_and_passes_over_what_is_left_out() -> None:
@@ -57,11 +66,15 @@ def anchors(document: Path) -> set[str]:
 
 
 def test_engine_file_reference_is_up_to_date() -> None:
-    assert reference.DOCUMENT.read_text(encoding="utf-8") == reference.document(), "python tools/engine_file_reference.py writes it anew"
+    assert reference.DOCUMENT.read_text(encoding="utf-8") == reference.document(), (
+        "python tools/engine_file_reference.py writes it anew"
+    )
 
 
 def test_every_json_format_is_described() -> None:
-    source = "".join(file.read_text(encoding="utf-8") for file in (guide.ROOT / "src").rglob("*.py"))
+    source = "".join(
+        file.read_text(encoding="utf-8") for file in (guide.ROOT / "src").rglob("*.py")
+    )
     described = (guide.ROOT / "docs" / "json.md").read_text(encoding="utf-8")
     formats = set(re.findall(r"balcli\.[a-z]+/\d+", source))
     assert len(formats) > 5

@@ -1,4 +1,5 @@
 """`balcli check`: what is recorded, what moved, and how it is named."""
+
 from __future__ import annotations
 
 import json
@@ -9,10 +10,10 @@ import numpy as np
 import pytest
 from support.engines import GOOD, changed
 
-from balcli.results.analysis import analyze
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.regression import TOLERANCE, differences, record, recorded_at
+from balcli.results.analysis import analyze
 
 ENGINES = Path(__file__).parents[1] / "engines"
 
@@ -49,13 +50,18 @@ def test_all_example_engines_are_as_recorded(check):
 def test_recorded_results_are_the_product_of_todays_program(tmp_path, check):
     """check --update writes the same file again: keys, digits and layout."""
     for suffix in (".toml", ".json"):
-        source = ENGINES / ("v8_crossplane.toml" if suffix == ".toml" else "expected/v8_crossplane.json")
+        source = ENGINES / (
+            "v8_crossplane.toml" if suffix == ".toml" else "expected/v8_crossplane.json"
+        )
         target = tmp_path / ("" if suffix == ".toml" else "expected") / source.name
         target.parent.mkdir(exist_ok=True)
         shutil.copy(source, target)
     assert check("--update", tmp_path) == (0, "1 engine recorded\n", "")
     assert check(tmp_path) == (0, "1 engine, 0 differences\n", "")
-    old, new = (json.loads(p.joinpath("expected/v8_crossplane.json").read_text()) for p in (ENGINES, tmp_path))
+    old, new = (
+        json.loads(p.joinpath("expected/v8_crossplane.json").read_text())
+        for p in (ENGINES, tmp_path)
+    )
     assert old.keys() == new.keys()
     assert [o.keys() for o in old["orders"]] == [n.keys() for n in new["orders"]]
 
@@ -67,16 +73,25 @@ def test_nothing_moved(check, file):
 def test_an_engine_without_a_recorded_result_is_a_difference(check, tmp_path):
     lonely = tmp_path / "lonely.toml"
     lonely.write_text(GOOD)
-    assert check(lonely) == (1, "lonely: no result is recorded in expected/lonely.json; check --update records it\n"
-                                "1 engine, 1 difference\n", "")
+    assert check(lonely) == (
+        1,
+        "lonely: no result is recorded in expected/lonely.json; check --update records it\n"
+        "1 engine, 1 difference\n",
+        "",
+    )
     assert not (tmp_path / "expected").exists()
     assert check(lonely, "--update") == (0, "1 engine recorded\n", "")
     assert check(lonely) == (0, "1 engine, 0 differences\n", "")
 
 
 def test_every_figure_that_moved_is_named(check, file):
-    """A tenth of a per cent more piston moves forces, torque and roll; order, part, old and new figure are told."""
-    before = {(e["order"], "force"): e["force_N"] for e in json.loads(recorded_at(file).read_text())["orders"]}
+    """A tenth of a per cent more piston moves forces, torque and roll; order, part, old and new
+    figure are told.
+    """
+    before = {
+        (e["order"], "force"): e["force_N"]
+        for e in json.loads(recorded_at(file).read_text())["orders"]
+    }
     file.write_text(changed(("mass = 0.5", "mass = 0.5005")))
     status, out, err = check(file)
     assert (status, err) == (1, "")
@@ -98,12 +113,18 @@ def test_every_figure_that_moved_is_named(check, file):
 
 @pytest.mark.parametrize(("share", "moved"), [(0.9, False), (1.1, True)])
 def test_the_tolerance_is_a_share_of_the_largest_order(file, share, moved):
-    """What matters is the size of the quantity: the same change in a small order counts the same."""
-    largest = max(max(map(abs, e["force_N"]["forward"])) for e in json.loads(recorded_at(file).read_text())["orders"])
+    """What matters is the size of the quantity: the same change in a small order counts the
+    same.
+    """
+    largest = max(
+        max(map(abs, e["force_N"]["forward"]))
+        for e in json.loads(recorded_at(file).read_text())["orders"]
+    )
     peak = json.loads(recorded_at(file).read_text())["peak"]["force_N"]
 
     def edit(document):
         document["orders"][3]["force_N"]["forward"][0] += share * TOLERANCE * max(largest, peak)
+
     edited(file, edit)
     found = differences("four", build(parse(GOOD)), recorded_at(file))
     assert len(found) == moved
@@ -112,7 +133,9 @@ def test_the_tolerance_is_a_share_of_the_largest_order(file, share, moved):
 
 @pytest.mark.parametrize(("roundings", "moved"), [(1.9, False), (4, True)])
 def test_where_all_large_orders_cancel_rounding_is_no_difference(tmp_path, roundings, moved):
-    """The rotary's only forces are millionths of what each cylinder makes: their rounding is more than 1e-9 of them."""
+    """The rotary's only forces are millionths of what each cylinder makes: their rounding is more
+    than 1e-9 of them.
+    """
     engine_file = Path(shutil.copy(ENGINES / "rotary9.toml", tmp_path))
     recorded_at(engine_file).parent.mkdir()
     shutil.copy(recorded_at(ENGINES / "rotary9.toml"), recorded_at(engine_file))
@@ -124,8 +147,11 @@ def test_where_all_large_orders_cancel_rounding_is_no_difference(tmp_path, round
     def edit(document):
         (entry,) = [entry for entry in document["orders"] if entry["order"] == 9]
         entry["force_N"]["forward"][0] += roundings * noise
+
     edited(engine_file, edit)
-    assert [str(d)[:28] for d in differences("rotary9", engine, recorded_at(engine_file))] == ["rotary9: force order 9 forwa"] * moved
+    assert [str(d)[:28] for d in differences("rotary9", engine, recorded_at(engine_file))] == [
+        "rotary9: force order 9 forwa"
+    ] * moved
 
 
 def test_an_order_that_is_not_recorded_and_one_that_is_no_more(check, file):
@@ -137,41 +163,75 @@ def test_an_order_that_is_not_recorded_and_one_that_is_no_more(check, file):
 
 def test_angles_are_not_compared(check, file):
     """They jump where an ellipse is nearly a circle."""
+
     def edit(document):
         for entry in document["orders"]:
             for value in entry.values():
                 if isinstance(value, dict):
                     value |= {key: 12.5 for key in ("axis_deg", "peak_deg") if key in value}
         document["peak"] |= {"force_deg": 1.0, "moment_deg": 2.0}
+
     edited(file, edit)
     assert check(file) == (0, "1 engine, 0 differences\n", "")
 
 
 def test_speed_and_number_of_cylinders(check, file):
-    edited(file, lambda document: (document.update(speed_rpm=2999.0), document["engine"].update(cylinders=5)))
-    assert check(file) == (1, "four: number of cylinders: 5 -> 4\nfour: speed, rpm: 2999.0 -> 3000.0\n1 engine, 2 differences\n", "")
+    edited(
+        file,
+        lambda document: (
+            document.update(speed_rpm=2999.0),
+            document["engine"].update(cylinders=5),
+        ),
+    )
+    assert check(file) == (
+        1,
+        "four: number of cylinders: 5 -> 4\nfour: speed, rpm: 2999.0 -> 3000.0\n1 engine, 2 "
+        "differences\n",
+        "",
+    )
 
 
-@pytest.mark.parametrize(("text", "reason"), [
-    ("{", "JSONDecodeError: Expecting property name enclosed in double quotes: line 1 column 2 (char 1)"),
-    ("{}", "KeyError: 'orders'"),
-    ("[]", "TypeError: list indices must be integers or slices, not str"),
-    ('{"orders": [{"order": 1}]}', "KeyError: 'force_N'"),
-])
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        (
+            "{",
+            "JSONDecodeError: Expecting property name enclosed in double quotes: line 1 column 2 "
+            "(char 1)",
+        ),
+        ("{}", "KeyError: 'orders'"),
+        ("[]", "TypeError: list indices must be integers or slices, not str"),
+        ('{"orders": [{"order": 1}]}', "KeyError: 'force_N'"),
+    ],
+)
 def test_a_broken_record_is_a_difference(check, file, text, reason):
     recorded_at(file).write_text(text)
-    assert check(file) == (1, f"four: the result recorded in expected/four.json cannot be read ({reason}); "
-                              "check --update records it anew\n1 engine, 1 difference\n", "")
+    assert check(file) == (
+        1,
+        f"four: the result recorded in expected/four.json cannot be read ({reason}); "
+        "check --update records it anew\n1 engine, 1 difference\n",
+        "",
+    )
     assert check(file, "--update") == (0, "1 engine recorded\n", "")
     assert check(file) == (0, "1 engine, 0 differences\n", "")
 
 
-@pytest.mark.parametrize("text", [
-    '{"orders": [{"order": 1, "force_N": null}]}', '{"orders": [{"order": -3}]}', '{"orders": 5}', '{"orders": [], "peak": []}',
-    '{"orders": [], "peak": {"force_N": null, "moment_Nm": 0}}', '{"orders": [], "peak": {"force_N": 0, "moment_Nm": 0}}',
-    '{"orders": [{"order": 1e99}], "peak": {}}', "null", '"text"', "\xff",
-    '{"orders": [], "engine": [], "peak": {"force_N": 0, "moment_Nm": 0}}',
-])
+@pytest.mark.parametrize(
+    "text",
+    [
+        '{"orders": [{"order": 1, "force_N": null}]}',
+        '{"orders": [{"order": -3}]}',
+        '{"orders": 5}',
+        '{"orders": [], "peak": []}',
+        '{"orders": [], "peak": {"force_N": null, "moment_Nm": 0}}',
+        '{"orders": [], "peak": {"force_N": 0, "moment_Nm": 0}}',
+        '{"orders": [{"order": 1e99}], "peak": {}}',
+        "null",
+        '"text"',
+        "\xff",
+        '{"orders": [], "engine": [], "peak": {"force_N": 0, "moment_Nm": 0}}',
+    ],
+)
 def test_no_record_however_broken_brings_check_down(check, file, text):
     recorded_at(file).write_text(text, encoding="latin-1")
     status, out, err = check(file)

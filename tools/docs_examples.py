@@ -1,12 +1,15 @@
 """What README.md and docs/*.md show, and how to run it.
 
-In a ```console block a line that begins with `$ ` is a command, the lines below are all that it prints, and a line `…`
-stands for any lines left out. A ```toml block whose first line is `# NAME.toml` is written under that name; a ```python
-block is run, and what it prints is the ```text block below. Everything in a document runs in one folder, top to bottom.
+In a ```console block a line that begins with `$ ` is a command, the lines below are all that it
+prints, and a line `…` stands for any lines left out. A ```toml block whose first line is `#
+NAME.toml` is written under that name; a ```python block is run, and what it prints is the ```text
+block below. Everything in a document runs in one folder, top to bottom.
 
-`python tools/docs_examples.py FILE.md…` writes what is printed now into the documents; lines that stand between `…` are replaced
-by the ones most like them, so look at the difference before you believe it.
+`python tools/docs_examples.py FILE.md…` writes what is printed now into the documents; lines that
+stand between `…` are replaced by the ones most like them, so look at the difference before you
+believe it.
 """
+
 from __future__ import annotations
 
 import os
@@ -26,12 +29,16 @@ from typing import NamedTuple
 ROOT = Path(__file__).resolve().parent.parent
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 LEFT_OUT = "…"
-FUNCTION = f'balcli() {{ "{sys.executable}" -m balcli "$@"; }}; python() {{ "{sys.executable}" "$@"; }}\n'
+FUNCTION = (
+    f'balcli() {{ "{sys.executable}" -m balcli "$@"; }}; python() {{ "{sys.executable}" "$@"; }}\n'
+)
 ENVIRONMENT = os.environ | {"PYTHONPATH": str(ROOT / "src"), "NO_COLOR": "1", "COLUMNS": "80"}
 
 
 class Shown(NamedTuple):
-    """A command (or a Python program) and what a document says it prints, with the lines of the document it fills."""
+    """A command (or a Python program) and what a document says it prints, with the lines of the
+    document it fills.
+    """
 
     command: str
     expected: list[str]
@@ -41,7 +48,9 @@ class Shown(NamedTuple):
 
 
 class Block(NamedTuple):
-    """A fenced block: its language, its lines, and the line of the document with which it begins."""
+    """A fenced block: its language, its lines, and the line of the document with which it
+    begins.
+    """
 
     language: str
     lines: list[str]
@@ -61,7 +70,11 @@ def blocks(text: str) -> Iterator[Block]:
 
 def files(text: str) -> dict[str, str]:
     """Files that a document asks its reader to write."""
-    named = ((re.fullmatch(r"# ([\w-]+\.toml)", b.lines[0]), b) for b in blocks(text) if b.language == "toml" and b.lines)
+    named = (
+        (re.fullmatch(r"# ([\w-]+\.toml)", b.lines[0]), b)
+        for b in blocks(text)
+        if b.language == "toml" and b.lines
+    )
     return {name[1]: "\n".join(block.lines[1:]) + "\n" for name, block in named if name}
 
 
@@ -72,15 +85,30 @@ def shown(text: str) -> Iterator[Shown]:
         if block.language == "console":
             starts = [k for k, line in enumerate(block.lines) if line.startswith("$ ")]
             for start, end in zip(starts, [*starts[1:], len(block.lines)], strict=True):
-                yield Shown(block.lines[start][2:], block.lines[start + 1:end], block.first + start + 1, block.first + end)
+                yield Shown(
+                    block.lines[start][2:],
+                    block.lines[start + 1 : end],
+                    block.first + start + 1,
+                    block.first + end,
+                )
         elif block.language == "text" and before and before.language == "python":
-            yield Shown("\n".join(before.lines), block.lines, block.first, block.first + len(block.lines), python=True)
+            yield Shown(
+                "\n".join(before.lines),
+                block.lines,
+                block.first,
+                block.first + len(block.lines),
+                python=True,
+            )
         before = block
 
 
 def printed(one: Shown, folder: Path) -> list[str]:
     """What a command prints, standard error included. AssertionError if it fails."""
-    plain = one.command.startswith("balcli ") and not one.python and not set("|&;<>$*?") & set(one.command)
+    plain = (
+        one.command.startswith("balcli ")
+        and not one.python
+        and not set("|&;<>$*?") & set(one.command)
+    )
     status, output = _inside(one.command, folder) if plain else _outside(one, folder)
     if status:
         raise AssertionError(f"{one.command}\nends with status {status}:\n{output}")
@@ -103,26 +131,49 @@ def _inside(command: str, folder: Path) -> tuple[object, str]:
 
 
 def _outside(one: Shown, folder: Path) -> tuple[object, str]:
-    command = [sys.executable, "-c", one.command] if one.python else ["bash", "-c", FUNCTION + one.command]
-    done = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=ENVIRONMENT,
-                          text=True, encoding="utf-8", timeout=120)
+    command = (
+        [sys.executable, "-c", one.command]
+        if one.python
+        else ["bash", "-c", FUNCTION + one.command]
+    )
+    done = subprocess.run(
+        command,
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        env=ENVIRONMENT,
+        text=True,
+        encoding="utf-8",
+        timeout=120,
+    )
     return done.returncode, done.stdout
 
 
 def agrees(expected: list[str], found: list[str]) -> bool:
-    """Whether the lines are the same but for those that are left out; at either end, empty lines count for nothing.
+    """Whether the lines are the same but for those that are left out; at either end, empty lines
+    count for nothing.
 
     Figures in full precision need to agree to nine digits: the last ones are the machine's.
     """
-    parts = [r"(?:.*\n)*?" if line.strip() == LEFT_OUT else re.escape(_rounded(line.rstrip())) + "\n" for line in _trimmed(expected)]
-    return re.fullmatch("".join(parts), "".join(_rounded(line) + "\n" for line in _trimmed(found))) is not None
+    parts = [
+        r"(?:.*\n)*?" if line.strip() == LEFT_OUT else re.escape(_rounded(line.rstrip())) + "\n"
+        for line in _trimmed(expected)
+    ]
+    return (
+        re.fullmatch("".join(parts), "".join(_rounded(line) + "\n" for line in _trimmed(found)))
+        is not None
+    )
 
 
 def _rounded(line: str) -> str:
-    """With numbers of more than nine decimals to nine digits, and rounding errors as what they are: 0."""
+    """With numbers of more than nine decimals to nine digits, and rounding errors as what they are:
+    0.
+    """
+
     def nine(number: re.Match[str]) -> str:
         value = float(number[0])
         return f"{value if abs(value) > 1e-12 else 0:.9g}"
+
     return re.sub(r"-?\b\d+\.\d{9,}(?:e[-+]\d+)?|-?\b0\.0\b", nine, line)
 
 
@@ -142,21 +193,25 @@ def renewed(text: str, folder: Path) -> str:
     fresh = []
     for one in shown(text):
         found = printed(one, folder)
-        fresh.append((one, one.expected if agrees(one.expected, found) else _alike(one.expected, found)))
+        fresh.append(
+            (one, one.expected if agrees(one.expected, found) else _alike(one.expected, found))
+        )
     for one, output in reversed(fresh):
-        lines[one.first:one.last] = output
+        lines[one.first : one.last] = output
     return "\n".join(lines) + "\n"
 
 
 def _alike(expected: list[str], found: list[str]) -> list[str]:
-    """For every line the most similar one of those that follow the last; all lines where none is left out."""
+    """For every line the most similar one of those that follow the last; all lines where none is
+    left out.
+    """
     if not any(line.strip() == LEFT_OUT for line in expected):
         return _trimmed(found)
     result, rest = [], found
     for line in expected:
         if line.strip() != LEFT_OUT and rest:
             best = max(range(len(rest)), key=lambda k: SequenceMatcher(None, line, rest[k]).ratio())
-            line, rest = rest[best], rest[best + 1:]
+            line, rest = rest[best], rest[best + 1 :]
         result.append(line)
     return result
 

@@ -1,7 +1,9 @@
-"""The tables of docs/engine-file.md, made of the models; `python tools/engine_file_reference.py` writes them anew.
+"""The tables of docs/engine-file.md, made of the models; `python tools/engine_file_reference.py`
+writes them anew.
 
 They stand between two comments; what is above and below is written by hand.
 """
+
 from __future__ import annotations
 
 import re
@@ -20,12 +22,30 @@ BEGIN, END = "<!-- tables: python tools/engine_file_reference.py -->\n", "<!-- e
 def tables() -> str:
     """Every table of the engine file, each key with unit, default, meaning and an example."""
     definitions = schema()["$defs"]
-    parts = [_part("At the top", "What stands before the first table.", EngineFile, schema(), ("name", "source"))]
+    parts = [
+        _part(
+            "At the top",
+            "What stands before the first table.",
+            EngineFile,
+            schema(),
+            ("name", "source"),
+        )
+    ]
     named = {f"[{name}]": table for name, table in TABLES.items()} | {"[cylinder.N]": Override}
-    for heading, table in (named | {f"[[{name}]]": table for name, table in DEVICES.items()}).items():
+    for heading, table in (
+        named | {f"[[{name}]]": table for name, table in DEVICES.items()}
+    ).items():
         parts.append(_part(f"`{heading}`", str(table.__doc__), table, definitions[table.__name__]))
-        parts += [_part(f"`{key} = {{…}}` in `{heading}`", str(inner.__doc__), inner, definitions[inner.__name__])
-                  for key, inner in _inner(table) if table is not Override]
+        parts += [
+            _part(
+                f"`{key} = {{…}}` in `{heading}`",
+                str(inner.__doc__),
+                inner,
+                definitions[inner.__name__],
+            )
+            for key, inner in _inner(table)
+            if table is not Override
+        ]
     return "\n".join(parts)
 
 
@@ -35,10 +55,26 @@ def document() -> str:
     return head + BEGIN + "\n" + tables() + "\n" + END + rest.split(END)[1]
 
 
-def _part(heading: str, about: str, table: type[Table], definition: dict[str, Any], keys: tuple[str, ...] = ()) -> str:
+def _part(
+    heading: str,
+    about: str,
+    table: type[Table],
+    definition: dict[str, Any],
+    keys: tuple[str, ...] = (),
+) -> str:
     rows = [_row(key, table, definition) for key in keys or definition["properties"]]
-    return "\n".join([f"### {heading}", "", about.strip(), "", "| key | unit | left out | meaning | example |",
-                      "| --- | --- | --- | --- | --- |", *rows, ""])
+    return "\n".join(
+        [
+            f"### {heading}",
+            "",
+            about.strip(),
+            "",
+            "| key | unit | left out | meaning | example |",
+            "| --- | --- | --- | --- | --- |",
+            *rows,
+            "",
+        ]
+    )
 
 
 def _row(key: str, table: type[Table], definition: dict[str, Any]) -> str:
@@ -48,16 +84,26 @@ def _row(key: str, table: type[Table], definition: dict[str, Any]) -> str:
     if options := shown.get("enum"):
         meaning += f" ({' or '.join(map(_toml, options))})"
     example = _toml(field.examples[0]) if field.examples else ""
-    return f"| `{key}` | {unit} | {_left_out(key, table, definition)} | {meaning} | {f'`{example}`' if example else ''} |"
+    return (
+        f"| `{key}` | {unit} | {_left_out(key, table, definition)} | {meaning} | "
+        f"{f'`{example}`' if example else ''} |"
+    )
 
 
 def _left_out(key: str, table: type[Table], definition: dict[str, Any]) -> str:
     """What counts where a key is left out."""
-    others = [" and ".join(f"`{k}`" for k in group) for choice in table.choices if choice.required
-              for group in choice.groups if key not in group]
+    others = [
+        " and ".join(f"`{k}`" for k in group)
+        for choice in table.choices
+        if choice.required
+        for group in choice.groups
+        if key not in group
+    ]
     if key in definition.get("required", ()):
         return "needed"
-    if others and any(key in group for choice in table.choices if choice.required for group in choice.groups):
+    if others and any(
+        key in group for choice in table.choices if choice.required for group in choice.groups
+    ):
         return f"needed, or {' or '.join(others)}"
     default = table.model_fields[key].default
     return "–" if default is None or default in ((), "") else f"{_toml(default)}"

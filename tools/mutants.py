@@ -2,12 +2,15 @@
 
     python tools/mutants.py core sizing/solver.py core/peaks.py:36 --sample 40 --seconds 20
 
-One node of a module's syntax tree is changed at a time: operators, comparisons, conditions, constants, functions by their
-counterparts, results by None, statements left out. Tests run once, with the lines that each of them reaches; then every mutant
-has a process of its own, forked when all is imported, in which the changed functions are put in place and the tests that reach
-the line run, those first that reach little else or have found others, until one fails or those left would take longer than `--seconds`.
-Survivors are printed and end the run with exit code 1; docs/development.md says which are known, and why.
+One node of a module's syntax tree is changed at a time: operators, comparisons, conditions,
+constants, functions by their counterparts, results by None, statements left out. Tests run once,
+with the lines that each of them reaches; then every mutant has a process of its own, forked when
+all is imported, in which the changed functions are put in place and the tests that reach the line
+run, those first that reach little else or have found others, until one fails or those left would
+take longer than `--seconds`. Survivors are printed and end the run with exit code 1;
+docs/development.md says which are known, and why.
 """
+
 from __future__ import annotations
 
 import argparse
@@ -36,25 +39,89 @@ from hypothesis import Phase, settings
 
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "balcli"
-LEFT_OUT = ("bench", "test_cli", "test_commands", "test_completion", "test_docs", "test_examples", "test_fuzz", "test_hygiene",
-            "test_plot", "test_regression", "test_report", "test_schema", "test_sketch", "test_studies", "test_sweep_commands",
-            "test_targets", "test_units")                       # processes, pictures, our own results
-MEMORY = 4 << 30                # bytes of a mutant's process
-PATIENCE = 5.0, 10.0            # seconds of a test before it is taken for hung, and times its usual duration
+LEFT_OUT = (
+    "bench",
+    "test_cli",
+    "test_commands",
+    "test_completion",
+    "test_docs",
+    "test_examples",
+    "test_fuzz",
+    "test_hygiene",
+    "test_plot",
+    "test_regression",
+    "test_report",
+    "test_schema",
+    "test_sketch",
+    "test_studies",
+    "test_sweep_commands",
+    "test_targets",
+    "test_units",
+)  # processes, pictures, our own results
+MEMORY = 4 << 30  # bytes of a mutant's process
+PATIENCE = 5.0, 10.0  # seconds of a test before it is taken for hung, and times its usual duration
 
 
 # ------------------------------------------------------------------ what is changed
 OPERATORS: dict[type, tuple[type, ...]] = {
-    ast.Add: (ast.Sub,), ast.Sub: (ast.Add,), ast.Mult: (ast.Div,), ast.Div: (ast.Mult,), ast.FloorDiv: (ast.Mult,), ast.Mod: (ast.Mult,),
-    ast.Pow: (ast.Mult,), ast.MatMult: (ast.Mult,), ast.BitAnd: (ast.BitOr,), ast.BitOr: (ast.BitAnd,), ast.LShift: (ast.RShift,),
-    ast.Lt: (ast.LtE, ast.GtE), ast.LtE: (ast.Lt, ast.Gt), ast.Gt: (ast.GtE, ast.LtE), ast.GtE: (ast.Gt, ast.Lt),
-    ast.Eq: (ast.NotEq,), ast.NotEq: (ast.Eq,), ast.In: (ast.NotIn,), ast.NotIn: (ast.In,), ast.Is: (ast.IsNot,), ast.IsNot: (ast.Is,),
-    ast.And: (ast.Or,), ast.Or: (ast.And,),
+    ast.Add: (ast.Sub,),
+    ast.Sub: (ast.Add,),
+    ast.Mult: (ast.Div,),
+    ast.Div: (ast.Mult,),
+    ast.FloorDiv: (ast.Mult,),
+    ast.Mod: (ast.Mult,),
+    ast.Pow: (ast.Mult,),
+    ast.MatMult: (ast.Mult,),
+    ast.BitAnd: (ast.BitOr,),
+    ast.BitOr: (ast.BitAnd,),
+    ast.LShift: (ast.RShift,),
+    ast.Lt: (ast.LtE, ast.GtE),
+    ast.LtE: (ast.Lt, ast.Gt),
+    ast.Gt: (ast.GtE, ast.LtE),
+    ast.GtE: (ast.Gt, ast.Lt),
+    ast.Eq: (ast.NotEq,),
+    ast.NotEq: (ast.Eq,),
+    ast.In: (ast.NotIn,),
+    ast.NotIn: (ast.In,),
+    ast.Is: (ast.IsNot,),
+    ast.IsNot: (ast.Is,),
+    ast.And: (ast.Or,),
+    ast.Or: (ast.And,),
 }
-_PAIRS = ("min max", "minimum maximum", "argmin argmax", "sin cos", "any all", "real imag", "forward backward", "floor ceil", "x y",
-          "low high", "zeros ones", "zeros_like ones_like", "arcsin arccos", "radius thickness", "eps lam", "throws_m z")
+_PAIRS = (
+    "min max",
+    "minimum maximum",
+    "argmin argmax",
+    "sin cos",
+    "any all",
+    "real imag",
+    "forward backward",
+    "floor ceil",
+    "x y",
+    "low high",
+    "zeros ones",
+    "zeros_like ones_like",
+    "arcsin arccos",
+    "radius thickness",
+    "eps lam",
+    "throws_m z",
+)
 NAMES = {a: b for pair in _PAIRS for a, b in (pair.split(), pair.split()[::-1])}
-PLAIN = ("abs", "conj", "conjugate", "round", "sorted", "sqrt", "rint", "degrees", "unique", "exp", "log", "sign", "clip")
+PLAIN = (
+    "abs",
+    "conj",
+    "conjugate",
+    "round",
+    "sorted",
+    "sqrt",
+    "rint",
+    "degrees",
+    "unique",
+    "exp",
+    "log",
+    "sign",
+    "clip",
+)
 
 Change = tuple[str, ast.AST | None]
 
@@ -73,7 +140,10 @@ def _of_operators(node: ast.AST) -> Iterator[Change]:
         case ast.Compare():
             for k, op in enumerate(node.ops):
                 for other in OPERATORS[type(op)]:
-                    yield other.__name__, _with(node, ops=[*node.ops[:k], other(), *node.ops[k + 1:]])
+                    yield (
+                        other.__name__,
+                        _with(node, ops=[*node.ops[:k], other(), *node.ops[k + 1 :]]),
+                    )
         case ast.UnaryOp(op=ast.USub() | ast.Not()):
             yield "without sign or not", node.operand
 
@@ -83,7 +153,13 @@ def _of_constants(node: ast.AST) -> Iterator[Change]:
         case ast.Constant(value=bool() as value):
             yield str(not value), ast.Constant(not value)
         case ast.Constant(value=int() | float() | complex() as value):
-            other = value * 1e4 if 0 < abs(value) < 1e-3 else 2 * value if isinstance(value, float) and value else value + 1
+            other = (
+                value * 1e4
+                if 0 < abs(value) < 1e-3
+                else 2 * value
+                if isinstance(value, float) and value
+                else value + 1
+            )
             yield str(other), ast.Constant(other)
         case ast.Constant(value=str() as value):
             yield "other text", ast.Constant(value + "?")
@@ -103,14 +179,19 @@ def _of_names(node: ast.AST) -> Iterator[Change]:
 
 def _of_calls(node: ast.AST) -> Iterator[Change]:
     match node:
-        case ast.Call(func=ast.Name(id=name) | ast.Attribute(attr=name), args=[first, *_]) if name in PLAIN:
+        case ast.Call(func=ast.Name(id=name) | ast.Attribute(attr=name), args=[first, *_]) if (
+            name in PLAIN
+        ):
             yield f"without {name}", first
         case ast.Call(func=ast.Attribute(value=first, attr=name), args=[]) if name in PLAIN:
             yield f"without {name}", first
     if isinstance(node, ast.Call):
         for k, keyword in enumerate(node.keywords):
-            if keyword.arg not in (None, "strict"):                 # strict: a safeguard against ourselves
-                yield f"without {keyword.arg}=", _with(node, keywords=node.keywords[:k] + node.keywords[k + 1:])
+            if keyword.arg not in (None, "strict"):  # strict: a safeguard against ourselves
+                yield (
+                    f"without {keyword.arg}=",
+                    _with(node, keywords=node.keywords[:k] + node.keywords[k + 1 :]),
+                )
 
 
 def _of_statements(node: ast.AST) -> Iterator[Change]:
@@ -121,7 +202,13 @@ def _of_statements(node: ast.AST) -> Iterator[Change]:
             yield "without if", _with(node, ifs=[])
         case ast.Return(value=ast.expr() as value) if ast.unparse(value) != "None":
             yield "None", _with(node, value=ast.Constant(None))
-        case ast.AugAssign() | ast.Raise() | ast.Break() | ast.Continue() | ast.Expr(value=ast.Call()):
+        case (
+            ast.AugAssign()
+            | ast.Raise()
+            | ast.Break()
+            | ast.Continue()
+            | ast.Expr(value=ast.Call())
+        ):
             yield "left out", ast.Pass()
 
 
@@ -133,7 +220,9 @@ def _with(node: ast.AST, **fields: Any) -> ast.AST:
 
 
 class Mutant(NamedTuple):
-    """A changed module; `lines` are those whose tests may notice, the nearest first: statement, function, module."""
+    """A changed module; `lines` are those whose tests may notice, the nearest first: statement,
+    function, module.
+    """
 
     module: str
     line: int
@@ -150,10 +239,22 @@ def mutants(path: Path) -> Iterator[Mutant]:
     for holder, field, node, near in list(_nodes(tree, (everything,))):
         for text, other in changes(node):
             before = ast.unparse(node).splitlines()[0]
-            _put(holder, field, ast.fix_missing_locations(ast.copy_location(other, node)) if other is not node else other)
+            _put(
+                holder,
+                field,
+                ast.fix_missing_locations(ast.copy_location(other, node))
+                if other is not node
+                else other,
+            )
             code = compile(ast.fix_missing_locations(tree), str(path), "exec")
             _put(holder, field, node)
-            yield Mutant(path.relative_to(SOURCE).as_posix(), getattr(node, "lineno", near[0][0]), f"{before[:70]} -> {text}", code, near)
+            yield Mutant(
+                path.relative_to(SOURCE).as_posix(),
+                getattr(node, "lineno", near[0][0]),
+                f"{before[:70]} -> {text}",
+                code,
+                near,
+            )
 
 
 def _put(holder: ast.AST | list[Any], field: Any, node: ast.AST) -> None:
@@ -163,14 +264,22 @@ def _put(holder: ast.AST | list[Any], field: Any, node: ast.AST) -> None:
         setattr(holder, field, node)
 
 
-def _nodes(node: ast.AST, near: tuple[range, ...]) -> Iterator[tuple[Any, Any, ast.AST, tuple[range, ...]]]:
+def _nodes(
+    node: ast.AST, near: tuple[range, ...]
+) -> Iterator[tuple[Any, Any, ast.AST, tuple[range, ...]]]:
     """Every node that may be changed, with what holds it, and the lines around it."""
     if isinstance(node, ast.FunctionDef):
         near = (range(node.lineno, node.end_lineno + 1), *near)
     for field, value in ast.iter_fields(node):
-        if field in ("annotation", "returns", "decorator_list", "bases") or isinstance(node, ast.JoinedStr):
+        if field in ("annotation", "returns", "decorator_list", "bases") or isinstance(
+            node, ast.JoinedStr
+        ):
             continue
-        children = [(value, k, child) for k, child in enumerate(value)] if isinstance(value, list) else [(node, field, value)]
+        children = (
+            [(value, k, child) for k, child in enumerate(value)]
+            if isinstance(value, list)
+            else [(node, field, value)]
+        )
         for holder, key, child in children:
             if not isinstance(child, ast.AST) or _without_effect(child):
                 continue
@@ -183,15 +292,24 @@ def _nodes(node: ast.AST, near: tuple[range, ...]) -> Iterator[tuple[Any, Any, a
 
 def _without_effect(node: ast.AST) -> bool:
     """Docstrings, and `strict=True`."""
-    return (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)) or (isinstance(node, ast.keyword) and node.arg == "strict")
+    return (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)) or (
+        isinstance(node, ast.keyword) and node.arg == "strict"
+    )
 
 
 # ------------------------------------------------------------------ putting it in place
 def patch(mutant: Mutant) -> None:
-    """The functions, classes and constants of the changed module in place of the module's own, wherever they were imported."""
+    """The functions, classes and constants of the changed module in place of the module's own,
+    wherever they were imported.
+    """
     name = _dotted(mutant.module)
     module = importlib.import_module(name)
-    fresh = {"__name__": name, "__package__": module.__package__, "__file__": module.__file__, "__path__": getattr(module, "__path__", [])}
+    fresh = {
+        "__name__": name,
+        "__package__": module.__package__,
+        "__file__": module.__file__,
+        "__path__": getattr(module, "__path__", []),
+    }
     exec(mutant.code, fresh)
     for key, new in fresh.items():
         old = vars(module).get(key)
@@ -210,15 +328,26 @@ def _dotted(module: str) -> str:
 def _graft(old: Any, new: Any) -> bool:
     """New code into old functions; False where it is no function or class."""
     for inner in ("fget", "func", "__func__", "__wrapped__"):
-        if not isinstance(new, types.FunctionType) and isinstance(getattr(new, inner, None), types.FunctionType):
+        if not isinstance(new, types.FunctionType) and isinstance(
+            getattr(new, inner, None), types.FunctionType
+        ):
             return _graft(getattr(old, inner), getattr(new, inner))
     if isinstance(new, types.FunctionType):
-        old.__code__, old.__defaults__, old.__kwdefaults__ = new.__code__, new.__defaults__, new.__kwdefaults__
+        old.__code__, old.__defaults__, old.__kwdefaults__ = (
+            new.__code__,
+            new.__defaults__,
+            new.__kwdefaults__,
+        )
         return True
     if not isinstance(new, type) or new.__module__ != old.__module__:
         return False
     for key, value in list(vars(new).items()):
-        if key in vars(old) and not _graft(vars(old)[key], value) and not key.startswith("__") and vars(old)[key] != value:
+        if (
+            key in vars(old)
+            and not _graft(vars(old)[key], value)
+            and not key.startswith("__")
+            and vars(old)[key] != value
+        ):
             setattr(old, key, value)
     return True
 
@@ -234,7 +363,7 @@ def in_child(work: Callable[[], Any]) -> Any:
         os.waitpid(child, 0)
         return pickle.loads(found) if found else None
     with open(os.devnull, "w") as nothing:
-        os.dup2(nothing.fileno(), 1)                    # what pytest has to say of failing tests
+        os.dup2(nothing.fileno(), 1)  # what pytest has to say of failing tests
     try:
         found = pickle.dumps(work())
         with os.fdopen(put, "wb") as pipe:
@@ -277,11 +406,22 @@ class Runner:
         return True
 
     def _trace(self) -> None:
-        """What each test reaches, and how long it takes; from the file of an earlier run, unless a module that it reaches has changed."""
-        kept, sources = self.options.trace, {p.relative_to(SOURCE).as_posix(): p.read_bytes() for p in SOURCE.rglob("*.py")}
-        before, self.traced = pickle.loads(kept.read_bytes()) if kept and kept.exists() else ({}, {})
+        """What each test reaches, and how long it takes; from the file of an earlier run, unless a
+        module that it reaches has changed.
+        """
+        kept, sources = (
+            self.options.trace,
+            {p.relative_to(SOURCE).as_posix(): p.read_bytes() for p in SOURCE.rglob("*.py")},
+        )
+        before, self.traced = (
+            pickle.loads(kept.read_bytes()) if kept and kept.exists() else ({}, {})
+        )
         moved = {module for module in before if before[module] != sources.get(module)}
-        self.traced = {name: t for name, t in self.traced.items() if moved.isdisjoint(module for module, _ in t.places)}
+        self.traced = {
+            name: t
+            for name, t in self.traced.items()
+            if moved.isdisjoint(module for module, _ in t.places)
+        }
         new = [name for name in self.items if name not in self.traced]
         found = in_child(lambda: self._traced(new))
         if found is None or self.failed:
@@ -293,7 +433,11 @@ class Runner:
         for name in self.items:
             for place in self.traced[name].places:
                 self.reached[place].add(name)
-        print(f"{len(self.items)} tests, {sum(self.traced[name].seconds for name in self.items):.0f} s", flush=True)
+        print(
+            f"{len(self.items)} tests, "
+            f"{sum(self.traced[name].seconds for name in self.items):.0f} s",
+            flush=True,
+        )
 
     def _traced(self, names: list[str]) -> dict[str, Trace]:
         found = {}
@@ -307,8 +451,14 @@ class Runner:
             if self.failed:
                 raise AssertionError(self.failed)
             seconds, data = time.perf_counter() - started, tracer.get_data()
-            found[name] = Trace(seconds, {(Path(file).relative_to(SOURCE).as_posix(), line)
-                                          for file in data.measured_files() for line in data.lines(file) or ()})
+            found[name] = Trace(
+                seconds,
+                {
+                    (Path(file).relative_to(SOURCE).as_posix(), line)
+                    for file in data.measured_files()
+                    for line in data.lines(file) or ()
+                },
+            )
         return found
 
     def _run(self, item: pytest.Item, following: pytest.Item | None) -> None:
@@ -320,7 +470,10 @@ class Runner:
             chosen = [m for m in chosen if (module, m.text) in self.options.again]
         total = len(chosen)
         if self.options.sample < total:
-            chosen = sorted(random.Random(self.options.seed).sample(chosen, self.options.sample), key=lambda m: m.line)
+            chosen = sorted(
+                random.Random(self.options.seed).sample(chosen, self.options.sample),
+                key=lambda m: m.line,
+            )
         kills: Counter[str] = Counter()
         alive = 0
         for mutant in chosen:
@@ -332,14 +485,25 @@ class Runner:
                 print(f"{module}:{mutant.line}: {mutant.text} ({len(tests)} tests)", flush=True)
             elif killer:
                 kills[killer] += 1
-        print(f"{module}: {len(chosen) - alive} of {len(chosen)} killed ({total} mutants in all)", flush=True)
+        print(
+            f"{module}: {len(chosen) - alive} of {len(chosen)} killed ({total} mutants in all)",
+            flush=True,
+        )
 
     def _tests(self, mutant: Mutant, kills: Counter[str]) -> list[str]:
         """Those which reach the mutant, as many as there is time for."""
-        names: set[str] = next((found for near in mutant.lines
-                                if (found := set().union(*(self.reached.get((mutant.module, n), ()) for n in near)))), set())
+        names: set[str] = next(
+            (
+                found
+                for near in mutant.lines
+                if (found := set().union(*(self.reached.get((mutant.module, n), ()) for n in near)))
+            ),
+            set(),
+        )
         chosen, spent = [], 0.0
-        for name in sorted(names, key=lambda name: (len(self.traced[name].places) / (1 + 10 * kills[name]), name)):
+        for name in sorted(
+            names, key=lambda name: (len(self.traced[name].places) / (1 + 10 * kills[name]), name)
+        ):
             spent += self.traced[name].seconds
             if not chosen or spent <= self.options.seconds:
                 chosen.append(name)
@@ -357,7 +521,9 @@ class Runner:
             return "import"
         items = [self.items[name] for name in tests]
         for item, following in zip(items, [*items[1:], None], strict=True):
-            signal.setitimer(signal.ITIMER_REAL, PATIENCE[0] + PATIENCE[1] * self.traced[item.nodeid].seconds)
+            signal.setitimer(
+                signal.ITIMER_REAL, PATIENCE[0] + PATIENCE[1] * self.traced[item.nodeid].seconds
+            )
             self._run(item, following)
             if self.failed:
                 return self.failed
@@ -373,7 +539,9 @@ def _forget() -> None:
 
 
 def _ours() -> list[types.ModuleType]:
-    return [m for name, m in list(sys.modules.items()) if name.startswith(("balcli", "test_")) and m]
+    return [
+        m for name, m in list(sys.modules.items()) if name.startswith(("balcli", "test_")) and m
+    ]
 
 
 def wanted(names: Iterable[str]) -> list[tuple[str, set[int]]]:
@@ -388,29 +556,68 @@ def wanted(names: Iterable[str]) -> list[tuple[str, set[int]]]:
 
 
 def printed(log: str) -> set[tuple[str, str]]:
-    """Module and change of the survivors that an earlier run printed; their lines may have moved since."""
-    found = re.findall(r"(?m)^([\w/]+\.py):\d+: (.*) \(\d+ tests\)$", Path(log).read_text(encoding="utf-8"))
+    """Module and change of the survivors that an earlier run printed; their lines may have moved
+    since.
+    """
+    found = re.findall(
+        r"(?m)^([\w/]+\.py):\d+: (.*) \(\d+ tests\)$", Path(log).read_text(encoding="utf-8")
+    )
     return {(module, text) for module, text in found}
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("modules", nargs="*", default=["core", "sizing"], help="below src/balcli, with or without a line")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "modules",
+        nargs="*",
+        default=["core", "sizing"],
+        help="below src/balcli, with or without a line",
+    )
     parser.add_argument("--sample", type=int, default=10**9, help="so many of each module at most")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--seconds", type=float, default=15.0, help="usual duration of the tests of one mutant at most")
-    parser.add_argument("--trace", type=Path, help="file that keeps what each test reaches for the next run")
-    parser.add_argument("--again", type=printed, help="what an earlier run printed: its survivors alone")
+    parser.add_argument(
+        "--seconds",
+        type=float,
+        default=15.0,
+        help="usual duration of the tests of one mutant at most",
+    )
+    parser.add_argument(
+        "--trace", type=Path, help="file that keeps what each test reaches for the next run"
+    )
+    parser.add_argument(
+        "--again", type=printed, help="what an earlier run printed: its survivors alone"
+    )
     parser.add_argument("--tests", nargs="*", help="files of tests (default: all quick ones)")
     options = parser.parse_args()
     options.modules = wanted(options.modules)
-    files = options.tests or [str(f) for f in sorted((ROOT / "tests").rglob("test_*.py"))
-                              if not {f.stem, f.parent.name} & set(LEFT_OUT)]
-    settings.register_profile("mutants", deadline=None, derandomize=True, max_examples=20, phases=[Phase.explicit, Phase.generate])
+    files = options.tests or [
+        str(f)
+        for f in sorted((ROOT / "tests").rglob("test_*.py"))
+        if not {f.stem, f.parent.name} & set(LEFT_OUT)
+    ]
+    settings.register_profile(
+        "mutants",
+        deadline=None,
+        derandomize=True,
+        max_examples=20,
+        phases=[Phase.explicit, Phase.generate],
+    )
     os.chdir(ROOT)
     runner = Runner(options)
-    failed = pytest.main(["-n", "0", "-s", "-W", "ignore::pytest.PytestAssertRewriteWarning", "--hypothesis-profile=mutants", *files],
-                         plugins=[runner])
+    failed = pytest.main(
+        [
+            "-n",
+            "0",
+            "-s",
+            "-W",
+            "ignore::pytest.PytestAssertRewriteWarning",
+            "--hypothesis-profile=mutants",
+            *files,
+        ],
+        plugins=[runner],
+    )
     return int(failed) or int(bool(runner.survivors))
 
 

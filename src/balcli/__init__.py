@@ -1,10 +1,12 @@
-"""Engine balance: free forces and moments of reciprocating engines, order by order, and what cancels them.
+"""Engine balance: free forces and moments of reciprocating engines, order by order, and what
+cancels them.
 
-    from balcli import load, analyze, balance
+from balcli import load, analyze, balance
 
-    engine = load("v8.toml")
-    print(analyze(engine).spectra.moment.major)
+engine = load("v8.toml")
+print(analyze(engine).spectra.moment.major)
 """
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
@@ -17,10 +19,28 @@ if TYPE_CHECKING:
     from .results.balance import Balance, balance
 
 __version__ = "0.1.0"
-__all__ = ["Analysis", "Balance", "BalcliError", "Engine", "InputError", "__version__", "analyze", "balance", "load"]
+__all__ = [
+    "Analysis",
+    "Balance",
+    "BalcliError",
+    "Engine",
+    "InputError",
+    "__version__",
+    "analyze",
+    "balance",
+    "load",
+]
 
-_ROOMS = {"Analysis": "results.analysis", "analyze": "results.analysis", "Balance": "results.balance", "balance": "results.balance",
-          "Engine": "engine.build", "load": "engine.load", "BalcliError": "errors", "InputError": "errors"}
+_ROOMS = {
+    "Analysis": "results.analysis",
+    "analyze": "results.analysis",
+    "Balance": "results.balance",
+    "balance": "results.balance",
+    "Engine": "engine.build",
+    "load": "engine.load",
+    "BalcliError": "errors",
+    "InputError": "errors",
+}
 
 
 def __getattr__(name: str) -> Any:

@@ -1,4 +1,5 @@
 """The program's start: what makes a process quick, before anything large is imported."""
+
 from __future__ import annotations
 
 import gc
@@ -12,8 +13,10 @@ from typing import Any
 
 def main() -> None:
     """Entry point of `balcli` and `python -m balcli`."""
-    gc.set_threshold(100_000)                                           # start-up makes many objects, but no garbage
-    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")              # looking for plugins takes longer than an analysis
+    gc.set_threshold(100_000)  # start-up makes many objects, but no garbage
+    os.environ.setdefault(
+        "PYDANTIC_DISABLE_PLUGINS", "1"
+    )  # looking for plugins takes longer than an analysis
     for name in ("importlib.metadata", "secrets"):
         _Later.defer(name)
     from .cli import main as run
@@ -24,8 +27,9 @@ def main() -> None:
 class _Later(ModuleType):
     """A module of the standard library that is imported when something is asked of it.
 
-    pydantic imports `importlib.metadata` even where plugins are off, and with it e-mail, archives and sockets, and `secrets` for
-    random strings of which we have none, and with it OpenSSL: together as much as half of our own modules.
+    pydantic imports `importlib.metadata` even where plugins are off, and with it e-mail, archives
+    and sockets, and `secrets` for random strings of which we have none, and with it OpenSSL:
+    together as much as half of our own modules.
     """
 
     @classmethod
@@ -35,7 +39,9 @@ class _Later(ModuleType):
             return
         home, _, last = name.rpartition(".")
         later = sys.modules[name] = cls(name)
-        spec = later.__spec__ = PathFinder.find_spec(name, sys.modules[home].__path__ if home else None)
+        spec = later.__spec__ = PathFinder.find_spec(
+            name, sys.modules[home].__path__ if home else None
+        )
         if spec is not None:
             later.__file__ = spec.origin
             if spec.submodule_search_locations is not None:

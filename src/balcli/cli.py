@@ -1,13 +1,17 @@
-"""The command line: which commands there are, and the one place where errors become text and exit codes.
+"""The command line: which commands there are, and the one place where errors become text and exit
+codes.
 
 Only the module of the command that is called is imported; what a command does is in `commands/`.
 """
+
 from __future__ import annotations
 
 import gc
+import re
 import sys
 from difflib import get_close_matches
 from importlib import import_module
+from inspect import cleandoc
 from io import StringIO
 from typing import Annotated, Any
 
@@ -18,10 +22,26 @@ from typer.main import get_command
 from . import __version__
 from .errors import BalcliError, Exit, say
 
-COMMANDS = ("analyze", "balance", "tables", "check", "new", "curves", "schema", "plot", "report", "sweep",
-            "search", "scatter", "compare", "sum", "engines", "bench")
+COMMANDS = (
+    "analyze",
+    "balance",
+    "tables",
+    "check",
+    "new",
+    "curves",
+    "schema",
+    "plot",
+    "report",
+    "sweep",
+    "search",
+    "scatter",
+    "compare",
+    "sum",
+    "engines",
+    "bench",
+)
 
-_UsageError: Any = typer.BadParameter.__mro__[1]       # click's, or typer's own copy of it
+_UsageError: Any = typer.BadParameter.__mro__[1]  # click's, or typer's own copy of it
 
 
 class _OnDemand(TyperGroup):
@@ -36,7 +56,8 @@ class _OnDemand(TyperGroup):
         from .commands.overwrite_guard import guarded
 
         single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-        single.command(cmd_name)(guarded(getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name)))
+        function = getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name)
+        single.command(cmd_name, help=_unwrapped(cleandoc(function.__doc__)))(guarded(function))
         return get_command(single)
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
@@ -48,8 +69,17 @@ class _OnDemand(TyperGroup):
             raise
 
 
-app = typer.Typer(cls=_OnDemand, no_args_is_help=True, pretty_exceptions_enable=False,
-                  context_settings={"help_option_names": ["-h", "--help"]})
+def _unwrapped(text: str) -> str:
+    """Paragraphs as one line each: the terminal wraps them to its own width."""
+    return re.sub(r"(?<=\S)\n(?=\S)", " ", text)
+
+
+app = typer.Typer(
+    cls=_OnDemand,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
 
 
 def _version(wanted: bool) -> None:
@@ -60,16 +90,25 @@ def _version(wanted: bool) -> None:
 
 @app.callback()
 def _options(
-    version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Say which version this is.")] = False,
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_version, is_eager=True, help="Say which version this is."
+        ),
+    ] = False,
 ) -> None:
-    """Engine balance: which free forces and moments an engine makes, order by order, and what cancels them.
+    """Engine balance: which free forces and moments an engine makes, order by order, and what
+    cancels them.
 
-    Describe the engine in a TOML file (`balcli new inline i4.toml` writes one to start from), then `balcli analyze i4.toml`.
+    Describe the engine in a TOML file (`balcli new inline i4.toml` writes one to start from), then
+    `balcli analyze i4.toml`.
     """
 
 
 def main() -> None:
-    """Runs the command; whatever a user can mend becomes a message on standard error and exit status 2."""
+    """Runs the command; whatever a user can mend becomes a message on standard error and exit
+    status 2.
+    """
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(encoding="utf-8", errors="replace")
@@ -79,14 +118,16 @@ def main() -> None:
         say(f"balcli: {error}")
     except _UsageError as error:
         text = StringIO()
-        error.show(text)                                # plain: a box would fold it, even in a pipe
+        error.show(text)  # plain: a box would fold it, even in a pipe
         say(text.getvalue().rstrip("\n"))
-    except typer.Abort:                                 # Ctrl-C
+    except typer.Abort:  # Ctrl-C
         sys.exit(Exit.INTERRUPTED)
     except SystemExit as end:
-        if isinstance(end.__context__, BrokenPipeError):        # help, or the version, whose reader has what they want
+        if isinstance(
+            end.__context__, BrokenPipeError
+        ):  # help, or the version, whose reader has what they want
             sys.exit(Exit.DONE)
         raise
     finally:
-        gc.freeze()                                     # the process ends: nothing need be collected any more
+        gc.freeze()  # the process ends: nothing need be collected any more
     sys.exit(Exit.BAD_INPUT)

@@ -1,4 +1,5 @@
 """The errors a user can cause, and the exit codes."""
+
 from __future__ import annotations
 
 import sys
@@ -11,7 +12,9 @@ _CONTROL = dict.fromkeys([*range(0x09), *range(0x0B, 0x20), *range(0x7F, 0xA0)],
 
 
 def legible(text: str) -> str:
-    """Text for a terminal: of all control characters only line ends and tabs stay, so that nobody's file name can command it."""
+    """Text for a terminal: of all control characters only line ends and tabs stay, so that nobody's
+    file name can command it.
+    """
     return text.translate(_CONTROL)
 
 
@@ -31,7 +34,9 @@ class Exit(IntEnum):
 
 
 class Problem(NamedTuple):
-    """One mistake: where in the file (`rod.length`, `shaft.2.ratio`; empty: the file), and what would be right."""
+    """One mistake: where in the file (`rod.length`, `shaft.2.ratio`; empty: the file), and what
+    would be right.
+    """
 
     path: str
     message: str

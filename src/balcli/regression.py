@@ -1,4 +1,5 @@
 """Recorded results of engines against what is computed now."""
+
 from __future__ import annotations
 
 import json
@@ -16,7 +17,7 @@ from .render import json as documents
 from .render.figures import KEYS
 from .results.analysis import analyze
 
-TOLERANCE = 1e-9                # of a quantity's largest order, beyond what rounding may do
+TOLERANCE = 1e-9  # of a quantity's largest order, beyond what rounding may do
 RECORDED = (*SPECTRAL, "peak")
 _PARTS = ("forward", "backward", "cos", "sin")
 _UNITS = {"force": "N"}
@@ -35,7 +36,10 @@ class Difference:
     def __str__(self) -> str:
         if self.recorded is None or self.now is None:
             return f"{self.engine}: {self.figure}"
-        return f"{self.engine}: {self.figure}: {self.recorded:.10g} -> {self.now:.10g} ({self.share:.1e} of the largest)"
+        return (
+            f"{self.engine}: {self.figure}: {self.recorded:.10g} -> {self.now:.10g} "
+            f"({self.share:.1e} of the largest)"
+        )
 
 
 def recorded_at(engine_file: Path) -> Path:
@@ -45,33 +49,68 @@ def recorded_at(engine_file: Path) -> Path:
 
 def record(engine: Engine) -> str:
     """What `check --update` writes."""
-    return json.dumps(documents.analysis(analyze(engine, only=RECORDED)), indent=1, ensure_ascii=False) + "\n"
+    return (
+        json.dumps(documents.analysis(analyze(engine, only=RECORDED)), indent=1, ensure_ascii=False)
+        + "\n"
+    )
 
 
 def differences(name: str, engine: Engine, file: Path) -> list[Difference]:
     """All figures of an engine that are not those of its recorded result."""
     if not file.exists():
-        return [Difference(name, f"no result is recorded in {file.parent.name}/{file.name}; check --update records it")]
+        return [
+            Difference(
+                name,
+                f"no result is recorded in {file.parent.name}/{file.name}; check --update records "
+                "it",
+            )
+        ]
     shown = analyze(engine, only=RECORDED)
     try:
         recorded = json.loads(file.read_text(encoding="utf-8"))
         old, before = dict(_figures(recorded)), _plain(recorded)
-        found = analyze(engine, {*(entry["order"] for entry in recorded["orders"]), *shown.orders}, RECORDED)
+        found = analyze(
+            engine, {*(entry["order"] for entry in recorded["orders"]), *shown.orders}, RECORDED
+        )
         now = documents.analysis(found)
-    except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError, BalcliError) as error:
-        return [Difference(name, f"the result recorded in {file.parent.name}/{file.name} cannot be read "
-                                 f"({type(error).__name__}: {error}); check --update records it anew")]
-    plain = [Difference(name, f"{what}: {before[what]} -> {new}") for what, new in _plain(now).items() if before[what] != new]
+    except (
+        OSError,
+        ValueError,
+        LookupError,
+        TypeError,
+        AttributeError,
+        RecursionError,
+        BalcliError,
+    ) as error:
+        return [
+            Difference(
+                name,
+                f"the result recorded in {file.parent.name}/{file.name} cannot be read "
+                f"({type(error).__name__}: {error}); check --update records it anew",
+            )
+        ]
+    plain = [
+        Difference(name, f"{what}: {before[what]} -> {new}")
+        for what, new in _plain(now).items()
+        if before[what] != new
+    ]
     return [*plain, *_moved(name, old, dict(_figures(now)), _roundings(found.spectra))]
 
 
 def _plain(document: dict[str, Any]) -> dict[str, Any]:
     """What must be the same to the last digit."""
-    return {"number of cylinders": document["engine"]["cylinders"], "speed, rpm": document["speed_rpm"]}
+    return {
+        "number of cylinders": document["engine"]["cylinders"],
+        "speed, rpm": document["speed_rpm"],
+    }
 
 
-def _moved(name: str, old: dict[tuple[str, str, str], float], new: dict[tuple[str, str, str], float],
-           roundings: dict[tuple[str, str], float]) -> Iterator[Difference]:
+def _moved(
+    name: str,
+    old: dict[tuple[str, str, str], float],
+    new: dict[tuple[str, str, str], float],
+    roundings: dict[tuple[str, str], float],
+) -> Iterator[Difference]:
     scale: dict[str, float] = {}
     for figures in (old, new):
         for (quantity, _, _), value in figures.items():
@@ -79,16 +118,27 @@ def _moved(name: str, old: dict[tuple[str, str, str], float], new: dict[tuple[st
     for key in dict.fromkeys((*new, *old)):
         before, after = old.get(key, 0.0), new.get(key, 0.0)
         if not abs(after - before) <= TOLERANCE * scale[key[0]] + roundings.get(key[:2], 0.0):
-            yield Difference(name, " ".join(filter(None, key)), before, after, abs(after - before) / scale[key[0]])
+            yield Difference(
+                name,
+                " ".join(filter(None, key)),
+                before,
+                after,
+                abs(after - before) / scale[key[0]],
+            )
 
 
 def _roundings(found: Spectra) -> dict[tuple[str, str], float]:
-    """How far rounding may move a figure, by (quantity, order): what decides whether an order is balanced. Where all large orders
-    cancel, that is more than TOLERANCE of what is left, and the next processor may round otherwise."""
+    """How far rounding may move a figure, by (quantity, order): what decides whether an order is
+    balanced. Where all large orders cancel, that is more than TOLERANCE of what is left, and the
+    next processor may round otherwise.
+    """
     errors: dict[tuple[str, str], float] = {}
     for quantity, phasors in found.items():
         each = 2 * np.broadcast_to(phasors.noise, phasors.forward.shape)
-        errors |= {(quantity, f"order {order:g}"): float(error) for order, error in zip(phasors.orders, each, strict=True)}
+        errors |= {
+            (quantity, f"order {order:g}"): float(error)
+            for order, error in zip(phasors.orders, each, strict=True)
+        }
         errors[quantity, "peak,"] = float(each.sum())
     return errors
 
@@ -101,9 +151,19 @@ def _figures(document: dict[str, Any]) -> Iterator[tuple[tuple[str, str, str], f
                 value = entry[key].get(part)
                 if isinstance(value, list):
                     for axis, component in zip("xy", value, strict=True):
-                        yield (quantity, f"order {entry['order']}", f"{part} {axis}, {_unit(quantity)}"), float(component)
+                        yield (
+                            (
+                                quantity,
+                                f"order {entry['order']}",
+                                f"{part} {axis}, {_unit(quantity)}",
+                            ),
+                            float(component),
+                        )
                 elif value is not None:
-                    yield (quantity, f"order {entry['order']}", f"{part}, {_unit(quantity)}"), float(value)
+                    yield (
+                        (quantity, f"order {entry['order']}", f"{part}, {_unit(quantity)}"),
+                        float(value),
+                    )
     yield ("force", "peak,", "N"), float(document["peak"]["force_N"])
     yield ("moment", "peak,", "N·m"), float(document["peak"]["moment_Nm"])
 

@@ -1,4 +1,5 @@
 """The bench's errors against mpmath, and the page that shows them."""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -6,10 +7,10 @@ from pathlib import Path
 import mpmath
 import pytest
 
-from balcli.bench.bench import LAM, cases
 from balcli.bench import methods
+from balcli.bench.bench import LAM, cases
 
-ROUNDING = 1e-13                # errors below it are rounding, and differ from machine to machine
+ROUNDING = 1e-13  # errors below it are rounding, and differ from machine to machine
 
 
 def coefficient(order: int, lam: float) -> mpmath.mpf:
@@ -19,8 +20,13 @@ def coefficient(order: int, lam: float) -> mpmath.mpf:
 
         def acceleration(psi: mpmath.mpf) -> mpmath.mpf:
             cos_beta = mpmath.sqrt(1 - (x * mpmath.sin(psi)) ** 2)
-            return mpmath.cos(psi) - x * mpmath.sin(psi) ** 2 / cos_beta + x * mpmath.cos(psi) ** 2 / cos_beta**3
-        count = 256             # equal steps: exact for a periodic function but for terms below 1e-60
+            return (
+                mpmath.cos(psi)
+                - x * mpmath.sin(psi) ** 2 / cos_beta
+                + x * mpmath.cos(psi) ** 2 / cos_beta**3
+            )
+
+        count = 256  # equal steps: exact for a periodic function but for terms below 1e-60
         psi = [2 * mpmath.pi * k / count for k in range(count)]
         return 2 * mpmath.fsum(acceleration(p) * mpmath.cos(order * p) for p in psi) / count
 
@@ -40,8 +46,12 @@ def test_closed_form_is_exact_where_sampling_is_not() -> None:
         assert found[task, "closed form"] is not None
         assert found[task, "closed form"] < 1e-14
     assert 1e-13 < found["A_8", "FFT, 64 points"] < 1e-10
-    assert found["A_2", "two-term formula"] == pytest.approx(LAM**2 / 4, rel=0.05)          # the next term of the series
-    assert found["A_2", "time stepping, 360 steps"] / found["A_2", "time stepping, 720 steps"] == pytest.approx(4, rel=0.01)
+    assert found["A_2", "two-term formula"] == pytest.approx(
+        LAM**2 / 4, rel=0.05
+    )  # the next term of the series
+    assert found["A_2", "time stepping, 360 steps"] / found[
+        "A_2", "time stepping, 720 steps"
+    ] == pytest.approx(4, rel=0.01)
 
 
 # ------------------------------------------------------------------ docs/accuracy.md
@@ -49,7 +59,9 @@ PAGE = Path(__file__).parents[2] / "docs" / "accuracy.md"
 
 
 def shown() -> dict[tuple[str, str], str]:
-    """Errors on the page, by task (heading) and method (first cell of a row; the last one is the error)."""
+    """Errors on the page, by task (heading) and method (first cell of a row; the last one is the
+    error).
+    """
     rows, task = {}, ""
     for line in PAGE.read_text(encoding="utf-8").splitlines():
         if line.startswith("## "):
@@ -68,7 +80,9 @@ def test_the_page_shows_every_row_and_its_true_error() -> None:
             assert page[key] == "–", key
         elif error < ROUNDING:
             assert page[key] == "rounding", key
-        elif error < 1e-9:                      # rounding, grown by what is divided by: the power of ten is all that can be told
+        elif (
+            error < 1e-9
+        ):  # rounding, grown by what is divided by: the power of ten is all that can be told
             assert 0.1 < float(page[key]) / error < 10, key
         else:
             assert page[key] == f"{error:.1e}", key

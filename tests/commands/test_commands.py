@@ -1,4 +1,7 @@
-"""Commands as users give them, in this process: plot, report, bench, cluster and files of sweeps, and what the schemes refuse."""
+"""Commands as users give them, in this process: plot, report, bench, cluster and files of sweeps,
+and what the schemes refuse.
+"""
+
 from __future__ import annotations
 
 import csv
@@ -19,18 +22,28 @@ from balcli.cli import main
 from balcli.errors import BalcliError, InputError
 
 ENGINES = Path(__file__).parents[2] / "engines"
-MEASURED = Bench((Row("A_2", "closed form", 2e-6, 0.0), Row("A_2", "two-term formula", 1e-6, 3.2e-2), Row("sweep", "exp alone", 5e-8, None),
-                  Row("sweep", "closed form", 1e-7, 1e-16), Row("sweep", "FFT", 1e-5, 1e-15)), (Ratio("one to other", 1.25),))
+MEASURED = Bench(
+    (
+        Row("A_2", "closed form", 2e-6, 0.0),
+        Row("A_2", "two-term formula", 1e-6, 3.2e-2),
+        Row("sweep", "exp alone", 5e-8, None),
+        Row("sweep", "closed form", 1e-7, 1e-16),
+        Row("sweep", "FFT", 1e-5, 1e-15),
+    ),
+    (Ratio("one to other", 1.25),),
+)
 
 
 @pytest.fixture
 def balcli(capsys, monkeypatch):
     """Runs a command: (exit status, standard output, standard error)."""
+
     def run(*args: object) -> tuple[int, str, str]:
         monkeypatch.setattr(sys, "argv", ["balcli", *map(str, args)])
         with pytest.raises(SystemExit) as done:
             main()
         return int(done.value.code or 0), *capsys.readouterr()
+
     return run
 
 
@@ -44,29 +57,59 @@ def four(tmp_path):
 # ------------------------------------------------------------------ pictures and pages
 @pytest.mark.parametrize(("name", "beginning"), [("x.png", b"\x89PNG"), ("x.pdf", b"%PDF")])
 def test_plot_writes_the_form_that_the_name_says(balcli, tmp_path, name, beginning):
-    assert balcli("plot", ENGINES / "single.toml", "-o", tmp_path / name, "--what", "factor", "--units", "imperial") == (0, "", "")
+    assert balcli(
+        "plot",
+        ENGINES / "single.toml",
+        "-o",
+        tmp_path / name,
+        "--what",
+        "factor",
+        "--units",
+        "imperial",
+    ) == (0, "", "")
     assert (tmp_path / name).read_bytes().startswith(beginning)
 
 
 def test_plot_compares_before_and_after(balcli, four, tmp_path):
-    assert balcli("plot", four, "-o", tmp_path / "x.svg", "--what", "spectrum", "--scheme", "two-shaft") == (0, "", "")
+    assert balcli(
+        "plot", four, "-o", tmp_path / "x.svg", "--what", "spectrum", "--scheme", "two-shaft"
+    ) == (0, "", "")
     assert "before" in (tmp_path / "x.svg").read_text()
 
 
 @pytest.mark.parametrize("what", ["factor", "bank"])
 def test_plot_refuses_a_scheme_where_nothing_is_compared(balcli, tmp_path, what):
-    assert balcli("plot", ENGINES / "vtwin90.toml", "-o", tmp_path / "x.svg", "--what", what, "--scheme", "factor") == (
-        2, "", f"balcli: --what {what} shows the engine as it is: leave --scheme factor out\n")
+    assert balcli(
+        "plot",
+        ENGINES / "vtwin90.toml",
+        "-o",
+        tmp_path / "x.svg",
+        "--what",
+        what,
+        "--scheme",
+        "factor",
+    ) == (2, "", f"balcli: --what {what} shows the engine as it is: leave --scheme factor out\n")
     assert not (tmp_path / "x.svg").exists()
 
 
 def test_plot_of_no_free_force_says_so(balcli, tmp_path):
-    assert balcli("plot", ENGINES / "v12_60.toml", "-o", tmp_path / "x.svg", "--what", "orders", "--orders", "1") == (0, "", "")
+    assert balcli(
+        "plot",
+        ENGINES / "v12_60.toml",
+        "-o",
+        tmp_path / "x.svg",
+        "--what",
+        "orders",
+        "--orders",
+        "1",
+    ) == (0, "", "")
     assert "no free force and no free moment" in (tmp_path / "x.svg").read_text()
 
 
 def test_a_report_is_the_engine_before_and_after(balcli, four, tmp_path):
-    assert balcli("report", four, "-o", tmp_path / "x.html", "--orders", "1,2", "--speed", "4500") == (0, "", "")
+    assert balcli(
+        "report", four, "-o", tmp_path / "x.html", "--orders", "1,2", "--speed", "4500"
+    ) == (0, "", "")
     page = (tmp_path / "x.html").read_text(encoding="utf-8")
     assert page.lower().startswith("<!doctype html>")
     assert "in-line four" in page
@@ -83,8 +126,10 @@ def test_curves_as_json_have_an_angle_for_each_value(balcli, four):
 def test_verdict_of_a_force_that_turns_against_the_crank(balcli, tmp_path):
     """A shaft at -1 alone shakes an engine whose pistons weigh nothing."""
     file = tmp_path / "shaft.toml"
-    file.write_text('[crank]\nstroke = 100\n[rod]\nratio = 0.25\n[piston]\nmass = 0\n[operation]\nspeed = 600\n'
-                    "[[shaft]]\nratio = -1\nunbalance = 1000\nangle = 0\n")
+    file.write_text(
+        "[crank]\nstroke = 100\n[rod]\nratio = 0.25\n[piston]\nmass = 0\n[operation]\nspeed = 600\n"
+        "[[shaft]]\nratio = -1\nunbalance = 1000\nangle = 0\n"
+    )
     status, out, _ = balcli("analyze", file)
     assert status == 0
     assert "turning against the crank" in out
@@ -103,13 +148,19 @@ def test_bench_in_every_format(balcli, tmp_path):
     assert "3.2e-02" in table
     _, text, _ = balcli("bench", "--format", "csv")
     lines = list(csv.DictReader(io.StringIO(text)))
-    assert lines[1] == {"task": "A_2", "method": "two-term formula", "seconds": "1e-06", "error": "0.032", "ratio": ""}
+    assert lines[1] == {
+        "task": "A_2",
+        "method": "two-term formula",
+        "seconds": "1e-06",
+        "error": "0.032",
+        "ratio": "",
+    }
     assert lines[-1]["ratio"] == "1.25"
     _, text, _ = balcli("bench", "--format", "json")
     assert json.loads(text)["ratios"] == [{"what": "one to other", "value": 1.25}]
     assert balcli("bench", "-o", tmp_path / "x.svg")[0] == 0
     assert "two-term formula" in (tmp_path / "x.svg").read_text()
-    assert "exp alone" not in (tmp_path / "x.svg").read_text()          # has no error to be drawn over
+    assert "exp alone" not in (tmp_path / "x.svg").read_text()  # has no error to be drawn over
 
 
 def test_bench_times_each_case_by_the_variant_and_its_own_pairs(monkeypatch):
@@ -118,18 +169,24 @@ def test_bench_times_each_case_by_the_variant_and_its_own_pairs(monkeypatch):
     monkeypatch.setattr(bench, "_imports", lambda: iter([Ratio("cold", 2.0)]))
     found = bench.bench()
     assert found.rows[0].error == 0.5
-    assert 0 < found.rows[0].seconds < 1e-6             # of one variant of a thousand; a thousand sums take some 10 us
+    assert (
+        0 < found.rows[0].seconds < 1e-6
+    )  # of one variant of a thousand; a thousand sums take some 10 us
     assert Ratio("cold", 2.0) in found.ratios
     assert all(math.isfinite(r.value) and r.value > 0 for r in found.ratios)
 
 
 def test_a_thing_takes_as_long_as_itself():
     """The best of three: a busy machine may disturb one."""
-    ratios = [bench._ratio("same", lambda: sum(range(2000)), lambda: sum(range(2000))).value for _ in range(3)]
+    ratios = [
+        bench._ratio("same", lambda: sum(range(2000)), lambda: sum(range(2000))).value
+        for _ in range(3)
+    ]
     assert min(abs(math.log(ratio)) for ratio in ratios) < math.log(1.5)
 
 
-# ------------------------------------------------------------------ sweeps: cluster, files, progress
+# ------------------------------------------------------------------ sweeps: cluster, files,
+# progress
 SWEEP = ("--vary", "rod.ratio=0.2,0.25,0.3", "--quantity", "force.2.major")
 
 
@@ -141,7 +198,11 @@ def dask(**names: object) -> ModuleType:
 
 def test_no_dask_no_cluster(balcli, four, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
-    assert balcli("sweep", four, *SWEEP, "--dask", "local") == (2, "", "balcli: --dask needs dask: install balcli[scale]\n")
+    assert balcli("sweep", four, *SWEEP, "--dask", "local") == (
+        2,
+        "",
+        "balcli: --dask needs dask: install balcli[scale]\n",
+    )
 
 
 def test_a_cluster_that_does_not_answer(monkeypatch):
@@ -149,17 +210,29 @@ def test_a_cluster_that_does_not_answer(monkeypatch):
 
     def refuse(address: str, timeout: float) -> None:
         raise OSError(f"nobody at {address}")
+
     monkeypatch.setitem(sys.modules, "distributed", dask(Client=refuse))
-    with pytest.raises(BalcliError, match=r"--dask tcp://host:1: no cluster answers there \(nobody at tcp://host:1\)"), \
-            cluster.client("tcp://host:1"):
+    with (
+        pytest.raises(
+            BalcliError,
+            match=r"--dask tcp://host:1: no cluster answers there \(nobody at tcp://host:1\)",
+        ),
+        cluster.client("tcp://host:1"),
+    ):
         pass
 
 
 def test_a_cluster_of_our_own_and_one_by_address(monkeypatch):
     from balcli.studies import dask_cluster as cluster
 
-    monkeypatch.setitem(sys.modules, "distributed", dask(
-        LocalCluster=lambda **options: nullcontext("own"), Client=lambda at, **options: nullcontext(f"client of {at}")))
+    monkeypatch.setitem(
+        sys.modules,
+        "distributed",
+        dask(
+            LocalCluster=lambda **options: nullcontext("own"),
+            Client=lambda at, **options: nullcontext(f"client of {at}"),
+        ),
+    )
     for address, found in (("local", "client of own"), ("tcp://host:1", "client of tcp://host:1")):
         with cluster.client(address) as client:
             assert client == found
@@ -190,42 +263,119 @@ def test_progress_changes_no_chunk(monkeypatch, capsys):
     assert "3/3" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("vary", [("rod.ratio=0.2,0.3",), ("rod.ratio=0.2,0.3", "crank.stroke=80,90,100")])
+@pytest.mark.parametrize(
+    "vary", [("rod.ratio=0.2,0.3",), ("rod.ratio=0.2,0.3", "crank.stroke=80,90,100")]
+)
 def test_pictures_of_one_and_two_parameters(balcli, four, tmp_path, vary):
     options = [word for one in vary for word in ("--vary", one)]
-    status, *_ = balcli("sweep", four, *options, "--quantity", "force.2.major", "-o", tmp_path / "x.csv", "--plot", tmp_path / "x.svg")
+    status, *_ = balcli(
+        "sweep",
+        four,
+        *options,
+        "--quantity",
+        "force.2.major",
+        "-o",
+        tmp_path / "x.csv",
+        "--plot",
+        tmp_path / "x.svg",
+    )
     assert status == 0
     assert "force.2.major, N" in (tmp_path / "x.svg").read_text()
 
 
 def test_no_picture_of_three_parameters(balcli, four, tmp_path):
-    status, _, err = balcli("sweep", four, *SWEEP, "--vary", "crank.stroke=80,90", "--vary", "rod.cg=30,40", "--plot", tmp_path / "x.svg")
+    status, _, err = balcli(
+        "sweep",
+        four,
+        *SWEEP,
+        "--vary",
+        "crank.stroke=80,90",
+        "--vary",
+        "rod.cg=30,40",
+        "--plot",
+        tmp_path / "x.svg",
+    )
     assert status == 2
     assert "--plot draws one or two parameters with several values each, not 3" in err
 
 
 def test_a_search_and_a_scatter_in_csv(balcli, four):
-    _, out, _ = balcli("search", four, "--over", "throws", "--minimise", "moment.1.major", "--format", "csv")
+    _, out, _ = balcli(
+        "search", four, "--over", "throws", "--minimise", "moment.1.major", "--format", "csv"
+    )
     assert out.splitlines()[0] == "throws,objective,moment.1.major"
-    _, out, _ = balcli("scatter", four, "--mass-scatter", "1%", "--samples", "100", "-q", "force.1.major", "-f", "csv")
+    _, out, _ = balcli(
+        "scatter",
+        four,
+        "--mass-scatter",
+        "1%",
+        "--samples",
+        "100",
+        "-q",
+        "force.1.major",
+        "-f",
+        "csv",
+    )
     assert out.startswith("quantity,nominal,mean,")
 
 
 # ------------------------------------------------------------------ refusals, word for word
-@pytest.mark.parametrize(("args", "message"), [
-    (("balance", "single", "--scheme", "minimax", "--planes", "nonsense"),
-     '--planes "nonsense": give ends, throws, or places along z in mm'),
-    (("balance", "i5", "--scheme", "minimax", "--planes", "3,3"), "--planes: one plane, or planes at the same z, cannot take a moment"),
-    (("balance", "vtwin90", "--scheme", "two-shaft", "--order", "1", "--roll", "zero"),
-     "order 1: its force turns with the crank alone, so that one shaft takes it and none is left to be placed for the roll"),
-    (("balance", "single", "--scheme", "single-shaft", "--at", "1,2", "--at", "3,4"), "--at: this scheme has one place; give it once"),
-    (("balance", "i4", "--scheme", "two-shaft", "--at", "1,2", "--at", "3,4", "--at", "5,6"), "--at: a pair of shafts has two places"),
-    (("sweep", "single", "--vary", "rod.length=100,200", "--vary", "rod.length=3,4", "--quantity", "force.1.major"),
-     "rod.length is varied twice; give all its values at once"),
-    (("search", "i4", "--over", "throws", "--minimise", "force.1.major", "--require", "nonsense"),
-     '"nonsense": only even-firing can be required'),
-    (("search", "single", "--over", "throws", "--minimise", "force.1.major"), "there is nothing to permute"),
-])
+@pytest.mark.parametrize(
+    ("args", "message"),
+    [
+        (
+            ("balance", "single", "--scheme", "minimax", "--planes", "nonsense"),
+            '--planes "nonsense": give ends, throws, or places along z in mm',
+        ),
+        (
+            ("balance", "i5", "--scheme", "minimax", "--planes", "3,3"),
+            "--planes: one plane, or planes at the same z, cannot take a moment",
+        ),
+        (
+            ("balance", "vtwin90", "--scheme", "two-shaft", "--order", "1", "--roll", "zero"),
+            "order 1: its force turns with the crank alone, so that one shaft takes it and none "
+            "is left to be placed for the roll",
+        ),
+        (
+            ("balance", "single", "--scheme", "single-shaft", "--at", "1,2", "--at", "3,4"),
+            "--at: this scheme has one place; give it once",
+        ),
+        (
+            ("balance", "i4", "--scheme", "two-shaft", "--at", "1,2", "--at", "3,4", "--at", "5,6"),
+            "--at: a pair of shafts has two places",
+        ),
+        (
+            (
+                "sweep",
+                "single",
+                "--vary",
+                "rod.length=100,200",
+                "--vary",
+                "rod.length=3,4",
+                "--quantity",
+                "force.1.major",
+            ),
+            "rod.length is varied twice; give all its values at once",
+        ),
+        (
+            (
+                "search",
+                "i4",
+                "--over",
+                "throws",
+                "--minimise",
+                "force.1.major",
+                "--require",
+                "nonsense",
+            ),
+            '"nonsense": only even-firing can be required',
+        ),
+        (
+            ("search", "single", "--over", "throws", "--minimise", "force.1.major"),
+            "there is nothing to permute",
+        ),
+    ],
+)
 def test_refusals_say_what_would_be_right(balcli, args, message):
     command, engine, *more = args
     status, out, err = balcli(command, ENGINES / f"{engine}.toml", *more)
@@ -234,12 +384,27 @@ def test_refusals_say_what_would_be_right(balcli, args, message):
 
 
 def test_a_minimax_weight_in_two_planes_leaves_the_moment_that_turns_with_the_crank_alone(balcli):
-    """The whole weight, and its moment about the middle of the engine 0: equal halves at equal distance of a single."""
-    status, out, _ = balcli("balance", ENGINES / "single.toml", "--scheme", "minimax", "--planes", "-50,50", "--format", "json")
-    _, alone, _ = balcli("balance", ENGINES / "single.toml", "--scheme", "minimax", "--format", "json")
+    """The whole weight, and its moment about the middle of the engine 0: equal halves at equal
+    distance of a single.
+    """
+    status, out, _ = balcli(
+        "balance",
+        ENGINES / "single.toml",
+        "--scheme",
+        "minimax",
+        "--planes",
+        "-50,50",
+        "--format",
+        "json",
+    )
+    _, alone, _ = balcli(
+        "balance", ENGINES / "single.toml", "--scheme", "minimax", "--format", "json"
+    )
     assert status == 0
     halves, (whole,) = (json.loads(text)["counterweights"] for text in (out, alone))
-    assert [h["unbalance_kg_m"] for h in halves] == pytest.approx([whole["unbalance_kg_m"] / 2] * 2, rel=1e-9)
+    assert [h["unbalance_kg_m"] for h in halves] == pytest.approx(
+        [whole["unbalance_kg_m"] / 2] * 2, rel=1e-9
+    )
 
 
 def test_mistakes_of_a_built_model_name_its_file():
@@ -257,5 +422,8 @@ def test_more_devices_than_any_engine_has():
     from support.engines import refused
 
     from balcli.enginefile.model import MOST_PARTS
-    assert f"counterweight: stands {MOST_PARTS + 1} times; no engine has more than {MOST_PARTS}" in refused(
-        counterweight=[{"mass": 1, "radius": 10}] * (MOST_PARTS + 1))
+
+    assert (
+        f"counterweight: stands {MOST_PARTS + 1} times; no engine has more than {MOST_PARTS}"
+        in refused(counterweight=[{"mass": 1, "radius": 10}] * (MOST_PARTS + 1))
+    )

@@ -1,4 +1,5 @@
 """What a shell offers when one presses Tab: asked as bash asks it, in a process of its own."""
+
 from __future__ import annotations
 
 import os
@@ -24,9 +25,20 @@ CASES = [
 ]
 
 
-@pytest.mark.parametrize(("typed", "offered"), CASES, ids=[typed or "nothing" for typed, _ in CASES])
+@pytest.mark.parametrize(
+    ("typed", "offered"), CASES, ids=[typed or "nothing" for typed, _ in CASES]
+)
 def test_tab_offers(typed: str, offered: set[str]) -> None:
-    asking = {"_BALCLI_COMPLETE": "complete_bash", "COMP_WORDS": f"balcli {typed}", "COMP_CWORD": str(typed.count(" ") + 1)}
-    done = subprocess.run([sys.executable, "-c", "from balcli.cli import main; main()"], env=os.environ | asking | {"PYTHONPATH": SOURCE},
-                          capture_output=True, text=True, timeout=60)
+    asking = {
+        "_BALCLI_COMPLETE": "complete_bash",
+        "COMP_WORDS": f"balcli {typed}",
+        "COMP_CWORD": str(typed.count(" ") + 1),
+    }
+    done = subprocess.run(
+        [sys.executable, "-c", "from balcli.cli import main; main()"],
+        env=os.environ | asking | {"PYTHONPATH": SOURCE},
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
     assert (set(done.stdout.split()), done.stderr) == (offered, "")

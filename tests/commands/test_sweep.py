@@ -1,4 +1,5 @@
 """sweep, search, scatter, compare and bench as commands."""
+
 from __future__ import annotations
 
 import json
@@ -20,7 +21,13 @@ def engine(tmp_path: Path) -> str:
 
 
 def run(*argv: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([sys.executable, "-m", "balcli", *argv], capture_output=True, text=True, timeout=120, check=False)
+    return subprocess.run(
+        [sys.executable, "-m", "balcli", *argv],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
 
 
 SWEEP = ("--vary", "rod.ratio=0.2,0.3", "--quantity", "force.2.major")
@@ -28,8 +35,16 @@ SWEEP = ("--vary", "rod.ratio=0.2,0.3", "--quantity", "force.2.major")
 
 def test_sweep_writes_what_it_prints(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "x.csv"
-    printed, written = run("sweep", engine, *SWEEP), run("sweep", engine, *SWEEP, "-o", str(target), "--progress")
-    assert (printed.returncode, written.returncode, written.stdout, written.stderr) == (0, 0, "", "")
+    printed, written = (
+        run("sweep", engine, *SWEEP),
+        run("sweep", engine, *SWEEP, "-o", str(target), "--progress"),
+    )
+    assert (printed.returncode, written.returncode, written.stdout, written.stderr) == (
+        0,
+        0,
+        "",
+        "",
+    )
     assert printed.stdout == target.read_text()
     assert printed.stdout.startswith("rod.ratio,force.2.major\n0.2,")
 
@@ -37,7 +52,16 @@ def test_sweep_writes_what_it_prints(engine: str, tmp_path: Path) -> None:
 def test_a_refused_sweep_leaves_the_older_file(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "x.csv"
     target.write_text("old\n")
-    done = run("sweep", engine, "--vary", "crank.stroke=80:400:10", "--quantity", "force.2.major", "-o", str(target))
+    done = run(
+        "sweep",
+        engine,
+        "--vary",
+        "crank.stroke=80:400:10",
+        "--quantity",
+        "force.2.major",
+        "-o",
+        str(target),
+    )
     assert done.returncode == 2
     assert "the crank cannot turn" in done.stderr
     assert target.read_text() == "old\n"
@@ -47,19 +71,49 @@ def test_a_refused_sweep_leaves_the_older_file(engine: str, tmp_path: Path) -> N
 def test_a_variant_that_cannot_be_is_told_before_anything_is_written(tmp_path: Path) -> None:
     """One between the corners of the grid: the ripple's angle."""
     file = tmp_path / "rip.toml"
-    file.write_text("[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n[operation]\nspeed_ripple = ["
-                    "{ order = 1, amplitude = 0.6 }, { order = 2, amplitude = 0.5 }]\n")
-    done = run("sweep", str(file), "--vary", "operation.speed_ripple.2.angle=0:360:30", "--quantity", "force.1.major")
+    file.write_text(
+        "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = "
+        "0.5\n[operation]\nspeed_ripple = ["
+        "{ order = 1, amplitude = 0.6 }, { order = 2, amplitude = 0.5 }]\n"
+    )
+    done = run(
+        "sweep",
+        str(file),
+        "--vary",
+        "operation.speed_ripple.2.angle=0:360:30",
+        "--quantity",
+        "force.1.major",
+    )
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith(f"balcli: {file}: operation.speed_ripple: the crank would turn back: at crank angle ")
+    assert done.stderr.startswith(
+        f"balcli: {file}: operation.speed_ripple: the crank would turn back: at crank angle "
+    )
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_ctrl_c_leaves_a_valid_part(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "x.json"
-    process = subprocess.Popen([sys.executable, "-m", "balcli", "sweep", engine, "--vary", "rod.ratio=0.2:0.3:0.00001", "--vary",
-                                "crank.stroke=80:90:0.001", "-q", "force.2.major", "-f", "json", "-o", str(target)],
-                               stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen(
+        [
+            sys.executable,
+            "-m",
+            "balcli",
+            "sweep",
+            engine,
+            "--vary",
+            "rod.ratio=0.2:0.3:0.00001",
+            "--vary",
+            "crank.stroke=80:90:0.001",
+            "-q",
+            "force.2.major",
+            "-f",
+            "json",
+            "-o",
+            str(target),
+        ],
+        stderr=subprocess.PIPE,
+        text=True,
+    )
     time.sleep(2)
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=60)
@@ -72,7 +126,17 @@ def test_ctrl_c_leaves_a_valid_part(engine: str, tmp_path: Path) -> None:
 def test_parquet_and_pictures(engine: str, tmp_path: Path) -> None:
     parquet = pytest.importorskip("pyarrow.parquet")
     target, picture = tmp_path / "x.parquet", tmp_path / "x.svg"
-    done = run("sweep", engine, *SWEEP, "--vary", "crank.stroke=80,90,100", "-o", str(target), "--plot", str(picture))
+    done = run(
+        "sweep",
+        engine,
+        *SWEEP,
+        "--vary",
+        "crank.stroke=80,90,100",
+        "-o",
+        str(target),
+        "--plot",
+        str(picture),
+    )
     assert (done.returncode, done.stderr) == (0, "")
     table = parquet.read_table(target)
     assert table.column_names == ["rod.ratio", "crank.stroke", "force.2.major"]
@@ -82,7 +146,18 @@ def test_parquet_and_pictures(engine: str, tmp_path: Path) -> None:
 
 def test_search_writes_the_best(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "best.toml"
-    done = run("search", engine, "--over", "throws", "--minimise", "moment.1.major", "-f", "json", "--write", str(target))
+    done = run(
+        "search",
+        engine,
+        "--over",
+        "throws",
+        "--minimise",
+        "moment.1.major",
+        "-f",
+        "json",
+        "--write",
+        str(target),
+    )
     assert (done.returncode, done.stderr) == (0, "")
     document = json.loads(done.stdout)
     assert document["format"] == "balcli.search/1"
@@ -92,7 +167,18 @@ def test_search_writes_the_best(engine: str, tmp_path: Path) -> None:
 
 
 def test_scatter_as_json_and_table(engine: str) -> None:
-    options = ("scatter", engine, "--mass-scatter", "1%", "--samples", "1000", "--seed", "1", "-q", "force.1.major")
+    options = (
+        "scatter",
+        engine,
+        "--mass-scatter",
+        "1%",
+        "--samples",
+        "1000",
+        "--seed",
+        "1",
+        "-q",
+        "force.1.major",
+    )
     document = json.loads(run(*options, "-f", "json").stdout)
     assert document["format"] == "balcli.scatter/1"
     assert document["samples"] == 1000
@@ -102,8 +188,14 @@ def test_scatter_as_json_and_table(engine: str) -> None:
 
 
 def test_compare_in_every_format(engine: str) -> None:
-    document = json.loads(run("compare", engine, engine, "--orders", "2", "--only", "force", "-f", "json").stdout)
+    document = json.loads(
+        run("compare", engine, engine, "--orders", "2", "--only", "force", "-f", "json").stdout
+    )
     (figure,) = document["figures"]
     assert (figure["quantity"], figure["order"], figure["ratios"]) == ("force_N", 2, [1.0, 1.0])
-    for form, said in (("table", "Free force, N: largest by order"), ("csv", "quantity,order,unit,"), ("markdown", "| order 2 |")):
+    for form, said in (
+        ("table", "Free force, N: largest by order"),
+        ("csv", "quantity,order,unit,"),
+        ("markdown", "| order 2 |"),
+    ):
         assert said in run("compare", engine, engine, "-f", form).stdout

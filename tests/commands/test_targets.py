@@ -24,7 +24,9 @@ def balcli(balcli):
 
 @pytest.fixture
 def good(tmp_path, monkeypatch):
-    """A folder with good.toml, other.toml and a symbolic and a hard link to the first, in which commands run."""
+    """A folder with good.toml, other.toml and a symbolic and a hard link to the first, in which
+    commands run.
+    """
     monkeypatch.chdir(tmp_path)
     for name in ("good.toml", "other.toml"):
         Path(name).write_text(GOOD)
@@ -40,7 +42,10 @@ def contents() -> dict[str, str]:
 
 def started(*args: str, **more) -> subprocess.Popen:
     return subprocess.Popen(
-        [sys.executable, "-m", "balcli", *args], env={**os.environ, "PYTHONPATH": str(ROOT / "src")}, stderr=subprocess.PIPE, **more
+        [sys.executable, "-m", "balcli", *args],
+        env={**os.environ, "PYTHONPATH": str(ROOT / "src")},
+        stderr=subprocess.PIPE,
+        **more,
     )
 
 
@@ -71,7 +76,11 @@ def test_never_onto_the_engine_file(balcli, good, command, target):
     name, *rest = command if command[-1] != option else command[:-1]
     status, out, err = balcli(name, good, *rest, option, target)
     assert (status, out) == (2, "")
-    assert err == f"balcli: {option} {Path(target)}: this is the engine file itself, which stays as it is; choose another name\n"
+    assert (
+        err
+        == f"balcli: {option} {Path(target)}: this is the engine file itself, which stays as it "
+        "is; choose another name\n"
+    )
     assert contents() == before
 
 
@@ -104,7 +113,11 @@ def test_through_a_link_to_what_it_points_to(balcli, good, there):
 @unix
 def test_a_link_to_itself_is_refused(balcli, good):
     Path("loop").symlink_to("loop")
-    assert balcli("analyze", good, "-o", "loop") == (2, "", "balcli: loop: cannot be written (a symbolic link that leads to itself)\n")
+    assert balcli("analyze", good, "-o", "loop") == (
+        2,
+        "",
+        "balcli: loop: cannot be written (a symbolic link that leads to itself)\n",
+    )
     assert Path("loop").is_symlink()
 
 
@@ -122,11 +135,25 @@ def test_a_pipe_is_written_to_and_stays_a_pipe(balcli, good):
 
 
 @pytest.mark.parametrize(
-    ("target", "reason"), [("x" * 300, "File name too long"), ("good.toml/x", "Not a directory"), ("none/x", "No such file or directory")]
+    ("target", "reason"),
+    [
+        ("x" * 300, "File name too long"),
+        ("good.toml/x", "Not a directory"),
+        ("none/x", "No such file or directory"),
+    ],
 )
 def test_places_that_cannot_be(balcli, good, target, reason):
-    for command in (["analyze", good, "-o"], ["balance", good, "--write"], ["new", "single"], ["engines", "i4"]):
-        assert balcli(*command, target) == (2, "", f"balcli: {target}: cannot be written ({reason})\n")
+    for command in (
+        ["analyze", good, "-o"],
+        ["balance", good, "--write"],
+        ["new", "single"],
+        ["engines", "i4"],
+    ):
+        assert balcli(*command, target) == (
+            2,
+            "",
+            f"balcli: {target}: cannot be written ({reason})\n",
+        )
 
 
 @pytest.mark.parametrize("path", ["x" * 300, "x" * 300 + "/y"])
@@ -145,7 +172,11 @@ def test_new_leaves_even_a_dangling_link_alone(balcli, good):
 
 def test_a_folder_for_records_that_cannot_be_made(balcli, good):
     Path("expected").write_text("a file")
-    assert balcli("check", good, "--update") == (2, "0 engines recorded\n", "balcli: expected: cannot be made (File exists)\n")
+    assert balcli("check", good, "--update") == (
+        2,
+        "0 engines recorded\n",
+        "balcli: expected: cannot be made (File exists)\n",
+    )
     assert Path("expected").read_text() == "a file"
 
 
@@ -156,14 +187,22 @@ def _partly(self: Path, data: bytes) -> int:
     raise OSError(28, "No space left on device")
 
 
-@pytest.mark.parametrize("command", [["analyze", "-o"], ["balance", "--write"], ["curves", "-o"], ["report", "-o"]], ids=" ".join)
+@pytest.mark.parametrize(
+    "command",
+    [["analyze", "-o"], ["balance", "--write"], ["curves", "-o"], ["report", "-o"]],
+    ids=" ".join,
+)
 def test_a_disk_that_fills_up_midway(balcli, good, monkeypatch, command):
     Path("out.x").write_text("old")
     before = contents()
     monkeypatch.setattr(Path, "write_bytes", _partly)
     name, option = command
     status, out, err = balcli(name, good, option, "out.x")
-    assert (status, out, err) == (2, "", "balcli: out.x: cannot be written (No space left on device)\n")
+    assert (status, out, err) == (
+        2,
+        "",
+        "balcli: out.x: cannot be written (No space left on device)\n",
+    )
     assert contents() == before
 
 
@@ -190,20 +229,34 @@ def test_a_folder_in_which_nothing_may_be_made(balcli, good, monkeypatch):
     Path("out.txt").write_text("old")
     before = contents()
     monkeypatch.setattr("tempfile.mkstemp", forbidden)
-    assert balcli("analyze", good, "-o", "out.txt") == (2, "", "balcli: out.txt: cannot be written (Permission denied)\n")
+    assert balcli("analyze", good, "-o", "out.txt") == (
+        2,
+        "",
+        "balcli: out.txt: cannot be written (Permission denied)\n",
+    )
     assert contents() == before
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
 @pytest.mark.parametrize(
-    "command", [["analyze"], ["analyze", "--format", "json"], ["sweep", "--vary", "crank.stroke=1:90:0.01"], ["curves"]], ids=" ".join
+    "command",
+    [
+        ["analyze"],
+        ["analyze", "--format", "json"],
+        ["sweep", "--vary", "crank.stroke=1:90:0.01"],
+        ["curves"],
+    ],
+    ids=" ".join,
 )
 def test_standard_output_that_is_full(good, command):
     name, *rest = command
     with Path("/dev/full").open("wb") as full:
         running = started(name, str(good), *rest, stdout=full)
         err = running.communicate(timeout=30)[1].decode()
-    assert (running.returncode, err) == (2, "balcli: standard output: cannot be written (No space left on device)\n")
+    assert (running.returncode, err) == (
+        2,
+        "balcli: standard output: cannot be written (No space left on device)\n",
+    )
 
 
 @unix

@@ -1,4 +1,5 @@
 """Bounds of rounding that every result carries, and angles of cylinders by bank."""
+
 from __future__ import annotations
 
 from dataclasses import replace
@@ -7,21 +8,24 @@ import numpy as np
 import pytest
 from support.engines import engine, engine_text
 
-from balcli.core.mechanisms.harmonics import Series
 from balcli.core.loads import Loads
+from balcli.core.mechanisms.harmonics import Series
 from balcli.core.phasors import EPS
 from balcli.engine.build import build
 from balcli.engine.load import parse
+from balcli.forces.spectrum import alone, spectra
 from balcli.studies.parameters import parse as parameter
 from balcli.studies.parameters import varied
-from balcli.forces.spectrum import alone, spectra
 from balcli.studies.sweep import Sweep
 
 QUANTITIES = ("force", "moment", "couple", "torque", "roll")
 ENGINES = {
     "plain": {"rod": {"mass": 0.5, "cg": 60, "inertia": 3000}},
     "offset": {"rod": {"mass": 0.5, "cg": 60, "inertia": 3000}, "piston": {"offset": 7}},
-    "articulated": {"layout": {"radial": 5}, "articulation": {"knuckle_radius": 30, "rod": {"length": 150, "mass": 0.3, "cg": 50}}},
+    "articulated": {
+        "layout": {"radial": 5},
+        "articulation": {"knuckle_radius": 30, "rod": {"length": 150, "mass": 0.3, "cg": 50}},
+    },
     "rotary": {"layout": {"radial": 5, "rotary": True}, "piston": {"offset": 3}},
 }
 
@@ -31,7 +35,11 @@ ENGINES = {
 def test_every_order_has_a_bound_of_its_rounding(name, along):
     """Real, and not below the rounding of what is there; about a far point that of the arms too."""
     parts = ENGINES[name]
-    built = engine(**parts, crank={"stroke": 100, "throws": [0], "positions": [100]}, frame={"reference": [20, 30, along]})
+    built = engine(
+        **parts,
+        crank={"stroke": 100, "throws": [0], "positions": [100]},
+        frame={"reference": [20, 30, along]},
+    )
     found = spectra(built, np.arange(0.0, 9.0), QUANTITIES)
     for quantity in QUANTITIES:
         phasors = getattr(found, quantity)
@@ -44,34 +52,64 @@ def test_every_order_has_a_bound_of_its_rounding(name, along):
 
 
 def test_what_balances_does_so_about_any_point():
-    """An in-line six has neither force nor moment of orders 1 and 2, a kilometre away or at its own cylinders."""
+    """An in-line six has neither force nor moment of orders 1 and 2, a kilometre away or at its own
+    cylinders.
+    """
     for reference in ([0, 0, 1e6], [3e5, -2e5, 250], [0, 0, -250]):
-        six = engine(crank={"stroke": 100, "throws": [0, 240, 120, 120, 240, 0], "spacing": 100}, frame={"reference": reference})
+        six = engine(
+            crank={"stroke": 100, "throws": [0, 240, 120, 120, 240, 0], "spacing": 100},
+            frame={"reference": reference},
+        )
         found = spectra(six, np.arange(1.0, 6.0), ("force", "moment"))
         assert found.force.balanced.all()
         assert found.moment.balanced.all()
 
 
 def test_each_cylinder_has_its_own_crank_angle():
-    """Cylinder 1's pin lies on its axis, at 50 degrees; the others' lie at -60, 40 and -50; also for variants side by side."""
-    text = engine_text(crank="stroke = 100\nthrows = [0, 100]\nsplay = 10", layout="banks = [-20, 50]\nnumbering = [[4, 2], [3, 1]]")
+    """Cylinder 1's pin lies on its axis, at 50 degrees; the others' lie at -60, 40 and -50; also
+    for variants side by side.
+    """
+    text = engine_text(
+        crank="stroke = 100\nthrows = [0, 100]\nsplay = 10",
+        layout="banks = [-20, 50]\nnumbering = [[4, 2], [3, 1]]",
+    )
     built = build(parse(text))
-    assert dict(zip(built.numbers, built.cylinders.angle_deg, strict=True)) == pytest.approx({4: -60 + 20, 2: 40 + 20, 3: -50 - 50, 1: 0})
-    turned = replace(built.cylinders, axis_deg=built.cylinders.axis_deg[:, None] + [0, 30, -9], pin_deg=built.cylinders.pin_deg[:, None])
+    assert dict(zip(built.numbers, built.cylinders.angle_deg, strict=True)) == pytest.approx(
+        {4: -60 + 20, 2: 40 + 20, 3: -50 - 50, 1: 0}
+    )
+    turned = replace(
+        built.cylinders,
+        axis_deg=built.cylinders.axis_deg[:, None] + [0, 30, -9],
+        pin_deg=built.cylinders.pin_deg[:, None],
+    )
     assert turned.angle_deg == pytest.approx(np.tile(built.cylinders.angle_deg[:, None], 3))
 
 
 # ------------------------------------------------------------------ several side by side
 LOW = np.arange(0.0, 5.0)
 VEE = engine_text(
-    crank="stroke = 100\nthrows = [0, 130, 250]\nspacing = 90", layout="bank_angle = 70\nstagger = 20",
-    rod="ratio = 0.25\nmass = 0.5\ncg = 60\ninertia = 3000", piston="mass = 1\noffset = 0", frame="reference = [0, 0, 0]",
-    operation="speed = 1000")
+    crank="stroke = 100\nthrows = [0, 130, 250]\nspacing = 90",
+    layout="bank_angle = 70\nstagger = 20",
+    rod="ratio = 0.25\nmass = 0.5\ncg = 60\ninertia = 3000",
+    piston="mass = 1\noffset = 0",
+    frame="reference = [0, 0, 0]",
+    operation="speed = 1000",
+)
 
 
-@pytest.mark.parametrize("vary", [("crank.throws.2=100,130",), ("crank.throws.3=0,130,250,300",), ("crank.splay=0,10,25",),
-                                  ("layout.bank_angle=60,70,90",), ("piston.mass=1,2,3",), ("piston.offset=1,3,5",),
-                                  ("crank.throws.2=0,90,130", "crank.throws.3=0,250"), ("crank.throws.2=0,90,130", "rod.ratio=0.2,0.3")])
+@pytest.mark.parametrize(
+    "vary",
+    [
+        ("crank.throws.2=100,130",),
+        ("crank.throws.3=0,130,250,300",),
+        ("crank.splay=0,10,25",),
+        ("layout.bank_angle=60,70,90",),
+        ("piston.mass=1,2,3",),
+        ("piston.offset=1,3,5",),
+        ("crank.throws.2=0,90,130", "crank.throws.3=0,250"),
+        ("crank.throws.2=0,90,130", "rod.ratio=0.2,0.3"),
+    ],
+)
 def test_variants_side_by_side_are_what_each_is_alone(vary):
     """All quantities of several orders at once, with their bounds."""
     file = parse(VEE)
@@ -83,26 +121,46 @@ def test_variants_side_by_side_are_what_each_is_alone(vary):
         for quantity, single in spectra(build(varied(file, values)), LOW, QUANTITIES).items():
             found = getattr(together, quantity)
             for name in ("forward", "backward", "noise"):
-                whole = np.broadcast_to(getattr(found, name), (len(LOW), *shape))[(slice(None), *place)]
+                whole = np.broadcast_to(getattr(found, name), (len(LOW), *shape))[
+                    (slice(None), *place)
+                ]
                 error = np.abs(whole - getattr(single, name))
-                assert np.all(error <= (0.01 * single.noise if name == "noise" else single.noise)), (quantity, name, place)
+                assert np.all(
+                    error <= (0.01 * single.noise if name == "noise" else single.noise)
+                ), (quantity, name, place)
 
 
-@pytest.mark.parametrize("ripple", ["", "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }]"])
+@pytest.mark.parametrize(
+    "ripple", ["", "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }]"]
+)
 def test_an_engine_does_what_its_cylinders_do(ripple):
-    """Unlike cylinders: the sum of what each does alone, with a bound no smaller than that of any of them."""
-    text = VEE + ripple + "\n[cylinder.2]\npiston_mass = 3\nrod_length = 170\n[cylinder.5]\npiston_offset = 9\n"
+    """Unlike cylinders: the sum of what each does alone, with a bound no smaller than that of any
+    of them.
+    """
+    text = (
+        VEE
+        + ripple
+        + "\n[cylinder.2]\npiston_mass = 3\nrod_length = 170\n[cylinder.5]\npiston_offset = 9\n"
+    )
     built = build(parse(text))
     parts = [spectra(alone(built, number), LOW, QUANTITIES) for number in built.numbers]
     for quantity, whole in spectra(built, LOW, QUANTITIES).items():
         each = [getattr(part, quantity) for part in parts]
         assert np.all(np.abs(sum(p.forward for p in each) - whole.forward) <= whole.noise), quantity
-        assert np.all(np.abs(sum(p.backward for p in each) - whole.backward) <= whole.noise), quantity
+        assert np.all(np.abs(sum(p.backward for p in each) - whole.backward) <= whole.noise), (
+            quantity
+        )
         assert np.all(max(p.noise.max() for p in each) <= whole.noise.max()), quantity
 
 
-@pytest.mark.parametrize("device", [{"shaft": [{"ratio": -2, "unbalance": 1e7}]}, {"shaft": [{"ratio": 2, "unbalance": 1e7}]},
-                                    {"slider": [{"order": 2, "unbalance": 1e7, "direction": 30}]}])
+@pytest.mark.parametrize(
+    "device",
+    [
+        {"shaft": [{"ratio": -2, "unbalance": 1e7}]},
+        {"shaft": [{"ratio": 2, "unbalance": 1e7}]},
+        {"slider": [{"order": 2, "unbalance": 1e7, "direction": 30}]},
+    ],
+)
 def test_a_heavy_device_has_a_bound_of_its_rounding(device):
     force = spectra(engine(**device), [2.0], ("force",)).force
     assert force.noise >= EPS * force.major
@@ -111,15 +169,24 @@ def test_a_heavy_device_has_a_bound_of_its_rounding(device):
 @pytest.mark.parametrize("name", ["articulated", "rotary"])
 @pytest.mark.parametrize("size", [0.0, 1e-6])
 def test_errors_of_a_curve_stay_within_the_bounds_of_the_forces(name, size):
-    """Both components off by their own bounds; a bound for the rounding of the sum even if they are exact."""
+    """Both components off by their own bounds; a bound for the rounding of the sum even if they are
+    exact.
+    """
     built = engine(**ENGINES[name])
     c = built.cylinders
     few, which = c.linkage.harmonics(LOW, c.lam, c.eps, rod=False, energy=False)
     exact = few.of_rows(which)._replace(piston=Series(0 * few.of_rows(which).piston.c))
     for turn in (1, -1, 1j, -1j):
-        curve = exact.curve._replace(along=Series(exact.curve.along.c, size * np.ones(1)), across=Series(exact.curve.across.c, 3 * size))
-        off = curve._replace(along=Series(curve.along.c + size), across=Series(curve.across.c + 3 * turn * size))
-        here, there = (Loads(c, (), (0j, 0.0), LOW, exact._replace(curve=it), 1.0).force for it in (curve, off))
+        curve = exact.curve._replace(
+            along=Series(exact.curve.along.c, size * np.ones(1)),
+            across=Series(exact.curve.across.c, 3 * size),
+        )
+        off = curve._replace(
+            along=Series(curve.along.c + size), across=Series(curve.across.c + 3 * turn * size)
+        )
+        here, there = (
+            Loads(c, (), (0j, 0.0), LOW, exact._replace(curve=it), 1.0).force for it in (curve, off)
+        )
         assert np.all(here.noise >= EPS * here.major)
         assert np.all(np.abs(there.forward - here.forward) <= here.noise)
         assert np.all(np.abs(there.backward - here.backward) <= here.noise)

@@ -1,4 +1,5 @@
 """The largest value over a revolution, on the curve and not on a grid."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -13,7 +14,12 @@ RELATIVE = 1e-14
 def curve(*terms: tuple[float, complex, complex]) -> Phasors:
     """Phasors of (order, forward, backward)."""
     orders, forward, backward = zip(*terms, strict=True)
-    return Phasors(np.array(orders, float), np.array(forward, complex), np.array(backward, complex), np.zeros(1))
+    return Phasors(
+        np.array(orders, float),
+        np.array(forward, complex),
+        np.array(backward, complex),
+        np.zeros(1),
+    )
 
 
 def test_nothing_has_no_peak():
@@ -41,8 +47,9 @@ def test_piston_acceleration_of_two_terms():
 
 
 def test_beside_top_dead_centre():
-    """|cos t - lambda cos 2t| is largest where cos t = 1/(4 lambda) if lambda > 1/4: lambda + 1/(8 lambda); but
-    at pi it is 1 + lambda, which is more."""
+    """|cos t - lambda cos 2t| is largest where cos t = 1/(4 lambda) if lambda > 1/4: lambda + 1/(8
+    lambda); but at pi it is 1 + lambda, which is more.
+    """
     found = peak(curve((1, 0.5, 0.5), (2, -0.25, -0.25)))
     assert found.value == pytest.approx(1.5, rel=RELATIVE)
     assert found.theta == pytest.approx(np.pi, abs=1e-7)
@@ -55,16 +62,22 @@ def test_a_mean_counts():
 
 
 def test_a_narrow_peak_between_samples():
-    """All orders in step at an angle that no regular sampling meets: their sum there, and the angle itself."""
+    """All orders in step at an angle that no regular sampling meets: their sum there, and the angle
+    itself.
+    """
     orders, at = np.arange(1, 41), 1.2345678
-    found = peak(curve(*[(n, 0.5 * np.exp(-1j * n * at), 0.5 * np.exp(1j * n * at)) for n in orders]))
+    found = peak(
+        curve(*[(n, 0.5 * np.exp(-1j * n * at), 0.5 * np.exp(1j * n * at)) for n in orders])
+    )
     assert found.value == pytest.approx(40, rel=RELATIVE)
     assert found.theta == pytest.approx(at, abs=1e-9)
 
 
 def test_the_highest_of_hundreds():
     """cos 100 t + 0.01 cos t: two hundred peaks, all within 2 %."""
-    assert peak(curve((1, 0.005, 0.005), (100, 0.5, 0.5))).value == pytest.approx(1.01, rel=RELATIVE)
+    assert peak(curve((1, 0.005, 0.005), (100, 0.5, 0.5))).value == pytest.approx(
+        1.01, rel=RELATIVE
+    )
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -80,12 +93,22 @@ def test_random_curves_against_many_samples(seed):
     assert abs(phasors.values(found.theta)) == pytest.approx(found.value, rel=RELATIVE)
     there = np.exp(1j * orders * found.theta)
     rate = np.sum(1j * orders * (phasors.forward * there - phasors.backward / there))
-    assert abs((np.conj(phasors.values(found.theta)) * rate).real) <= 1e-13 * orders[-1] * found.value**2       # level to rounding
+    assert (
+        abs((np.conj(phasors.values(found.theta)) * rate).real)
+        <= 1e-13 * orders[-1] * found.value**2
+    )  # level to rounding
 
 
 def test_of_equal_peaks_the_first_counts():
-    """|cos 3 theta| is 1 at 0, 60, 120 .. deg, |sin 3 theta| at 30, 90 ..; rounding must not choose."""
-    for turned, first in ((1, 0.0), (1j, 30.0), (1 - 1e-13j, 0.0), (1 + 1e-13j, 0.0)):          # the last a whole turn, nearly
+    """|cos 3 theta| is 1 at 0, 60, 120 .. deg, |sin 3 theta| at 30, 90 ..; rounding must not
+    choose.
+    """
+    for turned, first in (
+        (1, 0.0),
+        (1j, 30.0),
+        (1 - 1e-13j, 0.0),
+        (1 + 1e-13j, 0.0),
+    ):  # the last a whole turn, nearly
         half = np.array([turned / 2])
         found = peak(Phasors(np.array([3.0]), half, np.conj(half), np.zeros(1)))
         assert found.value == pytest.approx(1, rel=1e-14)

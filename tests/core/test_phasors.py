@@ -1,4 +1,5 @@
 """Rotating vectors against what they stand for: the curve, angle by angle."""
+
 from __future__ import annotations
 
 import cmath
@@ -11,7 +12,15 @@ from balcli.core.phasors import EPS, Phasors, reduced, unit
 
 RELATIVE = 4 * EPS
 THETA = np.linspace(0, 2 * np.pi, 7201)
-VECTORS = [(3 + 4j, 1 - 2j), (1 + 0j, 1 + 0j), (1j, -1j), (2, 0.5j), (-0.3 + 0.1j, 2 - 1j), (1e-3, 5), (2 + 2j, 2 - 2j)]
+VECTORS = [
+    (3 + 4j, 1 - 2j),
+    (1 + 0j, 1 + 0j),
+    (1j, -1j),
+    (2, 0.5j),
+    (-0.3 + 0.1j, 2 - 1j),
+    (1e-3, 5),
+    (2 + 2j, 2 - 2j),
+]
 
 
 def one(forward: complex, backward: complex, order: float = 2, noise: float = 0.0) -> Phasors:
@@ -29,6 +38,7 @@ def test_unit_is_exact_at_multiples_of_30_and_45_degrees(angle, turns):
     def sine(x: int) -> float:
         x %= 360
         return SINES[x if x <= 90 else 180 - x] if x <= 180 else -sine(x - 180)
+
     assert unit(angle + 360.0 * turns) == complex(sine(angle + 90), sine(angle))
 
 
@@ -51,7 +61,9 @@ def test_roots_of_unity_sum_to_zero_where_they_stand_on_the_table():
 def test_ellipse_against_the_curve(forward, backward, order):
     """Longest and shortest distance from the centre, and where the longest one points."""
     phasors = one(forward, backward, order)
-    curve = np.array([forward * cmath.exp(1j * order * t) + backward * cmath.exp(-1j * order * t) for t in THETA])
+    curve = np.array(
+        [forward * cmath.exp(1j * order * t) + backward * cmath.exp(-1j * order * t) for t in THETA]
+    )
     assert phasors.values(THETA) == pytest.approx(curve, abs=1e-12)
     size = np.abs(curve)
     assert phasors.major[0] == pytest.approx(size.max(), rel=1e-5)
@@ -62,23 +74,43 @@ def test_ellipse_against_the_curve(forward, backward, order):
         assert -90 < phasors.axis_deg[0] <= 90
 
 
-@pytest.mark.parametrize(("forward", "backward", "axis"), [
-    (1, 1, 0.0), (1j, -1j, 0.0), (-1, -1, 0.0), (1j, 1j, 90.0), (-1j, -1j, 90.0),
-    (1, 1j, 45.0), (1j, 1, 45.0), (1, -1j, -45.0)])
+@pytest.mark.parametrize(
+    ("forward", "backward", "axis"),
+    [
+        (1, 1, 0.0),
+        (1j, -1j, 0.0),
+        (-1, -1, 0.0),
+        (1j, 1j, 90.0),
+        (-1j, -1j, 90.0),
+        (1, 1j, 45.0),
+        (1j, 1, 45.0),
+        (1, -1j, -45.0),
+    ],
+)
 def test_axis_lies_above_minus_90_up_to_90(forward, backward, axis):
     assert one(forward, backward).axis_deg[0] == pytest.approx(axis, abs=1e-12)
 
 
 @pytest.mark.parametrize("slip", [-1e-15, -1e-16, 0, 1e-16, 1e-15])
 def test_an_axis_across_is_at_90_degrees_whatever_the_rounding(slip):
-    assert one(cmath.exp(1j * (math.pi / 3 + slip)), cmath.exp(2j * math.pi / 3)).axis_deg[0] == pytest.approx(90, abs=1e-9)
-    assert one(cmath.exp(-1j * (math.pi / 3 + slip)), cmath.exp(-2j * math.pi / 3)).axis_deg[0] == pytest.approx(90, abs=1e-9)
+    assert one(cmath.exp(1j * (math.pi / 3 + slip)), cmath.exp(2j * math.pi / 3)).axis_deg[
+        0
+    ] == pytest.approx(90, abs=1e-9)
+    assert one(cmath.exp(-1j * (math.pi / 3 + slip)), cmath.exp(-2j * math.pi / 3)).axis_deg[
+        0
+    ] == pytest.approx(90, abs=1e-9)
 
 
 @pytest.mark.parametrize("turn", [180, 360])
 def test_a_direction_is_reduced_to_half_a_turn_either_way(turn):
-    barely = math.nextafter(turn / 2, math.inf)                                 # its remainder rounds to a whole turn
-    assert list(reduced([barely, -turn / 2, 1.5 * turn, 0, turn], turn)) == [turn / 2, turn / 2, turn / 2, 0, 0]
+    barely = math.nextafter(turn / 2, math.inf)  # its remainder rounds to a whole turn
+    assert list(reduced([barely, -turn / 2, 1.5 * turn, 0, turn], turn)) == [
+        turn / 2,
+        turn / 2,
+        turn / 2,
+        0,
+        0,
+    ]
 
 
 @pytest.mark.parametrize(("forward", "backward"), [(1, 0), (0, 1j), (0, 0)])
@@ -123,7 +155,9 @@ def test_sums_scales_and_turns_are_those_of_the_curve():
     assert (a - b).values(THETA) == pytest.approx(a.values(THETA) - b.values(THETA), abs=1e-13)
     assert (2j * a).values(THETA) == pytest.approx(2j * a.values(THETA), abs=1e-13)
     assert np.array_equal((np.array([2.0]) * a).forward, 2 * a.forward)
-    assert [float(p.noise[0]) for p in (a + b, a - b, 2j * a, -3.0 * a)] == pytest.approx([3e-3, 3e-3, 2e-3, 3e-3])
+    assert [float(p.noise[0]) for p in (a + b, a - b, 2j * a, -3.0 * a)] == pytest.approx(
+        [3e-3, 3e-3, 2e-3, 3e-3]
+    )
 
 
 @pytest.mark.parametrize("order", [0, 1, 3])
@@ -136,7 +170,7 @@ def test_moment_of_a_force_about_z(order, p):
     moment = force.about(p)
     assert moment.values(THETA).real == pytest.approx(want, abs=1e-13)
     assert np.abs(moment.values(THETA).imag).max() < 1e-13
-    assert moment.noise[0] == abs(p)                    # 2 |p| 0.5
+    assert moment.noise[0] == abs(p)  # 2 |p| 0.5
 
 
 def test_settled_clears_each_vector_for_itself():
@@ -160,8 +194,15 @@ def test_at_takes_rows_in_any_order():
 
 def test_trailing_axes_are_variants():
     orders = np.array([0.0, 1.0])
-    many = Phasors(orders, np.arange(6.0).reshape(2, 3) + 1j, np.array([[0, 0, 0], [1, 2j, 3]]), np.zeros((2, 1)))
+    many = Phasors(
+        orders,
+        np.arange(6.0).reshape(2, 3) + 1j,
+        np.array([[0, 0, 0], [1, 2j, 3]]),
+        np.zeros((2, 1)),
+    )
     for k in range(3):
         single = Phasors(orders, many.forward[:, k], many.backward[:, k], np.zeros(2))
         for name in ("major", "minor", "axis_deg", "x", "y", "balanced"):
-            assert np.array_equal(getattr(many, name)[:, k], getattr(single, name), equal_nan=name == "axis_deg"), name
+            assert np.array_equal(
+                getattr(many, name)[:, k], getattr(single, name), equal_nan=name == "axis_deg"
+            ), name

@@ -1,4 +1,7 @@
-"""Vanishing sums of roots of unity: the exact decision against polynomial division and against floating point."""
+"""Vanishing sums of roots of unity: the exact decision against polynomial division and against
+floating point.
+"""
+
 from __future__ import annotations
 
 import math
@@ -12,7 +15,9 @@ from balcli.core.roots_of_unity import even, rational, turns, vanishes
 
 
 def cyclotomic(n: int) -> list[int]:
-    """Coefficients of the n-th cyclotomic polynomial, lowest first: x^n - 1 divided by those of all proper divisors."""
+    """Coefficients of the n-th cyclotomic polynomial, lowest first: x^n - 1 divided by those of all
+    proper divisors.
+    """
     poly = [-1] + [0] * (n - 1) + [1]
     for d in range(1, n):
         if n % d == 0:
@@ -41,10 +46,16 @@ def divisible(weights, angles) -> bool:
 
 
 def polygons(rng: random.Random, divisors: list[int]) -> tuple[list[int], list[Fraction]]:
-    """Regular polygons, turned and weighted at random, all of them vanishing sums; sometimes spoilt in one place."""
+    """Regular polygons, turned and weighted at random, all of them vanishing sums; sometimes spoilt
+    in one place.
+    """
     weights, angles = [], []
     for _ in range(rng.randint(1, 3)):
-        corners, weight, start = rng.choice(divisors), rng.choice([-2, -1, 1, 2]), Fraction(rng.randrange(120), 120)
+        corners, weight, start = (
+            rng.choice(divisors),
+            rng.choice([-2, -1, 1, 2]),
+            Fraction(rng.randrange(120), 120),
+        )
         weights += [weight] * corners
         angles += [start + Fraction(k, corners) for k in range(corners)]
     if rng.random() < 0.5:
@@ -83,11 +94,16 @@ def test_ten_thousand_layouts_against_floating_point():
 
 @pytest.mark.parametrize("k", [40, 60, 200])
 def test_what_floating_point_cannot_settle(k):
-    """`F_k psi + F_(k-1) = psi^k`, psi = (1 - sqrt 5)/2 = -2 cos 72 deg: far below the rounding error of its terms, but not 0."""
+    """`F_k psi + F_(k-1) = psi^k`, psi = (1 - sqrt 5)/2 = -2 cos 72 deg: far below the rounding
+    error of its terms, but not 0.
+    """
     fibonacci = [0, 1]
     while len(fibonacci) <= k:
         fibonacci.append(fibonacci[-1] + fibonacci[-2])
-    weights, angles = [-fibonacci[k], -fibonacci[k], fibonacci[k - 1]], [Fraction(1, 5), Fraction(4, 5), Fraction(0)]
+    weights, angles = (
+        [-fibonacci[k], -fibonacci[k], fibonacci[k - 1]],
+        [Fraction(1, 5), Fraction(4, 5), Fraction(0)],
+    )
     numeric = abs(np.dot(np.array(weights, float), np.exp(2j * np.pi * np.array(angles, float))))
     assert numeric < 1e-15 * fibonacci[k] * 4
     assert not vanishes(weights, angles)
@@ -99,16 +115,35 @@ def test_what_floating_point_cannot_settle(k):
 
 def test_denominators_whose_common_multiple_is_in_the_millions():
     primes = [Fraction(1, 5039), Fraction(1, 5021)]
-    weights, angles = [1, -1] * 2, [primes[0], primes[0] + Fraction(1, 5021), primes[1], primes[1] + Fraction(1, 5039)]
+    weights, angles = (
+        [1, -1] * 2,
+        [primes[0], primes[0] + Fraction(1, 5021), primes[1], primes[1] + Fraction(1, 5039)],
+    )
     assert not vanishes(weights, angles)
-    assert vanishes([1] * 7 + [-1] * 7, [primes[0] + primes[1] + Fraction(k, 7) for k in range(7)] + [Fraction(k, 7) for k in range(7)])
+    assert vanishes(
+        [1] * 7 + [-1] * 7,
+        [primes[0] + primes[1] + Fraction(k, 7) for k in range(7)]
+        + [Fraction(k, 7) for k in range(7)],
+    )
 
 
-@pytest.mark.parametrize(("degrees", "fraction"), [
-    (0.0, Fraction(0)), (90, Fraction(1, 4)), (-120, Fraction(2, 3)), (360 / 7 * 3, Fraction(3, 7)), (22.5, Fraction(1, 16)),
-    (360 * 0.1, Fraction(1, 10)), (360 / 5040, Fraction(1, 5040)), (51.4285714, None), (120 + 1e-11, None), (21.9, Fraction(73, 1200)),
-    (360 / 7 - 360, Fraction(1, 7)), (math.degrees(1.0), None),
-])
+@pytest.mark.parametrize(
+    ("degrees", "fraction"),
+    [
+        (0.0, Fraction(0)),
+        (90, Fraction(1, 4)),
+        (-120, Fraction(2, 3)),
+        (360 / 7 * 3, Fraction(3, 7)),
+        (22.5, Fraction(1, 16)),
+        (360 * 0.1, Fraction(1, 10)),
+        (360 / 5040, Fraction(1, 5040)),
+        (51.4285714, None),
+        (120 + 1e-11, None),
+        (21.9, Fraction(73, 1200)),
+        (360 / 7 - 360, Fraction(1, 7)),
+        (math.degrees(1.0), None),
+    ],
+)
 def test_angles_that_are_fractions_of_a_turn(degrees, fraction):
     assert turns(degrees) == fraction
 
@@ -125,7 +160,7 @@ def test_no_denominator_above_5040_and_no_more_than_two_ulp_of_a_turn():
     assert turns(360 / 5041) is None
     assert turns(120 + 1.75 * ulp) == Fraction(1, 3)
     assert turns(120 + 2.5 * ulp) is None
-    assert rational(0.5, 2, 0.0) == Fraction(1, 2)              # exact is near enough
+    assert rational(0.5, 2, 0.0) == Fraction(1, 2)  # exact is near enough
 
 
 def test_a_weight_without_an_angle_is_no_sum():

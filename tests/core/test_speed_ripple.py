@@ -2,6 +2,7 @@
 
 `tests/oracle/test_momentum.py` does the same with whole engines; here are the rules by themselves.
 """
+
 from __future__ import annotations
 
 import numpy as np
@@ -11,7 +12,7 @@ from support.engines import engine, refused
 from balcli.core import speed_ripple as ripple
 from balcli.core.phasors import Phasors
 
-RELATIVE = 1e-9                 # central differences of sixth order at STEP
+RELATIVE = 1e-9  # central differences of sixth order at STEP
 STEP = 2e-3
 THETA = np.linspace(0, 2 * np.pi, 97)
 LINES = {
@@ -23,7 +24,9 @@ LINES = {
 ORDERS = np.arange(0.0, 15.0)
 RANDOM = np.random.default_rng(4)
 FORWARD, BACKWARD = (RANDOM.normal(size=(2, 15)) + 1j * RANDOM.normal(size=(2, 15))) * 0.5**ORDERS
-FORWARD, BACKWARD = (np.where((ORDERS > 0) & (ORDERS <= 8), v, 0) for v in (FORWARD, BACKWARD))    # then room for W^2
+FORWARD, BACKWARD = (
+    np.where((ORDERS > 0) & (ORDERS <= 8), v, 0) for v in (FORWARD, BACKWARD)
+)  # then room for W^2
 
 
 def speed(lines, theta):
@@ -34,7 +37,13 @@ def speed(lines, theta):
 def rate(function, theta):
     """Derivative by the sixth-order central difference."""
     weights = {1: 3 / 4, 2: -3 / 20, 3: 1 / 60}
-    return sum(w * (function(theta + k * STEP) - function(theta - k * STEP)) for k, w in weights.items()) / STEP
+    return (
+        sum(
+            w * (function(theta + k * STEP) - function(theta - k * STEP))
+            for k, w in weights.items()
+        )
+        / STEP
+    )
 
 
 def momentum(theta, backward=BACKWARD):
@@ -76,6 +85,7 @@ def test_couple_with_the_mean_moment_of_momentum_of_the_rotating_masses(lines):
 
     def h(theta):
         return mean + integral(theta)
+
     want = -speed(lines, THETA) * rate(lambda t: speed(lines, t) * h(t), THETA)
     found = ripple.force(steady(scalar=True), ripple.speed(lines), mean).values(THETA)
     assert np.abs(found - want).max() < RELATIVE * np.abs(want).max()
@@ -88,13 +98,23 @@ def test_torque(lines):
 
     def half_inertia(theta):
         return mean / 2 + integral(theta)
+
     want = -rate(lambda t: half_inertia(t) * speed(lines, t) ** 2, THETA)
     found = ripple.torque(steady(scalar=True), ripple.speed(lines), mean).values(THETA)
     assert np.abs(found - want).max() < RELATIVE * np.abs(want).max()
-    assert abs(ripple.torque(steady(scalar=True), ripple.speed(lines), mean).forward[0]) < 1e-15      # T has no mean
+    assert (
+        abs(ripple.torque(steady(scalar=True), ripple.speed(lines), mean).forward[0]) < 1e-15
+    )  # T has no mean
 
 
-@pytest.mark.parametrize("lines", [*LINES.values(), [(1, 0.9, 0.0), (2, 0.4, 180.0)], [(3, 0.7, 10.0), (256, 0.6, -50.0), (4, -0.4, 0.0)]])
+@pytest.mark.parametrize(
+    "lines",
+    [
+        *LINES.values(),
+        [(1, 0.9, 0.0), (2, 0.4, 180.0)],
+        [(3, 0.7, 10.0), (256, 0.6, -50.0), (4, -0.4, 0.0)],
+    ],
+)
 def test_the_least_speed_is_that_of_a_dense_grid(lines):
     theta = np.linspace(0, 2 * np.pi, 400_001)
     least, at = ripple.slowest(lines)
@@ -107,25 +127,41 @@ def test_the_least_speed_is_that_of_a_dense_grid(lines):
 def test_amplitudes_of_more_than_one_may_leave_the_crank_turning():
     """0.7 cos t + 0.4 cos 2t: where the first is -0.7 the second is +0.4."""
     lines = [{"order": 1, "amplitude": 0.7, "angle": 0}, {"order": 2, "amplitude": 0.4, "angle": 0}]
-    assert len(engine(operation={"speed": 60, "speed_ripple": lines}).ripple) == 2          # least: 0.4469 at 116 deg
+    assert (
+        len(engine(operation={"speed": 60, "speed_ripple": lines}).ripple) == 2
+    )  # least: 0.4469 at 116 deg
 
 
-@pytest.mark.parametrize(("lines", "what"), [
-    ([(2, 1.0, 0.0)], "stop: at crank angle 90 deg its speed is 0 of the mean"),
-    ([(1, -1.0, 30.0)], "stop: at crank angle 30 deg its speed is 0 of the mean"),
-    ([(1, 0.7, 0.0), (2, 0.4, 180.0)], "turn back: at crank angle 180 deg its speed is -0.1 of the mean"),
-])
+@pytest.mark.parametrize(
+    ("lines", "what"),
+    [
+        ([(2, 1.0, 0.0)], "stop: at crank angle 90 deg its speed is 0 of the mean"),
+        ([(1, -1.0, 30.0)], "stop: at crank angle 30 deg its speed is 0 of the mean"),
+        (
+            [(1, 0.7, 0.0), (2, 0.4, 180.0)],
+            "turn back: at crank angle 180 deg its speed is -0.1 of the mean",
+        ),
+    ],
+)
 def test_a_crank_that_stops_or_turns_back_is_refused(lines, what):
     tables = [{"order": n, "amplitude": a, "angle": angle} for n, a, angle in lines]
     assert refused(operation={"speed": 60, "speed_ripple": tables}) == (
-        f"engine: operation.speed_ripple: the crank would {what}; it must stay above 0: make the amplitudes smaller, they are shares of "
-        "the mean speed (0.01 is one per cent)")
+        f"engine: operation.speed_ripple: the crank would {what}; it must stay above 0: make the "
+        "amplitudes smaller, they are shares of "
+        "the mean speed (0.01 is one per cent)"
+    )
 
 
 def test_a_crank_that_stops_is_told_with_the_other_mistakes():
-    said = refused(crank={"throws": [0, 180], "positions": [0]}, operation={"speed": 60, "speed_ripple": [{"order": 2, "amplitude": 1}]})
+    said = refused(
+        crank={"throws": [0, 180], "positions": [0]},
+        operation={"speed": 60, "speed_ripple": [{"order": 2, "amplitude": 1}]},
+    )
     assert "crank: positions" in said
-    said = refused(rod={"ratio": 1.0 - 1e-9}, operation={"speed": 60, "speed_ripple": [{"order": 2, "amplitude": 1}]})
+    said = refused(
+        rod={"ratio": 1.0 - 1e-9},
+        operation={"speed": 60, "speed_ripple": [{"order": 2, "amplitude": 1}]},
+    )
     assert "the crank cannot turn" in said
     assert "operation.speed_ripple: the crank would stop" in said
 
@@ -147,8 +183,10 @@ def test_a_mean_force_is_a_mean_and_stands_in_forward_alone():
 
 def test_the_rounding_error_grows_with_the_parts_and_never_vanishes_where_they_do_not():
     w = ripple.speed(LINES["one"])
-    small, large = (ripple.force(Phasors(ORDERS, FORWARD, BACKWARD, np.full(15, size)), w).noise
-                    for size in (1e-16, 1e-14))
+    small, large = (
+        ripple.force(Phasors(ORDERS, FORWARD, BACKWARD, np.full(15, size)), w).noise
+        for size in (1e-16, 1e-14)
+    )
     assert np.all(small > 0)
     assert large == pytest.approx(100 * small, rel=1e-12, abs=0)
 
@@ -156,27 +194,38 @@ def test_the_rounding_error_grows_with_the_parts_and_never_vanishes_where_they_d
 @pytest.mark.parametrize("mean", [0.0, 300.0, -300.0])
 @pytest.mark.parametrize("lines", [[(2, 0.3, 40.0)], [(1, 0.2, 170.0), (3, 0.1, -120.0)]])
 def test_the_bound_holds_for_errors_of_the_parts(lines, mean):
-    """Errors of the size that the parts' noise tells, with signs as they come, move no order by more than the bound; and the bound
-    knows of lines no more than their sizes."""
+    """Errors of the size that the parts' noise tells, with signs as they come, move no order by
+    more than the bound; and the bound knows of lines no more than their sizes.
+    """
     w, level = ripple.speed(lines), ripple.speed([(order, size, 0.0) for order, size, _ in lines])
     random = np.random.default_rng(7)
     for rule in (ripple.force, ripple.torque):
         backward = np.conj(FORWARD) if rule is ripple.torque else BACKWARD
         noise = 1e-9 * random.uniform(1, 2, 15)
         found = rule(Phasors(ORDERS, FORWARD, backward, noise), w, mean)
-        assert found.noise == pytest.approx(rule(Phasors(ORDERS, FORWARD, backward, noise), level, mean).noise, rel=1e-12, abs=0)
+        assert found.noise == pytest.approx(
+            rule(Phasors(ORDERS, FORWARD, backward, noise), level, mean).noise, rel=1e-12, abs=0
+        )
         for _ in range(20):
-            errors = [noise * np.where(ORDERS > 0, np.exp(2j * np.pi * random.random(15)), 0) for _ in range(2)]
+            errors = [
+                noise * np.where(ORDERS > 0, np.exp(2j * np.pi * random.random(15)), 0)
+                for _ in range(2)
+            ]
             if rule is ripple.torque:
                 errors[1] = np.conj(errors[0])
-            moved = rule(Phasors(ORDERS, FORWARD + errors[0], backward + errors[1], noise), w, mean) - found
+            moved = (
+                rule(Phasors(ORDERS, FORWARD + errors[0], backward + errors[1], noise), w, mean)
+                - found
+            )
             assert np.all(np.abs(moved.forward) <= found.noise + 1e-13)
             assert np.all(np.abs(moved.backward) <= found.noise + 1e-13)
 
 
 @pytest.mark.parametrize("mean", [300.0, -300.0])
 def test_a_mean_momentum_is_rounded_too(mean):
-    """Where nothing else is, the force is `-W W' mean`, and its bound not below its own rounding."""
+    """Where nothing else is, the force is `-W W' mean`, and its bound not below its own
+    rounding.
+    """
     nothing = Phasors(ORDERS, np.zeros(15, complex), np.zeros(15, complex), np.zeros(15))
     for rule in (ripple.force, ripple.torque):
         found = rule(nothing, ripple.speed([(2, 0.3, 40.0)]), mean)
@@ -186,10 +235,15 @@ def test_a_mean_momentum_is_rounded_too(mean):
 
 
 def test_at_steady_speed_nothing_changes_not_even_the_bound():
-    """W = 1: the orders come back, each with the error it had (of the torque and of a force alike)."""
+    """W = 1: the orders come back, each with the error it had (of the torque and of a force
+    alike).
+    """
     noise = 1e-16 * np.arange(1.0, 16.0)
     steady = Phasors(ORDERS, FORWARD.astype(complex), BACKWARD.astype(complex), noise)
-    for rule in (ripple.force(steady, np.ones(1, complex)), ripple.torque(steady, np.ones(1, complex), 0.0)):
+    for rule in (
+        ripple.force(steady, np.ones(1, complex)),
+        ripple.torque(steady, np.ones(1, complex), 0.0),
+    ):
         assert rule.forward == pytest.approx(FORWARD, rel=1e-15)
         assert rule.noise[1:] == pytest.approx(noise[1:], rel=1e-12, abs=0)
 
@@ -197,10 +251,17 @@ def test_at_steady_speed_nothing_changes_not_even_the_bound():
 def test_variants_side_by_side_are_what_each_is_alone():
     """Trailing axes, as sweeps have them, of the series and of the mean."""
     w = ripple.speed(LINES["two"])[:, None, None]
-    scales, means = np.array([[1.0, -2.0, 0.5], [3.0, 1.5, 7.0]]), np.array([[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]])
+    scales, means = (
+        np.array([[1.0, -2.0, 0.5], [3.0, 1.5, 7.0]]),
+        np.array([[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]]),
+    )
     many = [v[:, None, None] * scales for v in (FORWARD, BACKWARD)]
     whole = ripple.force(Phasors(ORDERS, *many, np.zeros(1)), w, means)
     for i, j in np.ndindex(scales.shape):
-        one = ripple.force(Phasors(ORDERS, FORWARD * scales[i, j], BACKWARD * scales[i, j], np.zeros(1)), w[:, 0, 0], means[i, j])
+        one = ripple.force(
+            Phasors(ORDERS, FORWARD * scales[i, j], BACKWARD * scales[i, j], np.zeros(1)),
+            w[:, 0, 0],
+            means[i, j],
+        )
         assert whole.forward[:, i, j] == pytest.approx(one.forward, rel=1e-14)
         assert whole.backward[:, i, j] == pytest.approx(one.backward, rel=1e-14)

@@ -1,4 +1,7 @@
-"""Articulated rods: what the file may say, strokes and dead centres, and what distinguishes them from equal rods."""
+"""Articulated rods: what the file may say, strokes and dead centres, and what distinguishes them
+from equal rods.
+"""
+
 from __future__ import annotations
 
 import math
@@ -7,13 +10,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.engines import RADIAL
 from oracle import momentum
+from support.engines import RADIAL
 
-from balcli.engine import build as engine, load as enginefile
-from balcli.forces import spectrum
 from balcli.core.strokes import travel
+from balcli.engine import build as engine
+from balcli.engine import load as enginefile
 from balcli.errors import InputError
+from balcli.forces import spectrum
 from balcli.studies.parameters import varied
 
 
@@ -32,42 +36,99 @@ def mistakes(*changes: tuple[str, str], more: str = "") -> list[str]:
 
 
 # ------------------------------------------------------------------ the file
-@pytest.mark.parametrize(("changes", "more", "message"), [
-    ([("radial = 7", "")], "", "articulation: needs a throw that carries the rods of several banks; this engine has 1 bank: "
-                               "give bank_angle, banks or radial"),
-    ([("radial = 7", 'bank_angle = 60\nrods = "alternating"'), ("stroke = 120", "stroke = 120\nthrows = [0, 90]")], "",
-     "articulation: needs a throw that carries the rods of several banks; this engine has 2 banks with rods = \"alternating\", "
-     "one rod a throw: give rods = \"shared\""),
-    ([("[articulation]", "[articulation]\nmaster = 8")], "", "articulation.master: there is no bank 8; this engine has banks 1 to 7"),
-    ([("[articulation]", "[articulation]\nknuckle_angles = [0, 72]")], "",
-     "articulation.knuckle_angles: has 2 angles for 7 banks: give one for each, the master's own is 0"),
-    ([("[articulation]", "[articulation]\nknuckle_angles = [3, 50, 100, 150, 200, 250, 300]")], "",
-     "articulation.knuckle_angles: has 3 for bank 1, which carries the master rod: its own is 0"),
-    ([("stroke = 120", "stroke = 120\nsplay = 10")], "",
-     "crank.splay: articulated rods hang on the master rod and have no crank pins to split: leave splay out, or [articulation]"),
-    ([], "[cylinder.3]\nthrow = 20\n", "cylinder.3.throw: cylinder 3 has an articulated rod, which hangs on the master rod and not on "
-                                       "a crank pin: leave this out"),
-])
+@pytest.mark.parametrize(
+    ("changes", "more", "message"),
+    [
+        (
+            [("radial = 7", "")],
+            "",
+            "articulation: needs a throw that carries the rods of several banks; this engine has "
+            "1 bank: "
+            "give bank_angle, banks or radial",
+        ),
+        (
+            [
+                ("radial = 7", 'bank_angle = 60\nrods = "alternating"'),
+                ("stroke = 120", "stroke = 120\nthrows = [0, 90]"),
+            ],
+            "",
+            "articulation: needs a throw that carries the rods of several banks; this engine has "
+            '2 banks with rods = "alternating", '
+            'one rod a throw: give rods = "shared"',
+        ),
+        (
+            [("[articulation]", "[articulation]\nmaster = 8")],
+            "",
+            "articulation.master: there is no bank 8; this engine has banks 1 to 7",
+        ),
+        (
+            [("[articulation]", "[articulation]\nknuckle_angles = [0, 72]")],
+            "",
+            "articulation.knuckle_angles: has 2 angles for 7 banks: give one for each, the "
+            "master's own is 0",
+        ),
+        (
+            [
+                (
+                    "[articulation]",
+                    "[articulation]\nknuckle_angles = [3, 50, 100, 150, 200, 250, 300]",
+                )
+            ],
+            "",
+            "articulation.knuckle_angles: has 3 for bank 1, which carries the master rod: its own "
+            "is 0",
+        ),
+        (
+            [("stroke = 120", "stroke = 120\nsplay = 10")],
+            "",
+            "crank.splay: articulated rods hang on the master rod and have no crank pins to "
+            "split: leave splay out, or [articulation]",
+        ),
+        (
+            [],
+            "[cylinder.3]\nthrow = 20\n",
+            "cylinder.3.throw: cylinder 3 has an articulated rod, which hangs on the master rod "
+            "and not on "
+            "a crank pin: leave this out",
+        ),
+    ],
+)
 def test_what_does_not_fit_together(changes, more, message):
     assert mistakes(*changes, more=more) == [message]
 
 
 def test_the_masters_own_knuckle_angle_does_not_vary():
-    file = enginefile.parse(RADIAL.replace("[articulation]", "[articulation]\nknuckle_angles = [0, 50, 100, 150, 200, 250, 300]"))
-    with pytest.raises(InputError, match="knuckle_angles: has -2 for bank 1, which carries the master rod: its own is 0"):
+    file = enginefile.parse(
+        RADIAL.replace(
+            "[articulation]", "[articulation]\nknuckle_angles = [0, 50, 100, 150, 200, 250, 300]"
+        )
+    )
+    with pytest.raises(
+        InputError,
+        match="knuckle_angles: has -2 for bank 1, which carries the master rod: its own is 0",
+    ):
         engine.build(varied(file, {"articulation.knuckle_angles.1": np.array([0.0, -2.0])}), 1)
 
 
 def test_a_rod_that_cannot_follow_names_the_cylinder_and_the_crank_angle():
-    """Cylinder 3's knuckle pin, on a grid of a quarter of a degree, leaves the cylinder's axis by more than its rod is long."""
+    """Cylinder 3's knuckle pin, on a grid of a quarter of a degree, leaves the cylinder's axis by
+    more than its rod is long.
+    """
     degrees = np.arange(0, 360, 0.25)
     theta, bank = np.radians(degrees), math.radians(720 / 7)
     lean = np.arcsin(60 / 240 * np.sin(theta))
-    beside = np.abs(((60 * np.exp(1j * theta) + 52 * np.exp(1j * (bank - lean))) * np.exp(-1j * bank)).imag)
+    beside = np.abs(
+        ((60 * np.exp(1j * theta) + 52 * np.exp(1j * (bank - lean))) * np.exp(-1j * bank)).imag
+    )
     first, *rest = mistakes(("length = 188", "length = 60"), ("cg = 90", "cg = 30"))
-    found = re.fullmatch(r"articulation\.rod\.length: the crank cannot turn: at crank angle ([\d.]+) deg the knuckle pin of cylinder 3 "
-                         r"stands ([\d.]+) rod lengths beside the path of its piston pin; at most 1 - 1e-06 is allowed: "
-                         r"make the articulated rod longer or the knuckle radius smaller", first)
+    found = re.fullmatch(
+        r"articulation\.rod\.length: the crank cannot turn: at crank angle ([\d.]+) deg the "
+        r"knuckle pin of cylinder 3 "
+        r"stands ([\d.]+) rod lengths beside the path of its piston pin; at most 1 - 1e-06 is "
+        r"allowed: "
+        r"make the articulated rod longer or the knuckle radius smaller",
+        first,
+    )
     assert found
     assert np.interp(float(found[1]), degrees, beside) == pytest.approx(beside.max(), rel=1e-5)
     assert float(found[2]) == pytest.approx(beside.max() / 60, rel=1e-5)
@@ -88,7 +149,9 @@ def test_strokes_and_dead_centres_against_fine_sampling(offset):
     found = travel(built(("mass = 1.3", f"mass = 1.3\noffset = {offset}")).cylinders)
     for k in range(7):
         bank = 2 * math.pi * k / 7
-        knuckle = (60 * np.exp(1j * psi) + 52 * (k > 0) * np.exp(1j * (bank - lean))) * np.exp(-1j * bank)
+        knuckle = (60 * np.exp(1j * psi) + 52 * (k > 0) * np.exp(1j * (bank - lean))) * np.exp(
+            -1j * bank
+        )
         place = knuckle.real + np.sqrt((188 if k else 240) ** 2 - (knuckle.imag - offset) ** 2)
         assert found.stroke[k] * 1e3 == pytest.approx(np.ptp(place), abs=1e-7)
         top, bottom = (math.degrees(psi[at] - bank) for at in (place.argmax(), place.argmin()))
@@ -97,19 +160,28 @@ def test_strokes_and_dead_centres_against_fine_sampling(offset):
 
 
 def test_an_offset_slider_crank_has_its_stroke_in_closed_form():
-    """Stroke sqrt((l+r)^2 - e^2) - sqrt((l-r)^2 - e^2), dead centres where crank and rod are in line."""
+    """Stroke sqrt((l+r)^2 - e^2) - sqrt((l-r)^2 - e^2), dead centres where crank and rod are in
+    line.
+    """
     text = "[crank]\nstroke = 80\n[rod]\nlength = 140\n[piston]\nmass = 1\noffset = 10\n"
     found = travel(engine.build(enginefile.parse(text)).cylinders)
-    assert found.stroke[0] * 1e3 == pytest.approx(math.sqrt(180**2 - 100) - math.sqrt(100**2 - 100), rel=1e-14)
+    assert found.stroke[0] * 1e3 == pytest.approx(
+        math.sqrt(180**2 - 100) - math.sqrt(100**2 - 100), rel=1e-14
+    )
     assert found.top_deg[0] == pytest.approx(math.degrees(math.asin(10 / 180)), rel=1e-14)
     assert found.bottom_deg[0] == pytest.approx(math.degrees(math.asin(10 / 100)), rel=1e-14)
 
 
 # ------------------------------------------------------------------ forces
 def test_a_radial_with_a_master_rod_shakes_forward_in_the_second_order():
-    """Equal rods on one pin: no second order at all. A master rod: a vector that turns with the crank, and little against it."""
-    equal = RADIAL[:RADIAL.index("[articulation]")]
-    before, after = (spectrum.spectra(e, [2.0], ["force"]).force for e in (engine.build(enginefile.parse(equal)), built()))
+    """Equal rods on one pin: no second order at all. A master rod: a vector that turns with the
+    crank, and little against it.
+    """
+    equal = RADIAL[: RADIAL.index("[articulation]")]
+    before, after = (
+        spectrum.spectra(e, [2.0], ["force"]).force
+        for e in (engine.build(enginefile.parse(equal)), built())
+    )
     assert before is not None
     assert after is not None
     assert before.balanced[0]
@@ -118,26 +190,41 @@ def test_a_radial_with_a_master_rod_shakes_forward_in_the_second_order():
 
 @pytest.mark.parametrize("angles", [(0, 60, 120), (0, 60, -60), (0, 120, -120)])
 def test_knuckles_that_differ_in_one_component_alone(angles):
-    """Two rods in one direction, hung on opposite sides of the master's big end: against the momentum of every part."""
-    text = RADIAL.replace("radial = 7", "banks = [0, 60, 60]").replace("knuckle_radius", f"knuckle_angles = {list(angles)}\nknuckle_radius")
+    """Two rods in one direction, hung on opposite sides of the master's big end: against the
+    momentum of every part.
+    """
+    text = RADIAL.replace("radial = 7", "banks = [0, 60, 60]").replace(
+        "knuckle_radius", f"knuckle_angles = {list(angles)}\nknuckle_radius"
+    )
     want = momentum.Engine.read(text).curves()
-    found = spectrum.spectra(built(("radial = 7", "banks = [0, 60, 60]"),
-                                   ("knuckle_radius", f"knuckle_angles = {list(angles)}\nknuckle_radius")), [1.0, 2.0, 3.0])
+    found = spectrum.spectra(
+        built(
+            ("radial = 7", "banks = [0, 60, 60]"),
+            ("knuckle_radius", f"knuckle_angles = {list(angles)}\nknuckle_radius"),
+        ),
+        [1.0, 2.0, 3.0],
+    )
     for quantity, phasors in found.items():
         size = max(sum(map(abs, want.order(quantity, n))) for n in (1, 2, 3))
         for row, n in enumerate((1, 2, 3)):
-            assert (phasors.forward[row], phasors.backward[row]) == pytest.approx(want.order(quantity, n), abs=1e-10 * size + 1e-9)
+            assert (phasors.forward[row], phasors.backward[row]) == pytest.approx(
+                want.order(quantity, n), abs=1e-10 * size + 1e-9
+            )
 
 
 def test_knuckle_pins_on_the_crank_pin_are_equal_rods():
     """With a vanishing knuckle radius and equal rods nothing is left of the articulation."""
-    articulated = built(("knuckle_radius = 52", "knuckle_radius = 1e-11"),
-                        ("length = 188, mass = 0.62, cg = 90", "length = 240, mass = 1.9, cg = 55"))
-    plain = engine.build(enginefile.parse(RADIAL[:RADIAL.index("[articulation]")]))
+    articulated = built(
+        ("knuckle_radius = 52", "knuckle_radius = 1e-11"),
+        ("length = 188, mass = 0.62, cg = 90", "length = 240, mass = 1.9, cg = 55"),
+    )
+    plain = engine.build(enginefile.parse(RADIAL[: RADIAL.index("[articulation]")]))
     orders = np.arange(1.0, 9.0)
     one, other = spectrum.spectra(articulated, orders), spectrum.spectra(plain, orders)
     for (quantity, a), (_, b) in zip(one.items(), other.items(), strict=True):
-        assert np.abs(a.forward - b.forward).max() < 1e-8 + 1e-12 * np.abs(b.forward).max(), quantity
+        assert np.abs(a.forward - b.forward).max() < 1e-8 + 1e-12 * np.abs(b.forward).max(), (
+            quantity
+        )
 
 
 def highest(c):
@@ -147,26 +234,42 @@ def highest(c):
 @pytest.mark.parametrize("angle", [60, 89.999, 90, 90.001, 120, 180])
 @pytest.mark.parametrize("rotary", ["", "rotary = true"])
 def test_few_orders_far_from_the_lock(angle, rotary):
-    """Wherever the master's crank angle comes to a multiple of 90 degrees in a cylinder's frame, too."""
+    """Wherever the master's crank angle comes to a multiple of 90 degrees in a cylinder's frame,
+    too.
+    """
     for master in (1, 2):
-        e = built(("radial = 7", f"bank_angle = {angle}\n{rotary}"), ("mass = 1.3", "mass = 1.3\noffset = 2.5"),
-                  ("[articulation]", f"[articulation]\nmaster = {master}"))
+        e = built(
+            ("radial = 7", f"bank_angle = {angle}\n{rotary}"),
+            ("mass = 1.3", "mass = 1.3\noffset = 2.5"),
+            ("[articulation]", f"[articulation]\nmaster = {master}"),
+        )
         assert len(spectrum.relevant_orders(e)) <= 64
 
 
 def test_variants_on_a_trailing_axis():
-    """A sweep of knuckle radius and rod length gives what each variant alone gives, also at an uneven speed."""
-    file = enginefile.parse(RADIAL + "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.1, angle = 20 }]\n")
+    """A sweep of knuckle radius and rod length gives what each variant alone gives, also at an
+    uneven speed.
+    """
+    file = enginefile.parse(
+        RADIAL + "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.1, angle = 20 }]\n"
+    )
     table = file.articulation
     assert table is not None
     radii, lengths = np.array([40.0, 52.0, 60.0]), np.array([180.0, 188.0, 230.0])
+
     def variant(radius, length):
         rod = table.rod.model_copy(update={"length": length})
-        return file.model_copy(update={"articulation": table.model_copy(update={"knuckle_radius": radius, "rod": rod})})
+        return file.model_copy(
+            update={"articulation": table.model_copy(update={"knuckle_radius": radius, "rod": rod})}
+        )
+
     orders = np.arange(1.0, 7.0)
     many = engine.build(variant(radii, lengths), rank=1)
     together = spectrum.spectra(many, orders)
-    of_each = [engine.build(variant(radius, length)).cylinders for radius, length in zip(radii, lengths, strict=True)]
+    of_each = [
+        engine.build(variant(radius, length)).cylinders
+        for radius, length in zip(radii, lengths, strict=True)
+    ]
     assert highest(many.cylinders) == max(map(highest, of_each))
     for k in range(3):
         alone = spectrum.spectra(engine.build(variant(radii[k], lengths[k])), orders)
@@ -181,5 +284,9 @@ def test_many_variants_are_taken_some_angles_at_a_time():
     assert c.linkage is not None
     column = {name: getattr(c.linkage, name)[:, None] for name in ("mass", "knuckle", "lead_deg")}
     linkage = replace(c.linkage, **column)
-    lam, eps, psi = np.broadcast_to(c.lam, c.count)[:, None] * np.linspace(0.9, 1, 60), np.zeros((1, 1)), np.linspace(0, 7, 1440)
+    lam, eps, psi = (
+        np.broadcast_to(c.lam, c.count)[:, None] * np.linspace(0.9, 1, 60),
+        np.zeros((1, 1)),
+        np.linspace(0, 7, 1440),
+    )
     assert np.array_equal(linkage.each("lean", psi, lam, eps), linkage.motion(psi, lam, eps).lean)

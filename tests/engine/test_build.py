@@ -1,4 +1,5 @@
 """Engine file -> SI arrays: masses, rods, places, devices, and what cannot be an engine."""
+
 from __future__ import annotations
 
 import math
@@ -21,14 +22,20 @@ def only(values: np.ndarray) -> float:
 
 # ------------------------------------------------------------------ SI
 def test_si_values_of_a_whole_file():
-    e = engine(name="x", source="y",
-               crank={"stroke": 90, "throws": [0, 180], "spacing": 110, "throw_mass": 1.2},
-               rod={"length": 150, "mass": 0.6, "cg": 50, "inertia": 2500},
-               piston={"mass": 0.5, "bore": 80, "offset": 3},
-               layout={"bank_angle": 60}, operation={"speed": 3000})
+    e = engine(
+        name="x",
+        source="y",
+        crank={"stroke": 90, "throws": [0, 180], "spacing": 110, "throw_mass": 1.2},
+        rod={"length": 150, "mass": 0.6, "cg": 50, "inertia": 2500},
+        piston={"mass": 0.5, "bore": 80, "offset": 3},
+        layout={"bank_angle": 60},
+        operation={"speed": 3000},
+    )
     c = e.cylinders
     assert (e.name, e.source, e.numbers, e.strokes, c.count) == ("x", "y", (1, 2, 3, 4), 4, 4)
-    assert (float(c.radius), only(c.lam), only(c.eps)) == pytest.approx((0.045, 0.3, 0.02), rel=TIGHT)
+    assert (float(c.radius), only(c.lam), only(c.eps)) == pytest.approx(
+        (0.045, 0.3, 0.02), rel=TIGHT
+    )
     assert only(c.offset) == pytest.approx(0.003, rel=TIGHT)
     assert only(c.reciprocating) == pytest.approx(0.5 + 0.6 * 50 / 150, rel=TIGHT)
     assert only(c.rotating) == pytest.approx(1.2 / 2 + 0.6 * 100 / 150, rel=TIGHT)
@@ -49,7 +56,9 @@ def test_without_a_bore_there_is_no_displacement():
 def test_two_masses_have_no_couple():
     """H = 0 exactly, not a rounding error that would show as a couple."""
     assert only(engine(rod={"length": 171, "mass": 0.83, "cg": 47.3}).cylinders.couple) == 0
-    assert only(engine(rod={"length": 171, "small_end": 0.31, "big_end": 0.52}).cylinders.couple) == 0
+    assert (
+        only(engine(rod={"length": 171, "small_end": 0.31, "big_end": 0.52}).cylinders.couple) == 0
+    )
     assert only(engine().cylinders.couple) == 0
 
 
@@ -57,16 +66,21 @@ def test_two_masses_have_no_couple():
 WEIGHED = {"length": 200, "small_end": 0.15, "big_end": 0.45, "inertia": 4000}
 
 
-@pytest.mark.parametrize("rod", [
-    {"length": 200, "mass": 0.6, "cg": 50, "inertia": 4000},
-    {"ratio": 0.25, "mass": 0.6, "cg": 50, "inertia": 4000},
-    {"ratio": 0.25, "small_end": 0.15, "big_end": 0.45, "inertia": 4000},
-    {"length": "20 cm", "mass": "600 g", "cg": "0.05 m", "inertia": "0.004 kg*m^2"},
-])
+@pytest.mark.parametrize(
+    "rod",
+    [
+        {"length": 200, "mass": 0.6, "cg": 50, "inertia": 4000},
+        {"ratio": 0.25, "mass": 0.6, "cg": 50, "inertia": 4000},
+        {"ratio": 0.25, "small_end": 0.15, "big_end": 0.45, "inertia": 4000},
+        {"length": "20 cm", "mass": "600 g", "cg": "0.05 m", "inertia": "0.004 kg*m^2"},
+    ],
+)
 def test_ways_to_say_the_same_rod(rod):
     one, other = engine(rod=rod).cylinders, engine(rod=WEIGHED).cylinders
     for name in ("lam", "reciprocating", "rotating", "couple"):
-        assert only(getattr(one, name)) == pytest.approx(only(getattr(other, name)), rel=1e-13), name
+        assert only(getattr(one, name)) == pytest.approx(only(getattr(other, name)), rel=1e-13), (
+            name
+        )
 
 
 @pytest.mark.parametrize(("pivot", "arm"), [("small_end", 0.15), ("big_end", 0.05)])
@@ -74,15 +88,24 @@ def test_pendulum(pivot, arm):
     """J_g = m (g h T^2 / 4 pi^2 - h^2), h from the pivot to the centre of mass."""
     inertia = 4000e-6
     period = 2 * math.pi * math.sqrt((inertia + 0.6 * arm**2) / (0.6 * STANDARD_GRAVITY * arm))
-    swung = engine(rod={"length": 200, "mass": 0.6, "cg": 50, "pendulum": {"pivot": pivot, "period": period}}).cylinders
+    swung = engine(
+        rod={"length": 200, "mass": 0.6, "cg": 50, "pendulum": {"pivot": pivot, "period": period}}
+    ).cylinders
     assert only(swung.couple) == pytest.approx(0.6 * 0.05 * 0.15 - inertia, rel=1e-12)
 
 
 def test_a_rod_of_its_own():
-    """What a cylinder gives displaces what the engine says otherwise of the same thing; the rest stays."""
-    e = engine(crank={"throws": [0, 120, 240]}, rod={"length": 200, "mass": 0.6, "cg": 50, "inertia": 4000},
-               cylinder={"2": {"rod_small_end": 0.2, "rod_big_end": 0.5, "piston_mass": 1.1},
-                         "3": {"rod_ratio": 0.2, "rod_mass": 0.7, "piston_offset": -5}})
+    """What a cylinder gives displaces what the engine says otherwise of the same thing; the rest
+    stays.
+    """
+    e = engine(
+        crank={"throws": [0, 120, 240]},
+        rod={"length": 200, "mass": 0.6, "cg": 50, "inertia": 4000},
+        cylinder={
+            "2": {"rod_small_end": 0.2, "rod_big_end": 0.5, "piston_mass": 1.1},
+            "3": {"rod_ratio": 0.2, "rod_mass": 0.7, "piston_offset": -5},
+        },
+    )
     c = e.cylinders
     assert not e.equal
     assert list(c.lam) == pytest.approx([0.25, 0.25, 0.2], rel=TIGHT)
@@ -102,50 +125,87 @@ def test_a_pendulum_test_of_its_own_displaces_the_inertia():
 
 
 def test_overrides_that_change_nothing_leave_the_cylinders_equal():
-    assert engine(crank={"throws": [0, 180]}, cylinder={"2": {"piston_mass": 1, "rod_length": 200}}).equal
+    assert engine(
+        crank={"throws": [0, 180]}, cylinder={"2": {"piston_mass": 1, "rod_length": 200}}
+    ).equal
 
 
 # ------------------------------------------------------------------ where cylinders stand
 def test_a_free_layout():
-    e = engine(crank={"throws": [0, 0, 0]}, cylinder={
-        "1": {"bank": 30, "throw": 10, "position": -70}, "2": {"bank": -30, "throw": 100, "position": 0},
-        "3": {"bank": 30, "throw": 190, "position": 80}})
+    e = engine(
+        crank={"throws": [0, 0, 0]},
+        cylinder={
+            "1": {"bank": 30, "throw": 10, "position": -70},
+            "2": {"bank": -30, "throw": 100, "position": 0},
+            "3": {"bank": 30, "throw": 190, "position": 80},
+        },
+    )
     c = e.cylinders
     axis = np.repeat(c.axis_deg, np.diff([*c.starts, c.count]))
-    rows = {n: (float(a), float(p), float(z)) for n, a, p, z in zip(e.numbers, axis, c.pin_deg, c.z, strict=True)}
+    rows = {
+        n: (float(a), float(p), float(z))
+        for n, a, p, z in zip(e.numbers, axis, c.pin_deg, c.z, strict=True)
+    }
     assert rows == {1: (30, 0, -0.07), 2: (-30, 90, 0), 3: (30, 180, 0.08)}
     assert c.axis_deg[c.first] == 30
     assert e.reference_m == pytest.approx((0, 0, 0.005))
 
 
 def test_pins_count_from_cylinder_1s_which_may_be_in_the_second_bank():
-    e = engine(crank={"throws": [0, 90]}, layout={"banks": [-45, 45], "numbering": [[2, 4], [1, 3]]})
+    e = engine(
+        crank={"throws": [0, 90]}, layout={"banks": [-45, 45], "numbering": [[2, 4], [1, 3]]}
+    )
     assert e.numbers == (2, 4, 1, 3)
     assert e.first_axis_deg == 45
     assert {n: float(p) for n, p in e.pins_deg.items()} == {2: 0, 4: 90, 1: 0, 3: 90}
 
 
 def test_reference_of_the_file():
-    assert engine(frame={"reference": [10, -20, "0.3 m"]}).reference_m == pytest.approx((0.01, -0.02, 0.3), rel=TIGHT)
+    assert engine(frame={"reference": [10, -20, "0.3 m"]}).reference_m == pytest.approx(
+        (0.01, -0.02, 0.3), rel=TIGHT
+    )
     uneven = engine(crank={"positions": [-10, 0, 50], "throws": [0, 0, 0]})
     assert uneven.reference_m == pytest.approx((0, 0, 0.02))
 
 
 def test_a_throw_mass_is_shared_by_the_pins_of_its_throw():
     shared = engine(crank={"throw_mass": 6}, layout={"banks": [0, 60, 120]})
-    alternating = engine(crank={"throw_mass": 6, "throws": [0, 120, 240]},
-                         layout={"banks": [0, 60, 120], "rods": "alternating"})
-    assert (only(shared.cylinders.rotating), only(alternating.cylinders.rotating)) == pytest.approx((2, 6))
+    alternating = engine(
+        crank={"throw_mass": 6, "throws": [0, 120, 240]},
+        layout={"banks": [0, 60, 120], "rods": "alternating"},
+    )
+    assert (only(shared.cylinders.rotating), only(alternating.cylinders.rotating)) == pytest.approx(
+        (2, 6)
+    )
 
 
 # ------------------------------------------------------------------ devices
 def test_devices():
-    """A counterweight counts from pin 1, a shaft and a slider from the x axis; unbalance or mass and radius."""
-    e = engine(crank={"throws": [0]}, layout={"banks": [45, -45]},
-               counterweight=[{"unbalance": 40000, "angle": 180, "position": -50}, {"mass": 0.5, "radius": 60}],
-               shaft=[{"ratio": -2, "unbalance": 9000, "angle": 90, "at": [-40, 60], "position": 7},
-                      {"ratio": 3, "unbalance": 1000}],
-               slider=[{"order": 2, "unbalance": 8000, "direction": 90, "angle": 60, "at": [1, 2], "position": 3}])
+    """A counterweight counts from pin 1, a shaft and a slider from the x axis; unbalance or mass
+    and radius.
+    """
+    e = engine(
+        crank={"throws": [0]},
+        layout={"banks": [45, -45]},
+        counterweight=[
+            {"unbalance": 40000, "angle": 180, "position": -50},
+            {"mass": 0.5, "radius": 60},
+        ],
+        shaft=[
+            {"ratio": -2, "unbalance": 9000, "angle": 90, "at": [-40, 60], "position": 7},
+            {"ratio": 3, "unbalance": 1000},
+        ],
+        slider=[
+            {
+                "order": 2,
+                "unbalance": 8000,
+                "direction": 90,
+                "angle": 60,
+                "at": [1, 2],
+                "position": 3,
+            }
+        ],
+    )
     weight, light, against, ahead, slider = e.devices
     assert [d.order for d in e.devices] == [1, 1, 2, 3, 2]
     assert weight.forward == pytest.approx(0.04 * unit(225), rel=TIGHT)
@@ -154,90 +214,160 @@ def test_devices():
     assert (ahead.forward, ahead.backward) == (pytest.approx(0.001, rel=TIGHT), 0)
     assert slider.forward == pytest.approx(0.004 * unit(150), rel=TIGHT)
     assert slider.backward == pytest.approx(0.004 * unit(30), rel=TIGHT)
-    assert [d.place for d in e.devices] == pytest.approx([0, 0, -0.04 + 0.06j, 0, 0.001 + 0.002j], rel=TIGHT)
+    assert [d.place for d in e.devices] == pytest.approx(
+        [0, 0, -0.04 + 0.06j, 0, 0.001 + 0.002j], rel=TIGHT
+    )
     assert [d.z for d in e.devices] == pytest.approx([-0.05, 0, 0.007, 0, 0.003], rel=TIGHT)
 
 
 def test_uneven_speed():
     e = engine(operation={"speed_ripple": [{"order": 4, "amplitude": 0.01, "angle": "0.5 turn"}]})
-    assert [(line.order, line.amplitude, line.angle_deg) for line in e.ripple] == [(4, 0.01, pytest.approx(180))]
+    assert [(line.order, line.amplitude, line.angle_deg) for line in e.ripple] == [
+        (4, 0.01, pytest.approx(180))
+    ]
 
 
 # ------------------------------------------------------------------ what cannot be
-@pytest.mark.parametrize(("parts", "message"), [
-    ({"cylinder": {"3": {"piston_mass": 1}}},
-     "cylinder.3: there is no cylinder 3: crank.throws and layout make 1 cylinder; give every throw its angle in crank.throws"),
-    ({"rod": {"length": 50}},
-     "rod.length: the crank cannot turn: crank radius 50 mm over rod length 50 mm is lambda = 1; "
-     "at most 1 - 1e-06 is allowed: make the rod longer"),
-    ({"rod": {"length": 65}, "piston": {"mass": 1, "offset": -20}},
-     "rod.length: the crank cannot turn: crank radius 50 mm over rod length 65 mm is lambda = 0.769230769, with the "
-     "piston offset of 20 mm lambda + |offset|/length = 1.07692308; at most 1 - 1e-06 is allowed: make the rod longer "
-     "or the offset smaller"),
-    ({"crank": {"throws": [0, 0]}, "cylinder": {"2": {"rod_length": 40}}},
-     "cylinder.2.rod_length: the crank cannot turn: crank radius 50 mm over rod length 40 mm is lambda = 1.25; "
-     "at most 1 - 1e-06 is allowed: make the rod longer"),
-    ({"rod": {"ratio": 0.25}, "piston": {"mass": 1, "offset": 150}},
-     "rod.ratio: the crank cannot turn: crank radius 50 mm over rod length 200 mm is lambda = 0.25, with the piston "
-     "offset of 150 mm lambda + |offset|/length = 1; at most 1 - 1e-06 is allowed: make the rod longer or the offset "
-     "smaller"),
-])
+@pytest.mark.parametrize(
+    ("parts", "message"),
+    [
+        (
+            {"cylinder": {"3": {"piston_mass": 1}}},
+            "cylinder.3: there is no cylinder 3: crank.throws and layout make 1 cylinder; give "
+            "every throw its angle in crank.throws",
+        ),
+        (
+            {"rod": {"length": 50}},
+            "rod.length: the crank cannot turn: crank radius 50 mm over rod length 50 mm is "
+            "lambda = 1; "
+            "at most 1 - 1e-06 is allowed: make the rod longer",
+        ),
+        (
+            {"rod": {"length": 65}, "piston": {"mass": 1, "offset": -20}},
+            "rod.length: the crank cannot turn: crank radius 50 mm over rod length 65 mm is "
+            "lambda = 0.769230769, with the "
+            "piston offset of 20 mm lambda + |offset|/length = 1.07692308; at most 1 - 1e-06 is "
+            "allowed: make the rod longer "
+            "or the offset smaller",
+        ),
+        (
+            {"crank": {"throws": [0, 0]}, "cylinder": {"2": {"rod_length": 40}}},
+            "cylinder.2.rod_length: the crank cannot turn: crank radius 50 mm over rod length 40 "
+            "mm is lambda = 1.25; "
+            "at most 1 - 1e-06 is allowed: make the rod longer",
+        ),
+        (
+            {"rod": {"ratio": 0.25}, "piston": {"mass": 1, "offset": 150}},
+            "rod.ratio: the crank cannot turn: crank radius 50 mm over rod length 200 mm is "
+            "lambda = 0.25, with the piston "
+            "offset of 150 mm lambda + |offset|/length = 1; at most 1 - 1e-06 is allowed: make "
+            "the rod longer or the offset "
+            "smaller",
+        ),
+    ],
+)
 def test_what_cannot_be_an_engine(parts, message):
     assert refused(**parts) == f"engine: {message}"
 
 
 def test_a_pendulum_that_swings_too_quickly_for_a_cylinders_own_rod():
     """J = m (g h T^2 / 4 pi^2 - h^2) would be negative."""
-    text = refused(crank={"throws": [0, 0]}, rod={"length": 200, "mass": 1, "cg": 50},
-                   cylinder={"2": {"rod_pendulum": {"pivot": "small_end", "period": 0.1}}})
+    text = refused(
+        crank={"throws": [0, 0]},
+        rod={"length": 200, "mass": 1, "cg": 50},
+        cylinder={"2": {"rod_pendulum": {"pivot": "small_end", "period": 0.1}}},
+    )
     inertia = (STANDARD_GRAVITY * 0.15 * (0.1 / 2 / math.pi) ** 2 - 0.15**2) * 1e6
     assert text == (
-        "engine: cylinder.2.rod_pendulum: the period is too quick for the distance of its pivot from the centre of "
-        f"mass: the moment of inertia about it would be {inertia:g} kg mm2 (period: a full swing, s)")
+        "engine: cylinder.2.rod_pendulum: the period is too quick for the distance of its pivot "
+        "from the centre of "
+        f"mass: the moment of inertia about it would be {inertia:g} kg mm2 (period: a full swing, "
+        "s)"
+    )
 
 
-@pytest.mark.parametrize(("parts", "message"), [
-    ({"rod": {"length": 200, "mass": 1, "cg": 230}}, "rod.cg: 230 mm is outside the rod of 200 mm"),
-    ({"rod": {"length": 200, "mass": 1, "cg": -10}}, "rod.cg: -10 mm is outside the rod of 200 mm"),
-    ({"rod": {"length": 200}, "cylinder": {"1": {"rod_mass": 1, "rod_cg": 230}}}, "cylinder.1.rod_cg: 230 mm is outside the rod of 200 mm"),
-])
+@pytest.mark.parametrize(
+    ("parts", "message"),
+    [
+        (
+            {"rod": {"length": 200, "mass": 1, "cg": 230}},
+            "rod.cg: 230 mm is outside the rod of 200 mm",
+        ),
+        (
+            {"rod": {"length": 200, "mass": 1, "cg": -10}},
+            "rod.cg: -10 mm is outside the rod of 200 mm",
+        ),
+        (
+            {"rod": {"length": 200}, "cylinder": {"1": {"rod_mass": 1, "rod_cg": 230}}},
+            "cylinder.1.rod_cg: 230 mm is outside the rod of 200 mm",
+        ),
+    ],
+)
 def test_a_centre_of_mass_outside_the_rod_needs_an_inertia(parts, message):
-    """Two masses at the ends would have m s_a s_b < 0; with its own inertia it is a rod like any other."""
+    """Two masses at the ends would have m s_a s_b < 0; with its own inertia it is a rod like any
+    other.
+    """
     assert refused(**parts) == (
-        f"engine: {message}, and two masses at its ends cannot stand for such a rod, one would be negative: give a cg from 0 to 200 mm, "
-        "or the rod's inertia")
+        f"engine: {message}, and two masses at its ends cannot stand for such a rod, one would be "
+        "negative: give a cg from 0 to 200 mm, "
+        "or the rod's inertia"
+    )
     assert engine(**parts | {"rod": parts["rod"] | {"inertia": 1000}}).cylinders.count == 1
 
 
 def test_a_rod_weighed_at_one_end_hides_no_other_mistake():
-    """Its own cylinder and all others are looked at, whatever else is wrong with the lay-out or with one table."""
-    cylinders = {"1": {"rod_small_end": 0.2}, "2": {"rod_length": 30}, "3": {"rod_big_end": 0.4, "rod_length": 35}}
+    """Its own cylinder and all others are looked at, whatever else is wrong with the lay-out or
+    with one table.
+    """
+    cylinders = {
+        "1": {"rod_small_end": 0.2},
+        "2": {"rod_length": 30},
+        "3": {"rod_big_end": 0.4, "rod_length": 35},
+    }
     found = [
         "cylinder.1.rod_small_end: needs rod_big_end beside it: weigh the rod at both ends",
-        "cylinder.2.rod_length: the crank cannot turn: crank radius 50 mm over rod length 30 mm is lambda = 1.66666667; "
+        "cylinder.2.rod_length: the crank cannot turn: crank radius 50 mm over rod length 30 mm "
+        "is lambda = 1.66666667; "
         "at most 1 - 1e-06 is allowed: make the rod longer",
         "cylinder.3.rod_big_end: needs rod_small_end beside it: weigh the rod at both ends",
-        "cylinder.3.rod_length: the crank cannot turn: crank radius 50 mm over rod length 35 mm is lambda = 1.42857143; "
-        "at most 1 - 1e-06 is allowed: make the rod longer"]
+        "cylinder.3.rod_length: the crank cannot turn: crank radius 50 mm over rod length 35 mm "
+        "is lambda = 1.42857143; "
+        "at most 1 - 1e-06 is allowed: make the rod longer",
+    ]
     crank = {"throws": [0, 0, 0]}
-    assert refused(crank=crank, cylinder=cylinders).splitlines() == ["engine: 4 mistakes", *(f"  {line}" for line in found)]
-    assert refused(crank=crank, layout={"numbering": [[1, 2]]}, cylinder=cylinders).splitlines() == [
-        "engine: 5 mistakes", "  layout.numbering: has rows of 2, but the banks have 3 cylinders: give one row a bank, "
-        "from the free end to the flywheel end", *(f"  {line}" for line in found)]
+    assert refused(crank=crank, cylinder=cylinders).splitlines() == [
+        "engine: 4 mistakes",
+        *(f"  {line}" for line in found),
+    ]
+    assert refused(
+        crank=crank, layout={"numbering": [[1, 2]]}, cylinder=cylinders
+    ).splitlines() == [
+        "engine: 5 mistakes",
+        "  layout.numbering: has rows of 2, but the banks have 3 cylinders: give one row a bank, "
+        "from the free end to the flywheel end",
+        *(f"  {line}" for line in found),
+    ]
     worse = refused(crank=crank, cylinder={**cylinders, "1": {"piston_mass": -1}}).splitlines()
     assert worse[0] == "engine: 4 mistakes"
     assert worse[2:] == [f"  {line}" for line in found[1:]]
 
 
 def test_every_mechanism_that_cannot_turn_is_told_once():
-    text = refused(crank={"throws": [0, 0, 0]}, rod={"length": 40}, cylinder={"2": {"rod_length": 30}})
+    text = refused(
+        crank={"throws": [0, 0, 0]}, rod={"length": 40}, cylinder={"2": {"rod_length": 30}}
+    )
     assert text.splitlines()[0] == "engine: 2 mistakes"
-    assert [line.split(":")[0].strip() for line in text.splitlines()[1:]] == ["rod.length", "cylinder.2.rod_length"]
+    assert [line.split(":")[0].strip() for line in text.splitlines()[1:]] == [
+        "rod.length",
+        "cylinder.2.rod_length",
+    ]
 
 
 def test_layout_and_rods_are_told_together():
     """What is wrong with the cylinders does not hide what is wrong with the rods."""
-    for parts, paths in (({"layout": {"firing_order": [1, 2, 3]}}, ["layout.firing_order", "rod.length"]),
-                         ({"cylinder": {"3": {"piston_mass": 1}}}, ["cylinder.3", "rod.length"])):
+    for parts, paths in (
+        ({"layout": {"firing_order": [1, 2, 3]}}, ["layout.firing_order", "rod.length"]),
+        ({"cylinder": {"3": {"piston_mass": 1}}}, ["cylinder.3", "rod.length"]),
+    ):
         text = refused(crank={"throws": [0, 0]}, rod={"length": 40}, **parts)
         assert [line.split(":")[0].strip() for line in text.splitlines()[1:]] == paths

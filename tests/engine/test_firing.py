@@ -1,4 +1,5 @@
 """Firing order <-> crank throws, on engines whose answer is known."""
+
 from __future__ import annotations
 
 import math
@@ -8,7 +9,7 @@ from support.engines import engine, refused
 
 from balcli.engine.firing import disagreement, from_pins
 
-TIGHT = 1e-9                    # deg
+TIGHT = 1e-9  # deg
 
 
 def pins(**parts):
@@ -21,56 +22,106 @@ def fires(**parts):
 
 
 # ------------------------------------------------------------------ order -> throws
-@pytest.mark.parametrize(("layout", "wanted"), [
-    ({"firing_order": [1, 3, 2]}, {1: 0, 2: 240, 3: 120}),
-    ({"firing_order": [1, 2, 3], "strokes": 2}, {1: 0, 2: 240, 3: 120}),
-    ({"firing_order": [1, 3, 4, 2]}, {1: 0, 2: 180, 3: 180, 4: 0}),
-    ({"firing_order": [1, 2, 4, 5, 3]}, {1: 0, 2: 216, 3: 144, 4: 72, 5: 288}),
-    ({"firing_order": [1, 5, 3, 6, 2, 4]}, {1: 0, 2: 240, 3: 120, 4: 120, 5: 240, 6: 0}),
-    ({"firing_order": [1, 2], "firing_intervals": [360, 360]}, {1: 0, 2: 0}),
-    ({"firing_order": [1, 2], "firing_intervals": [270, 450]}, {1: 0, 2: 90}),
-    ({"firing_order": [2, 1], "firing_intervals": [540, 180]}, {1: 0, 2: 180}),
-    ({"firing_order": [1, 2], "firing_intervals": [405, 315], "bank_angle": 45}, {1: 0, 2: 0}),
-    ({"firing_order": [1, 2], "firing_intervals": [270, 450], "banks": [45, -45]}, {1: 0, 2: 0}),
-    ({"firing_order": [1, 3, 5, 2, 4], "radial": 5}, {1: 0, 2: 0, 3: 0, 4: 0, 5: 0}),
-    ({"firing_order": [1, 8, 4, 3, 6, 5, 7, 2], "banks": [45, -45], "numbering": [[1, 3, 5, 7], [2, 4, 6, 8]]},
-     {1: 0, 2: 0, 3: 90, 4: 90, 5: 270, 6: 270, 7: 180, 8: 180}),
-])
+@pytest.mark.parametrize(
+    ("layout", "wanted"),
+    [
+        ({"firing_order": [1, 3, 2]}, {1: 0, 2: 240, 3: 120}),
+        ({"firing_order": [1, 2, 3], "strokes": 2}, {1: 0, 2: 240, 3: 120}),
+        ({"firing_order": [1, 3, 4, 2]}, {1: 0, 2: 180, 3: 180, 4: 0}),
+        ({"firing_order": [1, 2, 4, 5, 3]}, {1: 0, 2: 216, 3: 144, 4: 72, 5: 288}),
+        ({"firing_order": [1, 5, 3, 6, 2, 4]}, {1: 0, 2: 240, 3: 120, 4: 120, 5: 240, 6: 0}),
+        ({"firing_order": [1, 2], "firing_intervals": [360, 360]}, {1: 0, 2: 0}),
+        ({"firing_order": [1, 2], "firing_intervals": [270, 450]}, {1: 0, 2: 90}),
+        ({"firing_order": [2, 1], "firing_intervals": [540, 180]}, {1: 0, 2: 180}),
+        ({"firing_order": [1, 2], "firing_intervals": [405, 315], "bank_angle": 45}, {1: 0, 2: 0}),
+        (
+            {"firing_order": [1, 2], "firing_intervals": [270, 450], "banks": [45, -45]},
+            {1: 0, 2: 0},
+        ),
+        ({"firing_order": [1, 3, 5, 2, 4], "radial": 5}, {1: 0, 2: 0, 3: 0, 4: 0, 5: 0}),
+        (
+            {
+                "firing_order": [1, 8, 4, 3, 6, 5, 7, 2],
+                "banks": [45, -45],
+                "numbering": [[1, 3, 5, 7], [2, 4, 6, 8]],
+            },
+            {1: 0, 2: 0, 3: 90, 4: 90, 5: 270, 6: 270, 7: 180, 8: 180},
+        ),
+    ],
+)
 def test_throws_follow_from_the_firing_order(layout, wanted):
-    """Pins of in-line engines are minus the firing angle; the rest are the shared pins of real engines."""
+    """Pins of in-line engines are minus the firing angle; the rest are the shared pins of real
+    engines.
+    """
     assert pins(layout=layout) == wanted
 
 
 def test_the_first_bank_fires_405_and_315_degrees_apart_in_a_45_degree_v_twin():
     """The pin reaches the second bank 45 degrees after the first, and fires it one turn later."""
-    assert fires(crank={"throws": [0]}, layout={"firing_order": [1, 2], "bank_angle": 45}) == {1: 0, 2: 405}
+    assert fires(crank={"throws": [0]}, layout={"firing_order": [1, 2], "bank_angle": 45}) == {
+        1: 0,
+        2: 405,
+    }
 
 
 def test_vr6_pins_of_neighbours_are_split_by_the_offset_of_the_banks():
-    """a_2 = g_2 - g_1 + tau_2 - tau_1 - f_2, sin tau = e/(r + l): 15 degrees of bank and twice tau of the offset."""
-    e = engine(crank={"stroke": 90, "spacing": 65}, rod={"length": 164}, piston={"mass": 1, "offset": -12.5},
-               layout={"banks": [-7.5, 7.5], "rods": "alternating", "firing_order": [1, 5, 3, 6, 2, 4],
-                       "numbering": [[1, 3, 5], [2, 4, 6]]},
-               cylinder={str(n): {"piston_offset": 12.5} for n in (2, 4, 6)})
+    """a_2 = g_2 - g_1 + tau_2 - tau_1 - f_2, sin tau = e/(r + l): 15 degrees of bank and twice tau
+    of the offset.
+    """
+    e = engine(
+        crank={"stroke": 90, "spacing": 65},
+        rod={"length": 164},
+        piston={"mass": 1, "offset": -12.5},
+        layout={
+            "banks": [-7.5, 7.5],
+            "rods": "alternating",
+            "firing_order": [1, 5, 3, 6, 2, 4],
+            "numbering": [[1, 3, 5], [2, 4, 6]],
+        },
+        cylinder={str(n): {"piston_offset": 12.5} for n in (2, 4, 6)},
+    )
     tau = math.degrees(math.asin(12.5 / (45 + 164)))
-    wanted = {1: 0, 5: -120, 3: -240, 6: 15 + 2 * tau - 360, 2: 15 + 2 * tau - 480, 4: 15 + 2 * tau - 600}
+    wanted = {
+        1: 0,
+        5: -120,
+        3: -240,
+        6: 15 + 2 * tau - 360,
+        2: 15 + 2 * tau - 480,
+        4: 15 + 2 * tau - 600,
+    }
     for n, pin in e.pins_deg.items():
         assert abs((float(pin) - wanted[n] + 180) % 360 - 180) < TIGHT, n
-    assert fires(crank={"throws": [0]}, piston={"offset": 3, "mass": 1}, layout={"firing_order": [1]}) == {1: 0}
+    assert fires(
+        crank={"throws": [0]}, piston={"offset": 3, "mass": 1}, layout={"firing_order": [1]}
+    ) == {1: 0}
 
 
 V6 = {"bank_angle": 90, "firing_order": [1, 4, 2, 5, 3, 6]}
 
 
 def test_common_pins_of_a_90_degree_v6_fire_unevenly():
-    assert list(fires(crank={"throws": [0, 120, 240]}, layout=V6).values()) == [0, 90, 240, 330, 480, 570]
+    assert list(fires(crank={"throws": [0, 120, 240]}, layout=V6).values()) == [
+        0,
+        90,
+        240,
+        330,
+        480,
+        570,
+    ]
 
 
 def test_pins_split_by_30_degrees_fire_evenly():
     """The second bank's pins lag by 30 degrees, so that it fires 90 + 30 after the first."""
     even = engine(crank={"throws": [0, 120, 240], "splay": -30}, layout=V6)
     assert list(even.fires_deg.values()) == [0, 120, 240, 360, 480, 600]
-    assert {n: float(pin) for n, pin in even.pins_deg.items()} == {1: 0, 2: 120, 3: 240, 4: -30, 5: 90, 6: 210}
+    assert {n: float(pin) for n, pin in even.pins_deg.items()} == {
+        1: 0,
+        2: 120,
+        3: 240,
+        4: -30,
+        5: 90,
+        6: 210,
+    }
 
 
 def test_throws_that_follow_from_the_order_respect_the_splay():
@@ -78,19 +129,26 @@ def test_throws_that_follow_from_the_order_respect_the_splay():
 
 
 # ------------------------------------------------------------------ throws and order -> intervals
-@pytest.mark.parametrize(("throws", "layout", "instants"), [
-    ([0, 0], {"firing_order": [1, 2]}, {1: 0, 2: 360}),
-    ([0, 90], {"firing_order": [1, 2]}, {1: 0, 2: 270}),
-    ([0, 180], {"firing_order": [1, 2]}, {1: 0, 2: 180}),
-    ([0, 270], {"firing_order": [1, 2]}, {1: 0, 2: 450}),
-    ([0, 180], {"firing_order": [1, 2], "strokes": 2}, {1: 0, 2: 180}),
-    ([0, 180, 180, 0], {"firing_order": [1, 2, 4, 3]}, {1: 0, 2: 180, 4: 360, 3: 540}),
-    ([0, 90, 270, 180], {"firing_order": [1, 3, 2, 4]}, {1: 0, 3: 90, 2: 270, 4: 540}),
-    ([0], {"firing_order": [1, 2], "bank_angle": 90}, {1: 0, 2: 450}),
-    ([0], {"firing_order": [1, 2], "bank_angle": 180}, {1: 0, 2: 180}),
-    ([0, 180], {"firing_order": [1, 2], "banks": [-90, 90], "rods": "alternating"}, {1: 0, 2: 360}),
-    ([0], {"firing_order": [1]}, {1: 0}),
-])
+@pytest.mark.parametrize(
+    ("throws", "layout", "instants"),
+    [
+        ([0, 0], {"firing_order": [1, 2]}, {1: 0, 2: 360}),
+        ([0, 90], {"firing_order": [1, 2]}, {1: 0, 2: 270}),
+        ([0, 180], {"firing_order": [1, 2]}, {1: 0, 2: 180}),
+        ([0, 270], {"firing_order": [1, 2]}, {1: 0, 2: 450}),
+        ([0, 180], {"firing_order": [1, 2], "strokes": 2}, {1: 0, 2: 180}),
+        ([0, 180, 180, 0], {"firing_order": [1, 2, 4, 3]}, {1: 0, 2: 180, 4: 360, 3: 540}),
+        ([0, 90, 270, 180], {"firing_order": [1, 3, 2, 4]}, {1: 0, 3: 90, 2: 270, 4: 540}),
+        ([0], {"firing_order": [1, 2], "bank_angle": 90}, {1: 0, 2: 450}),
+        ([0], {"firing_order": [1, 2], "bank_angle": 180}, {1: 0, 2: 180}),
+        (
+            [0, 180],
+            {"firing_order": [1, 2], "banks": [-90, 90], "rods": "alternating"},
+            {1: 0, 2: 360},
+        ),
+        ([0], {"firing_order": [1]}, {1: 0}),
+    ],
+)
 def test_intervals_follow_from_the_throws(throws, layout, instants):
     assert fires(crank={"throws": throws}, layout=layout) == instants
 
@@ -105,31 +163,47 @@ def test_pins_count_from_cylinder_1_wherever_it_stands():
 
 # ------------------------------------------------------------------ what disagrees
 def test_given_both_they_must_agree():
-    assert refused(crank={"throws": [0, 180, 180, 0]}, layout={
-        "firing_order": [1, 2, 3, 4], "firing_intervals": [180] * 4}) == (
-        "engine: layout.firing_order: cylinder 3 is not at top dead centre when it fires: its crank pin stands 180 deg "
-        "ahead of cylinder 1's, and would have to stand at 0 deg (allowed difference 1 deg); change crank.throws, "
-        "crank.splay, firing_order or firing_intervals, or leave crank.throws out")
+    assert refused(
+        crank={"throws": [0, 180, 180, 0]},
+        layout={"firing_order": [1, 2, 3, 4], "firing_intervals": [180] * 4},
+    ) == (
+        "engine: layout.firing_order: cylinder 3 is not at top dead centre when it fires: its "
+        "crank pin stands 180 deg "
+        "ahead of cylinder 1's, and would have to stand at 0 deg (allowed difference 1 deg); "
+        "change crank.throws, "
+        "crank.splay, firing_order or firing_intervals, or leave crank.throws out"
+    )
 
 
 def test_an_order_that_takes_more_than_a_cycle():
     assert refused(crank={"throws": [0, 180, 180, 0]}, layout={"firing_order": [1, 4, 2, 3]}) == (
-        "engine: layout.firing_order: 1-4-2-3 would take 1080 deg with these throws, a cycle has 720; firing evenly, "
-        "every 180 deg, cylinder 4 is the first that is not at top dead centre when it fires (allowed difference 1 "
-        "deg): change firing_order or crank.throws, or leave crank.throws out")
+        "engine: layout.firing_order: 1-4-2-3 would take 1080 deg with these throws, a cycle has "
+        "720; firing evenly, "
+        "every 180 deg, cylinder 4 is the first that is not at top dead centre when it fires "
+        "(allowed difference 1 "
+        "deg): change firing_order or crank.throws, or leave crank.throws out"
+    )
 
 
 def test_shared_pins_that_an_order_cannot_have():
     """Throws from the first bank, and then the second bank must agree with them."""
     assert refused(layout={"firing_order": [1, 2, 3, 4], "bank_angle": 60}) == (
-        "engine: layout.firing_order: cylinder 3 is not at top dead centre when it fires: its crank pin stands 0 deg "
-        "ahead of cylinder 1's, and would have to stand at 60 deg (allowed difference 1 deg); change crank.splay, "
-        "firing_order or firing_intervals, or give crank.throws and no firing_order")
+        "engine: layout.firing_order: cylinder 3 is not at top dead centre when it fires: its "
+        "crank pin stands 0 deg "
+        "ahead of cylinder 1's, and would have to stand at 60 deg (allowed difference 1 deg); "
+        "change crank.splay, "
+        "firing_order or firing_intervals, or give crank.throws and no firing_order"
+    )
 
 
-@pytest.mark.parametrize(("throw", "good"), [(179.1, True), (180.9, True), (178.9, False), (181.1, False)])
+@pytest.mark.parametrize(
+    ("throw", "good"), [(179.1, True), (180.9, True), (178.9, False), (181.1, False)]
+)
 def test_a_degree_is_forgiven(throw, good):
-    parts = {"crank": {"throws": [0, throw]}, "layout": {"firing_order": [1, 2], "firing_intervals": [180, 540]}}
+    parts = {
+        "crank": {"throws": [0, throw]},
+        "layout": {"firing_order": [1, 2], "firing_intervals": [180, 540]},
+    }
     if good:
         assert fires(**parts) == {1: 0, 2: 180}
     else:
@@ -137,12 +211,19 @@ def test_a_degree_is_forgiven(throw, good):
 
 
 def test_the_first_cylinder_that_cannot_fire_in_time_is_named():
-    """Cylinders 2, 3 and 4 come to top dead centre at 170, 160 and 150 deg: 1-2-3-4 waits 170 + 350 + 350 + 210 deg."""
+    """Cylinders 2, 3 and 4 come to top dead centre at 170, 160 and 150 deg: 1-2-3-4 waits 170 + 350
+    + 350 + 210 deg.
+    """
     pin = {1: 0.0, 2: -170.0, 3: -160.0, 4: -150.0}
     found = from_pins([1, 2, 3, 4], pin, dict.fromkeys(pin, 0.0), 720.0)
-    assert "1-2-3-4 would take 1080 deg with these throws, a cycle has 720; firing evenly, every 180 deg, cylinder 2 is the" in str(found)
+    assert (
+        "1-2-3-4 would take 1080 deg with these throws, a cycle has 720; firing evenly, every 180 "
+        "deg, cylinder 2 is the" in str(found)
+    )
 
 
 def test_a_pin_a_rounding_error_short_of_a_turn_is_at_its_place():
     assert disagreement({1: 0.0, 2: 0.0}, {1: 0.0, 2: 360 - 1e-12}, {1: 0.0, 2: 0.0}) is None
-    assert "cylinder 2 is not at top dead centre" in str(disagreement({1: 0.0, 2: 0.0}, {1: 0.0, 2: 340.0}, {1: 0.0, 2: 0.0}))
+    assert "cylinder 2 is not at top dead centre" in str(
+        disagreement({1: 0.0, 2: 0.0}, {1: 0.0, 2: 340.0}, {1: 0.0, 2: 0.0})
+    )

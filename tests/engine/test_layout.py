@@ -1,4 +1,5 @@
 """Banks and throws -> numbered cylinders."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -19,15 +20,18 @@ def where(found):
 
 
 # ------------------------------------------------------------------ banks
-@pytest.mark.parametrize(("layout", "angles"), [
-    ({}, (0,)),
-    ({"bank_angle": 90}, (-45, 45)),
-    ({"bank_angle": 180}, (-90, 90)),
-    ({"banks": [45, -45]}, (45, -45)),
-    ({"banks": [-36, -20, 20, 36]}, (-36, -20, 20, 36)),
-    ({"radial": 4}, (0, 90, 180, 270)),
-    ({"radial": 7}, tuple(360 * k / 7 for k in range(7))),
-])
+@pytest.mark.parametrize(
+    ("layout", "angles"),
+    [
+        ({}, (0,)),
+        ({"bank_angle": 90}, (-45, 45)),
+        ({"bank_angle": 180}, (-90, 90)),
+        ({"banks": [45, -45]}, (45, -45)),
+        ({"banks": [-36, -20, 20, 36]}, (-36, -20, 20, 36)),
+        ({"radial": 4}, (0, 90, 180, 270)),
+        ({"radial": 7}, tuple(360 * k / 7 for k in range(7))),
+    ],
+)
 def test_bank_angles(layout, angles):
     assert bank_angles(Layout(**layout)) == angles
 
@@ -39,12 +43,24 @@ def test_cycle():
 # ------------------------------------------------------------------ numbering
 def test_cylinders_are_counted_through_bank_after_bank_from_the_free_end():
     assert where(planned([0, 90, 270, 180], bank_angle=90)) == {
-        1: (0, 0), 2: (0, 1), 3: (0, 2), 4: (0, 3), 5: (1, 0), 6: (1, 1), 7: (1, 2), 8: (1, 3)}
+        1: (0, 0),
+        2: (0, 1),
+        3: (0, 2),
+        4: (0, 3),
+        5: (1, 0),
+        6: (1, 1),
+        7: (1, 2),
+        8: (1, 3),
+    }
 
 
 def test_numbering_per_bank():
     assert where(planned([0, 180], bank_angle=90, numbering=[[1, 3], [2, 4]])) == {
-        1: (0, 0), 3: (0, 1), 2: (1, 0), 4: (1, 1)}
+        1: (0, 0),
+        3: (0, 1),
+        2: (1, 0),
+        4: (1, 1),
+    }
 
 
 def test_alternating_rods_take_the_banks_in_turn():
@@ -52,7 +68,15 @@ def test_alternating_rods_take_the_banks_in_turn():
     assert where(found) == {1: (0, 0), 2: (0, 2), 3: (1, 1), 4: (1, 3)}
     assert found.rods_on_throw == 1
     three = planned([0] * 7, banks=[0, 10, 20], rods="alternating")
-    assert where(three) == {1: (0, 0), 2: (0, 3), 3: (0, 6), 4: (1, 1), 5: (1, 4), 6: (2, 2), 7: (2, 5)}
+    assert where(three) == {
+        1: (0, 0),
+        2: (0, 3),
+        3: (0, 6),
+        4: (1, 1),
+        5: (1, 4),
+        6: (2, 2),
+        7: (2, 5),
+    }
 
 
 def test_on_one_bank_alternating_means_nothing():
@@ -71,13 +95,17 @@ def test_as_many_throws_as_the_firing_order_needs():
 def test_throws_stand_evenly_about_the_middle():
     def places(**crank):
         return np.ravel(engine(crank=crank).cylinders.z)
+
     assert places(throws=[0, 120, 240], spacing=80) == pytest.approx([-0.08, 0, 0.08])
     assert places(throws=[0, 180], spacing=80) == pytest.approx([-0.04, 0.04])
     assert places(throws=[0, 0, 0]) == pytest.approx([0, 0, 0])
 
 
 def test_rods_side_by_side_the_first_bank_towards_the_free_end():
-    e = engine(crank={"throws": [0, 180], "positions": [-30, 70]}, layout={"banks": [0, 60, 90], "stagger": 20})
+    e = engine(
+        crank={"throws": [0, 180], "positions": [-30, 70]},
+        layout={"banks": [0, 60, 90], "stagger": 20},
+    )
     assert e.numbers == (1, 2, 3, 4, 5, 6)
     assert np.ravel(e.cylinders.z) * 1e3 == pytest.approx([-50, 50, -30, 70, -10, 90])
     assert list(e.throws_m) == pytest.approx([-0.03, 0.07])
@@ -94,37 +122,73 @@ def test_alternating_rods_have_a_throw_to_themselves_so_there_is_no_stagger():
 ONCE = "each of the cylinders 1 to {} must stand once"
 
 
-@pytest.mark.parametrize(("parts", "message"), [
-    ({"crank": {"throws": [0, 90]}, "layout": {"banks": [0, 30, 60], "rods": "alternating"}},
-     'layout.rods: "alternating" gives every throw one rod, but there are 3 banks and only 2 throws: '
-     'give more throws, or "shared"'),
-    ({"layout": {"banks": [0, 30], "rods": "alternating"}},
-     'layout.rods: "alternating" gives every throw one rod, but there are 2 banks and only 1 throw: '
-     'give more throws, or "shared"'),
-    ({"crank": {"positions": [0, 10, 20]}, "layout": {"firing_order": [1, 2]}},
-     "crank.positions: has 3 values for 2 throws: give one position a throw"),
-    ({"layout": {"firing_order": [1, 2, 3], "bank_angle": 90}},
-     "layout.firing_order: has 3 cylinders, which 2 banks cannot share evenly: "
-     "give crank.throws, or a multiple of 2 cylinders"),
-    ({"crank": {"throws": [0, 180]}, "layout": {"bank_angle": 90, "numbering": [[1, 2, 3], [4]]}},
-     "layout.numbering: has rows of 3 and 1, but the banks have 2 and 2 cylinders: "
-     "give one row a bank, from the free end to the flywheel end"),
-    ({"crank": {"throws": [0] * 3}, "layout": {"radial": 3, "rods": "alternating", "numbering": [[1], [2, 3]]}},
-     "layout.numbering: has rows of 1 and 2, but the banks have 1, 1, 1 cylinders: "
-     "give one row a bank, from the free end to the flywheel end"),
-    ({"crank": {"throws": [0, 180]}, "layout": {"bank_angle": 90, "numbering": [[1, 2], [4, 5]]}},
-     f"layout.numbering: there is no cylinder 5, cylinder 3 is missing: {ONCE.format(4)}"),
-    ({"crank": {"throws": [0, 180]}, "layout": {"firing_order": [1, 3, 2]}},
-     f"layout.firing_order: there is no cylinder 3: {ONCE.format(2)}"),
-    ({"crank": {"throws": [0, 180, 180, 0]}, "layout": {"firing_order": [1, 7]}},
-     f"layout.firing_order: there is no cylinder 7, cylinders 2, 3, 4 are missing: {ONCE.format(4)}"),
-])
+@pytest.mark.parametrize(
+    ("parts", "message"),
+    [
+        (
+            {"crank": {"throws": [0, 90]}, "layout": {"banks": [0, 30, 60], "rods": "alternating"}},
+            'layout.rods: "alternating" gives every throw one rod, but there are 3 banks and only '
+            "2 throws: "
+            'give more throws, or "shared"',
+        ),
+        (
+            {"layout": {"banks": [0, 30], "rods": "alternating"}},
+            'layout.rods: "alternating" gives every throw one rod, but there are 2 banks and only '
+            "1 throw: "
+            'give more throws, or "shared"',
+        ),
+        (
+            {"crank": {"positions": [0, 10, 20]}, "layout": {"firing_order": [1, 2]}},
+            "crank.positions: has 3 values for 2 throws: give one position a throw",
+        ),
+        (
+            {"layout": {"firing_order": [1, 2, 3], "bank_angle": 90}},
+            "layout.firing_order: has 3 cylinders, which 2 banks cannot share evenly: "
+            "give crank.throws, or a multiple of 2 cylinders",
+        ),
+        (
+            {
+                "crank": {"throws": [0, 180]},
+                "layout": {"bank_angle": 90, "numbering": [[1, 2, 3], [4]]},
+            },
+            "layout.numbering: has rows of 3 and 1, but the banks have 2 and 2 cylinders: "
+            "give one row a bank, from the free end to the flywheel end",
+        ),
+        (
+            {
+                "crank": {"throws": [0] * 3},
+                "layout": {"radial": 3, "rods": "alternating", "numbering": [[1], [2, 3]]},
+            },
+            "layout.numbering: has rows of 1 and 2, but the banks have 1, 1, 1 cylinders: "
+            "give one row a bank, from the free end to the flywheel end",
+        ),
+        (
+            {
+                "crank": {"throws": [0, 180]},
+                "layout": {"bank_angle": 90, "numbering": [[1, 2], [4, 5]]},
+            },
+            f"layout.numbering: there is no cylinder 5, cylinder 3 is missing: {ONCE.format(4)}",
+        ),
+        (
+            {"crank": {"throws": [0, 180]}, "layout": {"firing_order": [1, 3, 2]}},
+            f"layout.firing_order: there is no cylinder 3: {ONCE.format(2)}",
+        ),
+        (
+            {"crank": {"throws": [0, 180, 180, 0]}, "layout": {"firing_order": [1, 7]}},
+            "layout.firing_order: there is no cylinder 7, cylinders 2, 3, 4 are missing: "
+            f"{ONCE.format(4)}",
+        ),
+    ],
+)
 def test_one_mistake(parts, message):
     assert refused(**parts) == f"engine: {message}"
 
 
 def test_several_mistakes_are_told_at_once():
-    assert refused(crank={"throws": [0, 180]}, layout={"numbering": [[2, 3]], "firing_order": [1, 4]}) == (
+    assert refused(
+        crank={"throws": [0, 180]}, layout={"numbering": [[2, 3]], "firing_order": [1, 4]}
+    ) == (
         "engine: 2 mistakes\n"
         f"  layout.numbering: there is no cylinder 3, cylinder 1 is missing: {ONCE.format(2)}\n"
-        f"  layout.firing_order: there is no cylinder 4, cylinder 2 is missing: {ONCE.format(2)}")
+        f"  layout.firing_order: there is no cylinder 4, cylinder 2 is missing: {ONCE.format(2)}"
+    )

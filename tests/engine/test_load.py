@@ -1,4 +1,6 @@
-"""Reading engine files: every mistake at once, by its path, in words; nothing that a file holds can do harm."""
+"""Reading engine files: every mistake at once, by its path, in words; nothing that a file holds can
+do harm.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,11 @@ def test_a_good_file(tmp_path):
     path = tmp_path / "good.toml"
     path.write_text(GOOD)
     assert (
-        read(path) == read(str(path)) == parse(GOOD) == parse(GOOD.encode()) == parse("\ufeff".encode() + GOOD.encode())
+        read(path)
+        == read(str(path))
+        == parse(GOOD)
+        == parse(GOOD.encode())
+        == parse("\ufeff".encode() + GOOD.encode())
     )
     assert read(path).crank.throws == (0.0, 180.0, 180.0, 0.0)
 
@@ -48,24 +54,51 @@ def test_standard_input(monkeypatch):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (changed(("stroke = 90", "stroke = -90")), f"crank.stroke: -90 is not above 0; {LENGTH}, above 0"),
-        (changed(("stroke = 90", "stroke = 1e-300")), f"crank.stroke: 1e-300 is too small; {LENGTH}, at least 1e-12"),
-        (changed(("stroke = 90", "stroke = 1e300")), f"crank.stroke: 1e+300 is more than 1e+09; {LENGTH}, up to 1e+09"),
-        (changed(("cg = 45", "cg = -1e300")), f"rod.cg: -1e+300 is less than -1e+09; {LENGTH}, -1e+09 or more"),
-        (changed(("stroke = 90", "stroke = nan")), f"crank.stroke: nan is no finite number; {LENGTH}"),
-        (changed(("stroke = 90", "stroke = true")), f"crank.stroke: true is not a number; {LENGTH}"),
-        (changed(("stroke = 90", "stroke = [90]")), f"crank.stroke: [90] is not a number; {LENGTH}"),
+        (
+            changed(("stroke = 90", "stroke = -90")),
+            f"crank.stroke: -90 is not above 0; {LENGTH}, above 0",
+        ),
+        (
+            changed(("stroke = 90", "stroke = 1e-300")),
+            f"crank.stroke: 1e-300 is too small; {LENGTH}, at least 1e-12",
+        ),
+        (
+            changed(("stroke = 90", "stroke = 1e300")),
+            f"crank.stroke: 1e+300 is more than 1e+09; {LENGTH}, up to 1e+09",
+        ),
+        (
+            changed(("cg = 45", "cg = -1e300")),
+            f"rod.cg: -1e+300 is less than -1e+09; {LENGTH}, -1e+09 or more",
+        ),
+        (
+            changed(("stroke = 90", "stroke = nan")),
+            f"crank.stroke: nan is no finite number; {LENGTH}",
+        ),
+        (
+            changed(("stroke = 90", "stroke = true")),
+            f"crank.stroke: true is not a number; {LENGTH}",
+        ),
+        (
+            changed(("stroke = 90", "stroke = [90]")),
+            f"crank.stroke: [90] is not a number; {LENGTH}",
+        ),
         (
             changed(("stroke = 90", 'stroke = "long"')),
             f'crank.stroke: "long" is not a number followed by a unit; {LENGTH}',
         ),
-        (changed(("stroke = 90", 'stroke = "90 kg"')), f'crank.stroke: "90 kg" is a mass, but {LENGTH}'),
+        (
+            changed(("stroke = 90", 'stroke = "90 kg"')),
+            f'crank.stroke: "90 kg" is a mass, but {LENGTH}',
+        ),
         (
             changed(("stroke = 90", "stroke = 1" + "0" * 400)),
             f"crank.stroke: an integer of about 401 digits is too large a number; {LENGTH}",
         ),
         (changed(("stroke = 90\n", "")), "crank.stroke: is missing; give it, such as stroke = 90"),
-        (changed(("stroke = 90", "strok = 90")), "crank.strok: is no key of [crank]; did you mean stroke?"),
+        (
+            changed(("stroke = 90", "strok = 90")),
+            "crank.strok: is no key of [crank]; did you mean stroke?",
+        ),
         (
             changed(("stroke = 90", "stroke = 90\nbore = 86")),
             "crank.bore: is no key of [crank]; bore belongs to [piston]",
@@ -76,7 +109,8 @@ def test_standard_input(monkeypatch):
         ),
         (
             changed(("stroke = 90", "stroke = 90\nxyz = 1")),
-            "crank.xyz: is no key of [crank]; it has stroke, throws, spacing, positions, throw_mass, splay",
+            "crank.xyz: is no key of [crank]; it has stroke, throws, spacing, positions, "
+            "throw_mass, splay",
         ),
         (
             changed(("[piston]", "[pistons]\nmass = 0.5\n[piston]")),
@@ -95,7 +129,10 @@ def test_standard_input(monkeypatch):
             changed(("[0, 180, 180, 0]", "[]")),
             "crank.throws: is an empty list; give at least one value, or leave the key out",
         ),
-        (changed(("[0, 180, 180, 0]", str([0] * 10_001))), "crank.throws: has more than 10000 values"),
+        (
+            changed(("[0, 180, 180, 0]", str([0] * 10_001))),
+            "crank.throws: has more than 10000 values",
+        ),
         (
             changed(("[layout]", "[layout]\nnumbering = [[1, 2], [3, 4.5]]")),
             f"layout.numbering.2: the 2nd value 4.5 is not a whole number; {WHOLE}",
@@ -106,7 +143,10 @@ def test_standard_input(monkeypatch):
             changed(("[layout]", '[layout]\nrods = "alternate"')),
             'layout.rods: "alternate" is not "shared" or "alternating"; did you mean alternating?',
         ),
-        (changed(("[layout]", "[layout]\nradial = 0")), f"layout.radial: 0 is out of range; {WHOLE}"),
+        (
+            changed(("[layout]", "[layout]\nradial = 0")),
+            f"layout.radial: 0 is out of range; {WHOLE}",
+        ),
         (changed(('"in-line four"', "4")), "name: 4 is not text; write it in quotes"),
         (
             "rod = 5\n[crank]\nstroke = 90\n[piston]\nmass = 1\n",
@@ -114,30 +154,48 @@ def test_standard_input(monkeypatch):
         ),
         (
             changed(("speed = 3000", "speed_ripple = [{ order = 1.5, amplitude = 0.01 }]")),
-            "operation.speed_ripple.1.order: 1.5 is not a whole number; a whole number from 1 to 256 is wanted",
+            "operation.speed_ripple.1.order: 1.5 is not a whole number; a whole number from 1 to "
+            "256 is wanted",
         ),
         (
             changed(("speed = 3000", "speed_ripple = [{ order = 1, amplitude = 2 }]")),
-            "operation.speed_ripple.1.amplitude: 2 is more than 1; a plain number is wanted, without quotes, up to 1",
+            "operation.speed_ripple.1.amplitude: 2 is more than 1; a plain number is wanted, "
+            "without quotes, up to 1",
         ),
         (
             changed(("speed = 3000", "speed_ripple = [3]")),
-            "operation.speed_ripple: the 1st value 3 is not a table; write it in braces with its keys",
+            "operation.speed_ripple: the 1st value 3 is not a table; write it in braces with its "
+            "keys",
         ),
         (
             changed(("speed = 3000", "speed_ripple = [{ order = 1, amplitud = 0.1 }]")),
             "operation.speed_ripple.1.amplitud: is no key of [operation]; did you mean amplitude?",
         ),
-        (GOOD + "[frame]\nreference = [0, 0]\n", "frame.reference: [0, 0] has 2 values where 3 are wanted"),
+        (
+            GOOD + "[frame]\nreference = [0, 0]\n",
+            "frame.reference: [0, 0] has 2 values where 3 are wanted",
+        ),
         (
             GOOD + "[shaft]\nratio = 1\n",
             "shaft: is one of several; write [[shaft]] in double brackets, once for each shaft",
         ),
-        (GOOD + "[[shaft]]\nratio = 1\nunbalance = 1\nat = [80]\n", "shaft.1.at: [80] has 1 value where 2 are wanted"),
-        (GOOD + "[[slider]]\nunbalance = 1\ndirection = 0\n", "slider.1.order: is missing; give it, such as order = 2"),
-        (GOOD + "[frame]\nreference = [1, inf, 0]\n", f"frame.reference: the 2nd value inf is no finite number; {LENGTH}"),
         (
-            changed(("firing_order = [1, 3, 4, 2]", "radial = 3"), more="[articulation]\nknuckle_radius = 50\n"),
+            GOOD + "[[shaft]]\nratio = 1\nunbalance = 1\nat = [80]\n",
+            "shaft.1.at: [80] has 1 value where 2 are wanted",
+        ),
+        (
+            GOOD + "[[slider]]\nunbalance = 1\ndirection = 0\n",
+            "slider.1.order: is missing; give it, such as order = 2",
+        ),
+        (
+            GOOD + "[frame]\nreference = [1, inf, 0]\n",
+            f"frame.reference: the 2nd value inf is no finite number; {LENGTH}",
+        ),
+        (
+            changed(
+                ("firing_order = [1, 3, 4, 2]", "radial = 3"),
+                more="[articulation]\nknuckle_radius = 50\n",
+            ),
             "articulation.rod: is missing; give it, such as rod = { length = 200 }",
         ),
         (
@@ -146,7 +204,8 @@ def test_standard_input(monkeypatch):
         ),
         (
             GOOD + "[cylinder.x]\npiston_mass = 1\n",
-            "cylinder.x: does not name a cylinder; write [cylinder.3] for what differs in cylinder 3",
+            "cylinder.x: does not name a cylinder; write [cylinder.3] for what differs in "
+            "cylinder 3",
         ),
         (
             GOOD + "[cylinder]\n3 = 5\n",
@@ -198,8 +257,14 @@ def test_missing_tables_come_with_an_example():
             "name = 'x'\n[crank]\nstroke = 90\nthrows = [0, 180\n[rod]\n",
             "is not valid TOML: Unclosed array (at line 5, column 1)",
         ),
-        ("[crank]\nstroke = 90\nstroke = 91\n", "is not valid TOML: Cannot overwrite a value (at line 3, column 12)"),
-        (GOOD.encode() + b"# \xff\n", f"is not UTF-8 text (line {GOOD.count(chr(10)) + 1}); save it as UTF-8"),
+        (
+            "[crank]\nstroke = 90\nstroke = 91\n",
+            "is not valid TOML: Cannot overwrite a value (at line 3, column 12)",
+        ),
+        (
+            GOOD.encode() + b"# \xff\n",
+            f"is not UTF-8 text (line {GOOD.count(chr(10)) + 1}); save it as UTF-8",
+        ),
         (b"\0" * 9, "is not valid TOML: Invalid statement (at line 1, column 1)"),
         (
             "x = " + "[" * 100_000 + "]" * 100_000,
@@ -249,7 +314,10 @@ def test_a_flood_of_mistakes_stays_readable():
 
 def test_huge_values_are_not_repeated_whole():
     long = changed(("stroke = 90", f'stroke = "{"x" * 100_000}"'))
-    assert refusal(long) == f'crank.stroke: "{"x" * 60}..." is not a number followed by a unit; {LENGTH}'
+    assert (
+        refusal(long)
+        == f'crank.stroke: "{"x" * 60}..." is not a number followed by a unit; {LENGTH}'
+    )
     assert len(refusal(changed(("[layout]", f"[layout]\n{'k' * 100_000} = 1")))) < 300
 
 
@@ -273,7 +341,9 @@ def test_enormous_lists_are_refused_whole():
     flood = changed(("[0, 180, 180, 0]", "[" + "[]," * 40_000 + "]"))
     assert refusal(flood) == "crank.throws: holds 40001 values; no engine needs more than 20000"
     nested = changed(("[layout]", "[layout]\nnumbering = [" + f"[{'1,' * 300}]," * 300 + "]"))
-    assert refusal(nested) == "layout.numbering: holds 90301 values; no engine needs more than 20000"
+    assert (
+        refusal(nested) == "layout.numbering: holds 90301 values; no engine needs more than 20000"
+    )
 
 
 def test_what_cannot_be_read(tmp_path):
@@ -309,23 +379,49 @@ def test_any_value_is_accepted_or_refused_by_its_key(key, value):
     assert key in refusal(text)
 
 
-@pytest.mark.parametrize("lost", [("stroke = 90", "stroke = -90"), ("firing_order = [1, 3, 4, 2]", "firing_order = 5")])
+@pytest.mark.parametrize(
+    "lost", [("stroke = 90", "stroke = -90"), ("firing_order = [1, 3, 4, 2]", "firing_order = 5")]
+)
 def test_a_table_that_cannot_be_read_does_not_hide_what_others_say(lost):
-    stopping = ("speed = 3000", "speed = 3000\nspeed_ripple = [{order = 1, amplitude = 0.7}, {order = 3, amplitude = 0.7}]")
+    stopping = (
+        "speed = 3000",
+        "speed = 3000\nspeed_ripple = [{order = 1, amplitude = 0.7}, {order = 3, amplitude = 0.7}]",
+    )
     with pytest.raises(InputError) as caught:
         parse(changed(lost, stopping, ("cg = 45", "cg = 450")))
-    assert [problem.path for problem in caught.value.problems][1:] == ["rod.cg", "operation.speed_ripple"]
+    assert [problem.path for problem in caught.value.problems][1:] == [
+        "rod.cg",
+        "operation.speed_ripple",
+    ]
 
 
 def test_a_rod_by_its_ratio_has_no_length_without_a_crank():
-    assert refusal(changed(("stroke = 90", "stroke = -90"), ("length = 160", "ratio = 0.28"), ("cg = 45", "cg = 450"))).count("\n") == 0
+    assert (
+        refusal(
+            changed(
+                ("stroke = 90", "stroke = -90"),
+                ("length = 160", "ratio = 0.28"),
+                ("cg = 45", "cg = 450"),
+            )
+        ).count("\n")
+        == 0
+    )
 
 
 def test_one_of_something_is_not_several():
-    text = changed(("throws = [0, 180, 180, 0]\nspacing = 100", "throws = [0]\npositions = [0, 1]"), ("firing_order = [1, 3, 4, 2]", ""))
+    text = changed(
+        ("throws = [0, 180, 180, 0]\nspacing = 100", "throws = [0]\npositions = [0, 1]"),
+        ("firing_order = [1, 3, 4, 2]", ""),
+    )
     assert refusal(text) == "crank: positions has 2 places for 1 throw; give one for each throw"
 
 
 def test_without_its_layout_nothing_is_said_of_a_cranks_throws():
-    text = changed(("throws = [0, 180, 180, 0]\nspacing = 100", "positions = [0, 100, 200, 300]"), ("[1, 3, 4, 2]", "5"))
-    assert refusal(text) == "layout.firing_order: 5 is not a list; write it in square brackets, such as [0, 180]"
+    text = changed(
+        ("throws = [0, 180, 180, 0]\nspacing = 100", "positions = [0, 100, 200, 300]"),
+        ("[1, 3, 4, 2]", "5"),
+    )
+    assert (
+        refusal(text)
+        == "layout.firing_order: 5 is not a list; write it in square brackets, such as [0, 180]"
+    )

@@ -1,4 +1,7 @@
-"""Keys of an engine file's text are changed, and all else stays: comments, lay-out, other tables."""
+"""Keys of an engine file's text are changed, and all else stays: comments, lay-out, other
+tables.
+"""
+
 from __future__ import annotations
 
 import tomllib
@@ -8,21 +11,52 @@ from support.engines import changed
 
 from balcli.enginefile.edit import changed as edited
 
-COMMENTED = changed(("throws = [0, 180, 180, 0]", "throws     = [0, 180,\n  180, 0]   # deg, free end first"),
-                    ("[crank]", "[crank]  # forged"), ("speed = 3000", "speed = 3000  # rpm"), more="# the end\n")
+COMMENTED = changed(
+    ("throws = [0, 180, 180, 0]", "throws     = [0, 180,\n  180, 0]   # deg, free end first"),
+    ("[crank]", "[crank]  # forged"),
+    ("speed = 3000", "speed = 3000  # rpm"),
+    more="# the end\n",
+)
 
 
-@pytest.mark.parametrize(("table", "keys", "old", "new"), [
-    ("crank", {"throws": [0.0, 90.5]}, "throws     = [0, 180,\n  180, 0]   # deg, free end first",
-     "throws     = [0.0, 90.5]   # deg, free end first (a note)"),
-    ("operation", {"speed": 1000.0}, "speed = 3000  # rpm", "speed = 1000.0  # rpm (a note)"),
-    ("layout", {"firing_order": [1, 2, 4, 3]}, "firing_order = [1, 3, 4, 2]", "firing_order = [1, 2, 4, 3]    # a note"),
-    ("crank", {"splay": -30.0}, "[crank]  # forged\n", "[crank]  # forged\nsplay = -30.0    # a note\n"),
-    ("layout", {"firing_order": None, "firing_intervals": None}, "firing_order = [1, 3, 4, 2]\n", ""),
-    ("layout", {"firing_intervals": None}, "", ""),
-    ("operation", {"speed": 3000.0}, "", ""),
-    ("frame", {"reference": [0.0, 0.0, 5.0]}, "# the end\n", "# the end\n\n[frame]\nreference = [0.0, 0.0, 5.0]    # a note\n"),
-])
+@pytest.mark.parametrize(
+    ("table", "keys", "old", "new"),
+    [
+        (
+            "crank",
+            {"throws": [0.0, 90.5]},
+            "throws     = [0, 180,\n  180, 0]   # deg, free end first",
+            "throws     = [0.0, 90.5]   # deg, free end first (a note)",
+        ),
+        ("operation", {"speed": 1000.0}, "speed = 3000  # rpm", "speed = 1000.0  # rpm (a note)"),
+        (
+            "layout",
+            {"firing_order": [1, 2, 4, 3]},
+            "firing_order = [1, 3, 4, 2]",
+            "firing_order = [1, 2, 4, 3]    # a note",
+        ),
+        (
+            "crank",
+            {"splay": -30.0},
+            "[crank]  # forged\n",
+            "[crank]  # forged\nsplay = -30.0    # a note\n",
+        ),
+        (
+            "layout",
+            {"firing_order": None, "firing_intervals": None},
+            "firing_order = [1, 3, 4, 2]\n",
+            "",
+        ),
+        ("layout", {"firing_intervals": None}, "", ""),
+        ("operation", {"speed": 3000.0}, "", ""),
+        (
+            "frame",
+            {"reference": [0.0, 0.0, 5.0]},
+            "# the end\n",
+            "# the end\n\n[frame]\nreference = [0.0, 0.0, 5.0]    # a note\n",
+        ),
+    ],
+)
 @pytest.mark.parametrize("ends", ["\n", "\r\n"])
 def test_only_the_key_changes(table, keys, old, new, ends):
     text, wanted = (t.replace("\n", ends) for t in (COMMENTED, COMMENTED.replace(old, new, 1)))
@@ -32,11 +66,24 @@ def test_only_the_key_changes(table, keys, old, new, ends):
 
 
 def test_a_last_line_without_an_end():
-    assert edited("[operation]", "operation", {"speed": 5.0}, "a note") == "[operation]\nspeed = 5.0    # a note\n"
+    assert (
+        edited("[operation]", "operation", {"speed": 5.0}, "a note")
+        == "[operation]\nspeed = 5.0    # a note\n"
+    )
 
 
-@pytest.mark.parametrize("text", [
-    "operation = { speed = 3000 }  # inline\n", "operation.speed = 3000  # dotted\n", '"operation".speed = 3000\n',
-    '[operation]\n"speed" = 3000\n', '[operation]\nspeed = 3000\n[crank]\nnote = """\n[operation]\nspeed = 1\n"""\n'])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "operation = { speed = 3000 }  # inline\n",
+        "operation.speed = 3000  # dotted\n",
+        '"operation".speed = 3000\n',
+        '[operation]\n"speed" = 3000\n',
+        '[operation]\nspeed = 3000\n[crank]\nnote = """\n[operation]\nspeed = 1\n"""\n',
+    ],
+)
 def test_what_is_written_in_an_unusual_way_is_right_all_the_same(text):
-    assert tomllib.loads(edited(text, "operation", {"speed": 5.0}, "a note")) == {**tomllib.loads(text), "operation": {"speed": 5.0}}
+    assert tomllib.loads(edited(text, "operation", {"speed": 5.0}, "a note")) == {
+        **tomllib.loads(text),
+        "operation": {"speed": 5.0},
+    }

@@ -1,4 +1,7 @@
-"""The shipped examples: all are listed, each is the file of the repository, and a wheel has them."""
+"""The shipped examples: all are listed, each is the file of the repository, and a wheel has
+them.
+"""
+
 from __future__ import annotations
 
 import os
@@ -16,8 +19,13 @@ ENGINES = Path(__file__).parents[2] / "engines"
 
 
 def balcli(*args, **environment):
-    return subprocess.run([sys.executable, "-m", "balcli", *map(str, args)], capture_output=True, text=True, check=False,
-                          env={**os.environ, **environment})
+    return subprocess.run(
+        [sys.executable, "-m", "balcli", *map(str, args)],
+        capture_output=True,
+        text=True,
+        check=False,
+        env={**os.environ, **environment},
+    )
 
 
 def test_every_engine_is_listed_by_name():
@@ -34,14 +42,18 @@ def test_a_copy_is_the_file(tmp_path):
     assert target.read_text(encoding="utf-8") == original
     again = balcli("engines", "i4", target)
     assert (again.returncode, again.stderr) == (
-        2, f"balcli: {target}: is there already; choose another name, or --force to overwrite it\n")
+        2,
+        f"balcli: {target}: is there already; choose another name, or --force to overwrite it\n",
+    )
     assert balcli("engines", "i4", target, "--force").returncode == 0
     assert target.read_text(encoding="utf-8") == examples.text("i4")
 
 
 @pytest.mark.parametrize("name", ["v8crossplane", "../engines/i4", "expected"])
 def test_unknown_names(name):
-    with pytest.raises(BalcliError, match=f'^there is no example "{name}": balcli engines lists them'):
+    with pytest.raises(
+        BalcliError, match=f'^there is no example "{name}": balcli engines lists them'
+    ):
         examples.text(name)
 
 
@@ -68,5 +80,8 @@ def test_a_wheel_has_the_examples_and_the_page(tmp_path):
 
 def test_an_installation_without_them_says_so(monkeypatch, tmp_path):
     monkeypatch.setattr(examples, "_PLACES", (tmp_path / "engines",))
-    with pytest.raises(BalcliError, match=r"the example engines are missing from this installation .*: install balcli again"):
+    with pytest.raises(
+        BalcliError,
+        match=r"the example engines are missing from this installation .*: install balcli again",
+    ):
         examples.names()

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 import pytest
-from support.engines import GOOD, changed
 from pydantic import ValidationError
+from support.engines import GOOD, changed
 
-from balcli.enginefile import model
 from balcli.engine.load import parse
+from balcli.enginefile import model
 from balcli.errors import InputError
 
 
@@ -23,7 +23,12 @@ def test_defaults():
     engine = parse("[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n")
     assert engine.operation.speed == 1000.0
     assert engine.crank.throws is engine.crank.positions is engine.crank.spacing is None
-    assert (engine.crank.throw_mass, engine.crank.splay, engine.piston.offset, engine.layout.stagger) == (0.0,) * 4
+    assert (
+        engine.crank.throw_mass,
+        engine.crank.splay,
+        engine.piston.offset,
+        engine.layout.stagger,
+    ) == (0.0,) * 4
     assert (engine.layout.rods, engine.layout.strokes) == ("shared", 4)
     assert engine.frame.reference is engine.bobweight is engine.articulation is None
     assert (engine.cylinder, engine.counterweight, engine.shaft, engine.slider) == ({}, (), (), ())
@@ -97,8 +102,16 @@ rod = { length = 120, mass = 0.4, cg = 60 }
 @pytest.mark.parametrize(
     "text",
     [
-        changed(("stroke = 90", "stroke = 0.005"), ("length = 160", "length = 0.01"), ("mass = 0.5", "mass = 1e-9")),
-        changed(("stroke = 90", "stroke = 1e6"), ("length = 160", "length = 2e6"), ("mass = 0.5", "mass = 1e9")),
+        changed(
+            ("stroke = 90", "stroke = 0.005"),
+            ("length = 160", "length = 0.01"),
+            ("mass = 0.5", "mass = 1e-9"),
+        ),
+        changed(
+            ("stroke = 90", "stroke = 1e6"),
+            ("length = 160", "length = 2e6"),
+            ("mass = 0.5", "mass = 1e9"),
+        ),
         changed(("speed = 3000", "speed = 1e-3")),
         changed(("speed = 3000", "speed = 1e6")),
         changed(("mass = 0.5", "mass = 0")),
@@ -128,17 +141,24 @@ def test_unusual_but_allowed(text):
             changed(("length = 160", "length = 160\nratio = 0.28")),
             "e.toml: rod: has length and ratio; give either length or ratio",
         ),
-        (changed(("length = 160", "")), "e.toml: rod: has neither length nor ratio; give either length or ratio"),
+        (
+            changed(("length = 160", "")),
+            "e.toml: rod: has neither length nor ratio; give either length or ratio",
+        ),
         (
             changed(("cg = 45", "cg = 45\nsmall_end = 0.2")),
-            "e.toml: rod: has mass, cg and small_end; give either mass and cg or small_end and big_end",
+            "e.toml: rod: has mass, cg and small_end; give either mass and cg or small_end and "
+            "big_end",
         ),
         (
             changed(("mass = 0.6\ncg = 45", "small_end = 0.2")),
-            "e.toml: rod: has small_end without big_end; weigh the rod at both ends, or give mass and cg",
+            "e.toml: rod: has small_end without big_end; weigh the rod at both ends, or give mass "
+            "and cg",
         ),
         (
-            changed(("cg = 45", 'cg = 45\ninertia = 9\npendulum = { pivot = "small_end", period = 1 }')),
+            changed(
+                ("cg = 45", 'cg = 45\ninertia = 9\npendulum = { pivot = "small_end", period = 1 }')
+            ),
             "e.toml: rod: has inertia and pendulum; give either inertia or pendulum",
         ),
         (
@@ -163,18 +183,21 @@ def test_unusual_but_allowed(text):
         ),
         (
             changed(("[layout]", "[layout]\nnumbering = [[1, 2], [2, 1]]")),
-            "e.toml: layout: numbering has cylinder 1 and 2 more than once; name every cylinder once",
+            "e.toml: layout: numbering has cylinder 1 and 2 more than once; name every cylinder "
+            "once",
         ),
         (
             changed(("[1, 3, 4, 2]", "[1, 3, 4, 2]\nfiring_intervals = [180, 180, 180]")),
             (
-                "e.toml: layout: firing_intervals has 3 intervals for 4 firings; give one for each, the last "
+                "e.toml: layout: firing_intervals has 3 intervals for 4 firings; give one for "
+                "each, the last "
                 "one back to the first cylinder"
             ),
         ),
         (
             changed(("[1, 3, 4, 2]", "[1, 3, 4, 2]\nfiring_intervals = [180, 180, 180, 160]")),
-            "e.toml: layout: firing_intervals add up to 700 degrees; the cycle of a 4-stroke has 720 (within 0.5)",
+            "e.toml: layout: firing_intervals add up to 700 degrees; the cycle of a 4-stroke has "
+            "720 (within 0.5)",
         ),
         (
             changed(("firing_order = [1, 3, 4, 2]", "firing_intervals = [180, 180, 180, 180]")),
@@ -183,21 +206,25 @@ def test_unusual_but_allowed(text):
         (
             GOOD + "[[counterweight]]\nangle = 180\n",
             (
-                "e.toml: counterweight.1: has neither unbalance nor mass and radius; give either unbalance or "
+                "e.toml: counterweight.1: has neither unbalance nor mass and radius; give either "
+                "unbalance or "
                 "mass and radius"
             ),
         ),
         (
             GOOD + "[[counterweight]]\nunbalance = 1\n[[counterweight]]\nmass = 1\n",
-            "e.toml: counterweight.2: has mass without radius; give either unbalance or mass and radius",
+            "e.toml: counterweight.2: has mass without radius; give either unbalance or mass and "
+            "radius",
         ),
         (
             GOOD + "[[shaft]]\nunbalance = 1\nratio = 0\n",
-            "e.toml: shaft.1.ratio: 0 is out of range; a whole number from -1000 to 1000, not 0, is wanted",
+            "e.toml: shaft.1.ratio: 0 is out of range; a whole number from -1000 to 1000, not 0, "
+            "is wanted",
         ),
         (
             GOOD + "[[shaft]]\nunbalance = 1\nratio = 1.5\n",
-            "e.toml: shaft.1.ratio: 1.5 is not a whole number; a whole number from -1000 to 1000, not 0, is wanted",
+            "e.toml: shaft.1.ratio: 1.5 is not a whole number; a whole number from -1000 to 1000, "
+            "not 0, is wanted",
         ),
     ],
 )
@@ -206,16 +233,22 @@ def test_contradictions(text, message):
 
 
 def test_a_pendulum_is_never_quicker_than_a_point_mass():
-    """J_g = m (g h T^2 / 4 pi^2 - h^2) is positive just above the period of a point mass at h, here 160 - 45 mm."""
+    """J_g = m (g h T^2 / 4 pi^2 - h^2) is positive just above the period of a point mass at h, here
+    160 - 45 mm.
+    """
     shortest = 2 * math.pi * math.sqrt(0.115 / 9.80665)
     text = 'cg = 45\npendulum = {{ pivot = "small_end", period = {!r} }}'
     parse(changed(("cg = 45", text.format(shortest * 1.000001))))
     assert refusal(changed(("cg = 45", text.format(0.1)))) == (
-        "e.toml: rod: pendulum.period 0.1 s is too quick: with the centre of mass 115 mm from the pivot a full swing "
+        "e.toml: rod: pendulum.period 0.1 s is too quick: with the centre of mass 115 mm from the "
+        "pivot a full swing "
         f"takes more than {shortest:.4g} s"
     )
     ends = changed(
-        ("mass = 0.6\ncg = 45", 'small_end = 0.2\nbig_end = 0.6\npendulum = { pivot = "big_end", period = 0.1 }')
+        (
+            "mass = 0.6\ncg = 45",
+            'small_end = 0.2\nbig_end = 0.6\npendulum = { pivot = "big_end", period = 0.1 }',
+        )
     )
     assert "with the centre of mass 40 mm from the pivot" in refusal(ends)  # 160 * 0.2 / 0.8
 

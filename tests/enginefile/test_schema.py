@@ -20,7 +20,11 @@ MODELS: list[type[Table]] = [*TABLES.values(), *DEVICES.values(), Override, Pend
 
 def fields() -> list[tuple[str, str, dict[str, Any]]]:
     tables = {"": DOCUMENT, **DOCUMENT["$defs"]}
-    return [(table, key, field) for table, body in tables.items() for key, field in body["properties"].items()]
+    return [
+        (table, key, field)
+        for table, body in tables.items()
+        for key, field in body["properties"].items()
+    ]
 
 
 def test_it_is_json_of_the_dialect_that_it_names():
@@ -36,12 +40,17 @@ def test_every_key_of_every_table_is_in_it(table):
     assert set(DOCUMENT["$defs"][table.__name__]["properties"]) == set(table.model_fields)
 
 
-@pytest.mark.parametrize(("table", "key", "field"), fields(), ids=lambda v: v if isinstance(v, str) else "")
+@pytest.mark.parametrize(
+    ("table", "key", "field"), fields(), ids=lambda v: v if isinstance(v, str) else ""
+)
 def test_every_key_is_described(table, key, field):
     if "$ref" in field and "description" not in field:
         field = DOCUMENT["$defs"][field["$ref"].rpartition("/")[2]]
     assert len(field["description"]) > 5
-    if "string" in (inner := field.get("items", field)).get("type", ()) and inner["type"] != "string":
+    if (
+        "string" in (inner := field.get("items", field)).get("type", ())
+        and inner["type"] != "string"
+    ):
         assert field["description"].endswith(f"[{inner['unit']}]")
 
 
@@ -80,5 +89,9 @@ def test_units_and_bounds():
 
 
 def test_it_needs_no_numpy():
-    code = "import sys; from balcli.enginefile.schema import schema; schema(); sys.exit('numpy' in sys.modules)"
+    code = (
+        "import sys; from balcli.enginefile.schema import schema; schema(); sys.exit('numpy' "
+        "in "
+        "sys.modules)"
+    )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -1,4 +1,6 @@
-"""Starting files are valid, also with their optional keys switched on, and tell the truth about alternatives."""
+"""Starting files are valid, also with their optional keys switched on, and tell the truth about
+alternatives.
+"""
 
 from __future__ import annotations
 
@@ -9,11 +11,18 @@ import tomllib
 import pytest
 
 from balcli.engine.load import parse
-from balcli.errors import BalcliError
 from balcli.enginefile.templates import KINDS, template
+from balcli.errors import BalcliError
 
 OPTION = re.compile(r"^# *((?:\[+[a-z.0-9]+\]+)|(?:[a-z_]+ *= .*))")
-CYLINDERS = {"single": (1, 1), "inline": (4, 1), "vee": (4, 2), "boxer": (4, 2), "radial": (1, 9), "w": (4, 3)}
+CYLINDERS = {
+    "single": (1, 1),
+    "inline": (4, 1),
+    "vee": (4, 2),
+    "boxer": (4, 2),
+    "radial": (1, 9),
+    "w": (4, 3),
+}
 INSTEAD = ("or instead of", "# big_end")
 
 
@@ -37,7 +46,9 @@ def test_editors_are_told_where_the_schema_is(kind):
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_optional_key_can_be_switched_on(kind):
     """All of them at once, but for those that stand instead of others."""
-    lines = [line for line in template(kind).splitlines() if not any(mark in line for mark in INSTEAD)]
+    lines = [
+        line for line in template(kind).splitlines() if not any(mark in line for mark in INSTEAD)
+    ]
     engine = parse("\n".join(OPTION.sub(r"\1", line) for line in lines), kind)
     assert engine.shaft
     assert engine.slider
@@ -58,7 +69,9 @@ def test_alternatives_say_the_same(kind):
             given |= tomllib.loads(OPTION.sub(r"\1", line))
     inertia = given.get("inertia", rod.inertia)
     arm = (rod.length - rod.cg) * 1e-3
-    swing = 2 * math.pi * math.sqrt((inertia * 1e-6 + rod.mass * arm**2) / (rod.mass * 9.80665 * arm))
+    swing = (
+        2 * math.pi * math.sqrt((inertia * 1e-6 + rod.mass * arm**2) / (rod.mass * 9.80665 * arm))
+    )
     assert given["ratio"] == pytest.approx(engine.crank.stroke / 2 / rod.length, abs=1e-4)
     assert given["small_end"] == pytest.approx(rod.mass * rod.cg / rod.length, abs=1e-4)
     assert given["small_end"] + given["big_end"] == pytest.approx(rod.mass, abs=1e-4)
@@ -78,7 +91,8 @@ def test_unknown_kinds():
     with pytest.raises(BalcliError) as caught:
         template("boxxer")
     assert str(caught.value) == (
-        '"boxxer" is no kind of engine; there are single, inline, vee, boxer, radial, w. Did you mean boxer?'
+        '"boxxer" is no kind of engine; there are single, inline, vee, boxer, radial, w. Did you '
+        "mean boxer?"
     )
     with pytest.raises(BalcliError, match=r"there are single, inline, vee, boxer, radial, w\.$"):
         template("q" * 10_000)

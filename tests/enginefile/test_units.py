@@ -12,7 +12,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from balcli.enginefile import units
-from balcli.enginefile.units import ANGLE, INERTIA, LENGTH, MASS, PLAIN, SPEED, TIME, UNBALANCE, convert
+from balcli.enginefile.units import (
+    ANGLE,
+    INERTIA,
+    LENGTH,
+    MASS,
+    PLAIN,
+    SPEED,
+    TIME,
+    UNBALANCE,
+    convert,
+)
 
 
 @pytest.mark.parametrize(
@@ -84,31 +94,48 @@ def test_units_that_only_pint_knows(text, dimension, expected):
         (
             "90 zorks",
             LENGTH,
-            'has the unknown unit "zorks"; a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"',
+            'has the unknown unit "zorks"; a length is wanted: a bare number in mm, or "90 mm" or '
+            '"3.5 in"',
         ),
-        ("90 kg", LENGTH, 'is a mass, but a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"'),
+        (
+            "90 kg",
+            LENGTH,
+            'is a mass, but a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"',
+        ),
         (
             "30 rpm",
             ANGLE,
             (
-                'is a speed of rotation, but an angle is wanted: a bare number in deg, or "30 deg" or "1.2 '
+                'is a speed of rotation, but an angle is wanted: a bare number in deg, or "30 '
+                'deg" or "1.2 '
                 'rad" or "1/7 turn"'
             ),
         ),
         (
             "50 Hz",
             SPEED,
-            'is a frequency, but a speed of rotation is wanted: a bare number in rpm, or "6000 rpm" or "300 rad/s"',
+            'is a frequency, but a speed of rotation is wanted: a bare number in rpm, or "6000 '
+            'rpm" or "300 rad/s"',
         ),
         (
             "3 ampere",
             TIME,
-            'is of another dimension, but a time is wanted: a bare number in s, or "0.82 s" or "820 ms"',
+            'is of another dimension, but a time is wanted: a bare number in s, or "0.82 s" or '
+            '"820 ms"',
         ),
-        ("20 degC", MASS, 'is of another dimension, but a mass is wanted: a bare number in kg, or "650 g" or "0.8 lb"'),
+        (
+            "20 degC",
+            MASS,
+            'is of another dimension, but a mass is wanted: a bare number in kg, or "650 g" or '
+            '"0.8 lb"',
+        ),
         ("5 deg", PLAIN, "is an angle, but a plain number is wanted, without quotes"),
         ("0.25", PLAIN, "has no unit; a plain number is wanted, without quotes"),
-        ("90", LENGTH, 'has no unit; a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"'),
+        (
+            "90",
+            LENGTH,
+            'has no unit; a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"',
+        ),
         ("1e999 mm", LENGTH, "is too large a number"),
         ("1/0 turn", ANGLE, "divides by zero"),
     ],
@@ -144,7 +171,9 @@ def test_refusals(text, dimension, message):
     ],
 )
 def test_what_is_no_figure_is_never_evaluated(text):
-    with pytest.raises(ValueError, match=r"^is not a number followed by a unit; a length is wanted"):
+    with pytest.raises(
+        ValueError, match=r"^is not a number followed by a unit; a length is wanted"
+    ):
         convert(text, LENGTH)
 
 
@@ -163,7 +192,8 @@ def test_any_text_is_read_or_refused_in_words(text):
 
 def test_common_units_need_no_pint():
     code = (
-        "import sys; from balcli.enginefile.units import INERTIA, convert; convert('8.1 lb in^2', INERTIA); "
+        "import sys; from balcli.enginefile.units import INERTIA, convert; convert('8.1 lb in^2', "
+        "INERTIA); "
         "sys.exit('pint' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

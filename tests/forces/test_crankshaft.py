@@ -1,4 +1,7 @@
-"""Inner forces and moments against statics worked out here, and the classical comparison of in-line engines."""
+"""Inner forces and moments against statics worked out here, and the classical comparison of in-line
+engines.
+"""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -6,12 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from balcli.engine import build as engine, load as enginefile
-from balcli.forces import spectrum
 from balcli.core.peaks import peak
+from balcli.engine import build as engine
+from balcli.engine import load as enginefile
 from balcli.errors import BalcliError
-from balcli.forces.guide_moments import guide
+from balcli.forces import spectrum
 from balcli.forces.crankshaft import bearings, inner
+from balcli.forces.guide_moments import guide
 
 ENGINES = Path(__file__).parents[2] / "engines"
 ORDERS = np.arange(1.0, 5.0)
@@ -34,7 +38,7 @@ mass = 0.5
 speed = 3000
 """
 OMEGA = 3000 * np.pi / 30
-ROTATING = (1.0 + 0.6 * (160 - 45) / 160) * 0.045 * OMEGA**2      # N, of one throw
+ROTATING = (1.0 + 0.6 * (160 - 45) / 160) * 0.045 * OMEGA**2  # N, of one throw
 RECIPROCATING = (0.5 + 0.6 * 45 / 160) * 0.045 * OMEGA**2
 
 
@@ -43,25 +47,48 @@ def built(throws, layout="", more=""):
 
 
 def test_the_first_order_along_an_inline_four():
-    """Loads +1 -1 -1 +1, 100 mm apart: shear 1 0 -1 0, moment about the section 0 -100 -100 0 (times i)."""
+    """Loads +1 -1 -1 +1, 100 mm apart: shear 1 0 -1 0, moment about the section 0 -100 -100 0
+    (times i).
+    """
     found = inner(built([0, 180, 180, 0]), ORDERS)
     assert found.shear.z_m == pytest.approx([-0.15, -0.05, 0.05, 0.15])
     ahead, against = ROTATING + RECIPROCATING / 2, RECIPROCATING / 2
-    for got, pattern, factor in ((found.shear, [1, 0, -1, 0], 1), (found.bending, [0, -0.1, -0.1, 0], 1j)):
-        assert got.phasors.forward[0] == pytest.approx(np.array(pattern) * factor * ahead, rel=1e-12, abs=1e-9)
-        assert got.phasors.backward[0] == pytest.approx(np.array(pattern) * factor * against, rel=1e-12, abs=1e-9)
+    for got, pattern, factor in (
+        (found.shear, [1, 0, -1, 0], 1),
+        (found.bending, [0, -0.1, -0.1, 0], 1j),
+    ):
+        assert got.phasors.forward[0] == pytest.approx(
+            np.array(pattern) * factor * ahead, rel=1e-12, abs=1e-9
+        )
+        assert got.phasors.backward[0] == pytest.approx(
+            np.array(pattern) * factor * against, rel=1e-12, abs=1e-9
+        )
 
 
 def test_an_inline_six_has_a_large_inner_moment_and_counterweights_take_most_of_it():
-    """0-120-240-240-120-0: nothing is free, but the middle carries what three throws on one side make."""
+    """0-120-240-240-120-0: nothing is free, but the middle carries what three throws on one side
+    make.
+    """
     plain = built([0, 120, 240, 240, 120, 0])
-    weights = "".join(f"[[counterweight]]\nunbalance = {(ROTATING + RECIPROCATING / 2) / OMEGA**2 * 1e6}\nangle = {angle + 180}\n"
-                      f"position = {place}\n" for angle, place in zip([0, 120, 240, 240, 120, 0], range(-250, 251, 100), strict=True))
+    weights = "".join(
+        f"[[counterweight]]\nunbalance = {(ROTATING + RECIPROCATING / 2) / OMEGA**2 * 1e6}\nangle "
+        f"= {angle + 180}\n"
+        f"position = {place}\n"
+        for angle, place in zip([0, 120, 240, 240, 120, 0], range(-250, 251, 100), strict=True)
+    )
     fitted = built([0, 120, 240, 240, 120, 0], more=weights)
     assert all(spectrum.spectra(e, [1.0], ["moment"]).moment.balanced[0] for e in (plain, fitted))
     before, after = (inner(e, ORDERS).bending for e in (plain, fitted))
     middle = abs(before.phasors.forward[0, 2])
-    statics = abs(sum((z + 50) * np.exp(1j * np.radians(a)) for z, a in ((-250, 0), (-150, 120), (-50, 240)))) / 1e3
+    statics = (
+        abs(
+            sum(
+                (z + 50) * np.exp(1j * np.radians(a))
+                for z, a in ((-250, 0), (-150, 120), (-50, 240))
+            )
+        )
+        / 1e3
+    )
     assert middle == pytest.approx(statics * (ROTATING + RECIPROCATING / 2), rel=1e-12)
     assert np.abs(after.phasors.forward[0]).max() < 1e-9 * middle
     assert before.peaks[before.largest].value > 3 * after.peaks[after.largest].value
@@ -80,12 +107,18 @@ def test_beyond_the_last_load_stand_free_force_and_moment(layout):
 
 
 def test_bearings_carry_all_force_and_moment():
-    subject = built([0, 90, 200], more="[[counterweight]]\nunbalance = 30000\nangle = 99\nposition = -20\n")
+    subject = built(
+        [0, 90, 200], more="[[counterweight]]\nunbalance = 30000\nangle = 99\nposition = -20\n"
+    )
     found, free = inner(subject, ORDERS).bearings, spectrum.spectra(subject, ORDERS)
     assert found is not None
     assert found.z_m == pytest.approx([-0.15, -0.05, 0.05, 0.15])
-    assert found.phasors.forward.sum(axis=1) == pytest.approx(free.force.forward, rel=1e-11, abs=1e-8)
-    assert 1j * found.phasors.forward @ found.z_m == pytest.approx(free.moment.forward, rel=1e-11, abs=1e-8)
+    assert found.phasors.forward.sum(axis=1) == pytest.approx(
+        free.force.forward, rel=1e-11, abs=1e-8
+    )
+    assert 1j * found.phasors.forward @ found.z_m == pytest.approx(
+        free.moment.forward, rel=1e-11, abs=1e-8
+    )
 
 
 def test_one_throw_in_the_middle_of_its_bearings_would_be_a_guess():
@@ -94,19 +127,26 @@ def test_one_throw_in_the_middle_of_its_bearings_would_be_a_guess():
 
 
 def test_shafts_and_sliders_act_on_the_block_not_on_the_crank():
-    more = "[[shaft]]\nratio = -1\nunbalance = 9000\n[[slider]]\norder = 1\nunbalance = 9000\ndirection = 0\n"
+    more = (
+        "[[shaft]]\nratio = -1\nunbalance = 9000\n[[slider]]\norder = 1\nunbalance = "
+        "9000\ndirection = 0\n"
+    )
     plain, with_devices = (inner(built([0, 180], more=text), ORDERS) for text in ("", more))
     assert np.array_equal(plain.bending.phasors.forward, with_devices.bending.phasors.forward)
 
 
 def test_guide_force_moments():
-    """H is the roll moment of the engine; X of two cylinders at +-L/2 is half the difference of their rolls."""
+    """H is the roll moment of the engine; X of two cylinders at +-L/2 is half the difference of
+    their rolls.
+    """
     subject = built([0, 180])
     found, roll = guide(subject, ORDERS), spectrum.spectra(subject, ORDERS).roll
     assert found.h.forward == pytest.approx(roll.forward, rel=1e-11, abs=1e-9)
     first, second = (spectrum.spectra(spectrum.alone(subject, n), ORDERS).roll for n in (1, 2))
     assert found.x is not None
-    assert found.x.forward == pytest.approx((second.forward - first.forward) / 2, rel=1e-11, abs=1e-9)
+    assert found.x.forward == pytest.approx(
+        (second.forward - first.forward) / 2, rel=1e-11, abs=1e-9
+    )
     assert found.x.balanced.tolist() == [False, True, False, True]
 
 
@@ -114,23 +154,34 @@ def test_one_throw_has_no_x_type():
     assert guide(built([0]), ORDERS).x is None
 
 
-# ------------------------------------------------------------------ cylinder by cylinder, and near the lock
+# ------------------------------------------------------------------ cylinder by cylinder, and near
+# the lock
 @pytest.mark.parametrize("name", ["w12", "vr6", "radial9", "tsinghua_ca72", "ripple"])
 def test_each_cylinder_is_what_it_is_alone(name):
     layout = "firing_order = [1, 3, 4, 2]" if name == "ripple" else ""
     ripple = "speed_ripple = [{order = 2, amplitude = 0.02, angle = 30}]\n"
-    subject = built([0, 180, 180, 0], layout, ripple) if name == "ripple" else enginefile.load(ENGINES / f"{name}.toml")
+    subject = (
+        built([0, 180, 180, 0], layout, ripple)
+        if name == "ripple"
+        else enginefile.load(ENGINES / f"{name}.toml")
+    )
     together = spectrum.each(subject, ORDERS)
     for row, number in enumerate(subject.numbers):
         for quantity, single in spectrum.spectra(spectrum.alone(subject, number), ORDERS).items():
             one = together.of(row)
             np.testing.assert_allclose(getattr(one, quantity).forward, single.forward, rtol=1e-14)
             np.testing.assert_allclose(getattr(one, quantity).backward, single.backward, rtol=1e-14)
-            np.testing.assert_array_equal(getattr(one, quantity).noise, np.broadcast_to(single.noise, one.orders.shape))
+            np.testing.assert_array_equal(
+                getattr(one, quantity).noise, np.broadcast_to(single.noise, one.orders.shape)
+            )
 
 
 def near_the_lock(throws, more=""):
-    text = FILE.format(throws=throws, layout="").replace("length = 160", "ratio = 0.999999").replace("cg = 45\n", "cg = 20\n")
+    text = (
+        FILE.format(throws=throws, layout="")
+        .replace("length = 160", "ratio = 0.999999")
+        .replace("cg = 45\n", "cg = 20\n")
+    )
     return engine.build(enginefile.parse(text + more))
 
 
@@ -146,14 +197,27 @@ def test_near_the_lock_only_orders_to_512_are_told_unasked_but_the_largest_value
 
 
 def test_so_many_loads_that_they_would_fill_the_memory_are_refused():
-    with pytest.raises(BalcliError, match=r"^32768 orders of 34 cylinders and counterweights one by one are 1114112 forces, "
-                                          r"and at most 1100000 are kept: an engine farther from its lock has fewer orders$"):
+    with pytest.raises(
+        BalcliError,
+        match=r"^32768 orders of 34 cylinders and counterweights one by one are 1114112 forces, "
+        r"and at most 1100000 are kept: an engine farther from its lock has fewer orders$",
+    ):
         inner(near_the_lock([10 * k for k in range(34)]))
-    with pytest.raises(BalcliError, match=r"32773 orders of 17 cylinders .* at most 550000 are kept"):
-        guide(near_the_lock([10 * k for k in range(17)], "speed_ripple = [{order = 2, amplitude = 0.01}]\n"))
+    with pytest.raises(
+        BalcliError, match=r"32773 orders of 17 cylinders .* at most 550000 are kept"
+    ):
+        guide(
+            near_the_lock(
+                [10 * k for k in range(17)], "speed_ripple = [{order = 2, amplitude = 0.01}]\n"
+            )
+        )
 
 
 def test_more_results_along_the_crank_than_anybody_reads_are_refused():
-    with pytest.raises(BalcliError, match=r"^along the crankshaft, 4096 orders of 9 cylinders and counterweights are 36864 results, "
-                                          r"and at most 32768 are told: ask for fewer orders$"):
+    with pytest.raises(
+        BalcliError,
+        match=r"^along the crankshaft, 4096 orders of 9 cylinders and counterweights are 36864 "
+        r"results, "
+        r"and at most 32768 are told: ask for fewer orders$",
+    ):
         inner(built([0] * 9), np.arange(1.0, 4097))

@@ -1,4 +1,7 @@
-"""Curves by direct evaluation: equal to the sum of all orders, and to what the mechanism must do."""
+"""Curves by direct evaluation: equal to the sum of all orders, and to what the mechanism must
+do.
+"""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -6,15 +9,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from balcli.forces.curves import crank_angles, cylinder_curves, engine_curves
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.render.json import orders
+from balcli.forces.curves import crank_angles, cylinder_curves, engine_curves
 from balcli.forces.spectrum import relevant_orders, spectra
+from balcli.render.json import orders
 
 ENGINES = Path(__file__).parents[2] / "engines"
-RELATIVE = 1e-12                # of the largest parts that are added up
+RELATIVE = 1e-12  # of the largest parts that are added up
 
 UNEVEN = """
 crank = { stroke = 86, throws = [0, 180, 180, 0], spacing = 93, throw_mass = 0.8 }
@@ -28,12 +31,20 @@ slider = [{ order = 2, unbalance = 300, direction = 30, angle = 10, at = [5, 9],
 """
 
 
-ARTICULATED = UNEVEN.replace("piston =", """layout = { banks = [0, 75, -80] }
+ARTICULATED = UNEVEN.replace(
+    "piston =",
+    """layout = { banks = [0, 75, -80] }
 articulation = { knuckle_radius = 35, rod = { length = 105, mass = 0.4, cg = 50, inertia = 900 } }
-piston =""")
+piston =""",
+)
 ROTARY = UNEVEN.replace("piston =", "layout = { banks = [0, 100, -80], rotary = true }\npiston =")
 HUNG = ARTICULATED.replace("80] }", "80], rotary = true }")
-TEXTS = {"uneven": UNEVEN, "articulated": ARTICULATED, "rotary": ROTARY, "rotary with a master rod": HUNG}
+TEXTS = {
+    "uneven": UNEVEN,
+    "articulated": ARTICULATED,
+    "rotary": ROTARY,
+    "rotary with a master rod": HUNG,
+}
 
 
 def engine(name):
@@ -46,14 +57,20 @@ def summed(subject, crank_deg):
     theta = np.radians(crank_deg)
     force, moment = found.force.values(theta), found.moment.values(theta)
     return {
-        "force_x_N": force.real, "force_y_N": force.imag, "moment_x_Nm": moment.real, "moment_y_Nm": moment.imag,
-        "couple_Nm": found.couple.values(theta).real, "inertia_torque_Nm": found.torque.values(theta).real,
+        "force_x_N": force.real,
+        "force_y_N": force.imag,
+        "moment_x_Nm": moment.real,
+        "moment_y_Nm": moment.imag,
+        "couple_Nm": found.couple.values(theta).real,
+        "inertia_torque_Nm": found.torque.values(theta).real,
         "roll_Nm": found.roll.values(theta).real,
     }
 
 
 def scale(subject):
-    """Size of what is added up: force of one cylinder times their number; times a length for moments."""
+    """Size of what is added up: force of one cylinder times their number; times a length for
+    moments.
+    """
     c = subject.cylinders
     moving = c.reciprocating + c.rotating + (0 if c.linkage is None else c.linkage.mass / c.lam)
     force = c.count * float(subject.omega) ** 2 * float(np.max(c.radius)) * float(np.max(moving))
@@ -61,14 +78,30 @@ def scale(subject):
     return {True: force, False: force * arms}
 
 
-@pytest.mark.parametrize("name", ["single", "i3", "i4_shafts", "v6_90_split", "v8_crossplane", "vr6", "boxer6",
-                                  "radial7", "single_shaft", *TEXTS])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "single",
+        "i3",
+        "i4_shafts",
+        "v6_90_split",
+        "v8_crossplane",
+        "vr6",
+        "boxer6",
+        "radial7",
+        "single_shaft",
+        *TEXTS,
+    ],
+)
 def test_direct_evaluation_is_the_sum_of_all_orders(name):
     subject, angles = engine(name), crank_angles(7.5)
     direct, orders = engine_curves(subject, angles).values, summed(engine(name), angles)
     assert set(direct) == set(orders)
     for quantity, curve in direct.items():
-        assert np.abs(curve - orders[quantity]).max() <= RELATIVE * scale(subject)[quantity.endswith("_N")], quantity
+        assert (
+            np.abs(curve - orders[quantity]).max()
+            <= RELATIVE * scale(subject)[quantity.endswith("_N")]
+        ), quantity
 
 
 def test_force_of_a_single_at_top_dead_centre():
@@ -77,13 +110,19 @@ def test_force_of_a_single_at_top_dead_centre():
     c = subject.cylinders
     m, rot, r, lam = (float(np.ravel(x)[0]) for x in (c.reciprocating, c.rotating, c.radius, c.lam))
     expected = subject.omega**2 * r * (m * (1 + lam) + rot)
-    expected += sum((d.forward + d.backward).real * d.order**2 * subject.omega**2 for d in subject.devices)
-    assert engine_curves(subject, np.zeros(1)).values["force_x_N"][0] == pytest.approx(expected, rel=1e-14)
+    expected += sum(
+        (d.forward + d.backward).real * d.order**2 * subject.omega**2 for d in subject.devices
+    )
+    assert engine_curves(subject, np.zeros(1)).values["force_x_N"][0] == pytest.approx(
+        expected, rel=1e-14
+    )
 
 
 @pytest.mark.parametrize("name", ["single", "i4", "v6_60", "v12_60", "boxer6", "radial7"])
 def test_what_is_zero_is_exactly_zero(name):
-    """No rounding noise and no negative zeros beside real figures, which may be as small as 1e-9 of their parts."""
+    """No rounding noise and no negative zeros beside real figures, which may be as small as 1e-9 of
+    their parts.
+    """
     subject = engine(name)
     curves = engine_curves(subject, crank_angles(15)).values
     for quantity, curve in curves.items():
@@ -100,20 +139,33 @@ def test_a_piston_stands_still_at_its_dead_centres():
 
 
 def test_a_mean_under_uneven_speed_keeps_its_sign_where_the_documents_say():
-    """Order 0 is the mean over the crank angle: in `forward` with signs, in the amplitudes of x and y without them."""
+    """Order 0 is the mean over the crank angle: in `forward` with signs, in the amplitudes of x and
+    y without them.
+    """
     subject, angles = engine("uneven"), crank_angles(0.5)
     (order,) = orders(spectra(subject, [0]))
-    mean = {name: float(curve.mean()) for name, curve in engine_curves(subject, angles).values.items()}
+    mean = {
+        name: float(curve.mean()) for name, curve in engine_curves(subject, angles).values.items()
+    }
     force, couple = order["force_N"], order["couple_Nm"]
     assert force["forward"] == pytest.approx([mean["force_x_N"], mean["force_y_N"]], rel=1e-9)
-    assert [force[axis] for axis in "xy"] == [{"amplitude": abs(v), "phase_deg": None} for v in force["forward"]]
-    assert (force["backward"], force["axis_deg"], couple["peak_deg"], couple["sin"]) == ([0, 0], None, None, 0)
+    assert [force[axis] for axis in "xy"] == [
+        {"amplitude": abs(v), "phase_deg": None} for v in force["forward"]
+    ]
+    assert (force["backward"], force["axis_deg"], couple["peak_deg"], couple["sin"]) == (
+        [0, 0],
+        None,
+        None,
+        0,
+    )
     assert couple["cos"] == pytest.approx(mean["couple_Nm"], rel=1e-9)
     assert couple["amplitude"] == abs(couple["cos"])
 
 
 def test_piston_motion_is_consistent_with_its_derivatives():
-    """Travel from top dead centre over a stroke; velocity and acceleration as its derivatives (central differences)."""
+    """Travel from top dead centre over a stroke; velocity and acceleration as its derivatives
+    (central differences).
+    """
     subject, h = engine("i4"), 1e-3
     angles = crank_angles(30)
     mid, before, after = (cylinder_curves(subject, 1, angles + d).values for d in (0, -h, h))
@@ -124,13 +176,18 @@ def test_piston_motion_is_consistent_with_its_derivatives():
     speed = subject.omega * stroke
     slope = {name: (after[name] - before[name]) / (2 * dt) for name in mid}
     assert mid["velocity_m_per_s"] == pytest.approx(slope["travel_m"], abs=1e-8 * speed)
-    assert mid["acceleration_m_per_s2"] == pytest.approx(slope["velocity_m_per_s"], abs=1e-8 * speed * subject.omega)
+    assert mid["acceleration_m_per_s2"] == pytest.approx(
+        slope["velocity_m_per_s"], abs=1e-8 * speed * subject.omega
+    )
 
 
 def test_cylinders_follow_their_cranks():
     """Throws at 0, 90, 270, 180 degrees: cylinder 4 is at its top half a turn from cylinder 1."""
     subject = engine("i4_crossplane")
-    lowest = {n: int(cylinder_curves(subject, n, crank_angles()).values["travel_m"].argmin()) for n in (1, 4)}
+    lowest = {
+        n: int(cylinder_curves(subject, n, crank_angles()).values["travel_m"].argmin())
+        for n in (1, 4)
+    }
     assert lowest[1] == 0
     assert lowest[4] == 180
 
@@ -139,18 +196,24 @@ def test_crank_angles():
     assert crank_angles().tolist() == list(range(360))
     assert crank_angles(0.1).size == 3600
     assert crank_angles(7)[-1] == 357
-    with pytest.raises(BalcliError, match=r"--step 0: give a step of the crank angle from 0.001 to 360 degrees"):
+    with pytest.raises(
+        BalcliError, match=r"--step 0: give a step of the crank angle from 0.001 to 360 degrees"
+    ):
         crank_angles(0)
 
 
 def test_an_unknown_cylinder():
-    with pytest.raises(BalcliError, match=r"--cylinder 9: in-line four, 2 litres has the cylinders 1, 2, 3, 4"):
+    with pytest.raises(
+        BalcliError, match=r"--cylinder 9: in-line four, 2 litres has the cylinders 1, 2, 3, 4"
+    ):
         cylinder_curves(engine("i4"), 9, crank_angles(90))
 
 
 @pytest.mark.parametrize("name", ["articulated", "rotary"])
 def test_other_mechanisms_by_differences(name):
-    """Velocity and acceleration are the slopes of the travel, which is 0 at the top and nowhere less."""
+    """Velocity and acceleration are the slopes of the travel, which is 0 at the top and nowhere
+    less.
+    """
     text = TEXTS[name].replace(", speed_ripple = [{ order = 2, amplitude = 0.02, angle = 40 }]", "")
     subject, fine = build(parse(text)), crank_angles(0.05)
     omega, step = float(subject.omega), np.radians(0.05)

@@ -1,34 +1,66 @@
 """Quantities such as `force.2.major`: named, and what they are of an engine."""
+
 from __future__ import annotations
 
 import numpy as np
 import pytest
 from support.engines import changed
 
-from balcli.results.analysis import analyze
 from balcli.engine.build import build
 from balcli.engine.load import parse as load
 from balcli.errors import BalcliError
 from balcli.forces.quantity import evaluate, parse
 from balcli.forces.spectrum import spectra
+from balcli.results.analysis import analyze
 
-UNEVEN = changed(("[0, 180, 180, 0]", "[0, 100, 250, 190]"), ('firing_order = [1, 3, 4, 2]', 'bank_angle = 70\nstagger = 20'))
+UNEVEN = changed(
+    ("[0, 180, 180, 0]", "[0, 100, 250, 190]"),
+    ("firing_order = [1, 3, 4, 2]", "bank_angle = 70\nstagger = 20"),
+)
 
 
-@pytest.mark.parametrize("name", ["force.2.major", "moment.1.backward", "couple.4.amplitude", "roll.2.major", "peak.force", "force.1.axis"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "force.2.major",
+        "moment.1.backward",
+        "couple.4.amplitude",
+        "roll.2.major",
+        "peak.force",
+        "force.1.axis",
+    ],
+)
 def test_names_read_back(name: str) -> None:
     assert parse(name)[0].name == name
 
 
-@pytest.mark.parametrize(("text", "message"), [
-    ("forse.2.major", "forse.2.major is no quantity: did you mean force?"),
-    ("noise.2.major", "noise.2.major is no quantity: it begins with force, moment, couple, torque, roll or peak"),
-    ("force.two.major", "force.two.major is no quantity: after force comes a whole order up to 4096, as in force.2.major"),
-    ("force.2", "force.2 is no quantity: after the order comes one of major, minor, forward, backward, axis, x, y, "
-                "x_cos, x_sin, y_cos, y_sin"),
-    ("couple.2.axis", "couple.2.axis is no quantity: after the order comes one of amplitude, major, cos, sin"),
-    (" , ", "no quantity is given; name some, such as force.2.major,moment.1.backward"),
-])
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("forse.2.major", "forse.2.major is no quantity: did you mean force?"),
+        (
+            "noise.2.major",
+            "noise.2.major is no quantity: it begins with force, moment, couple, torque, roll or "
+            "peak",
+        ),
+        (
+            "force.two.major",
+            "force.two.major is no quantity: after force comes a whole order up to 4096, as in "
+            "force.2.major",
+        ),
+        (
+            "force.2",
+            "force.2 is no quantity: after the order comes one of major, minor, forward, "
+            "backward, axis, x, y, "
+            "x_cos, x_sin, y_cos, y_sin",
+        ),
+        (
+            "couple.2.axis",
+            "couple.2.axis is no quantity: after the order comes one of amplitude, major, cos, sin",
+        ),
+        (" , ", "no quantity is given; name some, such as force.2.major,moment.1.backward"),
+    ],
+)
 def test_mistakes_in_words(text: str, message: str) -> None:
     with pytest.raises(BalcliError) as caught:
         parse(text)
@@ -43,23 +75,45 @@ def test_they_are_what_analyze_gives() -> None:
     assert moment is not None
     assert roll is not None
     assert found.force is not None
-    expected = {"force.2.major": force.major[1], "force.1.minor": force.minor[0], "force.1.forward": abs(force.forward[0]),
-                "moment.2.backward": abs(moment.backward[1]), "moment.1.axis": moment.axis_deg[0], "force.2.x": abs(force.x[1]),
-                "force.2.y": abs(force.y[1]), "roll.2.amplitude": roll.major[1], "peak.force": found.force.value}
+    expected = {
+        "force.2.major": force.major[1],
+        "force.1.minor": force.minor[0],
+        "force.1.forward": abs(force.forward[0]),
+        "moment.2.backward": abs(moment.backward[1]),
+        "moment.1.axis": moment.axis_deg[0],
+        "force.2.x": abs(force.x[1]),
+        "force.2.y": abs(force.y[1]),
+        "roll.2.amplitude": roll.major[1],
+        "peak.force": found.force.value,
+    }
     values = dict(zip(expected, evaluate(engine, parse(",".join(expected))), strict=True))
     assert {name: float(v) for name, v in values.items()} == pytest.approx(
-        {name: float(v) for name, v in expected.items()}, rel=1e-13)
+        {name: float(v) for name, v in expected.items()}, rel=1e-13
+    )
 
 
 def test_the_signed_parts_of_an_order_are_those_of_the_curve() -> None:
-    """Value = cos cos n theta + sin sin n theta; order 0, the mean under uneven speed, is its cos."""
+    """Value = cos cos n theta + sin sin n theta; order 0, the mean under uneven speed, is its
+    cos.
+    """
     engine = build(load(UNEVEN + "speed_ripple = [{ order = 2, amplitude = 0.02, angle = 25 }]\n"))
     theta = np.radians(np.arange(0.0, 360.0, 0.5))
-    curves = {"force.{}.x_": 1, "force.{}.y_": 1j, "moment.{}.x_": 1, "moment.{}.y_": 1j, "couple.{}.": 1, "torque.{}.": 1, "roll.{}.": 1}
+    curves = {
+        "force.{}.x_": 1,
+        "force.{}.y_": 1j,
+        "moment.{}.x_": 1,
+        "moment.{}.y_": 1j,
+        "couple.{}.": 1,
+        "torque.{}.": 1,
+        "roll.{}.": 1,
+    }
     for stem, axis in curves.items():
         for order in (0, 1, 2, 3):
             phasors = getattr(spectra(engine, [order]), stem.split(".")[0])
-            cos, sin = (float(v) for v in evaluate(engine, parse(f"{stem}cos,{stem}sin".format(order, order))))
+            cos, sin = (
+                float(v)
+                for v in evaluate(engine, parse(f"{stem}cos,{stem}sin".format(order, order)))
+            )
             value = (phasors.values(theta) * np.conj(axis)).real
             found = cos * np.cos(order * theta) + sin * np.sin(order * theta)
             assert found == pytest.approx(value, abs=1e-9 * np.abs(value).max(initial=1))

@@ -1,4 +1,5 @@
 """Why orders are balanced: exact, nearly, free; and how engines fire."""
+
 from __future__ import annotations
 
 import json
@@ -8,11 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from balcli.results import analysis
-from balcli.engine import build as engine, load as enginefile
+from balcli.engine import build as engine
+from balcli.engine import load as enginefile
 from balcli.forces import spectrum
-from balcli.render import json as as_json
 from balcli.forces.symmetry import why
+from balcli.render import json as as_json
+from balcli.results import analysis
 
 ENGINES = sorted((Path(__file__).parents[2] / "engines").glob("*.toml"))
 
@@ -34,7 +36,9 @@ def sentences(throws, *, spacing=100, more="", orders=(1, 2)):
 
 
 def test_the_inline_four():
-    """Textbook: orders 1 balanced; order 2 adds up to four times one cylinder, on one line through the middle."""
+    """Textbook: orders 1 balanced; order 2 adds up to four times one cylinder, on one line through
+    the middle.
+    """
     assert sentences([0, 180, 180, 0], more="[layout]\nfiring_order = [1, 3, 4, 2]\n") == (
         "order 1 force: balanced exactly, by symmetry",
         "order 1 moment: balanced exactly, by symmetry",
@@ -53,7 +57,9 @@ def test_orders_that_no_cylinder_has():
 
 
 def test_master_and_articulated_rods_of_a_rotary_engine_are_not_alike():
-    """Alike in mass and length, they differ in where they hang: without knuckle pins the first order would vanish by symmetry."""
+    """Alike in mass and length, they differ in where they hang: without knuckle pins the first
+    order would vanish by symmetry.
+    """
     star = "[layout]\nradial = 5\nrotary = true\n"
     hung = "[articulation]\nknuckle_radius = 30\nrod = { length = 160, mass = 0 }\n"
     assert sentences([0], more=star)[0] == "order 1 force: balanced exactly, by symmetry"
@@ -62,11 +68,16 @@ def test_master_and_articulated_rods_of_a_rotary_engine_are_not_alike():
 
 def test_a_hundredth_of_a_degree_is_nearly_balanced():
     """|1 + e^{i 120.01 deg} + e^{i 240 deg}| = 2 sin(0.005 deg)."""
-    assert sentences([0, 120.01, 240])[0] == f"order 1 force: nearly balanced: {2 * np.sin(np.radians(0.005)):.1g} of one cylinder"
+    assert (
+        sentences([0, 120.01, 240])[0]
+        == f"order 1 force: nearly balanced: {2 * np.sin(np.radians(0.005)):.1g} of one cylinder"
+    )
 
 
 def test_places_that_are_no_exact_numbers_in_binary():
-    """Moments of order 2 of 0-120-240-240-120-0 vanish by mirror symmetry for any spacing, also 0.1 in."""
+    """Moments of order 2 of 0-120-240-240-120-0 vanish by mirror symmetry for any spacing, also 0.1
+    in.
+    """
     found = sentences([0, 120, 240, 240, 120, 0], spacing='"4.1 in"')
     assert found[4] == "order 2 moment: balanced exactly, by symmetry"
 
@@ -80,27 +91,48 @@ def test_the_middle_piston_as_heavy_as_both_others():
 
 
 def test_two_banks_of_different_mechanisms_that_are_each_balanced():
-    """A VR6: neighbouring pins stand at no fraction of a turn, but each bank is a balanced three."""
+    """A VR6: neighbouring pins stand at no fraction of a turn, but each bank is a balanced
+    three.
+    """
     vr6 = engine.build(enginefile.read(next(p for p in ENGINES if p.stem == "vr6")))
     assert why(vr6, [1]).reasons[0].verdict == "exact"
 
 
 def test_pairs_that_stand_at_no_fraction_of_a_turn_to_each_other():
-    assert sentences([0, 33.3333333333, 180, 213.3333333333])[0] == "order 1 force: balanced exactly, by symmetry"
+    assert (
+        sentences([0, 33.3333333333, 180, 213.3333333333])[0]
+        == "order 1 force: balanced exactly, by symmetry"
+    )
 
 
 def test_balanced_by_figures_only():
-    """Worked out: 1 + 2 · 2 cos a = 0 for masses 1:2:2; no symmetry, and nothing left but rounding."""
-    found = sentences([0, float(np.degrees(np.arccos(-0.25))), -float(np.degrees(np.arccos(-0.25)))],
-                      more="[cylinder.2]\npiston_mass = 1\n[cylinder.3]\npiston_mass = 1\n")
+    """Worked out: 1 + 2 · 2 cos a = 0 for masses 1:2:2; no symmetry, and nothing left but
+    rounding.
+    """
+    found = sentences(
+        [0, float(np.degrees(np.arccos(-0.25))), -float(np.degrees(np.arccos(-0.25)))],
+        more="[cylinder.2]\npiston_mass = 1\n[cylinder.3]\npiston_mass = 1\n",
+    )
     assert found[0] == "order 1 force: balanced to rounding, but not by exact fractions of a turn"
 
 
-@pytest.mark.parametrize(("layout", "text"), [
-    ("firing_order = [1, 2, 3]\nfiring_intervals = [240, 240, 240]", "firing: even, every 240 deg"),
-    ("firing_order = [1, 2, 3]\nfiring_intervals = [240, 239.9, 240.1]", "firing: nearly even, every 239.9 to 240.1 deg"),
-    ("firing_order = [1, 2, 3]\nfiring_intervals = [180, 270, 270]", "firing: uneven, at intervals of 180, 270, 270 deg"),
-])
+@pytest.mark.parametrize(
+    ("layout", "text"),
+    [
+        (
+            "firing_order = [1, 2, 3]\nfiring_intervals = [240, 240, 240]",
+            "firing: even, every 240 deg",
+        ),
+        (
+            "firing_order = [1, 2, 3]\nfiring_intervals = [240, 239.9, 240.1]",
+            "firing: nearly even, every 239.9 to 240.1 deg",
+        ),
+        (
+            "firing_order = [1, 2, 3]\nfiring_intervals = [180, 270, 270]",
+            "firing: uneven, at intervals of 180, 270, 270 deg",
+        ),
+    ],
+)
 def test_firing(layout, text):
     base = "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n[layout]\n"
     assert why(engine.build(enginefile.parse(base + layout)), [1]).firing == text
@@ -108,13 +140,17 @@ def test_firing(layout, text):
 
 @pytest.mark.parametrize("path", ENGINES, ids=lambda path: path.stem)
 def test_exact_and_numeric_decisions_agree(path):
-    """What is balanced exactly has no force left but rounding, and what is free is not reported as balanced."""
+    """What is balanced exactly has no force left but rounding, and what is free is not reported as
+    balanced.
+    """
     built = engine.build(enginefile.read(path))
     bare = replace(built, devices=())
     found = spectrum.spectra(bare, np.arange(1.0, 9.0))
     for reason in why(built, range(1, 9)).reasons:
-        numeric = [getattr(found, q).balanced[reason.order - 1] for q in
-                   (["couple", "torque"] if reason.quantity == "turning" else [reason.quantity])]
+        numeric = [
+            getattr(found, q).balanced[reason.order - 1]
+            for q in (["couple", "torque"] if reason.quantity == "turning" else [reason.quantity])
+        ]
         assert all(numeric) == (reason.verdict in ("exact", "none", "rounding")), reason
 
 
@@ -122,6 +158,10 @@ def test_only_what_is_asked_and_as_json():
     built = engine.build(enginefile.parse(BASE.format(throws=[0, 180], spacing=100)))
     result = analysis.analyze(built, [1, 2], ["force"], reasons=True)
     document = json.loads(as_json.dumps(as_json.analysis(result)))
-    assert document["why"] == {"reasons": [{"order": 1, "quantity": "force", "verdict": "exact", "size": 0.0},
-                                           {"order": 2, "quantity": "force", "verdict": "free", "size": pytest.approx(2)}],
-                               "firing": ""}
+    assert document["why"] == {
+        "reasons": [
+            {"order": 1, "quantity": "force", "verdict": "exact", "size": 0.0},
+            {"order": 2, "quantity": "force", "verdict": "free", "size": pytest.approx(2)},
+        ],
+        "firing": "",
+    }

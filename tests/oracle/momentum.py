@@ -1,10 +1,13 @@
-"""Free forces and moments straight from the momentum of every part, on a grid of crank angles: the oracle.
+"""Free forces and moments straight from the momentum of every part, on a grid of crank angles: the
+oracle.
 
-Nothing here comes from `src/`, nor any formula of the theory: pistons are points, rods rigid bodies with centre of mass and
-moment of inertia, places come from plain geometry (where a rod's circle meets its cylinder's axis), velocities from
-differentiating those places by Fourier transform, forces from differentiating momentum. The engine file is read by its own
-few lines too. Good to about 1e-12 of the largest force for the lower orders.
+Nothing here comes from `src/`, nor any formula of the theory: pistons are points, rods rigid bodies
+with centre of mass and moment of inertia, places come from plain geometry (where a rod's circle
+meets its cylinder's axis), velocities from differentiating those places by Fourier transform,
+forces from differentiating momentum. The engine file is read by its own few lines too. Good to
+about 1e-12 of the largest force for the lower orders.
 """
+
 from __future__ import annotations
 
 import math
@@ -19,8 +22,24 @@ import numpy as np
 POINTS = 1024
 THETA = np.arange(POINTS) * (2 * np.pi / POINTS)
 GRAVITY = 9.80665
-UNITS = {"mm": 1, "cm": 10, "m": 1e3, "in": 25.4, "g": 1e-3, "kg": 1, "lb": 0.45359237, "oz": 0.45359237 / 16, "deg": 1,
-         "rad": 180 / math.pi, "turn": 360, "rpm": 1, "lb in^2": 0.45359237 * 25.4**2, "kg mm^2": 1, "g mm": 1, "kg m": 1e6}
+UNITS = {
+    "mm": 1,
+    "cm": 10,
+    "m": 1e3,
+    "in": 25.4,
+    "g": 1e-3,
+    "kg": 1,
+    "lb": 0.45359237,
+    "oz": 0.45359237 / 16,
+    "deg": 1,
+    "rad": 180 / math.pi,
+    "turn": 360,
+    "rpm": 1,
+    "lb in^2": 0.45359237 * 25.4**2,
+    "kg mm^2": 1,
+    "g mm": 1,
+    "kg m": 1e6,
+}
 
 
 def slope(values: np.ndarray) -> np.ndarray:
@@ -33,14 +52,18 @@ def slope(values: np.ndarray) -> np.ndarray:
 
 @dataclass
 class Body:
-    """A part: place of its centre of mass over the crank angle (m, x + iy), mass, and its turning about that centre."""
+    """A part: place of its centre of mass over the crank angle (m, x + iy), mass, and its turning
+    about that centre.
+    """
 
     place: np.ndarray
     z: float
     mass: float
     inertia: float = 0.0
-    spin: np.ndarray | float = 0.0      # its angular velocity for a crank speed of 1
-    point: complex | None = None        # devices: where their force acts; their own turning counts nowhere
+    spin: np.ndarray | float = 0.0  # its angular velocity for a crank speed of 1
+    point: complex | None = (
+        None  # devices: where their force acts; their own turning counts nowhere
+    )
 
 
 @dataclass
@@ -85,34 +108,60 @@ class Engine:
             self._move(cell)
         for kind in ("counterweight", "shaft", "slider"):
             self.devices += [self._device(kind, table) for table in data.get(kind, [])]
-        reference = data.get("frame", {}).get("reference") or [0, 0, (min(self.throws) + max(self.throws)) * 500]
+        reference = data.get("frame", {}).get("reference") or [
+            0,
+            0,
+            (min(self.throws) + max(self.throws)) * 500,
+        ]
         self.at, self.z = complex(reference[0], reference[1]) / 1e3, reference[2] / 1e3
 
     # -------------------------------------------------------------- where everything stands
     def _arrange(self) -> None:
         crank, layout = self.data["crank"], self.data.get("layout", {})
         order = layout.get("firing_order")
-        banks = ([-layout["bank_angle"] / 2, layout["bank_angle"] / 2] if "bank_angle" in layout
-                 else [360 / layout["radial"] * k for k in range(layout["radial"])] if "radial" in layout
-                 else layout.get("banks", [0]))
+        banks = (
+            [-layout["bank_angle"] / 2, layout["bank_angle"] / 2]
+            if "bank_angle" in layout
+            else [360 / layout["radial"] * k for k in range(layout["radial"])]
+            if "radial" in layout
+            else layout.get("banks", [0])
+        )
         shared = layout.get("rods", "shared") == "shared"
         rods = len(banks) if shared else 1
         count = len(crank["throws"]) if "throws" in crank else len(order) // rods if order else 1
-        where = [(b, t) for b in range(len(banks)) for t in range(count) if shared or t % len(banks) == b]
-        numbers = [n for row in layout["numbering"] for n in row] if "numbering" in layout else list(range(1, len(where) + 1))
-        along = crank.get("positions") or [(t - (count - 1) / 2) * crank.get("spacing", 0) for t in range(count)]
+        where = [
+            (b, t) for b in range(len(banks)) for t in range(count) if shared or t % len(banks) == b
+        ]
+        numbers = (
+            [n for row in layout["numbering"] for n in row]
+            if "numbering" in layout
+            else list(range(1, len(where) + 1))
+        )
+        along = crank.get("positions") or [
+            (t - (count - 1) / 2) * crank.get("spacing", 0) for t in range(count)
+        ]
         lean = layout.get("stagger", 0) if shared else 0
         self.share = crank.get("throw_mass", 0) / rods
         self.cells = []
         for (bank, throw), number in zip(where, numbers, strict=True):
             own = self.data.get("cylinder", {}).get(str(number), {})
-            self.cells.append({"number": number, "bank": bank, "throw": throw, "own": own, "axis": own.get("bank", banks[bank]),
-                               "z": own.get("position", along[throw] + (bank - (rods - 1) / 2) * lean) / 1e3})
+            self.cells.append(
+                {
+                    "number": number,
+                    "bank": bank,
+                    "throw": throw,
+                    "own": own,
+                    "axis": own.get("bank", banks[bank]),
+                    "z": own.get("position", along[throw] + (bank - (rods - 1) / 2) * lean) / 1e3,
+                }
+            )
         self.first = next(c for c in self.cells if c["number"] == 1)
         self._pins(order, layout, crank)
         for t in range(count):
             mine = [c for c in self.cells if c["throw"] == t]
-            self.throws.append(sum(c["z"] - (c["bank"] - (rods - 1) / 2) * lean / 1e3 for c in mine) / len(mine))
+            self.throws.append(
+                sum(c["z"] - (c["bank"] - (rods - 1) / 2) * lean / 1e3 for c in mine) / len(mine)
+            )
 
     def _pins(self, order: list[int] | None, layout: dict[str, Any], crank: dict[str, Any]) -> None:
         splay = crank.get("splay", 0)
@@ -133,19 +182,34 @@ class Engine:
     def _top(self, cell: dict[str, Any]) -> float:
         """Direction of the crank pin when the piston is at the top."""
         piston, rod = self._parts(cell)
-        if "articulation" in self.data and cell["bank"] != self.data["articulation"].get("master", 1) - 1:
+        if (
+            "articulation" in self.data
+            and cell["bank"] != self.data["articulation"].get("master", 1) - 1
+        ):
             return cell["axis"]
-        return cell["axis"] + math.degrees(math.asin(piston["offset"] / (self.radius + rod["length"])))
+        return cell["axis"] + math.degrees(
+            math.asin(piston["offset"] / (self.radius + rod["length"]))
+        )
 
     def _parts(self, cell: dict[str, Any]) -> tuple[dict[str, float], dict[str, float]]:
-        """Piston (mass, offset) and rod (length, mass, cg from its lower end, inertia) of a cylinder, SI."""
+        """Piston (mass, offset) and rod (length, mass, cg from its lower end, inertia) of a
+        cylinder, SI.
+        """
         own, table = cell["own"], self.data.get("articulation")
         hung = table is not None and cell["bank"] != table.get("master", 1) - 1
         rod = dict(table["rod"] if hung and table else self.data["rod"])
-        for group in (("length", "ratio"), ("mass", "cg", "small_end", "big_end"), ("inertia", "pendulum")):
+        for group in (
+            ("length", "ratio"),
+            ("mass", "cg", "small_end", "big_end"),
+            ("inertia", "pendulum"),
+        ):
             mine = {k: own["rod_" + k] for k in group if "rod_" + k in own}
             whole, ends = set(mine) <= {"mass", "cg"}, set(mine) <= {"small_end", "big_end"}
-            if mine and not (whole and "small_end" not in rod) and not (ends and "small_end" in rod):
+            if (
+                mine
+                and not (whole and "small_end" not in rod)
+                and not (ends and "small_end" in rod)
+            ):
                 rod = {k: v for k, v in rod.items() if k not in group}
             rod |= mine
         length = rod["length"] / 1e3 if "length" in rod else self.radius / rod["ratio"]
@@ -154,15 +218,23 @@ class Engine:
             cg = length * rod["small_end"] / mass if mass else 0.0
         else:
             mass, cg = rod.get("mass", 0.0), rod.get("cg", 0.0) / 1e3
-        inertia = mass * cg * (length - cg)                              # as two points at the ends
+        inertia = mass * cg * (length - cg)  # as two points at the ends
         if "inertia" in rod:
             inertia = rod["inertia"] / 1e6
         elif "pendulum" in rod:
             arm = cg if rod["pendulum"]["pivot"] == "big_end" else length - cg
-            inertia = mass * GRAVITY * arm * rod["pendulum"]["period"] ** 2 / (4 * math.pi**2) - mass * arm**2
+            inertia = (
+                mass * GRAVITY * arm * rod["pendulum"]["period"] ** 2 / (4 * math.pi**2)
+                - mass * arm**2
+            )
         piston = self.data["piston"]
-        return ({"mass": own.get("piston_mass", piston["mass"]), "offset": own.get("piston_offset", piston.get("offset", 0)) / 1e3},
-                {"length": length, "mass": mass, "cg": cg, "inertia": inertia})
+        return (
+            {
+                "mass": own.get("piston_mass", piston["mass"]),
+                "offset": own.get("piston_offset", piston.get("offset", 0)) / 1e3,
+            },
+            {"length": length, "mass": mass, "cg": cg, "inertia": inertia},
+        )
 
     # -------------------------------------------------------------- motion
     def _axis(self, cell: dict[str, Any]) -> np.ndarray:
@@ -171,25 +243,44 @@ class Engine:
 
     def _pin(self, cell: dict[str, Any]) -> np.ndarray:
         turning = not self.data.get("layout", {}).get("rotary", False)
-        return self.radius * np.exp(1j * (math.radians(self.first["axis"] + cell["pin"]) + (THETA if turning else 0 * THETA)))
+        return self.radius * np.exp(
+            1j
+            * (math.radians(self.first["axis"] + cell["pin"]) + (THETA if turning else 0 * THETA))
+        )
 
     def _piston(self, cell: dict[str, Any], foot: np.ndarray) -> np.ndarray:
         """Where the rod that stands on `foot` meets the path of the piston pin."""
         piston, rod = self._parts(cell)
-        side = -1 if self.data.get("layout", {}).get("rotary", False) else 1     # of the cylinder to which the crank pin moves
+        side = (
+            -1 if self.data.get("layout", {}).get("rotary", False) else 1
+        )  # of the cylinder to which the crank pin moves
         axis = self._axis(cell)
         local = foot * np.conj(axis)
         offset = side * piston["offset"]
-        return axis * (local.real + np.sqrt(rod["length"] ** 2 - (local.imag - offset) ** 2) + 1j * offset)
+        return axis * (
+            local.real + np.sqrt(rod["length"] ** 2 - (local.imag - offset) ** 2) + 1j * offset
+        )
 
     def _move(self, cell: dict[str, Any]) -> None:
         foot = self._pin(cell)
         table = self.data.get("articulation")
         if table is not None and cell["bank"] != (master := table.get("master", 1) - 1):
-            chief = next(c for c in self.cells if c["throw"] == cell["throw"] and c["bank"] == master)
-            angle = table["knuckle_angles"][cell["bank"]] if "knuckle_angles" in table else cell["axis"] - chief["axis"]
+            chief = next(
+                c for c in self.cells if c["throw"] == cell["throw"] and c["bank"] == master
+            )
+            angle = (
+                table["knuckle_angles"][cell["bank"]]
+                if "knuckle_angles" in table
+                else cell["axis"] - chief["axis"]
+            )
             along = self._piston(chief, foot) - foot
-            knuckle = table["knuckle_radius"] / 1e3 * np.exp(1j * math.radians(angle)) * along / np.abs(along)
+            knuckle = (
+                table["knuckle_radius"]
+                / 1e3
+                * np.exp(1j * math.radians(angle))
+                * along
+                / np.abs(along)
+            )
             bodies = [Body(foot, cell["z"], self.share)]
             foot = foot + knuckle
         else:
@@ -198,19 +289,27 @@ class Engine:
         top = self._piston(cell, foot)
         direction = (top - foot) / rod["length"]
         spin = (np.conj(direction) * slope(direction)).imag
-        bodies += [Body(top, cell["z"], piston["mass"]),
-                   Body(foot + rod["cg"] * direction, cell["z"], rod["mass"], rod["inertia"], spin)]
+        bodies += [
+            Body(top, cell["z"], piston["mass"]),
+            Body(foot + rod["cg"] * direction, cell["z"], rod["mass"], rod["inertia"], spin),
+        ]
         self.cylinders[cell["number"]] = bodies
 
     def _device(self, kind: str, table: dict[str, Any]) -> Body:
-        size = (table["unbalance"] / 1e6 if "unbalance" in table else table["mass"] * table["radius"] / 1e3)
+        size = (
+            table["unbalance"] / 1e6
+            if "unbalance" in table
+            else table["mass"] * table["radius"] / 1e3
+        )
         angle, point = math.radians(table.get("angle", 0)), complex(*table.get("at", [0, 0])) / 1e3
         if kind == "counterweight":
             place = np.exp(1j * (THETA + angle + math.radians(self.first["axis"])))
         elif kind == "shaft":
             place = np.exp(1j * (table["ratio"] * THETA + angle))
         else:
-            place = np.cos(table["order"] * THETA + angle) * np.exp(1j * math.radians(table["direction"]))
+            place = np.cos(table["order"] * THETA + angle) * np.exp(
+                1j * math.radians(table["direction"])
+            )
         return Body(size * place, table.get("position", 0) / 1e3, 1.0, point=point)
 
     # -------------------------------------------------------------- results
@@ -218,12 +317,17 @@ class Engine:
     def _pace(self) -> np.ndarray:
         """Crank speed over its mean."""
         lines = self.data.get("operation", {}).get("speed_ripple", [])
-        waves = (line["amplitude"] * np.cos(line["order"] * THETA - math.radians(line.get("angle", 0))) for line in lines)
+        waves = (
+            line["amplitude"] * np.cos(line["order"] * THETA - math.radians(line.get("angle", 0)))
+            for line in lines
+        )
         return 1 + sum(waves, 0 * THETA)
 
     def curves(self, numbers: list[int] | None = None) -> Curves:
         """Of the whole engine, or of some cylinders without the devices."""
-        bodies = [b for n in numbers or self.cylinders for b in self.cylinders[n]] + (self.devices if numbers is None else [])
+        bodies = [b for n in numbers or self.cylinders for b in self.cylinders[n]] + (
+            self.devices if numbers is None else []
+        )
         omega = self.speed * self._pace
         total = Curves(0j * THETA, 0j * THETA, 0 * THETA, 0 * THETA)
         for body in bodies:
@@ -234,28 +338,42 @@ class Engine:
             if body.point is not None:
                 total.couple += (np.conj(body.point - self.at) * force).imag
                 continue
-            swirl = body.mass * (np.conj(body.place - self.at) * velocity).imag + body.inertia * body.spin
+            swirl = (
+                body.mass * (np.conj(body.place - self.at) * velocity).imag
+                + body.inertia * body.spin
+            )
             energy = body.mass * np.abs(velocity) ** 2 + body.inertia * body.spin**2
             total.couple -= omega * slope(omega * swirl)
             total.torque -= 0.5 * slope(energy * omega**2)
         return total
 
     def scales(self) -> dict[str, float]:
-        """Largest first-order amplitude of one cylinder alone; for turning quantities the largest of all three, any low order."""
+        """Largest first-order amplitude of one cylinder alone; for turning quantities the largest
+        of all three, any low order.
+        """
         alone = [self.curves([n]) for n in self.cylinders]
 
         def largest(quantity: str, orders: range) -> float:
             return max(sum(map(abs, c.order(quantity, n))) for c in alone for n in orders)
+
         force = largest("force", range(1, 2))
         turning = max(largest(q, range(1, 5)) for q in ("couple", "torque", "roll"))
         moment = max(largest("moment", range(1, 2)), force * self.radius)
-        return {"force": force, "moment": moment, "couple": turning, "torque": turning, "roll": turning}
+        return {
+            "force": force,
+            "moment": moment,
+            "couple": turning,
+            "torque": turning,
+            "roll": turning,
+        }
 
 
 def _bare(value: Any) -> Any:
     """Numbers in the file's units; text that is a number with a unit is converted."""
     if isinstance(value, dict):
-        return {k: v if k in ("name", "source", "rods", "pivot") else _bare(v) for k, v in value.items()}
+        return {
+            k: v if k in ("name", "source", "rods", "pivot") else _bare(v) for k, v in value.items()
+        }
     if isinstance(value, list):
         return [_bare(v) for v in value]
     if isinstance(value, str):

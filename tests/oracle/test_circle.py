@@ -1,4 +1,7 @@
-"""The smallest enclosing circle against exhaustive search, a convex minimiser at high precision, and its own bound."""
+"""The smallest enclosing circle against exhaustive search, a convex minimiser at high precision,
+and its own bound.
+"""
+
 from __future__ import annotations
 
 import itertools
@@ -18,7 +21,7 @@ from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.forces.spectrum import relevant_orders, spectra
 
-TRUE = 1e-10                            # relative to the true optimum
+TRUE = 1e-10  # relative to the true optimum
 VECTORS = st.complex_numbers(max_magnitude=1e3, allow_nan=False, allow_infinity=False)
 
 
@@ -32,16 +35,20 @@ def seen(curve: Phasors, theta: np.ndarray) -> np.ndarray:
 
 
 def smallest_of_points(points: np.ndarray) -> float:
-    """Radius by all triples, in exact fractions: the largest of the smallest circles around three points (Helly)."""
+    """Radius by all triples, in exact fractions: the largest of the smallest circles around three
+    points (Helly).
+    """
+
     def square(p, q) -> Fraction:
         return (p[0] - q[0]) ** 2 + (p[1] - q[1]) ** 2
 
     def around(a, b, c) -> Fraction:
         short, middle, long = sorted((square(a, b), square(b, c), square(c, a)))
-        if short + middle <= long:                          # obtuse, or in line
+        if short + middle <= long:  # obtuse, or in line
             return long / 4
         area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
         return short * middle * long / (4 * area**2)
+
     exact = [(Fraction(p.real), Fraction(p.imag)) for p in points.tolist()]
     return math.sqrt(max(around(*triple) for triple in itertools.combinations(exact, 3)))
 
@@ -68,8 +75,12 @@ def test_the_lower_bound_is_one_about_any_centre(points, centre):
 @pytest.mark.parametrize("offset", [0, 4, -15])
 @pytest.mark.parametrize("lam", [0.05, 0.1, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6])
 def test_single_cylinder_at_high_precision(lam, offset):
-    """mpmath finds where the curve is farthest from the centre; three such points, solved to 30 digits, are the true optimum."""
-    found = circle.enclosing(force(rod=f"ratio = {lam}", piston=f"mass = 1\noffset = {offset}", operation="speed = 1000"))
+    """mpmath finds where the curve is farthest from the centre; three such points, solved to 30
+    digits, are the true optimum.
+    """
+    found = circle.enclosing(
+        force(rod=f"ratio = {lam}", piston=f"mass = 1\noffset = {offset}", operation="speed = 1000")
+    )
     with mpmath.workdps(30):
         r, length = mpmath.mpf(50) / 1000, mpmath.mpf(50) / 1000 / mpmath.mpf(str(lam))
         omega = mpmath.mpf(1000) * mpmath.pi / 30
@@ -77,10 +88,12 @@ def test_single_cylinder_at_high_precision(lam, offset):
         def curve(t):
             s = (r * mpmath.sin(t) - mpmath.mpf(offset) / 1000) / length
             root = mpmath.sqrt(1 - s * s)
-            rate = r * mpmath.cos(t) / length                               # of sin(beta)
+            rate = r * mpmath.cos(t) / length  # of sin(beta)
             second = -r * mpmath.sin(t) / length
             root2 = -(rate**2 + s * second) / root - (s * rate) ** 2 / root**3
-            return (r * mpmath.cos(t) - length * root2) * omega**2 * mpmath.exp(mpmath.mpc(0, -1) * t)
+            return (
+                (r * mpmath.cos(t) - length * root2) * omega**2 * mpmath.exp(mpmath.mpc(0, -1) * t)
+            )
 
         def reach(x, y, t):
             return abs(curve(t) - mpmath.mpc(x, y)) ** 2
@@ -89,28 +102,42 @@ def test_single_cylinder_at_high_precision(lam, offset):
             values = [reach(x, y, t) for t in angles]
             slopes = [mpmath.diff(lambda t: reach(x, y, t), t) for t in angles]
             return [*(v - values[0] for v in values[1:]), *slopes]
+
         x, y = found.centre.real, found.centre.imag
         if len(found.theta) == 3:
             x, y, *angles = mpmath.findroot(equations, (x, y, *found.theta), tol=1e-20)
             assert abs(found.centre - complex(x, y)) <= TRUE * found.radius
-            assert float(mpmath.sqrt(reach(x, y, angles[0]))) == pytest.approx(found.radius, rel=TRUE)
+            assert float(mpmath.sqrt(reach(x, y, angles[0]))) == pytest.approx(
+                found.radius, rel=TRUE
+            )
         grid = max(abs(curve(t) - mpmath.mpc(x, y)) for t in mpmath.linspace(0, 2 * mpmath.pi, 400))
         assert grid <= found.radius * (1 + TRUE)
     assert found.excess <= 1e-13 * found.radius
 
 
-@pytest.mark.parametrize("tables", [
-    {"layout": "bank_angle = 45"}, {"layout": "bank_angle = 72"}, {"layout": "bank_angle = 120", "piston": "mass = 1\noffset = 6"},
-    {"crank": "stroke = 100\nthrows = [0, 270]\nspacing = 80"}, {"crank": "stroke = 100\nthrows = [0, 100]", "rod": "ratio = 0.6"},
-    {"layout": "radial = 5", "cylinder.3": "piston_mass = 1.5"}, {"layout": "banks = [-60, 0, 60]"},
-])
+@pytest.mark.parametrize(
+    "tables",
+    [
+        {"layout": "bank_angle = 45"},
+        {"layout": "bank_angle = 72"},
+        {"layout": "bank_angle = 120", "piston": "mass = 1\noffset = 6"},
+        {"crank": "stroke = 100\nthrows = [0, 270]\nspacing = 80"},
+        {"crank": "stroke = 100\nthrows = [0, 100]", "rod": "ratio = 0.6"},
+        {"layout": "radial = 5", "cylinder.3": "piston_mass = 1.5"},
+        {"layout": "banks = [-60, 0, 60]"},
+    ],
+)
 def test_nothing_near_is_better(tables):
-    """Convex: if no centre on a small ring is better, none is; and points of the curve alone prove the radius."""
+    """Convex: if no centre on a small ring is better, none is; and points of the curve alone prove
+    the radius.
+    """
     curve = force(**tables)
     found = circle.enclosing(curve)
     samples = seen(curve, np.linspace(0, 2 * np.pi, 20001))
     assert np.abs(samples - found.centre).max() <= found.radius * (1 + 1e-13)
-    assert np.abs(seen(curve, found.theta) - found.centre) == pytest.approx(found.radius, rel=1e-10)       # lower peaks are not named
+    assert np.abs(seen(curve, found.theta) - found.centre) == pytest.approx(
+        found.radius, rel=1e-10
+    )  # lower peaks are not named
     for step in (1e-3, 1e-5):
         for direction in np.exp(1j * np.linspace(0, 2 * np.pi, 24)):
             other = found.centre + step * found.radius * direction
@@ -137,20 +164,27 @@ def test_angles_are_those_at_which_the_circle_is_touched():
 
 
 def test_no_force_is_a_circle_without_points():
-    nothing = circle.enclosing(Phasors(np.array([1.0, 2.0]), np.zeros(2, complex), np.zeros(2, complex), np.zeros(1)))
+    nothing = circle.enclosing(
+        Phasors(np.array([1.0, 2.0]), np.zeros(2, complex), np.zeros(2, complex), np.zeros(1))
+    )
     assert (nothing.centre, nothing.radius, nothing.theta.tolist(), nothing.excess) == (0, 0, [], 0)
 
 
 @pytest.mark.parametrize("first", [0, 3 + 4j])
-@pytest.mark.parametrize(("forward", "backward", "centre", "radius", "touching"), [
-    ((0, 0, 2, 1), (0, 0, 0, 0), 0.5, 1.5 * 3**0.5, (60, 300)),
-    ((2, 0, 0, 0), (0, 1, 0, 0), 0.5, 1.5 * 3**0.5, (60, 300)),
-    ((0, 0, -2j, -1), (0, 0, 0, 0), 0.5, 1.5 * 3**0.5, (30, 150)),
-    ((0, 0, 2, 0), (0, 1, 0, 0), 0, 3, (0, 120, 240)),
-])
+@pytest.mark.parametrize(
+    ("forward", "backward", "centre", "radius", "touching"),
+    [
+        ((0, 0, 2, 1), (0, 0, 0, 0), 0.5, 1.5 * 3**0.5, (60, 300)),
+        ((2, 0, 0, 0), (0, 1, 0, 0), 0.5, 1.5 * 3**0.5, (60, 300)),
+        ((0, 0, -2j, -1), (0, 0, 0, 0), 0.5, 1.5 * 3**0.5, (30, 150)),
+        ((0, 0, 2, 0), (0, 1, 0, 0), 0, 3, (0, 120, 240)),
+    ],
+)
 def test_cardioids_and_a_deltoid(forward, backward, centre, radius, touching, first):
-    """Seen from the crank: a cardioid `2 e^{it} + e^{2it}` (mirrored, begun elsewhere) in a circle about 1/2 that it touches at
-    t = +-60 deg, the deltoid `2 e^{it} + e^{-2it}` in one about 0. Whatever turns with the crank moves the centre alone."""
+    """Seen from the crank: a cardioid `2 e^{it} + e^{2it}` (mirrored, begun elsewhere) in a circle
+    about 1/2 that it touches at t = +-60 deg, the deltoid `2 e^{it} + e^{-2it}` in one about 0.
+    Whatever turns with the crank moves the centre alone.
+    """
     orders = np.arange(4.0)
     whole = np.array(forward, complex) + np.where(orders == 1, first, 0)
     found = circle.enclosing(Phasors(orders, whole, np.array(backward, complex), np.zeros(1)))
@@ -167,9 +201,13 @@ def test_angles_on_both_sides_of_0_are_one():
 
 @pytest.mark.parametrize("scale", [1e-9, 1e-3, 1e6])
 def test_a_curve_of_any_size_is_treated_alike(scale):
-    """Nanonewtons or meganewtons: the same circle, touched at the same angles, its error as small."""
+    """Nanonewtons or meganewtons: the same circle, touched at the same angles, its error as
+    small.
+    """
     curve = force(layout="radial = 5", **{"cylinder.3": "piston_mass = 1.5"})
-    small = Phasors(curve.orders, scale * curve.forward, scale * curve.backward, scale * np.asarray(curve.noise))
+    small = Phasors(
+        curve.orders, scale * curve.forward, scale * curve.backward, scale * np.asarray(curve.noise)
+    )
     whole, found = circle.enclosing(curve), circle.enclosing(small)
     assert found.centre / scale == pytest.approx(whole.centre, rel=1e-12)
     assert found.radius / scale == pytest.approx(whole.radius, rel=1e-13)

@@ -1,9 +1,11 @@
 """The harmonics against two computations in mpmath that share nothing with the closed forms.
 
-Up to lambda = 0.3 the power series in lambda (binomial series of `cos beta` and `arcsin`, powers of the sine as
-multiple angles), whose terms have one sign; above, the trapezoidal rule over a revolution of the textbook's own
-expressions, which converges geometrically for a periodic analytic function. At 0.3 the two are compared.
+Up to lambda = 0.3 the power series in lambda (binomial series of `cos beta` and `arcsin`, powers of
+the sine as multiple angles), whose terms have one sign; above, the trapezoidal rule over a
+revolution of the textbook's own expressions, which converges geometrically for a periodic analytic
+function. At 0.3 the two are compared.
 """
+
 from __future__ import annotations
 
 from functools import lru_cache
@@ -15,19 +17,26 @@ import pytest
 
 from balcli.core.mechanisms import harmonics
 
-RELATIVE = 2e-14                # of each coefficient of the centred mechanism, where it is above 1e-290
-ABSOLUTE = 1e-15                # of the offset mechanism, in units of the first order
+RELATIVE = 2e-14  # of each coefficient of the centred mechanism, where it is above 1e-290
+ABSOLUTE = 1e-15  # of the offset mechanism, in units of the first order
 SMALLEST = 1e-290
 ORDERS = np.arange(1, 65)
 SMALL = [1e-6, 3.7e-5, 1e-3, 0.01, 0.05, 0.1, 0.2, 0.2632, 0.3]
 LARGE = [0.3, 0.32, 1 / 3, 0.4, 0.5, 0.6180339887, 0.75, 0.9, 0.95, 0.99, 0.999]
 SERIES = ("piston", "rod", "kinetic", "rod_kinetic")
-OFFSETS = [(0.2632, 0.01), (0.25, -0.08), (0.3, 0.002), (0.45, 0.3), (0.3, 0.65), (1e-3, 0.5)]   # lam + |eps| <= 0.95
+OFFSETS = [
+    (0.2632, 0.01),
+    (0.25, -0.08),
+    (0.3, 0.002),
+    (0.45, 0.3),
+    (0.3, 0.65),
+    (1e-3, 0.5),
+]  # lam + |eps| <= 0.95
 
 
 @pytest.fixture(autouse=True, scope="module")
 def _digits():
-    with mp.workdps(110):                               # order 64 at lambda = 0.3 is 1e-52 of what is summed
+    with mp.workdps(110):  # order 64 at lambda = 0.3 is 1e-52 of what is summed
         yield
 
 
@@ -37,21 +46,33 @@ def of_power_series(lam: float) -> dict[str, list[mp.mpf]]:
     """Coefficients for the orders 0, 1, 2, ... by their own series."""
     highest, terms = 64 + 44, 64 + 60
     square = mp.mpf(lam) ** 2
-    cosine = [mp.mpf(0)] * (highest + 1)                # of cos beta, by cos n psi
-    angle = [mp.mpf(0)] * (highest + 1)                 # of beta, by sin k psi
+    cosine = [mp.mpf(0)] * (highest + 1)  # of cos beta, by cos n psi
+    angle = [mp.mpf(0)] * (highest + 1)  # of beta, by sin k psi
     for n in range(2, highest + 1, 2):
-        cosine[n] = mp.fsum(_half(j) * (-1) ** (j + n // 2) * 2 * comb(2 * j, j - n // 2) * square**j / 4**j
-                            for j in range(n // 2, terms))
+        cosine[n] = mp.fsum(
+            _half(j) * (-1) ** (j + n // 2) * 2 * comb(2 * j, j - n // 2) * square**j / 4**j
+            for j in range(n // 2, terms)
+        )
     for k in range(1, highest + 1, 2):
-        angle[k] = lam * mp.fsum(mp.mpf(comb(2 * j, j)) / (4**j * (2 * j + 1)) * square**j
-                                 * (-1) ** (k // 2) * comb(2 * j + 1, j - k // 2) / mp.mpf(4) ** j
-                                 for j in range(k // 2, terms))
-    speed = [n * c / lam for n, c in enumerate(cosine)]                         # -s'/r, by sin n psi
+        angle[k] = lam * mp.fsum(
+            mp.mpf(comb(2 * j, j))
+            / (4**j * (2 * j + 1))
+            * square**j
+            * (-1) ** (k // 2)
+            * comb(2 * j + 1, j - k // 2)
+            / mp.mpf(4) ** j
+            for j in range(k // 2, terms)
+        )
+    speed = [n * c / lam for n, c in enumerate(cosine)]  # -s'/r, by sin n psi
     speed[1] += 1
     piston = [n * c for n, c in enumerate(speed)]
-    rate = [k * c for k, c in enumerate(angle)]                                 # beta', by cos k psi
-    return {"piston": piston, "rod": [k * c for k, c in enumerate(rate)],
-            "kinetic": squared(speed, -1), "rod_kinetic": squared(rate, 1)}
+    rate = [k * c for k, c in enumerate(angle)]  # beta', by cos k psi
+    return {
+        "piston": piston,
+        "rod": [k * c for k, c in enumerate(rate)],
+        "kinetic": squared(speed, -1),
+        "rod_kinetic": squared(rate, 1),
+    }
 
 
 @lru_cache(maxsize=256)
@@ -60,7 +81,9 @@ def _half(j: int) -> mp.mpf:
 
 
 def squared(a: list[mp.mpf], sign: int) -> list[mp.mpf]:
-    """Cosine series of (sum a_n sin n psi)^2 (sign -1) or of (sum a_n cos n psi)^2 (sign 1), a_0 = 0."""
+    """Cosine series of (sum a_n sin n psi)^2 (sign -1) or of (sum a_n cos n psi)^2 (sign 1), a_0 =
+    0.
+    """
     there = [n for n, c in enumerate(a) if c]
     found = [mp.mpf(0)] * len(a)
     for i in there:
@@ -73,18 +96,33 @@ def squared(a: list[mp.mpf], sign: int) -> list[mp.mpf]:
 
 # ------------------------------------------------------------------ trapezoidal rule
 @lru_cache
-def of_revolution(lam: float, eps: float = 0.0, highest: int = 64, digits: int = 25) -> dict[str, list[mp.mpc]]:
-    """Coefficients c_n of `Re c_n e^{i n psi}` for the orders 0 .. highest, by sampling one revolution."""
+def of_revolution(
+    lam: float, eps: float = 0.0, highest: int = 64, digits: int = 25
+) -> dict[str, list[mp.mpc]]:
+    """Coefficients c_n of `Re c_n e^{i n psi}` for the orders 0 .. highest, by sampling one
+    revolution.
+    """
     steep = mp.mpf(lam) / (1 - abs(mp.mpf(eps)))
     decay = mp.log10((1 + mp.sqrt(1 - steep**2)) / steep)
-    count = 4 * (int((2 * highest + digits / decay) / 4) + 8)   # aliases are below 10^-digits of order `highest`
+    count = 4 * (
+        int((2 * highest + digits / decay) / 4) + 8
+    )  # aliases are below 10^-digits of order `highest`
     turn = [mp.expjpi(mp.mpf(-2 * k) / count) for k in range(count)]
     samples: dict[str, list[mp.mpf]] = {name: [] for name in SERIES}
     for e in turn:
-        for name, value in zip(SERIES, motion(-e.imag, e.real, mp.mpf(lam), mp.mpf(eps)), strict=True):
+        for name, value in zip(
+            SERIES, motion(-e.imag, e.real, mp.mpf(lam), mp.mpf(eps)), strict=True
+        ):
             samples[name].append(value)
-    return {name: [(1 if n == 0 else 2) * mp.fsum(v * turn[n * k % count] for k, v in enumerate(values)) / count
-                   for n in range(highest + 1)] for name, values in samples.items()}
+    return {
+        name: [
+            (1 if n == 0 else 2)
+            * mp.fsum(v * turn[n * k % count] for k, v in enumerate(values))
+            / count
+            for n in range(highest + 1)
+        ]
+        for name, values in samples.items()
+    }
 
 
 def motion(sine: mp.mpf, cosine: mp.mpf, lam: mp.mpf, eps: mp.mpf) -> tuple[mp.mpf, ...]:
@@ -92,9 +130,12 @@ def motion(sine: mp.mpf, cosine: mp.mpf, lam: mp.mpf, eps: mp.mpf) -> tuple[mp.m
     sin_beta = lam * sine - eps
     cos_beta = mp.sqrt(1 - sin_beta**2)
     tangent, rate = sin_beta / cos_beta, lam * cosine / cos_beta
-    return (cosine - sine * tangent + lam * cosine**2 / cos_beta**3,
-            lam * sine / cos_beta - rate**2 * tangent,
-            (sine + cosine * tangent) ** 2, rate**2)
+    return (
+        cosine - sine * tangent + lam * cosine**2 / cos_beta**3,
+        lam * sine / cos_beta - rate**2 * tangent,
+        (sine + cosine * tangent) ** 2,
+        rate**2,
+    )
 
 
 def worst(got: np.ndarray, want: list[mp.mpf]) -> float:
@@ -138,32 +179,57 @@ def test_means_of_the_squares(lam):
     """Order 0 enters the mean inertia under uneven speed."""
     want = of_power_series(lam) if lam < 0.3 else of_revolution(lam)
     for name in ("kinetic", "rod_kinetic"):
-        assert getattr(harmonics, name)([0], lam)[0] == pytest.approx(float(mp.re(want[name][0])), rel=RELATIVE)
+        assert getattr(harmonics, name)([0], lam)[0] == pytest.approx(
+            float(mp.re(want[name][0])), rel=RELATIVE
+        )
 
 
 @pytest.mark.parametrize("lam", [0.9, 0.97, 0.995])
 def test_high_orders_are_no_less_accurate(lam):
-    """Orders about 600 are 1e-29 to 1e-121 and have the error of a few roundings: that of x = tan(arcsin(lambda)/2) is not multiplied."""
+    """Orders about 600 are 1e-29 to 1e-121 and have the error of a few roundings: that of x =
+    tan(arcsin(lambda)/2) is not multiplied.
+    """
     with mp.workdps(145):
-        count = 1700                                        # aliases of orders above 1098
+        count = 1700  # aliases of orders above 1098
         turn = [mp.expjpi(mp.mpf(2 * k) / count) for k in range(count)]
-        curves = dict(zip(SERIES, zip(*(motion(e.imag, e.real, mp.mpf(lam), mp.mpf(0)) for e in turn), strict=True), strict=True))
-        for name, n in (("piston", 600), ("rod", 601), ("kinetic", 600), ("kinetic", 601), ("rod_kinetic", 600)):
-            waves = ((e.imag if name == "rod" else e.real) for e in (turn[n * k % count] for k in range(count)))
+        curves = dict(
+            zip(
+                SERIES,
+                zip(*(motion(e.imag, e.real, mp.mpf(lam), mp.mpf(0)) for e in turn), strict=True),
+                strict=True,
+            )
+        )
+        for name, n in (
+            ("piston", 600),
+            ("rod", 601),
+            ("kinetic", 600),
+            ("kinetic", 601),
+            ("rod_kinetic", 600),
+        ):
+            waves = (
+                (e.imag if name == "rod" else e.real)
+                for e in (turn[n * k % count] for k in range(count))
+            )
             want = 2 * mp.fdot(curves[name], waves) / count
             got = getattr(harmonics, name)([n], lam)[0]
             assert abs(mp.mpf(float(got)) / want - 1) < 2e-15, (name, n)
 
 
 def test_first_coefficients_are_those_of_the_books():
-    """A_2 = lambda + lambda^3/4 + 15 lambda^5/128, A_4 = -(lambda^3/4 + 3 lambda^5/16), A_6 = 9 lambda^5/128,
-    A_8 = -5 lambda^7/256; D_1 = lambda (1 + lambda^2/8), D_3 = -3 lambda^3/8, each up to its next term."""
+    """A_2 = lambda + lambda^3/4 + 15 lambda^5/128, A_4 = -(lambda^3/4 + 3 lambda^5/16), A_6 = 9
+    lambda^5/128, A_8 = -5 lambda^7/256; D_1 = lambda (1 + lambda^2/8), D_3 = -3 lambda^3/8, each up
+    to its next term.
+    """
     lam = 1e-4
     a = harmonics.piston([1, 2, 3, 4, 6, 8], lam)
     assert list(a[[0, 2]]) == [1, 0]
     assert a[1] == pytest.approx(lam + lam**3 / 4 + 15 * lam**5 / 128, rel=1e-14)
-    assert a[3:] == pytest.approx([-(lam**3 / 4 + 3 * lam**5 / 16), 9 * lam**5 / 128, -5 * lam**7 / 256], rel=1e-7)
-    assert harmonics.rod([1, 3], lam) == pytest.approx([lam + lam**3 / 8, -3 * lam**3 / 8], rel=1e-7)
+    assert a[3:] == pytest.approx(
+        [-(lam**3 / 4 + 3 * lam**5 / 16), 9 * lam**5 / 128, -5 * lam**7 / 256], rel=1e-7
+    )
+    assert harmonics.rod([1, 3], lam) == pytest.approx(
+        [lam + lam**3 / 8, -3 * lam**3 / 8], rel=1e-7
+    )
 
 
 def test_shapes_and_orders_in_any_number():
@@ -172,7 +238,9 @@ def test_shapes_and_orders_in_any_number():
     for name in SERIES:
         assert getattr(found, name).c.shape == (4, 1, 3)
         alone = getattr(harmonics, name)([7], 0.3)[0]
-        assert getattr(harmonics, name)([0, 1, 2, 7], lam)[3, 0, 1] == pytest.approx(alone, rel=1e-15, abs=0)
+        assert getattr(harmonics, name)([0, 1, 2, 7], lam)[3, 0, 1] == pytest.approx(
+            alone, rel=1e-15, abs=0
+        )
 
 
 # ------------------------------------------------------------------ offset
@@ -216,13 +284,18 @@ def test_mechanisms_given_as_several_may_be_one(eps):
     found = harmonics.of([0, 1, 2, 3], np.full(3, 0.3), np.full(3, eps))
     single = harmonics.of([0, 1, 2, 3], np.array([0.3]), np.array([eps]))
     for name in SERIES:
-        assert np.array_equal(np.broadcast_to(getattr(found, name).c, (4, 3)), np.repeat(getattr(single, name).c, 3, axis=1))
+        assert np.array_equal(
+            np.broadcast_to(getattr(found, name).c, (4, 3)),
+            np.repeat(getattr(single, name).c, 3, axis=1),
+        )
 
 
 @pytest.mark.parametrize(("lam", "eps"), OFFSETS)
 def test_an_order_of_one_engine_is_the_same_among_any_others(lam, eps):
     """To the last bit: what a report says of an order does not depend on what else it says."""
-    alone, among = (harmonics.of(orders, np.array([lam]), np.array([eps])) for orders in ([1], np.arange(40)))
+    alone, among = (
+        harmonics.of(orders, np.array([lam]), np.array([eps])) for orders in ([1], np.arange(40))
+    )
     for name in SERIES:
         assert getattr(alone, name).c[0] == getattr(among, name).c[1], name
 
@@ -230,31 +303,44 @@ def test_an_order_of_one_engine_is_the_same_among_any_others(lam, eps):
 def test_side_by_side_the_steepest_mechanism_says_how_many_samples():
     lam, eps = np.array([0.1, 0.6, 0.3]), np.array([0.3, 0.35, -0.2])
     most = harmonics.points(0.6, 0.35)
-    assert harmonics.points(lam, eps) == most > max(harmonics.points(0.1, 0.3), harmonics.points(0.3, -0.2))
+    assert (
+        harmonics.points(lam, eps)
+        == most
+        > max(harmonics.points(0.1, 0.3), harmonics.points(0.3, -0.2))
+    )
     found = harmonics.of(np.arange(9), lam[None], eps[None])
     for k in range(3):
-        single = harmonics.of(np.arange(9), lam[k:k + 1], eps[k:k + 1])
+        single = harmonics.of(np.arange(9), lam[k : k + 1], eps[k : k + 1])
         assert np.abs(found.piston.c[:, 0, k] - single.piston.c[:, 0]).max() < ABSOLUTE
 
 
 def test_multiples_and_sums_of_series_keep_bounds_of_their_errors():
-    one, other = harmonics.Series(np.ones((1, 1)), 0.25), harmonics.Series(np.full((1, 1), 3.0), 0.5)
+    one, other = (
+        harmonics.Series(np.ones((1, 1)), 0.25),
+        harmonics.Series(np.full((1, 1), 3.0), 0.5),
+    )
     found = np.array([-2.0]) * one + other
     assert (found.c.item(), found.noise) == (1, 1)
 
 
 def test_orders_beyond_the_samples_vanish():
-    """Order 4096 of a mild offset is far below every number that could be sampled; it must not be an alias."""
+    """Order 4096 of a mild offset is far below every number that could be sampled; it must not be
+    an alias.
+    """
     assert harmonics.of([4096], np.array([0.25]), np.array([0.01])).piston.c == 0
 
 
 @pytest.mark.parametrize(("lam", "eps"), [(0.3, 0.1), (0.6, 0.39), (0.05, 0.9)])
 def test_an_offset_to_the_other_side_is_the_mirror_image(lam, eps):
-    """Seen in a mirror along the cylinder's axis the crank turns backward: coefficients become conjugate, those of the rod's angle
-    change sign besides; as many samples either way."""
+    """Seen in a mirror along the cylinder's axis the crank turns backward: coefficients become
+    conjugate, those of the rod's angle change sign besides; as many samples either way.
+    """
     assert harmonics.points(lam, eps) == harmonics.points(lam, -eps)
     orders = np.arange(1, 40)
     one, other = (harmonics.sampled(orders, np.array([lam]), np.array([e])) for e in (eps, -eps))
     mirrored = np.conj(one.piston.c[:, 0])
     assert np.abs(other.piston.c[:, 0] - mirrored).max() <= 1e-14 * np.abs(mirrored).max()
-    assert np.abs(other.rod.c[:, 0] + np.conj(one.rod.c[:, 0])).max() <= 1e-14 * np.abs(one.rod.c).max()
+    assert (
+        np.abs(other.rod.c[:, 0] + np.conj(one.rod.c[:, 0])).max()
+        <= 1e-14 * np.abs(one.rod.c).max()
+    )

@@ -1,17 +1,19 @@
 """balcli against a momentum calculation on a grid that shares nothing with it (see momentum.py)."""
+
 from __future__ import annotations
 
 from pathlib import Path
 
-from oracle import momentum
 import numpy as np
 import pytest
+from oracle import momentum
 
-from balcli.results import analysis
-from balcli.engine import build as engine, load as enginefile
+from balcli.engine import build as engine
+from balcli.engine import load as enginefile
 from balcli.forces import spectrum
+from balcli.results import analysis
 
-TOLERANCE = 1e-11           # of the largest first-order amplitude of one cylinder
+TOLERANCE = 1e-11  # of the largest first-order amplitude of one cylinder
 ORDERS = np.arange(0.0, 11.0)
 ENGINES = sorted((Path(__file__).parents[2] / "engines").glob("*.toml"))
 
@@ -40,7 +42,11 @@ ARTICULATED = """
 knuckle_radius = 52
 rod = { length = 188, mass = 0.62, cg = 90, inertia = 3500 }
 """
-RIPPLE = "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }, { order = 3, amplitude = 0.02, angle = -75 }]"
+RIPPLE = (
+    "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }, { order = 3, amplitude = "
+    "0.02, "
+    "angle = -75 }]"
+)
 DISPLACED = """
 [frame]
 reference = [70, -40, 25]
@@ -62,28 +68,75 @@ angle = 15
 at = [12, 9]
 """
 CASES = {
-    "centred": {"layout": "bank_angle = 70\nstagger = 20", "crank": "throws = [0, 130, 265]\nspacing = 110"},
-    "offset": {"layout": "banks = [-30, 35]", "crank": "throws = [0, 130]\nspacing = 110\nsplay = 12", "piston": "offset = 9"},
-    "displaced reference": {"layout": "bank_angle = 70", "piston": "offset = -7", "more": DISPLACED},
-    "uneven speed": {"layout": "bank_angle = 70", "piston": "offset = -7", "operation": RIPPLE, "more": DISPLACED},
-    "two unlike cylinders, uneven speed": {"layout": "bank_angle = 60", "operation": RIPPLE,
-                                           "more": "[cylinder.2]\npiston_mass = 2.5\nrod_length = 200\n"},
+    "centred": {
+        "layout": "bank_angle = 70\nstagger = 20",
+        "crank": "throws = [0, 130, 265]\nspacing = 110",
+    },
+    "offset": {
+        "layout": "banks = [-30, 35]",
+        "crank": "throws = [0, 130]\nspacing = 110\nsplay = 12",
+        "piston": "offset = 9",
+    },
+    "displaced reference": {
+        "layout": "bank_angle = 70",
+        "piston": "offset = -7",
+        "more": DISPLACED,
+    },
+    "uneven speed": {
+        "layout": "bank_angle = 70",
+        "piston": "offset = -7",
+        "operation": RIPPLE,
+        "more": DISPLACED,
+    },
+    "two unlike cylinders, uneven speed": {
+        "layout": "bank_angle = 60",
+        "operation": RIPPLE,
+        "more": "[cylinder.2]\npiston_mass = 2.5\nrod_length = 200\n",
+    },
     "radial with master rod": {"layout": "radial = 7", "more": ARTICULATED},
-    "two rows with master rods": {"layout": "radial = 5\nstagger = 4", "crank": "throws = [0, 180]\nspacing = 160", "piston": "offset = 6",
-                                  "operation": RIPPLE, "more": ARTICULATED + "[cylinder.4]\nrod_length = 180\npiston_mass = 1.5"},
-    "vee with articulated rods": {"layout": "bank_angle = 60", "crank": "throws = [0, 120, 240, 240, 120, 0]\nspacing = 160",
-                                  "more": ARTICULATED.replace("knuckle", "master = 2\nknuckle_angles = [-66.5, 0]\nknuckle")},
+    "two rows with master rods": {
+        "layout": "radial = 5\nstagger = 4",
+        "crank": "throws = [0, 180]\nspacing = 160",
+        "piston": "offset = 6",
+        "operation": RIPPLE,
+        "more": ARTICULATED + "[cylinder.4]\nrod_length = 180\npiston_mass = 1.5",
+    },
+    "vee with articulated rods": {
+        "layout": "bank_angle = 60",
+        "crank": "throws = [0, 120, 240, 240, 120, 0]\nspacing = 160",
+        "more": ARTICULATED.replace("knuckle", "master = 2\nknuckle_angles = [-66.5, 0]\nknuckle"),
+    },
     "rotary": {"layout": "radial = 5\nrotary = true"},
-    "rotary in two rows, offset": {"layout": "radial = 3\nrotary = true\nstagger = 3", "piston": "offset = 11",
-                                   "crank": "throws = [0, 175]\nspacing = 160", "more": DISPLACED},
+    "rotary in two rows, offset": {
+        "layout": "radial = 3\nrotary = true\nstagger = 3",
+        "piston": "offset = 11",
+        "crank": "throws = [0, 175]\nspacing = 160",
+        "more": DISPLACED,
+    },
     "rotary with master rod": {"layout": "radial = 7\nrotary = true", "more": ARTICULATED},
-    "rotary with master rods in two rows": {"layout": "radial = 5\nrotary = true\nstagger = 4", "crank": "throws = [0, 180]\nspacing = 160",
-                                            "piston": "offset = 6", "operation": RIPPLE, "more": ARTICULATED.replace(
-        "knuckle_radius", "master = 3\nknuckle_angles = [-140, -70, 0, 75, 141]\nknuckle_radius") + DISPLACED
-                                            + "[cylinder.4]\nrod_length = 180\npiston_mass = 1.5"},
-    "rotary, one cylinder, uneven speed": {"layout": "rotary = true", "piston": "offset = -5", "operation": RIPPLE, "more": DISPLACED},
-    "articulated, uneven, displaced": {"layout": "radial = 5", "piston": "offset = 8", "operation": RIPPLE,
-                                       "more": ARTICULATED + DISPLACED},
+    "rotary with master rods in two rows": {
+        "layout": "radial = 5\nrotary = true\nstagger = 4",
+        "crank": "throws = [0, 180]\nspacing = 160",
+        "piston": "offset = 6",
+        "operation": RIPPLE,
+        "more": ARTICULATED.replace(
+            "knuckle_radius", "master = 3\nknuckle_angles = [-140, -70, 0, 75, 141]\nknuckle_radius"
+        )
+        + DISPLACED
+        + "[cylinder.4]\nrod_length = 180\npiston_mass = 1.5",
+    },
+    "rotary, one cylinder, uneven speed": {
+        "layout": "rotary = true",
+        "piston": "offset = -5",
+        "operation": RIPPLE,
+        "more": DISPLACED,
+    },
+    "articulated, uneven, displaced": {
+        "layout": "radial = 5",
+        "piston": "offset = 8",
+        "operation": RIPPLE,
+        "more": ARTICULATED + DISPLACED,
+    },
 }
 
 
@@ -95,7 +148,10 @@ def compare(text: str) -> None:
     for quantity, phasors in found.items():
         for row, n in enumerate(ORDERS):
             forward, backward = curves.order(quantity, int(n))
-            error = max(abs(phasors.forward[row] - forward), abs(phasors.backward[row] - backward)) / scales[quantity]
+            error = (
+                max(abs(phasors.forward[row] - forward), abs(phasors.backward[row] - backward))
+                / scales[quantity]
+            )
             assert error < TOLERANCE, f"{quantity} of order {n:g}: off by {error:.2e}"
 
 
@@ -111,11 +167,16 @@ def test_every_engine_that_comes_with_balcli(path):
 
 
 def test_one_cylinder_of_an_articulated_engine_alone():
-    """The share of a master and of an articulated cylinder in what the engine does (`--by cylinder`)."""
+    """The share of a master and of an articulated cylinder in what the engine does (`--by
+    cylinder`).
+    """
     text = BASE.format(crank="", piston="", layout="radial = 5", operation="", more=ARTICULATED)
     oracle, whole = momentum.Engine.read(text), engine.build(enginefile.parse(text))
     for number in (1, 3):
         curves = oracle.curves([number])
         force = spectrum.spectra(analysis.alone(whole, number), ORDERS, ["force"]).force
         for row, n in enumerate(ORDERS):
-            assert abs(force.forward[row] - curves.order("force", int(n))[0]) < TOLERANCE * oracle.scales()["force"]
+            assert (
+                abs(force.forward[row] - curves.order("force", int(n))[0])
+                < TOLERANCE * oracle.scales()["force"]
+            )

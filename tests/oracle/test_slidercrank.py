@@ -1,4 +1,5 @@
 """The closed forms against mpmath with 50 digits, where every difference is taken as it stands."""
+
 from __future__ import annotations
 
 import mpmath as mp
@@ -12,7 +13,9 @@ RELATIVE = 1e-14
 LAMBDAS = [1e-12, 1e-6, 0.01, 0.2, 0.2632, 0.3, 1 / 3, 0.5, 0.75, 0.9, 0.99, 0.999]
 TINY = [1e-150, 1e-12, 1e-9, 1e-6, 1e-4, 1e-3, 0.01]
 NEAR = np.concatenate([TINY, -np.array(TINY)])
-ANGLES = np.concatenate([np.radians(np.arange(-180.0, 541.0, 7.5)), NEAR, np.pi + NEAR, np.pi / 2 + NEAR])
+ANGLES = np.concatenate(
+    [np.radians(np.arange(-180.0, 541.0, 7.5)), NEAR, np.pi + NEAR, np.pi / 2 + NEAR]
+)
 OFFSETS = [(0.28, 0.01), (0.3, -0.05), (0.5, 0.3), (0.25, 0.74)]
 
 
@@ -41,7 +44,9 @@ def oracle(name, psi, lam, eps=0.0):
     return {
         "displacement": lambda: mp.sqrt((1 + 1 / lam) ** 2 - (eps / lam) ** 2) - s(psi, lam, eps),
         "velocity": lambda: mp.sin(psi) + mp.cos(psi) * sine / cosine,
-        "acceleration": lambda: mp.cos(psi) - mp.sin(psi) * sine / cosine + lam * mp.cos(psi) ** 2 / cosine**3,
+        "acceleration": lambda: (
+            mp.cos(psi) - mp.sin(psi) * sine / cosine + lam * mp.cos(psi) ** 2 / cosine**3
+        ),
         "rod_rate": lambda: rate,
         "rod_acceleration": lambda: -lam * mp.sin(psi) / cosine + rate**2 * sine / cosine,
     }[name]()
@@ -61,7 +66,10 @@ def test_centred_acceleration_is_accurate_relative_to_its_value_except_at_its_ze
     for psi, got in zip(ANGLES, sc.acceleration(ANGLES, lam), strict=True):
         want = oracle("acceleration", psi, lam)
         error = abs(mp.mpf(float(got)) - want)
-        assert error <= RELATIVE * abs(want) or (error < 1e-14 and abs(want) < 0.1 * lam), (psi, got)
+        assert error <= RELATIVE * abs(want) or (error < 1e-14 and abs(want) < 0.1 * lam), (
+            psi,
+            got,
+        )
 
 
 def test_acceleration_at_the_lower_dead_centre_of_a_nearly_equal_rod_and_crank():
@@ -69,7 +77,9 @@ def test_acceleration_at_the_lower_dead_centre_of_a_nearly_equal_rod_and_crank()
     assert sc.acceleration(np.pi, 0.999) == pytest.approx(-(1 - 0.999), rel=RELATIVE)
 
 
-@pytest.mark.parametrize("name", ["displacement", "velocity", "acceleration", "rod_rate", "rod_acceleration"])
+@pytest.mark.parametrize(
+    "name", ["displacement", "velocity", "acceleration", "rod_rate", "rod_acceleration"]
+)
 @pytest.mark.parametrize(("lam", "eps"), OFFSETS)
 def test_offset(name, lam, eps):
     psi = np.radians(np.arange(0.0, 360.0, 7.5))
@@ -81,7 +91,9 @@ def test_offset(name, lam, eps):
 @pytest.mark.parametrize(("lam", "eps"), OFFSETS)
 @pytest.mark.parametrize("delta", [1e-3, 1e-2])
 def test_offset_travel_near_its_own_top_dead_centre(lam, eps, delta):
-    """tau itself is good to an ulp, so the travel, which grows as (psi - tau)^2, is good to 2 ulp / delta."""
+    """tau itself is good to an ulp, so the travel, which grows as (psi - tau)^2, is good to 2 ulp /
+    delta.
+    """
     tau = np.arcsin(eps / (1 + lam))
     got = sc.displacement(tau + delta, lam, eps)
     want = oracle("displacement", tau + delta, lam, eps)
@@ -92,7 +104,9 @@ def test_offset_travel_near_its_own_top_dead_centre(lam, eps, delta):
 @pytest.mark.parametrize("clearance", [1e-12, 1e-9, 1e-4])
 @pytest.mark.parametrize("side", [1, -1])
 def test_the_rod_is_accurate_however_near_to_its_lock(lam, clearance, side):
-    """At 90 degrees, where it lies almost across: its cosine is the root of what is left of 1 - lambda - |eps|."""
+    """At 90 degrees, where it lies almost across: its cosine is the root of what is left of 1 -
+    lambda - |eps|.
+    """
     eps = side * (1 - lam - clearance)
     sine, cosine = sc.rod_angle(-side * 1j, lam, eps)
     exact = -side * mp.mpf(lam) - mp.mpf(eps)
@@ -110,7 +124,9 @@ def test_offset_velocity_vanishes_at_both_dead_centres():
 @pytest.mark.parametrize("cosine", [1.0, -1.0])
 def test_the_sign_of_a_zero_means_nothing(what, cosine):
     for eps in (-0.05, 0.05):
-        assert what(np.array(complex(cosine, -0.0)), 0.3, eps) == what(np.array(complex(cosine, 0.0)), 0.3, eps)
+        assert what(np.array(complex(cosine, -0.0)), 0.3, eps) == what(
+            np.array(complex(cosine, 0.0)), 0.3, eps
+        )
 
 
 def test_arguments_broadcast():

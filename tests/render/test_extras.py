@@ -1,4 +1,7 @@
-"""What analyze shows only where it is asked for: inner moments, guide-force moments; and strokes of articulated cylinders."""
+"""What analyze shows only where it is asked for: inner moments, guide-force moments; and strokes of
+articulated cylinders.
+"""
+
 from __future__ import annotations
 
 import csv
@@ -6,18 +9,19 @@ import json
 from io import StringIO
 
 import pytest
+from core.mechanisms.test_rotary import GNOME
 from engine.test_articulation import RADIAL
 from forces.test_crankshaft import built
-from core.mechanisms.test_rotary import GNOME
 
-from balcli.results import analysis
-from balcli.engine import build as engine, load as enginefile
+from balcli.engine import build as engine
+from balcli.engine import load as enginefile
 from balcli.errors import BalcliError
 from balcli.render import csv as as_csv
 from balcli.render import json as as_json
 from balcli.render.analysis import sheet
 from balcli.render.markdown import markdown
 from balcli.render.units import SYSTEMS
+from balcli.results import analysis
 
 
 def document(subject, **options):
@@ -30,10 +34,16 @@ def shown(subject, **options):
 
 def test_inner_as_json():
     found = document(built([0, 180, 180, 0]), only=["inner"], orders=[1, 2])["inner"]
-    assert [section["position_mm"] for section in found["sections"]] == pytest.approx([-150, -50, 50, 150])
+    assert [section["position_mm"] for section in found["sections"]] == pytest.approx(
+        [-150, -50, 50, 150]
+    )
     assert found["sections"][1]["shear_N"]["orders"][0]["balanced"]
-    assert found["largest_bending_Nm"] == max(section["bending_Nm"]["peak"] for section in found["sections"])
-    assert [bearing["position_mm"] for bearing in found["bearings"]] == pytest.approx([-200, -100, 0, 100, 200])
+    assert found["largest_bending_Nm"] == max(
+        section["bending_Nm"]["peak"] for section in found["sections"]
+    )
+    assert [bearing["position_mm"] for bearing in found["bearings"]] == pytest.approx(
+        [-200, -100, 0, 100, 200]
+    )
 
 
 def test_guide_as_json():
@@ -58,18 +68,30 @@ def test_nothing_more_where_nothing_was_asked():
 
 def rows(subject, system="si", **options):
     text = as_csv.analyses([analysis.analyze(subject, **options)], ["E"], SYSTEMS[system])
-    return {(r["cylinder"], r["quantity"], r["order"], r["figure"]): (r["value"], r["unit"]) for r in csv.DictReader(StringIO(text))}
+    return {
+        (r["cylinder"], r["quantity"], r["order"], r["figure"]): (r["value"], r["unit"])
+        for r in csv.DictReader(StringIO(text))
+    }
 
 
 def test_inner_and_guide_as_rows():
     """Every figure of the JSON, places numbered, with their positions."""
     subject = built([0, 180, 180, 0])
-    found, wanted = rows(subject, only=["inner", "guide"], orders=[1, 2]), document(subject, only=["inner", "guide"], orders=[1, 2])
+    found, wanted = (
+        rows(subject, only=["inner", "guide"], orders=[1, 2]),
+        document(subject, only=["inner", "guide"], orders=[1, 2]),
+    )
     section, bearing = wanted["inner"]["sections"][1], wanted["inner"]["bearings"][4]
     assert found["0", "shear 2", "", "position"] == (str(section["position_mm"]), "mm")
     assert found["0", "shear 2", "", "peak"] == (str(section["shear_N"]["peak"]), "N")
-    assert found["0", "bending 2", "1", "major"] == (str(section["bending_Nm"]["orders"][0]["major"]), "N·m")
-    assert found["0", "bearing 5", "2", "x_amplitude"] == (str(bearing["load_N"]["orders"][1]["x"]["amplitude"]), "N")
+    assert found["0", "bending 2", "1", "major"] == (
+        str(section["bending_Nm"]["orders"][0]["major"]),
+        "N·m",
+    )
+    assert found["0", "bearing 5", "2", "x_amplitude"] == (
+        str(bearing["load_N"]["orders"][1]["x"]["amplitude"]),
+        "N",
+    )
     assert ("0", "shear 5", "", "peak") not in found
     h = wanted["guide"]["orders"][1]["h_Nm"]
     assert found["0", "guide_h", "2", "sin"] == (str(h["sin"]), "N·m")
@@ -82,7 +104,9 @@ def test_strokes_and_reasons_as_rows():
     found = rows(subject, "imperial", only=["force"], orders=[1], reasons=True)
     value, unit = found["1", "travel", "", "stroke"]
     assert (float(value), unit) == (pytest.approx(0.12 / 0.0254), "in")
-    assert float(found["3", "travel", "", "top_deg"][0]) == pytest.approx(-float(found["6", "travel", "", "top_deg"][0]))
+    assert float(found["3", "travel", "", "top_deg"][0]) == pytest.approx(
+        -float(found["6", "travel", "", "top_deg"][0])
+    )
     (reason,) = document(subject, only=["force"], orders=[1], reasons=True)["why"]["reasons"]
     assert found["0", "force", "1", "why"] == (reason["verdict"], "")
     assert found["0", "force", "1", "why_size"] == (str(reason["size"]), "of one cylinder")
@@ -90,11 +114,17 @@ def test_strokes_and_reasons_as_rows():
 
 def test_for_people():
     text = shown(built([0, 180, 180, 0]), only=["inner", "guide"])
-    for title in ("Shear force in the crankshaft behind each load, N", "Bending moment in the crankshaft, N·m",
-                  "Inertia loads of main bearings half-way between throws, shaft cut in each, N", "largest inner moment",
-                  "Guide-force moments of inertia alone, without gas, N·m"):
+    for title in (
+        "Shear force in the crankshaft behind each load, N",
+        "Bending moment in the crankshaft, N·m",
+        "Inertia loads of main bearings half-way between throws, shaft cut in each, N",
+        "largest inner moment",
+        "Guide-force moments of inertia alone, without gas, N·m",
+    ):
         assert title in text
-    assert "Strokes and dead centres" in shown(engine.build(enginefile.parse(RADIAL)), only=["force"])
+    assert "Strokes and dead centres" in shown(
+        engine.build(enginefile.parse(RADIAL)), only=["force"]
+    )
 
 
 def test_a_rotary_engine_from_end_to_end():
@@ -106,5 +136,8 @@ def test_a_rotary_engine_from_end_to_end():
 def test_the_words_that_can_be_chosen():
     with pytest.raises(BalcliError) as caught:
         analysis.analyze(built([0]), only=["bending"])
-    assert str(caught.value) == ("there is no quantity bending: choose from force, moment, couple, torque, roll, peak, sizing, "
-                                 "inner, guide")
+    assert str(caught.value) == (
+        "there is no quantity bending: choose from force, moment, couple, torque, roll, peak, "
+        "sizing, "
+        "inner, guide"
+    )

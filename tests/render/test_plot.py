@@ -1,4 +1,7 @@
-"""Pictures: every page of every form, the same bytes each time, names that look like markup, and values where they belong."""
+"""Pictures: every page of every form, the same bytes each time, names that look like markup, and
+values where they belong.
+"""
+
 from __future__ import annotations
 
 import subprocess
@@ -11,7 +14,6 @@ import numpy as np
 import pytest
 from support.engines import GOOD, changed
 
-from balcli.results.analysis import analyze
 from balcli.commands.plot import What
 from balcli.engine.build import build
 from balcli.engine.load import parse
@@ -19,6 +21,7 @@ from balcli.errors import BalcliError
 from balcli.render.plot import draw, style
 from balcli.render.plot.pages import PAGES, Subject, form_of, picture
 from balcli.render.units import IMPERIAL, SI
+from balcli.results.analysis import analyze
 
 HOSTILE = '$x_{1}$ </text><script>alert(1)</script> 发动机 №5 & "q" \u0001 _'
 ANALYSES = [what for what in PAGES if what not in ("factor", "bank", "inner")]
@@ -60,7 +63,9 @@ def test_a_hostile_name_stays_text_and_warns_of_nothing(form, four):
     if form == "svg":
         root = ET.fromstring(data)
         assert not [e for e in root.iter() if e.tag.endswith("script")]
-        assert style.plain(HOSTILE) + ", 3000 rpm" in [e.text for e in root.iter() if e.tag.endswith("text")]
+        assert style.plain(HOSTILE) + ", 3000 rpm" in [
+            e.text for e in root.iter() if e.tag.endswith("text")
+        ]
 
 
 def test_names_are_cut_to_a_title():
@@ -78,8 +83,12 @@ def test_nothing_global_is_left_changed():
 
 
 def test_matplotlib_is_imported_for_pictures_only():
-    code = ("import sys\nimport balcli.render.plot.pages\nfrom balcli.render.plot import style\nassert 'matplotlib' not in sys.modules\n"
-            "with style.figure(2, 2, 'png') as f: f.subplots(); style.saved(f, 'png')\nassert 'matplotlib.pyplot' not in sys.modules")
+    code = (
+        "import sys\nimport balcli.render.plot.pages\nfrom balcli.render.plot import "
+        "style\nassert 'matplotlib' not in sys.modules\n"
+        "with style.figure(2, 2, 'png') as f: f.subplots(); style.saved(f, 'png')\nassert "
+        "'matplotlib.pyplot' not in sys.modules"
+    )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
@@ -89,7 +98,10 @@ def test_the_command_offers_every_page():
 
 def test_forms_by_name(tmp_path):
     assert [form_of(tmp_path / f"x.{s}") for s in ("svg", "PNG", "pdf")] == ["svg", "png", "pdf"]
-    with pytest.raises(BalcliError, match=r"x\.jpg: a picture is written as \.svg, \.png or \.pdf; give a name that ends so"):
+    with pytest.raises(
+        BalcliError,
+        match=r"x\.jpg: a picture is written as \.svg, \.png or \.pdf; give a name that ends so",
+    ):
         form_of(tmp_path.parent / "x.jpg")
 
 
@@ -101,9 +113,20 @@ def ax():
 
 
 def test_locus_has_x_upwards(ax):
-    """One cylinder's rotating mass: m r omega^2 along the crank pin, up at crank angle 0, to the right at 90 degrees."""
-    one = analyze(engine(changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", ""),
-                                 ("mass = 0.5", "mass = 0"), ("mass = 0.6\ncg = 45\n", ""), ("spacing = 100\n", ""))))
+    """One cylinder's rotating mass: m r omega^2 along the crank pin, up at crank angle 0, to the
+    right at 90 degrees.
+    """
+    one = analyze(
+        engine(
+            changed(
+                ("throws = [0, 180, 180, 0]", "throws = [0]"),
+                ("firing_order = [1, 3, 4, 2]", ""),
+                ("mass = 0.5", "mass = 0"),
+                ("mass = 0.6\ncg = 45\n", ""),
+                ("spacing = 100\n", ""),
+            )
+        )
+    )
     draw.locus(ax, one.spectra.force, "force", SI.force)
     right, up = next(line for line in ax.lines if len(line.get_xdata()) > 100).get_data()
     force = 0.8 * 0.045 * (3000 * np.pi / 30) ** 2
@@ -115,21 +138,34 @@ def test_bars_are_both_vectors_and_add_up_to_the_largest_value(ax, four):
     force = four.spectra.force
     draw.vector_spectrum(ax, force, "force", SI.force)
     rows = draw.visible(force)
-    heights = np.array([bar.get_height() for bar in ax.patches[:2 * len(rows)]]).reshape(2, -1)
+    heights = np.array([bar.get_height() for bar in ax.patches[: 2 * len(rows)]]).reshape(2, -1)
     unit = 1e3 if force.major.max() >= 5000 else 1
     assert heights.sum(axis=0) * unit == pytest.approx(force.major[rows])
     assert heights[0] * unit == pytest.approx(np.abs(force.forward[rows]))
 
 
 def test_a_balanced_quantity_says_so(ax):
-    six = analyze(engine(changed(("throws = [0, 180, 180, 0]", "throws = [0, 240, 120, 120, 240, 0]"),
-                                 ("firing_order = [1, 3, 4, 2]", ""))))
+    six = analyze(
+        engine(
+            changed(
+                ("throws = [0, 180, 180, 0]", "throws = [0, 240, 120, 120, 240, 0]"),
+                ("firing_order = [1, 3, 4, 2]", ""),
+            )
+        )
+    )
     draw.locus(ax, six.spectra.moment, "moment", SI.moment)
     assert "no free moment" in [text.get_text() for text in ax.texts]
 
 
-@pytest.mark.parametrize(("unit", "largest", "name"), [
-    (SI.force, 4999, "N"), (SI.force, 5000, "kN"), (SI.moment, 1e6, "kN·m"), (IMPERIAL.force, 1e9, "lbf")])
+@pytest.mark.parametrize(
+    ("unit", "largest", "name"),
+    [
+        (SI.force, 4999, "N"),
+        (SI.force, 5000, "kN"),
+        (SI.moment, 1e6, "kN·m"),
+        (IMPERIAL.force, 1e9, "lbf"),
+    ],
+)
 def test_long_figures_get_a_larger_unit(unit, largest, name):
     assert draw.scale(unit, largest).name == name
 

@@ -1,4 +1,5 @@
 """The page: whole without a network, whatever an engine is called; and alive in a real browser."""
+
 from __future__ import annotations
 
 import json
@@ -10,15 +11,19 @@ import pytest
 from support.browser import CHROMIUM, Browser
 from support.engines import GOOD, changed
 
-from balcli.results.analysis import analyze
-from balcli.results.balance import balance
 from balcli.engine.build import build
 from balcli.engine.load import parse
+from balcli.forces.spectrum import SPECTRAL
 from balcli.render.html import page
 from balcli.render.units import IMPERIAL, SI
-from balcli.forces.spectrum import SPECTRAL
+from balcli.results.analysis import analyze
+from balcli.results.balance import balance
 
-HOSTILE = "</script><script>alert('name')</script><img src=x onerror=alert(1)> & \"quoted\" {{ 7 * 7 }} 发动机"
+HOSTILE = (
+    "</script><script>alert('name')</script><img src=x onerror=alert(1)> & \"quoted\" {{ 7 "
+    "* 7 }} "
+    "发动机"
+)
 RADIAL = """\
 name = "radial with a master rod"
 [crank]
@@ -58,19 +63,32 @@ class Outline(HTMLParser):
 
     def handle_starttag(self, tag, attrs):
         self.tags.append(tag)
-        self.loads += [value for key, value in attrs if key in ("src", "href", "xlink:href") and not value.startswith(("#", "data:"))]
+        self.loads += [
+            value
+            for key, value in attrs
+            if key in ("src", "href", "xlink:href") and not value.startswith(("#", "data:"))
+        ]
 
 
 def test_it_loads_nothing():
     outline = Outline(text := report(GOOD))
     assert outline.loads == []
     assert "@import" not in text
-    assert {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"} >= set(re.findall(r"https?://[^\"'\s<)]+", text))
+    assert {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"} >= set(
+        re.findall(r"https?://[^\"'\s<)]+", text)
+    )
 
 
 def test_it_says_what_the_terminal_says():
     text = report(GOOD)
-    for expected in ("in-line four", "Verdict", "1-3-4-2", "Second order: ", "Practical figures", "What the figures mean"):
+    for expected in (
+        "in-line four",
+        "Verdict",
+        "1-3-4-2",
+        "Second order: ",
+        "Practical figures",
+        "What the figures mean",
+    ):
         assert expected in text
 
 
@@ -89,8 +107,15 @@ def test_imperial_units_reach_everything():
     assert second[1] == pytest.approx(float(force.forward[0].real) / 4.4482216152605, rel=1e-12)
 
 
-@pytest.mark.parametrize("text", [RADIAL, ROTARY, changed(("bore = 86\n", "")),
-                                  changed(("mass = 0.5", "mass = 0"), ("mass = 0.6", "mass = 0"))])
+@pytest.mark.parametrize(
+    "text",
+    [
+        RADIAL,
+        ROTARY,
+        changed(("bore = 86\n", "")),
+        changed(("mass = 0.5", "mass = 0"), ("mass = 0.6", "mass = 0")),
+    ],
+)
 def test_unusual_engines_have_a_page(text):
     scene = json.loads(re.search(r'id="scene">(.*?)</script>', report(text), re.S)[1])
     assert scene["bore"] > 0
@@ -99,7 +124,9 @@ def test_unusual_engines_have_a_page(text):
 # ------------------------------------------------------------------ in a browser
 def live(test):
     """A test that needs a browser."""
-    return pytest.mark.browser(pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed")(test))
+    return pytest.mark.browser(
+        pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed")(test)
+    )
 
 
 @pytest.fixture(scope="module")
@@ -116,6 +143,7 @@ def show(browser, tmp_path):
         file.write_text(report(text), encoding="utf-8")
         browser.open(file, **how)
         return browser
+
     return opened
 
 
@@ -124,7 +152,10 @@ def turn(browser, theta: float) -> None:
 
 
 def numbers(browser, selector: str, *attributes: str) -> list[float]:
-    return [float(browser.run(f"document.querySelector('{selector}').getAttribute('{name}')")) for name in attributes]
+    return [
+        float(browser.run(f"document.querySelector('{selector}').getAttribute('{name}')"))
+        for name in attributes
+    ]
 
 
 @live
@@ -149,8 +180,12 @@ def test_the_keyboard_moves_the_vector(show):
     forces = [float(abs(curve.values(np.radians(t)))) for t in (0, 3)]
     assert abs(y) < 1e-6
     turn(page, 0)
-    assert numbers(page, "#force-vector", "y2")[0] / x == pytest.approx(forces[0] / forces[1], rel=1e-4)
-    assert float(page.run("document.getElementById('force-now').textContent").split()[0]) == pytest.approx(forces[0], rel=1e-3)
+    assert numbers(page, "#force-vector", "y2")[0] / x == pytest.approx(
+        forces[0] / forces[1], rel=1e-4
+    )
+    assert float(
+        page.run("document.getElementById('force-now').textContent").split()[0]
+    ) == pytest.approx(forces[0], rel=1e-3)
 
 
 @live
@@ -159,26 +194,40 @@ def test_the_rods_keep_their_length_and_pistons_are_where_the_engine_has_them(sh
     page, c = show(text), build(parse(text)).cylinders
     for theta in (0, 77, 250):
         turn(page, theta)
-        ends = page.run("[...document.querySelectorAll('#end .rod')]"
-                        ".map((rod) => ['x1', 'y1', 'x2', 'y2'].map((k) => Number(rod.getAttribute(k))))")
+        ends = page.run(
+            "[...document.querySelectorAll('#end .rod')]"
+            ".map((rod) => ['x1', 'y1', 'x2', 'y2'].map((k) => Number(rod.getAttribute(k))))"
+        )
         psi = np.radians(theta + np.ravel(c.angle_deg))
         if c.linkage is None:
             lam, eps = float(c.lam.flat[0]), float(c.eps.flat[0])
             places = np.cos(psi) + np.sqrt(1 - (lam * np.sin(psi) - eps) ** 2) / lam
         else:
-            places = np.array([c.linkage.motion(psi[[k]], c.lam, c.eps).place[min(k, len(c.linkage.mass) - 1), 0] for k in range(c.count)])
+            places = np.array(
+                [
+                    c.linkage.motion(psi[[k]], c.lam, c.eps).place[
+                        min(k, len(c.linkage.mass) - 1), 0
+                    ]
+                    for k in range(c.count)
+                ]
+            )
         lengths = np.broadcast_to(np.ravel(c.radius / c.lam) * 1e3, c.count)
         drawn = np.array(ends)
         rods = np.hypot(drawn[:, 2] - drawn[:, 0], drawn[:, 3] - drawn[:, 1])
         assert np.sort(rods) == pytest.approx(np.sort(lengths), rel=1e-9)
-        assert np.sort(-drawn[:, 3]) == pytest.approx(np.sort(places * float(c.radius) * 1e3), rel=1e-9)
+        assert np.sort(-drawn[:, 3]) == pytest.approx(
+            np.sort(places * float(c.radius) * 1e3), rel=1e-9
+        )
 
 
 @live
 def test_orders_are_switched(show):
     page = show()
     before = numbers(page, "#force-vector", "y2")
-    page.run("for (const box of document.querySelectorAll('[name=order]')) if (box.value !== '4') box.click()")
+    page.run(
+        "for (const box of document.querySelectorAll('[name=order]')) if (box.value !== '4') "
+        "box.click()"
+    )
     fourth = page.run("document.getElementById('force-now').textContent")
     page.run("document.querySelector('[name=order][value=\"4\"]').click()")
     assert before != [0]
@@ -192,8 +241,9 @@ def test_the_fitted_engine_shakes_less(show):
     page = show()
     page.run("document.querySelectorAll('[name=variant]')[1].click()")
     after = balance(build(parse(GOOD))).after
-    assert float(page.run("document.getElementById('force-now').textContent").split()[0]) == pytest.approx(
-        float(abs(after.spectra.force.values(0.0))), rel=1e-3)
+    assert float(
+        page.run("document.getElementById('force-now').textContent").split()[0]
+    ) == pytest.approx(float(abs(after.spectra.force.values(0.0))), rel=1e-3)
     assert page.run("document.querySelectorAll('#end .weight').length") == len(after.engine.devices)
 
 
@@ -240,7 +290,11 @@ def test_it_fits_its_window(show, width):
 @live
 def test_it_prints_in_light_and_without_controls(show):
     page = show(dark=True)
-    page.call("Emulation.setEmulatedMedia", media="print", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+    page.call(
+        "Emulation.setEmulatedMedia",
+        media="print",
+        features=[{"name": "prefers-color-scheme", "value": "dark"}],
+    )
     assert page.run("getComputedStyle(document.querySelector('.controls')).display") == "none"
     assert page.run("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
     page.call("Emulation.setEmulatedMedia", media="")

@@ -1,4 +1,7 @@
-"""Analysis: which orders are shown, what is computed, what balanced means; over all engines of engines/."""
+"""Analysis: which orders are shown, what is computed, what balanced means; over all engines of
+engines/.
+"""
+
 from __future__ import annotations
 
 from dataclasses import replace
@@ -9,12 +12,12 @@ import numpy as np
 import pytest
 from support.engines import engine
 
-from balcli.results.analysis import HIGHEST, QUANTITIES, Analysis, alone, analyze, textbook
 from balcli.core.mechanisms import harmonics
 from balcli.engine.build import Engine, build
 from balcli.engine.load import read
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import SHOWN, SPECTRAL, relevant_orders, spectra
+from balcli.results.analysis import HIGHEST, QUANTITIES, Analysis, alone, analyze, textbook
 
 FOLDER = Path(__file__).parents[2] / "engines"
 NAMES = sorted(file.stem for file in FOLDER.glob("*.toml"))
@@ -55,7 +58,9 @@ def test_orders_asked_for_are_the_same_to_the_last_bit(name):
         assert np.array_equal(phasors.forward, again.forward), q
         assert np.array_equal(phasors.backward, again.backward), q
         assert np.array_equal(phasors.at([2]).forward, alone_.forward), q
-        assert np.array_equal(phasors.forward, getattr(many.spectra, q).at(default.orders).forward), q
+        assert np.array_equal(
+            phasors.forward, getattr(many.spectra, q).at(default.orders).forward
+        ), q
     assert (asked.force, asked.moment) == (default.force, default.moment)
 
 
@@ -79,7 +84,9 @@ def test_exactly_the_orders_asked_for_are_shown(orders):
     assert list(analyze(example("i4"), [*orders, *orders]).orders) == list(orders)
 
 
-@pytest.mark.parametrize(("orders", "told"), [([-1], "-1"), ([HIGHEST + 1], "4097"), ([], "none"), ([1.5], "1.5")])
+@pytest.mark.parametrize(
+    ("orders", "told"), [([-1], "-1"), ([HIGHEST + 1], "4097"), ([], "none"), ([1.5], "1.5")]
+)
 def test_orders_that_cannot_be(orders, told):
     with pytest.raises(BalcliError) as caught:
         analyze(example("i4"), orders)
@@ -88,12 +95,20 @@ def test_orders_that_cannot_be(orders, told):
 
 # ------------------------------------------------------------------ balanced, and not swallowed
 BALANCED = {
-    "boxer6": {"force": [1, 2, 3, 4, 6], "moment": [1, 2]}, "i4": {"force": [1, 3], "moment": [1, 2]},
-    "i6": {"force": [1, 2, 3, 4], "moment": [1, 2, 3, 4, 6]}, "i3": {"force": [1, 2, 4]},
-    "i5": {"force": [1, 2, 4, 6, 8]}, "v8_crossplane": {"force": [1, 2, 6], "moment": [2]},
-    "v8_flatplane": {"force": [1], "moment": [1]}, "v12_60": {"force": [1, 2, 4], "moment": [1, 2, 4]},
-    "v16": {"force": [1, 2, 6], "moment": [1, 2]}, "radial5": {"moment": [1, 2, 4, 6]}, "radial7": {"force": [2, 4]},
-    "radial9": {"force": [2, 4, 6]}, "twin270": {"force": [2]}, "flat12": {"force": [1, 2, 4], "moment": [1, 2, 4]},
+    "boxer6": {"force": [1, 2, 3, 4, 6], "moment": [1, 2]},
+    "i4": {"force": [1, 3], "moment": [1, 2]},
+    "i6": {"force": [1, 2, 3, 4], "moment": [1, 2, 3, 4, 6]},
+    "i3": {"force": [1, 2, 4]},
+    "i5": {"force": [1, 2, 4, 6, 8]},
+    "v8_crossplane": {"force": [1, 2, 6], "moment": [2]},
+    "v8_flatplane": {"force": [1], "moment": [1]},
+    "v12_60": {"force": [1, 2, 4], "moment": [1, 2, 4]},
+    "v16": {"force": [1, 2, 6], "moment": [1, 2]},
+    "radial5": {"moment": [1, 2, 4, 6]},
+    "radial7": {"force": [2, 4]},
+    "radial9": {"force": [2, 4, 6]},
+    "twin270": {"force": [2]},
+    "flat12": {"force": [1, 2, 4], "moment": [1, 2, 4]},
 }
 
 
@@ -105,9 +120,18 @@ def test_a_balanced_order_is_exactly_zero(name):
         assert np.array_equal(phasors.major, np.zeros(len(orders)))
 
 
-@pytest.mark.parametrize(("name", "order", "factor"), [
-    ("v8_crossplane", 8, 4 * np.sqrt(2)), ("i4", 8, 4), ("i4", 14, 4), ("i6", 12, 6),
-    ("v12_60", 12, 12 * np.cos(np.pi / 6)), ("radial9", 10, 4.5), ("single", 20, 1)])
+@pytest.mark.parametrize(
+    ("name", "order", "factor"),
+    [
+        ("v8_crossplane", 8, 4 * np.sqrt(2)),
+        ("i4", 8, 4),
+        ("i4", 14, 4),
+        ("i6", 12, 6),
+        ("v12_60", 12, 12 * np.cos(np.pi / 6)),
+        ("radial9", 10, 4.5),
+        ("single", 20, 1),
+    ],
+)
 def test_a_small_order_that_is_there_is_not_swallowed(name, order, factor):
     """Eighth orders are 1e-6 to 1e-4 of the first; A_20 is 1e-16."""
     e = example(name)
@@ -118,14 +142,21 @@ def test_a_small_order_that_is_there_is_not_swallowed(name, order, factor):
 
 
 def test_a_high_order_beside_it_swallows_no_small_one():
-    """The orders 1 to 4096 of a single cylinder: the first forty are there as they are by themselves."""
-    everything, few = (analyze(example("single"), range(1, last + 1), only=["force"]).spectra.force for last in (4096, 40))
+    """The orders 1 to 4096 of a single cylinder: the first forty are there as they are by
+    themselves.
+    """
+    everything, few = (
+        analyze(example("single"), range(1, last + 1), only=["force"]).spectra.force
+        for last in (4096, 40)
+    )
     assert np.array_equal(everything.forward[:40], few.forward)
     assert np.array_equal(few.balanced, [n % 2 == 1 and n > 1 for n in range(1, 41)])
 
 
 def test_each_vector_is_settled_for_itself():
-    """The first-order moment of a cross-plane V8 turns with the crank and has no backward part at all."""
+    """The first-order moment of a cross-plane V8 turns with the crank and has no backward part at
+    all.
+    """
     moment = analysed("v8_crossplane").spectra.moment
     assert moment.backward[0] == 0
     assert abs(moment.forward[0]) > 100
@@ -145,13 +176,16 @@ def test_only_one_quantity(quantity):
 
 
 def test_what_is_not_asked_for_is_not_computed(monkeypatch):
-    """Without couple, torque and roll no harmonics of rod and energy; with explicit orders and no peak, no others."""
+    """Without couple, torque and roll no harmonics of rod and energy; with explicit orders and no
+    peak, no others.
+    """
     asked = []
     original = harmonics.of_distinct
 
     def spy(orders, *rest, rod=True, energy=True):
         asked.append((list(orders), rod, energy))
         return original(orders, *rest, rod=rod, energy=energy)
+
     monkeypatch.setattr(harmonics, "of_distinct", spy)
     analyze(example("i4"), [1, 2], only=["force"])
     assert [(orders, energy) for orders, _, energy in asked] == [([1, 2], False)]
@@ -160,16 +194,20 @@ def test_what_is_not_asked_for_is_not_computed(monkeypatch):
 def test_an_unknown_quantity():
     with pytest.raises(BalcliError) as caught:
         analyze(example("i4"), only=["force", "weight", "noise"])
-    assert str(caught.value) == ("there is no quantity noise, weight: choose from force, moment, couple, torque, roll, "
-                                 "peak, sizing, inner, guide")
+    assert str(caught.value) == (
+        "there is no quantity noise, weight: choose from force, moment, couple, torque, roll, "
+        "peak, sizing, inner, guide"
+    )
 
 
 def test_more_by_cylinder_than_anyone_reads_is_refused():
     """1000 cylinders to order 512 would be gigabytes of text."""
     with pytest.raises(BalcliError) as caught:
         analyze(example("v8_crossplane"), range(1, 2050), by_cylinder=True, only=["force"])
-    assert str(caught.value) == ("by cylinder, 2049 orders of 8 cylinders are 16392 results, and at most 16384 are told: "
-                                 "ask for fewer orders")
+    assert str(caught.value) == (
+        "by cylinder, 2049 orders of 8 cylinders are 16392 results, and at most 16384 are told: "
+        "ask for fewer orders"
+    )
 
 
 def test_everything_by_default():
@@ -186,7 +224,9 @@ def test_cylinders_and_devices_sum_to_the_engine(name):
     result = analyze(e, range(1, 9), only=SPECTRAL, by_cylinder=True)
     assert [n for n, _ in result.cylinders] == sorted(e.numbers)
     nothing = np.zeros_like(e.cylinders.reciprocating)
-    still = replace(e, cylinders=replace(e.cylinders, reciprocating=nothing, rotating=nothing, couple=nothing))
+    still = replace(
+        e, cylinders=replace(e.cylinders, reciprocating=nothing, rotating=nothing, couple=nothing)
+    )
     parts = [spectra(still, result.orders), *(share for _, share in result.cylinders)]
     for q, whole in result.spectra.items():
         scale = sum(getattr(part, q).major.max() for part in parts)
@@ -204,7 +244,9 @@ def test_one_cylinder_alone_has_no_devices_and_no_other_mass():
 
 @pytest.mark.parametrize("name", NAMES)
 def test_peaks_are_those_of_the_whole_curve(name):
-    """No sample of the whole curve lies above the peak, and the peak lies on it; whatever orders are shown."""
+    """No sample of the whole curve lies above the peak, and the peak lies on it; whatever orders
+    are shown.
+    """
     e, theta = example(name), np.linspace(0, 2 * np.pi, 2881)
     whole = spectra(e, relevant_orders(e), ("force", "moment"))
     for q in ("force", "moment"):
@@ -227,13 +269,19 @@ def test_peak_of_a_single_cylinder_is_at_top_dead_centre():
 def test_textbook_units():
     e = engine(crank={"throws": [0, 240, 120], "positions": [0, 80, 200]}, operation={"speed": 600})
     units = textbook(e, np.array([1.0, 2.0, 3.0]))
-    assert (units.force, units.arm, units.equal) == (pytest.approx(0.05 * (20 * np.pi) ** 2), pytest.approx(0.1), True)
+    assert (units.force, units.arm, units.equal) == (
+        pytest.approx(0.05 * (20 * np.pi) ** 2),
+        pytest.approx(0.1),
+        True,
+    )
     assert list(units.ratios) == list(harmonics.piston([1, 2, 3], 0.25))
     assert np.isnan(textbook(engine(), np.array([1.0])).arm)
 
 
 def test_textbook_units_of_unequal_cylinders_are_cylinder_1s():
-    e = engine(crank={"throws": [0, 0]}, cylinder={"1": {"piston_mass": 3}}, layout={"numbering": [[2, 1]]})
+    e = engine(
+        crank={"throws": [0, 0]}, cylinder={"1": {"piston_mass": 3}}, layout={"numbering": [[2, 1]]}
+    )
     units = textbook(e, np.array([1.0]))
     assert units.force == pytest.approx(3 * 0.05 * (2 * np.pi) ** 2)
     assert not units.equal

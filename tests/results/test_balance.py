@@ -1,4 +1,5 @@
 """`balcli balance`: what it prints, what it refuses, and the workshop's figures."""
+
 from __future__ import annotations
 
 import csv
@@ -11,16 +12,18 @@ import pytest
 from support.engines import GOOD, changed
 from typer.testing import CliRunner
 
-from balcli.results.balance import balance
 from balcli.cli import app
 from balcli.engine.build import build
 from balcli.engine.load import parse
-from balcli.errors import BalcliError
 from balcli.enginefile.model import Counterweight, Slider
+from balcli.errors import BalcliError
+from balcli.results.balance import balance
 from balcli.sizing.sizing import SCHEMES, Remedy, Tools, Wish, practical
 from balcli.sizing.workshop import STEEL, drill_depth
 
-SINGLE = changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4"))
+SINGLE = changed(
+    ("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4")
+)
 
 
 @pytest.fixture
@@ -65,19 +68,35 @@ def test_tables_fit_eighty_columns(monkeypatch):
 
 def test_json_has_devices_reasons_and_both_analyses(file):
     doc = document(file, "--scheme", "two-shaft", "--at=-40,60", "--order", "2")
-    assert list(doc) == ["format", "scheme", "order", "counterweights", "shafts", "sliders", "reasons", "practical", "details",
-                         "before", "after"]
+    assert list(doc) == [
+        "format",
+        "scheme",
+        "order",
+        "counterweights",
+        "shafts",
+        "sliders",
+        "reasons",
+        "practical",
+        "details",
+        "before",
+        "after",
+    ]
     assert [s["ratio"] for s in doc["shafts"]] == [-2, 2]
     assert doc["shafts"][0]["at_mm"] == [-40, 60]
     assert doc["shafts"][1]["at_mm"] == pytest.approx([-40, -60])
-    second = {state: next(o for o in doc[state]["orders"] if o["order"] == 2)["force_N"] for state in ("before", "after")}
+    second = {
+        state: next(o for o in doc[state]["orders"] if o["order"] == 2)["force_N"]
+        for state in ("before", "after")
+    }
     assert second["before"]["balanced"] is False
     assert second["after"]["balanced"] is True
 
 
 def test_before_and_after_show_the_same_orders():
     doc = document("-", "--scheme", "eccentric-slider", text=SINGLE)
-    assert [o["order"] for o in doc["before"]["orders"]] == [o["order"] for o in doc["after"]["orders"]]
+    assert [o["order"] for o in doc["before"]["orders"]] == [
+        o["order"] for o in doc["after"]["orders"]
+    ]
     assert 3 in [o["order"] for o in doc["after"]["orders"]]
 
 
@@ -95,20 +114,34 @@ def test_csv_has_what_json_calls_practical_and_details(file):
     found = {(r["part"], r["figure"]): r["value"] for r in rows if not r["quantity"]}
     wanted = document(file, *options)
     for k, shop in enumerate(wanted["practical"], 1):
-        assert {key: found[f"counterweight {k}", key] for key in shop} == {key: str(value) for key, value in shop.items()}
-    assert found["details", "card.2.bobweight_g"] == str(wanted["details"]["card"][1]["bobweight_g"])
+        assert {key: found[f"counterweight {k}", key] for key in shop} == {
+            key: str(value) for key, value in shop.items()
+        }
+    assert found["details", "card.2.bobweight_g"] == str(
+        wanted["details"]["card"][1]["bobweight_g"]
+    )
     assert found["details", "card.2.cylinders.1"] == "2"
 
 
-@pytest.mark.parametrize(("units", "size", "length"), [("si", 1.0, 1.0), ("imperial", 28.349523125 * 25.4, 25.4)])
+@pytest.mark.parametrize(
+    ("units", "size", "length"), [("si", 1.0, 1.0), ("imperial", 28.349523125 * 25.4, 25.4)]
+)
 def test_csv_has_devices_in_the_units_asked_for(file, units, size, length):
     options = ("--scheme", "two-shaft", "--at=-60,80", "--position", "12")
-    rows = list(csv.DictReader(StringIO(run(file, *options, "--format", "csv", "--units", units).stdout)))
-    found = {r["figure"]: (float(r["value"]), r["unit"]) for r in rows if r["part"] == "shaft 1" and r["unit"]}
+    rows = list(
+        csv.DictReader(StringIO(run(file, *options, "--format", "csv", "--units", units).stdout))
+    )
+    found = {
+        r["figure"]: (float(r["value"]), r["unit"])
+        for r in rows
+        if r["part"] == "shaft 1" and r["unit"]
+    }
     shaft = document(file, *options)["shafts"][0]
     names = {"si": ("g·mm", "mm"), "imperial": ("oz·in", "in")}[units]
     assert found["unbalance"] == (pytest.approx(shaft["unbalance_kg_m"] * 1e6 / size), names[0])
-    assert [found["at_x"], found["at_y"], found["position"]] == [(pytest.approx(v / length), names[1]) for v in (-60, 80, 12)]
+    assert [found["at_x"], found["at_y"], found["position"]] == [
+        (pytest.approx(v / length), names[1]) for v in (-60, 80, 12)
+    ]
 
 
 def test_imperial_units(file):
@@ -130,8 +163,14 @@ def test_written_file_reads_back(file, tmp_path):
     assert all(same[o["order"]] == o for o in doc["after"]["orders"] if o["order"] in same)
 
 
-@pytest.mark.parametrize(("scheme", "speed", "line"), [
-    ("auto", 4500, "speed = 4500.0    # as balanced by balcli\n"), ("auto", 3000, "speed = 3000\n"), ("auto", None, "speed = 3000\n")])
+@pytest.mark.parametrize(
+    ("scheme", "speed", "line"),
+    [
+        ("auto", 4500, "speed = 4500.0    # as balanced by balcli\n"),
+        ("auto", 3000, "speed = 3000\n"),
+        ("auto", None, "speed = 3000\n"),
+    ],
+)
 def test_what_is_written_runs_at_the_speed_that_was_asked_for(file, tmp_path, scheme, speed, line):
     """So that it reads back to exactly `after`."""
     out = tmp_path / "out.toml"
@@ -146,26 +185,47 @@ def test_standard_input_can_be_written(tmp_path):
     assert (tmp_path / "out.toml").read_text().startswith(GOOD)
 
 
-@pytest.mark.parametrize(("options", "told"), [
-    (("--scheme", "tow-shaft"), "did you mean two-shaft?"),
-    (("--scheme", "two-shaft", "--at", "here"), '--at "here": give x,y of a shaft in mm, such as -40,60'),
-    (("--scheme", "two-shaft", "--at", "1,2", "--at", "3,4", "--at", "5,6"), "a pair of shafts has two places"),
-    (("--scheme", "two-shaft", "--position", "nan"), '--position "nan": give one place along z in mm'),
-    (("--scheme", "counterweights", "--planes", "left"), '--planes "left": give ends, throws, or places along z'),
-    (("--scheme", "factor", "--factor", "0:1"), "a range is first:last:step"),
-    (("--scheme", "factor", "--factor", "0:1:1e-9"), "at most 1000 steps"),
-    (("--scheme", "oldham"), "oldham is for a single cylinder; this engine has 4 cylinders"),
-    (("--drill", "-3"), "must be positive lengths in mm"),
-    (("--thickness", "10", "--disc", "50"), "not both"),
-])
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (("--scheme", "tow-shaft"), "did you mean two-shaft?"),
+        (
+            ("--scheme", "two-shaft", "--at", "here"),
+            '--at "here": give x,y of a shaft in mm, such as -40,60',
+        ),
+        (
+            ("--scheme", "two-shaft", "--at", "1,2", "--at", "3,4", "--at", "5,6"),
+            "a pair of shafts has two places",
+        ),
+        (
+            ("--scheme", "two-shaft", "--position", "nan"),
+            '--position "nan": give one place along z in mm',
+        ),
+        (
+            ("--scheme", "counterweights", "--planes", "left"),
+            '--planes "left": give ends, throws, or places along z',
+        ),
+        (("--scheme", "factor", "--factor", "0:1"), "a range is first:last:step"),
+        (("--scheme", "factor", "--factor", "0:1:1e-9"), "at most 1000 steps"),
+        (("--scheme", "oldham"), "oldham is for a single cylinder; this engine has 4 cylinders"),
+        (("--drill", "-3"), "must be positive lengths in mm"),
+        (("--thickness", "10", "--disc", "50"), "not both"),
+    ],
+)
 def test_refusals(file, options, told):
     assert told in refusal(file, *options)
 
 
 def test_a_rotary_engine_has_no_factor(tmp_path):
     file = tmp_path / "rotary.toml"
-    file.write_text(GOOD.replace("throws = [0, 180, 180, 0]\n", "").replace("firing_order = [1, 3, 4, 2]", "radial = 5\nrotary = true"))
-    assert "the cylinders turn and the crank pins stand still" in refusal(file, "--scheme", "factor")
+    file.write_text(
+        GOOD.replace("throws = [0, 180, 180, 0]\n", "").replace(
+            "firing_order = [1, 3, 4, 2]", "radial = 5\nrotary = true"
+        )
+    )
+    assert "the cylinders turn and the crank pins stand still" in refusal(
+        file, "--scheme", "factor"
+    )
 
 
 def test_the_engine_file_itself_is_never_written(file):
@@ -188,10 +248,15 @@ def test_practical_figures_follow_from_their_definitions():
     omega = engine().omega
     assert weight.mass == pytest.approx(weight.unbalance / 0.06)
     assert shaft.force == pytest.approx(shaft.unbalance * omega**2)
-    assert (weight.force, weight.speed_rpm) == (pytest.approx(weight.unbalance * omega**2), engine().speed_rpm)
+    assert (weight.force, weight.speed_rpm) == (
+        pytest.approx(weight.unbalance * omega**2),
+        engine().speed_rpm,
+    )
     assert shaft.speed_rpm == engine().speed_rpm
     # half disc: mass pi R^2/2 t density, centroid at 4R/(3 pi)
-    assert STEEL * math.pi * 0.05**2 / 2 * weight.disc_thickness * 4 * 0.05 / (3 * math.pi) == pytest.approx(weight.unbalance)
+    assert STEEL * math.pi * 0.05**2 / 2 * weight.disc_thickness * 4 * 0.05 / (
+        3 * math.pi
+    ) == pytest.approx(weight.unbalance)
 
 
 def test_shafts_turn_at_their_ratio():
@@ -217,9 +282,16 @@ def test_drill_depth_removes_the_unbalance():
 
 
 def test_a_first_guess_of_a_device_in_steel():
-    """A half disc 20 mm thick (if nothing else is said) of 50 mm radius, 7850 kg/m3: its unbalance `t 2/3 R^3` times that."""
-    weight = Remedy("", counterweights=(Counterweight(unbalance=7850 * 0.02 * 2 / 3 * 0.05**3 * 1e6, angle=0, position=0),))
-    figures, = practical(engine(), weight, Tools())
+    """A half disc 20 mm thick (if nothing else is said) of 50 mm radius, 7850 kg/m3: its unbalance
+    `t 2/3 R^3` times that.
+    """
+    weight = Remedy(
+        "",
+        counterweights=(
+            Counterweight(unbalance=7850 * 0.02 * 2 / 3 * 0.05**3 * 1e6, angle=0, position=0),
+        ),
+    )
+    (figures,) = practical(engine(), weight, Tools())
     assert (figures.disc_radius, figures.disc_thickness) == pytest.approx((0.05, 0.02), rel=1e-14)
     assert (figures.radius, figures.mass) == (0.045, pytest.approx(figures.unbalance / 0.045))
     assert figures.depth is None
@@ -233,7 +305,9 @@ def test_lengths_of_tools_are_positive(name, length):
 
 
 def test_a_hole_ends_at_the_axis():
-    """Drilled from the rim to the axis, `rim^2/2` times area and density is removed: that much, and no more."""
+    """Drilled from the rim to the axis, `rim^2/2` times area and density is removed: that much, and
+    no more.
+    """
     most = STEEL * math.pi / 4 * 0.01**2 * 0.05**2 / 2
     assert drill_depth(most * (1 - 1e-14), 0.05, 0.01) == pytest.approx(0.05, rel=1e-6)
     assert math.isnan(drill_depth(most * (1 + 1e-14), 0.05, 0.01))
@@ -242,7 +316,9 @@ def test_a_hole_ends_at_the_axis():
 def test_sliders_move_at_their_order():
     """n times the crank's speed, n^2 times the force."""
     remedy = Remedy("", sliders=(Slider(order=3, unbalance=1e6, direction=0, angle=0),))
-    figures, = practical(engine(), remedy, Tools(radius=0.5, drill=1.0))
+    (figures,) = practical(engine(), remedy, Tools(radius=0.5, drill=1.0))
     assert (figures.mass, figures.speed_rpm) == (2, 9000)
     assert figures.force == pytest.approx((9000 * math.pi / 30) ** 2, rel=1e-14)
-    assert STEEL * math.pi / 4 * (0.5**2 - (0.5 - figures.depth) ** 2) / 2 == pytest.approx(1, rel=1e-12)
+    assert STEEL * math.pi / 4 * (0.5**2 - (0.5 - figures.depth) ** 2) / 2 == pytest.approx(
+        1, rel=1e-12
+    )

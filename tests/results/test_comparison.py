@@ -1,4 +1,5 @@
 """Engines side by side."""
+
 from __future__ import annotations
 
 import math
@@ -6,15 +7,17 @@ import math
 import pytest
 from support.engines import GOOD, changed
 
-from balcli.results.comparison import compare
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
+from balcli.results.comparison import compare
 
 
 def test_force_of_order_2_goes_with_the_square_of_the_speed() -> None:
     slow, fast = build(parse(GOOD)), build(parse(changed(("speed = 3000", "speed = 6000"))))
-    lines = {(line.quantity, line.order): line for line in compare([slow, fast], ["slow", "fast"]).lines}
+    lines = {
+        (line.quantity, line.order): line for line in compare([slow, fast], ["slow", "fast"]).lines
+    }
     assert lines["force", 2].ratios == pytest.approx((1, 4))
     assert lines["force", None].ratios == pytest.approx((1, 4))
     assert lines["force", 1].values == (0, 0)
@@ -22,8 +25,18 @@ def test_force_of_order_2_goes_with_the_square_of_the_speed() -> None:
 
 
 def test_orders_of_every_engine_are_shown() -> None:
-    six = build(parse(changed(("[0, 180, 180, 0]", "[0, 120, 240, 240, 120, 0]"), ("firing_order = [1, 3, 4, 2]", ""))))
-    lines = {(line.quantity, line.order): line for line in compare([build(parse(GOOD)), six], ["4", "6"], only=["force"]).lines}
+    six = build(
+        parse(
+            changed(
+                ("[0, 180, 180, 0]", "[0, 120, 240, 240, 120, 0]"),
+                ("firing_order = [1, 3, 4, 2]", ""),
+            )
+        )
+    )
+    lines = {
+        (line.quantity, line.order): line
+        for line in compare([build(parse(GOOD)), six], ["4", "6"], only=["force"]).lines
+    }
     assert {order for _, order in lines} >= {1, 2, 4, 6}
     assert lines["force", 6].values[1] > 0
     assert {quantity for quantity, _ in lines} == {"force"}

@@ -1,4 +1,5 @@
 """Knuckle angles that make strokes or dead centres even."""
+
 from __future__ import annotations
 
 import json
@@ -9,8 +10,8 @@ import pytest
 from engine.test_articulation import RADIAL
 from typer.testing import CliRunner
 
-from balcli.engine import load as enginefile
 from balcli.cli import app
+from balcli.engine import load as enginefile
 from balcli.errors import BalcliError
 from balcli.results.knuckles import even_knuckles
 
@@ -43,15 +44,21 @@ def test_two_rows_are_set_by_the_first():
 
 
 def test_where_the_knuckle_pin_goes_for_an_even_dead_centre():
-    """On the cylinder's axis when the crank pin is: turned on by the master rod's lean there, arcsin(lambda sin Delta)."""
+    """On the cylinder's axis when the crank pin is: turned on by the master rod's lean there,
+    arcsin(lambda sin Delta).
+    """
     angles = even_knuckles(enginefile.parse(RADIAL)).angles_deg
     for bank in range(1, 7):
         apart = 2 * np.pi * bank / 7
-        assert angles[bank] == pytest.approx(np.degrees(apart + np.arcsin(60 / 240 * np.sin(apart))), abs=1e-9)
+        assert angles[bank] == pytest.approx(
+            np.degrees(apart + np.arcsin(60 / 240 * np.sin(apart))), abs=1e-9
+        )
 
 
 def test_a_bank_that_no_angle_makes_even():
-    """Opposite the master, turning the knuckle pin hardly changes the stroke, and this offset has added too much to it."""
+    """Opposite the master, turning the knuckle pin hardly changes the stroke, and this offset has
+    added too much to it.
+    """
     text = RADIAL.replace("radial = 7", "banks = [0, 180]") + "[cylinder.2]\npiston_offset = 60\n"
     found = even_knuckles(enginefile.parse(text), "strokes")
     assert found.reasons[1:] == ("no angle makes bank 2 even: the knuckle pin stays where it is",)
@@ -60,8 +67,12 @@ def test_a_bank_that_no_angle_makes_even():
 
 def test_an_engine_without_articulated_rods():
     with pytest.raises(BalcliError) as caught:
-        even_knuckles(enginefile.parse(RADIAL[:RADIAL.index("[articulation]")]))
-    assert str(caught.value) == "knuckles: this engine has no articulated rods; an engine file says so with [articulation]"
+        even_knuckles(enginefile.parse(RADIAL[: RADIAL.index("[articulation]")]))
+    assert (
+        str(caught.value)
+        == "knuckles: this engine has no articulated rods; an engine file says so with "
+        "[articulation]"
+    )
 
 
 # ------------------------------------------------------------------ the command
@@ -69,10 +80,14 @@ def run(*arguments):
     return CliRunner().invoke(app, ["balance", *map(str, arguments), "--scheme", "knuckles"])
 
 
-@pytest.mark.parametrize("older", ["", "knuckle_angles = [0, 50, 100, 150, 200, 250, 300]  # measured\n"])
+@pytest.mark.parametrize(
+    "older", ["", "knuckle_angles = [0, 50, 100, 150, 200, 250, 300]  # measured\n"]
+)
 def test_what_is_written_reads_back_as_it_was_analysed(tmp_path, older):
     file, out = tmp_path / "radial.toml", tmp_path / "even.toml"
-    file.write_text("# a comment\n" + RADIAL.replace("[articulation]\n", f"[articulation] # seven\n{older}"))
+    file.write_text(
+        "# a comment\n" + RADIAL.replace("[articulation]\n", f"[articulation] # seven\n{older}")
+    )
     document = json.loads(run(file, "--write", out, "--format", "json").stdout)
     assert document["scheme"] == "knuckles"
     assert document["counterweights"] == []
@@ -100,13 +115,16 @@ def test_for_people(tmp_path):
     even = run(file).stdout
     assert re.search(r"(?m)^knuckle angles  0\.0, .* deg$", even)
     assert re.search(r"(?m)^stroke least    120 mm$", even)
-    assert re.search(r"(?m)^top least       0\.000 deg$", even)                # and no rounding noise
+    assert re.search(r"(?m)^top least       0\.000 deg$", even)  # and no rounding noise
 
 
-@pytest.mark.parametrize(("options", "message"), [
-    (["--even", "colours"], '--even "colours": choose from dead-centres, strokes'),
-    (["--order", "2"], "scheme knuckles: has no option but --even"),
-])
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--even", "colours"], '--even "colours": choose from dead-centres, strokes'),
+        (["--order", "2"], "scheme knuckles: has no option but --even"),
+    ],
+)
 def test_mistakes(tmp_path, options, message):
     file = tmp_path / "radial.toml"
     file.write_text(RADIAL)
@@ -117,4 +135,7 @@ def test_even_without_the_scheme(tmp_path):
     file = tmp_path / "radial.toml"
     file.write_text(RADIAL)
     result = CliRunner().invoke(app, ["balance", str(file), "--even", "strokes"])
-    assert str(result.exception) == "--even belongs to --scheme knuckles; scheme auto has no such option"
+    assert (
+        str(result.exception)
+        == "--even belongs to --scheme knuckles; scheme auto has no such option"
+    )

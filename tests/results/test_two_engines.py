@@ -1,4 +1,7 @@
-"""Two engines on one frame: the sum is what one file with all their cylinders gives, or what mirroring curves gives."""
+"""Two engines on one frame: the sum is what one file with all their cylinders gives, or what
+mirroring curves gives.
+"""
+
 from __future__ import annotations
 
 import json
@@ -9,9 +12,10 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from balcli.engine import build as engine, load as enginefile
-from balcli.forces import spectrum
 from balcli.cli import app
+from balcli.engine import build as engine
+from balcli.engine import load as enginefile
+from balcli.forces import spectrum
 from balcli.results.two_engines import Arrangement, combine
 
 ORDERS = np.arange(1.0, 9.0)
@@ -33,7 +37,13 @@ RIPPLE = "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }]"
 
 
 def built(crank="", more="", operation=""):
-    return engine.build(enginefile.parse(f"[crank]\nstroke = 90\nthrow_mass = 0.8\n{crank}\n" + PARTS.format(operation=operation) + more))
+    return engine.build(
+        enginefile.parse(
+            f"[crank]\nstroke = 90\nthrow_mass = 0.8\n{crank}\n"
+            + PARTS.format(operation=operation)
+            + more
+        )
+    )
 
 
 def agree(found, wanted):
@@ -47,20 +57,29 @@ def agree(found, wanted):
 def test_two_singles_behind_one_another_are_a_twin(operation):
     """Pin 2 leads by 110 degrees, so that the second engine's crank angle does."""
     orders = np.arange(0.0, 9.0) if operation else ORDERS
-    twin = built("throws = [0, 110]\npositions = [0, 130]", "[frame]\nreference = [10, -20, 30]\n", operation)
+    twin = built(
+        "throws = [0, 110]\npositions = [0, 130]", "[frame]\nreference = [10, -20, 30]\n", operation
+    )
     single, plain = built(more="[frame]\nreference = [10, -20, 30]\n", operation=operation), built()
-    agree(combine(single, plain, Arrangement(110, (0, 0, 0.13)), orders).spectra, spectrum.spectra(twin, orders))
+    agree(
+        combine(single, plain, Arrangement(110, (0, 0, 0.13)), orders).spectra,
+        spectrum.spectra(twin, orders),
+    )
 
 
 def test_two_singles_on_one_pin_are_a_vee():
     """Turned on by 70 degrees the second cylinder is reached by the pin 70 degrees later."""
-    single = engine.build(enginefile.parse("[crank]\nstroke = 90\nthrow_mass = 0.4\n" + PARTS.format(operation="")))
+    single = engine.build(
+        enginefile.parse("[crank]\nstroke = 90\nthrow_mass = 0.4\n" + PARTS.format(operation=""))
+    )
     found = combine(single, single, Arrangement(-70, turn_deg=70), ORDERS).spectra
     agree(found, spectrum.spectra(built(more="[layout]\nbanks = [0, 70]\n"), ORDERS))
 
 
 def test_counter_rotating_cranks_side_by_side():
-    """Two equal singles with counterweights: nothing is left across their axes, and the forces along them add up."""
+    """Two equal singles with counterweights: nothing is left across their axes, and the forces
+    along them add up.
+    """
     one = built(more="[[counterweight]]\nunbalance = 70000\nangle = 180\n")
     both = combine(one, one, Arrangement(at_m=(0, 0.2, 0), reverse=True), ORDERS)
     assert np.allclose(both.spectra.force.y, 0, atol=1e-9)
@@ -69,8 +88,13 @@ def test_counter_rotating_cranks_side_by_side():
 
 
 def test_mirrored_turned_and_placed_against_curves():
-    """The second engine's curves, mirrored in y, turned by 35 degrees and moved, taken at its own crank angle."""
-    first, second = built(), built("throws = [0, 90]\nspacing = 110", "[layout]\nbank_angle = 50\nstagger = 20\n")
+    """The second engine's curves, mirrored in y, turned by 35 degrees and moved, taken at its own
+    crank angle.
+    """
+    first, second = (
+        built(),
+        built("throws = [0, 90]\nspacing = 110", "[layout]\nbank_angle = 50\nstagger = 20\n"),
+    )
     how = Arrangement(75, (0.2, -0.3, 0.4), 35, True)
     orders = np.arange(1.0, 40.0)
     both = combine(first, second, how, orders).spectra
@@ -82,9 +106,16 @@ def test_mirrored_turned_and_placed_against_curves():
     z = 0.4 - first.reference_m[2]
     moment = -np.conj(origin.moment.values(ahead)) * turn + 1j * z * force
     couple = -origin.couple.values(ahead) + (np.conj(0.2 - 0.3j) * force).imag
-    for name, curve in (("force", force), ("moment", moment), ("couple", couple), ("torque", -origin.torque.values(ahead))):
+    for name, curve in (
+        ("force", force),
+        ("moment", moment),
+        ("couple", couple),
+        ("torque", -origin.torque.values(ahead)),
+    ):
         wanted = curve + getattr(own, name).values(theta)
-        assert np.abs(getattr(both, name).values(theta) - wanted).max() < 1e-11 * np.abs(wanted).max(), name
+        assert (
+            np.abs(getattr(both, name).values(theta) - wanted).max() < 1e-11 * np.abs(wanted).max()
+        ), name
     assert np.allclose(both.roll.forward, both.couple.forward - both.torque.forward)
 
 
@@ -92,7 +123,9 @@ def test_mirrored_turned_and_placed_against_curves():
 @pytest.fixture
 def file(tmp_path):
     path = tmp_path / "single.toml"
-    path.write_text("name = \"single\"\n[crank]\nstroke = 90\nthrow_mass = 0.8\n" + PARTS.format(operation=""))
+    path.write_text(
+        'name = "single"\n[crank]\nstroke = 90\nthrow_mass = 0.8\n' + PARTS.format(operation="")
+    )
     return str(path)
 
 
@@ -101,9 +134,18 @@ def run(*arguments):
 
 
 def test_json(file):
-    document = json.loads(run(file, file, "--phase", "180", "--at", "0,0,100", "--orders", "1,2", "--format", "json").stdout)
+    document = json.loads(
+        run(
+            file, file, "--phase", "180", "--at", "0,0,100", "--orders", "1,2", "--format", "json"
+        ).stdout
+    )
     assert document["format"] == "balcli.sum/1"
-    assert document["arrangement"] == {"phase_deg": 180.0, "at_mm": [0.0, 0.0, 100.0], "turn_deg": 0.0, "reverse": False}
+    assert document["arrangement"] == {
+        "phase_deg": 180.0,
+        "at_mm": [0.0, 0.0, 100.0],
+        "turn_deg": 0.0,
+        "reverse": False,
+    }
     assert [entry["order"] for entry in document["orders"]] == [1, 2]
     assert document["orders"][0]["force_N"]["balanced"]
     assert not document["orders"][0]["moment_Nm"]["balanced"]
@@ -119,16 +161,24 @@ def test_other_formats(file, form):
 def test_engines_without_a_name_go_by_their_files(file, tmp_path):
     nameless = tmp_path / "twin.toml"
     nameless.write_text(Path(file).read_text().replace('name = "single"', ""))
-    assert run(file, str(nameless)).stdout.startswith("single and twin\n\nfirst      single, 1 cylinder\n")
-    assert [e["name"] for e in json.loads(run(str(nameless), file, "--format", "json").stdout)["engines"]] == ["twin", "single"]
+    assert run(file, str(nameless)).stdout.startswith(
+        "single and twin\n\nfirst      single, 1 cylinder\n"
+    )
+    assert [
+        e["name"]
+        for e in json.loads(run(str(nameless), file, "--format", "json").stdout)["engines"]
+    ] == ["twin", "single"]
 
 
-@pytest.mark.parametrize(("options", "message"), [
-    (["--at", "0,1"], '--at "0,1": give three numbers, X,Y,Z in mm, such as 0,300,0'),
-    (["--at", "0,nan,1"], '--at "0,nan,1": give three numbers, X,Y,Z in mm, such as 0,300,0'),
-    (["--at", "0,2e9,1"], '--at "0,2e9,1": the places may be up to 1e+06 m'),
-    (["--phase", "inf"], "--phase inf: give an angle in degrees, up to 1e+06"),
-])
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--at", "0,1"], '--at "0,1": give three numbers, X,Y,Z in mm, such as 0,300,0'),
+        (["--at", "0,nan,1"], '--at "0,nan,1": give three numbers, X,Y,Z in mm, such as 0,300,0'),
+        (["--at", "0,2e9,1"], '--at "0,2e9,1": the places may be up to 1e+06 m'),
+        (["--phase", "inf"], "--phase inf: give an angle in degrees, up to 1e+06"),
+    ],
+)
 def test_mistakes(file, options, message):
     result = run(file, file, *options)
     assert str(result.exception) == message

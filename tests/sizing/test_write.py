@@ -1,4 +1,5 @@
 """Writing remedies: the original text stays, and what is read back is what was analysed."""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -6,23 +7,33 @@ from pathlib import Path
 import pytest
 from support.engines import GOOD, changed
 
-from balcli.results.analysis import analyze
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.sizing.write import fit
+from balcli.results.analysis import analyze
 from balcli.sizing.sizing import SCHEMES, Remedy, Wish, fitted, remedy_for
+from balcli.sizing.write import fit
 
-SINGLE = changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4"))
+SINGLE = changed(
+    ("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4")
+)
 
 
 def figures(engine):
     found = analyze(engine, range(1, 13), ["force", "moment", "couple", "torque", "roll", "peak"])
-    return [(p.forward.tolist(), p.backward.tolist()) for _, p in found.spectra.items()], found.force, found.moment
+    return (
+        [(p.forward.tolist(), p.backward.tolist()) for _, p in found.spectra.items()],
+        found.force,
+        found.moment,
+    )
 
 
 @pytest.mark.parametrize("scheme", sorted(set(SCHEMES) - {"eccentric-slider", "oldham"}))
-@pytest.mark.parametrize("path", sorted((Path(__file__).parents[2] / "engines").glob("*.toml"))[::4], ids=lambda p: p.stem)
+@pytest.mark.parametrize(
+    "path",
+    sorted((Path(__file__).parents[2] / "engines").glob("*.toml"))[::4],
+    ids=lambda p: p.stem,
+)
 def test_every_written_engine_reads_back_to_exactly_what_was_promised(path, scheme):
     text = path.read_bytes()
     engine = build(parse(text))
@@ -32,23 +43,31 @@ def test_every_written_engine_reads_back_to_exactly_what_was_promised(path, sche
 
 @pytest.mark.parametrize("scheme", ["auto", "minimax", "two-shaft", "slider", "factor"])
 def test_devices_of_the_file_stay(scheme):
-    own = ("[[shaft]]\nratio = 1\nunbalance = 700\nangle = 33\n"
-           '[[slider]]\norder = 2\nunbalance = "3 kg*mm"\ndirection = 20\n'
-           "[[counterweight]]\nmass = 0.3\nradius = 50\n")
+    own = (
+        "[[shaft]]\nratio = 1\nunbalance = 700\nangle = 33\n"
+        '[[slider]]\norder = 2\nunbalance = "3 kg*mm"\ndirection = 20\n'
+        "[[counterweight]]\nmass = 0.3\nradius = 50\n"
+    )
     engine = build(parse(SINGLE + own))
     remedy = remedy_for(engine, scheme)
-    assert figures(build(parse(fit((SINGLE + own).encode(), remedy)))) == figures(fitted(engine, remedy))
+    assert figures(build(parse(fit((SINGLE + own).encode(), remedy)))) == figures(
+        fitted(engine, remedy)
+    )
 
 
 def test_the_text_stays_and_reasons_stand_beside_the_devices():
     text = GOOD.rstrip("\n") + " # the last comment"
     remedy = remedy_for(build(parse(text)), "auto")
     new = fit(text.encode(), remedy)
-    assert new.startswith(text + "\n\n# fitted by balcli, scheme auto\n# Order 2 force turning with the crank: ")
+    assert new.startswith(
+        text + "\n\n# fitted by balcli, scheme auto\n# Order 2 force turning with the crank: "
+    )
     assert new.count("[[shaft]]") == 2
 
 
-@pytest.mark.parametrize("dressed", [lambda t: "\ufeff" + t, lambda t: t.replace("\n", "\r\n"), lambda t: t.rstrip("\n")])
+@pytest.mark.parametrize(
+    "dressed", [lambda t: "\ufeff" + t, lambda t: t.replace("\n", "\r\n"), lambda t: t.rstrip("\n")]
+)
 def test_marks_and_line_ends(dressed):
     text = dressed(SINGLE).encode()
     engine = build(parse(text))
@@ -72,5 +91,7 @@ def test_nothing_to_fit_leaves_the_text():
 @pytest.mark.parametrize("scheme", ["eccentric-slider", "oldham"])
 def test_what_no_file_can_describe_is_not_written(scheme):
     remedy = remedy_for(build(parse(SINGLE)), scheme, Wish())
-    with pytest.raises(BalcliError, match=f"scheme {scheme}: no engine file can describe its devices"):
+    with pytest.raises(
+        BalcliError, match=f"scheme {scheme}: no engine file can describe its devices"
+    ):
         fit(SINGLE.encode(), remedy)

@@ -1,7 +1,9 @@
-"""Numerical extremes of the mechanisms and of what engines make of them, against mpmath and the momentum of every part.
+"""Numerical extremes of the mechanisms and of what engines make of them, against mpmath and the
+momentum of every part.
 
 Each test holds a bound of `BOUNDS`, as `docs/accuracy.md` prints them.
 """
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -13,22 +15,30 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.engines import engine
 
-from balcli.results.analysis import analyze
 from balcli.core.mechanisms import harmonics
 from balcli.core.mechanisms.harmonics import EPS
 from balcli.core.peaks import peak
 from balcli.engine.build import Engine
 from balcli.errors import InputError
 from balcli.forces.spectrum import Spectra, relevant_orders, spectra
+from balcli.results.analysis import analyze
 
-BOUNDS = {                          # by row of docs/accuracy.md; roundings, or relative errors
-    "closed forms": 2e-15, "closed forms, near the lock": 2e-14, "offset pistons": 16, "articulated rods": 16, "throws 1e-9° off": 24,
-    "whole turns": 0, "planes 1e-9 mm apart": 1e-12, "scale": 16, "many cylinders": 8, "order of cylinders in the file": 8,
+BOUNDS = {  # by row of docs/accuracy.md; roundings, or relative errors
+    "closed forms": 2e-15,
+    "closed forms, near the lock": 2e-14,
+    "offset pistons": 16,
+    "articulated rods": 16,
+    "throws 1e-9° off": 24,
+    "whole turns": 0,
+    "planes 1e-9 mm apart": 1e-12,
+    "scale": 16,
+    "many cylinders": 8,
+    "order of cylinders in the file": 8,
 }
 LAMBDAS = [1e-12, 1e-9, 1e-6, 1e-3, 0.1, 0.28, 0.5, 0.75, 0.9, 0.99, 1 - 1e-5, 1 - 1e-6]
 HIGH = [255, 256, 4095, 4096]
-SMALLEST = 1e-290                   # below which a float has not all its digits
-NEAREST = 1 - 1e-6                  # of lambda + |eps|
+SMALLEST = 1e-290  # below which a float has not all its digits
+NEAREST = 1 - 1e-6  # of lambda + |eps|
 PAGE = Path(__file__).parents[2] / "docs" / "accuracy.md"
 REVOLVING = 0.05 * (2 * np.pi) ** 2  # m r omega^2 of `kit.engine`: 1 kg, 50 mm, 60 rpm
 
@@ -41,7 +51,9 @@ def _digits():
 
 # ------------------------------------------------------------------ centred mechanisms
 def exact(name: str, n: int, lam: float) -> mp.mpf:
-    """A_n, D_n, K_n, B_n by Gauss's functions (docs/theory.md), with 50 digits: D as the book's sum, which cancels, and no ladder."""
+    """A_n, D_n, K_n, B_n by Gauss's functions (docs/theory.md), with 50 digits: D as the book's
+    sum, which cancels, and no ladder.
+    """
     ratio = mp.mpf(lam)
     w = mp.sqrt(1 - ratio**2)
     q = (ratio / (1 + w)) ** 2
@@ -51,12 +63,15 @@ def exact(name: str, n: int, lam: float) -> mp.mpf:
 
     def over_order(m: int) -> mp.mpf:
         return m * (1 + w) * binomial(mp.mpf("0.5"), m // 2) / ratio
+
     square = (2 * w / (1 + w) ** 2 * (-1) ** (n // 2 - 1) * q ** (n // 2 - 1)) if n else 1 / (1 + w)
     below, above = (binomial(mp.mpf("-0.5"), (n - 1) // 2 + k) for k in (0, 1))
-    return {"piston": lambda: n * over_order(n) if n % 2 == 0 else mp.mpf(n == 1),
-            "rod": lambda: n * ratio * 2 / (1 + w) * (below + above) if n % 2 else mp.mpf(0),
-            "kinetic": lambda: over_order(n + 1) - over_order(n - 1) if n % 2 else square - (n == 2),
-            "rod_kinetic": lambda: ratio**2 * square if n % 2 == 0 else mp.mpf(0)}[name]()
+    return {
+        "piston": lambda: n * over_order(n) if n % 2 == 0 else mp.mpf(n == 1),
+        "rod": lambda: n * ratio * 2 / (1 + w) * (below + above) if n % 2 else mp.mpf(0),
+        "kinetic": lambda: over_order(n + 1) - over_order(n - 1) if n % 2 else square - (n == 2),
+        "rod_kinetic": lambda: ratio**2 * square if n % 2 == 0 else mp.mpf(0),
+    }[name]()
 
 
 def error(name: str, orders: list[int], lam: float) -> float:
@@ -75,45 +90,81 @@ def error(name: str, orders: list[int], lam: float) -> float:
 @pytest.mark.parametrize("name", ["piston", "rod", "kinetic", "rod_kinetic"])
 def test_closed_forms_are_good_to_their_last_digits(name, lam):
     orders = [1, 2, 3, 4, 5, 8, 17, 30, 63, 64, *HIGH]
-    assert error(name, sorted(orders), lam) < BOUNDS["closed forms" if lam <= 0.99 else "closed forms, near the lock"]
+    assert (
+        error(name, sorted(orders), lam)
+        < BOUNDS["closed forms" if lam <= 0.99 else "closed forms, near the lock"]
+    )
 
 
 @given(st.floats(-12, -0.3), st.sampled_from(["lambda", "rest"]), st.integers(2, 64))
 def test_closed_forms_at_any_lambda(exponent, which, n):
     """lambda = 10^-x, or 1 - 10^-x down to 1 - 1e-6."""
     lam = 10**exponent if which == "lambda" else 1 - 10 ** (exponent / 2)
-    assert error("piston" if n % 2 == 0 else "rod", [n], lam) < BOUNDS["closed forms, near the lock"]
+    assert (
+        error("piston" if n % 2 == 0 else "rod", [n], lam) < BOUNDS["closed forms, near the lock"]
+    )
 
 
-# ------------------------------------------------------------------ offset and articulated mechanisms
+# ------------------------------------------------------------------ offset and articulated
+# mechanisms
 def revolution(motion, count: int, orders: list[int]) -> list[list[mp.mpc]]:
-    """Coefficients of `Re c_n e^{i n psi}` of each curve, from as many samples as the product takes."""
+    """Coefficients of `Re c_n e^{i n psi}` of each curve, from as many samples as the product
+    takes.
+    """
     turn = [mp.expjpi(mp.mpf(2 * k) / count) for k in range(count)]
     curves = list(zip(*(motion(e) for e in turn), strict=True))
-    return [[(1 if n == 0 else 2) * mp.fsum(v * turn[-n * k % count] for k, v in enumerate(values)) / count for n in orders]
-            for values in curves]
+    return [
+        [
+            (1 if n == 0 else 2)
+            * mp.fsum(v * turn[-n * k % count] for k, v in enumerate(values))
+            / count
+            for n in orders
+        ]
+        for values in curves
+    ]
 
 
 def share_of_bound(series: harmonics.Series, row: int, want: list[mp.mpc]) -> float:
     """Largest error as a share of the bound that the product states, which is 16 roundings."""
     assert harmonics.SAMPLING == BOUNDS["offset pistons"] * EPS == BOUNDS["articulated rods"] * EPS
-    errors = [float(abs(mp.mpmathify(complex(got)) - exact)) for got, exact in zip(series.c[:, row], want, strict=True)]
+    errors = [
+        float(abs(mp.mpmathify(complex(got)) - exact))
+        for got, exact in zip(series.c[:, row], want, strict=True)
+    ]
     return max(errors) / float(np.ravel(series.noise)[row])
 
 
-NEAR_LOCK = [(0.28, 0.01), (0.7, 0.29), (0.3, 0.69), (0.3, -0.699), (1e-3, 0.998), (1e-6, 1 - 3e-6), (1e-9, 1 - 1e-6 - 1e-9),
-             (1e-12, 0.5), (1e-3, 1 - 1e-3 - 1e-6), (0.05, 0.9499)]
+NEAR_LOCK = [
+    (0.28, 0.01),
+    (0.7, 0.29),
+    (0.3, 0.69),
+    (0.3, -0.699),
+    (1e-3, 0.998),
+    (1e-6, 1 - 3e-6),
+    (1e-9, 1 - 1e-6 - 1e-9),
+    (1e-12, 0.5),
+    (1e-3, 1 - 1e-3 - 1e-6),
+    (0.05, 0.9499),
+]
 
 
 @pytest.mark.parametrize(("lam", "eps"), NEAR_LOCK)
 def test_offset_mechanisms_keep_the_bound_they_state(lam, eps):
-    """lambda + |eps| to 1 - 1e-6: 16 roundings of the root mean square of the curve, of which half is never reached."""
+    """lambda + |eps| to 1 - 1e-6: 16 roundings of the root mean square of the curve, of which half
+    is never reached.
+    """
+
     def motion(e):
         sine = ratio * e.imag - offset
         cosine = mp.sqrt(1 - sine**2)
         rate, tangent = ratio * e.real / cosine, sine / cosine
-        return (e.real - e.imag * tangent + ratio * e.real**2 / cosine**3, ratio * e.imag / cosine - rate**2 * tangent,
-                (e.imag + e.real * tangent) ** 2, rate**2)
+        return (
+            e.real - e.imag * tangent + ratio * e.real**2 / cosine**3,
+            ratio * e.imag / cosine - rate**2 * tangent,
+            (e.imag + e.real * tangent) ** 2,
+            rate**2,
+        )
+
     ratio, offset = mp.mpf(lam), mp.mpf(eps)
     count = harmonics.points(lam, eps)
     orders = [n for n in (0, 1, 2, 3, 7, 24) if n < count // 4]
@@ -125,24 +176,38 @@ def test_offset_mechanisms_keep_the_bound_they_state(lam, eps):
 
 
 def test_near_its_lock_an_offset_engine_without_a_resultant_is_exactly_balanced():
-    """Three throws at 120 degrees: only orders 3, 6, 9 .. are left, exactly, at lambda + eps = 1 - 1.1e-6."""
+    """Three throws at 120 degrees: only orders 3, 6, 9 .. are left, exactly, at lambda + eps = 1 -
+    1.1e-6.
+    """
     found = three(rod={"ratio": 0.3}, piston={"mass": 1, "offset": 50 / 0.3 * (1 - 1.1e-6 - 0.3)})
     assert list(found.orders[~found.force.balanced]) == list(range(3, 65, 3))
 
 
-DEAD = 42.869366513132036           # mm, farthest that the knuckle pin of `vee` comes beside the second cylinder's axis
+# mm, farthest that the knuckle pin of `vee` comes beside the second cylinder's axis
+DEAD = 42.869366513132036
 
 
 def vee(short: float, master: int = 1) -> Engine:
-    """A V twin whose articulated rod comes this close to dead lock: its angle's sine reaches 1 - short, or short - 1 where the
-    second cylinder has the master rod."""
-    return engine(crank={"stroke": 100}, rod={"length": 180, "mass": 1, "cg": 50}, layout={"banks": [-22.5, 22.5]},
-                  articulation={"master": master, "knuckle_radius": 40, "rod": {"length": DEAD / (1 - short), "mass": 0.8, "cg": 40}})
+    """A V twin whose articulated rod comes this close to dead lock: its angle's sine reaches 1 -
+    short, or short - 1 where the second cylinder has the master rod.
+    """
+    return engine(
+        crank={"stroke": 100},
+        rod={"length": 180, "mass": 1, "cg": 50},
+        layout={"banks": [-22.5, 22.5]},
+        articulation={
+            "master": master,
+            "knuckle_radius": 40,
+            "rod": {"length": DEAD / (1 - short), "mass": 0.8, "cg": 40},
+        },
+    )
 
 
 @pytest.mark.parametrize(("short", "master"), [(0.5, 1), (1e-2, 1), (1e-2, 2), (1e-3, 1)])
 def test_articulated_rods_near_dead_lock_keep_the_bound_they_state(short, master):
-    """16 roundings of the root mean square of the curve, and of its mean by 1/(1 - |sin|) of the rod's angle."""
+    """16 roundings of the root mean square of the curve, and of its mean by 1/(1 - |sin|) of the
+    rod's angle.
+    """
     c = vee(short, master).cylinders
     row = 1 - int(c.linkage.master[0])
     ratio, chief = (mp.mpf(float(np.broadcast_to(c.lam, 2)[k])) for k in (row, 1 - row))
@@ -160,7 +225,10 @@ def test_articulated_rods_near_dead_lock_keep_the_bound_they_state(short, master
         s = ratio * k.imag
         cos = mp.sqrt(1 - s**2)
         spin = ratio * k1.imag / cos
-        return -(k2.real - s / cos * k2.imag - spin * k1.imag / cos**2), -(ratio * k2.imag / cos + spin**2 * s / cos)
+        return -(k2.real - s / cos * k2.imag - spin * k1.imag / cos**2), -(
+            ratio * k2.imag / cos + spin**2 * s / cos
+        )
+
     orders = [0, 1, 2, 3, 7]
     with mp.workdps(30):
         want = revolution(motion, 2 * c.linkage.highest(c.lam, c.eps), orders)
@@ -183,7 +251,9 @@ def test_the_mirror_image_of_an_articulated_rod_has_the_same_bound():
 
 def test_an_articulated_rod_nearer_to_dead_lock_is_refused_with_the_number():
     assert len(relevant_orders(vee(2e-6))) == 1 << 15
-    with pytest.raises(InputError, match=r"stands 0\.9999995\d* rod lengths beside .*at most 1 - 1e-06 is allowed"):
+    with pytest.raises(
+        InputError, match=r"stands 0\.9999995\d* rod lengths beside .*at most 1 - 1e-06 is allowed"
+    ):
         vee(5e-7)
 
 
@@ -192,26 +262,69 @@ def short(number: int) -> float:
     return 1e-6 * (1.1 + number / 1000)
 
 
-@pytest.mark.parametrize(("kind", "parts", "different", "samples"), [
-    ("centred", {"rod": {"ratio": 0.9}, "cylinder": {str(n): {"rod_ratio": 1 - short(n)} for n in range(1, 65)}}, 64, 64 << 16),
-    ("offset", {"rod": {"ratio": 0.3}, "cylinder": {str(n): {"piston_offset": 50 / 0.3 * (0.7 - short(n))} for n in range(1, 65)}},
-     64, 64 << 15),
-    ("articulated", {"rod": {"length": 180}, "layout": {"banks": [-22.5, 22.5]},
-                     "articulation": {"master": 1, "knuckle_radius": 40, "rod": {"length": 80}},
-                     "cylinder": {str(n): {"rod_length": DEAD / (1 - short(n))} for n in range(65, 129)}}, 65, 65 << 16)])
-def test_too_many_different_mechanisms_near_their_lock_are_refused_with_the_number(kind, parts, different, samples):
-    """Each takes milliseconds, and megabytes where rods are articulated; equal ones are computed once."""
+@pytest.mark.parametrize(
+    ("kind", "parts", "different", "samples"),
+    [
+        (
+            "centred",
+            {
+                "rod": {"ratio": 0.9},
+                "cylinder": {str(n): {"rod_ratio": 1 - short(n)} for n in range(1, 65)},
+            },
+            64,
+            64 << 16,
+        ),
+        (
+            "offset",
+            {
+                "rod": {"ratio": 0.3},
+                "cylinder": {
+                    str(n): {"piston_offset": 50 / 0.3 * (0.7 - short(n))} for n in range(1, 65)
+                },
+            },
+            64,
+            64 << 15,
+        ),
+        (
+            "articulated",
+            {
+                "rod": {"length": 180},
+                "layout": {"banks": [-22.5, 22.5]},
+                "articulation": {"master": 1, "knuckle_radius": 40, "rod": {"length": 80}},
+                "cylinder": {str(n): {"rod_length": DEAD / (1 - short(n))} for n in range(65, 129)},
+            },
+            65,
+            65 << 16,
+        ),
+    ],
+)
+def test_too_many_different_mechanisms_near_their_lock_are_refused_with_the_number(
+    kind, parts, different, samples
+):
+    """Each takes milliseconds, and megabytes where rods are articulated; equal ones are computed
+    once.
+    """
     with pytest.raises(InputError) as caught:
         engine(crank={"stroke": 100, "throws": [0] * 64}, **parts)
     assert str(caught.value).startswith(
-        f"engine: cylinder: the cylinders have {different} different mechanisms, some so near their lock that all of them need {samples} "
-        "samples of a revolution; at most 524288 are taken: "), caught.value
+        f"engine: cylinder: the cylinders have {different} different mechanisms, some so near "
+        f"their lock that all of them need {samples} "
+        "samples of a revolution; at most 524288 are taken: "
+    ), caught.value
 
 
-@pytest.mark.parametrize(("ratio", "offset", "number"), [
-    (1 - 9e-7, 0.0, "0.9999991"), (0.3, 50 / 0.3 * (0.7 - 9e-7), "0.9999991"), (0.3, -50 / 0.3 * 0.7, "1")])
+@pytest.mark.parametrize(
+    ("ratio", "offset", "number"),
+    [
+        (1 - 9e-7, 0.0, "0.9999991"),
+        (0.3, 50 / 0.3 * (0.7 - 9e-7), "0.9999991"),
+        (0.3, -50 / 0.3 * 0.7, "1"),
+    ],
+)
 def test_nearer_to_the_lock_is_an_error_with_the_number(ratio, offset, number):
-    with pytest.raises(InputError, match=rf"the crank cannot turn: .* = {number}; at most 1 - 1e-06 is allowed"):
+    with pytest.raises(
+        InputError, match=rf"the crank cannot turn: .* = {number}; at most 1 - 1e-06 is allowed"
+    ):
         engine(rod={"ratio": ratio}, piston={"mass": 1, "offset": offset})
 
 
@@ -224,19 +337,30 @@ def three(**parts) -> Spectra:
 
 @pytest.mark.parametrize("off", [1e-9, -1e-9, 1e-7, 1e-3])
 def test_throws_that_almost_cancel(off):
-    """x off in one throw: a force of x in order 1 and 2 A_2 x in order 2, as the file's rounding to 1.4e-14 degrees lets it be."""
+    """x off in one throw: a force of x in order 1 and 2 A_2 x in order 2, as the file's rounding to
+    1.4e-14 degrees lets it be.
+    """
     found = three(crank={"throws": [0, 120 + off, 240]})
-    true = np.radians((120 + off) - 120)                                    # exact, of the number that is in the file
+    true = np.radians((120 + off) - 120)  # exact, of the number that is in the file
     a = harmonics.piston([1, 2, 4], 0.25)
     for n, share in zip((1, 2, 4), a, strict=True):
         want = REVOLVING * abs(share) * 2 * abs(np.sin(n * true / 2))
-        assert abs(found.force.major[n - 1] - want) <= BOUNDS["throws 1e-9° off"] * EPS * REVOLVING * abs(share)
+        assert abs(found.force.major[n - 1] - want) <= BOUNDS[
+            "throws 1e-9° off"
+        ] * EPS * REVOLVING * abs(share)
 
 
-@pytest.mark.parametrize("throws", [[0, 120, 240], [0, -240, 240.0], [0, 120 + 360e6, 240 - 360e6], [360e6, -360e6 - 240, 600]])
-@pytest.mark.parametrize("layout", [{}, {"bank_angle": 72}, {"bank_angle": 72 + 720e6}, {"banks": [36, 36 - 360e6]}])
+@pytest.mark.parametrize(
+    "throws",
+    [[0, 120, 240], [0, -240, 240.0], [0, 120 + 360e6, 240 - 360e6], [360e6, -360e6 - 240, 600]],
+)
+@pytest.mark.parametrize(
+    "layout", [{}, {"bank_angle": 72}, {"bank_angle": 72 + 720e6}, {"banks": [36, 36 - 360e6]}]
+)
 def test_whole_turns_and_thirds_cancel_exactly(throws, layout):
-    """A million full turns more or less: forces of the orders 3, 6, 9 .. alone, and these as without the turns."""
+    """A million full turns more or less: forces of the orders 3, 6, 9 .. alone, and these as
+    without the turns.
+    """
     found = three(crank={"throws": throws}, layout=layout)
     left = found.orders % 3 == 0
     assert found.force.balanced[~left].all()
@@ -248,23 +372,39 @@ def test_whole_turns_and_thirds_cancel_exactly(throws, layout):
 def test_banks_and_throws_of_72_degrees_cancel_exactly(count):
     """Five throws at 72 degrees, and two banks of them: orders 5, 10 .. alone."""
     layout = {"bank_angle": 72} if count == 10 else {}
-    found = spectra(engine(crank={"stroke": 100, "throws": [0, 144, 216, 288, 72], "spacing": 90}, layout=layout), np.arange(1.0, 257.0))
+    found = spectra(
+        engine(
+            crank={"stroke": 100, "throws": [0, 144, 216, 288, 72], "spacing": 90}, layout=layout
+        ),
+        np.arange(1.0, 257.0),
+    )
     assert found.force.balanced[found.orders % 5 != 0].all()
     assert not found.force.balanced[9]
 
 
 @pytest.mark.parametrize("apart", [1e-9, 1e-6, 1.0])
 def test_planes_that_almost_coincide(apart):
-    """Two opposed pistons `apart` mm: a couple of m r omega^2 times that, to 1e-12 of it (positions are sums of halves)."""
-    found = spectra(engine(crank={"stroke": 100, "throws": [0, 180], "positions": [0, apart]}), [1, 2])
+    """Two opposed pistons `apart` mm: a couple of m r omega^2 times that, to 1e-12 of it (positions
+    are sums of halves).
+    """
+    found = spectra(
+        engine(crank={"stroke": 100, "throws": [0, 180], "positions": [0, apart]}), [1, 2]
+    )
     assert found.force.balanced[0]
-    assert found.moment.major[0] == pytest.approx(REVOLVING * apart / 1e3, rel=BOUNDS["planes 1e-9 mm apart"])
+    assert found.moment.major[0] == pytest.approx(
+        REVOLVING * apart / 1e3, rel=BOUNDS["planes 1e-9 mm apart"]
+    )
 
 
 def test_planes_that_almost_coincide_far_from_the_point_of_reference():
     """10 m away, 1e-9 mm is below the rounding of the place itself, and nothing is invented."""
-    found = spectra(engine(crank={"stroke": 100, "throws": [0, 180], "positions": [1e4, 1e4 + 1e-12]},
-                           frame={"reference": [0, 0, 0]}), [1])
+    found = spectra(
+        engine(
+            crank={"stroke": 100, "throws": [0, 180], "positions": [1e4, 1e4 + 1e-12]},
+            frame={"reference": [0, 0, 0]},
+        ),
+        [1],
+    )
     assert found.moment.major[0] <= 1e4 / 1e3 * EPS * 8 * REVOLVING
 
 
@@ -273,13 +413,32 @@ def test_planes_that_almost_coincide_far_from_the_point_of_reference():
 @pytest.mark.parametrize("mass", [1e-9, 1.0, 1e9])
 @pytest.mark.parametrize("speed", [1e-3, 1e3, 1e6])
 def test_scale(stroke, mass, speed):
-    """Forces go with m r omega^2, moments with the length too: bores of a um to a km, to 16 roundings."""
+    """Forces go with m r omega^2, moments with the length too: bores of a um to a km, to 16
+    roundings.
+    """
+
     def found(stroke, mass, speed):
-        return analyze(engine(crank={"stroke": stroke, "throws": [0, 90], "spacing": stroke, "throw_mass": mass / 2},
-                              rod={"ratio": 0.3}, piston={"mass": mass, "bore": stroke}, operation={"speed": speed}))
+        return analyze(
+            engine(
+                crank={
+                    "stroke": stroke,
+                    "throws": [0, 90],
+                    "spacing": stroke,
+                    "throw_mass": mass / 2,
+                },
+                rod={"ratio": 0.3},
+                piston={"mass": mass, "bore": stroke},
+                operation={"speed": speed},
+            )
+        )
+
     one, other = found(100, 1, 60), found(stroke, mass, speed)
     size = mass * stroke / 100 * (speed / 60) ** 2
-    for q, by in (("force", size), ("moment", size * stroke / 100), ("torque", size * stroke / 100)):
+    for q, by in (
+        ("force", size),
+        ("moment", size * stroke / 100),
+        ("torque", size * stroke / 100),
+    ):
         p, o = getattr(one.spectra, q), getattr(other.spectra, q)
         assert np.array_equal(p.balanced, o.balanced)
         assert np.abs(o.forward / by - p.forward).max() <= BOUNDS["scale"] * EPS * p.major.max()
@@ -288,8 +447,13 @@ def test_scale(stroke, mass, speed):
 
 
 def test_a_microgram_beside_a_million_tonnes():
-    """1e-9 and 1e9 kg: the small piston is below the rounding of the sum, but not of its own figures."""
-    both = engine(crank={"stroke": 100, "throws": [0, 90]}, cylinder={"1": {"piston_mass": 1e-9}, "2": {"piston_mass": 1e9}})
+    """1e-9 and 1e9 kg: the small piston is below the rounding of the sum, but not of its own
+    figures.
+    """
+    both = engine(
+        crank={"stroke": 100, "throws": [0, 90]},
+        cylinder={"1": {"piston_mass": 1e-9}, "2": {"piston_mass": 1e9}},
+    )
     found = spectra(both, [1, 2, 4])
     a = harmonics.piston([1, 2, 4], 0.25)
     assert found.force.major == pytest.approx(1e9 * REVOLVING * np.abs(a), rel=1e-14)
@@ -299,39 +463,67 @@ def test_a_microgram_beside_a_million_tonnes():
 
 @pytest.mark.parametrize("count", [1, 2, 64, 512])
 def test_many_cylinders(count):
-    """n throws spread evenly: order n is n times that of one cylinder, all below vanish exactly; to 8 n roundings."""
+    """n throws spread evenly: order n is n times that of one cylinder, all below vanish exactly; to
+    8 n roundings.
+    """
     throws = [360 * k / count for k in range(count)]
-    found = spectra(engine(crank={"stroke": 100, "throws": throws}, rod={"ratio": 0.999}), np.arange(1.0, 513.0))
+    found = spectra(
+        engine(crank={"stroke": 100, "throws": throws}, rod={"ratio": 0.999}), np.arange(1.0, 513.0)
+    )
     left = found.orders % count == 0
     assert found.force.balanced[~left].all()
     want = REVOLVING * np.abs(harmonics.piston(found.orders[left], 0.999)) * count
-    assert np.all(np.abs(found.force.major[left] - want) <= BOUNDS["many cylinders"] * count * EPS * want)
+    assert np.all(
+        np.abs(found.force.major[left] - want) <= BOUNDS["many cylinders"] * count * EPS * want
+    )
 
 
 def test_512_cylinders_at_odd_angles():
-    """Against the sum with 50 digits: 8 roundings a cylinder, of the sum of their sizes, and n roundings of the angle."""
+    """Against the sum with 50 digits: 8 roundings a cylinder, of the sum of their sizes, and n
+    roundings of the angle.
+    """
     throws = [7.3 * k % 360 for k in range(512)]
     orders = [1, 2, 4, 64, 256]
-    found = spectra(engine(crank={"stroke": 100, "throws": throws}, rod={"ratio": 0.999}), orders).force
+    found = spectra(
+        engine(crank={"stroke": 100, "throws": throws}, rod={"ratio": 0.999}), orders
+    ).force
     for row, (n, a) in enumerate(zip(orders, harmonics.piston(orders, 0.999), strict=True)):
-        want = abs(mp.fsum(mp.expjpi(n * mp.mpf(throw) / 180) for throw in throws)) * REVOLVING * abs(a)
-        assert abs(found.major[row] - float(want)) <= BOUNDS["many cylinders"] * 512 * EPS * REVOLVING * abs(a)
+        want = (
+            abs(mp.fsum(mp.expjpi(n * mp.mpf(throw) / 180) for throw in throws))
+            * REVOLVING
+            * abs(a)
+        )
+        assert abs(found.major[row] - float(want)) <= BOUNDS[
+            "many cylinders"
+        ] * 512 * EPS * REVOLVING * abs(a)
 
 
 def test_peaks_of_32768_orders_and_64_cylinders_are_the_sum_of_all():
-    """lambda = 1 - 1e-6, all pistons together: at the quick point beside 90 degrees 64 times the peak of one."""
+    """lambda = 1 - 1e-6, all pistons together: at the quick point beside 90 degrees 64 times the
+    peak of one.
+    """
+
     def highest(count: int) -> float:
         whole = engine(crank={"stroke": 100, "throws": [0] * count}, rod={"ratio": NEAREST})
         orders = relevant_orders(whole)
         assert len(orders) == 1 << 15
         return peak(spectra(whole, orders, ("force",)).force).value
+
     assert highest(64) == pytest.approx(64 * highest(1), rel=1e-12)
 
 
 # ------------------------------------------------------------------ docs/accuracy.md
 def test_the_page_states_these_bounds_and_found_less():
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in PAGE.read_text(encoding="utf-8").splitlines()
-            if line.startswith("|")]
-    shown = {cells[0]: cells[2:] for cells in rows if len(cells) == 4 and cells[0] not in ("what", "---")}
+    rows = [
+        [cell.strip() for cell in line.strip("|").split("|")]
+        for line in PAGE.read_text(encoding="utf-8").splitlines()
+        if line.startswith("|")
+    ]
+    shown = {
+        cells[0]: cells[2:] for cells in rows if len(cells) == 4 and cells[0] not in ("what", "---")
+    }
     assert {name: float(bound.removesuffix(" ε")) for name, (bound, _) in shown.items()} == BOUNDS
-    assert all(float(found.removesuffix(" ε")) <= float(bound.removesuffix(" ε")) for bound, found in shown.values())
+    assert all(
+        float(found.removesuffix(" ε")) <= float(bound.removesuffix(" ε"))
+        for bound, found in shown.values()
+    )

@@ -1,4 +1,7 @@
-"""One engine, one result: from run to run, on any number of threads, in whatever order a file lists its cylinders."""
+"""One engine, one result: from run to run, on any number of threads, in whatever order a file lists
+its cylinders.
+"""
+
 from __future__ import annotations
 
 import os
@@ -20,9 +23,24 @@ ORDERS = np.arange(1.0, 17.0)
 
 def output(threads: int) -> bytes:
     names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-    command = [sys.executable, "-m", "balcli", "analyze", str(ENGINES / "vr6.toml"), str(ENGINES / "radial9.toml"), "--format", "json"]
-    return subprocess.run(command, env=os.environ | dict.fromkeys(names, str(threads)) | {"PYTHONPATH": os.pathsep.join(sys.path)},
-                          capture_output=True, check=True).stdout
+    command = [
+        sys.executable,
+        "-m",
+        "balcli",
+        "analyze",
+        str(ENGINES / "vr6.toml"),
+        str(ENGINES / "radial9.toml"),
+        "--format",
+        "json",
+    ]
+    return subprocess.run(
+        command,
+        env=os.environ
+        | dict.fromkeys(names, str(threads))
+        | {"PYTHONPATH": os.pathsep.join(sys.path)},
+        capture_output=True,
+        check=True,
+    ).stdout
 
 
 def test_runs_and_threads_do_not_matter():
@@ -33,17 +51,37 @@ def test_runs_and_threads_do_not_matter():
 
 
 def listed(order: list[int]) -> Engine:
-    """Eight unequal cylinders on their own throws in two banks, the throws in this order in the file."""
-    masses, throws = [0.3 + 0.17 * k for k in range(8)], [0, 91.7, 183.1, 274.9, 45, 135.3, 222.2, 311.1]
-    table = {str(place + 1): {"piston_mass": masses[k], "throw": float(throws[k]), "bank": 30.0 * (k % 3), "rod_length": 150.0 + 7 * k,
-                              "position": 90.0 * k, "piston_offset": 0.7 * (k % 2)} for place, k in enumerate(order)}
-    return engine(crank={"stroke": 100, "throws": [0] * 8, "throw_mass": 0.4}, rod={"length": 170, "mass": 0.9, "cg": 40, "inertia": 3e3},
-                  frame={"reference": [12, -5, 200]}, cylinder=table)
+    """Eight unequal cylinders on their own throws in two banks, the throws in this order in the
+    file.
+    """
+    masses, throws = (
+        [0.3 + 0.17 * k for k in range(8)],
+        [0, 91.7, 183.1, 274.9, 45, 135.3, 222.2, 311.1],
+    )
+    table = {
+        str(place + 1): {
+            "piston_mass": masses[k],
+            "throw": float(throws[k]),
+            "bank": 30.0 * (k % 3),
+            "rod_length": 150.0 + 7 * k,
+            "position": 90.0 * k,
+            "piston_offset": 0.7 * (k % 2),
+        }
+        for place, k in enumerate(order)
+    }
+    return engine(
+        crank={"stroke": 100, "throws": [0] * 8, "throw_mass": 0.4},
+        rod={"length": 170, "mass": 0.9, "cg": 40, "inertia": 3e3},
+        frame={"reference": [12, -5, 200]},
+        cylinder=table,
+    )
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_the_order_of_cylinders_in_the_file_does_not_matter(seed):
-    """To 8 N roundings of the sum of what single cylinders make, as the noise of the whole has it (cylinder 1 stays the first)."""
+    """To 8 N roundings of the sum of what single cylinders make, as the noise of the whole has it
+    (cylinder 1 stays the first).
+    """
     order = [0, *(1 + np.random.default_rng(seed).permutation(7)).tolist()]
     one, other = (spectra(listed(each), ORDERS) for each in (list(range(8)), order))
     for q in SPECTRAL:

@@ -1,9 +1,13 @@
-"""What must hold for every engine, on random ones: turned, mirrored, shifted, split, sped up, renumbered.
+"""What must hold for every engine, on random ones: turned, mirrored, shifted, split, sped up,
+renumbered.
 
-Engines are drawn as the tables of an engine file and pass through the loader, so that all ways to say a thing are met.
-Tolerance: 1e-12 of the largest order of the quantity, or of what single cylinders make where they cancel, and the bound of the
-rounding error that both sides state (a place 158 mm away is not known to 1e-12 of a spacing of 4 um).
+Engines are drawn as the tables of an engine file and pass through the loader, so that all ways to
+say a thing are met.
+Tolerance: 1e-12 of the largest order of the quantity, or of what single cylinders make where they
+cancel, and the bound of the rounding error that both sides state (a place 158 mm away is not known
+to 1e-12 of a spacing of 4 um).
 """
+
 from __future__ import annotations
 
 import copy
@@ -23,7 +27,10 @@ SCALED = 1e-12
 ORDERS = np.arange(0.0, 9.0)
 quick = settings(max_examples=25, deadline=None, derandomize=True, database=None)
 
-RIPPLE = [{"order": 2, "amplitude": 0.1, "angle": 20}, {"order": 3, "amplitude": 0.05, "angle": -110}]
+RIPPLE = [
+    {"order": 2, "amplitude": 0.1, "angle": 20},
+    {"order": 3, "amplitude": 0.05, "angle": -110},
+]
 
 Tables = dict[str, Any]
 
@@ -33,48 +40,81 @@ def figures(low: float, high: float) -> st.SearchStrategy[float]:
     return st.floats(low, high, allow_nan=False).map(lambda x: round(x, 6))
 
 
-angles = st.one_of(st.sampled_from([0, 30, 45, 60, 90, 120, 180, 240, 270, -90]), figures(-360, 360))
+angles = st.one_of(
+    st.sampled_from([0, 30, 45, 60, 90, 120, 180, 240, 270, -90]), figures(-360, 360)
+)
 places = figures(-300, 300)
 points = st.lists(places, min_size=2, max_size=2)
 
 
 @st.composite
 def rods(draw: st.DrawFn) -> Tables:
-    """Long enough to turn with any piston offset of `engines`; by mass and place or weighed at its ends."""
+    """Long enough to turn with any piston offset of `engines`; by mass and place or weighed at its
+    ends.
+    """
     length = draw(figures(110, 400))
-    masses = draw(st.one_of(
-        st.just({}),
-        st.fixed_dictionaries({"mass": figures(0.1, 3), "cg": figures(0, 100)}),
-        st.fixed_dictionaries({"small_end": figures(0, 1), "big_end": figures(0.01, 2)})))
-    return {"length": length, **masses, **draw(st.sampled_from([{}, {"inertia": 3000.0}, {"inertia": 0.0}]))}
+    masses = draw(
+        st.one_of(
+            st.just({}),
+            st.fixed_dictionaries({"mass": figures(0.1, 3), "cg": figures(0, 100)}),
+            st.fixed_dictionaries({"small_end": figures(0, 1), "big_end": figures(0.01, 2)}),
+        )
+    )
+    return {
+        "length": length,
+        **masses,
+        **draw(st.sampled_from([{}, {"inertia": 3000.0}, {"inertia": 0.0}])),
+    }
 
 
 def devices(**more: st.SearchStrategy[Any]) -> st.SearchStrategy[Tables]:
-    return st.fixed_dictionaries({"unbalance": figures(-1e5, 1e5), "angle": angles, "position": places, **more})
+    return st.fixed_dictionaries(
+        {"unbalance": figures(-1e5, 1e5), "angle": angles, "position": places, **more}
+    )
 
 
 @st.composite
 def engines(draw: st.DrawFn) -> Tables:
     throws = draw(st.lists(angles, min_size=1, max_size=5))
-    layout = draw(st.one_of(
-        st.just({}),
-        st.fixed_dictionaries({"bank_angle": angles, "stagger": figures(-30, 30)}),
-        st.fixed_dictionaries({"banks": st.lists(angles, min_size=1, max_size=3), "stagger": figures(0, 30)}),
-        st.fixed_dictionaries({"radial": st.integers(1, 7)})))
+    layout = draw(
+        st.one_of(
+            st.just({}),
+            st.fixed_dictionaries({"bank_angle": angles, "stagger": figures(-30, 30)}),
+            st.fixed_dictionaries(
+                {"banks": st.lists(angles, min_size=1, max_size=3), "stagger": figures(0, 30)}
+            ),
+            st.fixed_dictionaries({"radial": st.integers(1, 7)}),
+        )
+    )
     offset = draw(st.sampled_from([0.0, 0.0, 1.6, -12.0]))
     model: Tables = {
-        "crank": {"stroke": draw(figures(60, 140)), "throws": throws, "spacing": draw(figures(0, 150)),
-                  "throw_mass": draw(figures(0, 5)), "splay": draw(st.sampled_from([0, 0, -30, 22.5]))},
-        "rod": draw(rods()), "piston": {"mass": draw(figures(0, 3)), "offset": offset}, "layout": layout,
-        "operation": {"speed": draw(figures(500, 8000)), "speed_ripple": draw(st.sampled_from([[], [], RIPPLE]))},
+        "crank": {
+            "stroke": draw(figures(60, 140)),
+            "throws": throws,
+            "spacing": draw(figures(0, 150)),
+            "throw_mass": draw(figures(0, 5)),
+            "splay": draw(st.sampled_from([0, 0, -30, 22.5])),
+        },
+        "rod": draw(rods()),
+        "piston": {"mass": draw(figures(0, 3)), "offset": offset},
+        "layout": layout,
+        "operation": {
+            "speed": draw(figures(500, 8000)),
+            "speed_ripple": draw(st.sampled_from([[], [], RIPPLE])),
+        },
         "frame": {"reference": [draw(figures(-100, 100)) for _ in range(3)]},
         "counterweight": [draw(devices())],
         "shaft": [draw(devices(ratio=st.sampled_from([-2, -1, 1, 2, 3]), at=points))],
         "slider": [draw(devices(order=st.integers(1, 4), direction=angles, at=points))],
     }
     if draw(st.booleans()):
-        model["cylinder"] = {"1": {"piston_mass": draw(figures(0, 3)), "piston_offset": draw(figures(-10, 10)),
-                                   "rod_length": draw(figures(150, 300))}}
+        model["cylinder"] = {
+            "1": {
+                "piston_mass": draw(figures(0, 3)),
+                "piston_offset": draw(figures(-10, 10)),
+                "rod_length": draw(figures(150, 300)),
+            }
+        }
     return model
 
 
@@ -113,15 +153,28 @@ def rounding(*phasors: Phasors) -> float:
     return sum(float(np.max(p.noise)) for p in phasors)
 
 
-def assert_same(one: Engine, other: Engine, *, forward: complex = 1, by: float = 1.0,
-                quantities: tuple[str, ...] = SPECTRAL) -> None:
+def assert_same(
+    one: Engine,
+    other: Engine,
+    *,
+    forward: complex = 1,
+    by: float = 1.0,
+    quantities: tuple[str, ...] = SPECTRAL,
+) -> None:
     """The other makes `by` times what the first makes; vectors are turned by `forward`."""
     scale = sizes(one)
     for q in quantities:
         p, o = getattr(found(one), q), getattr(found(other), q)
         factor = by * (forward if q in ("force", "moment") else 1)
-        error = max(np.abs(o.forward - factor * p.forward).max(), np.abs(o.backward - factor * p.backward).max())
-        assert error <= SCALED * scale[q] + abs(by) * rounding(p) + rounding(o), (q, error, scale[q])
+        error = max(
+            np.abs(o.forward - factor * p.forward).max(),
+            np.abs(o.backward - factor * p.backward).max(),
+        )
+        assert error <= SCALED * scale[q] + abs(by) * rounding(p) + rounding(o), (
+            q,
+            error,
+            scale[q],
+        )
 
 
 # ------------------------------------------------------------------ invariants
@@ -140,10 +193,15 @@ def banks(layout: Tables) -> list[float]:
 def in_a_mirror(m: Tables) -> None:
     """The plane of x and z."""
     m["layout"]["banks"] = [-bank for bank in banks(m["layout"])]
-    m["crank"] |= {"throws": [-throw for throw in m["crank"]["throws"]], "splay": -m["crank"]["splay"]}
+    m["crank"] |= {
+        "throws": [-throw for throw in m["crank"]["throws"]],
+        "splay": -m["crank"]["splay"],
+    }
     m["piston"]["offset"] *= -1
     m["frame"]["reference"][1] *= -1
-    m["operation"]["speed_ripple"] = [line | {"angle": -line["angle"]} for line in m["operation"]["speed_ripple"]]
+    m["operation"]["speed_ripple"] = [
+        line | {"angle": -line["angle"]} for line in m["operation"]["speed_ripple"]
+    ]
     if "cylinder" in m:
         m["cylinder"]["1"]["piston_offset"] *= -1
     for device in (*m["counterweight"], *m["shaft"], *m["slider"]):
@@ -168,7 +226,10 @@ def end_to_end(m: Tables) -> None:
 @quick
 @given(engines(), figures(-180, 180))
 def test_a_turned_engine_makes_the_same_turned(model, turn):
-    """Banks, devices and the point of reference about the crank axis: every vector turns, no scalar changes."""
+    """Banks, devices and the point of reference about the crank axis: every vector turns, no scalar
+    changes.
+    """
+
     def change(m: Tables) -> None:
         m["layout"]["banks"] = [bank + turn for bank in banks(m["layout"])]
         m["frame"]["reference"][:2] = about(m["frame"]["reference"][:2], turn)
@@ -178,6 +239,7 @@ def test_a_turned_engine_makes_the_same_turned(model, turn):
         for device in m["slider"]:
             device["direction"] += turn
             device["at"] = about(device["at"], turn)
+
     assert_same(made(model), made(changed(model, change)), forward=np.exp(1j * np.radians(turn)))
 
 
@@ -189,8 +251,10 @@ def about(at: list[float], turn: float) -> list[float]:
 @quick
 @given(engines())
 def test_an_engine_in_a_mirror(model):
-    """Mirrored in the plane of x and z, turning the same way: at crank angle -theta it is the mirror image of the first
-    at theta. Force: conjugate; moment (over i): conjugate; scalars: odd in the crank angle, with their sign changed."""
+    """Mirrored in the plane of x and z, turning the same way: at crank angle -theta it is the
+    mirror image of the first at theta. Force: conjugate; moment (over i): conjugate; scalars: odd
+    in the crank angle, with their sign changed.
+    """
     one, other = made(model), made(changed(model, in_a_mirror))
     before, after, scale = found(one), found(other), sizes(one)
     for q, sign in {"force": 1, "moment": -1, "couple": -1, "torque": -1, "roll": -1}.items():
@@ -212,15 +276,21 @@ def test_an_engine_with_its_throws_in_reverse(model):
 @quick
 @given(engines())
 def test_time_reversed(model):
-    """What turns backward through the same angles at the same speeds makes the same forces at each of them; seen from its
-    other end (half a turn about x) it is an engine that turns forward, at crank angle -theta."""
+    """What turns backward through the same angles at the same speeds makes the same forces at each
+    of them; seen from its other end (half a turn about x) it is an engine that turns forward, at
+    crank angle -theta.
+    """
     one, other = made(model), made(changed(changed(model, in_a_mirror), end_to_end))
     before, after, scale = found(one), found(other), sizes(one)
     theta = np.radians(np.arange(0.0, 360.0, 30.0))
     for q in SPECTRAL:
         seen = np.conj if q in ("force", "moment") else np.negative
-        error = np.abs(getattr(after, q).values(-theta) - seen(getattr(before, q).values(theta))).max()
-        assert error <= 2 * len(ORDERS) * (SCALED * scale[q] + rounding(getattr(before, q), getattr(after, q))), q
+        error = np.abs(
+            getattr(after, q).values(-theta) - seen(getattr(before, q).values(theta))
+        ).max()
+        assert error <= 2 * len(ORDERS) * (
+            SCALED * scale[q] + rounding(getattr(before, q), getattr(after, q))
+        ), q
 
 
 @quick
@@ -229,11 +299,14 @@ def test_shifted_along_the_crank_with_its_point_of_reference(model, shift):
     def change(m: Tables) -> None:
         crank = m["crank"]
         count = len(crank["throws"])
-        crank["positions"] = [shift + (t - (count - 1) / 2) * crank["spacing"] for t in range(count)]
+        crank["positions"] = [
+            shift + (t - (count - 1) / 2) * crank["spacing"] for t in range(count)
+        ]
         del crank["spacing"]
         m["frame"]["reference"][2] += shift
         for device in (*m["counterweight"], *m["shaft"], *m["slider"]):
             device["position"] += shift
+
     assert_same(made(model), made(changed(model, change)))
 
 
@@ -241,8 +314,12 @@ def test_shifted_along_the_crank_with_its_point_of_reference(model, shift):
 @given(engines(), figures(-500, 500), figures(-500, 500), figures(-500, 500))
 def test_another_point_of_reference_adds_the_force_times_its_arm(model, x, y, z):
     """M' = M - i z F about a point z farther; C' = C - Im(conj(p) F) about a point p beside."""
+
     def change(m: Tables) -> None:
-        m["frame"]["reference"] = [a + b for a, b in zip(m["frame"]["reference"], (x, y, z), strict=True)]
+        m["frame"]["reference"] = [
+            a + b for a, b in zip(m["frame"]["reference"], (x, y, z), strict=True)
+        ]
+
     one, other = made(model), made(changed(model, change))
     before, after, scale, p = found(one), found(other), sizes(one), (x + 1j * y) / 1e3
     assert_same(one, other, quantities=("force", "torque"))
@@ -250,36 +327,54 @@ def test_another_point_of_reference_adds_the_force_times_its_arm(model, x, y, z)
     for way in ("forward", "backward"):
         want = getattr(before.moment, way) - 1j * z / 1e3 * getattr(before.force, way)
         error = np.abs(getattr(after.moment, way) - want).max()
-        assert error <= SCALED * (scale["moment"] + arm * scale["force"]) + rounding(before.moment, after.moment)
+        assert error <= SCALED * (scale["moment"] + arm * scale["force"]) + rounding(
+            before.moment, after.moment
+        )
     theta = np.linspace(0, 6, 13)
     want = before.couple.values(theta).real - (np.conj(p) * before.force.values(theta)).imag
     error = np.abs(after.couple.values(theta).real - want).max()
-    assert error <= len(ORDERS) * (SCALED * (scale["couple"] + arm * scale["force"]) + rounding(before.couple, after.couple))
+    assert error <= len(ORDERS) * (
+        SCALED * (scale["couple"] + arm * scale["force"]) + rounding(before.couple, after.couple)
+    )
 
 
 @quick
 @given(engines(), figures(0.1, 0.9))
 def test_a_counterweight_in_two_parts(model, share):
     """Two unbalances on one side of the crank whose sum and centre are those of one."""
+
     def change(m: Tables) -> None:
         weight = m["counterweight"][0]
         arm = 100.0
         m["counterweight"] = [
-            weight | {"unbalance": weight["unbalance"] * share, "position": weight["position"] + arm * (1 - share)},
-            weight | {"unbalance": weight["unbalance"] * (1 - share), "position": weight["position"] - arm * share}]
+            weight
+            | {
+                "unbalance": weight["unbalance"] * share,
+                "position": weight["position"] + arm * (1 - share),
+            },
+            weight
+            | {
+                "unbalance": weight["unbalance"] * (1 - share),
+                "position": weight["position"] - arm * share,
+            },
+        ]
+
     assert_same(made(model), made(changed(model, change)))
 
 
 @quick
 @given(engines(), st.lists(angles, max_size=3), st.lists(places, min_size=9, max_size=9))
 def test_two_engines_on_one_crank_add_up(model, more, where):
-    """One with the devices and one without, whose first pins stand alike; equal but for their throws and places."""
+    """One with the devices and one without, whose first pins stand alike; equal but for their
+    throws and places.
+    """
     model.pop("cylinder", None)
     del model["crank"]["spacing"]
     first, second = model["crank"]["throws"], [model["crank"]["throws"][0], *more]
 
     def with_throws(throws: list[float], positions: list[float]) -> Any:
         return lambda m: m["crank"].update(throws=throws, positions=positions)
+
     count, both = len(first), len(first) + len(second)
     bare = changed(model, lambda m: [m.pop(key) for key in ("counterweight", "shaft", "slider")])
     one = made(changed(model, with_throws(first, where[:count])))
@@ -290,35 +385,53 @@ def test_two_engines_on_one_crank_add_up(model, more, where):
         for way in ("forward", "backward"):
             total = getattr(getattr(p, q), way) + getattr(getattr(o, q), way)
             error = np.abs(getattr(getattr(whole, q), way) - total).max()
-            assert error <= SCALED * (scale[q] + scale_too[q]) + rounding(getattr(whole, q), getattr(p, q), getattr(o, q)), q
+            assert error <= SCALED * (scale[q] + scale_too[q]) + rounding(
+                getattr(whole, q), getattr(p, q), getattr(o, q)
+            ), q
 
 
 @quick
 @given(engines(), figures(0, 1))
 def test_every_mass_in_two_parts(model, share):
-    """All moving masses of the cylinders split in one proportion between two engines at the same place."""
+    """All moving masses of the cylinders split in one proportion between two engines at the same
+    place.
+    """
     model.pop("cylinder", None)
     del model["crank"]["spacing"]
-    throws, along = model["crank"]["throws"], [37.0 * t for t in range(len(model["crank"]["throws"]))]
+    throws, along = (
+        model["crank"]["throws"],
+        [37.0 * t for t in range(len(model["crank"]["throws"]))],
+    )
 
     def masses(part: float) -> Any:
         """Of each throw: pistons, rods and the throw's own, in this proportion."""
+
         def change(m: Tables) -> None:
             m["piston"]["mass"] *= part
             m["crank"]["throw_mass"] *= part
             for key in {"mass", "inertia", "small_end", "big_end"} & m["rod"].keys():
                 m["rod"][key] *= part
+
         return change
+
     bare = changed(model, lambda m: [m.pop(key) for key in ("counterweight", "shaft", "slider")])
-    placed = [changed(m, lambda m: m["crank"].update(throws=throws, positions=along)) for m in (model, bare)]
+    placed = [
+        changed(m, lambda m: m["crank"].update(throws=throws, positions=along))
+        for m in (model, bare)
+    ]
     one = made(placed[0])
     whole, scale = found(one), sizes(one)
-    p, o = found(made(changed(placed[0], masses(share)))), found(made(changed(placed[1], masses(1 - share))))
+    p, o = (
+        found(made(changed(placed[0], masses(share)))),
+        found(made(changed(placed[1], masses(1 - share)))),
+    )
     for q in SPECTRAL:
         for way in ("forward", "backward"):
             total = getattr(getattr(p, q), way) + getattr(getattr(o, q), way)
             error = np.abs(getattr(getattr(whole, q), way) - total).max()
-            assert error <= SCALED * scale[q] + rounding(getattr(whole, q), getattr(p, q), getattr(o, q)), q
+            assert error <= SCALED * scale[q] + rounding(
+                getattr(whole, q), getattr(p, q), getattr(o, q)
+            ), q
 
 
 @quick
@@ -328,31 +441,50 @@ def test_a_counterweight_is_a_shaft_on_the_crank_axis(model):
         (weight,) = m.pop("counterweight")
         angle = weight["angle"] + float(np.ravel(made(model).first_axis_deg)[0])
         m["shaft"].append({"ratio": 1, "at": [0, 0], **weight, "angle": angle})
+
     assert_same(made(model), made(changed(model, change)))
 
 
 @quick
 @given(engines())
 def test_a_slider_is_two_shafts_turning_against_each_other(model):
-    """Half its unbalance each: with the crank at direction + angle, against it at direction - angle."""
+    """Half its unbalance each: with the crank at direction + angle, against it at direction -
+    angle.
+    """
+
     def change(m: Tables) -> None:
         (slider,) = m.pop("slider")
-        m["shaft"] += [{"ratio": sense * slider["order"], "unbalance": slider["unbalance"] / 2, "at": slider["at"],
-                        "angle": slider["direction"] + sense * slider["angle"], "position": slider["position"]}
-                       for sense in (1, -1)]
+        m["shaft"] += [
+            {
+                "ratio": sense * slider["order"],
+                "unbalance": slider["unbalance"] / 2,
+                "at": slider["at"],
+                "angle": slider["direction"] + sense * slider["angle"],
+                "position": slider["position"],
+            }
+            for sense in (1, -1)
+        ]
+
     assert_same(made(model), made(changed(model, change)))
 
 
 @quick
 @given(engines(), figures(0, 1))
 def test_mass_moved_from_the_throw_to_the_big_ends(model, share):
-    """What turns with the crank pin is one mass: as throw mass or at the big end of a rod weighed at its ends."""
+    """What turns with the crank pin is one mass: as throw mass or at the big end of a rod weighed
+    at its ends.
+    """
+
     def change(m: Tables) -> None:
         rods_on_throw = len(banks(dict(m["layout"])))
         moved = share * m["crank"]["throw_mass"]
         m["crank"]["throw_mass"] -= moved
         m["rod"] |= {"small_end": 0.2, "big_end": 0.5 + moved / rods_on_throw}
-    ends = changed(model, lambda m: m.update(rod={"length": m["rod"]["length"], "small_end": 0.2, "big_end": 0.5}))
+
+    ends = changed(
+        model,
+        lambda m: m.update(rod={"length": m["rod"]["length"], "small_end": 0.2, "big_end": 0.5}),
+    )
     other = changed(ends, change)
     assert_same(made(ends), made(other), quantities=("force", "moment"))
 
@@ -361,7 +493,10 @@ def test_mass_moved_from_the_throw_to_the_big_ends(model, share):
 @given(engines())
 def test_everything_grows_with_the_square_of_the_speed(model):
     """Exactly fourfold at twice the speed: the factor is a power of two."""
-    one, other = made(model), made(changed(model, lambda m: m["operation"].update(speed=2 * m["operation"]["speed"])))
+    one, other = (
+        made(model),
+        made(changed(model, lambda m: m["operation"].update(speed=2 * m["operation"]["speed"]))),
+    )
     for (_, p), (_, o) in zip(found(one).items(), found(other).items(), strict=True):
         assert np.array_equal(4 * p.forward, o.forward)
         assert np.array_equal(4 * p.backward, o.backward)
@@ -370,7 +505,9 @@ def test_everything_grows_with_the_square_of_the_speed(model):
 @quick
 @given(engines(), st.randoms(use_true_random=False))
 def test_numbers_are_names(model, random):
-    """Other numbers for the same cylinders move the origin of the crank angle to another pin, and change no size."""
+    """Other numbers for the same cylinders move the origin of the crank angle to another pin, and
+    change no size.
+    """
     for key in ("cylinder", "counterweight", "shaft", "slider"):
         model.pop(key, None)
     model["operation"].pop("speed_ripple")
@@ -378,18 +515,28 @@ def test_numbers_are_names(model, random):
     numbers = list(range(1, rows * len(model["crank"]["throws"]) + 1))
     random.shuffle(numbers)
     numbering = np.reshape(numbers, (rows, -1)).tolist()
-    one, other = made(model), made(changed(model, lambda m: m["layout"].update(numbering=numbering)))
+    one, other = (
+        made(model),
+        made(changed(model, lambda m: m["layout"].update(numbering=numbering))),
+    )
     before, after, scale = found(one), found(other), sizes(one)
     for q in SPECTRAL:
         for name in ("major", "minor"):
-            error = np.abs(getattr(getattr(before, q), name) - getattr(getattr(after, q), name)).max()
-            assert error <= SCALED * scale[q] + 2 * rounding(getattr(before, q), getattr(after, q)), q
+            error = np.abs(
+                getattr(getattr(before, q), name) - getattr(getattr(after, q), name)
+            ).max()
+            assert error <= SCALED * scale[q] + 2 * rounding(
+                getattr(before, q), getattr(after, q)
+            ), q
 
 
 @quick
 @given(engines())
 def test_units_of_the_file_do_not_matter(model):
-    """Inches, pounds, turns, radians a second and so on for millimetres, kilograms, degrees and rpm."""
+    """Inches, pounds, turns, radians a second and so on for millimetres, kilograms, degrees and
+    rpm.
+    """
+
     def change(m: Tables) -> None:
         crank = m["crank"]
         crank["stroke"] = f"{crank['stroke'] / 25.4!r} in"
@@ -401,6 +548,7 @@ def test_units_of_the_file_do_not_matter(model):
         m["operation"]["speed"] = f"{m['operation']['speed'] * np.pi / 30!r} rad/s"
         for device in m["counterweight"]:
             device["unbalance"] = f"{device['unbalance'] / 1000!r} g*m"
+
     assert_same(made(model), made(changed(model, change)))
 
 
@@ -418,10 +566,14 @@ def test_torque_has_no_mean_and_roll_is_couple_less_torque(model):
 def test_cylinders_and_devices_add_up(model):
     """The whole is the sum of what its cylinders make alone, and its devices."""
     engine = made(model)
-    bare = made(changed(model, lambda m: [m.pop(key) for key in ("counterweight", "shaft", "slider")]))
+    bare = made(
+        changed(model, lambda m: [m.pop(key) for key in ("counterweight", "shaft", "slider")])
+    )
     scale = sizes(engine)
     for q, whole in found(bare).items():
         parts = [getattr(found(alone(engine, n)), q) for n in engine.numbers]
         for way in ("forward", "backward"):
             total = sum(getattr(p, way) for p in parts)
-            assert np.abs(total - getattr(whole, way)).max() <= SCALED * scale[q] + rounding(whole, *parts), q
+            assert np.abs(total - getattr(whole, way)).max() <= SCALED * scale[q] + rounding(
+                whole, *parts
+            ), q

@@ -1,4 +1,7 @@
-"""Sizing at numerical extremes: whatever is promised to vanish is below 1e-12 of what was there, or there is an error that says why."""
+"""Sizing at numerical extremes: whatever is promised to vanish is below 1e-12 of what was there, or
+there is an error that says why.
+"""
+
 from __future__ import annotations
 
 import re
@@ -12,17 +15,22 @@ from support.engines import engine_text
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.sizing.sizing import SCHEMES, Wish, fitted, remedy_for
-from balcli.sizing.auto import auto
 from balcli.forces.spectrum import spectra
+from balcli.sizing.auto import auto
+from balcli.sizing.sizing import SCHEMES, Wish, fitted, remedy_for
 
 LEFT = 1e-12
 
 
 def share_left(engine: Engine, after: Engine, quantities=("force", "moment")) -> float:
-    """Largest of what is left of orders 1 and 2, against the largest of the same quantity before."""
+    """Largest of what is left of orders 1 and 2, against the largest of the same quantity
+    before.
+    """
     before, rest = spectra(engine, [1, 2], quantities), spectra(after, [1, 2], quantities)
-    return max(float(getattr(rest, q).major.max() / (getattr(before, q).major.max() or 1)) for q in quantities)
+    return max(
+        float(getattr(rest, q).major.max() / (getattr(before, q).major.max() or 1))
+        for q in quantities
+    )
 
 
 def random_engine(seed: int) -> Engine:
@@ -30,14 +38,29 @@ def random_engine(seed: int) -> Engine:
     r = np.random.default_rng(seed)
     throws = int(r.integers(1, 6))
     banks = int(r.integers(1, 4))
-    more = "".join(f"[cylinder.{n}]\npiston_mass = {10 ** r.uniform(-3, 1)}\n" for n in range(1, throws * banks + 1) if r.random() < 0.3)
-    return build(parse(engine_text(
-        crank=f"stroke = 100\nthrows = {list(map(float, r.uniform(0, 360, throws)))}\n"
-              f"positions = {list(map(float, np.sort(r.uniform(-400, 400, throws))))}\nthrow_mass = {r.uniform(0, 3)}",
-        rod=f"ratio = {r.uniform(0.05, 0.5)}\nmass = {r.uniform(0, 2)}\ncg = {r.uniform(0, 100)}",
-        piston=f"mass = 1\noffset = {r.choice([0.0, 3.0, -8.0])}",
-        layout=f"banks = {list(map(float, r.uniform(-180, 180, banks)))}\nstagger = {r.choice([0.0, 22.0])}",
-        frame=f"reference = [{r.uniform(-50, 50)}, {r.uniform(-50, 50)}, {r.uniform(-300, 300)}]") + more))
+    more = "".join(
+        f"[cylinder.{n}]\npiston_mass = {10 ** r.uniform(-3, 1)}\n"
+        for n in range(1, throws * banks + 1)
+        if r.random() < 0.3
+    )
+    return build(
+        parse(
+            engine_text(
+                crank=f"stroke = 100\nthrows = {list(map(float, r.uniform(0, 360, throws)))}\n"
+                "positions = "
+                f"{list(map(float, np.sort(r.uniform(-400, 400, throws))))}\nthrow_mass = "
+                f"{r.uniform(0, 3)}",
+                rod=f"ratio = {r.uniform(0.05, 0.5)}\nmass = {r.uniform(0, 2)}\ncg = "
+                f"{r.uniform(0, 100)}",
+                piston=f"mass = 1\noffset = {r.choice([0.0, 3.0, -8.0])}",
+                layout=f"banks = {list(map(float, r.uniform(-180, 180, banks)))}\nstagger = "
+                f"{r.choice([0.0, 22.0])}",
+                frame=f"reference = [{r.uniform(-50, 50)}, {r.uniform(-50, 50)}, "
+                f"{r.uniform(-300, 300)}]",
+            )
+            + more
+        )
+    )
 
 
 @given(st.integers(0, 2**32))
@@ -55,17 +78,34 @@ def test_auto_leaves_nothing_in_any_engine(seed):
 def test_pairs_add_no_roll_in_any_engine(seed):
     engine = random_engine(seed)
     remedy = remedy_for(engine, "two-shaft", Wish(order=2, at=(0.05 - 0.03j,)))
-    before, after = (spectra(e, [2], ("force", "roll", "torque", "couple")) for e in (engine, fitted(engine, remedy)))
+    before, after = (
+        spectra(e, [2], ("force", "roll", "torque", "couple"))
+        for e in (engine, fitted(engine, remedy))
+    )
     assert after.force.balanced.all()
-    x, y, _ = engine.reference_m                                            # no roll is added about the crank axis
+    x, y, _ = engine.reference_m  # no roll is added about the crank axis
     p = complex(x, y)
     moved = 2 * before.force.about(p).forward[0]
-    scale = before.torque.major[0] + before.couple.major[0] + abs(moved) + before.force.major[0] * 0.1
+    scale = (
+        before.torque.major[0] + before.couple.major[0] + abs(moved) + before.force.major[0] * 0.1
+    )
     assert abs(2 * after.roll.forward[0] - 2 * before.roll.forward[0] - moved) <= 1e-11 * scale
 
 
-@given(st.integers(0, 2**32), st.sampled_from(["counterweights", "four-shaft", "slider", "couple-shaft", "minimax", "single-shaft",
-                                              "factor"]))
+@given(
+    st.integers(0, 2**32),
+    st.sampled_from(
+        [
+            "counterweights",
+            "four-shaft",
+            "slider",
+            "couple-shaft",
+            "minimax",
+            "single-shaft",
+            "factor",
+        ]
+    ),
+)
 def test_no_scheme_breaks(seed, scheme):
     engine = random_engine(seed)
     wish = Wish(planes=(-0.21, 0.3)) if scheme == "couple-shaft" else Wish()
@@ -86,22 +126,38 @@ def test_no_scheme_breaks(seed, scheme):
 @pytest.mark.parametrize("light", [1e-3, 1e-6])
 def test_a_gram_next_to_a_hundred_tonnes(light):
     """Beside 100 t a gram is 1e-8, and its part of the moment must vanish with the rest."""
-    engine = build(parse(engine_text(crank="stroke = 100\nthrows = [0, 90]\nspacing = 100", piston="mass = 1e5")
-                         + f"[cylinder.2]\npiston_mass = {light}\n"))
+    engine = build(
+        parse(
+            engine_text(crank="stroke = 100\nthrows = [0, 90]\nspacing = 100", piston="mass = 1e5")
+            + f"[cylinder.2]\npiston_mass = {light}\n"
+        )
+    )
     assert share_left(engine, fitted(engine, auto(engine))) <= LEFT
-    alone = build(parse(engine_text(crank="stroke = 100\nthrows = [0, 90]\nspacing = 100", piston=f"mass = {light}")))
+    alone = build(
+        parse(
+            engine_text(
+                crank="stroke = 100\nthrows = [0, 90]\nspacing = 100", piston=f"mass = {light}"
+            )
+        )
+    )
     assert share_left(alone, fitted(alone, auto(alone))) <= LEFT
 
 
 @pytest.mark.parametrize("apart", [100, 1, 0.1])
 def test_planes_next_to_each_other(apart):
-    """Planes 1 mm apart in an engine of 200 mm: the unbalances grow a hundredfold, and still nothing is left."""
-    engine = build(parse(engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nthrow_mass = 2")))
+    """Planes 1 mm apart in an engine of 200 mm: the unbalances grow a hundredfold, and still
+    nothing is left.
+    """
+    engine = build(
+        parse(
+            engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nthrow_mass = 2")
+        )
+    )
     remedy = remedy_for(engine, "counterweights", Wish(planes=(0.05, 0.05 + apart / 1e3)))
     before, after = (spectra(e, [1], ("force", "moment")) for e in (engine, fitted(engine, remedy)))
     assert abs(after.moment.forward[0]) <= LEFT * before.moment.major[0]
     assert abs(after.force.forward[0]) * 0.1 <= LEFT * before.moment.major[0]
-    system = [[1, 1], [0.05 / (0.05 + apart / 1e3), 1]]                     # force, and moment by the longest arm
+    system = [[1, 1], [0.05 / (0.05 + apart / 1e3), 1]]  # force, and moment by the longest arm
     assert remedy.details["condition_number"] == pytest.approx(np.linalg.cond(system), rel=1e-6)
 
 
@@ -113,19 +169,30 @@ def test_hopeless_planes_are_refused_with_their_condition_number(apart):
         remedy_for(engine, "counterweights", Wish(planes=(0.05, 0.05 + apart)))
     told = re.search(r"condition number ([0-9.e+]+)\)", str(caught.value))
     assert told is not None
-    assert float(told[1]) == pytest.approx(0.2 / apart, rel=0.01)           # |1, 1| / (apart / 0.05 sqrt 2), times sqrt 2
+    assert float(told[1]) == pytest.approx(
+        0.2 / apart, rel=0.01
+    )  # |1, 1| / (apart / 0.05 sqrt 2), times sqrt 2
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1, 1e6])
 def test_remedies_grow_with_the_masses(scale):
     """Unbalance is linear in mass."""
+
     def weights(mass):
         crank = f"stroke = 100\nthrows = [0, 90, 250]\nspacing = 100\nthrow_mass = {2 * mass!r}"
         text = engine_text(crank=crank, piston=f"mass = {mass!r}")
         return np.array([d.unbalance for d in auto(build(parse(text))).devices])
+
     assert weights(scale) == pytest.approx(scale * weights(1.0), rel=1e-12)
 
 
 def test_every_scheme_is_stressed_or_for_one_cylinder():
     assert set(SCHEMES) - {"auto", "two-shaft", "eccentric-slider", "oldham"} == {
-        "counterweights", "four-shaft", "slider", "couple-shaft", "minimax", "single-shaft", "factor"}
+        "counterweights",
+        "four-shaft",
+        "slider",
+        "couple-shaft",
+        "minimax",
+        "single-shaft",
+        "factor",
+    }

@@ -1,4 +1,5 @@
 """Numbers of an engine file by dotted names: found, read, replaced."""
+
 from __future__ import annotations
 
 from fractions import Fraction
@@ -30,17 +31,21 @@ def values(text: str, engine: str = GOOD) -> list[float]:
 
 def test_range_includes_its_end_and_has_no_accumulated_error() -> None:
     found = values("rod.ratio=0.1:0.4:0.1")
-    assert found == [0.1, 0.2, 0.3, 0.4]                # repeated addition gives 0.30000000000000004
+    assert found == [0.1, 0.2, 0.3, 0.4]  # repeated addition gives 0.30000000000000004
 
 
 def test_long_range_is_correctly_rounded_everywhere() -> None:
     found = ladder(Fraction("0.1"), Fraction("0.001"), 100_000)
-    assert found[::7919].tolist() == [float(Fraction("0.1") + k * Fraction("0.001")) for k in range(0, 100_000, 7919)]
+    assert found[::7919].tolist() == [
+        float(Fraction("0.1") + k * Fraction("0.001")) for k in range(0, 100_000, 7919)
+    ]
 
 
 def test_values_beyond_exact_whole_numbers_are_correctly_rounded_too() -> None:
     step = Fraction(1, 3**40)
-    assert ladder(Fraction(1, 7), step, 5).tolist() == [float(Fraction(1, 7) + k * step) for k in range(5)]
+    assert ladder(Fraction(1, 7), step, 5).tolist() == [
+        float(Fraction(1, 7) + k * step) for k in range(5)
+    ]
 
 
 def test_range_may_fall() -> None:
@@ -51,30 +56,61 @@ def test_list_keeps_its_order_and_figures_may_bear_units() -> None:
     assert values("crank.stroke=3.5 in,80,0.1 m") == [88.9, 80, 100]
 
 
-@pytest.mark.parametrize("path", ["crank.throws.4", "rod.cg", "operation.speed", "cylinder.4.piston_mass", "cylinder.1.throw"])
+@pytest.mark.parametrize(
+    "path",
+    ["crank.throws.4", "rod.cg", "operation.speed", "cylinder.4.piston_mass", "cylinder.1.throw"],
+)
 def test_numbers_that_the_file_has_or_might_have(path: str) -> None:
     assert values(f"{path}=1,2") == [1, 2]
 
 
-@pytest.mark.parametrize("path", ["shaft.1.unbalance", "shaft.1.at.2", "counterweight.1.radius", "cylinder.3.piston_mass"])
+@pytest.mark.parametrize(
+    "path",
+    ["shaft.1.unbalance", "shaft.1.at.2", "counterweight.1.radius", "cylinder.3.piston_mass"],
+)
 def test_numbers_of_devices_and_cylinders(path: str) -> None:
     assert values(f"{path}=1,2", GOOD + DEVICES) == [1, 2]
 
 
-@pytest.mark.parametrize(("text", "message"), [
-    ("rod.raito=0.2,0.3", "rod.raito is no number of this engine file; did you mean rod.ratio?"),
-    ("crank.throws.5=0", "crank.throws.5 is no number of this engine file; did you mean crank.throws.4?"),
-    ("shaft.1.ratio=1,2", "shaft.1.ratio is no number of this engine file"),
-    ("rod.ratio", '"rod.ratio": give a number of the engine file and its values, such as rod.ratio=0.24:0.32:0.01'),
-    ("rod.ratio=", '"rod.ratio=": has no values; give some, such as 0.24,0.28 or 0.24:0.32:0.01'),
-    ("rod.ratio=0.2:0.3", '"rod.ratio=0.2:0.3": a range is from:to:step, such as 0.24:0.32:0.01'),
-    ("rod.ratio=0.2:0.3:0", '"rod.ratio=0.2:0.3:0": the step is 0; give the distance of neighbouring values'),
-    ("rod.ratio=0.3:0.2:0.1", '"rod.ratio=0.3:0.2:0.1": has 0 values'),
-    ("rod.ratio=0:1:1e-300", '"rod.ratio=0:1:1e-300": has 1'),
-    ("rod.ratio=0.2:1.4:0.2", "rod.ratio: 1.4 is not below 1; a plain number is wanted"),
-    ("piston.mass=-1,2", "piston.mass: -1 is less than 0; a mass is wanted"),
-    ("piston.mass=heavy", '"piston.mass=heavy": "heavy" is not a number followed by a unit; a mass is wanted'),
-])
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            "rod.raito=0.2,0.3",
+            "rod.raito is no number of this engine file; did you mean rod.ratio?",
+        ),
+        (
+            "crank.throws.5=0",
+            "crank.throws.5 is no number of this engine file; did you mean crank.throws.4?",
+        ),
+        ("shaft.1.ratio=1,2", "shaft.1.ratio is no number of this engine file"),
+        (
+            "rod.ratio",
+            '"rod.ratio": give a number of the engine file and its values, such as '
+            "rod.ratio=0.24:0.32:0.01",
+        ),
+        (
+            "rod.ratio=",
+            '"rod.ratio=": has no values; give some, such as 0.24,0.28 or 0.24:0.32:0.01',
+        ),
+        (
+            "rod.ratio=0.2:0.3",
+            '"rod.ratio=0.2:0.3": a range is from:to:step, such as 0.24:0.32:0.01',
+        ),
+        (
+            "rod.ratio=0.2:0.3:0",
+            '"rod.ratio=0.2:0.3:0": the step is 0; give the distance of neighbouring values',
+        ),
+        ("rod.ratio=0.3:0.2:0.1", '"rod.ratio=0.3:0.2:0.1": has 0 values'),
+        ("rod.ratio=0:1:1e-300", '"rod.ratio=0:1:1e-300": has 1'),
+        ("rod.ratio=0.2:1.4:0.2", "rod.ratio: 1.4 is not below 1; a plain number is wanted"),
+        ("piston.mass=-1,2", "piston.mass: -1 is less than 0; a mass is wanted"),
+        (
+            "piston.mass=heavy",
+            '"piston.mass=heavy": "heavy" is not a number followed by a unit; a mass is wanted',
+        ),
+    ],
+)
 def test_mistakes_in_words(text: str, message: str) -> None:
     with pytest.raises(BalcliError) as caught:
         values(text)
@@ -84,7 +120,9 @@ def test_mistakes_in_words(text: str, message: str) -> None:
 def test_replaced_in_a_copy() -> None:
     file = load(GOOD + DEVICES)
     array = np.array([1.0, 2.0])
-    new = varied(file, {"crank.throws.2": array, "shaft.1.at.1": 5.0, "cylinder.2.piston_mass": 0.7})
+    new = varied(
+        file, {"crank.throws.2": array, "shaft.1.at.1": 5.0, "cylinder.2.piston_mass": 0.7}
+    )
     assert new.crank.throws is not None
     assert new.crank.throws[1] is array
     assert new.shaft[0].at == (5.0, 60)
@@ -107,10 +145,17 @@ def test_a_bank_angle_is_that_of_a_vee() -> None:
     vee = changed(("firing_order = [1, 3, 4, 2]", "banks = [-30, 60]"))
     assert "layout.bank_angle" in numeric(load(vee))
     for other in (GOOD, changed(("firing_order = [1, 3, 4, 2]", "banks = [-60, 0, 60]"))):
-        with pytest.raises(BalcliError, match=r"^layout\.bank_angle is no number of this engine file"):
+        with pytest.raises(
+            BalcliError, match=r"^layout\.bank_angle is no number of this engine file"
+        ):
             parse("layout.bank_angle=0:90:10", load(other))
 
 
 def test_a_firing_order_beside_throws_is_left_out() -> None:
     assert varied(load(GOOD), {}).layout.firing_order is None
-    assert varied(load(changed(("throws = [0, 180, 180, 0]\n", ""))), {}).layout.firing_order == (1, 3, 4, 2)
+    assert varied(load(changed(("throws = [0, 180, 180, 0]\n", ""))), {}).layout.firing_order == (
+        1,
+        3,
+        4,
+        2,
+    )

@@ -1,4 +1,7 @@
-"""Studies over the balance factor and the bank angle: what books say of them, and their pictures."""
+"""Studies over the balance factor and the bank angle: what books say of them, and their
+pictures.
+"""
+
 from __future__ import annotations
 
 import numpy as np
@@ -14,7 +17,10 @@ from balcli.studies.pictures import over_bank_angle, study
 
 VEE = changed(("firing_order = [1, 3, 4, 2]", "bank_angle = 75\nstagger = 20"))
 SINGLE = changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", ""))
-CROSS = changed(("throws = [0, 180, 180, 0]", "throws = [0, 90, 270, 180]"), ("firing_order = [1, 3, 4, 2]", "bank_angle = 90"))
+CROSS = changed(
+    ("throws = [0, 180, 180, 0]", "throws = [0, 90, 270, 180]"),
+    ("firing_order = [1, 3, 4, 2]", "bank_angle = 90"),
+)
 
 
 def engine(text):
@@ -22,15 +28,21 @@ def engine(text):
 
 
 def test_flat_plane_vee_eight_over_its_bank_angle():
-    """Liu: with K = 4 A_2 m r omega^2 the second order is K cos(gamma/2) with the crank and K cos(3 gamma/2) against it."""
+    """Liu: with K = 4 A_2 m r omega^2 the second order is K cos(gamma/2) with the crank and K cos(3
+    gamma/2) against it.
+    """
     vee = engine(VEE)
     banks = over_bank_angle(vee, 2)
     c = vee.cylinders
     ratio = float(harmonics.of([2.0], c.lam, c.eps).piston.c[0, 0].real)
     K = 4 * ratio * float(c.reciprocating[0] * c.radius) * vee.omega**2
     gamma = np.radians(banks.angles_deg)
-    assert np.abs(banks.force.forward[0]) == pytest.approx(K * np.abs(np.cos(gamma / 2)), abs=1e-12 * K)
-    assert np.abs(banks.force.backward[0]) == pytest.approx(K * np.abs(np.cos(3 * gamma / 2)), abs=1e-12 * K)
+    assert np.abs(banks.force.forward[0]) == pytest.approx(
+        K * np.abs(np.cos(gamma / 2)), abs=1e-12 * K
+    )
+    assert np.abs(banks.force.backward[0]) == pytest.approx(
+        K * np.abs(np.cos(3 * gamma / 2)), abs=1e-12 * K
+    )
     assert banks.own_deg == 75
 
 
@@ -50,16 +62,32 @@ def test_half_the_reciprocating_mass_balances_a_cross_plane_vee_eight():
     assert best["peak_moment_Nm"] < 1e-2 * rows[0]["peak_moment_Nm"]
 
 
-@pytest.mark.parametrize(("text", "reason"), [
-    (GOOD, "this engine has 1 bank$"),
-    (changed(("firing_order = [1, 3, 4, 2]", "banks = [-60, 0, 60]")), "this engine has 3 banks$")])
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        (GOOD, "this engine has 1 bank$"),
+        (
+            changed(("firing_order = [1, 3, 4, 2]", "banks = [-60, 0, 60]")),
+            "this engine has 3 banks$",
+        ),
+    ],
+)
 def test_only_a_vee_has_a_bank_angle(text, reason):
     with pytest.raises(BalcliError, match=reason):
         study(engine(text), "bank")
 
 
-@pytest.mark.parametrize(("what", "text"), [("factor", CROSS), ("factor", GOOD), ("bank", VEE), ("bank", CROSS), ("inner", VEE),
-                                           ("inner", SINGLE)])
+@pytest.mark.parametrize(
+    ("what", "text"),
+    [
+        ("factor", CROSS),
+        ("factor", GOOD),
+        ("bank", VEE),
+        ("bank", CROSS),
+        ("inner", VEE),
+        ("inner", SINGLE),
+    ],
+)
 def test_their_pictures(what, text):
     subject = Subject(**study(engine(text), what)._asdict())
     data = picture(subject, what, "svg")
@@ -71,8 +99,12 @@ def test_counterweights_unload_the_crankshaft_of_an_in_line_four():
     """It is balanced outside, and yet bent; weights at every throw take most of that away."""
     free = study(engine(GOOD), "inner").bent[0]
     now, before = study(engine(GOOD), "inner", scheme="factor").bent
-    assert max(p.value for p in before.bending.peaks) == max(p.value for p in free.bending.peaks) > 100
-    assert max(p.value for p in now.bending.peaks) < 0.7 * max(p.value for p in before.bending.peaks)
+    assert (
+        max(p.value for p in before.bending.peaks) == max(p.value for p in free.bending.peaks) > 100
+    )
+    assert max(p.value for p in now.bending.peaks) < 0.7 * max(
+        p.value for p in before.bending.peaks
+    )
 
 
 def test_a_scheme_compares_before_and_after():
@@ -85,5 +117,7 @@ def test_a_scheme_compares_before_and_after():
 
 @pytest.mark.parametrize("what", ["factor", "bank"])
 def test_a_study_of_the_engine_as_it_is_takes_no_scheme(what):
-    with pytest.raises(BalcliError, match=f"--what {what} shows the engine as it is: leave --scheme auto out"):
+    with pytest.raises(
+        BalcliError, match=f"--what {what} shows the engine as it is: leave --scheme auto out"
+    ):
         study(engine(VEE), what, scheme="auto")

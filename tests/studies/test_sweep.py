@@ -1,4 +1,5 @@
 """Sweeps: variants as arrays are what each engine gives alone."""
+
 from __future__ import annotations
 
 import math
@@ -11,16 +12,21 @@ from support.engines import GOOD, changed
 from balcli.engine.build import build
 from balcli.engine.load import parse as load
 from balcli.errors import BalcliError, InputError
-from balcli.studies.parameters import parse, varied
 from balcli.forces.quantity import evaluate
 from balcli.forces.quantity import parse as quantities
 from balcli.render.sweep import csv_text, json_text
+from balcli.studies.parameters import parse, varied
 from balcli.studies.sweep import Sweep, boxes, check, chunks, columns, grid
 
-SAME = 1e-12                    # of the largest value of a column
-VEE = changed(("[0, 180, 180, 0]", "[0, 100, 250, 190]"), ("firing_order = [1, 3, 4, 2]", "bank_angle = 70\nstagger = 20"))
-EVERYTHING = quantities("force.1.major,force.2.minor,moment.1.backward,moment.4.x,"
-                        "couple.3.amplitude,torque.2.amplitude,roll.4.amplitude,peak.force")
+SAME = 1e-12  # of the largest value of a column
+VEE = changed(
+    ("[0, 180, 180, 0]", "[0, 100, 250, 190]"),
+    ("firing_order = [1, 3, 4, 2]", "bank_angle = 70\nstagger = 20"),
+)
+EVERYTHING = quantities(
+    "force.1.major,force.2.minor,moment.1.backward,moment.4.x,"
+    "couple.3.amplitude,torque.2.amplitude,roll.4.amplitude,peak.force"
+)
 MORE = """
 [[shaft]]
 ratio = -2
@@ -44,39 +50,66 @@ def asked(engine: str, *vary: str, of: str = "") -> Sweep:
     return Sweep(file, tuple(parse(v, file) for v in vary), quantities(of) if of else EVERYTHING)
 
 
-@pytest.mark.parametrize(("engine", "vary"), [
-    (VEE, ("layout.bank_angle=0:180:45", "rod.ratio=0.2,0.3")),
-    (VEE, ("crank.throws.2=0:180:60", "crank.stroke=80,90", "piston.mass=0.4,0.5")),
-    (VEE, ("crank.splay=-30,0", "crank.spacing=90,100", "layout.stagger=0,20")),
-    (VEE, ("cylinder.3.piston_mass=0.5,0.6", "cylinder.2.rod_length=150,160", "cylinder.4.position=3,4")),
-    (VEE, ("piston.offset=-2,0,2", "rod.length=150,160")),
-    (VEE, ("rod.inertia=1000,5000", "operation.speed=1000,3000", "crank.throw_mass=0,1")),
-    (VEE + MORE, ("shaft.1.unbalance=0,9000", "shaft.1.at.2=0,60", "counterweight.1.angle=0,180")),
-    (VEE + MORE, ("slider.1.direction=0,90", "frame.reference.1=0,10", "frame.reference.3=0,10")),
-    (VEE + UNSTEADY, ("operation.speed_ripple.1.amplitude=0.01,0.02", "rod.ratio=0.2,0.3")),
-    (changed(("throws = [0, 180, 180, 0]\n", "")), ("piston.offset=0,2", "rod.length=150,160")),
-])
+@pytest.mark.parametrize(
+    ("engine", "vary"),
+    [
+        (VEE, ("layout.bank_angle=0:180:45", "rod.ratio=0.2,0.3")),
+        (VEE, ("crank.throws.2=0:180:60", "crank.stroke=80,90", "piston.mass=0.4,0.5")),
+        (VEE, ("crank.splay=-30,0", "crank.spacing=90,100", "layout.stagger=0,20")),
+        (
+            VEE,
+            (
+                "cylinder.3.piston_mass=0.5,0.6",
+                "cylinder.2.rod_length=150,160",
+                "cylinder.4.position=3,4",
+            ),
+        ),
+        (VEE, ("piston.offset=-2,0,2", "rod.length=150,160")),
+        (VEE, ("rod.inertia=1000,5000", "operation.speed=1000,3000", "crank.throw_mass=0,1")),
+        (
+            VEE + MORE,
+            ("shaft.1.unbalance=0,9000", "shaft.1.at.2=0,60", "counterweight.1.angle=0,180"),
+        ),
+        (
+            VEE + MORE,
+            ("slider.1.direction=0,90", "frame.reference.1=0,10", "frame.reference.3=0,10"),
+        ),
+        (VEE + UNSTEADY, ("operation.speed_ripple.1.amplitude=0.01,0.02", "rod.ratio=0.2,0.3")),
+        (changed(("throws = [0, 180, 180, 0]\n", "")), ("piston.offset=0,2", "rod.length=150,160")),
+    ],
+)
 def test_every_variant_is_the_engine_alone(engine: str, vary: tuple[str, ...]) -> None:
     sweep = asked(engine, *vary)
     found = grid(sweep)
     paths = [p.path for p in sweep.parameters]
-    variants = [dict(zip(paths, values, strict=True)) for values in product(*(p.values.tolist() for p in sweep.parameters))]
-    alone = [[float(v) for v in evaluate(build(varied(sweep.file, one)), EVERYTHING)] for one in variants]
+    variants = [
+        dict(zip(paths, values, strict=True))
+        for values in product(*(p.values.tolist() for p in sweep.parameters))
+    ]
+    alone = [
+        [float(v) for v in evaluate(build(varied(sweep.file, one)), EVERYTHING)] for one in variants
+    ]
     for quantity, values, expected in zip(EVERYTHING, found, np.array(alone).T, strict=True):
-        assert values.ravel() == pytest.approx(expected, abs=SAME * max(np.abs(expected).max(), 1e-9)), quantity.name
+        assert values.ravel() == pytest.approx(
+            expected, abs=SAME * max(np.abs(expected).max(), 1e-9)
+        ), quantity.name
 
 
 @pytest.mark.parametrize("vary", ["counterweight.1.mass=0,0.3", "counterweight.1.radius=0,40"])
 def test_an_unbalance_of_mass_and_radius_varies_by_either(vary: str) -> None:
-    """0 and 0.3 kg at 40 mm (or 0 and 40 mm of 0.3 kg), opposite the first pin of a balanced crank: U omega^2."""
+    """0 and 0.3 kg at 40 mm (or 0 and 40 mm of 0.3 kg), opposite the first pin of a balanced crank:
+    U omega^2.
+    """
     sweep = asked(GOOD + "[[counterweight]]\nmass = 0.3\nradius = 40\n", vary, of="force.1.forward")
     (found,) = evaluate(sweep.engine((slice(None),)), sweep.quantities)
-    assert found == pytest.approx([0, 0.3 * 0.040 * (3000 * math.pi / 30)**2], rel=1e-14)
+    assert found == pytest.approx([0, 0.3 * 0.040 * (3000 * math.pi / 30) ** 2], rel=1e-14)
 
 
 def test_a_rod_weighed_at_one_end_only_is_refused() -> None:
     light = changed(("mass = 0.6\ncg = 45\n", ""))
-    with pytest.raises(InputError, match=r"rod\.big_end: needs small_end beside it: weigh the rod at both ends"):
+    with pytest.raises(
+        InputError, match=r"rod\.big_end: needs small_end beside it: weigh the rod at both ends"
+    ):
         check(asked(light, "rod.big_end=0.1,0.2"))
 
 
@@ -98,7 +131,12 @@ def test_boxes_cover_the_grid_in_the_order_of_rows(shape: tuple[int, ...], most:
 
 
 def test_chunks_do_not_change_figures() -> None:
-    sweep = asked(VEE, "layout.bank_angle=0:179:1", "rod.ratio=0.2:0.399:0.001", of="force.2.major,moment.1.backward")
+    sweep = asked(
+        VEE,
+        "layout.bank_angle=0:179:1",
+        "rod.ratio=0.2:0.399:0.001",
+        of="force.2.major,moment.1.backward",
+    )
     several = list(chunks(sweep))
     assert len(several) == 2
     every = np.concatenate([np.stack(columns(sweep, chunk)) for chunk in several], axis=1)
@@ -112,7 +150,10 @@ def test_csv_is_exact_and_an_axis_that_is_none_an_empty_cell() -> None:
     sweep = asked(GOOD, "piston.mass=0.1,0.5", of="force.2.major,force.2.axis,force.1.axis")
     text = "".join(csv_text(sweep, chunks(sweep)))
     force = [repr(float(v)) for v in grid(sweep)[0]]
-    assert text == f"piston.mass,force.2.major,force.2.axis,force.1.axis\n0.1,{force[0]},0.0,\n0.5,{force[1]},0.0,\n"
+    assert (
+        text
+        == f"piston.mass,force.2.major,force.2.axis,force.1.axis\n0.1,{force[0]},0.0,\n0.5,{force[1]},0.0,\n"
+    )
 
 
 def test_json_is_one_document() -> None:
@@ -140,8 +181,17 @@ def test_cluster_gives_identical_rows() -> None:
     distributed = pytest.importorskip("distributed")
     from balcli.studies import dask_cluster as cluster
 
-    sweep = asked(VEE, "layout.bank_angle=0:100:1", "rod.ratio=0.2:0.3:0.0002", of="force.2.major,moment.1.backward")
-    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None) as local, \
-            distributed.Client(local) as client:
+    sweep = asked(
+        VEE,
+        "layout.bank_angle=0:100:1",
+        "rod.ratio=0.2:0.3:0.0002",
+        of="force.2.major,moment.1.backward",
+    )
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None
+        ) as local,
+        distributed.Client(local) as client,
+    ):
         there = "".join(csv_text(sweep, cluster.chunks(sweep, client)))
     assert there == "".join(csv_text(sweep, chunks(sweep)))

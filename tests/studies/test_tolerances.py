@@ -1,4 +1,5 @@
 """Scatter: random engines against exact derivatives and against engines written out."""
+
 from __future__ import annotations
 
 import math
@@ -14,16 +15,24 @@ from balcli.forces.quantity import evaluate, parse
 from balcli.studies.tolerances import Tolerances, scatter, tolerances
 
 FORCES = parse("force.1.major,force.2.major,moment.1.major")
-TWIN = changed(("[0, 180, 180, 0]", "[0, 180]"), ("throw_mass = 0.8", ""), ("mass = 0.6\ncg = 45\n", ""),
-               ("[layout]\nfiring_order = [1, 3, 4, 2]\n", ""))
+TWIN = changed(
+    ("[0, 180, 180, 0]", "[0, 180]"),
+    ("throw_mass = 0.8", ""),
+    ("mass = 0.6\ncg = 45\n", ""),
+    ("[layout]\nfiring_order = [1, 3, 4, 2]\n", ""),
+)
 
 
 def test_two_pistons_alone_have_a_triangular_difference() -> None:
-    """180-degree twin of pistons alone: the free force of order 1 is |d1 - d2| m r w^2, with uniform d of +-t: its mean is 2t/3."""
+    """180-degree twin of pistons alone: the free force of order 1 is |d1 - d2| m r w^2, with
+    uniform d of +-t: its mean is 2t/3.
+    """
     t, samples = 0.01, 200_000
-    (spread,) = scatter(load(TWIN), Tolerances(mass=t), parse("force.1.major"), samples, seed=1).spreads
+    (spread,) = scatter(
+        load(TWIN), Tolerances(mass=t), parse("force.1.major"), samples, seed=1
+    ).spreads
     whole = 0.5 * 0.045 * (3000 * math.pi / 30) ** 2
-    deviation = t * math.sqrt(2 / 9) / math.sqrt(samples)                   # of the mean of |d1 - d2|
+    deviation = t * math.sqrt(2 / 9) / math.sqrt(samples)  # of the mean of |d1 - d2|
     assert spread.mean == pytest.approx(2 * t / 3 * whole, abs=6 * deviation * whole)
     assert spread.bound == pytest.approx(2 * t * whole, rel=1e-12)
     assert spread.bound * 0.98 < spread.largest <= spread.bound
@@ -31,22 +40,32 @@ def test_two_pistons_alone_have_a_triangular_difference() -> None:
 
 
 def test_shares_are_what_a_changed_file_gives() -> None:
-    (spread,) = scatter(load(GOOD), Tolerances(mass=0.01), parse("force.2.major"), 10, seed=1).spreads
+    (spread,) = scatter(
+        load(GOOD), Tolerances(mass=0.01), parse("force.2.major"), 10, seed=1
+    ).spreads
     share = {source.name: value for source, value in spread.shares}
     heavier = build(load(GOOD + "[cylinder.2]\npiston_mass = 0.505\n"))
-    nominal, other = (float(evaluate(e, parse("force.2.major"))[0]) for e in (build(load(GOOD)), heavier))
+    nominal, other = (
+        float(evaluate(e, parse("force.2.major"))[0]) for e in (build(load(GOOD)), heavier)
+    )
     assert share["piston mass 2"] == pytest.approx(other - nominal, rel=1e-9)
     assert spread.nominal == pytest.approx(nominal, rel=1e-14)
 
 
 def test_shares_of_angles_and_lengths_are_derivatives() -> None:
     weighed = changed(("mass = 0.6\ncg = 45\n", "small_end = 0.17\nbig_end = 0.43\n"))
-    (spread,) = scatter(load(weighed), Tolerances(length=1e-6, angle_deg=1e-5), parse("force.2.major"), 10, seed=1).spreads
+    (spread,) = scatter(
+        load(weighed), Tolerances(length=1e-6, angle_deg=1e-5), parse("force.2.major"), 10, seed=1
+    ).spreads
     share = {source.name: value for source, value in spread.shares}
     longer = build(load(weighed + "[cylinder.3]\nrod_length = 160.00016\n"))
-    nominal, other = (float(evaluate(e, parse("force.2.major"))[0]) for e in (build(load(weighed)), longer))
+    nominal, other = (
+        float(evaluate(e, parse("force.2.major"))[0]) for e in (build(load(weighed)), longer)
+    )
     assert share["rod length 3"] == pytest.approx(other - nominal, rel=1e-4)
-    assert abs(share["throw angle 2"]) < 1e-9 * nominal                            # to first order, all vectors lie along one line
+    assert (
+        abs(share["throw angle 2"]) < 1e-9 * nominal
+    )  # to first order, all vectors lie along one line
 
 
 def test_nothing_exceeds_the_bound_of_masses() -> None:
@@ -58,7 +77,9 @@ def test_nothing_exceeds_the_bound_of_masses() -> None:
 
 
 def test_a_seed_repeats_and_chunks_do_not_matter() -> None:
-    runs = [scatter(load(GOOD), Tolerances(mass=0.01), FORCES, 20_000, seed=seed) for seed in (7, 7, 8)]
+    runs = [
+        scatter(load(GOOD), Tolerances(mass=0.01), FORCES, 20_000, seed=seed) for seed in (7, 7, 8)
+    ]
     assert runs[0].spreads == runs[1].spreads
     assert runs[0].spreads[0].mean != runs[2].spreads[0].mean
 
@@ -68,23 +89,29 @@ def test_tolerances_in_words() -> None:
     assert tolerances("1%", "0%", "0.1").angle_deg == 0.1
 
 
-@pytest.mark.parametrize(("given", "message"), [
-    (("much", "0%", "0"), '--mass-scatter "much": give a percentage of 0 to 100, such as 0.5%'),
-    (("0.5", "0%", "0"), '--mass-scatter "0.5": give a percentage of 0 to 100, such as 0.5%'),
-    (("1%", "-1%", "0"), '--length-scatter "-1%": give a percentage of 0 to 100, such as 0.5%'),
-    (("1%", "0%", "wide"), '--angle-scatter "wide" is not a number followed by a unit'),
-])
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (("much", "0%", "0"), '--mass-scatter "much": give a percentage of 0 to 100, such as 0.5%'),
+        (("0.5", "0%", "0"), '--mass-scatter "0.5": give a percentage of 0 to 100, such as 0.5%'),
+        (("1%", "-1%", "0"), '--length-scatter "-1%": give a percentage of 0 to 100, such as 0.5%'),
+        (("1%", "0%", "wide"), '--angle-scatter "wide" is not a number followed by a unit'),
+    ],
+)
 def test_mistakes_in_words(given: tuple[str, str, str], message: str) -> None:
     with pytest.raises(BalcliError) as caught:
         tolerances(*given)
     assert str(caught.value).startswith(message)
 
 
-@pytest.mark.parametrize(("tolerance", "quantity", "samples", "message"), [
-    (Tolerances(), "force.1.major", 10, "nothing deviates; give a tolerance"),
-    (Tolerances(0.01), "force.1.axis", 10, "force.1.axis has no scatter of its own"),
-    (Tolerances(0.01), "force.1.major", 0, "0 samples: from 1 to 20000000 are allowed"),
-])
+@pytest.mark.parametrize(
+    ("tolerance", "quantity", "samples", "message"),
+    [
+        (Tolerances(), "force.1.major", 10, "nothing deviates; give a tolerance"),
+        (Tolerances(0.01), "force.1.axis", 10, "force.1.axis has no scatter of its own"),
+        (Tolerances(0.01), "force.1.major", 0, "0 samples: from 1 to 20000000 are allowed"),
+    ],
+)
 def test_refusals(tolerance: Tolerances, quantity: str, samples: int, message: str) -> None:
     with pytest.raises(BalcliError) as caught:
         scatter(load(GOOD), tolerance, parse(quantity), samples)
@@ -94,7 +121,9 @@ def test_refusals(tolerance: Tolerances, quantity: str, samples: int, message: s
 def test_percentiles_are_those_of_the_samples() -> None:
     result = scatter(load(TWIN), Tolerances(mass=0.01), parse("force.1.major"), 50_000, seed=1)
     whole = 0.5 * 0.045 * (3000 * math.pi / 30) ** 2
-    median = 0.01 * (2 - math.sqrt(2)) * whole          # of a triangular distribution on [0, 2t], densest at 0
+    median = (
+        0.01 * (2 - math.sqrt(2)) * whole
+    )  # of a triangular distribution on [0, 2t], densest at 0
     assert result.spreads[0].percentiles["p50"] == pytest.approx(median, rel=0.02)
     assert np.isfinite(result.spreads[0].mean)
 
@@ -105,12 +134,21 @@ ARTICULATED = RADIAL.replace("radial = 7", "radial = 5").replace("cg = 90", "cg 
 def test_an_articulated_rods_mass_deviates_at_its_knuckle_pin_too() -> None:
     def force(text: str) -> float:
         return float(evaluate(build(load(text)), parse("force.1.major"))[0])
-    heavier = force(ARTICULATED + "[cylinder.3]\nrod_mass = 0.6231\nrod_cg = 30\n") - force(ARTICULATED)
-    (found,) = scatter(load(ARTICULATED), Tolerances(mass=0.005), parse("force.1.major"), 10, 1).spreads
-    assert {s.name: share for s, share in found.shares}["rod mass 3"] == pytest.approx(heavier, rel=1e-3)
+
+    heavier = force(ARTICULATED + "[cylinder.3]\nrod_mass = 0.6231\nrod_cg = 30\n") - force(
+        ARTICULATED
+    )
+    (found,) = scatter(
+        load(ARTICULATED), Tolerances(mass=0.005), parse("force.1.major"), 10, 1
+    ).spreads
+    assert {s.name: share for s, share in found.shares}["rod mass 3"] == pytest.approx(
+        heavier, rel=1e-3
+    )
 
 
 def test_rotary_engines_have_no_scatter() -> None:
-    rotary = ARTICULATED[:ARTICULATED.index("[articulation]")] + "rotary = true\n"
-    with pytest.raises(BalcliError, match="there is no scatter of rotary engines, whose masses move on curves"):
+    rotary = ARTICULATED[: ARTICULATED.index("[articulation]")] + "rotary = true\n"
+    with pytest.raises(
+        BalcliError, match="there is no scatter of rotary engines, whose masses move on curves"
+    ):
         scatter(load(rotary), Tolerances(mass=0.005), parse("force.1.major"), 10, 1)

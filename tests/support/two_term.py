@@ -1,11 +1,14 @@
-"""The textbooks' two-term forms of the centred slider-crank (in crank radii, by lambda = r/l), and how far they are out."""
+"""The textbooks' two-term forms of the centred slider-crank (in crank radii, by lambda = r/l), and
+how far they are out.
+"""
+
 from __future__ import annotations
 
 import numpy as np
 
 from balcli.core.mechanisms import slidercrank
 
-PSI = np.radians(np.arange(0.5, 180.0, 0.01))           # travel and velocity vanish at both ends
+PSI = np.radians(np.arange(0.5, 180.0, 0.01))  # travel and velocity vanish at both ends
 
 
 def displacement(psi, lam):

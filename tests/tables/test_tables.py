@@ -1,4 +1,5 @@
 """The registry of printed tables: form, the rule for errata, ranges, and the command."""
+
 from __future__ import annotations
 
 import csv
@@ -18,10 +19,22 @@ from balcli.tables import NAMES, Options, recompute, select
 from balcli.tables.ranges import crank_ratios, headings
 from balcli.tables.table import Explanation, Table, deviates
 
-ERRATA = {                      # printed figures that are not the exact ones rounded
-    "tsinghua-1-1": 1, "tsinghua-1-2": 6, "tsinghua-1-3": 6, "tsinghua-1-4": 6, "tsinghua-1-5": 0, "tsinghua-1-6": 10,
-    "liu-1": 4, "liu-2": 0, "liu-3": 58, "wang-1": 19, "kvasnikov-1": 2, "kvasnikov-2": 3, "liang-examples": 4,
-    "series": 3, "layouts": 0,
+ERRATA = {  # printed figures that are not the exact ones rounded
+    "tsinghua-1-1": 1,
+    "tsinghua-1-2": 6,
+    "tsinghua-1-3": 6,
+    "tsinghua-1-4": 6,
+    "tsinghua-1-5": 0,
+    "tsinghua-1-6": 10,
+    "liu-1": 4,
+    "liu-2": 0,
+    "liu-3": 58,
+    "wang-1": 19,
+    "kvasnikov-1": 2,
+    "kvasnikov-2": 3,
+    "liang-examples": 4,
+    "series": 3,
+    "layouts": 0,
 }
 
 
@@ -64,33 +77,39 @@ def test_errata_are_the_figures_that_rounding_does_not_give(name):
 
 
 # ---------------------------------------------------------------- the rule
-@pytest.mark.parametrize(("value", "text", "wrong"), [
-    (0.12345, "0.1235", False),                 # halves away from zero, as written in decimal
-    (-0.12345, "-.1235", False),
-    (0.12344, "0.1235", True),
-    (2.0, "2", False),
-    (0.0, "-0.0000", False),
-    (1 / 3, "1/3", False),
-    (1 / 3, "2/3", True),
-    ("15/128", "5/128", True),
-    ("15/128", "30/256", False),
-    ("12~15", "12~15", False),
-    ("gasoline", "diesel", False),              # words are no figures
-])
+@pytest.mark.parametrize(
+    ("value", "text", "wrong"),
+    [
+        (0.12345, "0.1235", False),  # halves away from zero, as written in decimal
+        (-0.12345, "-.1235", False),
+        (0.12344, "0.1235", True),
+        (2.0, "2", False),
+        (0.0, "-0.0000", False),
+        (1 / 3, "1/3", False),
+        (1 / 3, "2/3", True),
+        ("15/128", "5/128", True),
+        ("15/128", "30/256", False),
+        ("12~15", "12~15", False),
+        ("gasoline", "diesel", False),  # words are no figures
+    ],
+)
 def test_when_a_printed_figure_deviates(value, text, wrong):
     assert deviates(value, text) is wrong
 
 
-@pytest.mark.parametrize(("exact", "text", "kind"), [
-    (0.33657, ".3363", "misprint"),
-    (0.43125061, ".4312", "last digit, near a tie"),
-    (1.5398, "1.539", "last digit, truncated"),
-    (0.77264, ".7725", "last digit"),
-    (2.75, "2.57", "misprint, digits transposed"),
-    (0.706, "1.412", "doubled by mistake"),
-    (0.7069, "1.413", "doubled by mistake, truncated"),
-    (0.5295, "1.095", "doubled by mistake, digits transposed"),
-])
+@pytest.mark.parametrize(
+    ("exact", "text", "kind"),
+    [
+        (0.33657, ".3363", "misprint"),
+        (0.43125061, ".4312", "last digit, near a tie"),
+        (1.5398, "1.539", "last digit, truncated"),
+        (0.77264, ".7725", "last digit"),
+        (2.75, "2.57", "misprint, digits transposed"),
+        (0.706, "1.412", "doubled by mistake"),
+        (0.7069, "1.413", "doubled by mistake, truncated"),
+        (0.5295, "1.095", "doubled by mistake, digits transposed"),
+    ],
+)
 def test_kinds(exact, text, kind):
     """An explanation counts only where it leads to the printed figure."""
     doubled = Explanation("doubled by mistake", ((None, 2 * exact),))
@@ -100,7 +119,9 @@ def test_kinds(exact, text, kind):
 
 def test_an_explanation_that_says_the_same_as_the_exact_value_is_none():
     same = Explanation("nothing", ((0.7071,),))
-    assert [e.kind for e in Table("t", "", "", ("a",), ((0.7071,),), (("0.706",),), (same,)).errata] == ["last digit"]
+    assert [
+        e.kind for e in Table("t", "", "", ("a",), ((0.7071,),), (("0.706",),), (same,)).errata
+    ] == ["last digit"]
 
 
 # ---------------------------------------------------------------- other ranges
@@ -111,25 +132,51 @@ def test_ranges_include_both_ends():
     assert len(crank_ratios("0.20:0.40:0.01")) == 21
 
 
-@pytest.mark.parametrize("text", [
-    "", "1:2:3:4", "a:b", "0:1:0", "1:0:0.1", "0:1e9:1e-9", "nan", "1/0", "0:1:", "1e400", "1e999999999", "3e9",
-])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "1:2:3:4",
+        "a:b",
+        "0:1:0",
+        "1:0:0.1",
+        "0:1e9:1e-9",
+        "nan",
+        "1/0",
+        "0:1:",
+        "1e400",
+        "1e999999999",
+        "3e9",
+    ],
+)
 def test_bad_ranges(text):
-    with pytest.raises(BalcliError, match=r"^--angle '.*' is no range: give START:STOP:STEP \(0.20:0.40:0.01\) or"):
+    with pytest.raises(
+        BalcliError, match=r"^--angle '.*' is no range: give START:STOP:STEP \(0.20:0.40:0.01\) or"
+    ):
         headings(text, "--angle")
 
 
 def test_a_mechanism_that_cannot_turn():
     with pytest.raises(BalcliError) as error:
         crank_ratios("0.9:1.1:0.1")
-    assert str(error.value) == "--lambda '0.9:1.1:0.1': lambda = 1, but a crank turns only with 0 < lambda < 1"
+    assert (
+        str(error.value)
+        == "--lambda '0.9:1.1:0.1': lambda = 1, but a crank turns only with 0 < lambda < 1"
+    )
 
 
-@pytest.mark.parametrize(("name", "function"), [
-    ("tsinghua-1-2", sc.displacement), ("tsinghua-1-3", sc.velocity), ("tsinghua-1-6", sc.acceleration),
-])
+@pytest.mark.parametrize(
+    ("name", "function"),
+    [
+        ("tsinghua-1-2", sc.displacement),
+        ("tsinghua-1-3", sc.velocity),
+        ("tsinghua-1-6", sc.acceleration),
+    ],
+)
 def test_other_angles_and_ratios(name, function):
-    """The print stands beside the exact values wherever it has the angle and the ratio, and only there."""
+    """The print stands beside the exact values wherever it has the angle and the ratio, and only
+    there.
+    """
     table = recompute(name, Options(lam=("0.3", "0.35"), angle=("70", "71.5")))
     place = table.columns.index("0.35")
     assert table.rows[1][place] == pytest.approx(float(function(np.radians(71.5), 0.35)), rel=1e-15)
@@ -148,6 +195,7 @@ def test_the_acceleration_goes_on_to_180_degrees():
 def test_series_to_a_higher_power():
     """Leading coefficient of A_16: binomial series, (16)^2 (-1)^9 binom(16, 8)/(15 2^31)."""
     from math import comb
+
     table = recompute("series", Options(power=15))
     leading = [row[3] for row in table.rows if row[:3] == ("acceleration A_n (r w^2)", 16, 15)]
     assert leading == [str(Fraction(-(16**2) * comb(16, 8), 15 * 2**31))]
@@ -169,7 +217,9 @@ def test_list_of_tables():
 def test_words_are_folded_in_a_pipe_and_figures_are_not():
     listed = run().stdout
     assert max(map(len, listed.splitlines())) <= 130
-    assert {word for t in document() for word in (t["title"] + " " + t["source"]).split()} <= set(listed.split())
+    assert {word for t in document() for word in (t["title"] + " " + t["source"]).split()} <= set(
+        listed.split()
+    )
     figures = run("layouts").stdout.splitlines()
     assert len([line for line in figures if line.startswith("i4 ")]) == 1
     assert max(map(len, figures)) > 200
@@ -197,8 +247,12 @@ def test_deviating_figures_are_marked_and_counted():
 
 def test_digits():
     assert "0.4312506086" in run("tsinghua-1-2", "--digits", "10").stdout
-    first = next(line for line in run("tsinghua-1-2", "--digits", "2").stdout.splitlines() if line.startswith("0 "))
-    assert first.split() == ["0", *["0.00"] * 9, "360"]                         # printed .0000; whole angles stay whole
+    first = next(
+        line
+        for line in run("tsinghua-1-2", "--digits", "2").stdout.splitlines()
+        if line.startswith("0 ")
+    )
+    assert first.split() == ["0", *["0.00"] * 9, "360"]  # printed .0000; whole angles stay whole
 
 
 def test_errata_of_one_table_and_of_all():
@@ -207,13 +261,19 @@ def test_errata_of_one_table_and_of_all():
     assert "cos 45° taken as 0.706" in run("liu-3", "--errata").stdout
 
 
-@pytest.mark.parametrize(("arguments", "message"), [
-    (("tsinghua-1-9",), "no table 'tsinghua-1-9'; the nearest name is 'tsinghua-1-6'"),
-    (("colour",), "no table 'colour'. Tables: tsinghua-1-1, "),
-    (("liu-1", "--angle", "0:90:5"), "--angle: table liu-1 takes no other range"),
-    (("kvasnikov-1", "--angle", "0:90:5"), "--angle: table kvasnikov-1 takes --lambda"),
-    (("--angle", "0:90:5"), "--angle: name the table that it is for (tsinghua-1-2, tsinghua-1-3, tsinghua-1-6)"),
-])
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("tsinghua-1-9",), "no table 'tsinghua-1-9'; the nearest name is 'tsinghua-1-6'"),
+        (("colour",), "no table 'colour'. Tables: tsinghua-1-1, "),
+        (("liu-1", "--angle", "0:90:5"), "--angle: table liu-1 takes no other range"),
+        (("kvasnikov-1", "--angle", "0:90:5"), "--angle: table kvasnikov-1 takes --lambda"),
+        (
+            ("--angle", "0:90:5"),
+            "--angle: name the table that it is for (tsinghua-1-2, tsinghua-1-3, tsinghua-1-6)",
+        ),
+    ],
+)
 def test_mistakes(arguments, message):
     error = run(*arguments).exception
     assert isinstance(error, BalcliError)

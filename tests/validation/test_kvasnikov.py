@@ -2,6 +2,7 @@
 
 Ratios of the orders, and which orders remain in radial, V and in-line engines.
 """
+
 from __future__ import annotations
 
 from math import sqrt
@@ -9,7 +10,8 @@ from math import sqrt
 import numpy as np
 import pytest
 
-from balcli.core.mechanisms import harmonics, power_series as series
+from balcli.core.mechanisms import harmonics
+from balcli.core.mechanisms import power_series as series
 from balcli.core.phasors import unit
 from balcli.tables import recompute
 
@@ -17,7 +19,10 @@ LAM = np.array([1 / 6, 1 / 4])
 
 
 def percent(coefficients, n, first):
-    return [round(100 * float(abs(x)), 4) for x in coefficients([n], LAM)[0] / coefficients([first], LAM)[0]]
+    return [
+        round(100 * float(abs(x)), 4)
+        for x in coefficients([n], LAM)[0] / coefficients([first], LAM)[0]
+    ]
 
 
 def test_force_orders_relative_to_the_first():
@@ -39,9 +44,13 @@ def test_wrong_coefficients_of_the_series():
     assert wrong == {("5/128", "15/128"), ("-3/10", "-3/16"), ("25/1025", "25/1024")}
 
 
-@pytest.mark.parametrize(("coefficients", "terms", "orders"), [
-    (harmonics.piston, series.piston, (2, 4, 6, 8)), (harmonics.rod, series.rod, (1, 3, 5, 7)),
-])
+@pytest.mark.parametrize(
+    ("coefficients", "terms", "orders"),
+    [
+        (harmonics.piston, series.piston, (2, 4, 6, 8)),
+        (harmonics.rod, series.rod, (1, 3, 5, 7)),
+    ],
+)
 def test_tables_i_and_ii_agree_with_the_series(coefficients, terms, orders):
     """Up to lambda^40, beyond which nothing is left at lambda = 1/4."""
     for n, exact in zip(orders, coefficients(list(orders), LAM), strict=True):
@@ -50,10 +59,15 @@ def test_tables_i_and_ii_agree_with_the_series(coefficients, terms, orders):
 
 
 def radial_orders(cylinders, highest=20):
-    """Orders n that a radial of equal cylinders on one crank leaves: sum of e^{i(1 -+ n) g} over the axes g."""
+    """Orders n that a radial of equal cylinders on one crank leaves: sum of e^{i(1 -+ n) g} over
+    the axes g.
+    """
     axes = np.arange(cylinders) * 360 / cylinders
-    return [n for n in [1, *range(2, highest, 2)]
-            if max(abs(unit((1 - n) * axes).sum()), abs(unit((1 + n) * axes).sum())) > 1e-9]
+    return [
+        n
+        for n in [1, *range(2, highest, 2)]
+        if max(abs(unit((1 - n) * axes).sum()), abs(unit((1 + n) * axes).sum())) > 1e-9
+    ]
 
 
 def test_orders_left_in_radial_engines():
@@ -69,10 +83,14 @@ def layout(name):
 
 
 def test_radial_engines():
-    """(81): half the reciprocating masses turn with the crank; i = 5 keeps orders 4 and 6, each i/2, i = 7 only 6."""
+    """(81): half the reciprocating masses turn with the crank; i = 5 keeps orders 4 and 6, each
+    i/2, i = 7 only 6.
+    """
     five, seven = layout("radial5"), layout("radial7")
     assert five["F1_major"] == five["F1_minor"] == pytest.approx(5 / 2, rel=1e-14)
-    assert (five["F2_major"], five["F4_major"], five["F6_major"]) == pytest.approx((0, 5 / 2, 5 / 2), abs=1e-12)
+    assert (five["F2_major"], five["F4_major"], five["F6_major"]) == pytest.approx(
+        (0, 5 / 2, 5 / 2), abs=1e-12
+    )
     assert (seven["F4_major"], seven["F6_major"]) == pytest.approx((0, 7 / 2), abs=1e-12)
 
 
@@ -84,14 +102,18 @@ def test_v_pair_of_90_degrees():
 
 
 def test_in_line_engines():
-    """(84), (85): with even crank spacing the lowest order is i (i even) or 2 i (i odd); fours, sixes repeat cranks."""
+    """(84), (85): with even crank spacing the lowest order is i (i even) or 2 i (i odd); fours,
+    sixes repeat cranks.
+    """
     assert (layout("i3")["F2_major"], layout("i3")["F6_major"]) == pytest.approx((0, 3), abs=1e-12)
     assert layout("i4")["F2_major"] == pytest.approx(4, rel=1e-14)
     assert (layout("i6")["F4_major"], layout("i6")["F6_major"]) == pytest.approx((0, 6), abs=1e-12)
 
 
 def test_textbook_moments():
-    """sqrt3 F1 a: in-line three; sqrt10 F1 a: cross-plane V8; 4 sqrt2 F2: flat-plane V8 of 90 degrees."""
+    """sqrt3 F1 a: in-line three; sqrt10 F1 a: cross-plane V8; 4 sqrt2 F2: flat-plane V8 of 90
+    degrees.
+    """
     assert layout("i3")["M1_major"] == pytest.approx(sqrt(3), rel=1e-14)
     cross = layout("v8_crossplane")
     assert cross["M1_major"] == cross["M1_minor"] == pytest.approx(sqrt(10), rel=1e-14)

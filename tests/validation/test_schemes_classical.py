@@ -1,4 +1,7 @@
-"""The schemes of every textbook, for engines whose answer can be written down (and as hardware that was built)."""
+"""The schemes of every textbook, for engines whose answer can be written down (and as hardware that
+was built).
+"""
+
 from __future__ import annotations
 
 import cmath
@@ -8,20 +11,22 @@ import numpy as np
 import pytest
 from support.engines import engine_text
 
-from balcli.results.analysis import analyze
 from balcli.core.mechanisms import harmonics
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.sizing.sizing import Wish, fitted, remedy_for
-from balcli.sizing.auto import auto
 from balcli.forces.spectrum import spectra
+from balcli.results.analysis import analyze
+from balcli.sizing.auto import auto
+from balcli.sizing.sizing import Wish, fitted, remedy_for
 
 M, R, LAM = 1.0, 0.05, 0.25
 A2 = float(harmonics.piston([2], LAM)[0])
 
 
-def engine(throws: list[float], spacing: float = 100, throw_mass: float = 1, more: str = "", **tables: str) -> Engine:
+def engine(
+    throws: list[float], spacing: float = 100, throw_mass: float = 1, more: str = "", **tables: str
+) -> Engine:
     crank = f"stroke = 100\nthrows = {throws}\nspacing = {spacing}\nthrow_mass = {throw_mass}"
     return build(parse(engine_text(crank=crank, **tables) + more))
 
@@ -43,18 +48,22 @@ def sizes(tables) -> list[float]:
 def test_v_twin_at_90_degrees_needs_a_counterweight_alone():
     """Half of both pistons: one reciprocating mass opposite the pin, with the rotating mass."""
     e = engine([0], layout="bank_angle = 90")
-    weight, = auto(e).counterweights
+    (weight,) = auto(e).counterweights
     assert weight.unbalance / 1e6 == pytest.approx((M + 1) * R, rel=1e-14)
     assert weight.angle == 180
     assert left(fitted(e, auto(e)), [1]).force.balanced.all()
 
 
 def test_cross_plane_v8_needs_counterweights_alone():
-    """Each throw acts like a rotating mass m_rec + m_rot (Cadillac 1923); end weights take the couple of `sqrt 10` throw distances."""
+    """Each throw acts like a rotating mass m_rec + m_rot (Cadillac 1923); end weights take the
+    couple of `sqrt 10` throw distances.
+    """
     remedy = auto(CROSS_V8)
     assert not remedy.shafts
     assert not remedy.sliders
-    assert sizes(remedy.counterweights) == pytest.approx([math.sqrt(10) / 3 * (M + 1) * R] * 2, rel=1e-14)
+    assert sizes(remedy.counterweights) == pytest.approx(
+        [math.sqrt(10) / 3 * (M + 1) * R] * 2, rel=1e-14
+    )
     after = left(fitted(CROSS_V8, remedy))
     assert after.force.balanced.all()
     assert after.moment.balanced.all()
@@ -64,7 +73,7 @@ def test_cross_plane_v8_needs_counterweights_alone():
 def test_radial_engines_need_a_counterweight_alone(cylinders):
     """R = (m_a/2 + m_b) i r omega^2 (Kvasnikov)."""
     e = engine([0], layout=f"radial = {cylinders}")
-    weight, = remedy_for(e, "counterweights").counterweights
+    (weight,) = remedy_for(e, "counterweights").counterweights
     assert weight.unbalance / 1e6 == pytest.approx((cylinders * M / 2 + 1) * R, rel=1e-13)
     assert left(fitted(e, remedy_for(e, "counterweights")), [1]).force.balanced.all()
 
@@ -73,14 +82,18 @@ def test_radial_engines_need_a_counterweight_alone(cylinders):
 def test_counterweights_in_any_planes(planes):
     after = left(fitted(INLINE_3, remedy_for(INLINE_3, "counterweights", Wish(planes=planes))), [1])
     assert (after.force.forward[0], after.moment.forward[0]) == (0, 0)
-    assert abs(after.moment.backward[0]) == pytest.approx(abs(left(INLINE_3, [1]).moment.backward[0]), rel=1e-14)
+    assert abs(after.moment.backward[0]) == pytest.approx(
+        abs(left(INLINE_3, [1]).moment.backward[0]), rel=1e-14
+    )
 
 
 def test_a_single_plane_does_what_it_can():
     e = engine([0], layout="bank_angle = 60\nstagger = 20")
     remedy = remedy_for(e, "counterweights", Wish(planes=(0.0,)))
     assert remedy.details["left_force_N"] == 0
-    assert remedy.details["left_moment_Nm"] == pytest.approx(abs(left(e, [1]).moment.forward[0]), rel=1e-14)
+    assert remedy.details["left_moment_Nm"] == pytest.approx(
+        abs(left(e, [1]).moment.forward[0]), rel=1e-14
+    )
 
 
 # ------------------------------------------------------------------ factor and bobweight
@@ -94,9 +107,17 @@ def test_factor_leaves_what_it_does_not_take():
 
 
 def test_bobweight_card_of_a_cross_plane_v8():
-    """Rotating 2 x (big end + bearing + oil), reciprocating 2 x (piston + small end); bobweight = rotating + half."""
+    """Rotating 2 x (big end + bearing + oil), reciprocating 2 x (piston + small end); bobweight =
+    rotating + half.
+    """
     rod = "length = 150\nsmall_end = 0.17\nbig_end = 0.43"
-    e = engine([0, 90, 270, 180], layout="bank_angle = 90", rod=rod, piston="mass = 0.7", bobweight="rod_bearing = 0.047\noil = 0.004")
+    e = engine(
+        [0, 90, 270, 180],
+        layout="bank_angle = 90",
+        rod=rod,
+        piston="mass = 0.7",
+        bobweight="rod_bearing = 0.047\noil = 0.004",
+    )
     card = remedy_for(e, "factor").details["card"]
     assert [entry["cylinders"] for entry in card] == [[1, 5], [2, 6], [3, 7], [4, 8]]
     assert [entry["rotating_g"] for entry in card] == pytest.approx([2 * (430 + 47 + 4)] * 4)
@@ -107,13 +128,28 @@ def test_bobweight_card_of_a_cross_plane_v8():
 
 def test_split_pins_have_a_card_each():
     e = engine([0, 240, 120], layout="bank_angle = 60")
-    split = build(parse(engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nsplay = -60", layout="bank_angle = 60")))
-    assert [len(entry["cylinders"]) for entry in remedy_for(e, "factor").details["card"]] == [2, 2, 2]
-    assert [len(entry["cylinders"]) for entry in remedy_for(split, "factor").details["card"]] == [1] * 6
+    split = build(
+        parse(
+            engine_text(
+                crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nsplay = -60",
+                layout="bank_angle = 60",
+            )
+        )
+    )
+    assert [len(entry["cylinders"]) for entry in remedy_for(e, "factor").details["card"]] == [
+        2,
+        2,
+        2,
+    ]
+    assert [len(entry["cylinders"]) for entry in remedy_for(split, "factor").details["card"]] == [
+        1
+    ] * 6
 
 
 def test_factor_sweep_trades_along_for_across():
-    """One cylinder, order 1 alone as lambda -> 0: peak along falls by K, across rises by K, both in units of m r omega^2."""
+    """One cylinder, order 1 alone as lambda -> 0: peak along falls by K, across rises by K, both in
+    units of m r omega^2.
+    """
     e = build(parse(engine_text(rod="ratio = 1e-7")))
     rows = remedy_for(e, "factor", Wish(factor=(0.0, 0.25, 0.5, 0.75, 1.0))).details["sweep"]
     unit = M * R * e.omega**2
@@ -122,12 +158,16 @@ def test_factor_sweep_trades_along_for_across():
         assert row["along_N"] == pytest.approx((1 - share) * unit, abs=1e-6 * unit)
         assert row["across_N"] == pytest.approx(share * unit, abs=1e-6 * unit)
         assert row["peak_force_N"] == pytest.approx(max(share, 1 - share) * unit, abs=1e-6 * unit)
-    assert remedy_for(e, "factor", Wish(factor=(0.0, 0.25, 0.5, 0.75, 1.0))).details["factor"] == 0.5
+    assert (
+        remedy_for(e, "factor", Wish(factor=(0.0, 0.25, 0.5, 0.75, 1.0))).details["factor"] == 0.5
+    )
 
 
 # ------------------------------------------------------------------ shafts
 def test_lanchester_shafts_of_an_inline_four():
-    """Lanchester 1912: two shafts at twice crank speed, each A2 m r / 2 (of `4 A2 m r omega^2 = 2 U (2 omega)^2`)."""
+    """Lanchester 1912: two shafts at twice crank speed, each A2 m r / 2 (of `4 A2 m r omega^2 = 2 U
+    (2 omega)^2`).
+    """
     for remedy in (auto(INLINE_4), remedy_for(INLINE_4, "two-shaft")):
         assert sorted(s.ratio for s in remedy.shafts) == [-2, 2]
         assert sizes(remedy.shafts) == pytest.approx([A2 * M * R / 2] * 2, rel=1e-14)
@@ -135,12 +175,14 @@ def test_lanchester_shafts_of_an_inline_four():
 
 
 def test_shafts_at_different_heights_take_the_roll():
-    """Nakamura 1974 (Mitsubishi): the height between the shafts that makes the second-order roll vanish, and what is left at others.
+    """Nakamura 1974 (Mitsubishi): the height between the shafts that makes the second-order roll
+    vanish, and what is left at others.
 
-    Inertia torque of order 2 of one cylinder: `1/2 m r^2 K_2 2 sin 2 theta` with K_2 the coefficient of (s'/r)^2; four of them.
+    Inertia torque of order 2 of one cylinder: `1/2 m r^2 K_2 2 sin 2 theta` with K_2 the
+    coefficient of (s'/r)^2; four of them.
     """
-    inertia_torque = 4 * M * R**2 * abs(float(harmonics.kinetic([2], LAM)[0]))                  # per omega^2
-    height = inertia_torque / (4 * A2 * M * R / 2)                                              # force of one shaft
+    inertia_torque = 4 * M * R**2 * abs(float(harmonics.kinetic([2], LAM)[0]))  # per omega^2
+    height = inertia_torque / (4 * A2 * M * R / 2)  # force of one shaft
     remedy = remedy_for(INLINE_4, "two-shaft", Wish(roll="zero"))
     place = {s.ratio: complex(*s.at) / 1e3 for s in remedy.shafts}
     assert place[2] - place[-2] == pytest.approx(height, rel=1e-13)
@@ -148,7 +190,9 @@ def test_shafts_at_different_heights_take_the_roll():
     assert abs(after.roll.forward[0]) <= 1e-14 * inertia_torque * INLINE_4.omega**2
     assert after.force.balanced.all()
     halfway = remedy_for(INLINE_4, "two-shaft", Wish(at=(-height / 4 + 0.03j, height / 4 - 0.03j)))
-    assert halfway.details["order_2"]["roll_left_Nm"] == pytest.approx(inertia_torque * INLINE_4.omega**2 / 2, rel=1e-12)
+    assert halfway.details["order_2"]["roll_left_Nm"] == pytest.approx(
+        inertia_torque * INLINE_4.omega**2 / 2, rel=1e-12
+    )
 
 
 def test_roll_vanishes_with_the_first_shaft_given_and_the_reference_elsewhere():
@@ -160,7 +204,9 @@ def test_roll_vanishes_with_the_first_shaft_given_and_the_reference_elsewhere():
 
 
 def test_inline_three_needs_couples():
-    """Order 1 backward couple `sqrt3/2 m r a omega^2`: two opposite eccentrics 2a apart (a the throw spacing)."""
+    """Order 1 backward couple `sqrt3/2 m r a omega^2`: two opposite eccentrics 2a apart (a the
+    throw spacing).
+    """
     remedy = auto(INLINE_3)
     at = {ratio: [s for s in remedy.shafts if s.ratio == ratio] for ratio in (-1, 2, -2)}
     assert sizes(at[-1]) == pytest.approx([math.sqrt(3) / 4 * M * R] * 2, rel=1e-13)
@@ -175,14 +221,23 @@ def test_inline_three_needs_couples():
 
 
 def test_even_firing_v6_at_60_degrees_has_a_backward_second_order_couple_alone():
-    e = build(parse(engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nsplay = -60", layout="bank_angle = 60")))
+    e = build(
+        parse(
+            engine_text(
+                crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nsplay = -60",
+                layout="bank_angle = 60",
+            )
+        )
+    )
     assert {s.ratio for s in auto(e).shafts} <= {-2}
 
 
 def test_single_shaft_on_an_inline_four_says_what_stays():
     remedy = remedy_for(INLINE_4, "single-shaft")
     assert remedy.order == 2
-    assert remedy.details["force_with_crank_left_N"] == pytest.approx(2 * A2 * M * R * INLINE_4.omega**2, rel=1e-14)
+    assert remedy.details["force_with_crank_left_N"] == pytest.approx(
+        2 * A2 * M * R * INLINE_4.omega**2, rel=1e-14
+    )
 
 
 def test_inline_six_needs_nothing():
@@ -193,7 +248,9 @@ def test_inline_six_needs_nothing():
 
 
 def test_eccentric_stands_where_the_force_acts():
-    """A twin whose second-order force acts off the middle of the throws: one eccentric there takes the moment too."""
+    """A twin whose second-order force acts off the middle of the throws: one eccentric there takes
+    the moment too.
+    """
     e = engine([0, 180], more="[cylinder.2]\npiston_mass = 3\n")
     at = {s.ratio: s for s in auto(e).shafts if abs(s.ratio) == 2}
     assert at[2].position == at[-2].position == pytest.approx((3 * 50 - 50) / 4, rel=1e-14)
@@ -203,24 +260,53 @@ def test_eccentric_stands_where_the_force_acts():
 
 
 # ------------------------------------------------------------------ refusals
-@pytest.mark.parametrize(("scheme", "wish", "reason"), [
-    ("counterweights", Wish(order=2), "order 2 cannot be cancelled by anything on the crankshaft"),
-    ("counterweights", Wish(planes=(0.1, 0.1)), "planes at the same z, cannot take a moment"),
-    ("couple-shaft", Wish(planes=(0.1, 0.1)), "planes at the same z, cannot take a moment"),
-    ("couple-shaft", Wish(planes="throws"), "opposite eccentrics stand in two planes"),
-    ("counterweights", Wish(planes=(0.1, 0.1 + 1e-10)), r"too much alike: .*condition number .*e\+09"),
-    ("two-shaft", Wish(order=0), "must be a whole number from 1 to 1000"),
-    ("auto", Wish(order=2), "scheme auto has no --order; it takes no options"),
-    ("magic", Wish(), "there is no scheme 'magic': choose from auto, counterweights, factor, minimax, single-shaft, two-shaft, four-shaft, "
-     "couple-shaft, slider, eccentric-slider, oldham, knuckles"),
-    ("knuckle", Wish(), "there is no scheme 'knuckle': did you mean knuckles\\? choose from"),
-    ("knuckles", Wish(), "scheme knuckles sizes no devices but changes the engine file: `balcli balance --scheme knuckles` does so"),
-    ("mini-max", Wish(), "did you mean minimax"),
-    ("two-shaft", Wish(order=6, roll="nought"), 'only "zero" can be asked for'),
-    ("two-shaft", Wish(order=3, roll="zero"), "order 3 has no free force.*shafts without unbalance can do nothing about the roll"),
-    ("two-shaft", Wish(order=6, roll="zero", at=(0.1j, 0.2j)), "fixes the place of the second shaft"),
-    ("factor", Wish(factor=(math.nan,)), "give a share of the reciprocating mass"),
-])
+@pytest.mark.parametrize(
+    ("scheme", "wish", "reason"),
+    [
+        (
+            "counterweights",
+            Wish(order=2),
+            "order 2 cannot be cancelled by anything on the crankshaft",
+        ),
+        ("counterweights", Wish(planes=(0.1, 0.1)), "planes at the same z, cannot take a moment"),
+        ("couple-shaft", Wish(planes=(0.1, 0.1)), "planes at the same z, cannot take a moment"),
+        ("couple-shaft", Wish(planes="throws"), "opposite eccentrics stand in two planes"),
+        (
+            "counterweights",
+            Wish(planes=(0.1, 0.1 + 1e-10)),
+            r"too much alike: .*condition number .*e\+09",
+        ),
+        ("two-shaft", Wish(order=0), "must be a whole number from 1 to 1000"),
+        ("auto", Wish(order=2), "scheme auto has no --order; it takes no options"),
+        (
+            "magic",
+            Wish(),
+            "there is no scheme 'magic': choose from auto, counterweights, factor, minimax, "
+            "single-shaft, two-shaft, four-shaft, "
+            "couple-shaft, slider, eccentric-slider, oldham, knuckles",
+        ),
+        ("knuckle", Wish(), "there is no scheme 'knuckle': did you mean knuckles\\? choose from"),
+        (
+            "knuckles",
+            Wish(),
+            "scheme knuckles sizes no devices but changes the engine file: `balcli balance "
+            "--scheme knuckles` does so",
+        ),
+        ("mini-max", Wish(), "did you mean minimax"),
+        ("two-shaft", Wish(order=6, roll="nought"), 'only "zero" can be asked for'),
+        (
+            "two-shaft",
+            Wish(order=3, roll="zero"),
+            "order 3 has no free force.*shafts without unbalance can do nothing about the roll",
+        ),
+        (
+            "two-shaft",
+            Wish(order=6, roll="zero", at=(0.1j, 0.2j)),
+            "fixes the place of the second shaft",
+        ),
+        ("factor", Wish(factor=(math.nan,)), "give a share of the reciprocating mass"),
+    ],
+)
 def test_infeasible_wishes_are_told_why(scheme, wish, reason):
     with pytest.raises(BalcliError, match=reason):
         remedy_for(INLINE_3, scheme, wish)
@@ -230,4 +316,6 @@ def test_sizing_is_for_steady_speed():
     ripple = "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.02 }]\n"
     uneven = engine([0, 180, 180, 0], more=ripple)
     assert auto(uneven).shafts == auto(INLINE_4).shafts
-    assert np.any(analyze(fitted(uneven, auto(uneven)), [1, 2, 4], ["force"]).spectra.force.major > 0)
+    assert np.any(
+        analyze(fitted(uneven, auto(uneven)), [1, 2, 4], ["force"]).spectra.force.major > 0
+    )

@@ -1,8 +1,10 @@
 """Wang Yongding: balance of the single cylinder. J = m r omega^2, lambda the crank ratio.
 
-Corrected misprints: (24) must have + phi'' sin phi; (18) leaves out the sine term of the couple; Table 1 searched half a revolution
-only, so that three of its five minima lie below the true ones. Optima of the eccentric slider were computed independently, by search.
+Corrected misprints: (24) must have + phi'' sin phi; (18) leaves out the sine term of the couple;
+Table 1 searched half a revolution only, so that three of its five minima lie below the true ones.
+Optima of the eccentric slider were computed independently, by search.
 """
+
 from __future__ import annotations
 
 import math
@@ -11,20 +13,25 @@ import numpy as np
 import pytest
 from support.engines import engine_text
 
-from balcli.results.analysis import analyze
 from balcli.core.mechanisms import harmonics, slidercrank
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.sizing.sizing import Wish, fitted, remedy_for
-from balcli.sizing import eccentric_slider as eccentric
 from balcli.forces.spectrum import spectra
+from balcli.results.analysis import analyze
+from balcli.sizing import eccentric_slider as eccentric
+from balcli.sizing.sizing import Wish, fitted, remedy_for
 
 M, R = 1.0, 0.05
 
 
 def single(lam: float = 0.25, more: str = "", **tables: str) -> Engine:
-    return build(parse(engine_text(rod=f"ratio = {lam}", crank="stroke = 100\nthrow_mass = 0.7", **tables) + more))
+    return build(
+        parse(
+            engine_text(rod=f"ratio = {lam}", crank="stroke = 100\nthrow_mass = 0.7", **tables)
+            + more
+        )
+    )
 
 
 def after(engine: Engine, scheme: str, **wish: object):
@@ -51,10 +58,14 @@ MEANS = [
 ]
 
 
-@pytest.mark.parametrize(("lam", "design", "criterion", "force", "k", "mu", "largest", "mean"), OPTIMA)
+@pytest.mark.parametrize(
+    ("lam", "design", "criterion", "force", "k", "mu", "largest", "mean"), OPTIMA
+)
 def test_eccentric_slider_smallest_peak(lam, design, criterion, force, k, mu, largest, mean):
     found = eccentric.best(design, criterion, force, lam)
-    assert (found.k, found.mu, found.largest, found.mean) == pytest.approx((k, mu, largest, mean), abs=1.1e-6)
+    assert (found.k, found.mu, found.largest, found.mean) == pytest.approx(
+        (k, mu, largest, mean), abs=1.1e-6
+    )
 
 
 @pytest.mark.parametrize(("lam", "design", "force", "k", "mu", "mean"), MEANS)
@@ -68,7 +79,9 @@ def test_eccentric_slider_smallest_mean(lam, design, force, k, mu, mean):
 
 @pytest.mark.parametrize(("design", "residual"), [("a", 9 / 32), ("b", 27 / 32)])
 def test_eccentric_slider_leading_order(design, residual):
-    """k = 2/lambda, mu = 1/2, residual a third order of 9/32 (27/32) lambda^2: design a is three times better."""
+    """k = 2/lambda, mu = 1/2, residual a third order of 9/32 (27/32) lambda^2: design a is three
+    times better.
+    """
     lam = 1e-3
     found = eccentric.best(design, "largest", "orders 1+2", lam)
     assert found.k * lam / 2 == pytest.approx(1, abs=1e-5)
@@ -78,7 +91,9 @@ def test_eccentric_slider_leading_order(design, residual):
 
 @pytest.mark.parametrize("design", eccentric.DESIGNS)
 def test_eccentric_slider_beats_its_neighbours(design):
-    """Direct evaluation of the corrected (24) on a fine grid, with the angle of the linkage differentiated numerically."""
+    """Direct evaluation of the corrected (24) on a fine grid, with the angle of the linkage
+    differentiated numerically.
+    """
     lam, theta = 0.25, np.linspace(0, 2 * np.pi, 4001)
 
     def largest(k, mu):
@@ -86,30 +101,47 @@ def test_eccentric_slider_beats_its_neighbours(design):
 
         def phi(t):
             if design == "b":
-                return t + np.arctan2(np.sin(t), k - np.cos(t))         # the angle of k e^{it} - 1, without a cut
-            return t + np.arcsin(np.sin(t) / k)                         # triangle of disc centre, shaft and pin
+                return t + np.arctan2(
+                    np.sin(t), k - np.cos(t)
+                )  # the angle of k e^{it} - 1, without a cut
+            return t + np.arcsin(np.sin(t) / k)  # triangle of disc centre, shaft and pin
+
         rate = (phi(theta + h) - phi(theta - h)) / (2 * h)
         bend = (phi(theta + h) - 2 * phi(theta) + phi(theta - h)) / h**2
         weights = 2 * mu * (rate**2 * np.cos(phi(theta)) + bend * np.sin(phi(theta)))
         return np.abs(np.cos(theta) + lam * np.cos(2 * theta) - weights).max()
+
     best = eccentric.best(design, "largest", "orders 1+2", lam)
     assert largest(best.k, best.mu) == pytest.approx(best.largest, abs=2e-5)
-    assert all(largest(best.k * (1 + dk), best.mu * (1 + dm)) > best.largest for dk, dm in ((.01, 0), (-.01, 0), (0, .002), (0, -.002)))
+    assert all(
+        largest(best.k * (1 + dk), best.mu * (1 + dm)) > best.largest
+        for dk, dm in ((0.01, 0), (-0.01, 0), (0, 0.002), (0, -0.002))
+    )
 
 
 @pytest.mark.parametrize(("design", "lam"), [("a", 0.99), ("b", 0.9)])
 @pytest.mark.parametrize("criterion", ["largest", "mean"])
 def test_an_eccentric_slider_has_no_optimum_near_lambda_1(design, criterion, lam):
-    with pytest.raises(BalcliError, match=f"no optimum was found for design {design} at lambda = {lam}"):
+    with pytest.raises(
+        BalcliError, match=f"no optimum was found for design {design} at lambda = {lam}"
+    ):
         eccentric.best(design, criterion, "all orders", lam)
 
 
-@pytest.mark.parametrize(("design", "criterion", "lam"), [("a", "mean", 0.2), ("b", "mean", 0.6), ("b", "largest", 0.4)])
+@pytest.mark.parametrize(
+    ("design", "criterion", "lam"), [("a", "mean", 0.2), ("b", "mean", 0.6), ("b", "largest", 0.4)]
+)
 def test_eccentric_slider_says_the_largest_of_what_remains(design, criterion, lam):
-    """Of either sign, by samples; the shafts' cosine from the triangle of disc centre, shaft and pin, differentiated by Fourier."""
+    """Of either sign, by samples; the shafts' cosine from the triangle of disc centre, shaft and
+    pin, differentiated by Fourier.
+    """
     best = eccentric.best(design, criterion, "all orders", lam)
     theta = np.arange(4096) * (2 * np.pi / 4096)
-    phi = theta + (np.arctan2(np.sin(theta), best.k - np.cos(theta)) if design == "b" else np.arcsin(np.sin(theta) / best.k))
+    phi = theta + (
+        np.arctan2(np.sin(theta), best.k - np.cos(theta))
+        if design == "b"
+        else np.arcsin(np.sin(theta) / best.k)
+    )
     waves = np.fft.rfft(np.cos(phi))
     order = np.where(np.arange(len(waves)) < 100, np.arange(len(waves)), 0)
     rest = slidercrank.acceleration(theta, lam) - 2 * best.mu * np.fft.irfft(order**2 * waves)
@@ -118,41 +150,78 @@ def test_eccentric_slider_says_the_largest_of_what_remains(design, criterion, la
 
 
 def test_eccentric_slider_leaves_its_residual():
-    """The devices as analysed give what the optimum promises, but for the orders of the engine beyond 1 and 2."""
+    """The devices as analysed give what the optimum promises, but for the orders of the engine
+    beyond 1 and 2.
+    """
     engine = single(0.25)
     remedy = remedy_for(engine, "eccentric-slider")
     left = spectra(fitted(engine, remedy), np.arange(1.0, 12), ("force",)).force
     theta = np.linspace(0, 2 * np.pi, 3601)
     force = left.values(theta).real / (M * R * engine.omega**2)
     exact = harmonics.piston(np.arange(1.0, 12), 0.25)
-    two_terms = sum((a - (1 if n == 1 else 0.25 if n == 2 else 0)) * np.cos(n * theta) for n, a in enumerate(exact, 1))
+    two_terms = sum(
+        (a - (1 if n == 1 else 0.25 if n == 2 else 0)) * np.cos(n * theta)
+        for n, a in enumerate(exact, 1)
+    )
     assert np.abs(force - two_terms).max() == pytest.approx(0.017595, abs=1e-6)
 
 
 def test_eccentric_slider_of_any_mass_in_any_direction():
-    """What is left is that of 1 kg times the mass, along the cylinder axis; no moment arises and no mean is left."""
+    """What is left is that of 1 kg times the mass, along the cylinder axis; no moment arises and no
+    mean is left.
+    """
     plain, mass, bank, z = single(0.25), 0.4, 37, 60
-    other = build(parse(engine_text(
-        rod="ratio = 0.25", crank=f"stroke = 100\nthrow_mass = 0.7\nthrows = [0]\npositions = [{z}]", piston=f"mass = {mass}",
-        layout=f"banks = [{bank}]", frame=f"reference = [0, 0, {z}]", operation="speed = 2300")))
+    other = build(
+        parse(
+            engine_text(
+                rod="ratio = 0.25",
+                crank=f"stroke = 100\nthrow_mass = 0.7\nthrows = [0]\npositions = [{z}]",
+                piston=f"mass = {mass}",
+                layout=f"banks = [{bank}]",
+                frame=f"reference = [0, 0, {z}]",
+                operation="speed = 2300",
+            )
+        )
+    )
     remedy = remedy_for(other, "eccentric-slider")
-    weight, = remedy.counterweights
+    (weight,) = remedy.counterweights
     assert weight.unbalance / 1e6 == pytest.approx(0.7 * R, rel=1e-12)
     assert all(device.place == 0 for device in remedy.beyond)
-    one, many = (spectra(fitted(e, remedy_for(e, "eccentric-slider")), np.arange(0.0, 12), ("force", "moment")) for e in (plain, other))
+    one, many = (
+        spectra(
+            fitted(e, remedy_for(e, "eccentric-slider")), np.arange(0.0, 12), ("force", "moment")
+        )
+        for e in (plain, other)
+    )
     unit = [m * R * e.omega**2 for m, e in ((M, plain), (mass, other))]
     turn = np.exp(1j * math.radians(bank))
-    assert many.force.forward / unit[1] == pytest.approx(one.force.forward / unit[0] * turn, rel=1e-9, abs=1e-13)
-    assert many.force.backward / unit[1] == pytest.approx(one.force.backward / unit[0] * turn, rel=1e-9, abs=1e-13)
+    assert many.force.forward / unit[1] == pytest.approx(
+        one.force.forward / unit[0] * turn, rel=1e-9, abs=1e-13
+    )
+    assert many.force.backward / unit[1] == pytest.approx(
+        one.force.backward / unit[0] * turn, rel=1e-9, abs=1e-13
+    )
     assert np.abs(many.moment.major).max() <= 1e-14 * unit[1]
     assert one.force.forward[0] == 0
     assert remedy.details["unit_force_N"] == pytest.approx(unit[1], rel=1e-12)
     used = remedy.details["fitted"]
-    assert (used["design"], used["criterion"], used["engine_force"], used["k"]) == ("a", "largest", "orders 1+2", pytest.approx(8.016007))
+    assert (used["design"], used["criterion"], used["engine_force"], used["k"]) == (
+        "a",
+        "largest",
+        "orders 1+2",
+        pytest.approx(8.016007),
+    )
     assert used["unbalance_kg_m"] == pytest.approx(used["mu"] * mass * R, rel=1e-12)
     assert used in remedy.details["optima"]
-    assert {(found["design"], found["criterion"], found["engine_force"]) for found in remedy.details["optima"]} == {
-        (design, by, of) for design in "ab" for by in ("largest", "mean") for of in ("orders 1+2", "all orders")}
+    assert {
+        (found["design"], found["criterion"], found["engine_force"])
+        for found in remedy.details["optima"]
+    } == {
+        (design, by, of)
+        for design in "ab"
+        for by in ("largest", "mean")
+        for of in ("orders 1+2", "all orders")
+    }
 
 
 def test_shafts_of_variable_speed_leave_only_what_turns_with_the_throw_to_the_counterweight():
@@ -167,28 +236,38 @@ def test_oldham_couplings_cancel_orders_1_and_2(bank):
     engine = single(0.3, layout=f"banks = [{bank}]")
     remedy = remedy_for(engine, "oldham")
     assert spectra(fitted(engine, remedy), [1, 2], ("force",)).force.balanced.all()
-    weight, = remedy.counterweights
+    (weight,) = remedy.counterweights
     assert weight.unbalance / 1e6 == pytest.approx(0.7 * R, rel=1e-13)
     assert remedy.details["first_order_kg_m"] == pytest.approx(M * R / 2, rel=1e-14)
-    assert remedy.details["block_kg_m"] == pytest.approx(float(harmonics.piston([2], 0.3)[0]) * M * R / 8, rel=1e-14)
+    assert remedy.details["block_kg_m"] == pytest.approx(
+        float(harmonics.piston([2], 0.3)[0]) * M * R / 8, rel=1e-14
+    )
     assert all(device.place == 0 for device in remedy.beyond)
 
 
 def test_oldham_couplings_suit_an_offset_too():
     """The two vectors of an order then differ in phase."""
     engine = single(0.3, layout="banks = [20]", piston="mass = 1\noffset = 6")
-    assert spectra(fitted(engine, remedy_for(engine, "oldham")), [1, 2], ("force",)).force.balanced.all()
+    assert spectra(
+        fitted(engine, remedy_for(engine, "oldham")), [1, 2], ("force",)
+    ).force.balanced.all()
 
 
 def test_two_and_four_shafts():
-    """(2.1) m_b r_b = m r / 2 each (here with the rotating mass on the one that turns with the crank); (2.2) A2 m r / 8."""
+    """(2.1) m_b r_b = m r / 2 each (here with the rotating mass on the one that turns with the
+    crank); (2.2) A2 m r / 8.
+    """
     shafts = {s.ratio: s.unbalance / 1e6 for s in remedy_for(single(), "four-shaft").shafts}
     second = float(harmonics.piston([2], 0.25)[0]) * M * R / 8
-    assert shafts == pytest.approx({-1: M * R / 2, 1: M * R / 2 + 0.7 * R, -2: second, 2: second}, rel=1e-14)
+    assert shafts == pytest.approx(
+        {-1: M * R / 2, 1: M * R / 2 + 0.7 * R, -2: second, 2: second}, rel=1e-14
+    )
 
 
 def test_single_shaft_leaves_a_couple():
-    """(18), with its sine term: a couple Z0 m_b r_b omega^2 turning with the shaft, Z0 the axial distance."""
+    """(18), with its sine term: a couple Z0 m_b r_b omega^2 turning with the shaft, Z0 the axial
+    distance.
+    """
     engine = single()
     remedy = remedy_for(engine, "single-shaft", Wish(position=0.08))
     couple = 0.08 * M * R / 2 * engine.omega**2
@@ -196,20 +275,35 @@ def test_single_shaft_leaves_a_couple():
     assert remedy.details["axial_distance_mm"] == pytest.approx(80)
     left = spectra(fitted(engine, remedy), [1], ("force", "moment"))
     assert left.force.balanced.all()
-    assert (abs(left.moment.backward[0]), left.moment.forward[0]) == (pytest.approx(couple, rel=1e-14), 0)
+    assert (abs(left.moment.backward[0]), left.moment.forward[0]) == (
+        pytest.approx(couple, rel=1e-14),
+        0,
+    )
 
 
-@pytest.mark.parametrize(("lam", "peak", "k"), [(0.20, 0.624638, 0.575362), (0.25, 0.658266, 0.591734), (0.30, 0.692876, 0.607124),
-                                                (0.35, 0.728433, 0.621567), (0.40, 0.764890, 0.635110)])
+@pytest.mark.parametrize(
+    ("lam", "peak", "k"),
+    [
+        (0.20, 0.624638, 0.575362),
+        (0.25, 0.658266, 0.591734),
+        (0.30, 0.692876, 0.607124),
+        (0.35, 0.728433, 0.621567),
+        (0.40, 0.764890, 0.635110),
+    ],
+)
 def test_overbalance_optimum_of_both_orders(lam, peak, k):
-    """Table 1 over the full cycle, for his two-term force: P^2 is convex, the weight stands opposite the pin, three angles are active.
+    """Table 1 over the full cycle, for his two-term force: P^2 is convex, the weight stands
+    opposite the pin, three angles are active.
 
-    Our minimax is of all orders; here it must not do better than two terms by more than the terms left out.
+    Our minimax is of all orders; here it must not do better than two terms by more than the terms
+    left out.
     """
     engine = single(lam)
-    weight, = remedy_for(engine, "minimax").counterweights
+    (weight,) = remedy_for(engine, "minimax").counterweights
     found = analyze(after(engine, "minimax"), only=["peak"]).force.value / (M * R * engine.omega**2)
-    rest = sum(abs(float(a)) for a in harmonics.piston([4, 6, 8], lam)) + abs(float(harmonics.piston([2], lam)[0]) - lam)
+    rest = sum(abs(float(a)) for a in harmonics.piston([4, 6, 8], lam)) + abs(
+        float(harmonics.piston([2], lam)[0]) - lam
+    )
     assert found == pytest.approx(peak, abs=rest)
     assert weight.unbalance / 1e6 / (M * R) - 0.7 == pytest.approx(k, abs=2 * rest)
     assert weight.angle == 180
@@ -219,13 +313,15 @@ def test_half_balance_leaves_half():
     """(36): k = 1/2 leaves J/2 turning against the crank."""
     left = spectra(after(single(), "factor", factor=(0.5,)), [1], ("force",)).force
     assert left.forward[0] == 0
-    assert abs(left.backward[0]) == pytest.approx(M * R / 2 * single().omega**2, rel=1e-14)
+    assert abs(left.backward[0]) == pytest.approx(M * R / 2 * single().omega ** 2, rel=1e-14)
 
 
 @pytest.mark.parametrize("scheme", ["eccentric-slider", "oldham"])
 def test_only_for_single_cylinders(scheme):
     engine = single(layout="bank_angle = 90")
-    with pytest.raises(BalcliError, match=f"{scheme} is for a single cylinder; this engine has 2 cylinders"):
+    with pytest.raises(
+        BalcliError, match=f"{scheme} is for a single cylinder; this engine has 2 cylinders"
+    ):
         remedy_for(engine, scheme)
 
 
@@ -237,8 +333,10 @@ def test_eccentric_slider_refuses_an_offset():
 def test_overbalance_figures_are_those_of_the_ellipse():
     """(31)-(32) for order 1: P_max = [1 + sqrt(1 - 4k cos a + 4k^2)] J/2, at any overbalance."""
     for k, alpha in ((0.3, 20), (0.6, 0), (0.8, 35)):
-        weight = (f"[[counterweight]]\nunbalance = {1e6 * (0.7 * R)}\nangle = 180\n"
-                  f"[[counterweight]]\nunbalance = {1e6 * k * R}\nangle = {180 + alpha}\n")
+        weight = (
+            f"[[counterweight]]\nunbalance = {1e6 * (0.7 * R)}\nangle = 180\n"
+            f"[[counterweight]]\nunbalance = {1e6 * k * R}\nangle = {180 + alpha}\n"
+        )
         force = spectra(single(more=weight), [1], ("force",)).force
         wanted = (1 + math.sqrt(1 - 4 * k * math.cos(math.radians(alpha)) + 4 * k * k)) / 2
-        assert force.major[0] / (M * R * single().omega**2) == pytest.approx(wanted, rel=1e-13)
+        assert force.major[0] / (M * R * single().omega ** 2) == pytest.approx(wanted, rel=1e-13)

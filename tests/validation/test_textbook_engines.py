@@ -1,10 +1,12 @@
 """The well-known engines in textbook units, as every book on engine dynamics has them.
 
-See C. F. Taylor, The Internal-Combustion Engine in Theory and Practice, vol. 2; W. Thomson, Fundamentals of Automotive
-Engine Balance; J. P. Den Hartog, Mechanical Vibrations. All are of rods without mass and equal reciprocating masses m
-on cranks without unbalance: forces are multiples of F1 = m r w^2 and of F_n = A_n F1, moments of these times the
-distance a of neighbouring throws, about the middle of the crank.
+See C. F. Taylor, The Internal-Combustion Engine in Theory and Practice, vol. 2; W. Thomson,
+Fundamentals of Automotive Engine Balance; J. P. Den Hartog, Mechanical Vibrations. All are of rods
+without mass and equal reciprocating masses m on cranks without unbalance: forces are multiples of
+F1 = m r w^2 and of F_n = A_n F1, moments of these times the distance a of neighbouring throws,
+about the middle of the crank.
 """
+
 from __future__ import annotations
 
 from cmath import exp
@@ -21,13 +23,21 @@ RELATIVE = 1e-13
 LAM = 0.25
 ORDERS = range(1, 13)
 A = dict(zip(ORDERS, harmonics.piston(list(ORDERS), LAM), strict=True))
-F1 = 1.0 * 0.05 * (2 * pi) ** 2                     # N, at 60 rpm
-ARM = 0.1                                               # m
+F1 = 1.0 * 0.05 * (2 * pi) ** 2  # N, at 60 rpm
+ARM = 0.1  # m
 
 INLINE = {
-    "single": [0], "twin 180": [0, 180], "twin 360": [0, 0], "twin 270": [0, 90], "three": [0, 240, 120],
-    "four": [0, 180, 180, 0], "four, cross-plane": [0, 90, 270, 180], "five": [0, 216, 144, 72, 288],
-    "six": [0, 240, 120, 120, 240, 0], "eight": [0, 180, 90, 270, 270, 90, 180, 0]}
+    "single": [0],
+    "twin 180": [0, 180],
+    "twin 360": [0, 0],
+    "twin 270": [0, 90],
+    "three": [0, 240, 120],
+    "four": [0, 180, 180, 0],
+    "four, cross-plane": [0, 90, 270, 180],
+    "five": [0, 216, 144, 72, 288],
+    "six": [0, 240, 120, 120, 240, 0],
+    "eight": [0, 180, 90, 270, 270, 90, 180, 0],
+}
 
 
 def of(throws: list[float], **layout: Any) -> Spectra:
@@ -35,7 +45,9 @@ def of(throws: list[float], **layout: Any) -> Spectra:
 
 
 def units(found: Spectra, quantity: str, order: int, part: str) -> float:
-    """A size in multiples of F_n (or F_n a) of one cylinder; odd orders above 1, which no piston has, of F1."""
+    """A size in multiples of F_n (or F_n a) of one cylinder; odd orders above 1, which no piston
+    has, of F1.
+    """
     phasors = getattr(found, quantity)
     one = F1 * abs(A[order] or 1.0) * (ARM if quantity == "moment" else 1)
     k = list(ORDERS).index(order)
@@ -44,22 +56,29 @@ def units(found: Spectra, quantity: str, order: int, part: str) -> float:
 
 def free(found: Spectra, quantity: str) -> list[int]:
     """The orders up to 12 that are there."""
-    return [n for n, balanced in zip(ORDERS, getattr(found, quantity).balanced, strict=True) if not balanced]
+    return [
+        n
+        for n, balanced in zip(ORDERS, getattr(found, quantity).balanced, strict=True)
+        if not balanced
+    ]
 
 
 # ------------------------------------------------------------------ in line
-@pytest.mark.parametrize(("name", "orders"), [
-    ("single", dict.fromkeys([1, 2, 4, 6, 8, 10, 12], 1)),
-    ("twin 180", dict.fromkeys([2, 4, 6, 8, 10, 12], 2)),
-    ("twin 360", dict.fromkeys([1, 2, 4, 6, 8, 10, 12], 2)),
-    ("twin 270", {1: sqrt(2), 4: 2, 8: 2, 12: 2}),
-    ("three", {6: 3, 12: 3}),
-    ("four", dict.fromkeys([2, 4, 6, 8, 10, 12], 4)),
-    ("four, cross-plane", {4: 4, 8: 4, 12: 4}),
-    ("five", {10: 5}),
-    ("six", {6: 6, 12: 6}),
-    ("eight", {4: 8, 8: 8, 12: 8}),
-])
+@pytest.mark.parametrize(
+    ("name", "orders"),
+    [
+        ("single", dict.fromkeys([1, 2, 4, 6, 8, 10, 12], 1)),
+        ("twin 180", dict.fromkeys([2, 4, 6, 8, 10, 12], 2)),
+        ("twin 360", dict.fromkeys([1, 2, 4, 6, 8, 10, 12], 2)),
+        ("twin 270", {1: sqrt(2), 4: 2, 8: 2, 12: 2}),
+        ("three", {6: 3, 12: 3}),
+        ("four", dict.fromkeys([2, 4, 6, 8, 10, 12], 4)),
+        ("four, cross-plane", {4: 4, 8: 4, 12: 4}),
+        ("five", {10: 5}),
+        ("six", {6: 6, 12: 6}),
+        ("eight", {4: 8, 8: 8, 12: 8}),
+    ],
+)
 def test_forces_in_line(name, orders):
     """Order n adds up where all n phi_i agree; everything else is balanced, and said to be so."""
     found = of(INLINE[name])
@@ -69,21 +88,39 @@ def test_forces_in_line(name, orders):
         assert units(found, "force", n, "minor") == 0
 
 
-@pytest.mark.parametrize(("name", "first", "second"), [
-    ("twin 180", 1, 0), ("twin 360", 0, 0), ("twin 270", 1 / sqrt(2), 1), ("three", sqrt(3), sqrt(3)), ("four", 0, 0),
-    ("four, cross-plane", sqrt(10), 0), ("six", 0, 0), ("eight", 0, 0),
-])
+@pytest.mark.parametrize(
+    ("name", "first", "second"),
+    [
+        ("twin 180", 1, 0),
+        ("twin 360", 0, 0),
+        ("twin 270", 1 / sqrt(2), 1),
+        ("three", sqrt(3), sqrt(3)),
+        ("four", 0, 0),
+        ("four, cross-plane", sqrt(10), 0),
+        ("six", 0, 0),
+        ("eight", 0, 0),
+    ],
+)
 def test_moments_in_line(name, first, second):
     found = of(INLINE[name])
     for order, factor in ((1, first), (2, second)):
-        assert units(found, "moment", order, "major") == pytest.approx(factor, rel=RELATIVE, abs=1e-15), order
-        assert ((order in free(found, "moment")) is (factor != 0)), order
+        assert units(found, "moment", order, "major") == pytest.approx(
+            factor, rel=RELATIVE, abs=1e-15
+        ), order
+        assert (order in free(found, "moment")) is (factor != 0), order
 
 
 @pytest.mark.parametrize(("order", "printed"), [(1, 0.449), (2, 4.980)])
 def test_moments_of_the_five(order, printed):
-    """Firing 1-2-4-5-3; the printed figures are those of every book, |sum z e^(i n phi)| makes them exact."""
-    exact = abs(sum(z * exp(1j * order * radians(phi)) for z, phi in zip(range(-2, 3), INLINE["five"], strict=True)))
+    """Firing 1-2-4-5-3; the printed figures are those of every book, |sum z e^(i n phi)| makes them
+    exact.
+    """
+    exact = abs(
+        sum(
+            z * exp(1j * order * radians(phi))
+            for z, phi in zip(range(-2, 3), INLINE["five"], strict=True)
+        )
+    )
     assert exact == pytest.approx(printed, abs=5e-4)
     assert units(of(INLINE["five"]), "moment", order, "major") == pytest.approx(exact, rel=RELATIVE)
 
@@ -98,7 +135,9 @@ def test_in_line_moments_turn_half_with_and_half_against_the_crank():
 
 # ------------------------------------------------------------------ vees
 def test_90_degree_v_twin():
-    """First order: a vector of F1 turning with the crank, which a counterweight balances; second: sqrt 2 F2, across."""
+    """First order: a vector of F1 turning with the crank, which a counterweight balances; second:
+    sqrt 2 F2, across.
+    """
     found = of([0], bank_angle=90)
     assert units(found, "force", 1, "forward") == pytest.approx(1, rel=RELATIVE)
     assert found.force.backward[0] == 0
@@ -109,15 +148,23 @@ def test_90_degree_v_twin():
 
 @pytest.mark.parametrize("gamma", [15, 45, 60, 75.5, 120, 170])
 def test_v_twins_of_any_angle(gamma):
-    """Along the bisector 2 cos^2(g/2) F1 and 2 cos(g/2) cos g F2, across it 2 sin^2(g/2) F1 and 2 sin(g/2) sin g F2."""
+    """Along the bisector 2 cos^2(g/2) F1 and 2 cos(g/2) cos g F2, across it 2 sin^2(g/2) F1 and 2
+    sin(g/2) sin g F2.
+    """
     found, half = of([0], bank_angle=gamma), radians(gamma / 2)
     along, across = abs(found.force.x) / F1, abs(found.force.y) / F1
-    assert along[:2] == pytest.approx([2 * cos(half) ** 2, A[2] * abs(2 * cos(half) * cos(2 * half))], rel=RELATIVE)
-    assert across[:2] == pytest.approx([2 * sin(half) ** 2, A[2] * 2 * sin(half) * sin(2 * half)], rel=RELATIVE)
+    assert along[:2] == pytest.approx(
+        [2 * cos(half) ** 2, A[2] * abs(2 * cos(half) * cos(2 * half))], rel=RELATIVE
+    )
+    assert across[:2] == pytest.approx(
+        [2 * sin(half) ** 2, A[2] * 2 * sin(half) * sin(2 * half)], rel=RELATIVE
+    )
 
 
 def test_cross_plane_v8():
-    """sqrt 10 F1 a turning with the crank, no second order; the eighth is small, but there: 4 sqrt 2 F8."""
+    """sqrt 10 F1 a turning with the crank, no second order; the eighth is small, but there: 4 sqrt
+    2 F8.
+    """
     found = of([0, 90, 270, 180], bank_angle=90)
     assert free(found, "force") == [4, 8, 12]
     assert units(found, "moment", 1, "forward") == pytest.approx(sqrt(10), rel=RELATIVE)
@@ -144,8 +191,12 @@ def test_v12(gamma):
     assert min(free(found, "force"), default=99) >= 6
     assert free(found, "moment") == []
     sixth = F1 * abs(A[6])
-    assert abs(found.force.x[5]) / sixth == pytest.approx(abs(12 * cos(half) * cos(6 * half)), abs=1e-12)
-    assert abs(found.force.y[5]) / sixth == pytest.approx(abs(12 * sin(half) * sin(6 * half)), abs=1e-12)
+    assert abs(found.force.x[5]) / sixth == pytest.approx(
+        abs(12 * cos(half) * cos(6 * half)), abs=1e-12
+    )
+    assert abs(found.force.y[5]) / sixth == pytest.approx(
+        abs(12 * sin(half) * sin(6 * half)), abs=1e-12
+    )
 
 
 def v6(gamma: float, splay: float) -> Spectra:
@@ -164,7 +215,9 @@ def test_v6_of_60_degrees_on_six_pins():
 
 @pytest.mark.parametrize("splay", [0, -30])
 def test_v6_of_90_degrees(splay):
-    """sqrt 3 F1 a turning with the crank; with pins split by s cos(s/2) of it, and sin(s/2) against the crank."""
+    """sqrt 3 F1 a turning with the crank; with pins split by s cos(s/2) of it, and sin(s/2) against
+    the crank.
+    """
     found = v6(90, splay)
     assert {1, 2, 3, 4, 5} & set(free(found, "force")) == set()
     half = radians(abs(splay) / 2)
@@ -172,12 +225,15 @@ def test_v6_of_90_degrees(splay):
     assert units(found, "moment", 1, "backward") == pytest.approx(sqrt(3) * sin(half), rel=RELATIVE)
 
 
-# ------------------------------------------------------------------ boxers: opposed pistons on pins of their own
+# ------------------------------------------------------------------ boxers: opposed pistons on pins
+# of their own
 BOXER = {"banks": [-90, 90], "rods": "alternating"}
 
 
 def boxer(pins: list[float]) -> Spectra:
-    """Pins at half the spacing of a bank's cylinders: the textbook's a is the distance of neighbouring pins."""
+    """Pins at half the spacing of a bank's cylinders: the textbook's a is the distance of
+    neighbouring pins.
+    """
     return of(pins, **BOXER)
 
 
@@ -208,7 +264,9 @@ def test_boxer_six():
 # ------------------------------------------------------------------ radials
 @pytest.mark.parametrize("count", [3, 5, 7, 9])
 def test_radials_on_one_pin(count):
-    """m cylinders, equal rods: m/2 F_n with the crank if n = i m + 1, against it if n = i m - 1; no other order."""
+    """m cylinders, equal rods: m/2 F_n with the crank if n = i m + 1, against it if n = i m - 1; no
+    other order.
+    """
     found = of([0], radial=count)
     forward = {n for n in ORDERS if A[n] and n % count == 1}
     backward = {n for n in ORDERS if A[n] and (n + 1) % count == 0}

@@ -1,7 +1,10 @@
-"""Lu Jiqing, Meng Sizong: Automobile Engine Design, vol. 1 (in Chinese), Tsinghua University Press, 1990, sec. 1.1.1.
+"""Lu Jiqing, Meng Sizong: Automobile Engine Design, vol. 1 (in Chinese), Tsinghua University Press,
+1990, sec. 1.1.1.
 
-Statements of the text in figures, each test named after what is stated; the tables themselves are in the package.
+Statements of the text in figures, each test named after what is stated; the tables themselves are
+in the package.
 """
+
 from __future__ import annotations
 
 from math import acos, degrees, pi, radians, sqrt
@@ -14,7 +17,7 @@ from support.two_term import PSI, largest_error
 from balcli.core.mechanisms import slidercrank as sc
 from balcli.tables import recompute
 
-LAM = 0.32                                              # the largest ratio of the tables
+LAM = 0.32  # the largest ratio of the tables
 
 
 def relative(form):
@@ -90,16 +93,22 @@ def test_at_the_fastest_point_crank_and_rod_stand_nearly_at_right_angles():
 
 @pytest.mark.parametrize("lam", [0.26, 0.28, 0.32])
 def test_extremes_of_the_two_term_acceleration(lam):
-    """1 + lambda at 0, -(1 - lambda) at 180 degrees, lambda > 1/4: -(lambda + 1/(8 lambda)) at arccos(-1/4 lambda)."""
+    """1 + lambda at 0, -(1 - lambda) at 180 degrees, lambda > 1/4: -(lambda + 1/(8 lambda)) at
+    arccos(-1/4 lambda).
+    """
     lowest = -(lam + 1 / (8 * lam))
     assert float(two_term.acceleration(0, lam)) == 1 + lam
     assert float(two_term.acceleration(pi, lam)) == pytest.approx(-(1 - lam), rel=1e-15)
-    assert float(two_term.acceleration(acos(-1 / (4 * lam)), lam)) == pytest.approx(lowest, rel=1e-15)
+    assert float(two_term.acceleration(acos(-1 / (4 * lam)), lam)) == pytest.approx(
+        lowest, rel=1e-15
+    )
     assert two_term.acceleration(PSI, lam).min() == pytest.approx(lowest, rel=1e-6)
 
 
 @pytest.mark.parametrize(("lam", "dips"), [(0.2637, False), (0.2639, True)])
-def test_the_exact_acceleration_dips_below_its_value_at_180_degrees_above_lambda_0_263763(lam, dips):
+def test_the_exact_acceleration_dips_below_its_value_at_180_degrees_above_lambda_0_263763(
+    lam, dips
+):
     """Its curvature at 180 degrees changes sign where 4 lambda - 3 lambda^3 = 1."""
     assert (4 * lam - 3 * lam**3 > 1) is dips
     near = sc.acceleration(np.radians(np.arange(170, 180, 0.1)), lam)

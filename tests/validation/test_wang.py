@@ -1,7 +1,9 @@
-"""Wang Yongding: Methods of balancing single-cylinder engines (in Chinese), Shanghai Fisheries University, undated.
+"""Wang Yongding: Methods of balancing single-cylinder engines (in Chinese), Shanghai Fisheries
+University, undated.
 
 J = m_j r omega^2; a counterweight k m_j r leads the point opposite the crank by alpha.
 """
+
 from __future__ import annotations
 
 from math import cos, radians, sin, sqrt
@@ -32,7 +34,9 @@ def test_smallest_of_these(alpha):
     """(36): (1 + |sin alpha|) J/2 at k = cos alpha/2."""
     best = min(peak(0, k, alpha) for k in np.arange(0, 1, 0.005))
     assert best == pytest.approx((1 + sin(radians(alpha))) / 2, abs=1e-4)
-    assert peak(0, cos(radians(alpha)) / 2, alpha) == pytest.approx((1 + sin(radians(alpha))) / 2, rel=1e-6)
+    assert peak(0, cos(radians(alpha)) / 2, alpha) == pytest.approx(
+        (1 + sin(radians(alpha))) / 2, rel=1e-6
+    )
 
 
 def rows():
@@ -41,7 +45,9 @@ def rows():
 
 
 def test_true_optimum_has_three_equal_maxima():
-    """Table 1: at theta = 0 and at two angles symmetric to the cylinder; no other k or alpha does better."""
+    """Table 1: at theta = 0 and at two angles symmetric to the cylinder; no other k or alpha does
+    better.
+    """
     for row in rows():
         lam, k = row["lambda"], row["k0"]
         assert row["Pmax_min"] == pytest.approx(1 + lam - k, rel=1e-15)
@@ -57,7 +63,9 @@ def test_true_optimum_in_figures():
 
 
 def test_the_print_searched_half_a_revolution():
-    """Its own figures come out of that search; over the whole revolution its choice leaves up to 19 % more."""
+    """Its own figures come out of that search; over the whole revolution its choice leaves up to 19
+    % more.
+    """
     table = recompute("wang-1")
     assert {e.kind.partition(",")[0] for e in table.errata} == {"half-cycle search"}
     assert {e.row for e in table.errata} == set(range(5))
@@ -71,7 +79,9 @@ def test_smaller_lambda_leaves_less():
     assert (np.diff([row["Pmax_min"] for row in rows()]) > 0).all()
 
 
-@pytest.mark.parametrize(("lam", "percent"), [(0.20, 0.344), (0.25, 0.656), (0.30, 1.114), (0.40, 2.603)])
+@pytest.mark.parametrize(
+    ("lam", "percent"), [(0.20, 0.344), (0.25, 0.656), (0.30, 1.114), (0.40, 2.603)]
+)
 def test_error_of_orders_1_and_2(lam, percent):
     """Said to be 0.1 %: of (1 + lambda) J it is lambda^3/(w (1 + w) (1 + lambda))."""
     error, w = largest_error(two_term.acceleration, lam) / (1 + lam), sqrt(1 - lam**2)

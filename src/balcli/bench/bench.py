@@ -1,4 +1,5 @@
 """Run time against error of every way to the same figures, on this machine."""
+
 from __future__ import annotations
 
 import os
@@ -49,7 +50,9 @@ stagger = 22
 
 @dataclass(frozen=True)
 class Row:
-    """One way to one figure: seconds (a variant, of a sweep), and the largest relative error; None: not meaningful."""
+    """One way to one figure: seconds (a variant, of a sweep), and the largest relative error; None:
+    not meaningful.
+    """
 
     task: str
     method: str
@@ -86,7 +89,10 @@ class Case:
 
 def bench() -> Bench:
     """All tasks and ratios; about ten seconds."""
-    return Bench(tuple(Row(c.task, c.method, _seconds(c.run) / c.times, c.error) for c in cases()), tuple(ratios()))
+    return Bench(
+        tuple(Row(c.task, c.method, _seconds(c.run) / c.times, c.error) for c in cases()),
+        tuple(ratios()),
+    )
 
 
 def cases() -> Iterator[Case]:
@@ -98,9 +104,12 @@ def cases() -> Iterator[Case]:
 
 def _coefficient() -> Iterator[Case]:
     ways: list[tuple[str, methods.Coefficients]] = [
-        ("two-term formula", methods.two_term), *((f"series to λ^{p}", methods.printed(p)) for p in methods.POWERS),
-        ("closed form", methods.closed_form), *((f"FFT, {n} points", methods.transformed(n)) for n in methods.POINTS),
-        *((f"time stepping, {n} steps", methods.stepped(n)) for n in methods.SAMPLES)]
+        ("two-term formula", methods.two_term),
+        *((f"series to λ^{p}", methods.printed(p)) for p in methods.POWERS),
+        ("closed form", methods.closed_form),
+        *((f"FFT, {n} points", methods.transformed(n)) for n in methods.POINTS),
+        *((f"time stepping, {n} steps", methods.stepped(n)) for n in methods.SAMPLES),
+    ]
     for orders, task in (([2], "A_2"), ([8], "A_8")):
         exact = methods.exact(orders, LAM)
         for name, find in ways:
@@ -111,33 +120,56 @@ def _engine() -> Iterator[Case]:
     engine, find = build(parse(V8)), methods.from_coefficients
     exact = find(methods.exact)(engine, ORDERS)
     ways: list[tuple[str, methods.Vectors]] = [
-        ("two-term formula", find(methods.two_term)), *((f"series to λ^{p}", find(methods.printed(p))) for p in methods.POWERS),
-        ("closed form", methods.of_engine), *((f"FFT, {n} points", methods.sampled(n)) for n in methods.POINTS),
-        *((f"time stepping, {n} steps", methods.time_stepped(n)) for n in methods.SAMPLES)]
+        ("two-term formula", find(methods.two_term)),
+        *((f"series to λ^{p}", find(methods.printed(p))) for p in methods.POWERS),
+        ("closed form", methods.of_engine),
+        *((f"FFT, {n} points", methods.sampled(n)) for n in methods.POINTS),
+        *((f"time stepping, {n} steps", methods.time_stepped(n)) for n in methods.SAMPLES),
+    ]
     for name, way in ways:
-        yield Case("one V8, force and moment", name, partial(way, engine, ORDERS), _worst(way(engine, ORDERS), exact, axis=(0, 2)))
+        yield Case(
+            "one V8, force and moment",
+            name,
+            partial(way, engine, ORDERS),
+            _worst(way(engine, ORDERS), exact, axis=(0, 2)),
+        )
 
 
 def _sweep() -> Iterator[Case]:
     """A V8 over bank angles and rod ratios, orders 1 and 2 of force and moment."""
     file, task = parse(V8), "sweep of a V8, a variant"
     grid, few = _grid(file, *_parameters(512, 128)), _grid(file, *_parameters(2, 2))
-    yield Case(task, "closed form, as arrays", lambda: list(chunks(grid)), _swept(few, methods.of_engine), grid.variants)
-    ways = [("closed form, engine by engine", methods.of_engine), ("FFT, 16 points, engine by engine", methods.sampled(16)),
-            ("time stepping, 360 steps, engine by engine", methods.time_stepped(360))]
+    yield Case(
+        task,
+        "closed form, as arrays",
+        lambda: list(chunks(grid)),
+        _swept(few, methods.of_engine),
+        grid.variants,
+    )
+    ways = [
+        ("closed form, engine by engine", methods.of_engine),
+        ("FFT, 16 points, engine by engine", methods.sampled(16)),
+        ("time stepping, 360 steps, engine by engine", methods.time_stepped(360)),
+    ]
     for name, way in ways:
         yield Case(task, name, partial(_one_by_one, few, way), _swept(few, way), few.variants)
     angles = np.random.default_rng(1).uniform(0, 7, 8 * CHUNK)
-    yield Case(task, "np.exp(1j*x) of its 8 crank angles alone", lambda: np.exp(1j * angles), None, CHUNK)
+    yield Case(
+        task, "np.exp(1j*x) of its 8 crank angles alone", lambda: np.exp(1j * angles), None, CHUNK
+    )
 
 
 def _grid(file: EngineFile, *parameters: Parameter) -> Sweep:
-    return Sweep(file, parameters, quantities("force.1.major,force.2.major,moment.1.major,moment.2.major"))
+    return Sweep(
+        file, parameters, quantities("force.1.major,force.2.major,moment.1.major,moment.2.major")
+    )
 
 
 def _parameters(banks: int, ratios: int) -> tuple[Parameter, Parameter]:
-    return (Parameter("layout.bank_angle", ladder(Fraction(40), Fraction(1, 5), banks)),
-            Parameter("rod.ratio", ladder(Fraction(1, 5), Fraction(1, 1000), ratios)))
+    return (
+        Parameter("layout.bank_angle", ladder(Fraction(40), Fraction(1, 5), banks)),
+        Parameter("rod.ratio", ladder(Fraction(1, 5), Fraction(1, 1000), ratios)),
+    )
 
 
 def _engines(sweep: Sweep) -> Iterator[Engine]:
@@ -148,8 +180,12 @@ def _engines(sweep: Sweep) -> Iterator[Engine]:
 
 
 def _set(file: EngineFile, angle: float, ratio: float) -> EngineFile:
-    return file.model_copy(update={"layout": file.layout.model_copy(update={"bank_angle": angle}),
-                                   "rod": file.rod.model_copy(update={"ratio": ratio})})
+    return file.model_copy(
+        update={
+            "layout": file.layout.model_copy(update={"bank_angle": angle}),
+            "rod": file.rod.model_copy(update={"ratio": ratio}),
+        }
+    )
 
 
 def _one_by_one(sweep: Sweep, way: methods.Vectors) -> list[Any]:
@@ -158,11 +194,16 @@ def _one_by_one(sweep: Sweep, way: methods.Vectors) -> list[Any]:
 
 def _swept(sweep: Sweep, way: methods.Vectors) -> float:
     exact = methods.from_coefficients(methods.exact)
-    return max(_worst(way(engine, [1, 2]), exact(engine, [1, 2]), axis=(0, 2)) for engine in _engines(sweep))
+    return max(
+        _worst(way(engine, [1, 2]), exact(engine, [1, 2]), axis=(0, 2))
+        for engine in _engines(sweep)
+    )
 
 
 def _worst(found: Any, exact: Any, axis: tuple[int, ...] = ()) -> float:
-    """The largest error relative to the largest exact value of its order (`axis`: what belongs to one order)."""
+    """The largest error relative to the largest exact value of its order (`axis`: what belongs to
+    one order).
+    """
     scale = np.abs(exact).max(axis=axis, keepdims=True) if axis else np.abs(exact)
     return float((np.abs(found - exact) / scale).max())
 
@@ -172,26 +213,65 @@ def ratios() -> Iterator[Ratio]:
     """Pairs of run times, measured in turn."""
     file = parse(V8)
     engine = build(file)
-    unequal = build(file.model_copy(update={"cylinder": parse(V8 + "[cylinder.3]\npiston_mass = 0.51\nrod_ratio = 0.281\n").cylinder}))
+    unequal = build(
+        file.model_copy(
+            update={
+                "cylinder": parse(
+                    V8 + "[cylinder.3]\npiston_mass = 0.51\nrod_ratio = 0.281\n"
+                ).cylinder
+            }
+        )
+    )
     forces = ("force", "moment")
     long, short = np.arange(1.0, 33.0), [1.0, 2.0]
     plain = partial(methods.sampled(64), engine, list(range(1, 9)))
     eight = np.arange(1.0, 9.0)
-    yield _ratio("force and moment of a V8, orders 1-8, to plain numpy (64 angles, FFT)", lambda: spectra(engine, eight, forces), plain)
+    yield _ratio(
+        "force and moment of a V8, orders 1-8, to plain numpy (64 angles, FFT)",
+        lambda: spectra(engine, eight, forces),
+        plain,
+    )
     another = _unseen(engine)
-    yield _ratio("the same of a V8 not seen before", lambda: spectra(another(), eight, forces), plain)
-    yield _ratio("all quantities of it to the same", lambda: spectra(engine, eight, SPECTRAL), plain)
-    yield _ratio("orders: 1-32 to 1 and 2", lambda: spectra(engine, long, forces), lambda: spectra(engine, short, forces))
-    yield _ratio("moments: force and moment to force", lambda: spectra(engine, eight, forces), lambda: spectra(engine, eight, ("force",)))
-    yield _ratio("equal cylinders: unequal to equal", lambda: spectra(unequal, eight, forces), lambda: spectra(engine, eight, forces))
-    yield _ratio("peaks: force with peak to force",
-                 lambda: analyze(engine, [1, 2], {"force", "peak"}), lambda: analyze(engine, [1, 2], {"force"}))
+    yield _ratio(
+        "the same of a V8 not seen before", lambda: spectra(another(), eight, forces), plain
+    )
+    yield _ratio(
+        "all quantities of it to the same", lambda: spectra(engine, eight, SPECTRAL), plain
+    )
+    yield _ratio(
+        "orders: 1-32 to 1 and 2",
+        lambda: spectra(engine, long, forces),
+        lambda: spectra(engine, short, forces),
+    )
+    yield _ratio(
+        "moments: force and moment to force",
+        lambda: spectra(engine, eight, forces),
+        lambda: spectra(engine, eight, ("force",)),
+    )
+    yield _ratio(
+        "equal cylinders: unequal to equal",
+        lambda: spectra(unequal, eight, forces),
+        lambda: spectra(engine, eight, forces),
+    )
+    yield _ratio(
+        "peaks: force with peak to force",
+        lambda: analyze(engine, [1, 2], {"force", "peak"}),
+        lambda: analyze(engine, [1, 2], {"force"}),
+    )
     yield from _imports()
     array, exponential = (c for c in _sweep() if "array" in c.method or "exp(" in c.method)
     unit = _seconds(exponential.run) / exponential.times
-    throw = _grid(file, Parameter("crank.throws.2", ladder(Fraction(40), Fraction(1, 1000), 2 * CHUNK)))
-    yield Ratio("a variant of a sweep to np.exp(1j*x) of its 8 crank angles", _seconds(array.run) / array.times / unit)
-    yield Ratio("a variant of a sweep of one throw to the same", _seconds(lambda: list(chunks(throw))) / throw.variants / unit)
+    throw = _grid(
+        file, Parameter("crank.throws.2", ladder(Fraction(40), Fraction(1, 1000), 2 * CHUNK))
+    )
+    yield Ratio(
+        "a variant of a sweep to np.exp(1j*x) of its 8 crank angles",
+        _seconds(array.run) / array.times / unit,
+    )
+    yield Ratio(
+        "a variant of a sweep of one throw to the same",
+        _seconds(lambda: list(chunks(throw))) / throw.variants / unit,
+    )
 
 
 def _unseen(engine: Engine) -> Callable[[], Engine]:
@@ -200,19 +280,35 @@ def _unseen(engine: Engine) -> Callable[[], Engine]:
     return lambda: replace(engine, cylinders=replace(c, lam=c.lam * (1 + next(ulps) * EPS)))
 
 
-def _imports() -> Iterator[Ratio]:          # pragma: no cover: measures cold starts for minutes; the tests leave it out
+def _imports() -> Iterator[
+    Ratio
+]:  # pragma: no cover: measures cold starts for minutes; the tests leave it out
     """Cold starts of the whole program."""
+
     def start(*argv: str) -> Callable[[], Any]:
-        return lambda: subprocess.run([sys.executable, *argv], input=V8.encode(), capture_output=True, check=True, env=os.environ)
+        return lambda: subprocess.run(
+            [sys.executable, *argv],
+            input=V8.encode(),
+            capture_output=True,
+            check=True,
+            env=os.environ,
+        )
+
     floor = start("-c", "import numpy, typer; from pydantic import BaseModel")
     for argv in ("analyze - --format json", "analyze -", "--help"):
-        yield _ratio(f"imports: cold balcli {argv} to importing numpy, typer and pydantic", start("-m", "balcli", *argv.split()), floor)
+        yield _ratio(
+            f"imports: cold balcli {argv} to importing numpy, typer and pydantic",
+            start("-m", "balcli", *argv.split()),
+            floor,
+        )
 
 
 def _ratio(what: str, one: Callable[[], Any], other: Callable[[], Any]) -> Ratio:
     """Measured in turn, so that a busy machine disturbs both alike."""
     number = max(int(0.01 / max(timeit.timeit(other, number=1), 1e-7)), 1)
-    pairs = [(timeit.timeit(one, number=number), timeit.timeit(other, number=number)) for _ in range(9)]
+    pairs = [
+        (timeit.timeit(one, number=number), timeit.timeit(other, number=number)) for _ in range(9)
+    ]
     first, second = (float(np.median(times)) for times in zip(*pairs, strict=True))
     return Ratio(what, first / second)
 

@@ -1,7 +1,10 @@
-"""All the ways to the same figures: two-term formula, printed series, closed form, FFT of samples, time stepping.
+"""All the ways to the same figures: two-term formula, printed series, closed form, FFT of samples,
+time stepping.
 
-Each is written as one would write it, with numpy and without the rest of the program (but for the closed form, which is it).
+Each is written as one would write it, with numpy and without the rest of the program (but for the
+closed form, which is it).
 """
+
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -17,18 +20,22 @@ from ..engine.build import Engine
 from ..forces.spectrum import spectra
 
 Complex = NDArray[np.complex128]
-POWERS = (3, 5, 7)              # of lambda, up to which books print the series
+POWERS = (3, 5, 7)  # of lambda, up to which books print the series
 POINTS = (8, 16, 32, 64)
 SAMPLES = (64, 360, 720, 3600)
-EXACT_POWER = 81                # lambda^81 is below 1e-40 at lambda = 0.3
+EXACT_POWER = 81  # lambda^81 is below 1e-40 at lambda = 0.3
 
 Coefficients = Callable[[list[int], float], NDArray[np.float64]]
 
 
 def exact(orders: list[int], lam: float) -> NDArray[np.float64]:
-    """A_n to the last digit: the series in exact fractions, far beyond the last power that matters."""
+    """A_n to the last digit: the series in exact fractions, far beyond the last power that
+    matters.
+    """
     x = Fraction(lam)
-    return np.array([float(sum(c * x**p for p, c in series.piston(n, EXACT_POWER).items())) for n in orders])
+    return np.array(
+        [float(sum(c * x**p for p, c in series.piston(n, EXACT_POWER).items())) for n in orders]
+    )
 
 
 def two_term(orders: list[int], lam: float) -> NDArray[np.float64]:
@@ -38,10 +45,14 @@ def two_term(orders: list[int], lam: float) -> NDArray[np.float64]:
 
 def printed(power: int) -> Coefficients:
     """The series that books print, up to a power of lambda."""
-    terms = {n: [(p, float(c)) for p, c in series.piston(n, power).items() if p <= power] for n in range(1, 65)}
+    terms = {
+        n: [(p, float(c)) for p, c in series.piston(n, power).items() if p <= power]
+        for n in range(1, 65)
+    }
 
     def evaluate(orders: list[int], lam: float) -> NDArray[np.float64]:
         return np.array([sum(c * lam**p for p, c in terms[n]) for n in orders])
+
     return evaluate
 
 
@@ -51,18 +62,26 @@ def closed_form(orders: list[int], lam: float) -> NDArray[np.float64]:
 
 def transformed(points: int) -> Coefficients:
     """The acceleration's formula, sampled and transformed."""
+
     def evaluate(orders: list[int], lam: float) -> NDArray[np.float64]:
         psi = 2 * np.pi * np.arange(points) / points
         return _picked(np.fft.rfft(_acceleration(psi, lam)).real * (2 / points), orders)
+
     return evaluate
 
 
 def stepped(samples: int) -> Coefficients:
-    """The piston's place at equal steps of time, its second differences, and their sums with cos n psi."""
+    """The piston's place at equal steps of time, its second differences, and their sums with cos n
+    psi.
+    """
+
     def evaluate(orders: list[int], lam: float) -> NDArray[np.float64]:
         psi = 2 * np.pi * np.arange(samples) / samples
-        acceleration = -_second_difference(np.cos(psi) + np.sqrt(1 - (lam * np.sin(psi)) ** 2) / lam)
+        acceleration = -_second_difference(
+            np.cos(psi) + np.sqrt(1 - (lam * np.sin(psi)) ** 2) / lam
+        )
         return np.array([2 / samples * float(acceleration @ np.cos(n * psi)) for n in orders])
+
     return evaluate
 
 
@@ -88,7 +107,10 @@ Vectors = Callable[[Engine, list[int]], Complex]
 
 
 def from_coefficients(find: Coefficients) -> Vectors:
-    """Force and moment by order from A_n: phases of every cylinder added up, shape (2, orders, 2): kind, order, direction."""
+    """Force and moment by order from A_n: phases of every cylinder added up, shape (2, orders, 2):
+    kind, order, direction.
+    """
+
     def evaluate(engine: Engine, orders: list[int]) -> Complex:
         mass, turning, axis, phase, z = _columns(engine)
         n = np.array(orders)[:, None]
@@ -97,6 +119,7 @@ def from_coefficients(find: Coefficients) -> Vectors:
         astern = c * np.exp(1j * (axis - n * phase))
         both = np.stack([ahead, astern], axis=-1)
         return np.stack([both.sum(axis=1), 1j * (z[:, None] * both).sum(axis=1)])
+
     return evaluate
 
 
@@ -107,34 +130,51 @@ def of_engine(engine: Engine, orders: list[int]) -> Complex:
 
 
 def sampled(points: int) -> Vectors:
-    """Force of every cylinder at crank angles, summed and transformed: what one writes first with numpy."""
+    """Force of every cylinder at crank angles, summed and transformed: what one writes first with
+    numpy.
+    """
+
     def evaluate(engine: Engine, orders: list[int]) -> Complex:
         mass, turning, axis, phase, z = _columns(engine)
         psi = 2 * np.pi * np.arange(points) / points + phase[:, None]
-        force = (mass * _acceleration(psi, engine.cylinders.lam[0]) + turning * np.exp(1j * psi)) * np.exp(1j * axis)[:, None]
+        force = (
+            mass * _acceleration(psi, engine.cylinders.lam[0]) + turning * np.exp(1j * psi)
+        ) * np.exp(1j * axis)[:, None]
         return _of_curves(force.sum(axis=0), 1j * (z[:, None] * force).sum(axis=0), orders)
+
     return evaluate
 
 
 def time_stepped(samples: int) -> Vectors:
     """The same from the places of all masses at equal steps of time."""
+
     def evaluate(engine: Engine, orders: list[int]) -> Complex:
         mass, turning, axis, phase, z = _columns(engine)
         psi = 2 * np.pi * np.arange(samples) / samples + phase[:, None]
         lam = engine.cylinders.lam[0]
-        place = mass * (np.cos(psi) + np.sqrt(1 - (lam * np.sin(psi)) ** 2) / lam) + turning * np.exp(1j * psi)
+        place = mass * (
+            np.cos(psi) + np.sqrt(1 - (lam * np.sin(psi)) ** 2) / lam
+        ) + turning * np.exp(1j * psi)
         force = -_second_difference(place) * np.exp(1j * axis)[:, None]
         return _of_curves(force.sum(axis=0), 1j * (z[:, None] * force).sum(axis=0), orders)
+
     return evaluate
 
 
 def _columns(engine: Engine) -> tuple[Any, Any, Any, Any, Any]:
-    """Of an engine of equal cylinders: `m_rec r omega^2`, `m_rot r omega^2`; axis, phase (rad) and arm (m) of every cylinder."""
+    """Of an engine of equal cylinders: `m_rec r omega^2`, `m_rot r omega^2`; axis, phase (rad) and
+    arm (m) of every cylinder.
+    """
     c = engine.cylinders
     axis = np.radians(np.repeat(c.axis_deg, np.diff([*c.starts, c.count])))
     scale = c.radius * engine.omega**2
-    return (float(c.reciprocating[0] * scale), float(c.rotating[0] * scale), axis,
-            axis[engine.numbers.index(1)] + np.radians(c.pin_deg) - axis, c.z - engine.reference_m[2])
+    return (
+        float(c.reciprocating[0] * scale),
+        float(c.rotating[0] * scale),
+        axis,
+        axis[engine.numbers.index(1)] + np.radians(c.pin_deg) - axis,
+        c.z - engine.reference_m[2],
+    )
 
 
 def _of_curves(force: Complex, moment: Complex, orders: list[int]) -> Complex:

@@ -1,1 +1,3 @@
-"""One module a command: load, compute, render, print once. Heavy imports stand inside the functions."""
+"""One module a command: load, compute, render, print once. Heavy imports stand inside the
+functions.
+"""

@@ -1,4 +1,5 @@
 """Where the second engine of `balcli sum` stands."""
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
@@ -9,7 +10,7 @@ from .options import numbers
 if TYPE_CHECKING:
     from ..results.two_engines import Arrangement
 
-MOST = 1e6                      # degrees; metres
+MOST = 1e6  # degrees; metres
 
 
 def arrangement(phase: float, at: str, turn: float, reverse: bool) -> Arrangement:
@@ -27,7 +28,9 @@ def arrangement(phase: float, at: str, turn: float, reverse: bool) -> Arrangemen
 
 
 def _place(text: str) -> tuple[float, float, float]:
-    x, y, z = (v / 1e3 for v in numbers("--at", text, "three numbers, X,Y,Z in mm, such as 0,300,0", 3))
+    x, y, z = (
+        v / 1e3 for v in numbers("--at", text, "three numbers, X,Y,Z in mm, such as 0,300,0", 3)
+    )
     if max(map(abs, (x, y, z))) > MOST:
         raise BalcliError(f'--at "{text[:60]}": the places may be up to {MOST:g} m')
     return x, y, z

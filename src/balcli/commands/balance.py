@@ -1,9 +1,21 @@
 """`balcli balance`"""
+
 from __future__ import annotations
 
 from ..sizing.schemes import KNUCKLES
 from . import balance_options as wishes
-from .options import EngineFile, Format, FormatOption, Orders, Output, Speed, Units, UnitsOption, checked_speed, order_list
+from .options import (
+    EngineFile,
+    Format,
+    FormatOption,
+    Orders,
+    Output,
+    Speed,
+    Units,
+    UnitsOption,
+    checked_speed,
+    order_list,
+)
 
 
 def balance(
@@ -23,7 +35,7 @@ def balance(
     write: wishes.Write = None,
     speed: Speed = None,
     orders: Orders = None,
-    format: FormatOption = Format.TABLE,                                    # noqa: A002 (the option's name)
+    format: FormatOption = Format.TABLE,  # noqa: A002 (the option's name)
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
@@ -35,7 +47,10 @@ def balance(
     from .inputs import engine_and_text
     from .output import emit
 
-    wish, tools = wishes.wish_of(order, at, position, planes, factor, roll), wishes.shop_tools(radius, thickness, disc, drill)
+    wish, tools = (
+        wishes.wish_of(order, at, position, planes, factor, roll),
+        wishes.shop_tools(radius, thickness, disc, drill),
+    )
     asked = order_list(orders)
     text, engine = engine_and_text(file, rpm := checked_speed(speed))
     if scheme == KNUCKLES or even is not None:

@@ -1,4 +1,5 @@
 """Options of `balance`, and what the schemes understand of them (SI)."""
+
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -20,56 +21,159 @@ if TYPE_CHECKING:
 
 MOST_FACTORS = 1000
 
-Scheme = Annotated[str, typer.Option("--scheme", "--with", metavar="NAME", autocompletion=completion.schemes,
-                                       help=f"What to fit: {', '.join(NAMES[:-1])} or {NAMES[-1]}.")]
-Order = Annotated[int | None, typer.Option(metavar="N", show_default=False, help=(
-    "Order to balance; default: the lowest that is not balanced."))]
-At = Annotated[list[str] | None, typer.Option(metavar="X,Y", show_default=False, help=(
-    "Place in mm of the shaft that turns against the crank; given twice: of both."))]
-Position = Annotated[str | None, typer.Option(metavar="Z", show_default=False, help=(
-    "Axial place of new devices, mm."))]
-Planes = Annotated[str | None, typer.Option(metavar="ends|throws|Z,Z...", show_default=False, help=(
-    "Where along the crank: at its end throws, at every throw, or at these z in mm."))]
-Factor = Annotated[str | None, typer.Option(metavar="K|K:K:STEP", show_default=False, help=(
-    "Share of the reciprocating mass that counterweights take; default 0.5. Of a range, the best."))]
-Roll = Annotated[str | None, typer.Option(metavar="zero", show_default=False, help=(
-    "Place two shafts such that they cancel the roll of this order, too."))]
-Radius = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help=(
-    "Radius at which masses are stated; default: crank radius."))]
-Thickness = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help=(
-    "Thickness of the semicircular steel discs that are stated; default 20."))]
-Disc = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help=(
-    "Radius of those discs, instead of their thickness."))]
-Drill = Annotated[float | None, typer.Option(metavar="MM", show_default=False, help=(
-    "Diameter of a drill: also say how deep a radial hole from --radius inwards removes as much."))]
-Even = Annotated[str | None, typer.Option("--even", metavar="dead-centres|strokes", show_default=False,
-                                          help="What --scheme knuckles makes even; default: dead-centres.")]
-Write = Annotated[Path | None, typer.Option("--write", metavar="OUT.toml", show_default=False,
-                                            help="Write the engine with the devices fitted, and with the speed of --speed.")]
+Scheme = Annotated[
+    str,
+    typer.Option(
+        "--scheme",
+        "--with",
+        metavar="NAME",
+        autocompletion=completion.schemes,
+        help=f"What to fit: {', '.join(NAMES[:-1])} or {NAMES[-1]}.",
+    ),
+]
+Order = Annotated[
+    int | None,
+    typer.Option(
+        metavar="N",
+        show_default=False,
+        help=("Order to balance; default: the lowest that is not balanced."),
+    ),
+]
+At = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="X,Y",
+        show_default=False,
+        help=("Place in mm of the shaft that turns against the crank; given twice: of both."),
+    ),
+]
+Position = Annotated[
+    str | None,
+    typer.Option(metavar="Z", show_default=False, help=("Axial place of new devices, mm.")),
+]
+Planes = Annotated[
+    str | None,
+    typer.Option(
+        metavar="ends|throws|Z,Z...",
+        show_default=False,
+        help=("Where along the crank: at its end throws, at every throw, or at these z in mm."),
+    ),
+]
+Factor = Annotated[
+    str | None,
+    typer.Option(
+        metavar="K|K:K:STEP",
+        show_default=False,
+        help=(
+            "Share of the reciprocating mass that counterweights take; default 0.5. Of a range, "
+            "the best."
+        ),
+    ),
+]
+Roll = Annotated[
+    str | None,
+    typer.Option(
+        metavar="zero",
+        show_default=False,
+        help=("Place two shafts such that they cancel the roll of this order, too."),
+    ),
+]
+Radius = Annotated[
+    float | None,
+    typer.Option(
+        metavar="MM",
+        show_default=False,
+        help=("Radius at which masses are stated; default: crank radius."),
+    ),
+]
+Thickness = Annotated[
+    float | None,
+    typer.Option(
+        metavar="MM",
+        show_default=False,
+        help=("Thickness of the semicircular steel discs that are stated; default 20."),
+    ),
+]
+Disc = Annotated[
+    float | None,
+    typer.Option(
+        metavar="MM",
+        show_default=False,
+        help=("Radius of those discs, instead of their thickness."),
+    ),
+]
+Drill = Annotated[
+    float | None,
+    typer.Option(
+        metavar="MM",
+        show_default=False,
+        help=(
+            "Diameter of a drill: also say how deep a radial hole from --radius inwards removes "
+            "as much."
+        ),
+    ),
+]
+Even = Annotated[
+    str | None,
+    typer.Option(
+        "--even",
+        metavar="dead-centres|strokes",
+        show_default=False,
+        help="What --scheme knuckles makes even; default: dead-centres.",
+    ),
+]
+Write = Annotated[
+    Path | None,
+    typer.Option(
+        "--write",
+        metavar="OUT.toml",
+        show_default=False,
+        help="Write the engine with the devices fitted, and with the speed of --speed.",
+    ),
+]
 
 
-def wish_of(order: int | None, at: Sequence[str] | None, position: str | None, planes: str | None, factor: str | None,
-            roll: str | None) -> Wish:
+def wish_of(
+    order: int | None,
+    at: Sequence[str] | None,
+    position: str | None,
+    planes: str | None,
+    factor: str | None,
+    roll: str | None,
+) -> Wish:
     """The wish; BalcliError for a text that says nothing, with the text."""
     from ..sizing.sizing import Wish
 
     return Wish(
         order=order,
         at=tuple(map(_place, at)) if at else None,
-        position=None if position is None else numbers("--position", position, "one place along z in mm, such as 40", 1)[0] / 1e3,
+        position=None
+        if position is None
+        else numbers("--position", position, "one place along z in mm, such as 40", 1)[0] / 1e3,
         planes=None if planes is None else _planes(planes),
         factor=None if factor is None else _factors(factor),
         roll=roll,
     )
 
 
-def knuckles(scheme: str, wish: Wish, even: str | None, file: EngineFile, engine: Engine, orders: list[int] | None) -> Balance:
-    """The scheme that changes knuckle angles; BalcliError for options that are not its own, or --even with another scheme."""
+def knuckles(
+    scheme: str,
+    wish: Wish,
+    even: str | None,
+    file: EngineFile,
+    engine: Engine,
+    orders: list[int] | None,
+) -> Balance:
+    """The scheme that changes knuckle angles; BalcliError for options that are not its own, or
+    --even with another scheme.
+    """
     from ..results.knuckles import GOALS, balanced
     from ..sizing.sizing import Wish
 
     if scheme != KNUCKLES:
-        raise BalcliError(f"--even belongs to --scheme knuckles; scheme {scheme} has no such option")
+        raise BalcliError(
+            f"--even belongs to --scheme knuckles; scheme {scheme} has no such option"
+        )
     if wish != Wish():
         raise BalcliError("scheme knuckles: has no option but --even")
     goal = next((known for known in GOALS if known == (even or GOALS[0])), None)
@@ -78,11 +182,15 @@ def knuckles(scheme: str, wish: Wish, even: str | None, file: EngineFile, engine
     return balanced(file, goal, orders, engine.speed_rpm)
 
 
-def shop_tools(radius: float | None, thickness: float | None, disc: float | None, drill: float | None) -> Tools:
+def shop_tools(
+    radius: float | None, thickness: float | None, disc: float | None, drill: float | None
+) -> Tools:
     """mm -> m."""
     from ..sizing.sizing import Tools
 
-    return Tools(*(None if length is None else length / 1e3 for length in (radius, thickness, disc, drill)))
+    return Tools(
+        *(None if length is None else length / 1e3 for length in (radius, thickness, disc, drill))
+    )
 
 
 def _place(text: str) -> complex:
@@ -93,7 +201,12 @@ def _place(text: str) -> complex:
 def _planes(text: str) -> str | tuple[float, ...]:
     if text in ("ends", "throws"):
         return text
-    return tuple(z / 1e3 for z in numbers("--planes", text, "ends, throws, or places along z in mm, such as -200,200"))
+    return tuple(
+        z / 1e3
+        for z in numbers(
+            "--planes", text, "ends, throws, or places along z in mm, such as -200,200"
+        )
+    )
 
 
 def _factors(text: str) -> tuple[float, ...]:
@@ -102,7 +215,15 @@ def _factors(text: str) -> tuple[float, ...]:
     if ":" not in text:
         return numbers("--factor", text, wanted)
     parts = [numbers("--factor", part, wanted, 1)[0] for part in text.split(":")]
-    if len(parts) != 3 or parts[2] <= 0 or parts[1] < parts[0] or (parts[1] - parts[0]) / parts[2] > MOST_FACTORS:
-        raise BalcliError(f'--factor "{text}": a range is first:last:step, rising, with at most {MOST_FACTORS} steps; give {wanted}')
+    if (
+        len(parts) != 3
+        or parts[2] <= 0
+        or parts[1] < parts[0]
+        or (parts[1] - parts[0]) / parts[2] > MOST_FACTORS
+    ):
+        raise BalcliError(
+            f'--factor "{text}": a range is first:last:step, rising, with at most {MOST_FACTORS} '
+            f"steps; give {wanted}"
+        )
     first, last, step = parts
     return tuple(round(first + k * step, 12) for k in range(int((last - first) / step + 1e-9) + 1))

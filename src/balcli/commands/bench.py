@@ -1,4 +1,5 @@
 """`balcli bench`"""
+
 from __future__ import annotations
 
 from ..render.formats import Format
@@ -6,10 +7,12 @@ from .options import FormatOption, Output
 
 
 def bench(
-    format: FormatOption = Format.TABLE,                                    # noqa: A002 (the option's name)
+    format: FormatOption = Format.TABLE,  # noqa: A002 (the option's name)
     output: Output = None,
 ) -> None:
-    """Run time against error of every way to the same figures, on this machine; with -o X.svg also as a picture."""
+    """Run time against error of every way to the same figures, on this machine; with -o X.svg also
+    as a picture.
+    """
     from ..bench.bench import bench as measured
     from ..render import bench as rendered
     from ..render.formats import render
@@ -19,5 +22,13 @@ def bench(
     if output is not None and output.suffix == ".svg":
         write(rendered.draw(found), output)
         output = None
-    emit(render(format, sheets=lambda: [rendered.sheet(found)], documents=lambda: [rendered.document(found)],
-                rows=lambda: rendered.rows(found), into_file=output is not None), output)
+    emit(
+        render(
+            format,
+            sheets=lambda: [rendered.sheet(found)],
+            documents=lambda: [rendered.document(found)],
+            rows=lambda: rendered.rows(found),
+            into_file=output is not None,
+        ),
+        output,
+    )

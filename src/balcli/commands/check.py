@@ -1,4 +1,5 @@
 """`balcli check`"""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -8,10 +9,22 @@ import typer
 
 
 def check(
-    paths: Annotated[list[Path], typer.Argument(metavar="PATH...", help="Engine files, or folders of them.", show_default=False)],
-    update: Annotated[bool, typer.Option("--update", help="Record the present results in expected/ beside the engines.")] = False,
+    paths: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="PATH...", help="Engine files, or folders of them.", show_default=False
+        ),
+    ],
+    update: Annotated[
+        bool,
+        typer.Option(
+            "--update", help="Record the present results in expected/ beside the engines."
+        ),
+    ] = False,
 ) -> None:
-    """Recompute engines and compare with their recorded results; exit status 1 if anything moved."""
+    """Recompute engines and compare with their recorded results; exit status 1 if anything
+    moved.
+    """
     from ..errors import Exit, legible
     from ..regression import Difference, differences, record, recorded_at
     from .inputs import each, engine_files, engine_of, tell
@@ -24,9 +37,12 @@ def check(
             return differences(file.stem, engine, target)
         write(record(engine), made(target))
         return []
+
     results, errors = each(engine_files(paths), compared)
     moved = [difference for found in results for difference in found]
-    done = _count(len(results), "engine") + (" recorded" if update else f", {_count(len(moved), 'difference')}")
+    done = _count(len(results), "engine") + (
+        " recorded" if update else f", {_count(len(moved), 'difference')}"
+    )
     emit(legible("\n".join([*map(str, moved), done])))
     tell(errors)
     if moved:

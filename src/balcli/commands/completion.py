@@ -1,4 +1,7 @@
-"""What a shell may complete beyond commands, options and their choices: names that are known only inside."""
+"""What a shell may complete beyond commands, options and their choices: names that are known only
+inside.
+"""
+
 from __future__ import annotations
 
 from collections.abc import Iterable

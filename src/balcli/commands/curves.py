@@ -1,4 +1,5 @@
 """`balcli curves`: numbers over the crank angle."""
+
 from __future__ import annotations
 
 from enum import StrEnum
@@ -16,14 +17,27 @@ class CurveFormat(StrEnum):
     JSON = "json"
 
 
-Cylinder = Annotated[int | None, typer.Option("--cylinder", metavar="N", show_default=False,
-                                              help="Piston travel, velocity, acceleration and rod angle of this one.")]
+Cylinder = Annotated[
+    int | None,
+    typer.Option(
+        "--cylinder",
+        metavar="N",
+        show_default=False,
+        help="Piston travel, velocity, acceleration and rod angle of this one.",
+    ),
+]
 Step = Annotated[float, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
 Form = Annotated[CurveFormat, typer.Option("--format", "-f", help="How to write the curves.")]
 
 
-def curves(file: EngineFile, cylinder: Cylinder = None, step: Step = 1.0, speed: Speed = None,
-           form: Form = CurveFormat.CSV, output: Output = None) -> None:
+def curves(
+    file: EngineFile,
+    cylinder: Cylinder = None,
+    step: Step = 1.0,
+    speed: Speed = None,
+    form: Form = CurveFormat.CSV,
+    output: Output = None,
+) -> None:
     """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston."""
     from ..forces.curves import crank_angles, cylinder_curves, engine_curves
     from ..render.curves import curves_csv, curves_json
@@ -32,5 +46,9 @@ def curves(file: EngineFile, cylinder: Cylinder = None, step: Step = 1.0, speed:
 
     angles = crank_angles(step)
     _, engine = engine_of(file, checked_speed(speed))
-    found = engine_curves(engine, angles) if cylinder is None else cylinder_curves(engine, cylinder, angles)
+    found = (
+        engine_curves(engine, angles)
+        if cylinder is None
+        else cylinder_curves(engine, cylinder, angles)
+    )
     emit(curves_json(found) if form is CurveFormat.JSON else curves_csv(found), output)

@@ -1,4 +1,5 @@
 """`balcli engines`"""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -10,9 +11,17 @@ from . import completion
 
 
 def engines(
-    name: Annotated[str | None, typer.Argument(metavar="NAME", help="An example; without it all are listed.",
-                                               autocompletion=completion.examples)] = None,
-    file: Annotated[Path | None, typer.Argument(metavar="FILE", help="Copy it here; default: standard output.")] = None,
+    name: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="NAME",
+            help="An example; without it all are listed.",
+            autocompletion=completion.examples,
+        ),
+    ] = None,
+    file: Annotated[
+        Path | None, typer.Argument(metavar="FILE", help="Copy it here; default: standard output.")
+    ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
 ) -> None:
     """List the example engines that come with balcli, print one, or copy it."""

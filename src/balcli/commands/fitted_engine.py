@@ -1,4 +1,5 @@
 """`--write`: the engine with its devices, as a new file."""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -11,8 +12,11 @@ from ..sizing.write import fit, fit_knuckles
 from .output import write
 
 
-def write_fitted(source: str, text: bytes, remedy: Remedy, target: Path, speed_rpm: float | None = None) -> None:
-    """Write the engine file with these devices, and at the speed for which they were asked if that is not its own.
+def write_fitted(
+    source: str, text: bytes, remedy: Remedy, target: Path, speed_rpm: float | None = None
+) -> None:
+    """Write the engine file with these devices, and at the speed for which they were asked if that
+    is not its own.
 
     Raises:
         BalcliError: the target cannot be written, or the devices cannot be described.
@@ -21,4 +25,9 @@ def write_fitted(source: str, text: bytes, remedy: Remedy, target: Path, speed_r
         new = fit_knuckles(text, tuple(remedy.details["knuckle_angles_deg"]), name_of(source))
     else:
         new = fit(text, remedy, name_of(source))
-    write(new if speed_rpm is None else changed(new, "operation", {"speed": speed_rpm}, "as balanced by balcli"), target)
+    write(
+        new
+        if speed_rpm is None
+        else changed(new, "operation", {"speed": speed_rpm}, "as balanced by balcli"),
+        target,
+    )

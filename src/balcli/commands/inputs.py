@@ -1,4 +1,5 @@
 """Several engine files: what is good is reported, what is bad is named."""
+
 from __future__ import annotations
 
 import os
@@ -68,10 +69,14 @@ def engine_files(paths: Sequence[Path]) -> list[Path]:
     """
     files: list[Path] = []
     for path in paths:
-        folder = os.path.isdir(path)                 # unlike Path.is_dir false where one may not look, or the name is too long
+        folder = os.path.isdir(
+            path
+        )  # unlike Path.is_dir false where one may not look, or the name is too long
         found = sorted(path.glob("*.toml")) if folder else [path]
         if not found or not os.path.exists(path):
-            raise BalcliError(f"{path}: {'has no engine files (*.toml)' if folder else 'no such file or folder'}")
+            raise BalcliError(
+                f"{path}: {'has no engine files (*.toml)' if folder else 'no such file or folder'}"
+            )
         files += found
     return files
 
@@ -82,5 +87,10 @@ def named(engine: Engine, file: str) -> Engine:
 
 
 def distinct(names: Sequence[str], files: Sequence[str]) -> list[str]:
-    """What to call several engines side by side: by name, or by file where a name is missing or stands for several."""
-    return [name if name and names.count(name) == 1 else legible(name_of(file)) for name, file in zip(names, files, strict=True)]
+    """What to call several engines side by side: by name, or by file where a name is missing or
+    stands for several.
+    """
+    return [
+        name if name and names.count(name) == 1 else legible(name_of(file))
+        for name, file in zip(names, files, strict=True)
+    ]

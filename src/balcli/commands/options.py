@@ -1,4 +1,5 @@
 """Options that several commands share."""
+
 from __future__ import annotations
 
 import math
@@ -12,20 +13,63 @@ from ..render.formats import Format as Format
 from ..render.formats import Units as Units
 from . import completion
 
-EngineFile = Annotated[str, typer.Argument(metavar="FILE", help="Engine file (TOML); - reads standard input.", show_default=False)]
-EngineFiles = Annotated[list[str], typer.Argument(metavar="FILE...", show_default=False,
-                                                  help="Engine files (TOML); - reads standard input.")]
+EngineFile = Annotated[
+    str,
+    typer.Argument(
+        metavar="FILE", help="Engine file (TOML); - reads standard input.", show_default=False
+    ),
+]
+EngineFiles = Annotated[
+    list[str],
+    typer.Argument(
+        metavar="FILE...", show_default=False, help="Engine files (TOML); - reads standard input."
+    ),
+]
 FormatOption = Annotated[Format, typer.Option("--format", "-f", help="How to write the result.")]
-UnitsOption = Annotated[Units, typer.Option("--units", help="imperial: lbf, lbf·ft, oz·in; JSON stays SI.")]
-Output = Annotated[Path | None, typer.Option("--output", "-o", metavar="FILE", help="Write into this file instead.", show_default=False)]
-Speed = Annotated[float | None, typer.Option("--speed", metavar="RPM", help="Crank speed instead of the file's.", show_default=False)]
-Orders = Annotated[str | None, typer.Option("--orders", metavar="1-8|1,2,4", show_default=False,
-                                               help="Orders to show; default: 1, 2 and all to 512 that are not negligible.")]
-Only = Annotated[str | None, typer.Option("--only", metavar="WHAT,...", show_default=False,
-                                             help="Compute only some of force, moment, couple, torque, roll, peak, sizing; or inner "
-                                                  "(shear, bending, bearing loads along the crankshaft) and guide (H- and X-type).")]
-Scheme = Annotated[str | None, typer.Option("--scheme", metavar="NAME", show_default=False, autocompletion=completion.schemes,
-                                               help="Also with the devices of a balance scheme, such as auto: before and after.")]
+UnitsOption = Annotated[
+    Units, typer.Option("--units", help="imperial: lbf, lbf·ft, oz·in; JSON stays SI.")
+]
+Output = Annotated[
+    Path | None,
+    typer.Option(
+        "--output", "-o", metavar="FILE", help="Write into this file instead.", show_default=False
+    ),
+]
+Speed = Annotated[
+    float | None,
+    typer.Option(
+        "--speed", metavar="RPM", help="Crank speed instead of the file's.", show_default=False
+    ),
+]
+Orders = Annotated[
+    str | None,
+    typer.Option(
+        "--orders",
+        metavar="1-8|1,2,4",
+        show_default=False,
+        help="Orders to show; default: 1, 2 and all to 512 that are not negligible.",
+    ),
+]
+Only = Annotated[
+    str | None,
+    typer.Option(
+        "--only",
+        metavar="WHAT,...",
+        show_default=False,
+        help="Compute only some of force, moment, couple, torque, roll, peak, sizing; or inner "
+        "(shear, bending, bearing loads along the crankshaft) and guide (H- and X-type).",
+    ),
+]
+Scheme = Annotated[
+    str | None,
+    typer.Option(
+        "--scheme",
+        metavar="NAME",
+        show_default=False,
+        autocompletion=completion.schemes,
+        help="Also with the devices of a balance scheme, such as auto: before and after.",
+    ),
+]
 
 
 def order_list(text: str | None) -> list[int] | None:
@@ -39,11 +83,20 @@ def order_list(text: str | None) -> list[int] | None:
     orders: list[int] = []
     for part in text.split(","):
         first, dash, last = part.strip().partition("-")
-        if not (first.isascii() and first.isdigit() and (not dash or (last.isascii() and last.isdigit()))) or len(first + last) > 12:
+        if (
+            not (
+                first.isascii()
+                and first.isdigit()
+                and (not dash or (last.isascii() and last.isdigit()))
+            )
+            or len(first + last) > 12
+        ):
             raise BalcliError(f'--orders "{text}": give whole numbers such as 1-8 or 1,2,4')
         low, high = int(first), int(last or first)
         if low > high or high > 4096:
-            raise BalcliError(f'--orders "{text}": {part.strip()} must rise and end at 4096 at most')
+            raise BalcliError(
+                f'--orders "{text}": {part.strip()} must rise and end at 4096 at most'
+            )
         orders += range(low, high + 1)
     return orders
 
@@ -63,7 +116,11 @@ def numbers(option: str, text: str, wanted: str, count: int | None = None) -> tu
         found = tuple(float(part) for part in text.split(","))
     except ValueError:
         found = ()
-    if not found or not all(map(math.isfinite, found)) or (count is not None and len(found) != count):
+    if (
+        not found
+        or not all(map(math.isfinite, found))
+        or (count is not None and len(found) != count)
+    ):
         raise BalcliError(f'{option} "{text[:60]}": give {wanted}')
     return found
 
@@ -75,5 +132,7 @@ def checked_speed(speed: float | None) -> float | None:
         BalcliError: unless it is positive and finite.
     """
     if speed is not None and not 0 < speed < 1e9:
-        raise BalcliError(f"--speed {speed:g}: the crank speed must be a positive number of rpm, below 1e9")
+        raise BalcliError(
+            f"--speed {speed:g}: the crank speed must be a positive number of rpm, below 1e9"
+        )
     return speed

@@ -1,4 +1,7 @@
-"""Where results go: standard output, or a file that is written beside its place and moved there when it is whole."""
+"""Where results go: standard output, or a file that is written beside its place and moved there
+when it is whole.
+"""
+
 from __future__ import annotations
 
 import errno
@@ -13,7 +16,8 @@ from ..errors import BalcliError
 
 
 def emit(text: str, output: Path | None = None) -> None:
-    """Print once, or write the whole file or nothing of it; what the reader of a closed pipe does not want need not be written.
+    """Print once, or write the whole file or nothing of it; what the reader of a closed pipe does
+    not want need not be written.
 
     Raises:
         BalcliError: if the file cannot be written; an older one is left as it was.
@@ -39,11 +43,15 @@ def standard_output() -> Iterator[TextIO]:
         _let_go()
     except OSError as error:
         _let_go()
-        raise BalcliError(f"standard output: cannot be written ({error.strerror or error})") from None
+        raise BalcliError(
+            f"standard output: cannot be written ({error.strerror or error})"
+        ) from None
 
 
 def _let_go() -> None:
-    """What is still to be written goes nowhere, so that nothing fails again when the program ends."""
+    """What is still to be written goes nowhere, so that nothing fails again when the program
+    ends.
+    """
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
@@ -54,7 +62,9 @@ def keep(file: Path | None, force: bool) -> None:
         BalcliError: with what to do.
     """
     if file is not None and os.path.lexists(file) and not force:
-        raise BalcliError(f"{file}: is there already; choose another name, or --force to overwrite it")
+        raise BalcliError(
+            f"{file}: is there already; choose another name, or --force to overwrite it"
+        )
 
 
 def made(file: Path) -> Path:
@@ -81,7 +91,8 @@ def write(content: str | bytes, target: Path) -> None:
 def beside(target: Path) -> Iterator[Path]:
     """A new file beside the target, which replaces it when all has gone well and is gone otherwise.
 
-    Through a symbolic link, what it points to is replaced. What is no ordinary file (/dev/null, a pipe) is itself written to.
+    Through a symbolic link, what it points to is replaced. What is no ordinary file (/dev/null, a
+    pipe) is itself written to.
 
     Raises:
         BalcliError: if it cannot be written; an older one is left as it was.

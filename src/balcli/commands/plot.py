@@ -1,4 +1,5 @@
 """`balcli plot`"""
+
 from __future__ import annotations
 
 from enum import StrEnum
@@ -24,15 +25,36 @@ class What(StrEnum):
     INNER = "inner"
 
 
-Picture = Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="Write here; .svg, .png or .pdf.", show_default=False)]
-Page = Annotated[What, typer.Option("--what",
-                                    help="polar: loci; orders: the two vectors of each; spectrum: bars; curves: over the crank angle; "
-                                         "factor: over the balance factor; bank: a vee over its bank angle; inner: along the crankshaft.")]
+Picture = Annotated[
+    Path,
+    typer.Option(
+        "--output", "-o", metavar="FILE", help="Write here; .svg, .png or .pdf.", show_default=False
+    ),
+]
+Page = Annotated[
+    What,
+    typer.Option(
+        "--what",
+        help="polar: loci; orders: the two vectors of each; spectrum: bars; curves: over the "
+        "crank angle; "
+        "factor: over the balance factor; bank: a vee over its bank angle; inner: along the "
+        "crankshaft.",
+    ),
+]
 
 
-def plot(file: EngineFile, output: Picture, what: Page = What.ALL, scheme: Scheme = None, speed: Speed = None, orders: Orders = None,
-         units: UnitsOption = Units.SI) -> None:
-    """Draw free forces and moments: loci over a revolution, order by order, and over the crank angle."""
+def plot(
+    file: EngineFile,
+    output: Picture,
+    what: Page = What.ALL,
+    scheme: Scheme = None,
+    speed: Speed = None,
+    orders: Orders = None,
+    units: UnitsOption = Units.SI,
+) -> None:
+    """Draw free forces and moments: loci over a revolution, order by order, and over the crank
+    angle.
+    """
     from ..render.plot.pages import Subject, form_of, picture
     from ..render.units import SYSTEMS
     from ..studies.pictures import study

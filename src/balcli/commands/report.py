@@ -1,4 +1,5 @@
 """`balcli report`"""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -9,12 +10,25 @@ import typer
 from ..render.formats import Units
 from .options import EngineFile, Orders, Scheme, Speed, UnitsOption, checked_speed, order_list
 
-Page = Annotated[Path, typer.Option("--output", "-o", metavar="FILE.html", help="Write the page here.", show_default=False)]
+Page = Annotated[
+    Path,
+    typer.Option(
+        "--output", "-o", metavar="FILE.html", help="Write the page here.", show_default=False
+    ),
+]
 
 
-def report(file: EngineFile, output: Page, scheme: Scheme = "auto", speed: Speed = None, orders: Orders = None,
-           units: UnitsOption = Units.SI) -> None:
-    """Write one self-contained page: the engine in motion, what it shakes, and a balance scheme before and after."""
+def report(
+    file: EngineFile,
+    output: Page,
+    scheme: Scheme = "auto",
+    speed: Speed = None,
+    orders: Orders = None,
+    units: UnitsOption = Units.SI,
+) -> None:
+    """Write one self-contained page: the engine in motion, what it shakes, and a balance scheme
+    before and after.
+    """
     from ..forces.spectrum import SPECTRAL
     from ..render.html import page
     from ..render.units import SYSTEMS

@@ -1,4 +1,5 @@
 """`balcli scatter`"""
+
 from __future__ import annotations
 
 from enum import StrEnum
@@ -19,19 +20,53 @@ class Distribution(StrEnum):
 
 def scatter(
     file: EngineFile,
-    mass: Annotated[str, typer.Option("--mass-scatter", metavar="PERCENT", help="Tolerance of every piston, rod and throw mass.")] = "0.5%",
-    length: Annotated[str, typer.Option("--length-scatter", metavar="PERCENT", help="Tolerance of every rod length.")] = "0%",
-    angle: Annotated[str, typer.Option("--angle-scatter", metavar="ANGLE", help="Tolerance of every throw angle, as 0.2 deg.")] = "0",
+    mass: Annotated[
+        str,
+        typer.Option(
+            "--mass-scatter",
+            metavar="PERCENT",
+            help="Tolerance of every piston, rod and throw mass.",
+        ),
+    ] = "0.5%",
+    length: Annotated[
+        str,
+        typer.Option("--length-scatter", metavar="PERCENT", help="Tolerance of every rod length."),
+    ] = "0%",
+    angle: Annotated[
+        str,
+        typer.Option(
+            "--angle-scatter", metavar="ANGLE", help="Tolerance of every throw angle, as 0.2 deg."
+        ),
+    ] = "0",
     samples: Annotated[int, typer.Option("--samples", help="Number of random engines.")] = 100_000,
-    seed: Annotated[int | None, typer.Option("--seed", min=0, help="Of the random numbers, to repeat them.", show_default=False)] = None,
-    distribution: Annotated[Distribution, typer.Option("--distribution", help=(
-        "uniform within the tolerances, or normal with a third of them as standard deviation."))] = Distribution.UNIFORM,
-    quantity: Annotated[str, typer.Option("--quantity", "-q", metavar="WHAT,...", help="As force.1.major, couple.4.amplitude.")] =
-        "force.1.major,force.2.major,moment.1.major,moment.2.major",
-    format: FormatOption = Format.TABLE,                                    # noqa: A002 (the option's name)
+    seed: Annotated[
+        int | None,
+        typer.Option(
+            "--seed", min=0, help="Of the random numbers, to repeat them.", show_default=False
+        ),
+    ] = None,
+    distribution: Annotated[
+        Distribution,
+        typer.Option(
+            "--distribution",
+            help=(
+                "uniform within the tolerances, or normal with a third of them as standard "
+                "deviation."
+            ),
+        ),
+    ] = Distribution.UNIFORM,
+    quantity: Annotated[
+        str,
+        typer.Option(
+            "--quantity", "-q", metavar="WHAT,...", help="As force.1.major, couple.4.amplitude."
+        ),
+    ] = "force.1.major,force.2.major,moment.1.major,moment.2.major",
+    format: FormatOption = Format.TABLE,  # noqa: A002 (the option's name)
     output: Output = None,
 ) -> None:
-    """How free forces and moments spread when masses (rod lengths, throw angles) vary, and which tolerance matters most."""
+    """How free forces and moments spread when masses (rod lengths, throw angles) vary, and which
+    tolerance matters most.
+    """
     from ..forces import quantity as quantities
     from ..render import tolerances as rendered
     from ..render.formats import render
@@ -40,6 +75,21 @@ def scatter(
     from .output import emit
 
     tolerances = scatters.tolerances(mass, length, angle)
-    found = scatters.scatter(engine_of(file)[0], tolerances, quantities.parse(quantity), samples, seed, distribution.value)
-    emit(render(format, sheets=lambda: [rendered.sheet(found)], documents=lambda: [rendered.document(found)],
-                rows=lambda: rendered.rows(found), into_file=output is not None), output)
+    found = scatters.scatter(
+        engine_of(file)[0],
+        tolerances,
+        quantities.parse(quantity),
+        samples,
+        seed,
+        distribution.value,
+    )
+    emit(
+        render(
+            format,
+            sheets=lambda: [rendered.sheet(found)],
+            documents=lambda: [rendered.document(found)],
+            rows=lambda: rendered.rows(found),
+            into_file=output is not None,
+        ),
+        output,
+    )

@@ -1,4 +1,5 @@
 """`balcli schema`"""
+
 from __future__ import annotations
 
 from .options import Output

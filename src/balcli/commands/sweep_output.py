@@ -1,4 +1,7 @@
-"""Writing the variants of a sweep as they are computed: to a stream, a text file or a Parquet file."""
+"""Writing the variants of a sweep as they are computed: to a stream, a text file or a Parquet
+file.
+"""
+
 from __future__ import annotations
 
 import signal
@@ -15,11 +18,12 @@ from ..render.sweep import csv_text, json_text
 if TYPE_CHECKING:
     from ..studies.sweep import Chunk, Sweep
 
-ROWS_A_GROUP = 1 << 20          # of a Parquet file
+ROWS_A_GROUP = 1 << 20  # of a Parquet file
 
 
 def write(sweep: Sweep, chunks: Iterable[Chunk], form: str, output: Path | None) -> None:
-    """All chunks, in one of the forms csv, json and parquet; a file takes its place when it is whole.
+    """All chunks, in one of the forms csv, json and parquet; a file takes its place when it is
+    whole.
 
     Raises:
         BalcliError: the file cannot be written, or pyarrow is missing.
@@ -39,8 +43,12 @@ def write(sweep: Sweep, chunks: Iterable[Chunk], form: str, output: Path | None)
 
 
 def _copy(sweep: Sweep, chunks: Iterable[Chunk], form: str, stream: Any) -> None:
-    first = next(iter(chunks := iter(chunks)), None)                        # a variant that cannot be is told before a heading is written
-    for text in (json_text if form == "json" else csv_text)(sweep, chunks if first is None else chain([first], chunks)):
+    first = next(
+        iter(chunks := iter(chunks)), None
+    )  # a variant that cannot be is told before a heading is written
+    for text in (json_text if form == "json" else csv_text)(
+        sweep, chunks if first is None else chain([first], chunks)
+    ):
         stream.write(text)
 
 
@@ -76,18 +84,21 @@ class Stopped:
     """Whether the user has pressed Ctrl-C."""
 
     def __init__(self) -> None:
-        self.at = 0             # variants that were complete then
+        self.at = 0  # variants that were complete then
         self.asked = False
 
 
 @contextmanager
 def interruptible() -> Iterator[Stopped]:
-    """Ctrl-C is noted here and heeded between two chunks, so that what is written is whole; the second one kills."""
+    """Ctrl-C is noted here and heeded between two chunks, so that what is written is whole; the
+    second one kills.
+    """
     stopped = Stopped()
 
     def note(*_: object) -> None:
         stopped.asked = True
         signal.signal(signal.SIGINT, before)
+
     before = signal.signal(signal.SIGINT, note)
     try:
         yield stopped
@@ -112,7 +123,9 @@ def with_progress(chunks: Iterable[Chunk], total: int, wanted: bool) -> Iterator
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
-    with Progress(BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(), console=Console(stderr=True)) as bar:
+    with Progress(
+        BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(), console=Console(stderr=True)
+    ) as bar:
         task = bar.add_task("", total=total)
         for chunk in chunks:
             yield chunk

@@ -1,4 +1,5 @@
 """`balcli tables`: the printed coefficient tables, recomputed."""
+
 from __future__ import annotations
 
 from typing import Annotated
@@ -9,22 +10,61 @@ from ..render.formats import Format
 from . import completion
 from .options import FormatOption, Output
 
-Name = Annotated[str | None, typer.Argument(metavar="NAME", help="Which table; without it, all are listed.", show_default=False,
-                                              autocompletion=completion.tables)]
-Errata = Annotated[bool, typer.Option("--errata", help="List every printed figure that is not the exact one rounded.")]
-Lam = Annotated[str | None, typer.Option("--lambda", metavar="0.20:0.40:0.01", show_default=False,
-                                            help="Other crank ratios than the printed ones; or a list 0.25,1/3.")]
-Angle = Annotated[str | None, typer.Option("--angle", metavar="0:180:5", show_default=False,
-                                              help="Other crank angles (degrees).")]
-Power = Annotated[int | None, typer.Option(min=0, max=200, show_default=False,
-                                              help="Highest power of lambda in `series`; default 12.")]
-Digits = Annotated[int | None, typer.Option(min=0, max=17, show_default=False,
-                                               help="Decimals; default: as printed (JSON and CSV: all).")]
+Name = Annotated[
+    str | None,
+    typer.Argument(
+        metavar="NAME",
+        help="Which table; without it, all are listed.",
+        show_default=False,
+        autocompletion=completion.tables,
+    ),
+]
+Errata = Annotated[
+    bool,
+    typer.Option("--errata", help="List every printed figure that is not the exact one rounded."),
+]
+Lam = Annotated[
+    str | None,
+    typer.Option(
+        "--lambda",
+        metavar="0.20:0.40:0.01",
+        show_default=False,
+        help="Other crank ratios than the printed ones; or a list 0.25,1/3.",
+    ),
+]
+Angle = Annotated[
+    str | None,
+    typer.Option(
+        "--angle", metavar="0:180:5", show_default=False, help="Other crank angles (degrees)."
+    ),
+]
+Power = Annotated[
+    int | None,
+    typer.Option(
+        min=0, max=200, show_default=False, help="Highest power of lambda in `series`; default 12."
+    ),
+]
+Digits = Annotated[
+    int | None,
+    typer.Option(
+        min=0, max=17, show_default=False, help="Decimals; default: as printed (JSON and CSV: all)."
+    ),
+]
 
 
-def tables(name: Name = None, errata: Errata = False, lam: Lam = None, angle: Angle = None, power: Power = None,
-           digits: Digits = None, form: FormatOption = Format.TABLE, output: Output = None) -> None:
-    """The printed coefficient tables of five books and papers, recomputed, and every misprint in them."""
+def tables(
+    name: Name = None,
+    errata: Errata = False,
+    lam: Lam = None,
+    angle: Angle = None,
+    power: Power = None,
+    digits: Digits = None,
+    form: FormatOption = Format.TABLE,
+    output: Output = None,
+) -> None:
+    """The printed coefficient tables of five books and papers, recomputed, and every misprint in
+    them.
+    """
     from ..render import tables as printed
     from ..tables import select
     from .output import emit

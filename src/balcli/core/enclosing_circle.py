@@ -1,10 +1,12 @@
 """Smallest circle that encloses a closed curve, found on the analytic curve itself.
 
-The curve is a force seen from the turning crank, `f = F e^{-i theta}`. An exchange: the smallest circle of a few of its
-points, which can only be too small, then the points of the curve farthest from its centre, until both agree; Newton's
-method on the points that fix the circle makes it quick and gives the centre to rounding even where the radius is flat.
-Any weights w of points bound the radius from below, `R^2 >= sum w |f|^2 - |sum w f|^2`: the error is known.
+The curve is a force seen from the turning crank, `f = F e^{-i theta}`. An exchange: the smallest
+circle of a few of its points, which can only be too small, then the points of the curve farthest
+from its centre, until both agree; Newton's method on the points that fix the circle makes it quick
+and gives the centre to rounding even where the radius is flat. Any weights w of points bound the
+radius from below, `R^2 >= sum w |f|^2 - |sum w f|^2`: the error is known.
 """
+
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -15,14 +17,16 @@ import numpy as np
 from .peaks import candidates, climb
 from .phasors import EPS, Array, Complex, Phasors
 
-_SAME = 8 * EPS             # points no farther outside than this, relative, are on the circle
-_TOUCHING = 1e-11           # likewise for the angles that are reported
-_APART = 1e-3               # rad; angles nearer than this are one peak
+_SAME = 8 * EPS  # points no farther outside than this, relative, are on the circle
+_TOUCHING = 1e-11  # likewise for the angles that are reported
+_APART = 1e-3  # rad; angles nearer than this are one peak
 _ROUNDS = 60
 
 
 class Circle(NamedTuple):
-    """Centre, radius, the angles (rad, ascending) at which the curve touches it, and a bound of the excess of the radius."""
+    """Centre, radius, the angles (rad, ascending) at which the curve touches it, and a bound of the
+    excess of the radius.
+    """
 
     centre: complex
     radius: float
@@ -31,7 +35,9 @@ class Circle(NamedTuple):
 
 
 def enclosing(curve: Phasors) -> Circle:
-    """Smallest circle around `F e^{-i theta}` for phasors of whole orders, 1 among them, without trailing axes."""
+    """Smallest circle around `F e^{-i theta}` for phasors of whole orders, 1 among them, without
+    trailing axes.
+    """
     there = np.flatnonzero((curve.major != 0) | (curve.orders == 1))
     if not np.any(curve.major):
         return Circle(0j, 0.0, np.zeros(0), 0.0)
@@ -55,16 +61,20 @@ def enclosing(curve: Phasors) -> Circle:
 
 
 def around(points: Complex) -> tuple[complex, float, list[int]]:
-    """Smallest circle around some points: centre, radius, and the (at most three) points that fix it.
+    """Smallest circle around some points: centre, radius, and the (at most three) points that fix
+    it.
 
-    Point after point, the circle growing where one lies outside, which must then lie on it (Welzl 1991, as loops).
+    Point after point, the circle growing where one lies outside, which must then lie on it (Welzl
+    1991, as loops).
     """
+
     def grown(count: int, fixed: list[int]) -> tuple[complex, float, list[int]]:
         centre, radius, on = _through(points, fixed)
         for k in range(count):
             if abs(points[k] - centre) > radius * (1 + _SAME) and len(fixed) < 3:
                 centre, radius, on = grown(k, [*fixed, k])
         return centre, radius, on
+
     return grown(len(points), [])
 
 
@@ -87,16 +97,22 @@ def _through(points: Complex, fixed: Sequence[int]) -> tuple[complex, float, lis
 
 
 def _bound(points: Complex, centre: complex) -> float:
-    """A lower bound of the radius, by the weights with which the points balance about the centre."""
+    """A lower bound of the radius, by the weights with which the points balance about the
+    centre.
+    """
     arms = points - centre
     rows = np.stack([arms.real, arms.imag, np.full(len(arms), np.abs(arms).max() or 1.0)])
-    weights = np.clip(np.linalg.lstsq(rows, rows[2, 0] * np.array([0, 0, 1.0]), rcond=None)[0], 0, None)
+    weights = np.clip(
+        np.linalg.lstsq(rows, rows[2, 0] * np.array([0, 0, 1.0]), rcond=None)[0], 0, None
+    )
     weights /= weights.sum()
     return float(np.sqrt(max(weights @ np.abs(arms) ** 2 - abs(weights @ arms) ** 2, 0.0)))
 
 
 def _around(curve: Phasors, centre: complex, theta: Array) -> Circle:
-    """The smallest circle with this centre; its angles are those of the highest peaks, and of those beside the angles given."""
+    """The smallest circle with this centre; its angles are those of the highest peaks, and of those
+    beside the angles given.
+    """
     forward = np.where(curve.orders == 1, curve.forward - centre, curve.forward)
     shifted = Phasors(curve.orders, forward, curve.backward, curve.noise)
     start = np.concatenate([candidates(shifted), theta])
@@ -105,7 +121,9 @@ def _around(curve: Phasors, centre: complex, theta: Array) -> Circle:
 
 
 def _newton(curve: Phasors, theta: Array, centre: complex) -> complex:
-    """The centre of the circle through the points that fix it once each is where the curve is farthest from that centre."""
+    """The centre of the circle through the points that fix it once each is where the curve is
+    farthest from that centre.
+    """
     theta = _distinct(theta)
     if len(theta) < 2:
         return centre
@@ -114,9 +132,13 @@ def _newton(curve: Phasors, theta: Array, centre: complex) -> complex:
         seen = _seen(curve, theta)
         middle = _through(seen, range(len(theta)))[0]
         return (np.conj(seen - middle) * _rate(curve, theta)).real, middle
+
     small = 1e-6
     for _ in range(4):
-        columns = [(slopes(theta + h)[0] - slopes(theta - h)[0]) / (2 * small) for h in small * np.eye(len(theta))]
+        columns = [
+            (slopes(theta + h)[0] - slopes(theta - h)[0]) / (2 * small)
+            for h in small * np.eye(len(theta))
+        ]
         theta = theta - np.linalg.pinv(np.stack(columns, axis=1), rcond=1e-9) @ slopes(theta)[0]
     return slopes(theta)[1]
 
@@ -136,4 +158,6 @@ def _seen(curve: Phasors, theta: Array) -> Complex:
 def _rate(curve: Phasors, theta: Array) -> Complex:
     """Derivative of the curve seen from the crank."""
     n = curve.orders
-    return _seen(Phasors(n, 1j * (n - 1) * curve.forward, -1j * (n + 1) * curve.backward, curve.noise), theta)
+    return _seen(
+        Phasors(n, 1j * (n - 1) * curve.forward, -1j * (n + 1) * curve.backward, curve.noise), theta
+    )

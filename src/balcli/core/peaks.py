@@ -1,4 +1,7 @@
-"""The largest absolute value of a curve given by its phasors, found on the curve itself and not on a grid of samples."""
+"""The largest absolute value of a curve given by its phasors, found on the curve itself and not on
+a grid of samples.
+"""
+
 from __future__ import annotations
 
 from typing import NamedTuple
@@ -9,21 +12,24 @@ from .phasors import Array, Phasors
 
 
 class Peak(NamedTuple):
-    """Largest absolute value over a revolution, and one crank angle (rad, in [0, 2 pi)) at which it is reached."""
+    """Largest absolute value over a revolution, and one crank angle (rad, in [0, 2 pi)) at which it
+    is reached.
+    """
 
     value: float
     theta: float
 
 
-_EQUAL = 1e-12                  # peaks that differ by a smaller share are equal
+_EQUAL = 1e-12  # peaks that differ by a smaller share are equal
 
 
 def peak(curve: Phasors) -> Peak:
     """The global maximum of |F|, to rounding.
 
-    |F|^2 is a trigonometric polynomial of degree 2n, n the highest order that is there. Between samples at 16n points it
-    exceeds the largest of them by less than a factor 1/cos(pi/8) (Ehlich and Zeller 1964), so that the highest peak is among
-    the samples within 8 % of the top; from each of those Newton's method climbs the curve.
+    |F|^2 is a trigonometric polynomial of degree 2n, n the highest order that is there. Between
+    samples at 16n points it exceeds the largest of them by less than a factor 1/cos(pi/8) (Ehlich
+    and Zeller 1964), so that the highest peak is among the samples within 8 % of the top; from each
+    of those Newton's method climbs the curve.
     """
     there = np.flatnonzero(curve.major)
     if not len(there):
@@ -33,7 +39,9 @@ def peak(curve: Phasors) -> Peak:
     step = np.pi / (8 * max(curve.orders[-1], 1))
     theta = climb(curve, theta, step)
     values, turned = np.abs(curve.values(theta)), theta % (2 * np.pi)
-    equal = np.flatnonzero(values >= values.max() * (1 - _EQUAL))       # of equal peaks the first, whatever the rounding
+    equal = np.flatnonzero(
+        values >= values.max() * (1 - _EQUAL)
+    )  # of equal peaks the first, whatever the rounding
     best = equal[np.argmin(np.round(turned[equal], 9) % np.round(2 * np.pi, 9))]
     return Peak(float(values.max()), float(turned[best]))
 
@@ -46,13 +54,17 @@ def candidates(curve: Phasors, most: int = 64) -> Array:
     spectrum[curve.orders.astype(int)] += curve.forward
     spectrum[-curve.orders.astype(int)] += curve.backward
     power = np.abs(np.fft.ifft(spectrum, norm="forward")) ** 2
-    top = (power >= np.roll(power, 1)) & (power >= np.roll(power, -1)) & (power >= 0.92 * power.max())
+    top = (
+        (power >= np.roll(power, 1)) & (power >= np.roll(power, -1)) & (power >= 0.92 * power.max())
+    )
     found = np.flatnonzero(top)
     return found[np.argsort(-power[found], kind="stable")[:most]] * (2 * np.pi / count)
 
 
 def climb(curve: Phasors, theta: Array, step: float, rounds: int = 12) -> Array:
-    """Newton's method for the maxima of |F|^2 beside the given angles, in steps of at most `step`."""
+    """Newton's method for the maxima of |F|^2 beside the given angles, in steps of at most
+    `step`.
+    """
     first, second = _derivative(curve), _derivative(_derivative(curve))
     for _ in range(rounds):
         f, f1, f2 = curve.values(theta), first.values(theta), second.values(theta)

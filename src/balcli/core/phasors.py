@@ -1,9 +1,11 @@
 """One representation for everything that shakes: each order is two rotating vectors.
 
-`F(theta) = sum over n of forward_n e^{i n theta} + backward_n e^{-i n theta}`, planar vectors being complex numbers x + iy.
-A scalar (couple, torque, roll) is the special case `backward = conj(forward)`. Order 0 holds its mean in `forward`.
-Arrays have the orders first, then any trailing axes (crank angles, variants of a sweep).
+`F(theta) = sum over n of forward_n e^{i n theta} + backward_n e^{-i n theta}`, planar vectors being
+complex numbers x + iy. A scalar (couple, torque, roll) is the special case `backward =
+conj(forward)`. Order 0 holds its mean in `forward`. Arrays have the orders first, then any trailing
+axes (crank angles, variants of a sweep).
 """
+
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -13,11 +15,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Array = NDArray[Any]              # of real numbers
-Complex = NDArray[Any]            # of complex ones
+Array = NDArray[Any]  # of real numbers
+Complex = NDArray[Any]  # of complex ones
 
 EPS = float(np.finfo(float).eps)
-_STEP = 15                                                              # degrees
+_STEP = 15  # degrees
 _COSINES = (1, (6**0.5 + 2**0.5) / 4, 0.75**0.5, 0.5**0.5, 0.5, (6**0.5 - 2**0.5) / 4, 0)
 
 
@@ -31,9 +33,11 @@ _UNITS = np.array([complex(_cosine(k), _cosine(k - 6)) for k in range(24)])
 
 
 def unit(degrees: ArrayLike) -> Complex:
-    """e^{i x} for x in degrees, any shape, within 2 ulp; exact at multiples of 30 and 45 degrees, however many turns.
+    """e^{i x} for x in degrees, any shape, within 2 ulp; exact at multiples of 30 and 45 degrees,
+    however many turns.
 
-    The nearest multiple of 15 degrees is taken from a table (the remainder is exact in floating point), the rest turned on.
+    The nearest multiple of 15 degrees is taken from a table (the remainder is exact in floating
+    point), the rest turned on.
     """
     x = np.asarray(degrees, float)
     steps = np.rint(x / _STEP)
@@ -51,9 +55,13 @@ def _turn(radians: Array) -> Complex:
 
 
 def reduced(degrees: ArrayLike, turn: float) -> Array:
-    """The same direction in (-turn/2, turn/2], any shape; `turn` is 180 for lines, 360 for vectors."""
+    """The same direction in (-turn/2, turn/2], any shape; `turn` is 180 for lines, 360 for
+    vectors.
+    """
     found = turn / 2 - np.remainder(turn / 2 - np.asarray(degrees, float), turn)
-    return np.where(found > -turn / 2, found, turn / 2)         # the remainder of what is barely negative rounds to a whole turn
+    return np.where(
+        found > -turn / 2, found, turn / 2
+    )  # the remainder of what is barely negative rounds to a whole turn
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,35 +78,62 @@ class Phasors:
     forward: Complex
     backward: Complex
     noise: Array
-    __array_ufunc__ = None              # array * phasors is ours to answer
+    __array_ufunc__ = None  # array * phasors is ours to answer
 
     @classmethod
     def real(cls, orders: Array, coefficients: Complex, noise: Array) -> Phasors:
-        """The scalar `Re sum c_n e^{i n theta}`; a mean (order 0) is its own conjugate and stands in `forward` alone."""
+        """The scalar `Re sum c_n e^{i n theta}`; a mean (order 0) is its own conjugate and stands
+        in `forward` alone.
+        """
         half = coefficients / 2
         if np.count_nonzero(orders) == len(orders):
             return cls(orders, half, half.conj(), noise)
         mean = _column(orders, half) == 0
-        return cls(orders, np.where(mean, coefficients.real, half), np.where(mean, 0, half.conj()), noise)
+        return cls(
+            orders, np.where(mean, coefficients.real, half), np.where(mean, 0, half.conj()), noise
+        )
 
     def __add__(self, other: Phasors) -> Phasors:
-        return Phasors(self.orders, self.forward + other.forward, self.backward + other.backward, self.noise + other.noise)
+        return Phasors(
+            self.orders,
+            self.forward + other.forward,
+            self.backward + other.backward,
+            self.noise + other.noise,
+        )
 
     def __sub__(self, other: Phasors) -> Phasors:
-        return Phasors(self.orders, self.forward - other.forward, self.backward - other.backward, self.noise + other.noise)
+        return Phasors(
+            self.orders,
+            self.forward - other.forward,
+            self.backward - other.backward,
+            self.noise + other.noise,
+        )
 
     def __rmul__(self, factor: Any) -> Phasors:
         """Scaled, or scaled and turned where the factor is complex."""
-        return Phasors(self.orders, factor * self.forward, factor * self.backward, abs(factor) * self.noise)
+        return Phasors(
+            self.orders, factor * self.forward, factor * self.backward, abs(factor) * self.noise
+        )
 
     def about(self, p: ArrayLike) -> Phasors:
-        """Moment about z of this force acting at the point p = x + iy: `Im(conj(p) F)`, a scalar."""
-        moment = np.conj(p) * self.forward - p * np.conj(self.backward)      # times i/... of a real quantity's coefficient
+        """Moment about z of this force acting at the point p = x + iy: `Im(conj(p) F)`, a
+        scalar.
+        """
+        moment = np.conj(p) * self.forward - p * np.conj(
+            self.backward
+        )  # times i/... of a real quantity's coefficient
         return Phasors.real(self.orders, -1j * moment, 2 * np.abs(p) * self.noise)
 
     def settled(self) -> Phasors:
-        """The same with whatever lies within its rounding error set to exactly 0, each of both vectors for itself."""
-        return Phasors(self.orders, _settled(self.forward, self.noise), _settled(self.backward, self.noise), self.noise)
+        """The same with whatever lies within its rounding error set to exactly 0, each of both
+        vectors for itself.
+        """
+        return Phasors(
+            self.orders,
+            _settled(self.forward, self.noise),
+            _settled(self.backward, self.noise),
+            self.noise,
+        )
 
     def at(self, orders: ArrayLike) -> Phasors:
         """The rows of these orders (each must be there)."""
@@ -109,7 +144,9 @@ class Phasors:
     def of(self, place: int) -> Phasors:
         """Those at one place of the trailing axis."""
         noise = np.broadcast_to(self.noise, self.forward.shape)
-        return Phasors(self.orders, self.forward[:, place], self.backward[:, place], noise[:, place])
+        return Phasors(
+            self.orders, self.forward[:, place], self.backward[:, place], noise[:, place]
+        )
 
     # -------------------------------------------------------------- what a reader asks of an order
     @property
@@ -129,10 +166,14 @@ class Phasors:
 
     @property
     def axis_deg(self) -> Array:
-        """Direction of the major axis from x in (-90, 90]; nan for a circle, a balanced order and a mean."""
+        """Direction of the major axis from x in (-90, 90]; nan for a circle, a balanced order and a
+        mean.
+        """
         angle = np.degrees((np.angle(self.forward) + np.angle(self.backward)) / 2)
         turned = reduced(angle, 180)
-        turned = np.where(turned < 1e-9 - 90, 90.0, turned)             # rounding shall not turn an axis end for end
+        turned = np.where(
+            turned < 1e-9 - 90, 90.0, turned
+        )  # rounding shall not turn an axis end for end
         there = (self.forward != 0) & (self.backward != 0)
         return np.where(there, turned, np.nan)
 
@@ -140,16 +181,23 @@ class Phasors:
     def x(self) -> Complex:
         """Components along x as `Re(c_n e^{i n theta})`, exactly 0 within their rounding error."""
         mean = _column(self.orders, self.forward) == 0
-        return _settled(np.where(mean, self.forward.real, self.forward + np.conj(self.backward)), 2 * self.noise)
+        return _settled(
+            np.where(mean, self.forward.real, self.forward + np.conj(self.backward)), 2 * self.noise
+        )
 
     @property
     def y(self) -> Complex:
         """Components along y as `Re(c_n e^{i n theta})`, exactly 0 within their rounding error."""
         mean = _column(self.orders, self.forward) == 0
-        return _settled(np.where(mean, self.forward.imag, -1j * (self.forward - np.conj(self.backward))), 2 * self.noise)
+        return _settled(
+            np.where(mean, self.forward.imag, -1j * (self.forward - np.conj(self.backward))),
+            2 * self.noise,
+        )
 
     def values(self, theta: ArrayLike) -> Complex:
-        """The curve at crank angles (radians): the sum over all orders, shape of theta, for phasors without trailing axes."""
+        """The curve at crank angles (radians): the sum over all orders, shape of theta, for phasors
+        without trailing axes.
+        """
         angles = np.asarray(theta, float)
         turning = np.exp(1j * np.multiply.outer(angles, self.orders))
         curve: Complex = turning @ self.forward + np.conj(turning) @ self.backward
@@ -159,7 +207,12 @@ class Phasors:
 def joined(parts: Sequence[Phasors]) -> Phasors:
     """One run of orders from several, in their order."""
     noises = [np.broadcast_to(p.noise, p.forward.shape) for p in parts]
-    columns = ([p.orders for p in parts], [p.forward for p in parts], [p.backward for p in parts], noises)
+    columns = (
+        [p.orders for p in parts],
+        [p.forward for p in parts],
+        [p.backward for p in parts],
+        noises,
+    )
     return Phasors(*map(np.concatenate, columns))
 
 

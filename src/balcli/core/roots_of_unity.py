@@ -1,11 +1,15 @@
-"""Sums of roots of unity decided exactly, by integer arithmetic: does `sum w e^{2 pi i x}` vanish for rational w and x?
+"""Sums of roots of unity decided exactly, by integer arithmetic: does `sum w e^{2 pi i x}` vanish
+for rational w and x?
 
-With N the common denominator of the x, the sum is a polynomial in zeta_N, and vanishes if and only if the N-th cyclotomic
-polynomial divides it. Instead of dividing, the fields are descended prime by prime (as Lenstra, Vanishing sums of roots of
-unity, 1979), which is as quick for N in the millions: with a prime p of N and m = N/p,
-- p divides m: 1, zeta_N, .. zeta_N^(p-1) are independent over the field of m, so every class of exponents mod p must vanish;
+With N the common denominator of the x, the sum is a polynomial in zeta_N, and vanishes if and only
+if the N-th cyclotomic polynomial divides it. Instead of dividing, the fields are descended prime by
+prime (as Lenstra, Vanishing sums of roots of unity, 1979), which is as quick for N in the millions:
+with a prime p of N and m = N/p,
+- p divides m: 1, zeta_N, .. zeta_N^(p-1) are independent over the field of m, so every class of
+exponents mod p must vanish;
 - it does not: zeta_N^k = zeta_p^s zeta_m^t, and all p classes by s must have one and the same sum.
 """
+
 from __future__ import annotations
 
 import math
@@ -14,18 +18,22 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
 TURN = 360
-LARGEST = 5040              # denominator of a fraction of a turn: 7!, so that all common divisions are in it
+LARGEST = 5040  # denominator of a fraction of a turn: 7!, so that all common divisions are in it
 _ULPS = 2 * math.ulp(float(TURN))
 
 
 def turns(degrees: float) -> Fraction | None:
-    """The fraction of a turn that an angle is, to within 2 ulp of 360 degrees; None if no denominator to 5040 gives it."""
+    """The fraction of a turn that an angle is, to within 2 ulp of 360 degrees; None if no
+    denominator to 5040 gives it.
+    """
     found = rational(degrees / TURN, LARGEST, _ULPS / TURN)
     return None if found is None else found % 1
 
 
 def rational(value: float, largest: int, tolerance: float) -> Fraction | None:
-    """The fraction with the smallest such error and a denominator up to `largest`, if it is within the tolerance."""
+    """The fraction with the smallest such error and a denominator up to `largest`, if it is within
+    the tolerance.
+    """
     exact = Fraction(value)
     found = exact.limit_denominator(largest)
     return found if abs(found - exact) <= tolerance else None
@@ -40,10 +48,12 @@ def vanishes(weights: Iterable[Fraction | int], angles: Iterable[Fraction]) -> b
 
 def even(instants: Sequence[Fraction], cycle: Fraction) -> bool:
     """Whether instants divide a cycle into equal intervals."""
-    return sorted((t - instants[0]) % cycle for t in instants) == [cycle * k / len(instants) for k in range(len(instants))]
+    return sorted((t - instants[0]) % cycle for t in instants) == [
+        cycle * k / len(instants) for k in range(len(instants))
+    ]
 
 
-Sum = dict[int, Fraction]           # weight by exponent of zeta_N
+Sum = dict[int, Fraction]  # weight by exponent of zeta_N
 
 
 def _zero(total: Sum, n: int) -> bool:
@@ -56,13 +66,16 @@ def _zero(total: Sum, n: int) -> bool:
         for k, w in total.items():
             classes[k % p][k // p] = w
         return all(_zero(part, m) for part in classes.values())
-    to_s, to_t = pow(m, -1, p), pow(p, -1, m)                            # k = s m + t p (mod N)
+    to_s, to_t = pow(m, -1, p), pow(p, -1, m)  # k = s m + t p (mod N)
     for k, w in total.items():
         classes[k * to_s % p][k * to_t % m] = w
-    if len(classes) < p:                                                # an empty class has the sum 0
+    if len(classes) < p:  # an empty class has the sum 0
         return all(_zero(part, m) for part in classes.values())
     first = classes[0]
-    return all(_zero(_collected([*part.items(), *((t, -w) for t, w in first.items())]), m) for part in classes.values())
+    return all(
+        _zero(_collected([*part.items(), *((t, -w) for t, w in first.items())]), m)
+        for part in classes.values()
+    )
 
 
 def _collected(terms: Iterable[tuple[int, Fraction]]) -> Sum:

@@ -1,9 +1,12 @@
-"""Uneven crank speed: `omega = mean (1 + sum of lines)`; momentum is multiplied by it before it is differentiated.
+"""Uneven crank speed: `omega = mean (1 + sum of lines)`; momentum is multiplied by it before it is
+differentiated.
 
-With W = omega/mean and momentum `mean W G`, the force is `-mean^2 W (W G)'`, the couple the same of the moment of momentum,
-and the inertia torque `-mean^2 1/2 (I W^2)'` (from `-(1/2 I' omega^2 + I omega omega')`, docs/theory.md). In Fourier
-coefficients all of these are short convolutions, so that every order stays as exact as at steady speed.
+With W = omega/mean and momentum `mean W G`, the force is `-mean^2 W (W G)'`, the couple the same of
+the moment of momentum, and the inertia torque `-mean^2 1/2 (I W^2)'` (from `-(1/2 I' omega^2 + I
+omega omega')`, docs/theory.md). In Fourier coefficients all of these are short convolutions, so
+that every order stays as exact as at steady speed.
 """
+
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
@@ -17,10 +20,14 @@ from .phasors import EPS, Complex, Phasors, unit
 
 
 def speed(lines: Iterable[tuple[int, Any, Any]]) -> Complex:
-    """Two-sided coefficients of W for lines (order, amplitude, angle in degrees), orders -k .. k, before any trailing axes."""
+    """Two-sided coefficients of W for lines (order, amplitude, angle in degrees), orders -k .. k,
+    before any trailing axes.
+    """
     halves = [(order, amplitude / 2 * unit(-angle)) for order, amplitude, angle in lines]
     highest = max(order for order, _ in halves)
-    w: Complex = np.zeros((2 * highest + 1, *np.broadcast_shapes(*(half.shape for _, half in halves))), complex)
+    w: Complex = np.zeros(
+        (2 * highest + 1, *np.broadcast_shapes(*(half.shape for _, half in halves))), complex
+    )
     w[highest] = 1
     for order, half in halves:
         w[highest + order] += half
@@ -29,33 +36,42 @@ def speed(lines: Iterable[tuple[int, Any, Any]]) -> Complex:
 
 
 def slowest(lines: Sequence[tuple[int, float, float]]) -> Peak:
-    """The least W over a revolution, to rounding, and a crank angle (rad) at which it is reached, for lines as of `speed`.
+    """The least W over a revolution, to rounding, and a crank angle (rad) at which it is reached,
+    for lines as of `speed`.
 
     It is where `sum |amplitude| + 1 - W`, which is nowhere negative, has its peak.
     """
     w, size = speed(lines), sum(abs(amplitude) for _, amplitude, _ in lines)
     orders = np.arange(len(w) // 2 + 1.0)
-    rest = np.where(orders, -w[len(w) // 2:], size)
+    rest = np.where(orders, -w[len(w) // 2 :], size)
     top = peak(Phasors(orders, rest, np.where(orders, rest.conj(), 0), np.zeros(1)))
     return Peak(1 + size - top.value, top.theta)
 
 
 def force(steady: Phasors, w: Complex, mean: Any = 0.0) -> Phasors:
-    """Force (or moment, or couple) under W, from that at steady speed for the dense orders 0 .. n; correct up to order
-    n - 2k. `mean` is the mean momentum (for the couple: of the rotating masses), which a steady speed does not show."""
+    """Force (or moment, or couple) under W, from that at steady speed for the dense orders 0 .. n;
+    correct up to order n - 2k. `mean` is the mean momentum (for the couple: of the rotating
+    masses), which a steady speed does not show.
+    """
+
     def shake(momentum: Complex, w: Complex, rate: Complex) -> Complex:
         return -_convolved(rate * _convolved(momentum, w), w)
+
     return _transformed(steady, w, mean, shake)
 
 
 def torque(steady: Phasors, w: Complex, mean: Any) -> Phasors:
     """Inertia torque under W likewise; `mean` is the mean inertia I_0 (kg m2)."""
+
     def shake(momentum: Complex, w: Complex, rate: Complex) -> Complex:
         return -rate * _convolved(_convolved(momentum, w), w)
+
     return _transformed(steady, w, mean / 2, shake)
 
 
-def _transformed(steady: Phasors, w: Complex, mean: Any, shake: Callable[[Complex, Complex, Complex], Complex]) -> Phasors:
+def _transformed(
+    steady: Phasors, w: Complex, mean: Any, shake: Callable[[Complex, Complex, Complex], Complex]
+) -> Phasors:
     n = len(steady.orders) - 1
     forces = _two_sided(steady)
     both = np.broadcast_to(steady.noise, steady.forward.shape)
@@ -63,14 +79,18 @@ def _transformed(steady: Phasors, w: Complex, mean: Any, shake: Callable[[Comple
     order = np.arange(-n, n + 1.0).reshape(-1, *(1,) * (forces.ndim - 1))
     divisor = np.where(order, order, 1)
     shape = np.broadcast_shapes(forces.shape[1:], np.shape(mean))
-    momentum = np.broadcast_to(1j * forces / divisor, (2 * n + 1, *shape)).copy()       # steady force = -i n momentum
+    momentum = np.broadcast_to(
+        1j * forces / divisor, (2 * n + 1, *shape)
+    ).copy()  # steady force = -i n momentum
     momentum[n] = mean
-    scale = np.broadcast_to(noise / EPS / np.abs(divisor), momentum.shape).copy()      # sizes of the parts, as their noise tells them
+    scale = np.broadcast_to(
+        noise / EPS / np.abs(divisor), momentum.shape
+    ).copy()  # sizes of the parts, as their noise tells them
     scale[n] = np.maximum(scale[n], np.abs(mean))
     result = shake(momentum, w, 1j * order)
     error = EPS * np.abs(shake(scale + 0j, np.abs(w) + 0j, np.abs(order) + 0j))
     backward = np.where(order[n:] > 0, result[n::-1], 0)
-    return Phasors(steady.orders, result[n:], backward, error[n:])                       # the bound of -n is that of n
+    return Phasors(steady.orders, result[n:], backward, error[n:])  # the bound of -n is that of n
 
 
 def _convolved(series: Complex, w: Complex) -> Complex:
@@ -78,8 +98,13 @@ def _convolved(series: Complex, w: Complex) -> Complex:
     reach = len(w) // 2
     ends = np.zeros((reach, *series.shape[1:]), complex)
     padded = np.concatenate([ends, series, ends])
-    return np.asarray(sum(w[reach + k] * padded[reach - k:len(padded) - reach - k]
-                          for k in range(-reach, reach + 1) if np.any(w[reach + k])))
+    return np.asarray(
+        sum(
+            w[reach + k] * padded[reach - k : len(padded) - reach - k]
+            for k in range(-reach, reach + 1)
+            if np.any(w[reach + k])
+        )
+    )
 
 
 def _two_sided(phasors: Phasors) -> NDArray[np.complex128]:

@@ -1,4 +1,7 @@
-"""Stroke and dead centres of every piston; those of articulated ones differ from the crank's throw and angle."""
+"""Stroke and dead centres of every piston; those of articulated ones differ from the crank's throw
+and angle.
+"""
+
 from __future__ import annotations
 
 from typing import NamedTuple
@@ -15,21 +18,29 @@ _STEPS = 720
 class Travel(NamedTuple):
     """One value a cylinder, shape (cylinders, *trailing)."""
 
-    stroke: Array           # m
-    top_deg: Array          # each cylinder's own crank angle (0: pin along the axis) at top dead centre
-    bottom_deg: Array       # the same at the lower dead centre, less 180
+    stroke: Array  # m
+    top_deg: Array  # each cylinder's own crank angle (0: pin along the axis) at top dead centre
+    bottom_deg: Array  # the same at the lower dead centre, less 180
 
 
 def travel(c: Cylinders) -> Travel:
-    """Strokes and dead centres: in closed form for plain slider-cranks (`sin tau = e/(l + r)`, below `e/(l - r)`), found
-    on the curve for others."""
+    """Strokes and dead centres: in closed form for plain slider-cranks (`sin tau = e/(l + r)`,
+    below `e/(l - r)`), found on the curve for others.
+    """
     found = _plain(c) if c.linkage is None else _sampled(c, c.linkage)
-    return Travel(*(np.broadcast_to(values, np.broadcast_shapes(c.pin_deg.shape, values.shape)) for values in found))
+    return Travel(
+        *(
+            np.broadcast_to(values, np.broadcast_shapes(c.pin_deg.shape, values.shape))
+            for values in found
+        )
+    )
 
 
 def _plain(c: Cylinders) -> tuple[Array, ...]:
     top, bottom = c.eps / (1 + c.lam), c.eps / (1 - c.lam)
-    reach = (1 + c.lam) * np.sqrt((1 - top) * (1 + top)) - (1 - c.lam) * np.sqrt((1 - bottom) * (1 + bottom))
+    reach = (1 + c.lam) * np.sqrt((1 - top) * (1 + top)) - (1 - c.lam) * np.sqrt(
+        (1 - bottom) * (1 + bottom)
+    )
     return c.radius / c.lam * reach, np.degrees(np.arcsin(top)), np.degrees(np.arcsin(bottom))
 
 
@@ -44,7 +55,9 @@ def _sampled(c: Cylinders, linkage: Linkage) -> tuple[Array, ...]:
 
 
 def _refined(c: Cylinders, linkage: Linkage, psi: Array) -> Array:
-    """Newton's method for the zeros of the piston's velocity beside these angles, one each cylinder."""
+    """Newton's method for the zeros of the piston's velocity beside these angles, one each
+    cylinder.
+    """
     for _ in range(6):
         motion = linkage.motion(psi[..., None], c.lam, c.eps)
         psi = psi - (motion.velocity / motion.acceleration)[..., 0]

@@ -1,4 +1,5 @@
 """Values of cylinders as arrays: one row each, before any axes of variants."""
+
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -1,4 +1,7 @@
-"""Engine: what the computation needs of an engine file, in SI units, one row per cylinder, with its devices."""
+"""Engine: what the computation needs of an engine file, in SI units, one row per cylinder, with its
+devices.
+"""
+
 from __future__ import annotations
 
 import math
@@ -25,12 +28,16 @@ if TYPE_CHECKING:
     from ..core.mechanisms.articulated import Articulated
     from ..core.mechanisms.rotary import Rotary
 
-MOST_SAMPLES = 1 << 19          # of a revolution, of all mechanisms that differ; far from their lock they take 64 to 256 each
-STANDSTILL = 1e-12              # of the mean speed: rounding
+MOST_SAMPLES = (
+    1 << 19
+)  # of a revolution, of all mechanisms that differ; far from their lock they take 64 to 256 each
+STANDSTILL = 1e-12  # of the mean speed: rounding
 
 
 class Ripple(NamedTuple):
-    """One line of an uneven crank speed: `omega = mean (1 + sum amplitude cos(order theta - angle))`."""
+    """One line of an uneven crank speed: `omega = mean (1 + sum amplitude cos(order theta -
+    angle))`.
+    """
 
     order: int
     amplitude: Any
@@ -54,7 +61,8 @@ class Weighed(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Engine:
-    """An engine, SI except where a name says otherwise; arrays may have a trailing axis of variants.
+    """An engine, SI except where a name says otherwise; arrays may have a trailing axis of
+    variants.
 
     Attributes:
         numbers: cylinder number of each row of `cylinders`.
@@ -98,11 +106,15 @@ class Engine:
     def equal(self) -> bool:
         """Whether all cylinders have one mechanism and one set of reciprocating masses."""
         c = self.cylinders
-        return len(c.lam) == len(c.eps) == len(c.reciprocating) == 1 and (c.linkage is None or len(c.linkage.mass) == 1)
+        return len(c.lam) == len(c.eps) == len(c.reciprocating) == 1 and (
+            c.linkage is None or len(c.linkage.mass) == 1
+        )
 
     @property
     def rotary(self) -> bool:
-        """Whether the cylinders turn and the crank stands still: then the cylinders have masses on a linkage only."""
+        """Whether the cylinders turn and the crank stands still: then the cylinders have masses on
+        a linkage only.
+        """
         c = self.cylinders
         return c.linkage is not None and c.linkage.turning
 
@@ -117,7 +129,8 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
 
     Args:
         file: a checked model; numbers in it may have been replaced by arrays of variants.
-        rank: number of axes of those arrays, which broadcast against each other; what does not vary along an axis has length 1
+        rank: number of axes of those arrays, which broadcast against each other; what does not vary
+        along an axis has length 1
             there, here and in all that is computed.
 
     Raises:
@@ -132,12 +145,24 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
     if not rank:
         _refuse(_strained(cylinders))
     return Engine(
-        name=file.name, source=file.source, numbers=numbers, cylinders=cylinders, fires_deg=fires, strokes=file.layout.strokes,
+        name=file.name,
+        source=file.source,
+        numbers=numbers,
+        cylinders=cylinders,
+        fires_deg=fires,
+        strokes=file.layout.strokes,
         bore_m=math.nan if file.piston.bore is None else file.piston.bore / 1e3,
-        throws_m=throws, speed_rpm=file.operation.speed,
-        ripple=tuple(Ripple(line.order, line.amplitude, line.angle) for line in file.operation.speed_ripple),
-        reference_m=reference(file, throws), devices=tuple(devices((*file.counterweight, *file.shaft, *file.slider), axis[1])),
-        weighed=tuple(_weighed(file, layout, {c.number: c.throw for c in layout.cells}[n], rods[n]) for n in numbers),
+        throws_m=throws,
+        speed_rpm=file.operation.speed,
+        ripple=tuple(
+            Ripple(line.order, line.amplitude, line.angle) for line in file.operation.speed_ripple
+        ),
+        reference_m=reference(file, throws),
+        devices=tuple(devices((*file.counterweight, *file.shaft, *file.slider), axis[1])),
+        weighed=tuple(
+            _weighed(file, layout, {c.number: c.throw for c in layout.cells}[n], rods[n])
+            for n in numbers
+        ),
     )
 
 
@@ -145,40 +170,75 @@ def _parts(file: EngineFile) -> tuple[Plan, dict[int, Parts]]:
     """Cylinders and rods; InputError with all that does not fit together in them."""
     try:
         layout = plan(file.crank, file.layout)
-    except InputError as error:                         # rods can be looked at all the same, as far as it is known which they are
-        _refuse([*error.problems, *_rods(file, (0, *(() if file.articulation else file.cylinder)), {})[1], *_stopped(file)])
+    except (
+        InputError
+    ) as error:  # rods can be looked at all the same, as far as it is known which they are
+        _refuse(
+            [
+                *error.problems,
+                *_rods(file, (0, *(() if file.articulation else file.cylinder)), {})[1],
+                *_stopped(file),
+            ]
+        )
         raise
     masters = articulation.masters(file, layout)
     rods, faults = _rods(file, layout.numbers, masters)
-    _refuse([*articulation.mistakes(file, layout), *strangers(layout, file.cylinder), *faults, *_stopped(file)])
+    _refuse(
+        [
+            *articulation.mistakes(file, layout),
+            *strangers(layout, file.cylinder),
+            *faults,
+            *_stopped(file),
+        ]
+    )
     return layout, rods
 
 
 def _stopped(file: EngineFile) -> Iterator[Problem]:
     """An uneven speed (or the first of its variants) at which the crank would not turn on."""
     lines = file.operation.speed_ripple
-    figures = np.broadcast_arrays(0.0, *(figure for line in lines for figure in (line.amplitude, line.angle)))[1:]
+    figures = np.broadcast_arrays(
+        0.0, *(figure for line in lines for figure in (line.amplitude, line.angle))
+    )[1:]
     for variant in zip(*map(np.ravel, figures), strict=True):
         if sum(map(abs, variant[::2])) < 1 - STANDSTILL:
             continue
-        least, theta = ripple.slowest([(line.order, *own) for line, *own in zip(lines, variant[::2], variant[1::2], strict=True)])
+        least, theta = ripple.slowest(
+            [
+                (line.order, *own)
+                for line, *own in zip(lines, variant[::2], variant[1::2], strict=True)
+            ]
+        )
         if least <= STANDSTILL:
-            yield Problem("operation.speed_ripple", f"the crank would {'turn back' if least < -STANDSTILL else 'stop'}: at crank angle "
-                          f"{math.degrees(theta):.4g} deg its speed is {least if abs(least) > STANDSTILL else 0:.4g} of the mean; it must "
-                          "stay above 0: make the amplitudes smaller, they are shares of the mean speed (0.01 is one per cent)")
+            yield Problem(
+                "operation.speed_ripple",
+                f"the crank would {'turn back' if least < -STANDSTILL else 'stop'}: at crank angle "
+                f"{math.degrees(theta):.4g} deg its speed is "
+                f"{least if abs(least) > STANDSTILL else 0:.4g} of the mean; it must "
+                "stay above 0: make the amplitudes smaller, they are shares of the mean speed "
+                "(0.01 is one per cent)",
+            )
             return
 
 
-def _rods(file: EngineFile, numbers: Iterable[int], masters: Mapping[int, int]) -> tuple[dict[int, Parts], list[Problem]]:
+def _rods(
+    file: EngineFile, numbers: Iterable[int], masters: Mapping[int, int]
+) -> tuple[dict[int, Parts], list[Problem]]:
     """Rods of these cylinders (0: the engine's own), and what is wrong with them."""
     rods = {n: rod_of(file, n, n in masters) for n in numbers}
-    return rods, [p for n, rod in rods.items() for p in mistakes(file, n, rod, file.crank.stroke / 2e3, n in masters)]
+    return rods, [
+        p
+        for n, rod in rods.items()
+        for p in mistakes(file, n, rod, file.crank.stroke / 2e3, n in masters)
+    ]
 
 
 def tops(file: EngineFile) -> dict[int, Any]:
-    """Where the crank pin of each cylinder stands when it is at top dead centre, deg from x; InputError with mistakes of the file.
+    """Where the crank pin of each cylinder stands when it is at top dead centre, deg from x;
+    InputError with mistakes of the file.
 
-    Nominally on its axis where rods are articulated: only then do all cylinders of a throw fire evenly.
+    Nominally on its axis where rods are articulated: only then do all cylinders of a throw fire
+    evenly.
     """
     layout, rods = _parts(file)
     return _tops(file, rods, _axes(file, layout))
@@ -187,7 +247,7 @@ def tops(file: EngineFile) -> dict[int, Any]:
 def _tops(file: EngineFile, rods: Mapping[int, Parts], axis: Mapping[int, Any]) -> dict[int, Any]:
     if file.articulation is not None:
         return dict(axis)
-    sense = -1 if file.layout.rotary else 1             # in which the crank turns, seen from a cylinder
+    sense = -1 if file.layout.rotary else 1  # in which the crank turns, seen from a cylinder
     return {n: axis[n] + sense * rod.top_deg(file.crank.stroke / 2e3) for n, rod in rods.items()}
 
 
@@ -195,12 +255,22 @@ def _axes(file: EngineFile, layout: Plan) -> dict[int, Any]:
     return {c.number: own_or(file, c.number, "bank", layout.banks[c.bank]) for c in layout.cells}
 
 
-def _cylinders(file: EngineFile, layout: Plan, rods: Mapping[int, Parts], axis: Mapping[int, Any], pin: Mapping[int, Any],
-               along: Mapping[int, Any], rank: int) -> tuple[Cylinders, tuple[int, ...]]:
+def _cylinders(
+    file: EngineFile,
+    layout: Plan,
+    rods: Mapping[int, Parts],
+    axis: Mapping[int, Any],
+    pin: Mapping[int, Any],
+    along: Mapping[int, Any],
+    rank: int,
+) -> tuple[Cylinders, tuple[int, ...]]:
     """Rows sorted by axis, and the number of each."""
     still, turning = axis, {n: pin[n] - pin[1] for n in layout.numbers}
-    if file.layout.rotary:                              # cylinders turn about pins that stand still (core.rotary)
-        still, turning = one_object({n: axis[1] + turning[n] for n in axis}), {n: axis[n] - axis[1] for n in axis}
+    if file.layout.rotary:  # cylinders turn about pins that stand still (core.rotary)
+        still, turning = (
+            one_object({n: axis[1] + turning[n] for n in axis}),
+            {n: axis[n] - axis[1] for n in axis},
+        )
     numbers = tuple(layout.numbers[row] for row in by_axis(layout, still))
     starts = [k for k, n in enumerate(numbers) if k == 0 or still[n] is not still[numbers[k - 1]]]
     parts, radius = [rods[n] for n in numbers], file.crank.stroke / 2e3
@@ -217,7 +287,13 @@ def _cylinders(file: EngineFile, layout: Plan, rods: Mapping[int, Parts], axis: 
         lam=shared([radius / rod.length for rod in parts], rank),
         eps=shared([rod.offset / rod.length for rod in parts], rank),
         reciprocating=0 * at_pistons if file.layout.rotary else at_pistons,
-        rotating=shared([_at_pin(file, layout, rod, n in masters) for n, rod in zip(numbers, parts, strict=True)], rank),
+        rotating=shared(
+            [
+                _at_pin(file, layout, rod, n in masters)
+                for n, rod in zip(numbers, parts, strict=True)
+            ],
+            rank,
+        ),
         couple=shared([rod.couple for rod in parts], rank),
         linkage=_rotary(at_pistons, hung) if file.layout.rotary else hung,
     ), numbers
@@ -234,12 +310,21 @@ def _rotary(at_pistons: NDArray[np.float64], hung: Articulated | None) -> Rotary
 
 def _weighed(file: EngineFile, layout: Plan, throw: int, rod: Parts) -> Weighed:
     extra = file.bobweight or Bobweight.model_construct()
-    return Weighed(throw, rod.piston, rod.small_end, rod.big_end, file.crank.throw_mass / layout.rods_on_throw,
-                   extra.rod_bearing, extra.oil)
+    return Weighed(
+        throw,
+        rod.piston,
+        rod.small_end,
+        rod.big_end,
+        file.crank.throw_mass / layout.rods_on_throw,
+        extra.rod_bearing,
+        extra.oil,
+    )
 
 
 def _at_pin(file: EngineFile, layout: Plan, rod: Parts, articulated: bool) -> Any:
-    """What turns with a crank pin because of one cylinder, kg; the pins of a rotary engine stand still."""
+    """What turns with a crank pin because of one cylinder, kg; the pins of a rotary engine stand
+    still.
+    """
     if file.layout.rotary:
         return 0.0
     return (0.0 if articulated else rod.big_end) + file.crank.throw_mass / layout.rods_on_throw
@@ -249,11 +334,18 @@ def _strained(c: Cylinders) -> Iterator[Problem]:
     """So many different mechanisms so near their lock that they would take minutes."""
     if c.count * harmonics.HARDEST <= MOST_SAMPLES:
         return
-    different, samples = c.linkage.samples(c.lam, c.eps) if c.linkage else harmonics.samples(c.lam, c.eps)
+    different, samples = (
+        c.linkage.samples(c.lam, c.eps) if c.linkage else harmonics.samples(c.lam, c.eps)
+    )
     if samples > MOST_SAMPLES:
-        yield Problem("cylinder", f"the cylinders have {different} different mechanisms, some so near their lock that all of them need "
-                                  f"{samples} samples of a revolution; at most {MOST_SAMPLES} are taken: make these rods longer, or more "
-                                  "of them equal")
+        yield Problem(
+            "cylinder",
+            f"the cylinders have {different} different mechanisms, some so near their lock that "
+            "all of them need "
+            f"{samples} samples of a revolution; at most {MOST_SAMPLES} are taken: make these "
+            "rods longer, or more "
+            "of them equal",
+        )
 
 
 def _refuse(problems: Iterable[Problem]) -> None:

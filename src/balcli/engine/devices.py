@@ -1,4 +1,7 @@
-"""Counterweights, balancer shafts and sliders of an engine file as rotating vectors of mass x radius."""
+"""Counterweights, balancer shafts and sliders of an engine file as rotating vectors of mass x
+radius.
+"""
+
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -11,8 +14,12 @@ from ..core.phasors import unit
 from ..enginefile.model import Counterweight, Shaft, Slider
 
 
-def devices(tables: Iterable[Counterweight | Shaft | Slider], first_axis_deg: Any) -> Iterator[Device]:
-    """What the tables of a file describe; a counterweight's angle counts from cylinder 1's pin, others from x."""
+def devices(
+    tables: Iterable[Counterweight | Shaft | Slider], first_axis_deg: Any
+) -> Iterator[Device]:
+    """What the tables of a file describe; a counterweight's angle counts from cylinder 1's pin,
+    others from x.
+    """
     for table in tables:
         match table:
             case Counterweight():
@@ -34,9 +41,18 @@ def _shaft(d: Shaft) -> Device:
 
 
 def _slider(d: Slider) -> Device:
-    """Its displacement `U cos(n theta + angle)` is two vectors of half the size, turning against each other."""
+    """Its displacement `U cos(n theta + angle)` is two vectors of half the size, turning against
+    each other.
+    """
     half, direction, phase = _unbalance(d) / 2, unit(d.direction), unit(d.angle)
-    return Device(d.order, half * direction * phase, half * direction * np.conj(phase), _place(d.at), d.position / 1e3, 2)
+    return Device(
+        d.order,
+        half * direction * phase,
+        half * direction * np.conj(phase),
+        _place(d.at),
+        d.position / 1e3,
+        2,
+    )
 
 
 def _unbalance(d: Counterweight | Shaft | Slider) -> Any:

@@ -2,6 +2,7 @@
 
 Angles are degrees and positions mm, as in the file; any of them may be an array of variants.
 """
+
 from __future__ import annotations
 
 from collections import Counter
@@ -26,7 +27,7 @@ class Cell(NamedTuple):
 class Plan(NamedTuple):
     """All cylinders, sorted by bank and throw."""
 
-    banks: tuple[Any, ...]              # angle of each bank, deg
+    banks: tuple[Any, ...]  # angle of each bank, deg
     throws: int
     cells: tuple[Cell, ...]
     rods_on_throw: int
@@ -40,20 +41,29 @@ def plan(crank: Crank, layout: Layout) -> Plan:
     """The cylinders of an engine.
 
     Raises:
-        InputError: all of: positions, numbering or firing order that do not fit the throws and banks.
+        InputError: all of: positions, numbering or firing order that do not fit the throws and
+        banks.
     """
     banks = bank_angles(layout)
     shared = layout.rods == "shared" or len(banks) == 1
     throws, problems = _throws(crank, layout, len(banks) if shared else 1)
     problems = problems or _too_many(throws, len(banks), shared)
-    if problems:                                        # all else counts throws
+    if problems:  # all else counts throws
         raise InputError(problems)
-    places = [(b, t) for b in range(len(banks)) for t in range(throws) if shared or t % len(banks) == b]
+    places = [
+        (b, t) for b in range(len(banks)) for t in range(throws) if shared or t % len(banks) == b
+    ]
     numbers, misnumbered = _numbers(layout, places, len(banks))
     problems += misnumbered + _positions(crank, throws)
     if not shared and throws < len(banks):
-        problems.append(Problem("layout.rods", f'"alternating" gives every throw one rod, but there are {len(banks)} banks and only '
-                                               f'{counted(throws, "throw")}: give more throws, or "shared"'))
+        problems.append(
+            Problem(
+                "layout.rods",
+                f'"alternating" gives every throw one rod, but there are {len(banks)} banks and '
+                "only "
+                f'{counted(throws, "throw")}: give more throws, or "shared"',
+            )
+        )
     problems += _firing(layout, sorted(numbers))
     if problems:
         raise InputError(problems)
@@ -81,8 +91,13 @@ def _throws(crank: Crank, layout: Layout, rods: int) -> tuple[int, list[Problem]
         return len(crank.throws), []
     cylinders = len(layout.firing_order or ())
     if cylinders % rods:
-        return 1, [Problem("layout.firing_order", f"has {cylinders} cylinders, which {rods} banks cannot share evenly: "
-                                                  f"give crank.throws, or a multiple of {rods} cylinders")]
+        return 1, [
+            Problem(
+                "layout.firing_order",
+                f"has {cylinders} cylinders, which {rods} banks cannot share evenly: "
+                f"give crank.throws, or a multiple of {rods} cylinders",
+            )
+        ]
     return max(cylinders // rods, 1), []
 
 
@@ -90,18 +105,30 @@ def _too_many(throws: int, banks: int, shared: bool) -> list[Problem]:
     """Banks x throws of a short file can be more cylinders than there is memory for."""
     if max(banks, throws, throws * banks * shared) <= MOST_PARTS:
         return []
-    return [Problem("layout" if banks > 1 else "crank.throws", f"{counted(banks, 'bank')} on {counted(throws, 'throw')} are too many; "
-                                                               f"no engine has more than {MOST_PARTS} cylinders")]
+    return [
+        Problem(
+            "layout" if banks > 1 else "crank.throws",
+            f"{counted(banks, 'bank')} on {counted(throws, 'throw')} are too many; "
+            f"no engine has more than {MOST_PARTS} cylinders",
+        )
+    ]
 
 
 def _positions(crank: Crank, throws: int) -> list[Problem]:
     if crank.positions is None or len(crank.positions) == throws:
         return []
-    return [Problem("crank.positions", f"has {counted(len(crank.positions), 'value')} for {counted(throws, 'throw')}: "
-                                       "give one position a throw")]
+    return [
+        Problem(
+            "crank.positions",
+            f"has {counted(len(crank.positions), 'value')} for {counted(throws, 'throw')}: "
+            "give one position a throw",
+        )
+    ]
 
 
-def _numbers(layout: Layout, places: list[tuple[int, int]], banks: int) -> tuple[list[int], list[Problem]]:
+def _numbers(
+    layout: Layout, places: list[tuple[int, int]], banks: int
+) -> tuple[list[int], list[Problem]]:
     """Number of the cylinder at each place, as given per bank or counted through."""
     default = [number for number, _ in zip(count(1), places, strict=False)]
     if layout.numbering is None:
@@ -109,8 +136,13 @@ def _numbers(layout: Layout, places: list[tuple[int, int]], banks: int) -> tuple
     sizes = [sum(b == bank for b, _ in places) for bank in range(banks)]
     found = [len(row) for row in layout.numbering]
     if found != sizes:
-        return default, [Problem("layout.numbering", f"has rows of {_words(found)}, but the banks have {_words(sizes)} cylinders: "
-                                                     "give one row a bank, from the free end to the flywheel end")]
+        return default, [
+            Problem(
+                "layout.numbering",
+                f"has rows of {_words(found)}, but the banks have {_words(sizes)} cylinders: "
+                "give one row a bank, from the free end to the flywheel end",
+            )
+        ]
     numbers = [number for row in layout.numbering for number in row]
     if sorted(numbers) != default:
         return default, [Problem("layout.numbering", _not_once(numbers, default))]
@@ -126,10 +158,18 @@ def _firing(layout: Layout, numbers: list[int]) -> list[Problem]:
 def _not_once(found: list[int], wanted: list[int]) -> str:
     """Which numbers are missing, doubled or unknown."""
     times = Counter(found)
-    parts = [f"cylinder {n} stands {times[n]} times" for n in sorted(times) if times[n] > 1 and n in wanted]
+    parts = [
+        f"cylinder {n} stands {times[n]} times"
+        for n in sorted(times)
+        if times[n] > 1 and n in wanted
+    ]
     parts += [f"there is no cylinder {n}" for n in sorted(times) if n not in wanted]
     if missing := [n for n in wanted if n not in times]:
-        parts.append(f"cylinder {_words(missing)} is missing" if len(missing) == 1 else f"cylinders {_words(missing)} are missing")
+        parts.append(
+            f"cylinder {_words(missing)} is missing"
+            if len(missing) == 1
+            else f"cylinders {_words(missing)} are missing"
+        )
     return f"{', '.join(parts)}: each of the cylinders 1 to {len(wanted)} must stand once"
 
 

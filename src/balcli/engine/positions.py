@@ -1,4 +1,7 @@
-"""Where the cylinders of an engine file stand: crank pins and firing angles (deg), places along the crank (m)."""
+"""Where the cylinders of an engine file stand: crank pins and firing angles (deg), places along the
+crank (m).
+"""
+
 from __future__ import annotations
 
 from collections.abc import Mapping
@@ -15,8 +18,12 @@ from .layout import Plan, cycle
 from .rods import own_or
 
 
-def pins(file: EngineFile, layout: Plan, top: Mapping[int, Any]) -> tuple[dict[int, Any], dict[int, Any]]:
-    """Crank pin and firing angle of every cylinder, deg; the firing angles are empty where the file says nothing of them."""
+def pins(
+    file: EngineFile, layout: Plan, top: Mapping[int, Any]
+) -> tuple[dict[int, Any], dict[int, Any]]:
+    """Crank pin and firing angle of every cylinder, deg; the firing angles are empty where the file
+    says nothing of them.
+    """
     order, intervals = file.layout.firing_order, file.layout.firing_intervals
     sense = -1 if file.layout.rotary else 1
     splay = {c.number: c.bank * file.crank.splay for c in layout.cells}
@@ -27,7 +34,10 @@ def pins(file: EngineFile, layout: Plan, top: Mapping[int, Any]) -> tuple[dict[i
     else:
         fires = {}
         throw = dict(enumerate(file.crank.throws or (0.0,)))
-    pin = {c.number: own_or(file, c.number, "throw", throw[c.throw] + splay[c.number]) for c in layout.cells}
+    pin = {
+        c.number: own_or(file, c.number, "throw", throw[c.throw] + splay[c.number])
+        for c in layout.cells
+    }
     if order is None:
         return pin, fires
     relative = {n: angle - pin[1] for n, angle in pin.items()}
@@ -36,26 +46,43 @@ def pins(file: EngineFile, layout: Plan, top: Mapping[int, Any]) -> tuple[dict[i
         if isinstance(found, Problem):
             raise InputError([found])
         fires = firing.instants(order, found, cycle(file.layout))
-    if off := firing.disagreement(fires, relative, top, sense, throws_given=file.crank.throws is not None):
+    if off := firing.disagreement(
+        fires, relative, top, sense, throws_given=file.crank.throws is not None
+    ):
         raise InputError([off])
     return pin, fires
 
 
 def places(file: EngineFile, layout: Plan, rank: int) -> tuple[dict[int, Any], NDArray[np.float64]]:
-    """Place of every cylinder and of every throw along the crank, m (a throw stands in the middle of its rods)."""
+    """Place of every cylinder and of every throw along the crank, m (a throw stands in the middle
+    of its rods).
+    """
     crank = file.crank
-    spacing = 0.0 if crank.spacing is None else crank.spacing               # which may be an array of variants
-    along = crank.positions or [(t - (layout.throws - 1) / 2) * spacing for t in range(layout.throws)]
+    spacing = 0.0 if crank.spacing is None else crank.spacing  # which may be an array of variants
+    along = crank.positions or [
+        (t - (layout.throws - 1) / 2) * spacing for t in range(layout.throws)
+    ]
     middle = (layout.rods_on_throw - 1) / 2
-    lean = {c.number: (c.bank - middle) * file.layout.stagger if layout.rods_on_throw > 1 else 0.0 for c in layout.cells}
-    place = {c.number: own_or(file, c.number, "position", along[c.throw] + lean[c.number]) / 1e3 for c in layout.cells}
-    throws = [sum(place[c.number] - lean[c.number] / 1e3 for c in layout.cells if c.throw == t) / layout.rods_on_throw
-              for t in range(layout.throws)]
+    lean = {
+        c.number: (c.bank - middle) * file.layout.stagger if layout.rods_on_throw > 1 else 0.0
+        for c in layout.cells
+    }
+    place = {
+        c.number: own_or(file, c.number, "position", along[c.throw] + lean[c.number]) / 1e3
+        for c in layout.cells
+    }
+    throws = [
+        sum(place[c.number] - lean[c.number] / 1e3 for c in layout.cells if c.throw == t)
+        / layout.rods_on_throw
+        for t in range(layout.throws)
+    ]
     return place, column(throws, rank)
 
 
 def reference(file: EngineFile, throws: NDArray[np.float64]) -> tuple[Any, Any, Any]:
-    """x, y, z (m) of the point of moments: the file's, or on the crank axis half-way between the first and the last throw."""
+    """x, y, z (m) of the point of moments: the file's, or on the crank axis half-way between the
+    first and the last throw.
+    """
     if file.frame.reference is not None:
         x, y, z = file.frame.reference
         return x / 1e3, y / 1e3, z / 1e3
@@ -65,17 +92,31 @@ def reference(file: EngineFile, throws: NDArray[np.float64]) -> tuple[Any, Any, 
 def one_object(angles: Mapping[int, Any]) -> dict[int, Any]:
     """Equal angles as one object."""
     known: dict[bytes, Any] = {}
-    return {n: known.setdefault(np.asarray(angle, float).tobytes(), angle) for n, angle in angles.items()}
+    return {
+        n: known.setdefault(np.asarray(angle, float).tobytes(), angle)
+        for n, angle in angles.items()
+    }
 
 
 def by_axis(layout: Plan, axis: Mapping[int, Any]) -> list[int]:
     """Rows of the cells such that cylinders on one axis stand together."""
     seen: dict[int, int] = {}
-    return sorted(range(len(layout.cells)), key=lambda row: seen.setdefault(id(axis[layout.cells[row].number]), row))
+    return sorted(
+        range(len(layout.cells)),
+        key=lambda row: seen.setdefault(id(axis[layout.cells[row].number]), row),
+    )
 
 
 def strangers(layout: Plan, own: Mapping[int, Override]) -> list[Problem]:
     """Tables of cylinders that the engine does not have."""
     count = len(layout.cells)
-    made = f"crank.throws and layout make {count} cylinder{'s' * (count > 1)}; give every throw its angle in crank.throws"
-    return [Problem(f"cylinder.{n}", f"there is no cylinder {n}: {made}") for n in own if n not in layout.numbers]
+    made = (
+        f"crank.throws and layout make {count} cylinder{'s' * (count > 1)}; give every throw "
+        "its "
+        "angle in crank.throws"
+    )
+    return [
+        Problem(f"cylinder.{n}", f"there is no cylinder {n}: {made}")
+        for n in own
+        if n not in layout.numbers
+    ]

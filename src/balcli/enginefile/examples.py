@@ -1,4 +1,5 @@
 """The engines that are shipped as examples."""
+
 from __future__ import annotations
 
 import tomllib
@@ -7,13 +8,17 @@ from pathlib import Path
 
 from ..errors import BalcliError
 
-# In the installed package; in a checkout the repository's own folder, so that there is only one copy.
+# In the installed package; in a checkout the repository's own folder, so that there is only one
+# copy.
 _PLACES = (Path(__file__).parents[1] / "engines", Path(__file__).parents[3] / "engines")
 
 
 def names() -> dict[str, str]:
     """What each example is called in its file, by its short name."""
-    return {path.stem: tomllib.loads(path.read_text(encoding="utf-8"))["name"] for path in sorted(folder().glob("*.toml"))}
+    return {
+        path.stem: tomllib.loads(path.read_text(encoding="utf-8"))["name"]
+        for path in sorted(folder().glob("*.toml"))
+    }
 
 
 def text(name: str) -> str:
@@ -31,4 +36,7 @@ def folder() -> Path:
     for place in _PLACES:
         if place.is_dir():
             return place
-    raise BalcliError(f"the example engines are missing from this installation ({_PLACES[0]}): install balcli again")
+    raise BalcliError(
+        f"the example engines are missing from this installation ({_PLACES[0]}): install balcli "
+        "again"
+    )

@@ -1,4 +1,5 @@
 """Keys of a table of which only some may be given together."""
+
 from __future__ import annotations
 
 from collections import Counter
@@ -10,8 +11,8 @@ class Choice(NamedTuple):
     """Groups of keys that exclude each other."""
 
     groups: tuple[tuple[str, ...], ...]
-    required: bool = False       # one group must be given
-    complete: bool = False       # a group that is begun must be finished
+    required: bool = False  # one group must be given
+    complete: bool = False  # a group that is begun must be finished
 
     def mistakes(self, given: Collection[str]) -> Iterator[str]:
         """What is wrong with these keys, in words that a table's name can stand before."""
@@ -23,7 +24,10 @@ class Choice(NamedTuple):
             yield f"has neither {' nor '.join(map(words, self.groups))}; {self._wanted()}"
         elif chosen and self.complete and len(chosen[0][1]) < len(chosen[0][0]):
             group, keys = chosen[0]
-            yield f"has {words(keys)} without {words([key for key in group if key not in keys])}; {self._wanted()}"
+            yield (
+                f"has {words(keys)} without {words([key for key in group if key not in keys])}; "
+                f"{self._wanted()}"
+            )
 
     def _wanted(self) -> str:
         return f"give either {' or '.join(map(words, self.groups))}"

@@ -1,4 +1,7 @@
-"""The figures of an engine file as pydantic types: how one is read, how refused, and its JSON schema."""
+"""The figures of an engine file as pydantic types: how one is read, how refused, and its JSON
+schema.
+"""
+
 from __future__ import annotations
 
 import math
@@ -10,19 +13,25 @@ from .units import PLAIN, Dimension, convert, wanted
 if TYPE_CHECKING:
     from pydantic_core import CoreSchema
 
-TINY = 1e-12                     # below this, what must be above 0 is no figure of an engine in any of the file's units
+TINY = (
+    1e-12  # below this, what must be above 0 is no figure of an engine in any of the file's units
+)
 STRING_PATTERN = r"^\s*[+-]?[0-9.].*[A-Za-z°µμ²³0-9]\s*$"
-SHOWN = 60                       # characters of a value shown in a message
+SHOWN = 60  # characters of a value shown in a message
 
 
 def printable(text: str) -> str:
-    """The first 60 characters; what would move the cursor or colour a terminal becomes a question mark."""
+    """The first 60 characters; what would move the cursor or colour a terminal becomes a question
+    mark.
+    """
     cut = text[:SHOWN] + ("..." if len(text) > SHOWN else "")
     return "".join(letter if letter.isprintable() else "?" for letter in cut)
 
 
 def shorten(value: object) -> str:
-    """A value as a reader may recognise it, cut to about 60 characters; never the whole of a huge one."""
+    """A value as a reader may recognise it, cut to about 60 characters; never the whole of a huge
+    one.
+    """
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int) and value.bit_length() > 200:
@@ -39,7 +48,7 @@ def shorten(value: object) -> str:
 
 
 def counted(count: int, what: str) -> str:
-    """"1 place", "2 places"."""
+    """ "1 place", "2 places"."""
     return f"{count} {what}{'s' * (count != 1)}"
 
 
@@ -65,23 +74,40 @@ class _Field:
 
         return core_schema.no_info_plain_validator_function(self.read)
 
-    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: Callable[[CoreSchema], Any]) -> dict[str, Any]:
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: Callable[[CoreSchema], Any]
+    ) -> dict[str, Any]:
         return self.json()
 
 
 class Number(_Field):
     """A figure of some dimension: a bare number in the file's unit, or a string with its own."""
 
-    def __init__(self, dimension: Dimension, *, above: float | None = None, least: float | None = None, below: float | None = None,
-                 most: float = math.inf) -> None:
-        self.dimension, self.above, self.least, self.below, self.most = dimension, above, least, below, most
+    def __init__(
+        self,
+        dimension: Dimension,
+        *,
+        above: float | None = None,
+        least: float | None = None,
+        below: float | None = None,
+        most: float = math.inf,
+    ) -> None:
+        self.dimension, self.above, self.least, self.below, self.most = (
+            dimension,
+            above,
+            least,
+            below,
+            most,
+        )
 
     def read(self, value: object) -> float:
         number = self._number(value)
         if not math.isfinite(number):
             raise ValueError(f"{shorten(value)} is no finite number; {wanted(self.dimension)}")
         if fault := self._fault(number):
-            raise ValueError(f"{shorten(value)} is {fault[0]}; {wanted(self.dimension)}, {fault[1]}")
+            raise ValueError(
+                f"{shorten(value)} is {fault[0]}; {wanted(self.dimension)}, {fault[1]}"
+            )
         return number
 
     def _fault(self, number: float) -> tuple[str, str] | None:
@@ -110,16 +136,31 @@ class Number(_Field):
         try:
             return float(value)
         except OverflowError:
-            raise ValueError(f"{shorten(value)} is too large a number; {wanted(self.dimension)}") from None
+            raise ValueError(
+                f"{shorten(value)} is too large a number; {wanted(self.dimension)}"
+            ) from None
 
     def json(self) -> dict[str, Any]:
         least = -self.most if self.above is self.least is None else self.least
-        bounds = {"exclusiveMinimum": self.above, "minimum": least,
-                  "exclusiveMaximum": self.below, "maximum": self.most}
-        limits = {key: bound for key, bound in bounds.items() if bound is not None and math.isfinite(bound)}
+        bounds = {
+            "exclusiveMinimum": self.above,
+            "minimum": least,
+            "exclusiveMaximum": self.below,
+            "maximum": self.most,
+        }
+        limits = {
+            key: bound
+            for key, bound in bounds.items()
+            if bound is not None and math.isfinite(bound)
+        }
         if self.dimension is PLAIN:
             return {"type": "number", **limits}
-        return {"type": ["number", "string"], "unit": self.dimension.unit, "pattern": STRING_PATTERN, **limits}
+        return {
+            "type": ["number", "string"],
+            "unit": self.dimension.unit,
+            "pattern": STRING_PATTERN,
+            **limits,
+        }
 
 
 class Whole(_Field):
@@ -137,7 +178,11 @@ class Whole(_Field):
         return int(value)
 
     def _wanted(self) -> str:
-        return f"a whole number from {self.least} to {self.most}{'' if self.zero else ', not 0,'} is wanted"
+        return (
+            f"a whole number from {self.least} to "
+            f"{self.most}{'' if self.zero else ', not 0,'} is "
+            "wanted"
+        )
 
     def json(self) -> dict[str, Any]:
         limits = {"type": "integer", "minimum": self.least, "maximum": self.most}
@@ -149,7 +194,9 @@ class Flag(_Field):
 
     def read(self, value: object) -> bool:
         if not isinstance(value, bool):
-            raise ValueError(f"{shorten(value)} is neither true nor false; write one of these, without quotes")
+            raise ValueError(
+                f"{shorten(value)} is neither true nor false; write one of these, without quotes"
+            )
         return value
 
     def json(self) -> dict[str, Any]:

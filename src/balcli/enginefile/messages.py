@@ -1,4 +1,7 @@
-"""Mistakes of an engine file in plain words: pydantic's findings translated, and the key that was probably meant."""
+"""Mistakes of an engine file in plain words: pydantic's findings translated, and the key that was
+probably meant.
+"""
+
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -10,15 +13,27 @@ from .fields import nearest, printable, shorten
 
 TEXTS = ("name", "source")
 TABLES: dict[str, type[model.Table]] = {
-    "crank": model.Crank, "rod": model.Rod, "piston": model.Piston, "layout": model.Layout,
-    "bobweight": model.Bobweight, "operation": model.Operation, "frame": model.Frame,
-    "articulation": model.Articulation}
+    "crank": model.Crank,
+    "rod": model.Rod,
+    "piston": model.Piston,
+    "layout": model.Layout,
+    "bobweight": model.Bobweight,
+    "operation": model.Operation,
+    "frame": model.Frame,
+    "articulation": model.Articulation,
+}
 DEVICES: dict[str, type[model.Table]] = {
-    "counterweight": model.Counterweight, "shaft": model.Shaft, "slider": model.Slider}
+    "counterweight": model.Counterweight,
+    "shaft": model.Shaft,
+    "slider": model.Slider,
+}
 KNOWN = (*TEXTS, *TABLES, "cylinder", *DEVICES)
 INNER: dict[str, type[model.Table]] = {
-    "pendulum": model.Pendulum, "rod_pendulum": model.Pendulum, "speed_ripple": model.Ripple,
-    "rod": model.ArticulatedRod}
+    "pendulum": model.Pendulum,
+    "rod_pendulum": model.Pendulum,
+    "speed_ripple": model.Ripple,
+    "rod": model.ArticulatedRod,
+}
 
 WORDS = {
     "tuple_type": "{value} is not a list; write it in square brackets, such as [0, 180]",
@@ -28,18 +43,31 @@ WORDS = {
 
 
 def path_of(start: str, loc: Iterable[int | str]) -> str:
-    """`operation`, ("speed_ripple", 0, "order") -> `operation.speed_ripple.1.order`: people count from 1."""
-    return ".".join([start, *(str(part + 1) if isinstance(part, int) else printable(part) for part in loc)])
+    """`operation`, ("speed_ripple", 0, "order") -> `operation.speed_ripple.1.order`: people count
+    from 1.
+    """
+    return ".".join(
+        [start, *(str(part + 1) if isinstance(part, int) else printable(part) for part in loc)]
+    )
 
 
 def miscounted(finding: Mapping[str, Any]) -> bool:
-    """Whether a list is called too short only because members of it, which have findings of their own, were not counted."""
+    """Whether a list is called too short only because members of it, which have findings of their
+    own, were not counted.
+    """
     return finding["type"] == "too_short" and len(finding["input"]) >= finding["ctx"]["min_length"]
 
 
 def plain(path: str, finding: Mapping[str, Any], table: type[model.Table]) -> Problem:
-    """One finding of pydantic in the table at `path`; a member of a list is named in words (`the 2nd value`)."""
-    value, kind, loc, context = finding["input"], finding["type"], finding["loc"], finding.get("ctx", {})
+    """One finding of pydantic in the table at `path`; a member of a list is named in words (`the
+    2nd value`).
+    """
+    value, kind, loc, context = (
+        finding["input"],
+        finding["type"],
+        finding["loc"],
+        finding.get("ctx", {}),
+    )
     if kind == "value_error":
         message = str(context["error"])
     elif kind == "missing":
@@ -58,7 +86,10 @@ def _missing(table: type[model.Table], loc: Sequence[str | int]) -> str:
     *parents, key = loc
     inner = next((INNER[str(part)] for part in reversed(parents) if part in INNER), table)
     examples = inner.model_fields[str(key)].examples
-    return f"is missing; give it, such as {key} = {shorten(examples[0]) if examples else '{ length = 200 }'}"
+    return (
+        f"is missing; give it, such as {key} = "
+        f"{shorten(examples[0]) if examples else '{ length = 200 }'}"
+    )
 
 
 def _wrong_length(value: list[Any], context: Mapping[str, Any]) -> str:
@@ -67,21 +98,30 @@ def _wrong_length(value: list[Any], context: Mapping[str, Any]) -> str:
         return "is an empty list; give at least one value, or leave the key out"
     if len(value) > model.MOST:
         return f"has more than {model.MOST} values"
-    return f"{shorten(value)} has {len(value)} value{'s' * (len(value) != 1)} where {wanted} are wanted"
+    return (
+        f"{shorten(value)} has {len(value)} value{'s' * (len(value) != 1)} where {wanted} are "
+        "wanted"
+    )
 
 
 def _ordinal(number: int) -> str:
-    suffix = "th" if number % 100 in (11, 12, 13) else {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
+    suffix = (
+        "th" if number % 100 in (11, 12, 13) else {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
+    )
     return f"{number}{suffix}"
 
 
 def unknown_key(path: str, key: str, table: type[model.Table] | None) -> tuple[Problem, str]:
-    """An unknown key in a table (None: the file itself), and the path of the key probably meant, or ""."""
+    """An unknown key in a table (None: the file itself), and the path of the key probably meant, or
+    "".
+    """
     own = list(table.model_fields) if table else KNOWN
     place = f"of [{path.partition('.')[0]}]" if path else "of an engine file"
     full = f"{path}.{printable(key)}" if path else printable(key)
     if near := nearest(key, own):
-        return Problem(full, f"is no key {place}; did you mean {near}?"), f"{path}.{near}" if path else near
+        return Problem(
+            full, f"is no key {place}; did you mean {near}?"
+        ), f"{path}.{near}" if path else near
     hint = next(_homes(key), f"it has {', '.join(own)}")
     return Problem(full, f"is no key {place}; {hint}"), ""
 

@@ -1,7 +1,9 @@
-"""What an engine file may say: one pydantic table per part, in its units (mm, kg, degrees, rpm, kg mm^2, g mm, s).
+"""What an engine file may say: one pydantic table per part, in its units (mm, kg, degrees, rpm, kg
+mm^2, g mm, s).
 
-The tables check and never derive: what follows from the figures (rod length from its ratio, inertia from a pendulum) is
-the business of `engine.py`. A validator is built only for a table that a file has.
+The tables check and never derive: what follows from the figures (rod length from its ratio, inertia
+from a pendulum) is the business of `engine.py`. A validator is built only for a table that a file
+has.
 """
 
 import math
@@ -15,17 +17,19 @@ from .exclusive import Choice, repeated
 from .fields import Flag, Number, OneOf, Whole, counted
 from .units import ANGLE, INERTIA, LENGTH, MASS, PLAIN, SPEED, TIME, UNBALANCE
 
-GRAVITY = 9.80665                # m/s^2, standard
-MOST = 10_000                    # values of a list, orders: above every engine, and still quick to refuse
-MOST_RIPPLE = 256                # order of the uneven speed, which lets every order of the engine reach that much further
-MOST_PARTS = 1000                # cylinders, devices of a kind: above every engine, and still quick to analyse
-INTERVAL_TOLERANCE_DEG = 0.5     # firing intervals are often printed rounded
+GRAVITY = 9.80665  # m/s^2, standard
+MOST = 10_000  # values of a list, orders: above every engine, and still quick to refuse
+MOST_RIPPLE = (
+    256  # order of the uneven speed, which lets every order of the engine reach that much further
+)
+MOST_PARTS = 1000  # cylinders, devices of a kind: above every engine, and still quick to analyse
+INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
 
 Length = Annotated[float, Number(LENGTH, most=1e9)]
 Distance = Annotated[float, Number(LENGTH, least=0, most=1e9)]
 Size = Annotated[float, Number(LENGTH, above=0, most=1e9)]
 Mass = Annotated[float, Number(MASS, least=0, most=1e12)]
-Angle = Annotated[float, Number(ANGLE, most=1e9)]         # a million turns, and then some
+Angle = Annotated[float, Number(ANGLE, most=1e9)]  # a million turns, and then some
 Interval = Annotated[float, Number(ANGLE, least=0, most=720)]
 Inertia = Annotated[float, Number(INERTIA, least=0, most=1e24)]
 Unbalance = Annotated[float, Number(UNBALANCE, most=1e24)]
@@ -74,27 +78,45 @@ class Crank(Table):
 
     stroke: Size = Field(description="twice the crank radius", examples=[90])
     throws: Angles | None = Field(
-        None, examples=[[0, 180, 180, 0]],
-        description="angle of every throw, free end to flywheel end; may be left out where firing_order fixes them")
-    spacing: Distance | None = Field(None, description="axial distance of neighbouring throws", examples=[100])
+        None,
+        examples=[[0, 180, 180, 0]],
+        description="angle of every throw, free end to flywheel end; may be left out where "
+        "firing_order fixes them",
+    )
+    spacing: Distance | None = Field(
+        None, description="axial distance of neighbouring throws", examples=[100]
+    )
     positions: Lengths | None = Field(
-        None, description="axial place of every throw, instead of spacing", examples=[[-150, -50, 50, 150]])
+        None,
+        description="axial place of every throw, instead of spacing",
+        examples=[[-150, -50, 50, 150]],
+    )
     throw_mass: Mass = Field(
-        0.0, examples=[0.8],
-        description="unbalanced mass of one whole throw, referred to the crank radius; its pins share it equally")
+        0.0,
+        examples=[0.8],
+        description="unbalanced mass of one whole throw, referred to the crank radius; its pins "
+        "share it equally",
+    )
     splay: Angle = Field(
-        0.0, description="split pins: angle by which each further bank's pin leads the one before it", examples=[-30])
+        0.0,
+        description="split pins: angle by which each further bank's pin leads the one before it",
+        examples=[-30],
+    )
 
     def contradictions(self) -> Iterator[str]:
         if self.throws and self.positions and len(self.throws) != len(self.positions):
-            yield f"positions has {counted(len(self.positions), 'place')} for {counted(len(self.throws), 'throw')}; give one for each throw"
+            yield (
+                f"positions has {counted(len(self.positions), 'place')} for "
+                f"{counted(len(self.throws), 'throw')}; give one for each throw"
+            )
 
 
 class Pendulum(Table):
     """A pendulum test of a rod: swung about one of its bores."""
 
     pivot: Annotated[Literal["small_end", "big_end"], OneOf("small_end", "big_end")] = Field(
-        description="the bore about whose centre the rod swings", examples=["small_end"])
+        description="the bore about whose centre the rod swings", examples=["small_end"]
+    )
     period: Period = Field(description="one full swing, there and back", examples=[0.82])
 
 
@@ -109,22 +131,35 @@ class Rod(Table):
 
     length: Size | None = Field(None, description="distance of the two centres", examples=[160])
     ratio: RodRatio | None = Field(
-        None, description="crank radius over rod length (lambda), instead of length", examples=[0.28])
-    mass: Mass | None = Field(None, description="mass of the whole rod with bearing and bolts", examples=[0.6])
-    cg: Length | None = Field(None, description="from the big-end centre to the centre of mass", examples=[45])
+        None,
+        description="crank radius over rod length (lambda), instead of length",
+        examples=[0.28],
+    )
+    mass: Mass | None = Field(
+        None, description="mass of the whole rod with bearing and bolts", examples=[0.6]
+    )
+    cg: Length | None = Field(
+        None, description="from the big-end centre to the centre of mass", examples=[45]
+    )
     small_end: Mass | None = Field(
-        None, description="mass weighed at the small end, instead of mass and cg", examples=[0.17])
+        None, description="mass weighed at the small end, instead of mass and cg", examples=[0.17]
+    )
     big_end: Mass | None = Field(
-        None, description="mass weighed at the big end, instead of mass and cg", examples=[0.43])
+        None, description="mass weighed at the big end, instead of mass and cg", examples=[0.43]
+    )
     inertia: Inertia | None = Field(
-        None, examples=[2300],
-        description="moment of inertia about the centre of mass; left out: two masses at the ends")
+        None,
+        examples=[2300],
+        description="moment of inertia about the centre of mass; left out: two masses at the ends",
+    )
     pendulum: Pendulum | None = Field(None, description="a pendulum test, instead of inertia")
 
     def contradictions(self) -> Iterator[str]:
         ends, length, pendulum = (self.small_end, self.big_end), self.length, self.pendulum
         if None in ends and ends != (None, None) and self.mass is self.cg is None:
-            there, missing = ("big_end", "small_end") if self.small_end is None else ("small_end", "big_end")
+            there, missing = (
+                ("big_end", "small_end") if self.small_end is None else ("small_end", "big_end")
+            )
             yield f"has {there} without {missing}; weigh the rod at both ends, or give mass and cg"
         if pendulum and length is not None:
             total = sum(end or 0.0 for end in ends)
@@ -133,12 +168,17 @@ class Rod(Table):
 
 
 def too_quick(pendulum: Pendulum, length: float, cg: float) -> Iterator[str]:
-    """A period no longer than that of a point mass at the centre of mass (lengths in mm): no inertia would be left."""
+    """A period no longer than that of a point mass at the centre of mass (lengths in mm): no
+    inertia would be left.
+    """
     arm = cg if pendulum.pivot == "big_end" else length - cg
     shortest = 2 * math.pi * math.sqrt(max(arm, 0.0) * 1e-3 / GRAVITY)
     if pendulum.period <= shortest:
-        yield (f"pendulum.period {pendulum.period:g} s is too quick: with the centre of mass {arm:g} mm from the pivot "
-               f"a full swing takes more than {shortest:.4g} s")
+        yield (
+            f"pendulum.period {pendulum.period:g} s is too quick: with the centre of mass {arm:g} "
+            "mm from the pivot "
+            f"a full swing takes more than {shortest:.4g} s"
+        )
 
 
 class Piston(Table):
@@ -147,8 +187,11 @@ class Piston(Table):
     bore: Size | None = Field(None, description="cylinder bore", examples=[86])
     mass: Mass = Field(description="piston, rings, pin and clips", examples=[0.5])
     offset: Length = Field(
-        0.0, examples=[-1.6],
-        description="of the pin path, + towards the side to which the crank pin moves after top dead centre")
+        0.0,
+        examples=[-1.6],
+        description="of the pin path, + towards the side to which the crank pin moves after top "
+        "dead centre",
+    )
 
 
 class Layout(Table):
@@ -157,26 +200,48 @@ class Layout(Table):
     choices = (Choice((("bank_angle",), ("banks",), ("radial",))),)
 
     bank_angle: Angle | None = Field(
-        None, description="a vee: banks at minus and plus half of this angle", examples=[90])
+        None, description="a vee: banks at minus and plus half of this angle", examples=[90]
+    )
     banks: Angles | None = Field(None, description="angle of every bank", examples=[[-90, 90]])
-    radial: Count | None = Field(None, description="number of banks, evenly round the crank", examples=[9])
+    radial: Count | None = Field(
+        None, description="number of banks, evenly round the crank", examples=[9]
+    )
     rods: Annotated[Literal["shared", "alternating"], OneOf("shared", "alternating")] = Field(
-        "shared", examples=["alternating"],
-        description="shared: every throw carries one rod of each bank; alternating: the throws take the banks in turn")
+        "shared",
+        examples=["alternating"],
+        description="shared: every throw carries one rod of each bank; alternating: the throws "
+        "take the banks in turn",
+    )
     stagger: Length = Field(
-        0.0, description="axial distance of adjacent rods on a throw, first bank towards the free end", examples=[22])
+        0.0,
+        description="axial distance of adjacent rods on a throw, first bank towards the free end",
+        examples=[22],
+    )
     firing_order: Numbers | None = Field(
-        None, description="numbers of the cylinders as they fire", examples=[[1, 3, 4, 2]])
+        None, description="numbers of the cylinders as they fire", examples=[[1, 3, 4, 2]]
+    )
     firing_intervals: Intervals | None = Field(
-        None, description="from each firing to the next; left out: from the throws, or even", examples=[[405, 315]])
+        None,
+        description="from each firing to the next; left out: from the throws, or even",
+        examples=[[405, 315]],
+    )
     rotary: Annotated[bool, Flag()] = Field(
-        False, description="the crank stands still and the cylinders turn about it", examples=[True])
-    strokes: Annotated[Literal[2, 4], OneOf(2, 4)] = Field(4, description="two-stroke or four-stroke", examples=[4])
+        False, description="the crank stands still and the cylinders turn about it", examples=[True]
+    )
+    strokes: Annotated[Literal[2, 4], OneOf(2, 4)] = Field(
+        4, description="two-stroke or four-stroke", examples=[4]
+    )
     numbering: Annotated[tuple[Numbers, ...], Field(min_length=1, max_length=MOST)] | None = Field(
-        None, description="cylinder numbers of each bank, free end to flywheel end", examples=[[[1, 3], [2, 4]]])
+        None,
+        description="cylinder numbers of each bank, free end to flywheel end",
+        examples=[[[1, 3], [2, 4]]],
+    )
 
     def contradictions(self) -> Iterator[str]:
-        for key, numbers in (("firing_order", self.firing_order or ()), ("numbering", chain(*self.numbering or ()))):
+        for key, numbers in (
+            ("firing_order", self.firing_order or ()),
+            ("numbering", chain(*self.numbering or ())),
+        ):
             if twice := repeated(numbers):
                 yield f"{key} has cylinder {twice} more than once; name every cylinder once"
         if self.firing_intervals:
@@ -186,22 +251,32 @@ class Layout(Table):
         if self.firing_order is None:
             yield "firing_intervals is given without firing_order; give both, or neither"
         elif len(intervals) != len(self.firing_order):
-            yield (f"firing_intervals has {counted(len(intervals), 'interval')} for {counted(len(self.firing_order), 'firing')}; "
-                   "give one for each, the last one back to the first cylinder")
+            yield (
+                f"firing_intervals has {counted(len(intervals), 'interval')} for "
+                f"{counted(len(self.firing_order), 'firing')}; "
+                "give one for each, the last one back to the first cylinder"
+            )
         elif abs(sum(intervals) - 180 * self.strokes) > INTERVAL_TOLERANCE_DEG:
-            yield (f"firing_intervals add up to {sum(intervals):g} degrees; the cycle of a {self.strokes}-stroke has "
-                   f"{180 * self.strokes} (within {INTERVAL_TOLERANCE_DEG:g})")
+            yield (
+                f"firing_intervals add up to {sum(intervals):g} degrees; the cycle of a "
+                f"{self.strokes}-stroke has "
+                f"{180 * self.strokes} (within {INTERVAL_TOLERANCE_DEG:g})"
+            )
 
 
 class Bobweight(Table):
     """What a shop adds to the rotating mass, for each rod; used by the bobweight card only."""
 
-    rod_bearing: Mass = Field(0.0, description="big-end bearing shells of one rod", examples=[0.047])
+    rod_bearing: Mass = Field(
+        0.0, description="big-end bearing shells of one rod", examples=[0.047]
+    )
     oil: Mass = Field(0.0, description="allowance for oil, for each rod", examples=[0.004])
 
 
 class Ripple(Table):
-    """One order of the uneven crank speed: mean speed times amplitude * cos(order * theta - angle)."""
+    """One order of the uneven crank speed: mean speed times amplitude * cos(order * theta -
+    angle).
+    """
 
     order: RippleOrder = Field(description="times for each turn of the crank", examples=[4])
     amplitude: Share = Field(description="of the mean speed", examples=[0.01])
@@ -216,16 +291,22 @@ class Operation(Table):
 
     def contradictions(self) -> Iterator[str]:
         if len(self.speed_ripple) > MOST_RIPPLE:
-            yield f"speed_ripple has {len(self.speed_ripple)} orders; no more than {MOST_RIPPLE} can be given"
+            yield (
+                f"speed_ripple has {len(self.speed_ripple)} orders; no more than {MOST_RIPPLE} "
+                "can be given"
+            )
 
 
 class Frame(Table):
     """The engine's frame."""
 
     reference: Point | None = Field(
-        None, examples=[[0, 0, 0]],
-        description="x, y, z of the point about which all moments are taken; left out: on the crank axis, half-way "
-                    "between the first and the last throw")
+        None,
+        examples=[[0, 0, 0]],
+        description="x, y, z of the point about which all moments are taken; left out: on the "
+        "crank axis, half-way "
+        "between the first and the last throw",
+    )
 
 
 class ArticulatedRod(Table):
@@ -233,19 +314,31 @@ class ArticulatedRod(Table):
 
     length: Size = Field(description="from the knuckle pin to the piston pin", examples=[200])
     mass: Mass = Field(0.0, description="mass of the whole rod", examples=[0.5])
-    cg: Length = Field(0.0, description="from the knuckle pin to the centre of mass", examples=[100])
+    cg: Length = Field(
+        0.0, description="from the knuckle pin to the centre of mass", examples=[100]
+    )
     inertia: Inertia | None = Field(
-        None, description="about the centre of mass; left out: two masses at the ends", examples=[3500])
+        None,
+        description="about the centre of mass; left out: two masses at the ends",
+        examples=[3500],
+    )
 
 
 class Articulation(Table):
     """A radial with one master rod, to which the others are hinged."""
 
-    master: Count = Field(1, description="number of the bank that carries the master rod", examples=[1])
-    knuckle_radius: Size = Field(description="from the crank pin to the knuckle pins", examples=[55])
+    master: Count = Field(
+        1, description="number of the bank that carries the master rod", examples=[1]
+    )
+    knuckle_radius: Size = Field(
+        description="from the crank pin to the knuckle pins", examples=[55]
+    )
     knuckle_angles: Angles | None = Field(
-        None, examples=[[0, 72, 144, 216, 288]],
-        description="one for each bank, from the master rod's axis (its own is 0); left out: bank angles from it")
+        None,
+        examples=[[0, 72, 144, 216, 288]],
+        description="one for each bank, from the master rod's axis (its own is 0); left out: bank "
+        "angles from it",
+    )
     rod: ArticulatedRod = Field(description="the articulated rods")
 
 
@@ -269,7 +362,9 @@ class Override(Table):
     rod_inertia: Inertia | None = Field(None, description="as rod.inertia", examples=[2300])
     rod_pendulum: Pendulum | None = Field(None, description="as rod.pendulum")
     bank: Angle | None = Field(None, description="angle of this cylinder's axis", examples=[30])
-    throw: Angle | None = Field(None, description="angle of this cylinder's crank pin", examples=[120])
+    throw: Angle | None = Field(
+        None, description="angle of this cylinder's crank pin", examples=[120]
+    )
     position: Length | None = Field(None, description="axial place of this cylinder", examples=[50])
 
 
@@ -280,21 +375,29 @@ class Device(Table):
 
     unbalance: Unbalance | None = Field(None, description="mass times radius", examples=[9000])
     mass: Mass | None = Field(None, description="with radius, instead of unbalance", examples=[0.5])
-    radius: Distance | None = Field(None, description="with mass, instead of unbalance", examples=[40])
+    radius: Distance | None = Field(
+        None, description="with mass, instead of unbalance", examples=[40]
+    )
     position: Length = Field(0.0, description="axial place (z)", examples=[0])
 
 
 class Counterweight(Device):
     """An unbalance fixed to the crankshaft."""
 
-    angle: Angle = Field(0.0, description="at crank angle 0, from cylinder 1's crank pin", examples=[180])
+    angle: Angle = Field(
+        0.0, description="at crank angle 0, from cylinder 1's crank pin", examples=[180]
+    )
 
 
 class Shaft(Device):
     """A balancer shaft, or one of several eccentrics on it."""
 
-    ratio: ShaftRatio = Field(description="times crank speed; negative: against the crank", examples=[-2])
-    angle: Angle = Field(0.0, description="of the eccentric at crank angle 0, from the x axis", examples=[90])
+    ratio: ShaftRatio = Field(
+        description="times crank speed; negative: against the crank", examples=[-2]
+    )
+    angle: Angle = Field(
+        0.0, description="of the eccentric at crank angle 0, from the x axis", examples=[90]
+    )
     at: Place = Field((0.0, 0.0), description="x, y of the shaft", examples=[[-40, 60]])
 
 
@@ -304,7 +407,10 @@ class Slider(Device):
     order: Count = Field(description="strokes for each turn of the crank", examples=[2])
     direction: Angle = Field(description="of its path, from the x axis", examples=[90])
     angle: Angle = Field(
-        0.0, description="phase at crank angle 0: displacement ~ cos(order * theta + angle)", examples=[180])
+        0.0,
+        description="phase at crank angle 0: displacement ~ cos(order * theta + angle)",
+        examples=[180],
+    )
     at: Place = Field((0.0, 0.0), description="x, y of its middle", examples=[[0, 0]])
 
 
@@ -313,7 +419,10 @@ class EngineFile(Table):
 
     name: str = Field("", description="what the engine is called", examples=["in-line four"])
     source: str = Field(
-        "", description="where the figures come from, and what is assumed", examples=["weighed, May 2024"])
+        "",
+        description="where the figures come from, and what is assumed",
+        examples=["weighed, May 2024"],
+    )
     crank: Crank
     rod: Rod
     piston: Piston
@@ -322,9 +431,11 @@ class EngineFile(Table):
     operation: Operation = Operation.model_construct()
     frame: Frame = Frame.model_construct()
     articulation: Articulation | None = None
-    cylinder: dict[int, Override] = Field({}, description="what differs in single cylinders, by their numbers")
-    counterweight: tuple[Counterweight, ...] = Field((), description="unbalance fixed to the crankshaft")
+    cylinder: dict[int, Override] = Field(
+        {}, description="what differs in single cylinders, by their numbers"
+    )
+    counterweight: tuple[Counterweight, ...] = Field(
+        (), description="unbalance fixed to the crankshaft"
+    )
     shaft: tuple[Shaft, ...] = Field((), description="balancer shafts")
     slider: tuple[Slider, ...] = Field((), description="reciprocating balance masses")
-
-

@@ -1,4 +1,5 @@
 """JSON Schema of the engine file, for editors that check and complete while one types."""
+
 from __future__ import annotations
 
 from itertools import combinations, product
@@ -11,10 +12,12 @@ DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
 def schema() -> dict[str, Any]:
-    """JSON Schema (draft 2020-12) of an engine file: every key with description, unit, bounds and an example."""
+    """JSON Schema (draft 2020-12) of an engine file: every key with description, unit, bounds and
+    an example.
+    """
     tables: list[type[Table]] = [*TABLES.values(), *DEVICES.values(), Override]
     for table in tables:
-        table.model_rebuild()                           # pydantic before 2.13 writes no default of a table not built yet
+        table.model_rebuild()  # pydantic before 2.13 writes no default of a table not built yet
     document: dict[str, Any] = _tidy(EngineFile.model_json_schema())
     for table in tables:
         document["$defs"][table.__name__] |= _exclusions(table)
@@ -23,12 +26,16 @@ def schema() -> dict[str, Any]:
 
 
 def _tidy(node: Any) -> Any:
-    """Without what pydantic adds for Python's sake: null (TOML has none), titles of keys, empty defaults."""
+    """Without what pydantic adds for Python's sake: null (TOML has none), titles of keys, empty
+    defaults.
+    """
     if isinstance(node, list):
         return [_tidy(item) for item in node]
     if not isinstance(node, dict):
         return node
     node = {key: _tidy(value) for key, value in node.items()}
+    if isinstance(node.get("description"), str):
+        node["description"] = " ".join(node["description"].split())  # docstrings are wrapped
     options = [option for option in node.get("anyOf", ()) if option != {"type": "null"}]
     if len(options) == 1:
         del node["anyOf"]
@@ -39,7 +46,7 @@ def _tidy(node: Any) -> Any:
             field.pop("default", None)
         unit = field.get("unit") or field.get("items", {}).get("unit")
         if unit:
-            field["description"] += f" [{unit}]"         # editors show the description alone
+            field["description"] += f" [{unit}]"  # editors show the description alone
     return node
 
 

@@ -1,7 +1,9 @@
 """Valid but suspicious: figures that no ordinary engine has, most often a slip of the unit.
 
-The limits are wide: engines from models to ships pass. Each warning has the value, the limit and a remedy.
+The limits are wide: engines from models to ships pass. Each warning has the value, the limit and a
+remedy.
 """
+
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -9,18 +11,21 @@ from itertools import pairwise
 
 from .model import Counterweight, EngineFile
 
-# Pistons of like design weigh as the cube of the bore: in aluminium with pin and rings 300 to 1000 kg per m^3 of bore^3
-# (racing to lorry), in cast iron up to 3000. The limits leave room beyond; a slip from g to kg is a factor of 1000.
-PISTON_LIGHT, PISTON_HEAVY = 100.0, 5000.0       # kg/m^3
-LAMBDA_LOW, LAMBDA_HIGH = 0.15, 0.4              # crank radius / rod length: engines have 0.2 to 0.35
-BORE_SHORT, BORE_LONG = 0.2, 3.0                 # bore / stroke: crosshead from 0.25, racing engines to 2.5
-ROD_LIGHT, ROD_HEAVY = 0.1, 8.0                  # rod mass / piston mass: engines have 0.7 to 2.5
-# Moment of inertia / (mass x length^2): a bar of even thickness has 1/12, two equal masses at the ends 1/4, and no rod
+# Pistons of like design weigh as the cube of the bore: in aluminium with pin and rings 300 to 1000
+# kg per m^3 of bore^3
+# (racing to lorry), in cast iron up to 3000. The limits leave room beyond; a slip from g to kg is a
+# factor of 1000.
+PISTON_LIGHT, PISTON_HEAVY = 100.0, 5000.0  # kg/m^3
+LAMBDA_LOW, LAMBDA_HIGH = 0.15, 0.4  # crank radius / rod length: engines have 0.2 to 0.35
+BORE_SHORT, BORE_LONG = 0.2, 3.0  # bore / stroke: crosshead from 0.25, racing engines to 2.5
+ROD_LIGHT, ROD_HEAVY = 0.1, 8.0  # rod mass / piston mass: engines have 0.7 to 2.5
+# Moment of inertia / (mass x length^2): a bar of even thickness has 1/12, two equal masses at the
+# ends 1/4, and no rod
 # between its two centres can have more; bosses and bolts beyond them add a little.
 INERTIA_LOW, INERTIA_HIGH = 0.02, 0.4
-PISTON_SPEED = 40.0                              # m/s, mean; racing engines stay below 30
-OFFSET_SHARE = 0.2                               # of the stroke; pin offsets have up to 0.05, narrow-angle vees up to 0.15
-UNBALANCE_SHARE = 5.0                            # of all moving masses x crank radius; balancing needs 1 or 2
+PISTON_SPEED = 40.0  # m/s, mean; racing engines stay below 30
+OFFSET_SHARE = 0.2  # of the stroke; pin offsets have up to 0.05, narrow-angle vees up to 0.15
+UNBALANCE_SHARE = 5.0  # of all moving masses x crank radius; balancing needs 1 or 2
 
 
 def suspicious(model: EngineFile) -> list[str]:
@@ -32,35 +37,56 @@ def suspicious(model: EngineFile) -> list[str]:
 def _piston(model: EngineFile) -> Iterator[str]:
     mass, bore = model.piston.mass, model.piston.bore
     if mass == 0:
-        yield "piston.mass is 0: only the rod moves to and fro; give the mass of piston, rings, pin and clips"
-    elif bore is not None and not PISTON_LIGHT <= mass / (bore * 1e-3)**3 <= PISTON_HEAVY:
-        low, high = (limit * (bore * 1e-3)**3 for limit in (PISTON_LIGHT, PISTON_HEAVY))
-        yield (f"piston.mass is {mass:.4g} kg in a bore of {bore:g} mm, where {low:.2g} to {high:.2g} kg is usual; "
-               "are the units right? Bare numbers are kg and mm")
+        yield (
+            "piston.mass is 0: only the rod moves to and fro; give the mass of piston, rings, "
+            "pin "
+            "and clips"
+        )
+    elif bore is not None and not PISTON_LIGHT <= mass / (bore * 1e-3) ** 3 <= PISTON_HEAVY:
+        low, high = (limit * (bore * 1e-3) ** 3 for limit in (PISTON_LIGHT, PISTON_HEAVY))
+        yield (
+            f"piston.mass is {mass:.4g} kg in a bore of {bore:g} mm, where {low:.2g} to "
+            f"{high:.2g} kg is usual; "
+            "are the units right? Bare numbers are kg and mm"
+        )
 
 
 def _proportions(model: EngineFile) -> Iterator[str]:
     ratio = _lambda(model)
     if ratio is not None and not LAMBDA_LOW <= ratio <= LAMBDA_HIGH:
-        yield (f"crank radius / rod length is {ratio:.4g}, where {LAMBDA_LOW:g} to {LAMBDA_HIGH:g} is usual; "
-               "crank.stroke is twice the crank radius, rod.length the distance of its two centres")
+        yield (
+            f"crank radius / rod length is {ratio:.4g}, where {LAMBDA_LOW:g} to {LAMBDA_HIGH:g} "
+            "is usual; "
+            "crank.stroke is twice the crank radius, rod.length the distance of its two centres"
+        )
     if model.piston.bore is not None:
         share = model.piston.bore / model.crank.stroke
         if not BORE_SHORT <= share <= BORE_LONG:
-            yield (f"piston.bore / crank.stroke is {share:.4g}, where {BORE_SHORT:g} to {BORE_LONG:g} is usual; "
-                   "are both in the same unit?")
+            yield (
+                f"piston.bore / crank.stroke is {share:.4g}, where {BORE_SHORT:g} to "
+                f"{BORE_LONG:g} is usual; "
+                "are both in the same unit?"
+            )
 
 
 def _rod(model: EngineFile) -> Iterator[str]:
     rod, mass, length, cg = model.rod, _rod_mass(model), _rod_length(model), model.rod.cg
     if mass and model.piston.mass and not ROD_LIGHT <= mass / model.piston.mass <= ROD_HEAVY:
-        yield (f"the rod weighs {mass:.4g} kg, {mass / model.piston.mass:.3g} times the piston, where {ROD_LIGHT:g} to "
-               f"{ROD_HEAVY:g} times is usual; are both in the same unit?")
+        yield (
+            f"the rod weighs {mass:.4g} kg, {mass / model.piston.mass:.3g} times the piston, "
+            f"where {ROD_LIGHT:g} to "
+            f"{ROD_HEAVY:g} times is usual; are both in the same unit?"
+        )
     if rod.mass and cg is None:
-        yield "rod.cg is not given: all of the rod counts at the crank pin; measure it from the big-end centre"
+        yield (
+            "rod.cg is not given: all of the rod counts at the crank pin; measure it from the "
+            "big-end centre"
+        )
     if cg is not None and length is not None and not 0 <= cg <= length:
-        yield (f"rod.cg is {cg:g} mm, outside the rod (0 to {length:g} mm); "
-               "it is measured from the big-end centre towards the small end")
+        yield (
+            f"rod.cg is {cg:g} mm, outside the rod (0 to {length:g} mm); "
+            "it is measured from the big-end centre towards the small end"
+        )
 
 
 def _inertia(model: EngineFile) -> Iterator[str]:
@@ -70,26 +96,38 @@ def _inertia(model: EngineFile) -> Iterator[str]:
     share = inertia / (mass * length**2)
     if not INERTIA_LOW <= share <= INERTIA_HIGH:
         low, high = INERTIA_LOW * mass * length**2, INERTIA_HIGH * mass * length**2
-        yield (f"rod.inertia is {inertia:.4g} kg mm^2, where {low:.3g} to {high:.3g} is usual for {mass:.4g} kg and "
-               f"{length:g} mm; it is taken about the centre of mass, in kg mm^2")
+        yield (
+            f"rod.inertia is {inertia:.4g} kg mm^2, where {low:.3g} to {high:.3g} is usual for "
+            f"{mass:.4g} kg and "
+            f"{length:g} mm; it is taken about the centre of mass, in kg mm^2"
+        )
 
 
 def _motion(model: EngineFile) -> Iterator[str]:
     stroke, speed = model.crank.stroke, model.operation.speed
     piston_speed = 2 * stroke * 1e-3 * speed / 60
     if piston_speed > PISTON_SPEED:
-        yield (f"the mean piston speed is {piston_speed:.3g} m/s at {speed:g} rpm and a stroke of {stroke:g} mm, "
-               f"more than {PISTON_SPEED:g}; are operation.speed and crank.stroke right?")
+        yield (
+            f"the mean piston speed is {piston_speed:.3g} m/s at {speed:g} rpm and a stroke of "
+            f"{stroke:g} mm, "
+            f"more than {PISTON_SPEED:g}; are operation.speed and crank.stroke right?"
+        )
     if abs(model.piston.offset) > OFFSET_SHARE * stroke:
-        yield (f"piston.offset is {model.piston.offset:g} mm, more than {OFFSET_SHARE:.0%} of the stroke "
-               f"({OFFSET_SHARE * stroke:g} mm); is it in mm?")
+        yield (
+            f"piston.offset is {model.piston.offset:g} mm, more than {OFFSET_SHARE:.0%} of the "
+            "stroke "
+            f"({OFFSET_SHARE * stroke:g} mm); is it in mm?"
+        )
 
 
 def _layout(model: EngineFile) -> Iterator[str]:
     spacing = _spacing(model)
     if spacing and abs(model.layout.stagger) > spacing:
-        yield (f"layout.stagger is {model.layout.stagger:g} mm, more than the distance of neighbouring throws "
-               f"({spacing:g} mm); it is the distance of two rods on one throw")
+        yield (
+            f"layout.stagger is {model.layout.stagger:g} mm, more than the distance of "
+            "neighbouring throws "
+            f"({spacing:g} mm); it is the distance of two rods on one throw"
+        )
 
 
 def _counterweights(model: EngineFile) -> Iterator[str]:
@@ -99,8 +137,12 @@ def _counterweights(model: EngineFile) -> Iterator[str]:
     limit = UNBALANCE_SHARE * mass * 1e3 * radius
     for number, weight in enumerate(model.counterweight, 1):
         if limit and abs(_unbalance(weight)) > limit:
-            yield (f"counterweight.{number}: its unbalance is {abs(_unbalance(weight)):.4g} g mm, more than "
-                   f"{UNBALANCE_SHARE:g} times all moving masses at the crank radius ({limit:.3g}); is it in g mm?")
+            yield (
+                f"counterweight.{number}: its unbalance is {abs(_unbalance(weight)):.4g} g mm, "
+                "more than "
+                f"{UNBALANCE_SHARE:g} times all moving masses at the crank radius ({limit:.3g}); "
+                "is it in g mm?"
+            )
 
 
 def _lambda(model: EngineFile) -> float | None:
@@ -124,7 +166,9 @@ def _spacing(model: EngineFile) -> float | None:
 
 
 def _throws_and_rods(model: EngineFile) -> tuple[int, int]:
-    """How many there are; where the throws are left out, the firing order tells the number of rods."""
+    """How many there are; where the throws are left out, the firing order tells the number of
+    rods.
+    """
     layout = model.layout
     banks = 2 if layout.bank_angle is not None else len(layout.banks or ()) or layout.radial or 1
     rods_on_a_throw = banks if layout.rods == "shared" else 1
@@ -136,4 +180,8 @@ def _throws_and_rods(model: EngineFile) -> tuple[int, int]:
 
 def _unbalance(weight: Counterweight) -> float:
     """In g mm."""
-    return (weight.mass or 0.0) * 1e3 * (weight.radius or 0.0) if weight.unbalance is None else weight.unbalance
+    return (
+        (weight.mass or 0.0) * 1e3 * (weight.radius or 0.0)
+        if weight.unbalance is None
+        else weight.unbalance
+    )

@@ -1,8 +1,10 @@
 """Figures with a unit, as an engine file may give them: "3.5 in", "1/7 turn", "8.1 lb in^2".
 
-A figure is matched by a regular expression first and nothing is ever evaluated. The arithmetic is exact (fractions), so
-that a figure is rounded once. The commonest units are in a table here; pint is imported only for any other.
+A figure is matched by a regular expression first and nothing is ever evaluated. The arithmetic is
+exact (fractions), so that a figure is rounded once. The commonest units are in a table here; pint
+is imported only for any other.
 """
+
 from __future__ import annotations
 
 import re
@@ -11,11 +13,13 @@ from functools import cache
 from typing import Any, NamedTuple
 
 PI = Fraction("3.14159265358979323846264338327950288419716939937510")
-LONGEST = 100                            # characters; no figure needs more
+LONGEST = 100  # characters; no figure needs more
 
 
 class Powers(NamedTuple):
-    """Exponents of a dimension. Angle counts as one, so that rpm is no angle and degrees are no plain number."""
+    """Exponents of a dimension. Angle counts as one, so that rpm is no angle and degrees are no
+    plain number.
+    """
 
     length: int = 0
     mass: int = 0
@@ -31,7 +35,9 @@ class Unit(NamedTuple):
 
 
 class Dimension(NamedTuple):
-    """What a field of the engine file measures: its bare unit, how one speaks of it, and figures to show a reader."""
+    """What a field of the engine file measures: its bare unit, how one speaks of it, and figures to
+    show a reader.
+    """
 
     unit: str
     name: str
@@ -39,25 +45,45 @@ class Dimension(NamedTuple):
     examples: tuple[str, ...]
 
 
-_FOREIGN = Powers(99)                    # ampere, kelvin: known, but no field has such a dimension
+_FOREIGN = Powers(99)  # ampere, kelvin: known, but no field has such a dimension
 _LENGTH, _MASS, _TIME, _ANGLE = Powers(length=1), Powers(mass=1), Powers(time=1), Powers(angle=1)
-_INCH, _POUND = Fraction(254, 10_000), Fraction(45_359_237, 100_000_000)        # international inch and pound, 1959
+_INCH, _POUND = (
+    Fraction(254, 10_000),
+    Fraction(45_359_237, 100_000_000),
+)  # international inch and pound, 1959
 
 COMMON = {
-    "mm": Unit(Fraction(1, 1000), _LENGTH), "cm": Unit(Fraction(1, 100), _LENGTH), "m": Unit(Fraction(1), _LENGTH),
-    "in": Unit(_INCH, _LENGTH), "ft": Unit(12 * _INCH, _LENGTH),
-    "kg": Unit(Fraction(1), _MASS), "g": Unit(Fraction(1, 1000), _MASS),
-    "lb": Unit(_POUND, _MASS), "oz": Unit(_POUND / 16, _MASS),
-    "s": Unit(Fraction(1), _TIME), "ms": Unit(Fraction(1, 1000), _TIME), "min": Unit(Fraction(60), _TIME),
-    "turn": Unit(Fraction(1), _ANGLE), "deg": Unit(Fraction(1, 360), _ANGLE), "°": Unit(Fraction(1, 360), _ANGLE),
-    "rad": Unit(1 / (2 * PI), _ANGLE), "rpm": Unit(Fraction(1, 60), Powers(time=-1, angle=1)),
+    "mm": Unit(Fraction(1, 1000), _LENGTH),
+    "cm": Unit(Fraction(1, 100), _LENGTH),
+    "m": Unit(Fraction(1), _LENGTH),
+    "in": Unit(_INCH, _LENGTH),
+    "ft": Unit(12 * _INCH, _LENGTH),
+    "kg": Unit(Fraction(1), _MASS),
+    "g": Unit(Fraction(1, 1000), _MASS),
+    "lb": Unit(_POUND, _MASS),
+    "oz": Unit(_POUND / 16, _MASS),
+    "s": Unit(Fraction(1), _TIME),
+    "ms": Unit(Fraction(1, 1000), _TIME),
+    "min": Unit(Fraction(60), _TIME),
+    "turn": Unit(Fraction(1), _ANGLE),
+    "deg": Unit(Fraction(1, 360), _ANGLE),
+    "°": Unit(Fraction(1, 360), _ANGLE),
+    "rad": Unit(1 / (2 * PI), _ANGLE),
+    "rpm": Unit(Fraction(1, 60), Powers(time=-1, angle=1)),
 }
 
 LENGTH = Dimension("mm", "a length", _LENGTH, ("90 mm", "3.5 in"))
 MASS = Dimension("kg", "a mass", _MASS, ("650 g", "0.8 lb"))
 ANGLE = Dimension("deg", "an angle", _ANGLE, ("30 deg", "1.2 rad", "1/7 turn"))
-INERTIA = Dimension("kg mm^2", "a moment of inertia", Powers(length=2, mass=1), ("4200 kg mm^2", "8.1 lb in^2"))
-UNBALANCE = Dimension("g mm", "an unbalance (mass times radius)", Powers(length=1, mass=1), ("9000 g mm", "12.5 oz in"))
+INERTIA = Dimension(
+    "kg mm^2", "a moment of inertia", Powers(length=2, mass=1), ("4200 kg mm^2", "8.1 lb in^2")
+)
+UNBALANCE = Dimension(
+    "g mm",
+    "an unbalance (mass times radius)",
+    Powers(length=1, mass=1),
+    ("9000 g mm", "12.5 oz in"),
+)
 SPEED = Dimension("rpm", "a speed of rotation", Powers(time=-1, angle=1), ("6000 rpm", "300 rad/s"))
 TIME = Dimension("s", "a time", _TIME, ("0.82 s", "820 ms"))
 PLAIN = Dimension("", "a plain number", Powers(), ())
@@ -67,12 +93,16 @@ _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
 _FACTOR = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[²³])?"
 _JOINT = r"\s*[*·⋅/]\s*|\s+"
 _UNIT = rf"{_FACTOR}(?:(?:{_JOINT}){_FACTOR})*"
-FIGURE = rf"\s*([+-]?{_NUMBER})(?:\s*/\s*({_NUMBER}))?\s*({_UNIT})?\s*"       # compiled when a string is met
+FIGURE = (
+    rf"\s*([+-]?{_NUMBER})(?:\s*/\s*({_NUMBER}))?\s*({_UNIT})?\s*"  # compiled when a string is met
+)
 _PART = r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([²³]))?"
 
 
 def convert(text: str, dimension: Dimension) -> float:
-    """The figure in the bare unit of `dimension`, correctly rounded. ValueError: what is wrong, what would be right."""
+    """The figure in the bare unit of `dimension`, correctly rounded. ValueError: what is wrong,
+    what would be right.
+    """
     match = re.fullmatch(FIGURE, text, re.ASCII) if len(text) <= LONGEST else None
     if match is None:
         raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
@@ -83,7 +113,12 @@ def convert(text: str, dimension: Dimension) -> float:
     if unit.powers != dimension.powers:
         raise ValueError(f"is {_name(unit.powers)}, but {wanted(dimension)}")
     try:
-        return float(Fraction(above) / Fraction(below or 1) * unit.scale / read_unit(dimension.unit, dimension).scale)
+        return float(
+            Fraction(above)
+            / Fraction(below or 1)
+            * unit.scale
+            / read_unit(dimension.unit, dimension).scale
+        )
     except ZeroDivisionError:
         raise ValueError("divides by zero") from None
     except OverflowError:
@@ -91,7 +126,9 @@ def convert(text: str, dimension: Dimension) -> float:
 
 
 def read_unit(names: str, dimension: Dimension) -> Unit:
-    """The product of a unit's parts; ValueError for an unknown one, with examples of `dimension`."""
+    """The product of a unit's parts; ValueError for an unknown one, with examples of
+    `dimension`.
+    """
     scale, powers = Fraction(1), Powers()
     for joint, name, power, superscript in re.findall(_PART, names, re.ASCII):
         part = COMMON.get(name) or _ask_pint(name)
@@ -112,18 +149,28 @@ def wanted(dimension: Dimension) -> str:
 
 
 def _name(powers: Powers) -> str:
-    named = {d.powers: d.name for d in _DIMENSIONS} | {Powers(time=-1): "a frequency", Powers(1, 1, -2): "a force"}
+    named = {d.powers: d.name for d in _DIMENSIONS} | {
+        Powers(time=-1): "a frequency",
+        Powers(1, 1, -2): "a force",
+    }
     return named.get(powers, "of another dimension")
 
 
 @cache
 def _ask_pint(name: str) -> Unit | None:
-    """A unit that is not in the table above; None if there is no such unit of length, mass, time and angle."""
+    """A unit that is not in the table above; None if there is no such unit of length, mass, time
+    and angle.
+    """
     registry = _registry()
     try:
-        scale, _ = registry.get_base_units(name)     # in m, kg, s, rad
+        scale, _ = registry.get_base_units(name)  # in m, kg, s, rad
         parts = dict(registry.get_dimensionality(name))
-    except (AttributeError, KeyError, TypeError, ValueError):        # pint has no common base class for these
+    except (
+        AttributeError,
+        KeyError,
+        TypeError,
+        ValueError,
+    ):  # pint has no common base class for these
         return None
     powers = [parts.pop(key, 0) for key in ("[length]", "[mass]", "[time]", "[angle]")]
     if parts or any(p != int(p) for p in powers):
@@ -139,10 +186,12 @@ def _registry() -> Any:
 
     log = logging.getLogger("pint")
     level = log.level
-    log.setLevel(logging.ERROR)                      # it would report the redefinition, which is meant
+    log.setLevel(logging.ERROR)  # it would report the redefinition, which is meant
     try:
         registry: Any = pint.UnitRegistry()
-        registry.define("radian = [angle] = rad")    # pint takes an angle for a plain number; here it is a dimension
+        registry.define(
+            "radian = [angle] = rad"
+        )  # pint takes an angle for a plain number; here it is a dimension
         registry._build_cache()
     finally:
         log.setLevel(level)

@@ -1,10 +1,12 @@
 """Curves over the crank angle by direct evaluation: nothing here is a sum of orders.
 
-From momentum G, moment of momentum h and inertia I of each cylinder at crank speed 1. With crank speed omega, crank
-acceleration xi and a prime for the derivative with respect to the crank angle: force -(omega^2 G' + xi G), couple
--(omega^2 h' + xi h), inertia torque -(1/2 I' omega^2 + xi I). As everywhere, what lies within the rounding error of the
-parts that are added up (docs/theory.md) is exactly 0.
+From momentum G, moment of momentum h and inertia I of each cylinder at crank speed 1. With crank
+speed omega, crank acceleration xi and a prime for the derivative with respect to the crank angle:
+force -(omega^2 G' + xi G), couple
+-(omega^2 h' + xi h), inertia torque -(1/2 I' omega^2 + xi I). As everywhere, what lies within the
+rounding error of the parts that are added up (docs/theory.md) is exactly 0.
 """
+
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
@@ -19,14 +21,16 @@ from ..core.strokes import travel as dead_centres
 from ..engine.build import Engine
 from ..errors import BalcliError
 
-FINEST = 1e-3                   # degrees
-AT_ONCE = 200_000               # cylinders x angles, which bounds the memory
-_EVERYWHERE = np.arange(0.0, 360.0, 15.0)       # where the sizes of parts are taken, deg
+FINEST = 1e-3  # degrees
+AT_ONCE = 200_000  # cylinders x angles, which bounds the memory
+_EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
 
 
 @dataclass(frozen=True)
 class Curves:
-    """Quantities over the crank angle. `values`: by name with unit (`force_x_N`), each of the shape of `crank_deg`."""
+    """Quantities over the crank angle. `values`: by name with unit (`force_x_N`), each of the shape
+    of `crank_deg`.
+    """
 
     name: str
     speed_rpm: float
@@ -41,12 +45,15 @@ def crank_angles(step: float = 1.0) -> Array:
         BalcliError: the step is not from 0.001 to 360.
     """
     if not FINEST <= step <= 360:
-        raise BalcliError(f"--step {step:g}: give a step of the crank angle from {FINEST:g} to 360 degrees")
+        raise BalcliError(
+            f"--step {step:g}: give a step of the crank angle from {FINEST:g} to 360 degrees"
+        )
     return np.arange(0.0, np.ceil(360 / step - 1e-9)) * step
 
 
 def engine_curves(engine: Engine, crank_deg: Array) -> Curves:
-    """Free force (N), moment, couple, inertia torque and roll (N m) of a whole engine, devices included.
+    """Free force (N), moment, couple, inertia torque and roll (N m) of a whole engine, devices
+    included.
 
     Args:
         engine: without trailing axes.
@@ -56,14 +63,30 @@ def engine_curves(engine: Engine, crank_deg: Array) -> Curves:
 
 
 def _summed(engine: Engine, crank_deg: Array, parts: Callable[[Array], dict[str, Array]]) -> Curves:
-    """Curves by their parts, over so many angles at a time that memory does not grow with both cylinders and angles."""
-    noise = {name: 8 * len(some) * EPS * float(np.abs(some).sum(axis=0).max()) for name, some in parts(_EVERYWHERE).items()}
+    """Curves by their parts, over so many angles at a time that memory does not grow with both
+    cylinders and angles.
+    """
+    noise = {
+        name: 8 * len(some) * EPS * float(np.abs(some).sum(axis=0).max())
+        for name, some in parts(_EVERYWHERE).items()
+    }
     step = max(AT_ONCE // engine.cylinders.count, 1)
-    pieces = [{name: some.sum(axis=0) for name, some in parts(crank_deg[k:k + step]).items()}
-              for k in range(0, max(len(crank_deg), 1), step)]
+    pieces = [
+        {name: some.sum(axis=0) for name, some in parts(crank_deg[k : k + step]).items()}
+        for k in range(0, max(len(crank_deg), 1), step)
+    ]
     curves = {name: np.concatenate([piece[name] for piece in pieces]) for name in noise}
-    return Curves(engine.name, float(engine.speed_rpm), crank_deg, MappingProxyType(
-        {name: np.where(np.abs(curve) <= noise[name], 0.0, curve) for name, curve in curves.items()}))
+    return Curves(
+        engine.name,
+        float(engine.speed_rpm),
+        crank_deg,
+        MappingProxyType(
+            {
+                name: np.where(np.abs(curve) <= noise[name], 0.0, curve)
+                for name, curve in curves.items()
+            }
+        ),
+    )
 
 
 def _engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
@@ -72,44 +95,65 @@ def _engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     force, arms = _forces(engine, motion)
     x, y, z = engine.reference_m
     moment = 1j * (arms - float(z))[:, None] * force
-    places = np.concatenate([np.zeros(engine.cylinders.count), [d.place for d in engine.devices]]) - (x + 1j * y)
+    places = np.concatenate(
+        [np.zeros(engine.cylinders.count), [d.place for d in engine.devices]]
+    ) - (x + 1j * y)
     couple = np.concatenate([_couple(engine, motion), (np.conj(places)[:, None] * force).imag])
     torque = _torque(engine, motion)
-    return {"force_x_N": force.real, "force_y_N": force.imag, "moment_x_Nm": moment.real, "moment_y_Nm": moment.imag,
-            "couple_Nm": couple, "inertia_torque_Nm": torque, "roll_Nm": np.concatenate([couple, -torque])}
+    return {
+        "force_x_N": force.real,
+        "force_y_N": force.imag,
+        "moment_x_Nm": moment.real,
+        "moment_y_Nm": moment.imag,
+        "couple_Nm": couple,
+        "inertia_torque_Nm": torque,
+        "roll_Nm": np.concatenate([couple, -torque]),
+    }
 
 
 def cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:
-    """Piston travel from top dead centre (m), velocity and acceleration away from it, rod angle of one cylinder.
+    """Piston travel from top dead centre (m), velocity and acceleration away from it, rod angle of
+    one cylinder.
 
     Raises:
         BalcliError: the engine has no such cylinder.
     """
     if number not in engine.numbers:
         some = ", ".join(map(str, sorted(engine.numbers)))
-        raise BalcliError(f"--cylinder {number}: {engine.name or 'the engine'} has the cylinders {some}")
+        raise BalcliError(
+            f"--cylinder {number}: {engine.name or 'the engine'} has the cylinders {some}"
+        )
     row = engine.numbers.index(number)
 
     def parts(crank_deg: Array) -> dict[str, Array]:
         motion = _Motion(engine, crank_deg)
         r, v = motion.radius, motion.v[row]
-        return {"travel_m": r * motion.travel()[row:row + 1], "velocity_m_per_s": (r * motion.omega * v)[None],
-                "acceleration_m_per_s2": r * np.array([motion.omega**2 * motion.a[row], motion.xi * v]),
-                "rod_angle_deg": np.degrees(motion.beta()[row:row + 1])}
+        return {
+            "travel_m": r * motion.travel()[row : row + 1],
+            "velocity_m_per_s": (r * motion.omega * v)[None],
+            "acceleration_m_per_s2": r * np.array([motion.omega**2 * motion.a[row], motion.xi * v]),
+            "rod_angle_deg": np.degrees(motion.beta()[row : row + 1]),
+        }
+
     return _summed(engine, crank_deg, parts)
 
 
 class _Motion:
-    """Crank speed and acceleration, and the mechanisms of all cylinders, shape (cylinders, angles)."""
+    """Crank speed and acceleration, and the mechanisms of all cylinders, shape (cylinders,
+    angles).
+    """
 
     def __init__(self, engine: Engine, crank_deg: Array) -> None:
         c = engine.cylinders
         count = (c.count, 1)
         self.radius = float(np.ravel(c.radius)[0])
-        self.lam, self.eps = np.broadcast_to(_column(c.lam), count), np.broadcast_to(_column(c.eps), count)
+        self.lam, self.eps = (
+            np.broadcast_to(_column(c.lam), count),
+            np.broadcast_to(_column(c.eps), count),
+        )
         axes = np.repeat(_column(c.axis_deg), np.diff([*c.starts, c.count]), axis=0)
         self.crank_deg = crank_deg
-        self.pin = crank_deg + float(np.ravel(c.axis_deg)[c.first]) + _column(c.pin_deg)        # from x
+        self.pin = crank_deg + float(np.ravel(c.axis_deg)[c.first]) + _column(c.pin_deg)  # from x
         self.psi = np.radians(np.remainder(self.pin - axes + 180, 360) - 180)
         self.axis = unit(axes)
         self.omega, self.xi = _speed(engine, crank_deg)
@@ -121,15 +165,22 @@ class _Motion:
             self.spin, self.spin_rate = -sc.rod_rate(*mechanism), -sc.rod_acceleration(*mechanism)
         else:
             self.linked = m = c.linkage.motion(self.psi, np.ravel(c.lam), np.ravel(c.eps))
-            self.v, self.a, self.spin, self.spin_rate = -m.velocity, -m.acceleration, m.spin, m.spin_rate
-            self.mass = _column(c.linkage.mass)                             # what moves on curves
+            self.v, self.a, self.spin, self.spin_rate = (
+                -m.velocity,
+                -m.acceleration,
+                m.spin,
+                m.spin_rate,
+            )
+            self.mass = _column(c.linkage.mass)  # what moves on curves
 
     def travel(self) -> Array:
         """Of the pistons, from their top dead centres, in crank radii."""
         if self.linkage is None or self.linked is None:
             return sc.displacement(self.psi, self.lam, self.eps)
         top = np.radians(dead_centres(self.cylinders).top_deg).reshape(-1, 1)
-        highest = self.linkage.motion(top, np.ravel(self.cylinders.lam), np.ravel(self.cylinders.eps)).place
+        highest = self.linkage.motion(
+            top, np.ravel(self.cylinders.lam), np.ravel(self.cylinders.eps)
+        ).place
         return np.asarray(highest - self.linked.place)
 
     def beta(self) -> Array:
@@ -149,23 +200,35 @@ def _speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
 
 
 def _forces(engine: Engine, motion: _Motion) -> tuple[Complex, Array]:
-    """Force of each cylinder and device, shape (cylinders + devices, angles), and its place along z."""
+    """Force of each cylinder and device, shape (cylinders + devices, angles), and its place along
+    z.
+    """
     c, w2, xi, r = engine.cylinders, motion.omega**2, motion.xi, motion.radius
     crank = unit(motion.pin)
     piston: Complex = _column(c.reciprocating) * r * (w2 * motion.a + xi * motion.v) * motion.axis
     pins = _column(c.rotating) * r * (w2 - 1j * xi) * crank
     if (m := motion.linked) is not None:
-        piston = piston - motion.mass * r * (w2 * m.acceleration_of_mass + xi * m.velocity_of_mass) * motion.axis
+        piston = (
+            piston
+            - motion.mass
+            * r
+            * (w2 * m.acceleration_of_mass + xi * m.velocity_of_mass)
+            * motion.axis
+        )
     rows = [*(piston + pins)]
     for d in engine.devices:
         ahead = unit(d.order * motion.crank_deg)
         radial, along = d.order**2 * w2, 1j * d.order * xi
-        rows.append(d.forward * ahead * (radial - along) + d.backward * np.conj(ahead) * (radial + along))
+        rows.append(
+            d.forward * ahead * (radial - along) + d.backward * np.conj(ahead) * (radial + along)
+        )
     return np.array(rows), np.concatenate([np.ravel(c.z), [d.z for d in engine.devices]])
 
 
 def _couple(engine: Engine, motion: _Motion) -> Array:
-    """Free couple of each cylinder about the crank's axis: h = -m_rec e s' + m_rot r^2 - H spin (+ the masses on curves), s' = -r v."""
+    """Free couple of each cylinder about the crank's axis: h = -m_rec e s' + m_rot r^2 - H spin (+
+    the masses on curves), s' = -r v.
+    """
     c, r = engine.cylinders, motion.radius
     pull = _column(c.reciprocating) * (motion.eps * r / motion.lam) * r
     h = pull * motion.v + _column(c.rotating) * r**2 - _column(c.couple) * motion.spin
@@ -177,7 +240,9 @@ def _couple(engine: Engine, motion: _Motion) -> Array:
 
 
 def _torque(engine: Engine, motion: _Motion) -> Array:
-    """Inertia torque of each cylinder on the crank: I = m_rec s'^2 + m_rot r^2 - H spin^2 (+ the masses on curves)."""
+    """Inertia torque of each cylinder on the crank: I = m_rec s'^2 + m_rot r^2 - H spin^2 (+ the
+    masses on curves).
+    """
     c, r = engine.cylinders, motion.radius
     mass, couple = _column(c.reciprocating) * r**2, _column(c.couple)
     inertia = mass * motion.v**2 + _column(c.rotating) * r**2 - couple * motion.spin**2

@@ -1,4 +1,5 @@
 """Guide-force moments as builders of large engines state them, of inertia alone, without gas."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
@@ -12,17 +13,20 @@ from .spectrum import considerable, each, relevant_orders
 
 @dataclass(frozen=True)
 class Guide:
-    """H-type: sum of the cylinders' roll moments, N m. X-type: `sum roll_i (z_i - z_ref) / L`, L from the first throw to the
-    last; None where there is only one."""
+    """H-type: sum of the cylinders' roll moments, N m. X-type: `sum roll_i (z_i - z_ref) / L`, L
+    from the first throw to the last; None where there is only one.
+    """
 
     h: Phasors
     x: Phasors | None
 
 
 def guide(engine: Engine, orders: Array | None = None) -> Guide:
-    """Guide-force moments of an engine without trailing axes, by order (default: those worth showing); devices have none.
+    """Guide-force moments of an engine without trailing axes, by order (default: those worth
+    showing); devices have none.
 
-    Each cylinder's roll moment is that about the crank axis, wherever the point of reference stands in x and y.
+    Each cylinder's roll moment is that about the crank axis, wherever the point of reference stands
+    in x and y.
     """
     axis = replace(engine, reference_m=(0.0, 0.0, engine.reference_m[2]))
     every = relevant_orders(engine) if orders is None else orders

@@ -1,4 +1,7 @@
-"""What sweep, search and scatter are about: single figures of an engine such as `force.2.major` or `peak.moment`."""
+"""What sweep, search and scatter are about: single figures of an engine such as `force.2.major` or
+`peak.moment`.
+"""
+
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
@@ -16,7 +19,19 @@ from ..errors import BalcliError
 from .spectrum import SPECTRAL, relevant_orders, spectra
 
 VECTORS = ("force", "moment")
-PARTS = ("major", "minor", "forward", "backward", "axis", "x", "y", "x_cos", "x_sin", "y_cos", "y_sin")
+PARTS = (
+    "major",
+    "minor",
+    "forward",
+    "backward",
+    "axis",
+    "x",
+    "y",
+    "x_cos",
+    "x_sin",
+    "y_cos",
+    "y_sin",
+)
 SCALAR_PARTS = ("amplitude", "major", "cos", "sin")
 HIGHEST = 4096
 Array = NDArray[np.float64]
@@ -26,8 +41,9 @@ Array = NDArray[np.float64]
 class Quantity:
     """`kind.order.part`, or `peak.kind` with order 0 and part "peak".
 
-    Of a couple, torque or roll, and of force and moment along x or y, `cos` and `sin` are the parts of the value
-    `cos cos n theta + sin sin n theta`: they have signs, and so has the mean of order 0, which is its `cos`.
+    Of a couple, torque or roll, and of force and moment along x or y, `cos` and `sin` are the parts
+    of the value `cos cos n theta + sin sin n theta`: they have signs, and so has the mean of order
+    0, which is its `cos`.
     """
 
     kind: str
@@ -36,7 +52,9 @@ class Quantity:
 
     @property
     def name(self) -> str:
-        return f"peak.{self.kind}" if self.part == "peak" else f"{self.kind}.{self.order}.{self.part}"
+        return (
+            f"peak.{self.kind}" if self.part == "peak" else f"{self.kind}.{self.order}.{self.part}"
+        )
 
     @property
     def unit(self) -> str:
@@ -48,12 +66,16 @@ class Quantity:
         return self.part.endswith(("cos", "sin"))
 
     def of(self, phasors: Phasors) -> Array:
-        """Its value by the phasors of its kind, shape (*trailing): sizes of vectors, amplitudes along x and y or their parts, degrees."""
+        """Its value by the phasors of its kind, shape (*trailing): sizes of vectors, amplitudes
+        along x and y or their parts, degrees.
+        """
         row = int(np.searchsorted(phasors.orders, self.order))
         only = slice(row, row + 1)
         column = (len(phasors.orders), *(1,) * (phasors.forward.ndim - 1))
         noise = np.broadcast_to(phasors.noise, np.broadcast_shapes(phasors.noise.shape, column))
-        own = Phasors(phasors.orders[only], phasors.forward[only], phasors.backward[only], noise[only])
+        own = Phasors(
+            phasors.orders[only], phasors.forward[only], phasors.backward[only], noise[only]
+        )
         if self.signed:
             c = (own.y if self.part.startswith("y") else own.x)[0]
             return (c.real if self.part.endswith("cos") else -c.imag) + 0.0
@@ -70,7 +92,9 @@ def parse(text: str) -> tuple[Quantity, ...]:
     """
     words = [word.strip() for word in text.split(",") if word.strip()]
     if not words:
-        raise BalcliError("no quantity is given; name some, such as force.2.major,moment.1.backward")
+        raise BalcliError(
+            "no quantity is given; name some, such as force.2.major,moment.1.backward"
+        )
     return tuple(dict.fromkeys(map(_parse, words)))
 
 
@@ -82,19 +106,28 @@ def _parse(text: str) -> Quantity:
     allowed = PARTS if kind in VECTORS else SCALAR_PARTS
     if kind not in SPECTRAL:
         near = nearest(kind, (*SPECTRAL, "peak"))
-        raise BalcliError(f"{text} is no quantity: {f'did you mean {near}?' if near else 'it begins with'} "
-                          f"{'' if near else ', '.join(SPECTRAL) + ' or peak'}".rstrip())
+        raise BalcliError(
+            f"{text} is no quantity: {f'did you mean {near}?' if near else 'it begins with'} "
+            f"{'' if near else ', '.join(SPECTRAL) + ' or peak'}".rstrip()
+        )
     if not (order.isascii() and order.isdigit() and len(order) < 6 and int(order) <= HIGHEST):
-        raise BalcliError(f"{text} is no quantity: after {kind} comes a whole order up to {HIGHEST}, as in {kind}.2.{allowed[0]}")
+        raise BalcliError(
+            f"{text} is no quantity: after {kind} comes a whole order up to {HIGHEST}, as in "
+            f"{kind}.2.{allowed[0]}"
+        )
     if part not in allowed:
-        raise BalcliError(f"{text} is no quantity: after the order comes one of {', '.join(allowed)}")
+        raise BalcliError(
+            f"{text} is no quantity: after the order comes one of {', '.join(allowed)}"
+        )
     return Quantity(kind, int(order), part)
 
 
 def evaluate(engine: Engine, quantities: Sequence[Quantity]) -> list[Array]:
-    """The value of each quantity, shape (*trailing), length 1 along axes on which it does not depend.
+    """The value of each quantity, shape (*trailing), length 1 along axes on which it does not
+    depend.
 
-    Only the orders that a kind is asked for are computed; kinds with the same orders share what they have in common.
+    Only the orders that a kind is asked for are computed; kinds with the same orders share what
+    they have in common.
     """
     found: dict[Quantity, Array] = {}
     for orders, members in _together(quantities):
@@ -122,8 +155,12 @@ def _together(quantities: Iterable[Quantity]) -> list[tuple[list[int], list[Quan
 def _peaks(curves: Phasors) -> Array:
     """Largest value over a revolution of every variant, one after the other."""
     shape = np.broadcast_shapes(curves.forward.shape[1:], curves.backward.shape[1:])
-    forward, backward = (np.broadcast_to(v, (len(curves.orders), *shape)) for v in (curves.forward, curves.backward))
+    forward, backward = (
+        np.broadcast_to(v, (len(curves.orders), *shape)) for v in (curves.forward, curves.backward)
+    )
     values: Any = np.empty(shape)
     for at in np.ndindex(shape):
-        values[at] = peak(Phasors(curves.orders, forward[:, *at], backward[:, *at], np.zeros(1))).value
+        values[at] = peak(
+            Phasors(curves.orders, forward[:, *at], backward[:, *at], np.zeros(1))
+        ).value
     return np.asarray(values)

@@ -1,4 +1,7 @@
-"""Engine -> free forces and moments by order, computing only the quantities and orders that are asked for."""
+"""Engine -> free forces and moments by order, computing only the quantities and orders that are
+asked for.
+"""
+
 from __future__ import annotations
 
 from collections.abc import Collection
@@ -17,15 +20,23 @@ from ..errors import BalcliError
 
 SPECTRAL = ("force", "moment", "couple", "torque", "roll")
 _ONLY_FORCES = {"force", "moment"}
-SHOWN = 1e-6                    # share of a quantity's largest order below which an order is not worth showing
-UNASKED = 512                   # highest order that is shown unless it is asked for: only a mechanism near its lock has more
-MOST_APART = 1_100_000          # orders x loads that are kept one by one at a steady speed; half as many at an uneven one
+SHOWN = 1e-6  # share of a quantity's largest order below which an order is not worth showing
+# highest order that is shown unless it is asked for: only a mechanism near its lock has more
+UNASKED = 512
+# orders x loads that are kept one by one at a steady speed; half as many at an uneven one
+MOST_APART = 1_100_000
 _ALL = slice(None)
-_AT_ONCE = 1 << 18              # orders x cylinders that are computed together: bounds the memory, about 16 arrays of complex numbers
+_AT_ONCE = (
+    1 << 18
+    # orders x cylinders that are computed together: bounds the memory, about 16 arrays of complex
+    # numbers
+)
 
 
 class Spectra(NamedTuple):
-    """Phasors by order: force (N), moment, couple, inertia torque on the crank and roll (N m); None: not asked for."""
+    """Phasors by order: force (N), moment, couple, inertia torque on the crank and roll (N m);
+    None: not asked for.
+    """
 
     orders: Array
     force: Phasors | None = None
@@ -64,7 +75,8 @@ def spectra(engine: Engine, orders: ArrayLike, quantities: Collection[str] = SPE
 def each(engine: Engine, orders: ArrayLike, quantities: Collection[str] = SPECTRAL) -> Spectra:
     """What each cylinder does by itself, as if no other had a mass (`alone`), the devices left out.
 
-    The phasors have the shape (orders, cylinders), the cylinders as in `engine.numbers`; the engine has no trailing axes.
+    The phasors have the shape (orders, cylinders), the cylinders as in `engine.numbers`; the engine
+    has no trailing axes.
 
     Raises:
         BalcliError: more than MOST_APART of them.
@@ -74,11 +86,16 @@ def each(engine: Engine, orders: ArrayLike, quantities: Collection[str] = SPECTR
 
 
 def few_enough(engine: Engine, orders: int, loads: int) -> None:
-    """BalcliError for so many orders of so many loads one by one that they would fill the memory."""
+    """BalcliError for so many orders of so many loads one by one that they would fill the
+    memory.
+    """
     most = MOST_APART // 2 if engine.ripple else MOST_APART
     if orders * loads > most:
-        raise BalcliError(f"{orders} orders of {loads} cylinders and counterweights one by one are {orders * loads} forces, and at most "
-                          f"{most} are kept: an engine farther from its lock has fewer orders")
+        raise BalcliError(
+            f"{orders} orders of {loads} cylinders and counterweights one by one are "
+            f"{orders * loads} forces, and at most "
+            f"{most} are kept: an engine farther from its lock has fewer orders"
+        )
 
 
 def weight(engine: Engine, device: Device, orders: Array) -> Phasors:
@@ -89,17 +106,27 @@ def weight(engine: Engine, device: Device, orders: Array) -> Phasors:
     return ripple.force(turning(device, dense, engine.omega**2).settled(), w).at(orders).settled()
 
 
-def _spectra(engine: Engine, orders: ArrayLike, quantities: Collection[str], *, apart: bool) -> Spectra:
+def _spectra(
+    engine: Engine, orders: ArrayLike, quantities: Collection[str], *, apart: bool
+) -> Spectra:
     wanted = np.asarray(orders, float)
     needed = {*quantities, *(("couple", "torque") if "roll" in quantities else ())}
-    found = _uneven(engine, wanted, needed, apart) if engine.ripple else _steady(engine, wanted, needed, apart)[0]
+    found = (
+        _uneven(engine, wanted, needed, apart)
+        if engine.ripple
+        else _steady(engine, wanted, needed, apart)[0]
+    )
     if "roll" in quantities:
         found["roll"] = found["couple"] - found["torque"]
-    return Spectra(wanted, **{q: phasors.settled() for q, phasors in found.items() if q in quantities})
+    return Spectra(
+        wanted, **{q: phasors.settled() for q, phasors in found.items() if q in quantities}
+    )
 
 
 def relevant_orders(engine: Engine) -> Array:
-    """The orders 1 .. n (0 .. n under uneven speed) beyond which nothing exceeds rounding errors."""
+    """The orders 1 .. n (0 .. n under uneven speed) beyond which nothing exceeds rounding
+    errors.
+    """
     c = engine.cylinders
     own = c.linkage.highest(c.lam, c.eps) if c.linkage else harmonics.points(c.lam, c.eps) // 2
     highest = max([own, *(d.order for d in engine.devices)])
@@ -109,7 +136,9 @@ def relevant_orders(engine: Engine) -> Array:
 
 
 def considerable(phasors: Phasors) -> NDArray[np.bool_]:
-    """Orders up to UNASKED in which something exceeds SHOWN of its own largest order, shape (orders,)."""
+    """Orders up to UNASKED in which something exceeds SHOWN of its own largest order, shape
+    (orders,).
+    """
     sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1, initial=0)
     return np.asarray((sizes > SHOWN * sizes.max(initial=0)) & (phasors.orders <= UNASKED))
 
@@ -117,41 +146,67 @@ def considerable(phasors: Phasors) -> NDArray[np.bool_]:
 def alone(engine: Engine, number: int) -> Engine:
     """The engine with only this cylinder's masses moving, and no devices."""
     c = engine.cylinders
-    here = np.array([n == number for n in engine.numbers], float).reshape(-1, *(1,) * (c.pin_deg.ndim - 1))
+    here = np.array([n == number for n in engine.numbers], float).reshape(
+        -1, *(1,) * (c.pin_deg.ndim - 1)
+    )
     masses = {key: here * getattr(c, key) for key in ("reciprocating", "rotating", "couple")}
     linkage = c.linkage and replace(c.linkage, mass=here * c.linkage.mass)
     return replace(engine, cylinders=replace(c, linkage=linkage, **masses), devices=())
 
 
-def _steady(engine: Engine, orders: Array, quantities: Collection[str], apart: bool) -> tuple[dict[str, Phasors], Loads]:
+def _steady(
+    engine: Engine, orders: Array, quantities: Collection[str], apart: bool
+) -> tuple[dict[str, Phasors], Loads]:
     """Phasors at a steady speed, and the loads of the lowest orders."""
-    c, names, (x, y, z) = engine.cylinders, [q for q in SPECTRAL[:4] if q in quantities], engine.reference_m
+    c, names, (x, y, z) = (
+        engine.cylinders,
+        [q for q in SPECTRAL[:4] if q in quantities],
+        engine.reference_m,
+    )
     find = c.linkage.harmonics if c.linkage else harmonics.of_distinct
     rod = bool(np.count_nonzero(c.couple)) and not _ONLY_FORCES.issuperset(quantities)
     few, which = find(orders, c.lam, c.eps, rod=rod, energy="torque" in quantities)
 
     def loads(block: slice) -> Loads:
         own = few if block == _ALL else few.of_orders(block)
-        return Loads(c, engine.devices, (x + 1j * y, z), orders[block], own.of_rows(which), engine.omega**2,
-                     apart=apart)
+        return Loads(
+            c,
+            engine.devices,
+            (x + 1j * y, z),
+            orders[block],
+            own.of_rows(which),
+            engine.omega**2,
+            apart=apart,
+        )
+
     most = max(_AT_ONCE // c.count, 1)
-    blocks = [slice(k, k + most) for k in range(0, len(orders), most)] if len(orders) > most else [_ALL]
+    blocks = (
+        [slice(k, k + most) for k in range(0, len(orders), most)] if len(orders) > most else [_ALL]
+    )
     lowest = loads(blocks[0])
     parts = [{q: getattr(lowest, q) for q in names}]
     for block in blocks[1:]:
         these = loads(block)
         parts.append({q: getattr(these, q) for q in names})
-    return {q: joined([part[q] for part in parts]) if parts[1:] else parts[0][q] for q in names}, lowest
+    return {
+        q: joined([part[q] for part in parts]) if parts[1:] else parts[0][q] for q in names
+    }, lowest
 
 
-def _uneven(engine: Engine, orders: Array, quantities: Collection[str], apart: bool) -> dict[str, Phasors]:
+def _uneven(
+    engine: Engine, orders: Array, quantities: Collection[str], apart: bool
+) -> dict[str, Phasors]:
     w, dense = _uneven_speed(engine, orders)
     steady, loads = _steady(engine, dense, quantities, apart)
     means = {"couple": loads.mean_momentum} if "couple" in quantities else {}
     if "torque" in quantities:
         means["torque"] = loads.mean_inertia
-    return {q: (ripple.torque if q == "torque" else ripple.force)(phasors.settled(), w, means.get(q, 0.0)).at(orders)
-            for q, phasors in steady.items()}
+    return {
+        q: (ripple.torque if q == "torque" else ripple.force)(
+            phasors.settled(), w, means.get(q, 0.0)
+        ).at(orders)
+        for q, phasors in steady.items()
+    }
 
 
 def _uneven_speed(engine: Engine, orders: Array) -> tuple[Complex, Array]:

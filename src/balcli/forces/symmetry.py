@@ -1,9 +1,12 @@
-"""Why an engine is balanced: sums of e^{i(n phi +- gamma)} decided exactly where angles are fractions of a turn.
+"""Why an engine is balanced: sums of e^{i(n phi +- gamma)} decided exactly where angles are
+fractions of a turn.
 
-Cylinders with one mechanism share their Fourier coefficients, so an order vanishes if its sum over each such family
-does (docs/theory.md): for the force `sum m e^{i(n phi +- g)}`, for the moment the same with z, for couple, torque and roll
-`sum e^{i n phi}`. Families of different mechanisms may still cancel each other by their figures; that is no symmetry.
+Cylinders with one mechanism share their Fourier coefficients, so an order vanishes if its sum over
+each such family does (docs/theory.md): for the force `sum m e^{i(n phi +- g)}`, for the moment the
+same with z, for couple, torque and roll `sum e^{i n phi}`. Families of different mechanisms may
+still cancel each other by their figures; that is no symmetry.
 """
+
 from __future__ import annotations
 
 from collections import defaultdict
@@ -22,16 +25,18 @@ from ..engine.build import Engine
 from .spectrum import SPECTRAL, each, spectra
 
 Verdict = Literal["none", "exact", "rounding", "nearly", "free"]
-Quantity = Literal["force", "moment", "turning"]        # turning: couple, torque and roll
+Quantity = Literal["force", "moment", "turning"]  # turning: couple, torque and roll
 QUANTITIES: tuple[Quantity, ...] = ("force", "moment", "turning")
-NEARLY = 1e-2                       # of one cylinder
-_DECIMALS = 10_000                  # largest denominator of a place in mm or a mass in g
+NEARLY = 1e-2  # of one cylinder
+_DECIMALS = 10_000  # largest denominator of a place in mm or a mass in g
 _ULPS = 4
 
 
 @dataclass(frozen=True)
 class Reason:
-    """Why one order of one quantity is balanced, or is not; `size`: what is left, in units of one cylinder's."""
+    """Why one order of one quantity is balanced, or is not; `size`: what is left, in units of one
+    cylinder's.
+    """
 
     order: int
     quantity: Quantity
@@ -41,11 +46,13 @@ class Reason:
     @property
     def sentence(self) -> str:
         name = "couple, torque and roll" if self.quantity == "turning" else self.quantity
-        told = {"none": "no cylinder has any",
-                "exact": "balanced exactly, by symmetry",
-                "rounding": "balanced to rounding, but not by exact fractions of a turn",
-                "nearly": f"nearly balanced: {self.size:.1g} of one cylinder",
-                "free": f"free: {self.size:.4g} of one cylinder"}[self.verdict]
+        told = {
+            "none": "no cylinder has any",
+            "exact": "balanced exactly, by symmetry",
+            "rounding": "balanced to rounding, but not by exact fractions of a turn",
+            "nearly": f"nearly balanced: {self.size:.1g} of one cylinder",
+            "free": f"free: {self.size:.4g} of one cylinder",
+        }[self.verdict]
         return f"order {self.order} {name}: {told}"
 
 
@@ -58,19 +65,28 @@ class Why:
 
     @property
     def sentences(self) -> tuple[str, ...]:
-        return (*(reason.sentence for reason in self.reasons), *([self.firing] if self.firing else []))
+        return (
+            *(reason.sentence for reason in self.reasons),
+            *([self.firing] if self.firing else []),
+        )
 
 
-def why(engine: Engine, orders: Iterable[float], quantities: Collection[Quantity] = QUANTITIES) -> Why:
-    """The conditions of self-balance for whole orders from 1, at steady speed, of the cylinders alone: no devices.
+def why(
+    engine: Engine, orders: Iterable[float], quantities: Collection[Quantity] = QUANTITIES
+) -> Why:
+    """The conditions of self-balance for whole orders from 1, at steady speed, of the cylinders
+    alone: no devices.
 
-    The moment is that about the engine's point of reference; in couple, torque and roll the displacement of this point
-    is left out. The engine has no trailing axes.
+    The moment is that about the engine's point of reference; in couple, torque and roll the
+    displacement of this point is left out. The engine has no trailing axes.
     """
     asked = np.unique(np.fromiter(orders, float))
     bare = replace(engine, devices=(), ripple=(), reference_m=(0.0, 0.0, engine.reference_m[2]))
     layout = _Layout(bare, asked)
-    return Why(tuple(layout.reason(row, q) for row in range(len(asked)) for q in quantities), firing(engine))
+    return Why(
+        tuple(layout.reason(row, q) for row in range(len(asked)) for q in quantities),
+        firing(engine),
+    )
 
 
 def firing(engine: Engine) -> str:
@@ -98,7 +114,9 @@ class _Sum(NamedTuple):
 
 
 class _Layout:
-    """Angles and weights of an engine's cylinders, as fractions where they are some; forces of the whole and its parts."""
+    """Angles and weights of an engine's cylinders, as fractions where they are some; forces of the
+    whole and its parts.
+    """
 
     def __init__(self, engine: Engine, orders: Array) -> None:
         self._c = c = engine.cylinders
@@ -106,10 +124,15 @@ class _Layout:
         self._axis_deg = np.repeat(c.axis_deg, np.diff([*c.starts, c.count]))
         self._arms = (c.z - engine.reference_m[2]) * 1e3
         self._whole = spectra(engine, orders, SPECTRAL[:4])
-        self._single = {name: phasors.major for name, phasors in each(engine, orders, SPECTRAL[:4]).items()}
+        self._single = {
+            name: phasors.major for name, phasors in each(engine, orders, SPECTRAL[:4]).items()
+        }
 
     def reason(self, row: int, quantity: Quantity) -> Reason:
-        order, names = int(self._orders[row]), ("couple", "torque") if quantity == "turning" else (quantity,)
+        order, names = (
+            int(self._orders[row]),
+            ("couple", "torque") if quantity == "turning" else (quantity,),
+        )
         single = {name: self._single[name][row] for name in names}
         whole = {name: getattr(self._whole, name).major[row] for name in names}
         sizes = [whole[name] / single[name].max() for name in names if single[name].any()]
@@ -118,7 +141,9 @@ class _Layout:
         there = np.any([one > 0 for one in single.values()], axis=0)
         if all(map(self._exactly_zero, self._sums(order, quantity, there))):
             return Reason(order, quantity, "exact", 0.0)
-        verdict: Verdict = "rounding" if max(sizes) == 0 else "nearly" if max(sizes) < NEARLY else "free"
+        verdict: Verdict = (
+            "rounding" if max(sizes) == 0 else "nearly" if max(sizes) < NEARLY else "free"
+        )
         return Reason(order, quantity, verdict, float(max(sizes)))
 
     def _sums(self, order: int, quantity: Quantity, there: NDArray[np.bool_]) -> Iterator[_Sum]:
@@ -135,7 +160,9 @@ class _Layout:
 
     # -------------------------------------------------------------- one sum
     def _exactly_zero(self, s: _Sum) -> bool:
-        """Whether the sum vanishes, each set of cylinders that stand fractions of a turn apart for itself."""
+        """Whether the sum vanishes, each set of cylinders that stand fractions of a turn apart for
+        itself.
+        """
         weights = _decimals(s.weights)
         for angles in self._commensurable(s):
             terms = [(w, angle) for row, angle in angles.items() if (w := weights[row]) is not None]
@@ -144,13 +171,21 @@ class _Layout:
         return True
 
     def _commensurable(self, s: _Sum) -> list[dict[int, Fraction]]:
-        """Sets of rows whose angles differ by fractions of a turn, with these differences from the first of each."""
-        pin, axis = self._c.pin_deg, self._axis_deg if s.side != s.order else np.zeros(self._c.count)
+        """Sets of rows whose angles differ by fractions of a turn, with these differences from the
+        first of each.
+        """
+        pin, axis = (
+            self._c.pin_deg,
+            self._axis_deg if s.side != s.order else np.zeros(self._c.count),
+        )
         sets: list[dict[int, Fraction]] = []
         for row in s.rows:
             for known in sets:
                 first = next(iter(known))
-                turned, leaned = turns(float(pin[row] - pin[first])), turns(float(axis[row] - axis[first]))
+                turned, leaned = (
+                    turns(float(pin[row] - pin[first])),
+                    turns(float(axis[row] - axis[first])),
+                )
                 if turned is not None and leaned is not None:
                     known[row] = (s.order * turned + (s.side - s.order) * leaned) % 1
                     break
@@ -168,14 +203,18 @@ class _Layout:
         return lambda row: tuple(column[row if len(column) > 1 else 0].item() for column in columns)
 
     @staticmethod
-    def _families(figures: Callable[[int], tuple[Any, ...]], there: NDArray[np.bool_]) -> list[list[int]]:
+    def _families(
+        figures: Callable[[int], tuple[Any, ...]], there: NDArray[np.bool_]
+    ) -> list[list[int]]:
         found: dict[tuple[Any, ...], list[int]] = defaultdict(list)
         for row in map(int, np.flatnonzero(there)):
             found[figures(row)].append(row)
         return list(found.values())
 
     def _moving(self) -> Array:
-        """What moves with each piston, g: on its axis, or on the curve of a linkage (whose cylinders count as equal or not)."""
+        """What moves with each piston, g: on its axis, or on the curve of a linkage (whose
+        cylinders count as equal or not).
+        """
         linkage = self._c.linkage
         return self._grams("reciprocating") + (0 if linkage is None else linkage.mass * 1e3)
 
@@ -184,7 +223,9 @@ class _Layout:
 
 
 def _decimals(values: Array) -> list[Fraction | None]:
-    """Places or masses as the short fractions that they were written as; a factor common to all does not matter."""
+    """Places or masses as the short fractions that they were written as; a factor common to all
+    does not matter.
+    """
     largest = float(np.abs(values).max())
     if np.all(np.isin(values, (0, largest, -largest))):
         return [Fraction(int(np.sign(v))) for v in values]

@@ -1,4 +1,5 @@
 """What a person reads of an analysis."""
+
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
@@ -21,7 +22,9 @@ _SCALARS = {"couple": "couple C", "torque": "inertia torque T", "roll": "roll C 
 
 
 def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
-    """The whole analysis: what the engine is, what it does order by order, peaks, verdict, sizing; pictures of characters."""
+    """The whole analysis: what the engine is, what it does order by order, peaks, verdict, sizing;
+    pictures of characters.
+    """
     engine, spectra = result.engine, result.spectra
     parts: list[Grid | Facts | Text] = [facts(result, system)]
     parts += order_by_order(spectra, system)
@@ -32,6 +35,7 @@ def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
     parts += [_share(n, share, system) for n, share in result.cylinders]
     if result.inner is not None or result.guide is not None or result.travel is not None:
         from .extras import parts as extras
+
         parts += extras(result, system)
     if found := verdict(spectra, system, result.of_one_cylinder):
         parts.append(Text("Verdict", found))
@@ -41,6 +45,7 @@ def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
         parts += _sizing(result.sizing, system)
     if pictures:
         from .terminal_plot import sketches
+
         parts += sketches(result, system)
     return Sheet(engine.name or "engine without a name", tuple(parts))
 
@@ -54,20 +59,37 @@ def facts(result: Analysis, system: System) -> Facts:
 
     def of_first(values: np.ndarray) -> float:
         return float(values[first if len(values) > 1 else 0])
+
     unequal = "" if engine.equal else " (cylinder 1; others differ)"
     radius, lam, weighed = float(c.radius), of_first(c.lam), engine.weighed[first]
-    crank = (f"r = {number(length.of(radius))} {length.name}, rod {number(length.of(radius / lam))} {length.name}, "
-             f"λ = {number(lam, 4)}{unequal}")
-    masses = (f"reciprocating {number(mass.of(weighed.piston + weighed.small_end), 4)} {mass.name} a cylinder (piston, rod's "
-              "share at its pin)")
-    if c.linkage is None or not c.linkage.turning:                          # else the pins stand still
-        masses += f", rotating {number(mass.of(weighed.big_end + weighed.share), 4)} {mass.name} a pin (rod's share, throw)"
+    crank = (
+        f"r = {number(length.of(radius))} {length.name}, rod {number(length.of(radius / lam))} "
+        f"{length.name}, "
+        f"λ = {number(lam, 4)}{unequal}"
+    )
+    masses = (
+        f"reciprocating {number(mass.of(weighed.piston + weighed.small_end), 4)} {mass.name} a "
+        "cylinder (piston, rod's "
+        "share at its pin)"
+    )
+    if c.linkage is None or not c.linkage.turning:  # else the pins stand still
+        masses += (
+            f", rotating {number(mass.of(weighed.big_end + weighed.share), 4)} {mass.name} "
+            "a pin "
+            "(rod's share, throw)"
+        )
     about = ", ".join(number(length.of(float(v))) for v in engine.reference_m)
     pairs = [
         ("cylinders", f"{c.count}{_banks(engine)}{_bore(engine, system)}"),
         ("crank", crank),
         ("firing", _firing(engine)),
-        ("speed", f"{number(engine.speed_rpm, 6)} rpm{', uneven: figures are those of the uneven speed' if engine.ripple else ''}"),
+        (
+            "speed",
+            (
+                f"{number(engine.speed_rpm, 6)} rpm"
+                f"{', uneven: figures are those of the uneven speed' if engine.ripple else ''}"
+            ),
+        ),
         ("masses", masses + unequal),
         ("orders", f"to {UNASKED}; --orders asks for higher ones" if result.beyond else ""),
         ("reference", f"moments about x, y, z = {about} {length.name}"),
@@ -81,7 +103,9 @@ def _bore(engine: Engine, system: System) -> str:
     """Bore, stroke and displacement, where the file gives the bore."""
     if engine.bore_m != engine.bore_m:
         return ""
-    bore, stroke = (number(system.length.of(v)) for v in (engine.bore_m, 2 * float(engine.cylinders.radius)))
+    bore, stroke = (
+        number(system.length.of(v)) for v in (engine.bore_m, 2 * float(engine.cylinders.radius))
+    )
     volume = number(system.volume.of(engine.displacement_m3), 4)
     return f", bore × stroke {bore} × {stroke} {system.length.name}, {volume} {system.volume.name}"
 
@@ -92,7 +116,9 @@ def _banks(engine: Engine) -> str:
     axes = np.ravel(engine.cylinders.axis_deg)
     if len(axes) == 1:
         return " in line"
-    return f", banks at {', '.join(f'{a:.4g}' for a in axes[:9])}{' …' if len(axes) > 9 else ''} deg"
+    return (
+        f", banks at {', '.join(f'{a:.4g}' for a in axes[:9])}{' …' if len(axes) > 9 else ''} deg"
+    )
 
 
 def _firing(engine: Engine) -> str:
@@ -102,7 +128,11 @@ def _firing(engine: Engine) -> str:
     instants = [*engine.fires_deg.values(), 180.0 * engine.strokes]
     gaps = [b - a for a, b in pairwise(instants)]
     even = max(gaps) - min(gaps) < 0.05
-    return f"{'-'.join(map(str, order))}, {f'every {gaps[0]:.4g}' if even else 'after ' + ', '.join(f'{g:.4g}' for g in gaps)} deg"
+    return (
+        f"{'-'.join(map(str, order))}, "
+        f"{f'every {gaps[0]:.4g}' if even else 'after ' + ', '.join(f'{g:.4g}' for g in gaps)} "
+        "deg"
+    )
 
 
 def _counted(engine: Engine) -> str:
@@ -110,9 +140,15 @@ def _counted(engine: Engine) -> str:
 
 
 # ------------------------------------------------------------------ order by order
-def _rows(orders: Array, phasors: list[Phasors], row: Callable[[int], tuple[str, ...]]) -> tuple[tuple[str, ...], ...]:
+def _rows(
+    orders: Array, phasors: list[Phasors], row: Callable[[int], tuple[str, ...]]
+) -> tuple[tuple[str, ...], ...]:
     """Orders up to 2, and those in which one of these quantities is not balanced."""
-    return tuple(row(k) for k, order in enumerate(orders) if order <= 2 or not all(p.balanced[k] for p in phasors))
+    return tuple(
+        row(k)
+        for k, order in enumerate(orders)
+        if order <= 2 or not all(p.balanced[k] for p in phasors)
+    )
 
 
 def order_by_order(spectra: Spectra, system: System) -> Iterator[Grid]:
@@ -133,11 +169,20 @@ def _vectors(title: str, phasors: Phasors, unit: Unit) -> Grid:
         name = f"{order_number(phasors.orders[k])}"
         if phasors.balanced[k]:
             return name, "balanced", "", "", "", ""
-        sizes = (phasors.major[k], phasors.minor[k], abs(phasors.forward[k]), abs(phasors.backward[k]))
+        sizes = (
+            phasors.major[k],
+            phasors.minor[k],
+            abs(phasors.forward[k]),
+            abs(phasors.backward[k]),
+        )
         largest, smallest, ahead, against = (number(unit.of(float(v))) for v in sizes)
         return name, largest, smallest, degrees(float(phasors.axis_deg[k])), ahead, against
-    return Grid(title, ("order", "largest", "smallest", "axis, deg", "with crank", "against"),
-                _rows(phasors.orders, [phasors], row))
+
+    return Grid(
+        title,
+        ("order", "largest", "smallest", "axis, deg", "with crank", "against"),
+        _rows(phasors.orders, [phasors], row),
+    )
 
 
 def _scalars(scalars: dict[str, Phasors], spectra: Spectra, unit: Unit) -> Grid:
@@ -146,28 +191,48 @@ def _scalars(scalars: dict[str, Phasors], spectra: Spectra, unit: Unit) -> Grid:
         for phasors in scalars.values():
             c = phasors.x[k]
             at = peak_deg(c, spectra.orders[k])
-            cells += ["balanced", ""] if c == 0 else [number(unit.of(abs(c))), "–" if at is None else degrees(at)]
+            cells += (
+                ["balanced", ""]
+                if c == 0
+                else [number(unit.of(abs(c))), "–" if at is None else degrees(at)]
+            )
         return tuple(cells)
+
     heads = [head for q in scalars for head in (_SCALARS[q], "peak, deg")]
-    return Grid(f"About the crank axis, {unit.name}", ("order", *heads), _rows(spectra.orders, list(scalars.values()), row))
+    return Grid(
+        f"About the crank axis, {unit.name}",
+        ("order", *heads),
+        _rows(spectra.orders, list(scalars.values()), row),
+    )
 
 
 def _directions(spectra: Spectra, system: System) -> Grid:
     """Vertical and horizontal, as builders state them."""
-    quantities = [(q, unit) for q, unit in (("force", system.force), ("moment", system.moment)) if getattr(spectra, q) is not None]
+    quantities = [
+        (q, unit)
+        for q, unit in (("force", system.force), ("moment", system.moment))
+        if getattr(spectra, q) is not None
+    ]
 
     def row(k: int) -> tuple[str, ...]:
         cells = [f"{order_number(spectra.orders[k])}"]
         for q, unit in quantities:
             phasors = getattr(spectra, q)
             for c in (phasors.x[k], phasors.y[k]):
-                cells += ["0", "–"] if c == 0 else [number(unit.of(abs(c)), 4), degrees(phase_deg(c))]
+                cells += (
+                    ["0", "–"] if c == 0 else [number(unit.of(abs(c)), 4), degrees(phase_deg(c))]
+                )
         return tuple(cells)
+
     names = {"force": ("Fx", "Fy"), "moment": ("Mx", "My")}
     heads = [head for q, _ in quantities for axis in names[q] for head in (axis, "deg")]
-    return Grid(f"Along x (vertical) and y (horizontal), {', '.join(unit.name for _, unit in quantities)}", ("order", *heads),
-                _rows(spectra.orders, [getattr(spectra, q) for q, _ in quantities], row),
-                note="Value = amplitude · cos(order · θ − angle). The moment about y is that of the forces along x.")
+    return Grid(
+        f"Along x (vertical) and y (horizontal), {', '.join(unit.name for _, unit in quantities)}",
+        ("order", *heads),
+        _rows(spectra.orders, [getattr(spectra, q) for q, _ in quantities], row),
+        note="Value = amplitude · cos(order · θ − angle). The moment about y is that of the "
+        "forces along x.",
+    )
 
 
 def _textbook(spectra: Spectra, units: Textbook, system: System) -> Iterator[Grid]:
@@ -175,42 +240,78 @@ def _textbook(spectra: Spectra, units: Textbook, system: System) -> Iterator[Gri
         return
     cylinder = "one cylinder" if units.equal else "cylinder 1"
     if spectra.force is not None:
-        note = (f"F1 = m r ω² = {number(system.force.of(units.force))} {system.force.name} (reciprocating mass of {cylinder}), "
-                "Fn = A_n F1 its n-th order.")
+        note = (
+            f"F1 = m r ω² = {number(system.force.of(units.force))} {system.force.name} "
+            f"(reciprocating mass of {cylinder}), "
+            "Fn = A_n F1 its n-th order."
+        )
         yield _multiples("force", spectra.force, units.force, units.ratios, note)
     if spectra.moment is not None and units.arm == units.arm:
-        note = f"a = {number(system.length.of(units.arm), 4)} {system.length.name}, the distance of neighbouring throws."
+        note = (
+            f"a = {number(system.length.of(units.arm), 4)} {system.length.name}, the distance "
+            "of "
+            "neighbouring throws."
+        )
         yield _multiples("moment", spectra.moment, units.force * units.arm, units.ratios, note)
 
 
 def _multiples(quantity: str, phasors: Phasors, size: float, ratios: Array, note: str) -> Grid:
     def row(k: int) -> tuple[str, ...]:
-        parts = [float(v) for v in (phasors.major[k], abs(phasors.forward[k]), abs(phasors.backward[k]))]
+        parts = [
+            float(v) for v in (phasors.major[k], abs(phasors.forward[k]), abs(phasors.backward[k]))
+        ]
         own = size * ratios[k]
-        return (f"{order_number(phasors.orders[k])}", *(number(p / size, 4) if size else "–" for p in parts),
-                number(parts[0] / own, 4) if ratios[k] > 1e-12 and size else "–")
+        return (
+            f"{order_number(phasors.orders[k])}",
+            *(number(p / size, 4) if size else "–" for p in parts),
+            number(parts[0] / own, 4) if ratios[k] > 1e-12 and size else "–",
+        )
+
     unit = "F1" if quantity == "force" else "F1·a"
-    heads = ("order", f"largest, {unit}", "with crank", "against", f"largest, {unit.replace('1', 'n')}")
-    return Grid(f"Free {quantity} in textbook units", heads, _rows(phasors.orders, [phasors], row), note)
+    heads = (
+        "order",
+        f"largest, {unit}",
+        "with crank",
+        "against",
+        f"largest, {unit.replace('1', 'n')}",
+    )
+    return Grid(
+        f"Free {quantity} in textbook units", heads, _rows(phasors.orders, [phasors], row), note
+    )
 
 
 def largest(result: Result, system: System, title: str) -> Facts:
     """The peaks."""
     pairs = (("force", result.force, system.force), ("moment", result.moment, system.moment))
-    return Facts(tuple((name, _peak(peak, unit)) for name, peak, unit in pairs if peak is not None), title)
+    return Facts(
+        tuple((name, _peak(peak, unit)) for name, peak, unit in pairs if peak is not None), title
+    )
 
 
 def _peak(peak: Peak, unit: Unit) -> str:
     if not peak.value:
         return "none"
-    return f"{number(unit.of(peak.value))} {unit.name} at crank angle {degrees(float(np.degrees(peak.theta)))} deg"
+    return (
+        f"{number(unit.of(peak.value))} {unit.name} at crank angle "
+        f"{degrees(float(np.degrees(peak.theta)))} deg"
+    )
 
 
 def _share(cylinder: int, share: Spectra, system: System) -> Grid:
     """Each cylinder's part, the lecturer's table: vectors as size and angle."""
+
     def cell(v: complex, unit: Unit) -> str:
-        return "0" if v == 0 else f"{number(unit.of(abs(v)), 4)} ∠ {degrees(float(np.degrees(np.angle(v))))}"
-    quantities = [(q, unit) for q, unit in (("force", system.force), ("moment", system.moment)) if getattr(share, q) is not None]
+        return (
+            "0"
+            if v == 0
+            else f"{number(unit.of(abs(v)), 4)} ∠ {degrees(float(np.degrees(np.angle(v))))}"
+        )
+
+    quantities = [
+        (q, unit)
+        for q, unit in (("force", system.force), ("moment", system.moment))
+        if getattr(share, q) is not None
+    ]
 
     def row(k: int) -> tuple[str, ...]:
         cells = [f"{order_number(share.orders[k])}"]
@@ -218,8 +319,13 @@ def _share(cylinder: int, share: Spectra, system: System) -> Grid:
             phasors = getattr(share, q)
             cells += [cell(phasors.forward[k], unit), cell(phasors.backward[k], unit)]
         return tuple(cells)
+
     heads = [f"{q} {way}, {unit.name}" for q, unit in quantities for way in ("with", "against")]
-    return Grid(f"Cylinder {cylinder} alone", ("order", *heads), tuple(row(k) for k in range(len(share.orders))))
+    return Grid(
+        f"Cylinder {cylinder} alone",
+        ("order", *heads),
+        tuple(row(k) for k in range(len(share.orders))),
+    )
 
 
 def _sizing(sizing: Sizing, system: System) -> Iterator[Grid | Text | Facts]:
@@ -227,6 +333,9 @@ def _sizing(sizing: Sizing, system: System) -> Iterator[Grid | Text | Facts]:
     if not (remedy.counterweights or remedy.shafts or remedy.sliders):
         yield Text("Sizing", ("Orders 1 and 2 need no counterweight and no shaft.",))
         return
-    yield Text("Sizing: what leaves no free force or moment of orders 1 and 2", tuple(dict.fromkeys(remedy.reasons)))
+    yield Text(
+        "Sizing: what leaves no free force or moment of orders 1 and 2",
+        tuple(dict.fromkeys(remedy.reasons)),
+    )
     yield device_grid(remedy, system)
     yield largest(after, system, "Largest with these devices")

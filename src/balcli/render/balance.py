@@ -1,4 +1,7 @@
-"""What a person reads of a balance: devices, their practical figures, and what shakes before and after."""
+"""What a person reads of a balance: devices, their practical figures, and what shakes before and
+after.
+"""
+
 from __future__ import annotations
 
 import math
@@ -15,7 +18,16 @@ from .sheet import Facts, Grid, Sheet, Text, degrees, number
 from .units import System, Unit
 
 _UNITS = {"N": "force", "Nm": "moment", "kg_m": "unbalance", "mm": "length"}
-_CARD = ("piston_g", "small_end_g", "big_end_g", "rod_bearing_g", "oil_g", "rotating_g", "reciprocating_g", "bobweight_g")
+_CARD = (
+    "piston_g",
+    "small_end_g",
+    "big_end_g",
+    "rod_bearing_g",
+    "oil_g",
+    "rotating_g",
+    "reciprocating_g",
+    "bobweight_g",
+)
 
 
 def sheet(result: Balance, system: System) -> Sheet:
@@ -29,12 +41,20 @@ def sheet(result: Balance, system: System) -> Sheet:
         parts.append(Text("What is fitted, and why", tuple(dict.fromkeys(remedy.reasons))))
         parts += [device_grid(remedy, system), _practical(result, system)]
     else:
-        parts.append(Text("Nothing is fitted", () if "note" in remedy.details else ("Orders 1 and 2 are balanced.",)))
+        parts.append(
+            Text(
+                "Nothing is fitted",
+                () if "note" in remedy.details else ("Orders 1 and 2 are balanced.",),
+            )
+        )
     if "note" in remedy.details:
         parts.append(Text("Note", (str(remedy.details["note"]),)))
     parts += _details(remedy.details, system)
     parts += [_orders(result, system), _peaks(result, system)]
-    return Sheet(f"{result.before.engine.name or 'engine without a name'}: {remedy.scheme}{order}", tuple(parts))
+    return Sheet(
+        f"{result.before.engine.name or 'engine without a name'}: {remedy.scheme}{order}",
+        tuple(parts),
+    )
 
 
 def _practical(result: Balance, system: System) -> Grid:
@@ -42,15 +62,44 @@ def _practical(result: Balance, system: System) -> Grid:
     first = result.practical[0]
     drilled = first.depth is not None
     for k, p in enumerate(result.practical, 1):
-        depth = [] if p.depth is None else ["too small" if math.isnan(p.depth) else number(system.length.of(p.depth), 3)]
-        rows.append((str(k), f"{p.speed_rpm:.0f}", number(system.force.of(p.force)), number(system.mass.of(p.mass), 4),
-                     number(system.length.of(p.disc_radius), 3), number(system.length.of(p.disc_thickness), 3), *depth))
-    names = ("device", "rpm", f"pulls, {system.force.name}", f"mass, {system.mass.name}", f"disc r, {system.length.name}",
-             f"thick, {system.length.name}", *([f"drill, {system.length.name}"] if drilled else []))
-    hole = "; drill: depth of a radial hole from that radius inwards that removes as much" if drilled else ""
-    return Grid("Practical figures", names, tuple(rows),
-                note=f"Mass at a radius of {number(system.length.of(first.radius), 4)} {system.length.name}; "
-                     f"disc: a semicircular one of steel{hole}.")
+        depth = (
+            []
+            if p.depth is None
+            else ["too small" if math.isnan(p.depth) else number(system.length.of(p.depth), 3)]
+        )
+        rows.append(
+            (
+                str(k),
+                f"{p.speed_rpm:.0f}",
+                number(system.force.of(p.force)),
+                number(system.mass.of(p.mass), 4),
+                number(system.length.of(p.disc_radius), 3),
+                number(system.length.of(p.disc_thickness), 3),
+                *depth,
+            )
+        )
+    names = (
+        "device",
+        "rpm",
+        f"pulls, {system.force.name}",
+        f"mass, {system.mass.name}",
+        f"disc r, {system.length.name}",
+        f"thick, {system.length.name}",
+        *([f"drill, {system.length.name}"] if drilled else []),
+    )
+    hole = (
+        "; drill: depth of a radial hole from that radius inwards that removes as much"
+        if drilled
+        else ""
+    )
+    return Grid(
+        "Practical figures",
+        names,
+        tuple(rows),
+        note=f"Mass at a radius of {number(system.length.of(first.radius), 4)} "
+        f"{system.length.name}; "
+        f"disc: a semicircular one of steel{hole}.",
+    )
 
 
 # ------------------------------------------------------------------ before and after
@@ -62,18 +111,44 @@ def _orders(result: Balance, system: System) -> Grid:
         for quantity, unit in columns:
             for analysis in (result.before, result.after):
                 phasors = getattr(analysis.spectra, quantity)
-                cells.append("balanced" if phasors.balanced[k] else number(unit.of(float(phasors.major[k])), 4))
+                cells.append(
+                    "balanced"
+                    if phasors.balanced[k]
+                    else number(unit.of(float(phasors.major[k])), 4)
+                )
         return tuple(cells)
-    heads = [f"{name}, {unit.name}" if n == 0 else "after" for name, unit in columns for n in (0, 1)]
-    return Grid("Largest value by order, before and after", ("order", *heads), tuple(map(row, range(len(result.before.orders)))))
+
+    heads = [
+        f"{name}, {unit.name}" if n == 0 else "after" for name, unit in columns for n in (0, 1)
+    ]
+    return Grid(
+        "Largest value by order, before and after",
+        ("order", *heads),
+        tuple(map(row, range(len(result.before.orders)))),
+    )
 
 
 def _peaks(result: Balance, system: System) -> Grid:
     before, after = result.before, result.after
-    pairs = (("force", before.force, after.force, system.force), ("moment", before.moment, after.moment, system.moment))
-    rows = [(f"{name}, {unit.name}", *(cell for peak in peaks for cell in _peak(peak, unit))) for name, *peaks, unit in pairs]
-    note = "Sized for steady mean speed; both columns are those of the uneven speed." if result.before.engine.ripple else ""
-    return Grid("Largest over a revolution, all orders", ("", "before", "at, deg", "after", "at, deg"), tuple(rows), note=note)
+    pairs = (
+        ("force", before.force, after.force, system.force),
+        ("moment", before.moment, after.moment, system.moment),
+    )
+    rows = [
+        (f"{name}, {unit.name}", *(cell for peak in peaks for cell in _peak(peak, unit)))
+        for name, *peaks, unit in pairs
+    ]
+    note = (
+        "Sized for steady mean speed; both columns are those of the uneven speed."
+        if result.before.engine.ripple
+        else ""
+    )
+    return Grid(
+        "Largest over a revolution, all orders",
+        ("", "before", "at, deg", "after", "at, deg"),
+        tuple(rows),
+        note=note,
+    )
 
 
 def _peak(peak: Peak | None, unit: Unit) -> tuple[str, str]:
@@ -85,9 +160,13 @@ def _peak(peak: Peak | None, unit: Unit) -> tuple[str, str]:
 # ------------------------------------------------------------------ details
 def _details(details: Mapping[str, Any], system: System) -> Iterator[Grid | Facts | Text]:
     """Figures of a scheme that are no device."""
-    plain = [fact for key, value in details.items()
-             if key in ("reached_deg", "knuckle_angles_deg") or (key != "note" and not isinstance(value, list))
-             for fact in _facts(key, value, system)]
+    plain = [
+        fact
+        for key, value in details.items()
+        if key in ("reached_deg", "knuckle_angles_deg")
+        or (key != "note" and not isinstance(value, list))
+        for fact in _facts(key, value, system)
+    ]
     if plain:
         yield Facts(tuple(plain), "Details")
     if "card" in details:
@@ -123,25 +202,62 @@ def _sized(value: float, ending: str, system: System) -> str:
 
 
 def _card(card: list[dict[str, Any]]) -> Grid:
-    """Grams are what a balancing shop's scales show, in either system; equal pins stand in one column."""
+    """Grams are what a balancing shop's scales show, in either system; equal pins stand in one
+    column.
+    """
     equal: dict[tuple[float, ...], list[dict[str, Any]]] = {}
     for entry in card:
         equal.setdefault(tuple(entry[key] for key in _CARD), []).append(entry)
-    rows = [(key.removesuffix("_g").replace("_", " "), *(number(entries[0][key], 5) for entries in equal.values())) for key in _CARD]
-    heads = [f"cylinders {', '.join(str(n) for entry in entries for n in entry['cylinders'])}" for entries in equal.values()]
+    rows = [
+        (
+            key.removesuffix("_g").replace("_", " "),
+            *(number(entries[0][key], 5) for entries in equal.values()),
+        )
+        for key in _CARD
+    ]
+    heads = [
+        f"cylinders {', '.join(str(n) for entry in entries for n in entry['cylinders'])}"
+        for entries in equal.values()
+    ]
     pins = "each pin" if len(equal) < len(card) else "pin"
     return Grid(f"Bobweight card, g for {pins}", ("", *heads), tuple(rows))
 
 
 def _sweep(sweep: list[dict[str, float]], system: System) -> Grid:
     unit = system.force
-    rows = [(f"{row['factor']:g}", *(number(unit.of(row[key])) for key in ("peak_force_N", "along_N", "across_N")),
-             number(system.moment.of(row["peak_moment_Nm"]))) for row in sweep]
-    heads = ("factor", f"force, {unit.name}", "along 1st bank", "across it", f"moment, {system.moment.name}")
+    rows = [
+        (
+            f"{row['factor']:g}",
+            *(number(unit.of(row[key])) for key in ("peak_force_N", "along_N", "across_N")),
+            number(system.moment.of(row["peak_moment_Nm"])),
+        )
+        for row in sweep
+    ]
+    heads = (
+        "factor",
+        f"force, {unit.name}",
+        "along 1st bank",
+        "across it",
+        f"moment, {system.moment.name}",
+    )
     return Grid("Largest values by factor", heads, tuple(rows))
 
 
 def _optima(optima: list[dict[str, Any]]) -> Grid:
-    rows = [(o["design"], o["criterion"], o["engine_force"], f"{o['k']:.5f}",
-             f"{o['mu']:.6f}", f"{o['largest']:.6f}", f"{o['mean']:.6f}") for o in optima]
-    return Grid("Optima of both designs", ("design", "criterion", "engine force", "k", "μ", "largest/J", "mean/J"), tuple(rows))
+    rows = [
+        (
+            o["design"],
+            o["criterion"],
+            o["engine_force"],
+            f"{o['k']:.5f}",
+            f"{o['mu']:.6f}",
+            f"{o['largest']:.6f}",
+            f"{o['mean']:.6f}",
+        )
+        for o in optima
+    ]
+    return Grid(
+        "Optima of both designs",
+        ("design", "criterion", "engine force", "k", "μ", "largest/J", "mean/J"),
+        tuple(rows),
+    )

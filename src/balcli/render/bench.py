@@ -1,4 +1,5 @@
 """Results of the benchmark: table, JSON, CSV, and run time against error as a picture."""
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
@@ -9,29 +10,53 @@ from .sheet import Grid, Sheet, number
 if TYPE_CHECKING:
     from ..bench.bench import Bench, Row
 
-LEAST = 1e-17                   # where a picture shows an error of 0
+LEAST = 1e-17  # where a picture shows an error of 0
 
 
 def document(result: Bench) -> dict[str, Any]:
-    """`balcli.bench/1`: seconds, relative errors (null where there is none), ratios of run times."""
-    return {"format": "balcli.bench/1",
-            "rows": [{"task": r.task, "method": r.method, "seconds": r.seconds, "error": r.error} for r in result.rows],
-            "ratios": [{"what": r.what, "value": r.value} for r in result.ratios]}
+    """`balcli.bench/1`: seconds, relative errors (null where there is none), ratios of run
+    times.
+    """
+    return {
+        "format": "balcli.bench/1",
+        "rows": [
+            {"task": r.task, "method": r.method, "seconds": r.seconds, "error": r.error}
+            for r in result.rows
+        ],
+        "ratios": [{"what": r.what, "value": r.value} for r in result.ratios],
+    }
 
 
 def rows(result: Bench) -> str:
     """CSV: run times and errors, then ratios."""
-    return write(("task", "method", "seconds", "error", "ratio"), [
-        *((r.task, r.method, r.seconds, r.error, None) for r in result.rows),
-        *(("ratio", r.what, None, None, r.value) for r in result.ratios)])
+    return write(
+        ("task", "method", "seconds", "error", "ratio"),
+        [
+            *((r.task, r.method, r.seconds, r.error, None) for r in result.rows),
+            *(("ratio", r.what, None, None, r.value) for r in result.ratios),
+        ],
+    )
 
 
 def sheet(result: Bench) -> Sheet:
     """A table a task, and the ratios."""
-    grids = [Grid(f"{task[0].upper()}{task[1:]}", ("method", "µs", "relative error"),
-                  tuple((r.method, number(r.seconds * 1e6, 3), error(r)) for r in result.rows if r.task == task))
-             for task in dict.fromkeys(r.task for r in result.rows)]
-    ratios = Grid("Ratios of run times", ("", "ratio"), tuple((r.what, number(r.value, 3)) for r in result.ratios))
+    grids = [
+        Grid(
+            f"{task[0].upper()}{task[1:]}",
+            ("method", "µs", "relative error"),
+            tuple(
+                (r.method, number(r.seconds * 1e6, 3), error(r))
+                for r in result.rows
+                if r.task == task
+            ),
+        )
+        for task in dict.fromkeys(r.task for r in result.rows)
+    ]
+    ratios = Grid(
+        "Ratios of run times",
+        ("", "ratio"),
+        tuple((r.what, number(r.value, 3)) for r in result.ratios),
+    )
     return Sheet("Run time against error", (*grids, ratios))
 
 
@@ -50,9 +75,15 @@ def draw(result: Bench) -> bytes:
             points = [r for r in result.rows if r.task == task and r.error is not None]
             for r in points:
                 spot = r.seconds * 1e6, max(r.error or 0.0, LEAST)
-                axes.plot(*spot, "o", color=style.RED if r.method.startswith("closed form") else style.BLUE)
+                axes.plot(
+                    *spot,
+                    "o",
+                    color=style.RED if r.method.startswith("closed form") else style.BLUE,
+                )
                 axes.annotate(r.method, spot, xytext=(4, 3), textcoords="offset points", fontsize=7)
             axes.set(xscale="log", yscale="log", xlabel="µs", ylabel="relative error", title=task)
-            for axis in (axes.xaxis, axes.yaxis):                           # no mathematical text in our style
-                axis.set_major_formatter(lambda value, _: f"{value:.0e}" if not 0.01 <= value < 1e5 else f"{value:g}")
+            for axis in (axes.xaxis, axes.yaxis):  # no mathematical text in our style
+                axis.set_major_formatter(
+                    lambda value, _: f"{value:.0e}" if not 0.01 <= value < 1e5 else f"{value:g}"
+                )
         return style.saved(page, "svg")

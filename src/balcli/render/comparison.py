@@ -1,4 +1,5 @@
 """Engines side by side."""
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
@@ -15,9 +16,19 @@ _WORDS = {"torque": "inertia torque", "roll": "roll C − T", "couple": "couple 
 
 def document(result: Comparison) -> dict[str, Any]:
     """`balcli.compare/1`: SI, ratios to the first engine (null where that has none)."""
-    return {"format": "balcli.compare/1", "engines": list(result.names), "figures": [
-        {"quantity": _key(line), "order": line.order, "values": list(line.values), "ratios": [r if r == r else None for r in line.ratios]}
-        for line in result.lines]}
+    return {
+        "format": "balcli.compare/1",
+        "engines": list(result.names),
+        "figures": [
+            {
+                "quantity": _key(line),
+                "order": line.order,
+                "values": list(line.values),
+                "ratios": [r if r == r else None for r in line.ratios],
+            }
+            for line in result.lines
+        ],
+    }
 
 
 def _key(line: Line) -> str:
@@ -27,9 +38,19 @@ def _key(line: Line) -> str:
 
 def rows(result: Comparison, system: System) -> str:
     """CSV, a figure a line."""
-    return write(("quantity", "order", "unit", *result.names), [
-        (line.quantity if line.order is not None else f"peak {line.quantity}", line.order, unit.name, *map(unit.of, line.values))
-        for line in result.lines for unit in [system.force if line.quantity == "force" else system.moment]])
+    return write(
+        ("quantity", "order", "unit", *result.names),
+        [
+            (
+                line.quantity if line.order is not None else f"peak {line.quantity}",
+                line.order,
+                unit.name,
+                *map(unit.of, line.values),
+            )
+            for line in result.lines
+            for unit in [system.force if line.quantity == "force" else system.moment]
+        ],
+    )
 
 
 def sheet(result: Comparison, system: System) -> Sheet:
@@ -40,12 +61,17 @@ def sheet(result: Comparison, system: System) -> Sheet:
         unit = system.force if quantity == "force" else system.moment
         lines = [line for line in result.lines if line.quantity == quantity]
         title = f"{_WORDS.get(quantity, f'Free {quantity}')}, {unit.name}: largest by order"
-        grids.append(Grid(title[0].upper() + title[1:], heads, tuple(_row(line, unit.of) for line in lines)))
+        grids.append(
+            Grid(title[0].upper() + title[1:], heads, tuple(_row(line, unit.of) for line in lines))
+        )
     return Sheet("Engines side by side", tuple(grids))
 
 
 def _row(line: Line, of: Any) -> tuple[str, ...]:
     first, *others = (number(of(value)) for value in line.values)
     ratios = [number(ratio, 4) for ratio in line.ratios[1:]]
-    return ("peak" if line.order is None else f"order {line.order}", first,
-            *(cell for pair in zip(others, ratios, strict=True) for cell in pair))
+    return (
+        "peak" if line.order is None else f"order {line.order}",
+        first,
+        *(cell for pair in zip(others, ratios, strict=True) for cell in pair),
+    )

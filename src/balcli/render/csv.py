@@ -1,4 +1,5 @@
 """Results as CSV: full precision, one header, one figure or variant a line."""
+
 from __future__ import annotations
 
 import csv
@@ -18,50 +19,79 @@ def write(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
     buffer = StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow(header)
-    writer.writerows([("" if cell is None else str(cell).lower() if isinstance(cell, bool) else cell) for cell in row] for row in rows)
+    writer.writerows(
+        [
+            ("" if cell is None else str(cell).lower() if isinstance(cell, bool) else cell)
+            for cell in row
+        ]
+        for row in rows
+    )
     return buffer.getvalue()
 
 
 def analyses(results: Sequence[Analysis], names: Sequence[str], system: System) -> str:
-    """One figure a row, under the name of its engine; cylinder 0 is the whole engine, an empty order the whole curve."""
+    """One figure a row, under the name of its engine; cylinder 0 is the whole engine, an empty
+    order the whole curve.
+    """
     from .extras import rows as extras
     from .figures import rows
 
-    return write(("engine", "cylinder", "quantity", "order", "figure", "value", "unit"),
-                 ((name, *row) for name, result in zip(names, results, strict=True)
-                  for row in (*rows(result, system), *extras(result, system))))
+    return write(
+        ("engine", "cylinder", "quantity", "order", "figure", "value", "unit"),
+        (
+            (name, *row)
+            for name, result in zip(names, results, strict=True)
+            for row in (*rows(result, system), *extras(result, system))
+        ),
+    )
 
 
 def sums(result: Combined, system: System) -> str:
     """One figure a row, of both engines together."""
     from .figures import rows
 
-    return write(("quantity", "order", "figure", "value", "unit"), (row[1:] for row in rows(result, system)))
+    return write(
+        ("quantity", "order", "figure", "value", "unit"), (row[1:] for row in rows(result, system))
+    )
 
 
 def balances(result: Balance, system: System) -> str:
-    """One figure a row: those of the devices, the scheme's other figures (SI, as in JSON: their names say the unit), and those of
-    the engine without and with the devices."""
+    """One figure a row: those of the devices, the scheme's other figures (SI, as in JSON: their
+    names say the unit), and those of the engine without and with the devices.
+    """
     from .figures import rows
     from .json import details, practical
 
-    parts = [(f"{kind} {number}", device) for kind, devices in (
-        ("counterweight", result.remedy.counterweights), ("shaft", result.remedy.shafts), ("slider", result.remedy.sliders))
-        for number, device in enumerate(devices, 1)]
+    parts = [
+        (f"{kind} {number}", device)
+        for kind, devices in (
+            ("counterweight", result.remedy.counterweights),
+            ("shaft", result.remedy.shafts),
+            ("slider", result.remedy.sliders),
+        )
+        for number, device in enumerate(devices, 1)
+    ]
     figures: list[Sequence[Any]] = []
     for (part, device), shop in zip(parts, result.practical, strict=True):
         figures += [(part, "", "", *figure) for figure in _device(device, system)]
         figures += [(part, "", "", name, value, "") for name, value in _named(practical(shop))]
-    figures += [("details", "", "", name, value, "") for name, value in _named(details(result.remedy))]
+    figures += [
+        ("details", "", "", name, value, "") for name, value in _named(details(result.remedy))
+    ]
     for state, analysis in (("before", result.before), ("after", result.after)):
-        figures += [(state, row.quantity, row.order, row.figure, row.value, row.unit) for row in rows(analysis, system)]
+        figures += [
+            (state, row.quantity, row.order, row.figure, row.value, row.unit)
+            for row in rows(analysis, system)
+        ]
     return write(("part", "quantity", "order", "figure", "value", "unit"), figures)
 
 
 def _device(device: Any, system: System) -> Iterator[tuple[str, Any, str]]:
     """What an engine file would say of it."""
+
     def length(millimetres: float) -> float:
         return _in(system.length, millimetres, 1e-3)
+
     for name in ("ratio", "order"):
         if hasattr(device, name):
             yield name, getattr(device, name), ""
@@ -75,7 +105,9 @@ def _device(device: Any, system: System) -> Iterator[tuple[str, Any, str]]:
 
 
 def _in(unit: Unit, value: float, size: float) -> float:
-    """A value in units of this size (of the SI unit) in another unit; as it is where that is the same."""
+    """A value in units of this size (of the SI unit) in another unit; as it is where that is the
+    same.
+    """
     return value if unit.size == size else unit.of(value * size)
 
 

@@ -1,4 +1,7 @@
-"""Inner moments, guide-force moments, strokes and dead centres: as parts of a sheet, of the JSON and as rows."""
+"""Inner moments, guide-force moments, strokes and dead centres: as parts of a sheet, of the JSON
+and as rows.
+"""
+
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -28,34 +31,61 @@ def document(result: Analysis) -> dict[str, Any]:
     if result.guide is not None:
         found["guide"] = {"includes": "inertia, without gas", "orders": _guide(result.guide)}
     if result.travel is not None:
-        found["travel"] = [{"cylinder": n, "stroke_m": clean(result.travel.stroke[row]), "top_deg": clean(result.travel.top_deg[row]),
-                            "bottom_deg": clean(result.travel.bottom_deg[row])} for n, row in _rows(result)]
+        found["travel"] = [
+            {
+                "cylinder": n,
+                "stroke_m": clean(result.travel.stroke[row]),
+                "top_deg": clean(result.travel.top_deg[row]),
+                "bottom_deg": clean(result.travel.bottom_deg[row]),
+            }
+            for n, row in _rows(result)
+        ]
     return found
 
 
 def _inner(inner: Inner) -> dict[str, Any]:
     most = inner.bending.largest
     found = {
-        "largest_bending_Nm": clean(inner.bending.peaks[most].value), "largest_at_mm": clean(inner.bending.z_m[most] * 1e3),
-        "sections": [{"position_mm": clean(z * 1e3), "shear_N": _place(inner.shear, k), "bending_Nm": _place(inner.bending, k)}
-                     for k, z in enumerate(inner.shear.z_m)],
+        "largest_bending_Nm": clean(inner.bending.peaks[most].value),
+        "largest_at_mm": clean(inner.bending.z_m[most] * 1e3),
+        "sections": [
+            {
+                "position_mm": clean(z * 1e3),
+                "shear_N": _place(inner.shear, k),
+                "bending_Nm": _place(inner.bending, k),
+            }
+            for k, z in enumerate(inner.shear.z_m)
+        ],
     }
     if inner.bearings is not None:
-        found["bearings"] = [{"position_mm": clean(z * 1e3), "load_N": _place(inner.bearings, k)}
-                             for k, z in enumerate(inner.bearings.z_m)]
+        found["bearings"] = [
+            {"position_mm": clean(z * 1e3), "load_N": _place(inner.bearings, k)}
+            for k, z in enumerate(inner.bearings.z_m)
+        ]
     return found
 
 
 def _place(along: Along, k: int) -> dict[str, Any]:
     peak = along.peaks[k]
     here = along.at(k)
-    return {"peak": clean(peak.value), "peak_deg": clean(np.degrees(peak.theta)) if peak.value else None,
-            "orders": [{"order": order_number(n), **vector(here, row)} for row, n in enumerate(here.orders)]}
+    return {
+        "peak": clean(peak.value),
+        "peak_deg": clean(np.degrees(peak.theta)) if peak.value else None,
+        "orders": [
+            {"order": order_number(n), **vector(here, row)} for row, n in enumerate(here.orders)
+        ],
+    }
 
 
 def _guide(guide: Guide) -> list[dict[str, Any]]:
-    return [{"order": order_number(n), "h_Nm": scalar(guide.h, k), **({} if guide.x is None else {"x_Nm": scalar(guide.x, k)})}
-            for k, n in enumerate(guide.h.orders)]
+    return [
+        {
+            "order": order_number(n),
+            "h_Nm": scalar(guide.h, k),
+            **({} if guide.x is None else {"x_Nm": scalar(guide.x, k)}),
+        }
+        for k, n in enumerate(guide.h.orders)
+    ]
 
 
 def _rows(result: Analysis) -> list[tuple[int, int]]:
@@ -65,7 +95,9 @@ def _rows(result: Analysis) -> list[tuple[int, int]]:
 
 # ------------------------------------------------------------------ rows
 def rows(result: Analysis, system: System) -> Iterator[Row]:
-    """The same one figure a row, and what `--why` says. Places along the crank are numbered: `shear 1` has its position as a figure."""
+    """The same one figure a row, and what `--why` says. Places along the crank are numbered: `shear
+    1` has its position as a figure.
+    """
     if result.travel is not None:
         yield from _travel_rows(result, result.travel, system.length)
     if result.inner is not None:
@@ -96,7 +128,9 @@ def _guide_rows(guide: Guide, unit: Unit) -> Iterator[Row]:
 def _why_rows(why: Why) -> Iterator[Row]:
     for reason in why.reasons:
         yield Row(0, reason.quantity, reason.order, "why", reason.verdict, "")
-        yield Row(0, reason.quantity, reason.order, "why_size", clean(reason.size), "of one cylinder")
+        yield Row(
+            0, reason.quantity, reason.order, "why_size", clean(reason.size), "of one cylinder"
+        )
     if why.firing:
         yield Row(0, "firing", None, "why", why.firing, "")
 
@@ -127,25 +161,49 @@ def _strokes(result: Analysis, travel: Travel, system: System) -> Grid:
     def cells(n: int, row: int) -> tuple[str, ...]:
         dead = (f"{angles[row] + 0.0:.3f}" for angles in (travel.top_deg, travel.bottom_deg))
         return str(n), number(system.length.of(float(travel.stroke[row])), 7), *dead
-    return Grid("Strokes and dead centres", ("cylinder", f"stroke, {system.length.name}", "top, deg", "bottom, deg"),
-                tuple(cells(n, row) for n, row in _rows(result)),
-                note="Dead centres: crank degrees after the pin lies along the cylinder's axis, and half a turn later.")
+
+    return Grid(
+        "Strokes and dead centres",
+        ("cylinder", f"stroke, {system.length.name}", "top, deg", "bottom, deg"),
+        tuple(cells(n, row) for n, row in _rows(result)),
+        note="Dead centres: crank degrees after the pin lies along the cylinder's axis, and half "
+        "a turn later.",
+    )
 
 
 def _along_the_crank(inner: Inner, system: System) -> Iterator[Grid | Facts]:
     from .sheet import Facts, number
 
-    yield _places(inner.shear, system, system.force, "Shear force in the crankshaft behind each load")
+    yield _places(
+        inner.shear, system, system.force, "Shear force in the crankshaft behind each load"
+    )
     yield _places(inner.bending, system, system.moment, "Bending moment in the crankshaft")
     if inner.bearings is not None:
-        yield _places(inner.bearings, system, system.force, "Inertia loads of main bearings half-way between throws, shaft cut in each")
+        yield _places(
+            inner.bearings,
+            system,
+            system.force,
+            "Inertia loads of main bearings half-way between throws, shaft cut in each",
+        )
     most = inner.bending.largest
     at = f"at {number(system.length.of(float(inner.bending.z_m[most])))} {system.length.name}"
-    yield Facts((("largest inner moment", f"{number(system.moment.of(inner.bending.peaks[most].value))} {system.moment.name} {at}"),))
+    yield Facts(
+        (
+            (
+                "largest inner moment",
+                (
+                    f"{number(system.moment.of(inner.bending.peaks[most].value))} "
+                    f"{system.moment.name} {at}"
+                ),
+            ),
+        )
+    )
 
 
 def _places(along: Along, system: System, unit: Unit, title: str) -> Grid:
-    """One row a place: the peak over a revolution, and the largest value of each of the first orders."""
+    """One row a place: the peak over a revolution, and the largest value of each of the first
+    orders.
+    """
     from .sheet import Grid, degrees, number
 
     orders = along.phasors.orders[:6]
@@ -154,8 +212,19 @@ def _places(along: Along, system: System, unit: Unit, title: str) -> Grid:
         peak, here = along.peaks[k], along.at(k)
         at = degrees(float(np.degrees(peak.theta))) if peak.value else "–"
         sizes = (number(unit.of(float(here.major[j])), 4) for j in range(len(orders)))
-        return number(system.length.of(float(along.z_m[k]))), number(unit.of(peak.value)), at, *sizes
-    heads = (f"place, {system.length.name}", "largest", "deg", *(f"order {order_number(n)}" for n in orders))
+        return (
+            number(system.length.of(float(along.z_m[k]))),
+            number(unit.of(peak.value)),
+            at,
+            *sizes,
+        )
+
+    heads = (
+        f"place, {system.length.name}",
+        "largest",
+        "deg",
+        *(f"order {order_number(n)}" for n in orders),
+    )
     return Grid(f"{title}, {unit.name}", heads, tuple(row(k) for k in range(len(along.z_m))))
 
 
@@ -164,5 +233,12 @@ def _guide_forces(guide: Guide, system: System) -> Grid:
 
     def size(phasors: Phasors | None, k: int) -> str:
         return "–" if phasors is None else number(system.moment.of(float(phasors.major[k])))
-    return Grid(f"Guide-force moments of inertia alone, without gas, {system.moment.name}", ("order", "H-type", "X-type"),
-                tuple((str(order_number(n)), size(guide.h, k), size(guide.x, k)) for k, n in enumerate(guide.h.orders)))
+
+    return Grid(
+        f"Guide-force moments of inertia alone, without gas, {system.moment.name}",
+        ("order", "H-type", "X-type"),
+        tuple(
+            (str(order_number(n)), size(guide.h, k), size(guide.x, k))
+            for k, n in enumerate(guide.h.orders)
+        ),
+    )

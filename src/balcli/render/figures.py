@@ -1,4 +1,5 @@
 """The figures of a result by name, as JSON nests them and CSV lists them."""
+
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -11,7 +12,13 @@ from ..core.phasors import Phasors
 from ..forces.spectrum import Spectra
 from .units import System, Unit
 
-KEYS = {"force": "force_N", "moment": "moment_Nm", "couple": "couple_Nm", "torque": "inertia_torque_Nm", "roll": "roll_Nm"}
+KEYS = {
+    "force": "force_N",
+    "moment": "moment_Nm",
+    "couple": "couple_Nm",
+    "torque": "inertia_torque_Nm",
+    "roll": "roll_Nm",
+}
 VECTORS = ("force", "moment")
 
 
@@ -54,27 +61,40 @@ def clean(value: Any) -> float | None:
 
 def vector(phasors: Phasors, k: int) -> dict[str, Any]:
     """Force or moment of the k-th order."""
-    phasors, k = phasors.at(phasors.orders[k:k + 1]), 0                     # else each figure would be computed for all orders each time
+    phasors, k = (
+        phasors.at(phasors.orders[k : k + 1]),
+        0,
+    )  # else each figure would be computed for all orders each time
     forward, backward = phasors.forward[k], phasors.backward[k]
     return {
         "forward": [clean(forward.real), clean(forward.imag)],
         "backward": [clean(backward.real), clean(backward.imag)],
-        "major": clean(phasors.major[k]), "minor": clean(phasors.minor[k]), "axis_deg": clean(phasors.axis_deg[k]),
-        "x": _component(phasors.x[k], phasors.orders[k]), "y": _component(phasors.y[k], phasors.orders[k]),
+        "major": clean(phasors.major[k]),
+        "minor": clean(phasors.minor[k]),
+        "axis_deg": clean(phasors.axis_deg[k]),
+        "x": _component(phasors.x[k], phasors.orders[k]),
+        "y": _component(phasors.y[k], phasors.orders[k]),
         "balanced": bool(phasors.balanced[k]),
     }
 
 
 def scalar(phasors: Phasors, k: int) -> dict[str, Any]:
     """Couple, torque or roll of the k-th order."""
-    phasors, k = phasors.at(phasors.orders[k:k + 1]), 0
+    phasors, k = phasors.at(phasors.orders[k : k + 1]), 0
     c, order = phasors.x[k], phasors.orders[k]
-    return {"cos": clean(c.real), "sin": clean(-c.imag), "amplitude": clean(abs(c)), "peak_deg": peak_deg(c, order),
-            "balanced": bool(phasors.balanced[k])}
+    return {
+        "cos": clean(c.real),
+        "sin": clean(-c.imag),
+        "amplitude": clean(abs(c)),
+        "peak_deg": peak_deg(c, order),
+        "balanced": bool(phasors.balanced[k]),
+    }
 
 
 def peak_deg(c: complex, order: float) -> float | None:
-    """First crank angle in [0, 360/order) at which `Re(c e^{i n theta})` is largest; None if it vanishes or is a mean."""
+    """First crank angle in [0, 360/order) at which `Re(c e^{i n theta})` is largest; None if it
+    vanishes or is a mean.
+    """
     if c == 0 or order == 0:
         return None
     angle = float(np.degrees(-np.angle(c)) % 360 / order)
@@ -94,7 +114,9 @@ def phase_deg(c: complex) -> float:
 
 def entries(spectra: Spectra, k: int) -> dict[str, dict[str, Any]]:
     """All quantities of the k-th order by their JSON keys."""
-    return {KEYS[q]: (vector if q in VECTORS else scalar)(phasors, k) for q, phasors in spectra.items()}
+    return {
+        KEYS[q]: (vector if q in VECTORS else scalar)(phasors, k) for q, phasors in spectra.items()
+    }
 
 
 def peaks(analysis: Result) -> dict[str, float | None]:
@@ -102,7 +124,10 @@ def peaks(analysis: Result) -> dict[str, float | None]:
     found: dict[str, float | None] = {}
     for name, unit, peak in (("force", "N", analysis.force), ("moment", "Nm", analysis.moment)):
         if peak is not None:
-            found |= {f"{name}_{unit}": clean(peak.value), f"{name}_deg": clean(np.degrees(peak.theta)) if peak.value else None}
+            found |= {
+                f"{name}_{unit}": clean(peak.value),
+                f"{name}_deg": clean(np.degrees(peak.theta)) if peak.value else None,
+            }
     return found
 
 
@@ -113,8 +138,13 @@ def rows(analysis: Result, system: System) -> Iterator[Row]:
         for k, order in enumerate(spectra.orders):
             for q, phasors in spectra.items():
                 unit = system.force if q == "force" else system.moment
-                yield from order_rows(q, order, (vector if q in VECTORS else scalar)(phasors, k), unit, cylinder)
-    for q, unit, peak in (("force", system.force, analysis.force), ("moment", system.moment, analysis.moment)):
+                yield from order_rows(
+                    q, order, (vector if q in VECTORS else scalar)(phasors, k), unit, cylinder
+                )
+    for q, unit, peak in (
+        ("force", system.force, analysis.force),
+        ("moment", system.moment, analysis.moment),
+    ):
         if peak is not None:
             yield from peak_rows(q, peak, unit)
 
@@ -122,15 +152,21 @@ def rows(analysis: Result, system: System) -> Iterator[Row]:
 def peak_rows(quantity: str, peak: Peak, unit: Unit) -> Iterator[Row]:
     """The largest value over a revolution, and its crank angle."""
     yield Row(0, quantity, None, "peak", clean(unit.of(peak.value)), unit.name)
-    yield Row(0, quantity, None, "peak_deg", clean(np.degrees(peak.theta)) if peak.value else None, "deg")
+    yield Row(
+        0, quantity, None, "peak_deg", clean(np.degrees(peak.theta)) if peak.value else None, "deg"
+    )
 
 
-def order_rows(quantity: str, order: float, entry: dict[str, Any], unit: Unit, cylinder: int = 0) -> Iterator[Row]:
+def order_rows(
+    quantity: str, order: float, entry: dict[str, Any], unit: Unit, cylinder: int = 0
+) -> Iterator[Row]:
     """All figures of one order, as JSON has them."""
     return (Row(cylinder, quantity, order_number(order), *figure) for figure in _flat(entry, unit))
 
 
-def _flat(entry: dict[str, Any], unit: Unit, prefix: str = "") -> Iterator[tuple[str, float | bool | None, str]]:
+def _flat(
+    entry: dict[str, Any], unit: Unit, prefix: str = ""
+) -> Iterator[tuple[str, float | bool | None, str]]:
     for name, value in entry.items():
         if isinstance(value, dict):
             yield from _flat(value, unit, f"{prefix}{name}_")

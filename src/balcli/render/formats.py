@@ -1,4 +1,5 @@
 """Which formats there are, and which renderer makes each."""
+
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -29,46 +30,69 @@ class Units(StrEnum):
     IMPERIAL = "imperial"
 
 
-def render(form: Format, *, sheets: Callable[[], list[Sheet]], documents: Callable[[], Sequence[Any]], rows: Callable[[], str],
-           into_file: bool = False) -> str:
-    """Text of a result in one format; only what that format needs is made (JSON imports no table)."""
+def render(
+    form: Format,
+    *,
+    sheets: Callable[[], list[Sheet]],
+    documents: Callable[[], Sequence[Any]],
+    rows: Callable[[], str],
+    into_file: bool = False,
+) -> str:
+    """Text of a result in one format; only what that format needs is made (JSON imports no
+    table).
+    """
     match form:
         case Format.TABLE:
             from .table import terminal
+
             return terminal(sheets(), into_file=into_file)
         case Format.MARKDOWN:
             from .markdown import markdown
+
             return markdown(sheets())
         case Format.CSV:
             return rows()
         case Format.JSON:
             from .json import dumps
+
             return "\n".join(map(dumps, documents()))
         case _:
             assert_never(form)
 
 
-def analyses(results: Sequence[Analysis], names: Sequence[str], form: Format, units: Units, *,
-             into_file: bool = False, plot: bool = False) -> str:
+def analyses(
+    results: Sequence[Analysis],
+    names: Sequence[str],
+    form: Format,
+    units: Units,
+    *,
+    into_file: bool = False,
+    plot: bool = False,
+) -> str:
     """Analyses, one after the other; JSON is one document a line.
 
     Args:
         names: of the engines, by which the rows of CSV are told apart.
         plot: with pictures, if a person looks at a terminal.
     """
+
     def sheets() -> list[Sheet]:
         from .analysis import sheet
         from .table import seen
+
         pictures = plot and form is Format.TABLE and seen(into_file)
         return [sheet(result, _system(units), pictures=pictures) for result in results]
 
     def documents() -> list[Any]:
         from .json import analysis
+
         return [analysis(result) for result in results]
 
     def rows() -> str:
         from .csv import analyses
+
         return analyses(results, names, _system(units))
+
     return render(form, sheets=sheets, documents=documents, rows=rows, into_file=into_file)
 
 
@@ -86,9 +110,16 @@ def balances(result: Balance, form: Format, units: Units, *, into_file: bool = F
 
     def sheets() -> list[Sheet]:
         from .balance import sheet
+
         return [sheet(result, system)]
-    return render(form, sheets=sheets, documents=lambda: [json.balance(result)],
-                  rows=lambda: csv.balances(result, system), into_file=into_file)
+
+    return render(
+        form,
+        sheets=sheets,
+        documents=lambda: [json.balance(result)],
+        rows=lambda: csv.balances(result, system),
+        into_file=into_file,
+    )
 
 
 def sums(result: Combined, form: Format, units: Units, *, into_file: bool = False) -> str:
@@ -97,5 +128,10 @@ def sums(result: Combined, form: Format, units: Units, *, into_file: bool = Fals
     from . import two_engines as combined
 
     system = _system(units)
-    return render(form, sheets=lambda: [combined.sheet(result, system)], documents=lambda: [combined.document(result)],
-                  rows=lambda: csv.sums(result, system), into_file=into_file)
+    return render(
+        form,
+        sheets=lambda: [combined.sheet(result, system)],
+        documents=lambda: [combined.document(result)],
+        rows=lambda: csv.sums(result, system),
+        into_file=into_file,
+    )

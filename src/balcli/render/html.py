@@ -1,4 +1,7 @@
-"""A page of its own: what the engine is and does, drawn, in tables, and in motion. Nothing in it is loaded from elsewhere."""
+"""A page of its own: what the engine is and does, drawn, in tables, and in motion. Nothing in it is
+loaded from elsewhere.
+"""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -14,21 +17,36 @@ from .sheet import Facts, Grid, Sheet, Text
 from .units import System
 
 FOLDER = Path(__file__).with_name("page")
-_PICTURES = (("polar", "force"), ("polar", "moment"), ("spectrum", "force"), ("spectrum", "moment"), ("curves", "force"),
-             ("curves", "moment"), ("spectrum", "about"), ("curves", "about"))
+_PICTURES = (
+    ("polar", "force"),
+    ("polar", "moment"),
+    ("spectrum", "force"),
+    ("spectrum", "moment"),
+    ("curves", "force"),
+    ("curves", "moment"),
+    ("spectrum", "about"),
+    ("curves", "about"),
+)
 _COMPARED = (("polar", "force"), ("polar", "moment"), ("spectrum", "force"), ("spectrum", "moment"))
 
 
 def page(result: Analysis, balanced: Balance, system: System) -> str:
-    """The report of an engine and of a remedy for it. Whatever comes from the engine file is escaped."""
+    """The report of an engine and of a remedy for it. Whatever comes from the engine file is
+    escaped.
+    """
     from markupsafe import Markup
 
     own, remedy = analysis.sheet(result, system), balance.sheet(balanced, system)
     fitted = bool(balanced.remedy.reasons)
     now, after = Subject(result, None, system), Subject(balanced.after, balanced.before, system)
     return _template().render(
-        title=own.title, version=__version__, facts=own.parts[0], verdict=_titled(own, "Verdict"),
-        figures=[part for part in own.parts[1:] if part.title != "Verdict"], remedy=remedy.parts, fitted=fitted,
+        title=own.title,
+        version=__version__,
+        facts=own.parts[0],
+        verdict=_titled(own, "Verdict"),
+        figures=[part for part in own.parts[1:] if part.title != "Verdict"],
+        remedy=remedy.parts,
+        fitted=fitted,
         scene=scene(result, balanced.after if fitted else None, system),
         pictures=[Markup(panel(now, *each)) for each in _PICTURES],
         compared=[Markup(panel(after, *each)) for each in _COMPARED] if fitted else [],
@@ -43,14 +61,21 @@ def kind(part: Grid | Facts | Text) -> str:
 
 
 def _titled(sheet: Sheet, title: str) -> Text | None:
-    return next((part for part in sheet.parts if isinstance(part, Text) and part.title == title), None)
+    return next(
+        (part for part in sheet.parts if isinstance(part, Text) and part.title == title), None
+    )
 
 
 def _template() -> Any:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-    environment = Environment(loader=FileSystemLoader(FOLDER), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
-                              lstrip_blocks=True)
+    environment = Environment(
+        loader=FileSystemLoader(FOLDER),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
     environment.policies["json.dumps_kwargs"] = {"allow_nan": False, "separators": (",", ":")}
     environment.filters["kind"] = kind
     return environment.get_template("report.html")

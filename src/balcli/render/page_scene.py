@@ -1,4 +1,7 @@
-"""What the page needs to turn the mechanism and its vectors: plain figures in mm, deg and the reader's units, ready for JSON."""
+"""What the page needs to turn the mechanism and its vectors: plain figures in mm, deg and the
+reader's units, ready for JSON.
+"""
+
 from __future__ import annotations
 
 from typing import Any
@@ -14,7 +17,7 @@ from ..results.analysis import Analysis
 from .figures import clean, order_number
 from .units import System, Unit
 
-ASSUMED_BORE = 0.95             # of the stroke, where a file gives none: pistons have to be drawn
+ASSUMED_BORE = 0.95  # of the stroke, where a file gives none: pistons have to be drawn
 
 
 def scene(now: Analysis, after: Analysis | None, system: System) -> dict[str, Any]:
@@ -25,40 +28,68 @@ def scene(now: Analysis, after: Analysis | None, system: System) -> dict[str, An
     if after is not None:
         variants.append(_variant("with the devices fitted", after, system))
     return {
-        "stroke": stroke, "bore": bore or ASSUMED_BORE * stroke, "rotary": isinstance(engine.cylinders.linkage, Rotary),
-        "cylinders": _cylinders(engine), "variants": variants,
+        "stroke": stroke,
+        "bore": bore or ASSUMED_BORE * stroke,
+        "rotary": isinstance(engine.cylinders.linkage, Rotary),
+        "cylinders": _cylinders(engine),
+        "variants": variants,
         "units": {"force": _unit(system.force), "moment": _unit(system.moment)},
-        "orders": [order_number(n) for n in now.orders if _shakes(now, n) or (after is not None and _shakes(after, n))],
+        "orders": [
+            order_number(n)
+            for n in now.orders
+            if _shakes(now, n) or (after is not None and _shakes(after, n))
+        ],
     }
 
 
 def _cylinders(engine: Engine) -> list[dict[str, Any]]:
-    """One entry a cylinder: axis, its own crank angle at crank angle 0, rod, offset, place; knuckle pin and master's row."""
+    """One entry a cylinder: axis, its own crank angle at crank angle 0, rod, offset, place; knuckle
+    pin and master's row.
+    """
     c, linkage = engine.cylinders, engine.cylinders.linkage
     rods = linkage.hung if isinstance(linkage, Rotary) else linkage
     axes = np.repeat(c.axis_deg, np.diff([*c.starts, c.count]), axis=0)
-    lengths, offsets = (np.broadcast_to(np.ravel(v) * 1e3, c.count) for v in (c.radius / c.lam, c.offset))
+    lengths, offsets = (
+        np.broadcast_to(np.ravel(v) * 1e3, c.count) for v in (c.radius / c.lam, c.offset)
+    )
     found = []
     for row, number in enumerate(engine.numbers):
-        entry: dict[str, Any] = {"number": number, "axis": float(axes[row]), "phase": float(c.angle_deg[row]), "z": float(c.z[row]) * 1e3,
-                 "rod": float(lengths[row]), "offset": float(offsets[row])}
+        entry: dict[str, Any] = {
+            "number": number,
+            "axis": float(axes[row]),
+            "phase": float(c.angle_deg[row]),
+            "z": float(c.z[row]) * 1e3,
+            "rod": float(lengths[row]),
+            "offset": float(offsets[row]),
+        }
         if isinstance(rods, Articulated) and rods.master[row] != row:
             pin = complex(rods.knuckle[row]) * float(c.radius) * 1e3
-            entry |= {"master": int(rods.master[row]), "knuckle": [pin.real, pin.imag], "lead": float(rods.lead_deg[row])}
+            entry |= {
+                "master": int(rods.master[row]),
+                "knuckle": [pin.real, pin.imag],
+                "lead": float(rods.lead_deg[row]),
+            }
         found.append(entry)
     return found
 
 
 def _variant(label: str, result: Analysis, system: System) -> dict[str, Any]:
     force, moment = result.spectra.force, result.spectra.moment
-    return {"label": label, "devices": [_device(d) for d in result.engine.devices],
-            "force": [] if force is None else _rows(force, system.force), "moment": [] if moment is None else _rows(moment, system.moment)}
+    return {
+        "label": label,
+        "devices": [_device(d) for d in result.engine.devices],
+        "force": [] if force is None else _rows(force, system.force),
+        "moment": [] if moment is None else _rows(moment, system.moment),
+    }
 
 
 def _rows(phasors: Phasors, unit: Unit) -> list[list[float]]:
     """order, forward x and y, backward x and y."""
     vectors = zip(phasors.orders, phasors.forward, phasors.backward, strict=True)
-    return [[float(n), *(unit.of(float(v)) + 0.0 for v in (f.real, f.imag, b.real, b.imag))] for n, f, b in vectors]
+    return [
+        [float(n), *(unit.of(float(v)) + 0.0 for v in (f.real, f.imag, b.real, b.imag))]
+        for n, f, b in vectors
+    ]
 
 
 def _unit(unit: Unit) -> dict[str, str]:
@@ -68,10 +99,19 @@ def _unit(unit: Unit) -> dict[str, str]:
 def _device(device: Device) -> dict[str, Any]:
     """Unbalance in g mm."""
     forward, backward, place = (complex(v) for v in (device.forward, device.backward, device.place))
-    return {"order": order_number(device.order), "forward": [forward.real * 1e6, forward.imag * 1e6],
-            "backward": [backward.real * 1e6, backward.imag * 1e6], "at": [place.real * 1e3, place.imag * 1e3], "z": float(device.z) * 1e3}
+    return {
+        "order": order_number(device.order),
+        "forward": [forward.real * 1e6, forward.imag * 1e6],
+        "backward": [backward.real * 1e6, backward.imag * 1e6],
+        "at": [place.real * 1e3, place.imag * 1e3],
+        "z": float(device.z) * 1e3,
+    }
 
 
 def _shakes(result: Analysis, order: float) -> bool:
-    rows = [p.at([order]) for q, p in result.spectra.items() if q in ("force", "moment") and order in p.orders]
+    rows = [
+        p.at([order])
+        for q, p in result.spectra.items()
+        if q in ("force", "moment") and order in p.orders
+    ]
     return any(not row.balanced[0] for row in rows)

@@ -1,4 +1,7 @@
-"""A sheet: what a person reads, before it is known where. Terminal, Markdown and HTML are made of it."""
+"""A sheet: what a person reads, before it is known where. Terminal, Markdown and HTML are made of
+it.
+"""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -6,8 +9,9 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Grid:
-    """A table. Cells are text; the first column is a heading of its row. Cells in `marked` (row, column) stand out, and
-    the columns in `words` are read, not compared: they stand to the left."""
+    """A table. Cells are text; the first column is a heading of its row. Cells in `marked` (row,
+    column) stand out, and the columns in `words` are read, not compared: they stand to the left.
+    """
 
     title: str
     columns: tuple[str, ...]
@@ -42,7 +46,9 @@ class Sheet:
 
 
 def number(value: float, digits: int = 5) -> str:
-    """A number for people: that many significant digits, no exponent between 0.001 and a million, a plain 0."""
+    """A number for people: that many significant digits, no exponent between 0.001 and a million, a
+    plain 0.
+    """
     if value != value:
         return "–"
     if value == 0:

@@ -1,4 +1,5 @@
 """Variants of a sweep as text, chunk by chunk: CSV and JSON, in full precision."""
+
 from __future__ import annotations
 
 import json
@@ -11,7 +12,9 @@ if TYPE_CHECKING:
 
 
 def csv_text(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
-    """A header, and one variant a line; what has no value (the axis of a circle) is an empty cell."""
+    """A header, and one variant a line; what has no value (the axis of a circle) is an empty
+    cell.
+    """
     yield ",".join(sweep.columns) + "\n"
     for chunk in chunks:
         yield "\n".join(_lines(sweep, chunk, "")) + "\n"
@@ -19,7 +22,11 @@ def csv_text(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
 
 def json_text(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
     """`balcli.sweep/1`: columns, and one row a variant."""
-    head = {"format": "balcli.sweep/1", "engine": {"name": sweep.file.name}, "columns": sweep.columns}
+    head = {
+        "format": "balcli.sweep/1",
+        "engine": {"name": sweep.file.name},
+        "columns": sweep.columns,
+    }
     yield json.dumps(head, ensure_ascii=False)[:-1] + ', "rows": ['
     before = ""
     for chunk in chunks:
@@ -29,12 +36,25 @@ def json_text(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
 
 
 def _lines(sweep: Sweep, chunk: Chunk, nothing: str) -> Iterator[str]:
-    """Rows of a chunk, cells with commas between them; each value of a parameter is written out once."""
-    axes = [_texts(p.values[cut], nothing) for p, cut in zip(sweep.parameters, chunk.box, strict=True)]
-    return map(",".join, zip(map(",".join, product(*axes)), *(_texts(v, nothing) for v in chunk.values), strict=True))
+    """Rows of a chunk, cells with commas between them; each value of a parameter is written out
+    once.
+    """
+    axes = [
+        _texts(p.values[cut], nothing) for p, cut in zip(sweep.parameters, chunk.box, strict=True)
+    ]
+    return map(
+        ",".join,
+        zip(
+            map(",".join, product(*axes)), *(_texts(v, nothing) for v in chunk.values), strict=True
+        ),
+    )
 
 
 def _texts(values: Any, nothing: str) -> list[str]:
     """Shortest texts that read back to the same numbers."""
     texts = list(map(repr, values.tolist()))
-    return [nothing if text == "nan" else text for text in texts] if (values != values).any() else texts
+    return (
+        [nothing if text == "nan" else text for text in texts]
+        if (values != values).any()
+        else texts
+    )

@@ -1,4 +1,5 @@
 """Picture of a sweep: curves over one parameter, contours over two."""
+
 from __future__ import annotations
 
 from itertools import cycle
@@ -21,22 +22,38 @@ def draw(sweep: Sweep, values: list[Array]) -> bytes:
     """
     several = [p for p in sweep.parameters if len(p) > 1]
     if not 0 < len(several) <= 2:
-        raise BalcliError(f"--plot draws one or two parameters with several values each, not {len(several)}")
+        raise BalcliError(
+            f"--plot draws one or two parameters with several values each, not {len(several)}"
+        )
     if len(several) == 1:
         with style.figure(7, 4.2, "svg") as page:
             _curves(page.subplots(), sweep, values)
             return style.saved(page, "svg")
     with style.figure(6 * len(values), 4.8, "svg") as page:
-        for axes, quantity, value in zip(page.subplots(1, len(values), squeeze=False)[0], sweep.quantities, values, strict=True):
+        for axes, quantity, value in zip(
+            page.subplots(1, len(values), squeeze=False)[0], sweep.quantities, values, strict=True
+        ):
             _contours(page, axes, several, value.squeeze(), f"{quantity.name}, {quantity.unit}")
         return style.saved(page, "svg")
 
 
 def _curves(axes: Any, sweep: Sweep, values: list[Array]) -> None:
     parameter = next(p for p in sweep.parameters if len(p) > 1)
-    looks = [(colour, line) for line in ("-", "--", ":") for colour in (style.BLUE, style.RED, style.GREEN)]
-    for quantity, value, (colour, line) in zip(sweep.quantities, values, cycle(looks), strict=False):
-        axes.plot(parameter.values, value.ravel(), color=colour, linestyle=line, label=f"{quantity.name}, {quantity.unit}")
+    looks = [
+        (colour, line)
+        for line in ("-", "--", ":")
+        for colour in (style.BLUE, style.RED, style.GREEN)
+    ]
+    for quantity, value, (colour, line) in zip(
+        sweep.quantities, values, cycle(looks), strict=False
+    ):
+        axes.plot(
+            parameter.values,
+            value.ravel(),
+            color=colour,
+            linestyle=line,
+            label=f"{quantity.name}, {quantity.unit}",
+        )
     axes.set_xlabel(parameter.path)
     axes.legend()
 

@@ -1,4 +1,7 @@
-"""A sheet for the terminal, or as plain text, with figures of unlimited width, where the output is no terminal."""
+"""A sheet for the terminal, or as plain text, with figures of unlimited width, where the output is
+no terminal.
+"""
+
 from __future__ import annotations
 
 import sys
@@ -14,8 +17,10 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 UNLIMITED = 100_000
-LABEL = 12                      # width up to which the headings of rows (`order 10`) are not folded either
-PROSE = 50                      # width at which columns of words are folded where no terminal has one; figures never are
+LABEL = 12  # width up to which the headings of rows (`order 10`) are not folded either
+PROSE = (
+    50  # width at which columns of words are folded where no terminal has one; figures never are
+)
 
 
 def seen(into_file: bool) -> bool:
@@ -24,14 +29,22 @@ def seen(into_file: bool) -> bool:
 
 
 def terminal(sheets: list[Sheet], *, into_file: bool = False) -> str:
-    """All sheets as text: with colours and folded to the width where a person looks at a terminal, else plain and as wide as they are."""
+    """All sheets as text: with colours and folded to the width where a person looks at a terminal,
+    else plain and as wide as they are.
+    """
     from rich.console import Console
     from rich.text import Text as Line
 
     person = seen(into_file)
     buffer = StringIO()
-    console = Console(file=buffer, highlight=False, emoji=False, markup=False, soft_wrap=not person,
-                      **({"force_terminal": True} if person else {"width": UNLIMITED, "no_color": True}))
+    console = Console(
+        file=buffer,
+        highlight=False,
+        emoji=False,
+        markup=False,
+        soft_wrap=not person,
+        **({"force_terminal": True} if person else {"width": UNLIMITED, "no_color": True}),
+    )
     for sheet in sheets:
         console.print(Line(legible(sheet.title), style="bold"))
         for part in sheet.parts:
@@ -61,17 +74,25 @@ def _pieces(part: Grid | Facts | Text, width: int) -> Iterator[Any]:
 
 
 def _fitting(grid: Grid, width: int) -> Iterator[Table]:
-    """The table as wide as it likes to be, else narrowed; figures are never broken, so one that is still too wide comes in
-    pieces, each with the first column."""
+    """The table as wide as it likes to be, else narrowed; figures are never broken, so one that is
+    still too wide comes in pieces, each with the first column.
+    """
     natural = [max(map(len, _texts(grid, k))) for k in range(len(grid.columns))]
     if width == UNLIMITED:
-        natural = [min(size, PROSE) if k and k in grid.words else size for k, size in enumerate(natural)]
+        natural = [
+            min(size, PROSE) if k and k in grid.words else size for k, size in enumerate(natural)
+        ]
     for gap in (3, 2):
         if sum(natural) + gap * (len(natural) - 1) <= width:
             yield _grid(grid, dict(enumerate(natural)), gap)
             return
-    grid = replace(grid, columns=tuple(name.replace("_", " ") for name in grid.columns))        # may be broken into lines
-    least = [max((len(word) for text in _texts(grid, k) for word in text.split()), default=1) for k in range(len(grid.columns))]
+    grid = replace(
+        grid, columns=tuple(name.replace("_", " ") for name in grid.columns)
+    )  # may be broken into lines
+    least = [
+        max((len(word) for text in _texts(grid, k) for word in text.split()), default=1)
+        for k in range(len(grid.columns))
+    ]
     least[0] = max(least[0], min(natural[0], LABEL))
     piece = [0]
     for k in range(1, len(least)):
@@ -87,8 +108,12 @@ def _texts(grid: Grid, k: int) -> list[str]:
     return [grid.columns[k], *(row[k] for row in grid.rows)]
 
 
-def _shared_out(width: int, columns: list[int], least: list[int], natural: list[int]) -> dict[int, int]:
-    """Width of each column: the least, and what is left over to the one that lacks most, until there is none."""
+def _shared_out(
+    width: int, columns: list[int], least: list[int], natural: list[int]
+) -> dict[int, int]:
+    """Width of each column: the least, and what is left over to the one that lacks most, until
+    there is none.
+    """
     widths = {k: least[k] for k in columns}
     for _ in range(width - sum(widths.values()) - 2 * (len(columns) - 1)):
         needy = max(columns, key=lambda k: natural[k] - widths[k])
@@ -103,10 +128,17 @@ def _grid(grid: Grid, widths: dict[int, int], gap: int) -> Table:
 
     table = Table(box=box.SIMPLE_HEAD, padding=(0, gap - 2, 0, 1), pad_edge=False, show_edge=False)
     for k, width in widths.items():
-        table.add_column(grid.columns[k], justify="left" if k in grid.words else "right", overflow="fold",
-                         style="bold" if k == 0 else "", max_width=width)
+        table.add_column(
+            grid.columns[k],
+            justify="left" if k in grid.words else "right",
+            overflow="fold",
+            style="bold" if k == 0 else "",
+            max_width=width,
+        )
     for i, row in enumerate(grid.rows):
-        table.add_row(*(Cell(row[k], style="bold red" if (i, k) in grid.marked else "") for k in widths))
+        table.add_row(
+            *(Cell(row[k], style="bold red" if (i, k) in grid.marked else "") for k in widths)
+        )
     return table
 
 

@@ -1,4 +1,5 @@
 """Pictures of characters for a terminal of 80 columns: orders as bars, loci in Braille dots."""
+
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -12,8 +13,8 @@ from .figures import order_number
 from .sheet import Text, number
 from .units import System, Unit
 
-BAR, SIDE = 52, 17              # columns of the longest bar; rows of a locus, which has twice as many columns
-SHARE = 1e-3                    # orders below this share of the largest are left out, but for 1 and 2
+BAR, SIDE = 52, 17  # columns of the longest bar; rows of a locus, which has twice as many columns
+SHARE = 1e-3  # orders below this share of the largest are left out, but for 1 and 2
 # Bits of the dots in a Braille character, by row and column (Unicode 17.0, chapter 21.1).
 _DOTS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
 
@@ -24,25 +25,45 @@ def sketches(result: Analysis, system: System) -> Iterator[Text]:
     both = (("force", spectra.force, system.force), ("moment", spectra.moment, system.moment))
     shown = [(q, p, unit) for q, p, unit in both if p is not None]
     for quantity, phasors, unit in shown:
-        yield Text(f"Free {quantity} by order, {unit.name} (█ with the crank, ▒ against it)", tuple(bars(phasors, unit)))
+        yield Text(
+            f"Free {quantity} by order, {unit.name} (█ with the crank, ▒ against it)",
+            tuple(bars(phasors, unit)),
+        )
     if shown:
-        blocks = [[f"{quantity}, {_size(p, unit)}".ljust(2 * SIDE), *locus(p)] for quantity, p, unit in shown]
-        yield Text("Over a revolution: x up, y right, + at crank angle 0",
-                   tuple("   ".join(row).rstrip() for row in zip_longest(*blocks, fillvalue="")))
+        blocks = [
+            [f"{quantity}, {_size(p, unit)}".ljust(2 * SIDE), *locus(p)]
+            for quantity, p, unit in shown
+        ]
+        yield Text(
+            "Over a revolution: x up, y right, + at crank angle 0",
+            tuple("   ".join(row).rstrip() for row in zip_longest(*blocks, fillvalue="")),
+        )
 
 
 def bars(phasors: Phasors, unit: Unit) -> Iterator[str]:
-    """A line an order: its largest value, as the sum of the two vectors that turn with and against the crank."""
+    """A line an order: its largest value, as the sum of the two vectors that turn with and against
+    the crank.
+    """
     largest = phasors.major.max(initial=0)
     for k, order in enumerate(phasors.orders):
         if order <= 2 or phasors.major[k] > SHARE * largest:
-            ahead, whole = (round(BAR * float(v) / largest) if largest else 0 for v in (abs(phasors.forward[k]), phasors.major[k]))
+            ahead, whole = (
+                round(BAR * float(v) / largest) if largest else 0
+                for v in (abs(phasors.forward[k]), phasors.major[k])
+            )
             bar = "█" * ahead + "▒" * (whole - ahead) or ("▏" if phasors.major[k] else "")
-            yield " ".join(filter(None, (f"{order_number(order):>4}", bar, number(unit.of(float(phasors.major[k])), 4))))
+            yield " ".join(
+                filter(
+                    None,
+                    (f"{order_number(order):>4}", bar, number(unit.of(float(phasors.major[k])), 4)),
+                )
+            )
 
 
 def locus(phasors: Phasors) -> list[str]:
-    """The way of the vector's tip in a square of SIDE rows with its axes; all dots are equally far apart."""
+    """The way of the vector's tip in a square of SIDE rows with its axes; all dots are equally far
+    apart.
+    """
     curve = phasors.values(np.radians(np.arange(0, 360, 0.25)))
     largest = np.abs(curve).max()
     dots, grid = 4 * SIDE, np.zeros((SIDE, 2 * SIDE), int)

@@ -1,4 +1,5 @@
 """Results of a Monte-Carlo run."""
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
@@ -9,32 +10,59 @@ from .sheet import Grid, Sheet, number
 if TYPE_CHECKING:
     from ..studies.tolerances import Scatter, Spread
 
-SHOWN = 6                       # sources of each quantity in a table
+SHOWN = 6  # sources of each quantity in a table
 
 
 def document(result: Scatter) -> dict[str, Any]:
     """`balcli.scatter/1`."""
-    return {"format": "balcli.scatter/1", "engine": {"name": result.file.name}, "samples": result.samples,
-            "quantities": {s.quantity.name: _figures(s) | {"sensitivity": {source.name: share for source, share in s.shares}}
-                           for s in result.spreads}}
+    return {
+        "format": "balcli.scatter/1",
+        "engine": {"name": result.file.name},
+        "samples": result.samples,
+        "quantities": {
+            s.quantity.name: _figures(s)
+            | {"sensitivity": {source.name: share for source, share in s.shares}}
+            for s in result.spreads
+        },
+    }
 
 
 def _figures(s: Spread) -> dict[str, float]:
-    return {"nominal": s.nominal, "mean": s.mean, **s.percentiles, "max": s.largest, "bound": s.bound}
+    return {
+        "nominal": s.nominal,
+        "mean": s.mean,
+        **s.percentiles,
+        "max": s.largest,
+        "bound": s.bound,
+    }
 
 
 def rows(result: Scatter) -> str:
     """CSV, a quantity a line."""
-    return write(("quantity", *_figures(result.spreads[0])), [(s.quantity.name, *_figures(s).values()) for s in result.spreads])
+    return write(
+        ("quantity", *_figures(result.spreads[0])),
+        [(s.quantity.name, *_figures(s).values()) for s in result.spreads],
+    )
 
 
 def sheet(result: Scatter) -> Sheet:
     """Percentiles, and which tolerances matter most."""
-    spread = Grid(f"Spread of {result.samples} engines", ("quantity", *_figures(result.spreads[0])), tuple(
-        (f"{s.quantity.name}, {s.quantity.unit}", *map(number, _figures(s).values())) for s in result.spreads),
-        note="bound: no combination exceeds it (exact for masses, to first order for lengths and angles)")
-    shares = Grid("What each tolerance alone changes, most first", ("quantity", *(f"{k}." for k in range(1, SHOWN + 1))), tuple(
-        (f"{s.quantity.name}, {s.quantity.unit}", *_texts(s)) for s in result.spreads), words=tuple(range(SHOWN + 1)))
+    spread = Grid(
+        f"Spread of {result.samples} engines",
+        ("quantity", *_figures(result.spreads[0])),
+        tuple(
+            (f"{s.quantity.name}, {s.quantity.unit}", *map(number, _figures(s).values()))
+            for s in result.spreads
+        ),
+        note="bound: no combination exceeds it (exact for masses, to first order for lengths and "
+        "angles)",
+    )
+    shares = Grid(
+        "What each tolerance alone changes, most first",
+        ("quantity", *(f"{k}." for k in range(1, SHOWN + 1))),
+        tuple((f"{s.quantity.name}, {s.quantity.unit}", *_texts(s)) for s in result.spreads),
+        words=tuple(range(SHOWN + 1)),
+    )
     return Sheet(result.file.name or "engine without a name", (spread, shares))
 
 

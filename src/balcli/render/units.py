@@ -1,11 +1,12 @@
 """Units on the way out."""
+
 from __future__ import annotations
 
 from typing import NamedTuple
 
-POUND = 0.45359237                      # kg, by definition (1959)
-INCH = 0.0254                           # m, by definition (1959)
-POUND_FORCE = POUND * 9.80665           # N
+POUND = 0.45359237  # kg, by definition (1959)
+INCH = 0.0254  # m, by definition (1959)
+POUND_FORCE = POUND * 9.80665  # N
 
 
 class Unit(NamedTuple):
@@ -30,7 +31,20 @@ class System(NamedTuple):
     volume: Unit
 
 
-SI = System(Unit("N", 1), Unit("N·m", 1), Unit("g·mm", 1e-6), Unit("kg", 1), Unit("mm", 1e-3), Unit("cm³", 1e-6))
-IMPERIAL = System(Unit("lbf", POUND_FORCE), Unit("lbf·ft", POUND_FORCE * 12 * INCH), Unit("oz·in", POUND / 16 * INCH),
-                  Unit("lb", POUND), Unit("in", INCH), Unit("in³", INCH**3))
+SI = System(
+    Unit("N", 1),
+    Unit("N·m", 1),
+    Unit("g·mm", 1e-6),
+    Unit("kg", 1),
+    Unit("mm", 1e-3),
+    Unit("cm³", 1e-6),
+)
+IMPERIAL = System(
+    Unit("lbf", POUND_FORCE),
+    Unit("lbf·ft", POUND_FORCE * 12 * INCH),
+    Unit("oz·in", POUND / 16 * INCH),
+    Unit("lb", POUND),
+    Unit("in", INCH),
+    Unit("in³", INCH**3),
+)
 SYSTEMS = {"si": SI, "imperial": IMPERIAL}

@@ -1,4 +1,7 @@
-"""Plain words on each order: which part turns with the crank and can be met by a counterweight, which part needs shafts."""
+"""Plain words on each order: which part turns with the crank and can be met by a counterweight,
+which part needs shafts.
+"""
+
 from __future__ import annotations
 
 from collections.abc import Mapping
@@ -10,9 +13,20 @@ from ..forces.spectrum import Spectra
 from .sheet import degrees, number
 from .units import System, Unit
 
-_NAMES = {1: "First", 2: "Second", 3: "Third", 4: "Fourth", 5: "Fifth", 6: "Sixth", 7: "Seventh", 8: "Eighth"}
+_NAMES = {
+    1: "First",
+    2: "Second",
+    3: "Third",
+    4: "Fourth",
+    5: "Fifth",
+    6: "Sixth",
+    7: "Seventh",
+    8: "Eighth",
+}
 _AXES = {"0.0": "x", "90.0": "y"}
-NEGLIGIBLE = 1e-3               # share of what one cylinder does, or of the largest order, below which a higher order is passed over
+# share of what one cylinder does, or of the largest order, below which a higher order is passed
+# over
+NEGLIGIBLE = 1e-3
 _UNKNOWN: Mapping[str, float] = MappingProxyType({})
 
 
@@ -31,13 +45,22 @@ class _Found(NamedTuple):
         return bool(self.phasors.major[k] > NEGLIGIBLE * self.single)
 
 
-def verdict(spectra: Spectra, system: System, single: Mapping[str, float] = _UNKNOWN) -> tuple[str, ...]:
+def verdict(
+    spectra: Spectra, system: System, single: Mapping[str, float] = _UNKNOWN
+) -> tuple[str, ...]:
     """A sentence for every order that matters; empty if neither forces nor moments were asked for.
 
-    `single`: force (N) and moment (N m) of one cylinder's reciprocating mass, beside which an order may be negligible.
+    `single`: force (N) and moment (N m) of one cylinder's reciprocating mass, beside which an order
+    may be negligible.
     """
-    found = [_Found(name, phasors, unit, single.get(name, 0.0)) for name, phasors, unit in
-             (("force", spectra.force, system.force), ("moment", spectra.moment, system.moment)) if phasors is not None]
+    found = [
+        _Found(name, phasors, unit, single.get(name, 0.0))
+        for name, phasors, unit in (
+            ("force", spectra.force, system.force),
+            ("moment", spectra.moment, system.moment),
+        )
+        if phasors is not None
+    ]
     if not found:
         return ()
     rows = [(k, order) for k, order in enumerate(spectra.orders) if order >= 1]
@@ -58,20 +81,34 @@ def _low(k: int, order: int, found: list[_Found]) -> str:
     if not there:
         return f"{_name(order)}: free of {' and '.join(free)}."
     rest = [f"no {what}." for what in free]
-    return f"{_name(order)}: " + " ".join([there[0], *(text[0].upper() + text[1:] for text in [*there[1:], *rest])])
+    return f"{_name(order)}: " + " ".join(
+        [there[0], *(text[0].upper() + text[1:] for text in [*there[1:], *rest])]
+    )
 
 
 def _high(k: int, order: float, found: list[_Found]) -> str:
     """Higher orders: their size, if it is worth a word."""
-    sizes = [f"{one.what} up to {one.size(k)}" for one in found
-             if one.matters(k) and one.phasors.major[k] > NEGLIGIBLE * one.phasors.major.max()]
-    return f"{_name(order)}: {', '.join(sizes)}; rarely balanced, it would take shafts at {order:g} times crank speed." if sizes else ""
+    sizes = [
+        f"{one.what} up to {one.size(k)}"
+        for one in found
+        if one.matters(k) and one.phasors.major[k] > NEGLIGIBLE * one.phasors.major.max()
+    ]
+    return (
+        f"{_name(order)}: {', '.join(sizes)}; rarely balanced, it would take shafts at {order:g} "
+        "times crank speed."
+        if sizes
+        else ""
+    )
 
 
 def _rest(rows: list[tuple[int, float]], found: list[_Found]) -> str:
     """The largest of the higher orders, where nothing is left that matters."""
     largest = [(max(rows, key=lambda row: one.phasors.major[row[0]]), one) for one in found if rows]
-    told = [f"a {one.what} of {one.size(k)} in order {order:g}" for (k, order), one in largest if one.phasors.major[k]]
+    told = [
+        f"a {one.what} of {one.size(k)} in order {order:g}"
+        for (k, order), one in largest
+        if one.phasors.major[k]
+    ]
     return f"Higher orders: negligible, at most {' and '.join(told)}." if told else ""
 
 
@@ -81,20 +118,33 @@ def _vector(k: int, order: int, found: _Found) -> str:
         return f"{what} of up to {size}, negligible."
     forward, backward = abs(p.forward[k]), abs(p.backward[k])
     if backward == 0:
-        cure = "counterweights on the crankshaft cancel it" if order == 1 else _shafts(f"a shaft at +{order}")
+        cure = (
+            "counterweights on the crankshaft cancel it"
+            if order == 1
+            else _shafts(f"a shaft at +{order}")
+        )
         return f"{what} of {size}, turning with the crank: {cure}."
     if forward == 0:
         return f"{what} of {size}, turning against the crank: {_shafts(f'a shaft at −{order}')}."
-    parts = f"{number(unit.of(forward), 4)} turns with the crank, {number(unit.of(backward), 4)} against it"
-    cure = "counterweights cancel the first part, a shaft at −1 times crank speed the second" if order == 1 else \
-        _shafts(f"shafts at +{order} and −{order}")
+    parts = (
+        f"{number(unit.of(forward), 4)} turns with the crank, {number(unit.of(backward), 4)} "
+        "against it"
+    )
+    cure = (
+        "counterweights cancel the first part, a shaft at −1 times crank speed the second"
+        if order == 1
+        else _shafts(f"shafts at +{order} and −{order}")
+    )
     return f"{what} of up to {size} {_direction(what, float(p.axis_deg[k]))} ({parts}): {cure}."
 
 
 def _direction(what: str, axis_deg: float) -> str:
     """A force acts along an axis, a moment about it."""
     angle = degrees(axis_deg)
-    return f"{'about' if what == 'moment' else 'along'} {_AXES.get(angle) or f'an axis at {angle} deg'}"
+    return (
+        f"{'about' if what == 'moment' else 'along'} "
+        f"{_AXES.get(angle) or f'an axis at {angle} deg'}"
+    )
 
 
 def _shafts(which: str) -> str:

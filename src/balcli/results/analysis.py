@@ -1,4 +1,7 @@
-"""Engine -> Analysis: free forces and moments by order, peaks and sizing, computing only what was asked."""
+"""Engine -> Analysis: free forces and moments by order, peaks and sizing, computing only what was
+asked.
+"""
+
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
@@ -13,7 +16,15 @@ from ..core.phasors import Array
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..forces.spectrum import SHOWN as SHOWN
-from ..forces.spectrum import SPECTRAL, UNASKED, Spectra, considerable, each, relevant_orders, spectra
+from ..forces.spectrum import (
+    SPECTRAL,
+    UNASKED,
+    Spectra,
+    considerable,
+    each,
+    relevant_orders,
+    spectra,
+)
 from ..forces.spectrum import alone as alone
 from ..sizing.auto import auto
 from ..sizing.sizing import Remedy, fitted
@@ -25,9 +36,9 @@ if TYPE_CHECKING:
     from ..forces.symmetry import Why
 
 QUANTITIES = (*SPECTRAL, "peak", "sizing")
-EXTRAS = ("inner", "guide")     # computed only when they are named
-HIGHEST = 4096                  # order that may be asked for
-MOST_TOLD = 1 << 14            # cylinders x orders that are told one by one
+EXTRAS = ("inner", "guide")  # computed only when they are named
+HIGHEST = 4096  # order that may be asked for
+MOST_TOLD = 1 << 14  # cylinders x orders that are told one by one
 
 
 class Sizing(NamedTuple):
@@ -43,14 +54,15 @@ class Analysis:
 
     Attributes:
         engine: as analysed.
-        spectra: phasors of the orders shown.
-        force, moment: largest value over a revolution (N, N m), of all orders, and its crank angle (rad).
+        spectra: phasors of the orders shown. force, moment: largest value over a revolution (N, N
+        m), of all orders, and its crank angle (rad).
         sizing: devices of the scheme `auto`, and the analysis with them.
         cylinders: phasors of each cylinder alone (no devices), by cylinder number.
         why: whether the orders shown are balanced by symmetry.
         inner: shear force and bending moment along the crankshaft.
         guide: H- and X-type guide-force moments.
-        travel: strokes and dead centres of articulated cylinders and of the masters, by rows of `engine.numbers`.
+        travel: strokes and dead centres of articulated cylinders and of the masters, by rows of
+        `engine.numbers`.
     """
 
     engine: Engine
@@ -75,48 +87,69 @@ class Analysis:
 
     @property
     def of_one_cylinder(self) -> dict[str, float]:
-        """Force of cylinder 1's piston and rod end, `m r omega^2` (N), and its moment over the length of the crank (N m): what
-        is small beside them is small."""
+        """Force of cylinder 1's piston and rod end, `m r omega^2` (N), and its moment over the
+        length of the crank (N m): what is small beside them is small.
+        """
         engine = self.engine
         masses = engine.weighed[engine.numbers.index(1)]
-        force = float((masses.piston + masses.small_end) * engine.cylinders.radius * engine.omega**2)
+        force = float(
+            (masses.piston + masses.small_end) * engine.cylinders.radius * engine.omega**2
+        )
         return {"force": force, "moment": force * float(np.ptp(engine.throws_m))}
 
 
-def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collection[str] | None = None,
-            by_cylinder: bool = False, reasons: bool = False) -> Analysis:
+def analyze(
+    engine: Engine,
+    orders: Iterable[float] | None = None,
+    only: Collection[str] | None = None,
+    by_cylinder: bool = False,
+    reasons: bool = False,
+) -> Analysis:
     """Free forces and moments of an engine, order by order.
 
     Args:
         engine: without trailing axes.
-        orders: which orders to show; default: 1 and 2 (0 too under uneven speed) and all in which a quantity that was asked
+        orders: which orders to show; default: 1 and 2 (0 too under uneven speed) and all in which a
+        quantity that was asked
             for exceeds 1e-6 of its own largest order, up to 512.
         only: any of QUANTITIES and EXTRAS; default: all QUANTITIES.
         by_cylinder: also the phasors of every cylinder alone.
         reasons: also why each order is balanced, or is not.
 
     Raises:
-        BalcliError: an unknown quantity, an order that is negative or above HIGHEST, too many orders of too many cylinders.
+        BalcliError: an unknown quantity, an order that is negative or above HIGHEST, too many
+        orders of too many cylinders.
     """
     wanted = set(QUANTITIES if only is None else only)
     if strangers := sorted(wanted.difference(QUANTITIES, EXTRAS)):
-        raise BalcliError(f"there is no quantity {', '.join(strangers)}: choose from {', '.join((*QUANTITIES, *EXTRAS))}")
+        raise BalcliError(
+            f"there is no quantity {', '.join(strangers)}: choose from "
+            f"{', '.join((*QUANTITIES, *EXTRAS))}"
+        )
     asked = None if orders is None else checked_orders(orders)
     curves = {"force", "moment"} if "peak" in wanted else set()
     shown = wanted.intersection(SPECTRAL)
     due = np.array([1.0, 2.0]) if asked is None else asked
     whole = due
-    if asked is None or curves:                         # a set: np.union1d imports masked arrays, which takes longer than all the rest
+    if (
+        asked is None or curves
+    ):  # a set: np.union1d imports masked arrays, which takes longer than all the rest
         whole = np.array(sorted({*relevant_orders(engine).tolist(), *due.tolist()}))
     everything = spectra(engine, whole, shown | curves)
     visible = Spectra(everything.orders, **{q: p for q, p in everything.items() if q in shown})
     visible = visible.at(shown_orders(visible) if asked is None else asked)
     if by_cylinder and (apart := len(visible.orders) * len(engine.numbers)) > MOST_TOLD:
-        raise BalcliError(f"by cylinder, {len(visible.orders)} orders of {len(engine.numbers)} cylinders are {apart} results, and at most "
-                          f"{MOST_TOLD} are told: ask for fewer orders")
+        raise BalcliError(
+            f"by cylinder, {len(visible.orders)} orders of {len(engine.numbers)} cylinders are "
+            f"{apart} results, and at most "
+            f"{MOST_TOLD} are told: ask for fewer orders"
+        )
     peaks = {q: peak(getattr(everything, q)) for q in curves}
     return Analysis(
-        engine, visible, peaks.get("force"), peaks.get("moment"),
+        engine,
+        visible,
+        peaks.get("force"),
+        peaks.get("moment"),
         sizing=_sized(engine, asked, wanted) if "sizing" in wanted else None,
         cylinders=_by_cylinder(engine, visible.orders, shown) if by_cylinder else (),
         why=_explained(engine, visible.orders, shown) if reasons else None,
@@ -124,13 +157,17 @@ def analyze(engine: Engine, orders: Iterable[float] | None = None, only: Collect
     )
 
 
-def _by_cylinder(engine: Engine, orders: Array, quantities: Collection[str]) -> tuple[tuple[int, Spectra], ...]:
+def _by_cylinder(
+    engine: Engine, orders: Array, quantities: Collection[str]
+) -> tuple[tuple[int, Spectra], ...]:
     own = each(engine, orders, quantities)
     return tuple((n, own.of(engine.numbers.index(n))) for n in sorted(engine.numbers))
 
 
 class Textbook(NamedTuple):
-    """Units of textbooks: `F1 = m_rec r omega^2` of cylinder 1 (N), throw spacing a (m, nan for one throw), and A_n."""
+    """Units of textbooks: `F1 = m_rec r omega^2` of cylinder 1 (N), throw spacing a (m, nan for one
+    throw), and A_n.
+    """
 
     force: float
     arm: float
@@ -143,13 +180,15 @@ def textbook(engine: Engine, orders: Array) -> Textbook:
     c, row = engine.cylinders, engine.numbers.index(1)
 
     def own(values: Array) -> Array:
-        return values[row:row + 1] if len(values) > 1 else values
+        return values[row : row + 1] if len(values) > 1 else values
+
     series = harmonics.of(orders, own(c.lam), own(c.eps), rod=False, energy=False).piston
     throws = engine.throws_m
     return Textbook(
         float(own(c.reciprocating)[0] * c.radius * engine.omega**2),
         float(np.ptp(throws) / (len(throws) - 1)) if len(throws) > 1 else float("nan"),
-        np.abs(series.c[:, 0]), engine.equal,
+        np.abs(series.c[:, 0]),
+        engine.equal,
     )
 
 
@@ -158,12 +197,15 @@ def _extras(engine: Engine, asked: Array | None, wanted: Collection[str]) -> dic
     found: dict[str, Any] = {}
     if "inner" in wanted:
         from ..forces.crankshaft import inner
+
         found["inner"] = inner(engine, asked)
     if "guide" in wanted:
         from ..forces.guide_moments import guide
+
         found["guide"] = guide(engine, asked)
     if engine.cylinders.linkage is not None:
         from ..core.strokes import travel
+
         found["travel"] = travel(engine.cylinders)
     return found
 
@@ -172,24 +214,38 @@ def _explained(engine: Engine, orders: Array, quantities: Collection[str]) -> Wh
     from ..forces.symmetry import QUANTITIES, why
 
     turning = not {"couple", "torque", "roll"}.isdisjoint(quantities)
-    return why(engine, orders[orders > 0], [q for q in QUANTITIES if q in quantities or (q == "turning" and turning)])
+    return why(
+        engine,
+        orders[orders > 0],
+        [q for q in QUANTITIES if q in quantities or (q == "turning" and turning)],
+    )
 
 
 def _sized(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizing:
     remedy = auto(engine)
-    return Sizing(remedy, analyze(fitted(engine, remedy), asked, {*wanted, "force", "moment", "peak"} - {"sizing"}))
+    return Sizing(
+        remedy,
+        analyze(fitted(engine, remedy), asked, {*wanted, "force", "moment", "peak"} - {"sizing"}),
+    )
 
 
 def checked_orders(orders: Iterable[float]) -> Array:
-    """Orders that were asked for, ascending; BalcliError unless they are whole numbers up to HIGHEST."""
+    """Orders that were asked for, ascending; BalcliError unless they are whole numbers up to
+    HIGHEST.
+    """
     asked = np.array(sorted(set(orders)), float)
     if not len(asked) or asked[0] < 0 or asked[-1] > HIGHEST or (asked % 1).any():
-        raise BalcliError(f"orders must be whole numbers from 0 to {HIGHEST}, not {', '.join(f'{n:g}' for n in asked[:8]) or 'none'}")
+        raise BalcliError(
+            f"orders must be whole numbers from 0 to {HIGHEST}, not "
+            f"{', '.join(f'{n:g}' for n in asked[:8]) or 'none'}"
+        )
     return asked
 
 
 def shown_orders(found: Spectra) -> Array:
-    """Orders to 2, and those up to UNASKED in which a quantity exceeds SHOWN of its own largest order."""
+    """Orders to 2, and those up to UNASKED in which a quantity exceeds SHOWN of its own largest
+    order.
+    """
     due = found.orders <= 2
     for _, phasors in found.items():
         due |= considerable(phasors)

@@ -1,4 +1,5 @@
 """Engine -> Balance: what a scheme fits, and the analyses without and with it."""
+
 from __future__ import annotations
 
 from collections.abc import Iterable
@@ -15,7 +16,9 @@ _UNEVEN = "sized for steady mean speed; before and after are those of the uneven
 
 @dataclass(frozen=True)
 class Balance:
-    """A remedy, what the engine does without and with it (same orders), and the workshop's figures of its devices."""
+    """A remedy, what the engine does without and with it (same orders), and the workshop's figures
+    of its devices.
+    """
 
     remedy: Remedy
     before: Analysis
@@ -23,8 +26,13 @@ class Balance:
     practical: tuple[Practical, ...]
 
 
-def balance(engine: Engine, scheme: str = "auto", wish: Wish | None = None, orders: Iterable[float] | None = None,
-            tools: Tools | None = None) -> Balance:
+def balance(
+    engine: Engine,
+    scheme: str = "auto",
+    wish: Wish | None = None,
+    orders: Iterable[float] | None = None,
+    tools: Tools | None = None,
+) -> Balance:
     """What a scheme fits and what it leaves.
 
     Devices are sized for a steady speed; under uneven speed both analyses include it.

@@ -1,4 +1,5 @@
 """Engines side by side."""
+
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
@@ -14,7 +15,9 @@ from .analysis import Analysis, analyze
 
 @dataclass(frozen=True)
 class Line:
-    """One figure of every engine: an amplitude (N, N m) by quantity and order, or a peak (order None)."""
+    """One figure of every engine: an amplitude (N, N m) by quantity and order, or a peak (order
+    None).
+    """
 
     quantity: str
     order: int | None
@@ -35,8 +38,12 @@ class Comparison:
     lines: tuple[Line, ...]
 
 
-def compare(engines: Sequence[Engine], names: Sequence[str], orders: Iterable[float] | None = None,
-            only: Collection[str] | None = None) -> Comparison:
+def compare(
+    engines: Sequence[Engine],
+    names: Sequence[str],
+    orders: Iterable[float] | None = None,
+    only: Collection[str] | None = None,
+) -> Comparison:
     """The free forces and moments of several engines: the largest of each order, and peaks.
 
     Args:

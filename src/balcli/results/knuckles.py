@@ -1,4 +1,7 @@
-"""Knuckle angles that make the strokes, or the dead centres, of an engine with articulated rods even."""
+"""Knuckle angles that make the strokes, or the dead centres, of an engine with articulated rods
+even.
+"""
+
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
@@ -23,9 +26,9 @@ from .balance import Balance
 
 Goal = Literal["dead-centres", "strokes"]
 GOALS: tuple[Goal, ...] = ("dead-centres", "strokes")
-_STEP = 1e-3                        # degrees, for the slope
-_FAR = 30.0                         # degrees: a knuckle pin that would have to move farther is no answer
-_CLOSE = {"dead-centres": 1e-9, "strokes": 1e-12}                       # degrees; metres
+_STEP = 1e-3  # degrees, for the slope
+_FAR = 30.0  # degrees: a knuckle pin that would have to move farther is no answer
+_CLOSE = {"dead-centres": 1e-9, "strokes": 1e-12}  # degrees; metres
 
 
 @dataclass(frozen=True)
@@ -48,11 +51,13 @@ class Knuckles:
 
 
 def even_knuckles(file: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
-    """Turn each knuckle pin about the crank pin, at the radius of the file, until its cylinders are even.
+    """Turn each knuckle pin about the crank pin, at the radius of the file, until its cylinders are
+    even.
 
-    "dead-centres": every articulated piston is at the top when the crank pin stands as the master piston's did;
-    "strokes": every stroke is the master piston's. Both at once would need a radius for each pin too. A bank of several
-    rows is set by the first of them. Banks that no angle within 30 degrees makes even keep theirs.
+    "dead-centres": every articulated piston is at the top when the crank pin stands as the master
+    piston's did; "strokes": every stroke is the master piston's. Both at once would need a radius
+    for each pin too. A bank of several rows is set by the first of them. Banks that no angle within
+    30 degrees makes even keep theirs.
 
     Raises:
         BalcliError: the engine has no articulated rods.
@@ -61,32 +66,60 @@ def even_knuckles(file: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
     engine = build(file)
     c, linkage = engine.cylinders, engine.cylinders.linkage
     if file.articulation is not None and file.layout.rotary:
-        raise BalcliError("knuckles: this engine is rotary; even knuckle angles are looked for where the crank turns only")
+        raise BalcliError(
+            "knuckles: this engine is rotary; even knuckle angles are looked for where the crank "
+            "turns only"
+        )
     if file.articulation is None or not isinstance(linkage, Articulated):
-        raise BalcliError("knuckles: this engine has no articulated rods; an engine file says so with [articulation]")
+        raise BalcliError(
+            "knuckles: this engine has no articulated rods; an engine file says so with "
+            "[articulation]"
+        )
     hung = linkage.master != np.arange(c.count)
-    turn, done = _solved(lambda angle: np.where(hung, _error(_turned(c, linkage, angle), linkage, goal), 0.0),
-                         c.count, _CLOSE[goal])
+    turn, done = _solved(
+        lambda angle: np.where(hung, _error(_turned(c, linkage, angle), linkage, goal), 0.0),
+        c.count,
+        _CLOSE[goal],
+    )
     rows = _first_rows(file, engine.numbers)
     angles = np.degrees(np.angle(linkage.knuckle[rows])) + np.where(done, turn, 0.0)[rows]
     angles = np.where(hung[rows], angles % 360, 0.0)
     found = tuple(map(float, angles))
     table = file.articulation.model_copy(update={"knuckle_angles": found})
     better = file.model_copy(update={"articulation": table})
-    return Knuckles(goal, better, found, travel(c), travel(build(better).cylinders),
-                    _reasons(goal, hung[rows], done[rows], turn[rows]))
+    return Knuckles(
+        goal,
+        better,
+        found,
+        travel(c),
+        travel(build(better).cylinders),
+        _reasons(goal, hung[rows], done[rows], turn[rows]),
+    )
 
 
-def balanced(file: EngineFile, goal: Goal = "dead-centres", orders: Iterable[float] | None = None, speed_rpm: Any = None) -> Balance:
-    """The same as a scheme of `balance`: the engine before and after, at the speed of the file or another.
+def balanced(
+    file: EngineFile,
+    goal: Goal = "dead-centres",
+    orders: Iterable[float] | None = None,
+    speed_rpm: Any = None,
+) -> Balance:
+    """The same as a scheme of `balance`: the engine before and after, at the speed of the file or
+    another.
 
     Raises as `even_knuckles` does.
     """
     found = even_knuckles(file, goal)
-    details = {"even": goal, "knuckle_angles_deg": list(found.angles_deg), "stroke_mm": _range(found.after.stroke * 1e3),
-               "top_deg": _range(found.after.top_deg)}
+    details = {
+        "even": goal,
+        "knuckle_angles_deg": list(found.angles_deg),
+        "stroke_mm": _range(found.after.stroke * 1e3),
+        "top_deg": _range(found.after.top_deg),
+    }
     shown = set(QUANTITIES) - {"sizing"}
-    old, new = (build(f) if speed_rpm is None else replace(build(f), speed_rpm=speed_rpm) for f in (file, found.file))
+    old, new = (
+        build(f) if speed_rpm is None else replace(build(f), speed_rpm=speed_rpm)
+        for f in (file, found.file)
+    )
     before = analyze(old, orders, shown)
     after = analyze(new, before.orders, shown)
     return Balance(Remedy(KNUCKLES, reasons=found.reasons, details=details), before, after, ())
@@ -106,7 +139,9 @@ def _error(found: Travel, linkage: Articulated, goal: Goal) -> Array:
     return np.asarray(values - values[linkage.master])
 
 
-def _solved(error: Callable[[Array], Array], count: int, close: float) -> tuple[Array, NDArray[np.bool_]]:
+def _solved(
+    error: Callable[[Array], Array], count: int, close: float
+) -> tuple[Array, NDArray[np.bool_]]:
     """Newton's method, for all cylinders at once; and where it has arrived."""
     angle = np.zeros(count)
     for _ in range(20):
@@ -126,10 +161,18 @@ def _first_rows(file: EngineFile, numbers: tuple[int, ...]) -> list[int]:
     return [numbers.index(first[bank]) for bank in sorted(first)]
 
 
-def _reasons(goal: Goal, hung: NDArray[np.bool_], done: NDArray[np.bool_], turn: Array) -> tuple[str, ...]:
-    what = "top dead centres as even as the master's" if goal == "dead-centres" else "strokes equal to the master's"
+def _reasons(
+    goal: Goal, hung: NDArray[np.bool_], done: NDArray[np.bool_], turn: Array
+) -> tuple[str, ...]:
+    what = (
+        "top dead centres as even as the master's"
+        if goal == "dead-centres"
+        else "strokes equal to the master's"
+    )
     largest = float(np.abs(np.where(hung & done, turn, 0)).max(initial=0.0))
     told = [f"knuckle pins turned by up to {largest:.3g} deg: {what}"]
     if left := [str(bank + 1) for bank in np.flatnonzero(hung & ~done)]:
-        told.append(f"no angle makes bank {', '.join(left)} even: the knuckle pin stays where it is")
+        told.append(
+            f"no angle makes bank {', '.join(left)} even: the knuckle pin stays where it is"
+        )
     return tuple(told)

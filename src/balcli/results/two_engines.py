@@ -1,4 +1,7 @@
-"""Two engines on one frame, geared one to one (H, U and opposed-piston engines): their phasors added."""
+"""Two engines on one frame, geared one to one (H, U and opposed-piston engines): their phasors
+added.
+"""
+
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
@@ -21,7 +24,8 @@ class Arrangement:
         phase_deg: crank angle by which it leads, in its own sense of rotation.
         at_m: place of its origin (its crank axis at its z = 0) in the first engine's axes.
         turn_deg: how far it is turned about z, with all its banks.
-        reverse: whether its crank turns against the first: it is then built as its own mirror image (y changed in sign), so
+        reverse: whether its crank turns against the first: it is then built as its own mirror image
+        (y changed in sign), so
             that its file still counts everything in its own sense of rotation.
     """
 
@@ -35,7 +39,8 @@ class Arrangement:
 class Combined:
     """What two engines do to their common frame, about the first one's point of reference.
 
-    The inertia torque is the sum of both about z, in the first one's sense: what a common gear train would feel.
+    The inertia torque is the sum of both about z, in the first one's sense: what a common gear
+    train would feel.
     """
 
     engines: tuple[Engine, Engine]
@@ -46,8 +51,11 @@ class Combined:
     cylinders: tuple[tuple[int, Spectra], ...] = ()
 
 
-def combine(first: Engine, second: Engine, arrangement: Arrangement, orders: Iterable[float] | None = None) -> Combined:
-    """Both engines together, at the first one's speed and unevenness of speed; engines without trailing axes.
+def combine(
+    first: Engine, second: Engine, arrangement: Arrangement, orders: Iterable[float] | None = None
+) -> Combined:
+    """Both engines together, at the first one's speed and unevenness of speed; engines without
+    trailing axes.
 
     Args:
         orders: which to show; default as in `analyze`.
@@ -57,21 +65,41 @@ def combine(first: Engine, second: Engine, arrangement: Arrangement, orders: Ite
     """
     asked = None if orders is None else checked_orders(orders)
     second = geared(second, first, arrangement.phase_deg)
-    whole = sorted({*relevant_orders(first), *relevant_orders(second), *([1.0, 2.0] if asked is None else asked)})
+    whole = sorted(
+        {
+            *relevant_orders(first),
+            *relevant_orders(second),
+            *([1.0, 2.0] if asked is None else asked),
+        }
+    )
     own = replace(second, reference_m=(0.0, 0.0, 0.0))
-    everything = _sum(spectra(first, whole), placed(spectra(own, whole), arrangement, first.reference_m))
-    return Combined((first, second), arrangement, everything.at(shown_orders(everything) if asked is None else asked),
-                    peak(_phasors(everything, "force")), peak(_phasors(everything, "moment")))
+    everything = _sum(
+        spectra(first, whole), placed(spectra(own, whole), arrangement, first.reference_m)
+    )
+    return Combined(
+        (first, second),
+        arrangement,
+        everything.at(shown_orders(everything) if asked is None else asked),
+        peak(_phasors(everything, "force")),
+        peak(_phasors(everything, "moment")),
+    )
 
 
 def geared(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
-    """An engine at another's speed, which it leads by an angle; the unevenness is that of the other's crank angle."""
-    ripple = tuple(Ripple(line.order, line.amplitude, line.angle_deg + line.order * phase_deg) for line in leader.ripple)
+    """An engine at another's speed, which it leads by an angle; the unevenness is that of the
+    other's crank angle.
+    """
+    ripple = tuple(
+        Ripple(line.order, line.amplitude, line.angle_deg + line.order * phase_deg)
+        for line in leader.ripple
+    )
     return replace(engine, speed_rpm=leader.speed_rpm, ripple=ripple)
 
 
 def placed(own: Spectra, arrangement: Arrangement, reference_m: Collection[float]) -> Spectra:
-    """Phasors of an engine about its own origin, by its own crank angle -> where it stands, by the leading one's."""
+    """Phasors of an engine about its own origin, by its own crank angle -> where it stands, by the
+    leading one's.
+    """
     n = own.orders
     x, y, z = (place - point for place, point in zip(arrangement.at_m, reference_m, strict=True))
     found = {name: _led(phasors, unit(n * arrangement.phase_deg)) for name, phasors in own.items()}
@@ -80,23 +108,41 @@ def placed(own: Spectra, arrangement: Arrangement, reference_m: Collection[float
     turn = unit(arrangement.turn_deg)
     force, moment = turn * found["force"], turn * found["moment"]
     couple = found["couple"] + force.about(x + 1j * y)
-    return Spectra(n, force=force, moment=moment + 1j * z * force, couple=couple, torque=found["torque"], roll=couple - found["torque"])
+    return Spectra(
+        n,
+        force=force,
+        moment=moment + 1j * z * force,
+        couple=couple,
+        torque=found["torque"],
+        roll=couple - found["torque"],
+    )
 
 
 def _led(phasors: Phasors, lead: np.ndarray) -> Phasors:
-    return Phasors(phasors.orders, lead * phasors.forward, np.conj(lead) * phasors.backward, phasors.noise)
+    return Phasors(
+        phasors.orders, lead * phasors.forward, np.conj(lead) * phasors.backward, phasors.noise
+    )
 
 
 def _mirrored(phasors: Phasors, axial: bool) -> Phasors:
-    """In the mirror that changes the sign of y a vector becomes its conjugate, and what turns changes its sign besides."""
+    """In the mirror that changes the sign of y a vector becomes its conjugate, and what turns
+    changes its sign besides.
+    """
     sign = -1.0 if axial else 1.0
     mean = phasors.orders == 0
     forward = np.where(mean, np.conj(phasors.forward), np.conj(phasors.backward))
-    return Phasors(phasors.orders, sign * forward, sign * np.where(mean, 0, np.conj(phasors.forward)), phasors.noise)
+    return Phasors(
+        phasors.orders,
+        sign * forward,
+        sign * np.where(mean, 0, np.conj(phasors.forward)),
+        phasors.noise,
+    )
 
 
 def _sum(one: Spectra, other: Spectra) -> Spectra:
-    return Spectra(one.orders, **{q: (_phasors(one, q) + _phasors(other, q)).settled() for q in SPECTRAL})
+    return Spectra(
+        one.orders, **{q: (_phasors(one, q) + _phasors(other, q)).settled() for q in SPECTRAL}
+    )
 
 
 def _phasors(found: Spectra, quantity: str) -> Phasors:

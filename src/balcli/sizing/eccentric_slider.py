@@ -1,9 +1,12 @@
-"""Balance shafts turned unevenly by an eccentric slider: the best throw and mass for a single cylinder (Wang, section 2.4).
+"""Balance shafts turned unevenly by an eccentric slider: the best throw and mass for a single
+cylinder (Wang, section 2.4).
 
-Two shafts, symmetric to the cylinder axis, turn by phi(theta); their force along the axis is
-`2 m_b r_b omega^2 (phi'^2 cos phi + phi'' sin phi) = -2 m_b r_b omega^2 (cos phi)''` (the sign of the second term is misprinted in the
-source). In units of m r omega^2 what remains is `P = f(theta) - 2 mu g(theta; k)`, an even function; k and mu are sought.
+Two shafts, symmetric to the cylinder axis, turn by phi(theta); their force along the axis is `2 m_b
+r_b omega^2 (phi'^2 cos phi + phi'' sin phi) = -2 m_b r_b omega^2 (cos phi)''` (the sign of the
+second term is misprinted in the source). In units of m r omega^2 what remains is `P = f(theta) - 2
+mu g(theta; k)`, an even function; k and mu are sought.
 """
+
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -18,20 +21,22 @@ from ..core.mechanisms import harmonics
 from ..core.phasors import Array
 from ..errors import BalcliError
 
-DESIGNS = ("a", "b")                            # pin on the shaft, slot in the disc; pin on the disc, slot on the shaft
+DESIGNS = ("a", "b")  # pin on the shaft, slot in the disc; pin on the disc, slot on the shaft
 CRITERIA = ("largest", "mean")
-FORCES = ("orders 1+2", "all orders")           # cos theta + lambda cos 2 theta; the exact force
-_COUNT = 512                                    # samples of a revolution: enough for k above 1.2
+FORCES = ("orders 1+2", "all orders")  # cos theta + lambda cos 2 theta; the exact force
+_COUNT = 512  # samples of a revolution: enough for k above 1.2
 _GRID = np.linspace(0, np.pi, 1025)
 _ORDERS = np.arange(_COUNT // 4)
 _ROUNDS = 60
-_NOISE = 5e-16                                  # of the transform; squares of the orders would multiply it
-_SETTLED = 1e-10                                # relative
+_NOISE = 5e-16  # of the transform; squares of the orders would multiply it
+_SETTLED = 1e-10  # relative
 
 
 @dataclass(frozen=True)
 class Optimum:
-    """Best k = r_b/e and mu = m_b r_b/(m r), and the largest and mean absolute force that remain, in units of m r omega^2."""
+    """Best k = r_b/e and mu = m_b r_b/(m r), and the largest and mean absolute force that remain,
+    in units of m r omega^2.
+    """
 
     design: str
     criterion: str
@@ -43,24 +48,39 @@ class Optimum:
 
 
 def best(design: str, criterion: str, force: str, lam: float) -> Optimum:
-    """The optimum of one design by one criterion; BalcliError where lambda is so large that the search does not settle."""
+    """The optimum of one design by one criterion; BalcliError where lambda is so large that the
+    search does not settle.
+    """
     engine = _engine_force(force, lam)
     try:
         x = _smallest_peak(design, engine, np.array([2 / lam, 0.5]))
         if criterion == "mean":
             x = _smallest_mean(design, engine, x)
     except (np.linalg.LinAlgError, ArithmeticError):
-        raise BalcliError(f"eccentric-slider: no optimum was found for design {design} at lambda = {lam:g}: the second order is too strong "
-                          "for an eccentric smaller than its pin radius") from None
+        raise BalcliError(
+            f"eccentric-slider: no optimum was found for design {design} at lambda = {lam:g}: the "
+            "second order is too strong "
+            "for an eccentric smaller than its pin radius"
+        ) from None
     rest = _remaining(design, engine, x)
     zeros = _zeros(rest)
     primitive = _values(rest, zeros, -1)
     mean = float(np.abs(np.diff(primitive)).sum()) / np.pi
-    return Optimum(design, criterion, force, float(x[0]), float(x[1]), float(np.abs(_values(rest, _extrema(rest))).max()), mean)
+    return Optimum(
+        design,
+        criterion,
+        force,
+        float(x[0]),
+        float(x[1]),
+        float(np.abs(_values(rest, _extrema(rest))).max()),
+        mean,
+    )
 
 
 def settled(lam: float) -> list[Optimum]:
-    """All optima that there are; at lambda above 0.6 some search does not settle, as k would fall below 1."""
+    """All optima that there are; at lambda above 0.6 some search does not settle, as k would fall
+    below 1.
+    """
     found = []
     for force, design, criterion in product(FORCES, DESIGNS, CRITERIA):
         with suppress(BalcliError):
@@ -69,9 +89,11 @@ def settled(lam: float) -> list[Optimum]:
 
 
 def shafts(design: str, k: Any) -> tuple[Array, Array]:
-    """Cosine coefficients of `g m^-2 = cos phi` up to sign, i.e. of cos phi, and of its derivative by k."""
+    """Cosine coefficients of `g m^-2 = cos phi` up to sign, i.e. of cos phi, and of its derivative
+    by k.
+    """
     theta = np.arange(_COUNT) * (2 * np.pi / _COUNT)
-    step = 1e-30                                                        # complex step: the derivative to rounding
+    step = 1e-30  # complex step: the derivative to rounding
     wave = _cos_phi(design, theta, k + 1j * step)
     return _cosines(wave.real), _cosines(wave.imag / step)
 
@@ -84,7 +106,7 @@ def _cos_phi(design: str, theta: Array, k: Any) -> Any:
 
 def _cosines(samples: Array) -> Array:
     c: Array = np.fft.rfft(samples).real / _COUNT * 2
-    return np.where(np.abs(c) > _NOISE, c, 0)[:len(_ORDERS)]
+    return np.where(np.abs(c) > _NOISE, c, 0)[: len(_ORDERS)]
 
 
 def _engine_force(force: str, lam: float) -> Array:
@@ -117,14 +139,22 @@ def _values(c: Array, theta: Array, derivative: int = 0) -> Array:
 def _extrema(c: Array) -> Array:
     """Angles in [0, pi] of the extremes of an even series."""
     slope = _values(c, _GRID, 1)
-    inside = _root(lambda t: _values(c, t, 1), lambda t: _values(c, t, 2), np.flatnonzero(slope[1:-2] * slope[2:-1] < 0) + 1)
+    inside = _root(
+        lambda t: _values(c, t, 1),
+        lambda t: _values(c, t, 2),
+        np.flatnonzero(slope[1:-2] * slope[2:-1] < 0) + 1,
+    )
     return np.concatenate([[0.0], inside, [np.pi]])
 
 
 def _zeros(c: Array) -> Array:
     """0, the zeros of an even series in between, and pi."""
     values = _values(c, _GRID)
-    inside = _root(lambda t: _values(c, t), lambda t: _values(c, t, 1), np.flatnonzero(values[:-1] * values[1:] < 0))
+    inside = _root(
+        lambda t: _values(c, t),
+        lambda t: _values(c, t, 1),
+        np.flatnonzero(values[:-1] * values[1:] < 0),
+    )
     return np.concatenate([[0.0], inside, [np.pi]])
 
 
@@ -138,7 +168,9 @@ def _root(f: Callable[[Array], Array], df: Callable[[Array], Array], cells: Any)
 
 
 def _smallest_peak(design: str, engine: Array, x: Array) -> Array:
-    """Exchange: the linearised problem over the extremes of P, whose solution three of them fix, until nothing moves."""
+    """Exchange: the linearised problem over the extremes of P, whose solution three of them fix,
+    until nothing moves.
+    """
     for _ in range(_ROUNDS):
         rest = _remaining(design, engine, x)
         theta = _extrema(rest)
@@ -152,7 +184,9 @@ def _smallest_peak(design: str, engine: Array, x: Array) -> Array:
 
 
 def _exchange(values: Array, rows: Array) -> Array:
-    """The step d that makes the largest of `values + rows d` smallest: that of the triple whose bound is highest (de la Vallee-Poussin)."""
+    """The step d that makes the largest of `values + rows d` smallest: that of the triple whose
+    bound is highest (de la Vallee-Poussin).
+    """
     top, best = -np.inf, None
     for triple in combinations(range(len(values)), 3):
         system = np.column_stack([rows[list(triple)], -np.ones(3)])
@@ -168,16 +202,22 @@ def _exchange(values: Array, rows: Array) -> Array:
 
 
 def _smallest_mean(design: str, engine: Array, x: Array) -> Array:
-    """Newton's method on the gradient of the integral of |P|, which the zeros of P give in closed form."""
+    """Newton's method on the gradient of the integral of |P|, which the zeros of P give in closed
+    form.
+    """
+
     def gradient(x: Array) -> Array:
         rest = _remaining(design, engine, x)
         zeros = _zeros(rest)
         signs = np.sign(_values(rest, (zeros[:-1] + zeros[1:]) / 2))
         found: Array = signs @ np.diff(_values(_slopes(design, x), zeros, -1), axis=0)
         return found
+
     for _ in range(_ROUNDS):
         steps = np.diag(1e-6 * x)
-        jacobian = np.column_stack([(gradient(x + h) - gradient(x - h)) / (2 * h.sum()) for h in steps])
+        jacobian = np.column_stack(
+            [(gradient(x + h) - gradient(x - h)) / (2 * h.sum()) for h in steps]
+        )
         move = -np.linalg.solve(jacobian, gradient(x))
         x = x + move * min(1.0, 0.1 * x[0] / max(abs(move[0]), 1e-300))
         if np.all(np.abs(move) <= _SETTLED * np.abs(x)):

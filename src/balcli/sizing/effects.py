@@ -1,9 +1,12 @@
-"""All sizing is one weighted linear least squares over chosen devices: every one is linear in its complex unbalance (docs/theory.md).
+"""All sizing is one weighted linear least squares over chosen devices: every one is linear in its
+complex unbalance (docs/theory.md).
 
-For one order n, a device of unbalance u at z and place p adds to what the engine shakes, per `n^2 omega^2`, `u` to the force,
-`(z - z_ref) u` to the moment (over i) and `Im(conj(p) u ...)` to the roll; a slider adds to both rotating vectors at once. A scheme is
-only a choice of slots for devices and of the parts that are to vanish.
+For one order n, a device of unbalance u at z and place p adds to what the engine shakes, per `n^2
+omega^2`, `u` to the force, `(z - z_ref) u` to the moment (over i) and `Im(conj(p) u ...)` to the
+roll; a slider adds to both rotating vectors at once. A scheme is only a choice of slots for devices
+and of the parts that are to vanish.
 """
+
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -21,19 +24,22 @@ from ..errors import BalcliError
 from ..forces.spectrum import spectra
 from . import remedy
 
-LEFT = 1e-12                        # of what was there before: more must not remain of what a scheme promises to cancel
-_LOST = 1e-14                       # singular values below this share of the largest are none
+LEFT = 1e-12  # of what was there before: more must not remain of what a scheme promises to cancel
+_LOST = 1e-14  # singular values below this share of the largest are none
 
 
 class Part(NamedTuple):
-    """What may be cancelled: "force" or "moment" turning with the crank (sense 1) or against it (-1); "roll" (sense 0)."""
+    """What may be cancelled: "force" or "moment" turning with the crank (sense 1) or against it
+    (-1); "roll" (sense 0).
+    """
 
     quantity: str
     sense: int
 
 
 class Rest(NamedTuple):
-    """What shakes an engine at one order, per `n^2 omega^2`: force (kg m), moment over i and roll (kg m2).
+    """What shakes an engine at one order, per `n^2 omega^2`: force (kg m), moment over i and roll
+    (kg m2).
 
     Attributes:
         parts, noise: value and rounding error of every part.
@@ -66,17 +72,21 @@ def rest(engine: Engine, order: int) -> Rest:
         phasors = getattr(found, quantity)
         for sense, vector in ((1, phasors.forward), (-1, phasors.backward)):
             parts[Part(quantity, sense)] = complex(vector[0]) / per / newton
-            noise[Part(quantity, sense)] = float(np.broadcast_to(phasors.noise, vector.shape)[0]) / newton
+            noise[Part(quantity, sense)] = (
+                float(np.broadcast_to(phasors.noise, vector.shape)[0]) / newton
+            )
     parts[Part("roll", 0)] = 2 * complex(found.roll.forward[0]) / newton if found.roll else 0j
     return Rest(order, parts, noise, (complex(x, y), float(z)), newton)
 
 
 class Slot(NamedTuple):
-    """Where a device may be fitted, by the table that describes it: "counterweight", "shaft" or "slider"."""
+    """Where a device may be fitted, by the table that describes it: "counterweight", "shaft" or
+    "slider".
+    """
 
     kind: str
     order: int
-    sense: int                      # 1 with the crank, -1 against it; of a slider 0
+    sense: int  # 1 with the crank, -1 against it; of a slider 0
     z: float
     place: complex = 0j
     direction_deg: float = 0.0
@@ -98,25 +108,36 @@ class Slot(NamedTuple):
 
 
 class Fit(NamedTuple):
-    """Unbalance for each slot (kg m), the condition number of the scaled system, and the share of the wish that is left."""
+    """Unbalance for each slot (kg m), the condition number of the scaled system, and the share of
+    the wish that is left.
+    """
 
     unbalances: tuple[complex, ...]
     condition: float
     left: float
 
 
-def effect(device: Device, parts: Sequence[Part], arm: tuple[complex, float]) -> NDArray[np.complex128]:
+def effect(
+    device: Device, parts: Sequence[Part], arm: tuple[complex, float]
+) -> NDArray[np.complex128]:
     """What a device adds to each part."""
     place, z = device.place - arm[0], device.z - arm[1]
-    vectors = {1: device.forward, -1: device.backward,
-               0: -1j * (np.conj(place) * device.forward - place * np.conj(device.backward))}
-    return np.array([vectors[sense] * (z if quantity == "moment" else 1) for quantity, sense in parts], complex)
+    vectors = {
+        1: device.forward,
+        -1: device.backward,
+        0: -1j * (np.conj(place) * device.forward - place * np.conj(device.backward)),
+    }
+    return np.array(
+        [vectors[sense] * (z if quantity == "moment" else 1) for quantity, sense in parts], complex
+    )
 
 
 def solve(slots: Sequence[Slot], wish: Rest, parts: Sequence[Part]) -> Fit:
-    """The smallest unbalances that cancel the parts as well as these slots can, moments and roll measured by the longest arm.
+    """The smallest unbalances that cancel the parts as well as these slots can, moments and roll
+    measured by the longest arm.
 
-    Least squares by singular values, then refined on the residual, so that what is left is a few ulp of the parts.
+    Least squares by singular values, then refined on the residual, so that what is left is a few
+    ulp of the parts.
     """
     length = _length(slots, wish)
     scale = np.repeat([1.0 if p.quantity == "force" else 1 / length for p in parts], 2)
@@ -134,33 +155,47 @@ def solve(slots: Sequence[Slot], wish: Rest, parts: Sequence[Part]) -> Fit:
 
 
 def exactly(slots: Sequence[Slot], wish: Rest, parts: Sequence[Part], reason: str) -> Fit:
-    """The same, but nothing may be left: neither by the system nor by the rounding of unbalances that work against each other.
+    """The same, but nothing may be left: neither by the system nor by the rounding of unbalances
+    that work against each other.
 
-    Raises BalcliError with the reason why these slots cannot do it, or with the condition number where it is hopeless.
+    Raises BalcliError with the reason why these slots cannot do it, or with the condition number
+    where it is hopeless.
     """
     fit = solve(slots, wish, parts)
     length = _length(slots, wish)
-    size, noise = (max(abs(of[p]) / (1 if p.quantity == "force" else length) for p in parts) for of in (wish.parts, wish.noise))
+    size, noise = (
+        max(abs(of[p]) / (1 if p.quantity == "force" else length) for p in parts)
+        for of in (wish.parts, wish.noise)
+    )
     if fit.condition == np.inf and fit.left * size > noise:
         raise BalcliError(reason)
     largest = max(map(abs, fit.unbalances))
     left = fit.left * size + 2 * EPS * largest
     if left > max(noise, LEFT * size):
-        raise BalcliError(f"order {wish.order}: the places given are too much alike: unbalances of {largest * 1e6:.3g} g mm would work "
-                          f"against each other (condition number {fit.condition:.3g}), and their rounding alone would leave "
-                          f"{left / size:.1g} of what shakes; choose planes farther apart")
-    if len(slots) == 1:                                                     # a compromise would leave rounding in the force, too
+        raise BalcliError(
+            f"order {wish.order}: the places given are too much alike: unbalances of "
+            f"{largest * 1e6:.3g} g mm would work "
+            f"against each other (condition number {fit.condition:.3g}), and their rounding alone "
+            "would leave "
+            f"{left / size:.1g} of what shakes; choose planes farther apart"
+        )
+    if len(slots) == 1:  # a compromise would leave rounding in the force, too
         return fit._replace(unbalances=solve(slots, wish, parts[:1]).unbalances)
     return fit
 
 
 def _length(slots: Sequence[Slot], wish: Rest) -> float:
     """The longest arm: a moment is measured by the force that makes it there."""
-    return max([abs(s.z - wish.arm[1]) for s in slots] + [abs(s.place - wish.arm[0]) for s in slots]) or 1.0
+    return (
+        max([abs(s.z - wish.arm[1]) for s in slots] + [abs(s.place - wish.arm[0]) for s in slots])
+        or 1.0
+    )
 
 
 def _inverse(matrix: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
-    """Pseudo-inverse, and the condition number: infinite where a direction of the wish is beyond the reach of all slots."""
+    """Pseudo-inverse, and the condition number: infinite where a direction of the wish is beyond
+    the reach of all slots.
+    """
     u, s, vt = np.linalg.svd(matrix, full_matrices=False)
     kept = s > _LOST * s[0]
     inverse: NDArray[np.float64] = (vt[kept].T / s[kept]) @ u[:, kept].T

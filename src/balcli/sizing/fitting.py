@@ -1,4 +1,7 @@
-"""A remedy in the making: devices are added order by order, each with its reason, and the next ones see what is left."""
+"""A remedy in the making: devices are added order by order, each with its reason, and the next ones
+see what is left.
+"""
+
 from __future__ import annotations
 
 import math
@@ -14,13 +17,19 @@ from .remedy import Remedy, fitted
 
 FORWARD = (Part("force", 1), Part("moment", 1))
 BACKWARD = (Part("force", -1), Part("moment", -1))
-SAME_PLACE = "one plane, or planes at the same z, cannot take a moment; choose two planes with some distance between them"
+SAME_PLACE = (
+    "one plane, or planes at the same z, cannot take a moment; choose two planes with "
+    "some "
+    "distance between them"
+)
 
 T = TypeVar("T")
 
 
 class Fitting(NamedTuple):
-    """An engine at steady speed, and what has been fitted so far: tables of the engine file with their reasons."""
+    """An engine at steady speed, and what has been fitted so far: tables of the engine file with
+    their reasons.
+    """
 
     engine: Engine
     scheme: str
@@ -36,8 +45,22 @@ class Fitting(NamedTuple):
     @property
     def remedy(self) -> Remedy:
         weights, shafts, sliders = self._of(Counterweight), self._of(Shaft), self._of(Slider)
-        reasons = [reason for kind in (Counterweight, Shaft, Slider) for table, reason in self.fits if isinstance(table, kind)]
-        return Remedy(self.scheme, self.order, weights, shafts, sliders, tuple(reasons), self.details, self.beyond)
+        reasons = [
+            reason
+            for kind in (Counterweight, Shaft, Slider)
+            for table, reason in self.fits
+            if isinstance(table, kind)
+        ]
+        return Remedy(
+            self.scheme,
+            self.order,
+            weights,
+            shafts,
+            sliders,
+            tuple(reasons),
+            self.details,
+            self.beyond,
+        )
 
     def rest(self, order: int) -> Rest:
         """What is left of an order with the devices so far."""
@@ -46,15 +69,29 @@ class Fitting(NamedTuple):
     def add(self, slots: Sequence[Slot], unbalances: Iterable[complex], reason: str) -> Fitting:
         """With the devices in these slots; those of no unbalance are left out."""
         axis = float(self.engine.first_axis_deg)
-        new = tuple((slot.table(u, axis), reason) for slot, u in zip(slots, unbalances, strict=True) if u)
+        new = tuple(
+            (slot.table(u, axis), reason) for slot, u in zip(slots, unbalances, strict=True) if u
+        )
         return self._replace(fits=self.fits + new)
 
-    def cancel(self, slots: Sequence[Slot], parts: Sequence[Part], reason: str, impossible: str = SAME_PLACE) -> Fitting:
-        """With devices in these slots that leave nothing of the parts; BalcliError if they cannot."""
+    def cancel(
+        self,
+        slots: Sequence[Slot],
+        parts: Sequence[Part],
+        reason: str,
+        impossible: str = SAME_PLACE,
+    ) -> Fitting:
+        """With devices in these slots that leave nothing of the parts; BalcliError if they
+        cannot.
+        """
         if not slots:
             return self
         fit = exactly(slots, self.rest(slots[0].order), parts, impossible)
-        told = self.note(condition_number=fit.condition) if len(slots) > 1 and fit.condition < math.inf else self
+        told = (
+            self.note(condition_number=fit.condition)
+            if len(slots) > 1 and fit.condition < math.inf
+            else self
+        )
         return told.add(slots, fit.unbalances, reason)
 
     def note(self, **details: Any) -> Fitting:

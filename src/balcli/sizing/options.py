@@ -1,4 +1,5 @@
 """What a user may ask of a scheme, and which scheme takes which of it."""
+
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -9,8 +10,8 @@ from ..errors import BalcliError
 from .effects import Rest, rest
 from .schemes import KNUCKLES, NAMES, SCHEMES
 
-HIGHEST = 8                     # order up to which something to balance is looked for
-STRONGEST = 1000                # order that a shaft may be asked for
+HIGHEST = 8  # order up to which something to balance is looked for
+STRONGEST = 1000  # order that a shaft may be asked for
 
 
 class NoNeedError(Exception):
@@ -22,7 +23,8 @@ class Wish(NamedTuple):
 
     Attributes:
         order: the order that is to be balanced.
-        at: places x + iy of shafts or sliders; of a pair, first the one that turns against the crank.
+        at: places x + iy of shafts or sliders; of a pair, first the one that turns against the
+        crank.
         position: z of new shafts.
         planes: "ends", "throws", or places along z.
         factor: shares of the reciprocating mass.
@@ -40,10 +42,16 @@ class Wish(NamedTuple):
         """BalcliError for an option that the scheme does not have, or a value that none has."""
         given = [name for name, value in self._asdict().items() if value is not None]
         if strangers := [name for name in given if name not in accepted]:
-            has = f"it takes {', '.join('--' + a for a in accepted)}" if accepted else "it takes no options"
+            has = (
+                f"it takes {', '.join('--' + a for a in accepted)}"
+                if accepted
+                else "it takes no options"
+            )
             raise BalcliError(f"scheme {scheme} has no --{strangers[0]}; {has}")
         if self.order is not None and not 1 <= self.order <= STRONGEST:
-            raise BalcliError(f"--order {self.order}: the order must be a whole number from 1 to {STRONGEST}")
+            raise BalcliError(
+                f"--order {self.order}: the order must be a whole number from 1 to {STRONGEST}"
+            )
         if self.roll not in (None, "zero"):
             raise BalcliError(f'--roll "{self.roll}": only "zero" can be asked for')
 
@@ -54,8 +62,11 @@ def lowest(engine: Engine, quantity: str, senses: Sequence[int]) -> Rest:
         found = rest(engine, order)
         if any(found.at(quantity, sense) for sense in senses):
             return found
-    raise NoNeedError(f"there is no free {quantity}{_turning(senses)} of orders 1 to {HIGHEST}: nothing to balance; "
-                      "--order names a higher one")
+    raise NoNeedError(
+        f"there is no free {quantity}{_turning(senses)} of orders 1 to {HIGHEST}: nothing to "
+        "balance; "
+        "--order names a higher one"
+    )
 
 
 def _turning(senses: Sequence[int]) -> str:
@@ -63,24 +74,41 @@ def _turning(senses: Sequence[int]) -> str:
 
 
 def chosen(engine: Engine, wish: Wish, quantity: str, senses: Sequence[int] = (1, -1)) -> Rest:
-    """What is left of the order asked for, or of the lowest that has something; NoNeedError if there is nothing."""
+    """What is left of the order asked for, or of the lowest that has something; NoNeedError if
+    there is nothing.
+    """
     if wish.order is None:
         return lowest(engine, quantity, senses)
     found = rest(engine, wish.order)
     if any(found.at(quantity, sense) for sense in senses):
         return found
-    other = next((q for q in ("force", "moment") if q != quantity and any(found.at(q, s) for s in senses)), None)
-    hint = {"moment": "; it has a free moment: couple-shaft", "force": "; it has a free force: two-shaft", None: ""}[other]
-    raise NoNeedError(f"order {wish.order} has no free {quantity}{_turning(senses)}: nothing to balance{hint}")
+    other = next(
+        (q for q in ("force", "moment") if q != quantity and any(found.at(q, s) for s in senses)),
+        None,
+    )
+    hint = {
+        "moment": "; it has a free moment: couple-shaft",
+        "force": "; it has a free force: two-shaft",
+        None: "",
+    }[other]
+    raise NoNeedError(
+        f"order {wish.order} has no free {quantity}{_turning(senses)}: nothing to balance{hint}"
+    )
 
 
 def options(scheme: str) -> Sequence[str]:
-    """What a scheme takes; BalcliError if there is no such scheme, with the nearest name, or if it sizes no devices."""
+    """What a scheme takes; BalcliError if there is no such scheme, with the nearest name, or if it
+    sizes no devices.
+    """
     if scheme in SCHEMES:
         return SCHEMES[scheme].options
     if scheme == KNUCKLES:
-        raise BalcliError("scheme knuckles sizes no devices but changes the engine file: `balcli balance --scheme knuckles` does so")
+        raise BalcliError(
+            "scheme knuckles sizes no devices but changes the engine file: `balcli balance "
+            "--scheme knuckles` does so"
+        )
     from ..enginefile.fields import nearest
+
     near = nearest(scheme, NAMES)
     meant = f"did you mean {near}? " if near else ""
     raise BalcliError(f"there is no scheme {scheme[:60]!r}: {meant}choose from {', '.join(NAMES)}")

@@ -1,4 +1,5 @@
 """Where along the crank devices may stand."""
+
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -10,8 +11,14 @@ from .effects import Part, Rest
 
 
 def ends(engine: Engine) -> tuple[float, float]:
-    """First and last throw; where all stand in one plane, the outermost cylinders, or else devices."""
-    reaches = [_reach(engine.throws_m), _reach(engine.cylinders.z), _reach([*engine.throws_m, *(d.z for d in engine.devices)])]
+    """First and last throw; where all stand in one plane, the outermost cylinders, or else
+    devices.
+    """
+    reaches = [
+        _reach(engine.throws_m),
+        _reach(engine.cylinders.z),
+        _reach([*engine.throws_m, *(d.z for d in engine.devices)]),
+    ]
     return next((r for r in reaches if r[0] < r[1]), reaches[0])
 
 
@@ -27,14 +34,19 @@ def middle(engine: Engine) -> float:
 
 
 def single(wish: Rest, sense: int, within: tuple[float, float]) -> float | None:
-    """The z at which one device takes force and moment together, `z_ref + Re(M / iV)`; None if there is none within those bounds."""
+    """The z at which one device takes force and moment together, `z_ref + Re(M / iV)`; None if
+    there is none within those bounds.
+    """
     force, moment = wish.at("force", sense), wish.at("moment", sense)
     if force == 0:
         return None
     z = wish.arm[1] + (moment / force).real
     low, high = within
     near = min(max(z, low), high)
-    for place in (round(near, 12), near):               # a thousandth of a nanometre: figures that people can read
+    for place in (
+        round(near, 12),
+        near,
+    ):  # a thousandth of a nanometre: figures that people can read
         arm = place - wish.arm[1]
         if abs(moment - arm * force) <= wish.noise[Part("moment", sense)]:
             return place

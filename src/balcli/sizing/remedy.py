@@ -1,4 +1,7 @@
-"""Remedy: the devices that a scheme fits, as tables of the engine file, so that what is written is exactly what is analysed."""
+"""Remedy: the devices that a scheme fits, as tables of the engine file, so that what is written is
+exactly what is analysed.
+"""
+
 from __future__ import annotations
 
 import cmath
@@ -16,7 +19,8 @@ from ..enginefile.model import Counterweight, Shaft, Slider
 
 
 class Remedy(NamedTuple):
-    """New devices, in the units of the engine file (g mm, deg, mm), each with its reason in plain words.
+    """New devices, in the units of the engine file (g mm, deg, mm), each with its reason in plain
+    words.
 
     Attributes:
         order: the order that it is for, where the scheme has one.
@@ -39,12 +43,15 @@ class Remedy(NamedTuple):
 
 
 def fitted(engine: Engine, remedy: Remedy) -> Engine:
-    """The engine with the devices of a remedy added to its own, in the order in which its file would have them."""
+    """The engine with the devices of a remedy added to its own, in the order in which its file
+    would have them.
+    """
     everything = (*engine.devices, *devices(remedy.devices, engine.first_axis_deg), *remedy.beyond)
     return replace(engine, devices=tuple(sorted(everything, key=lambda device: device.rank)))
 
 
-# ------------------------------------------------------------------ unbalance (kg m, complex) -> table
+# ------------------------------------------------------------------ unbalance (kg m, complex) ->
+# table
 def counterweight(unbalance: complex, z: float, first_axis_deg: float) -> Counterweight:
     """A weight on the crankshaft; its angle counts from cylinder 1's pin."""
     size, angle = _polar(unbalance, first_axis_deg)
@@ -54,14 +61,26 @@ def counterweight(unbalance: complex, z: float, first_axis_deg: float) -> Counte
 def shaft(unbalance: complex, ratio: int, z: float, place: complex) -> Shaft:
     """An eccentric of a balancer shaft; its angle counts from x."""
     size, angle = _polar(unbalance)
-    return Shaft.model_construct(ratio=ratio, unbalance=size, angle=angle, at=_at(place), position=_millimetres(z))
+    return Shaft.model_construct(
+        ratio=ratio, unbalance=size, angle=angle, at=_at(place), position=_millimetres(z)
+    )
 
 
-def slider(amplitude: complex, order: int, direction_deg: float, z: float, place: complex) -> Slider:
-    """A reciprocating mass whose displacement is the real part of `amplitude e^{i n theta}` along its direction."""
+def slider(
+    amplitude: complex, order: int, direction_deg: float, z: float, place: complex
+) -> Slider:
+    """A reciprocating mass whose displacement is the real part of `amplitude e^{i n theta}` along
+    its direction.
+    """
     size, angle = _polar(amplitude)
-    return Slider.model_construct(order=order, unbalance=size, direction=direction_deg, angle=angle, at=_at(place),
-                                  position=_millimetres(z))
+    return Slider.model_construct(
+        order=order,
+        unbalance=size,
+        direction=direction_deg,
+        angle=angle,
+        at=_at(place),
+        position=_millimetres(z),
+    )
 
 
 def degrees(vector: complex, origin_deg: float = 0.0) -> float:
@@ -83,6 +102,8 @@ def _millimetres(metres: float) -> float:
 
 
 def _plain(figure: float, size: float) -> float:
-    """The figure with nine decimals, as people would write it, where that is the same to an ulp of `size`."""
+    """The figure with nine decimals, as people would write it, where that is the same to an ulp of
+    `size`.
+    """
     short = round(figure, 9) + 0.0
     return short if abs(figure - short) <= size * EPS else figure

@@ -1,4 +1,7 @@
-"""The balance schemes by name, for messages, help and completion; nothing is imported to know them."""
+"""The balance schemes by name, for messages, help and completion; nothing is imported to know
+them.
+"""
+
 from __future__ import annotations
 
 from typing import NamedTuple
@@ -24,5 +27,5 @@ SCHEMES = {
     "eccentric-slider": Scheme("single_cylinder"),
     "oldham": Scheme("single_cylinder"),
 }
-KNUCKLES = "knuckles"           # fits no device, but changes the engine file (balcli.results.knuckles)
+KNUCKLES = "knuckles"  # fits no device, but changes the engine file (balcli.results.knuckles)
 NAMES = (*SCHEMES, KNUCKLES)

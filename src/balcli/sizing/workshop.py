@@ -1,4 +1,7 @@
-"""What a workshop asks of a device: how heavy at which radius, how it pulls, and a first guess of its size in steel."""
+"""What a workshop asks of a device: how heavy at which radius, how it pulls, and a first guess of
+its size in steel.
+"""
+
 from __future__ import annotations
 
 import math
@@ -8,12 +11,14 @@ from ..engine.build import Engine
 from ..errors import BalcliError
 from .remedy import Remedy
 
-STEEL = 7850.0                  # kg/m3, plain carbon steel
-THICKNESS = 0.020               # m, of a semicircular disc if nothing else is said
+STEEL = 7850.0  # kg/m3, plain carbon steel
+THICKNESS = 0.020  # m, of a semicircular disc if nothing else is said
 
 
 class Tools(NamedTuple):
-    """At which radius masses are stated, thickness (or radius) of the discs, and drill diameter, m; None: see `practical`."""
+    """At which radius masses are stated, thickness (or radius) of the discs, and drill diameter, m;
+    None: see `practical`.
+    """
 
     radius: float | None = None
     thickness: float | None = None
@@ -27,9 +32,10 @@ class Practical(NamedTuple):
     Attributes:
         mass: at `radius`, which makes the unbalance (a slider: of this amplitude).
         force: centrifugal force (largest force of a slider) at the engine's speed.
-        speed_rpm: of the shaft; of a slider its strokes a minute.
-        disc_radius, disc_thickness: semicircular steel disc, its diameter through the axis of rotation.
-        depth: of a radial hole, from the rim at `radius` inwards, that removes as much; nan if the drill is too small for it.
+        speed_rpm: of the shaft; of a slider its strokes a minute. disc_radius, disc_thickness:
+        semicircular steel disc, its diameter through the axis of rotation.
+        depth: of a radial hole, from the rim at `radius` inwards, that removes as much; nan if the
+        drill is too small for it.
     """
 
     unbalance: float
@@ -43,7 +49,8 @@ class Practical(NamedTuple):
 
 
 def practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practical, ...]:
-    """Figures of all devices, in the order of `remedy.devices`; masses are stated at the crank radius if not told otherwise.
+    """Figures of all devices, in the order of `remedy.devices`; masses are stated at the crank
+    radius if not told otherwise.
 
     Raises BalcliError unless all lengths are positive.
     """
@@ -51,20 +58,40 @@ def practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practical, 
     if any(length is not None and not 0 < length < math.inf for length in lengths):
         raise BalcliError("radius, thickness, disc and drill must be positive lengths in mm")
     if tools.thickness is not None and tools.disc is not None:
-        raise BalcliError("a semicircular disc has its radius or its thickness given, not both: the other follows")
+        raise BalcliError(
+            "a semicircular disc has its radius or its thickness given, not both: the other follows"
+        )
     radius = tools.radius or float(engine.cylinders.radius)
-    multiples = [1] * len(remedy.counterweights) + [abs(d.ratio) for d in remedy.shafts] + [d.order for d in remedy.sliders]
+    multiples = (
+        [1] * len(remedy.counterweights)
+        + [abs(d.ratio) for d in remedy.shafts]
+        + [d.order for d in remedy.sliders]
+    )
 
     def figures(unbalance: float, times: int) -> Practical:
         r, t = _disc(unbalance, tools)
         depth = drill_depth(unbalance, radius, tools.drill) if tools.drill else None
-        return Practical(unbalance, unbalance / radius, radius, unbalance * (times * float(engine.omega)) ** 2,
-                         times * float(engine.speed_rpm), r, t, depth)
-    return tuple(figures((d.unbalance or 0.0) / 1e6, n) for d, n in zip(remedy.devices, multiples, strict=True))
+        return Practical(
+            unbalance,
+            unbalance / radius,
+            radius,
+            unbalance * (times * float(engine.omega)) ** 2,
+            times * float(engine.speed_rpm),
+            r,
+            t,
+            depth,
+        )
+
+    return tuple(
+        figures((d.unbalance or 0.0) / 1e6, n)
+        for d, n in zip(remedy.devices, multiples, strict=True)
+    )
 
 
 def _disc(unbalance: float, tools: Tools) -> tuple[float, float]:
-    """Radius and thickness: the centroid of a half disc lies 4R/(3 pi) from its diameter, so `m r = density t 2/3 R^3`."""
+    """Radius and thickness: the centroid of a half disc lies 4R/(3 pi) from its diameter, so `m r =
+    density t 2/3 R^3`.
+    """
     if tools.disc is not None:
         return tools.disc, 1.5 * unbalance / (STEEL * tools.disc**3)
     thickness = tools.thickness or THICKNESS
@@ -72,9 +99,12 @@ def _disc(unbalance: float, tools: Tools) -> tuple[float, float]:
 
 
 def drill_depth(unbalance: float, rim: float, drill: float) -> float:
-    """Depth of a radial hole from the rim (radius, m) inwards whose removed steel had this unbalance; nan if none is deep enough.
+    """Depth of a radial hole from the rim (radius, m) inwards whose removed steel had this
+    unbalance; nan if none is deep enough.
 
     `m r = density pi d^2/4 (rim h - h^2/2)`, the hole ending at the axis at the latest.
     """
-    share = unbalance / (STEEL * math.pi / 4 * drill**2) / rim**2            # = h/rim - (h/rim)^2 / 2, at most 1/2
+    share = (
+        unbalance / (STEEL * math.pi / 4 * drill**2) / rim**2
+    )  # = h/rim - (h/rim)^2 / 2, at most 1/2
     return rim * 2 * share / (1 + math.sqrt(1 - 2 * share)) if share <= 0.5 else math.nan

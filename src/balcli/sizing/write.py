@@ -1,4 +1,7 @@
-"""The engine file with the devices of a remedy: its text as it was, comments and all, with their tables after it."""
+"""The engine file with the devices of a remedy: its text as it was, comments and all, with their
+tables after it.
+"""
+
 from __future__ import annotations
 
 import tomllib
@@ -20,16 +23,21 @@ _KEYS: dict[type, tuple[str, ...]] = {
 
 
 def fit(text: bytes, remedy: Remedy, file: str = "") -> str:
-    """The text of an engine file with these devices fitted; read back, it is exactly the engine that was analysed with them.
+    """The text of an engine file with these devices fitted; read back, it is exactly the engine
+    that was analysed with them.
 
-    Where the file has its devices as an inline list, which cannot be added to, it is written anew, without its comments.
+    Where the file has its devices as an inline list, which cannot be added to, it is written anew,
+    without its comments.
 
     Raises:
         BalcliError: the remedy has devices that no engine file can describe.
     """
     if remedy.beyond:
-        raise BalcliError(f"scheme {remedy.scheme}: no engine file can describe its devices (shafts of variable speed, couplings), "
-                          "so that they cannot be written; balance shows what they leave")
+        raise BalcliError(
+            f"scheme {remedy.scheme}: no engine file can describe its devices (shafts of variable "
+            "speed, couplings), "
+            "so that they cannot be written; balance shows what they leave"
+        )
     old = text.decode("utf-8-sig")
     new = old + ("" if old.endswith("\n") or not old else "\n") + "".join(_tables(remedy))
     try:
@@ -37,13 +45,20 @@ def fit(text: bytes, remedy: Remedy, file: str = "") -> str:
     except InputError:
         new = _rewritten(old, remedy)
     if build(parse(new, file)).devices != fitted(build(parse(text, file)), remedy).devices:
-        raise BalcliError(f"{file}: the devices do not read back as they were sized; please report this file")
+        raise BalcliError(
+            f"{file}: the devices do not read back as they were sized; please report this file"
+        )
     return new
 
 
 def fit_knuckles(text: bytes, angles_deg: tuple[float, ...], file: str = "") -> str:
     """The text of an engine file with these knuckle angles, in place of older ones."""
-    new = changed(text.decode("utf-8-sig"), "articulation", {"knuckle_angles": list(angles_deg)}, "even, by balcli")
+    new = changed(
+        text.decode("utf-8-sig"),
+        "articulation",
+        {"knuckle_angles": list(angles_deg)},
+        "even, by balcli",
+    )
     parse(new, file)
     return new
 
@@ -62,7 +77,9 @@ def _tables(remedy: Remedy) -> Iterator[str]:
 
 def _entries(device: Counterweight | Shaft | Slider) -> dict[str, Any]:
     values = {key: getattr(device, key) for key in _KEYS[type(device)]}
-    return {key: list(value) if isinstance(value, tuple) else value for key, value in values.items()}
+    return {
+        key: list(value) if isinstance(value, tuple) else value for key, value in values.items()
+    }
 
 
 def _rewritten(text: str, remedy: Remedy) -> str:

@@ -1,4 +1,7 @@
-"""Sweeps beyond one process: the same boxes, computed by the workers of a dask cluster (extra `balcli[scale]`)."""
+"""Sweeps beyond one process: the same boxes, computed by the workers of a dask cluster (extra
+`balcli[scale]`).
+"""
+
 from __future__ import annotations
 
 from collections import deque
@@ -10,13 +13,14 @@ from typing import Any
 from ..errors import BalcliError
 from .sweep import Box, Chunk, Sweep, boxes, values
 
-BATCH = 16                      # boxes that a worker computes at a time
-AHEAD = 4                       # batches for each thread that may wait to be fetched
+BATCH = 16  # boxes that a worker computes at a time
+AHEAD = 4  # batches for each thread that may wait to be fetched
 
 
 @contextmanager
 def client(address: str) -> Iterator[Any]:
-    """A client of the scheduler at an address such as tcp://host:8786, or of a cluster of our own (`local`).
+    """A client of the scheduler at an address such as tcp://host:8786, or of a cluster of our own
+    (`local`).
 
     Raises:
         BalcliError: dask is not installed, or nobody answers.
@@ -28,7 +32,10 @@ def client(address: str) -> Iterator[Any]:
     dask: Any = distributed
     try:
         if address == "local":
-            with dask.LocalCluster(threads_per_worker=1, dashboard_address=None) as cluster, dask.Client(cluster) as found:
+            with (
+                dask.LocalCluster(threads_per_worker=1, dashboard_address=None) as cluster,
+                dask.Client(cluster) as found,
+            ):
                 yield found
         else:
             with dask.Client(address, timeout=10) as found:
@@ -38,14 +45,20 @@ def client(address: str) -> Iterator[Any]:
 
 
 def chunks(sweep: Sweep, found: Any) -> Iterator[Chunk]:
-    """All variants, computed by the cluster, in the order of rows; a bounded number of batches is under way at a time."""
+    """All variants, computed by the cluster, in the order of rows; a bounded number of batches is
+    under way at a time.
+    """
     batches = _batches(boxes(sweep.shape))
     most = AHEAD * max(sum(found.nthreads().values()), 1)
     job = found.scatter(sweep, broadcast=True)
-    waiting = deque(found.submit(_compute, job, batch, pure=False) for batch in islice(batches, most))
+    waiting = deque(
+        found.submit(_compute, job, batch, pure=False) for batch in islice(batches, most)
+    )
     while waiting:
         yield from waiting.popleft().result()
-        waiting.extend(found.submit(_compute, job, batch, pure=False) for batch in islice(batches, 1))
+        waiting.extend(
+            found.submit(_compute, job, batch, pure=False) for batch in islice(batches, 1)
+        )
 
 
 def _compute(sweep: Sweep, batch: list[Box]) -> list[Chunk]:

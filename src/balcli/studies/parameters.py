@@ -1,7 +1,10 @@
-"""Numbers of an engine file by dotted names (`rod.ratio`, `crank.throws.2`, `shaft.1.unbalance`): found, checked, replaced.
+"""Numbers of an engine file by dotted names (`rod.ratio`, `crank.throws.2`, `shaft.1.unbalance`):
+found, checked, replaced.
 
-The model is frozen; `varied` makes a copy in which numbers are replaced by arrays, each along an axis of its own.
+The model is frozen; `varied` makes a copy in which numbers are replaced by arrays, each along an
+axis of its own.
 """
+
 from __future__ import annotations
 
 import math
@@ -24,8 +27,8 @@ from ..errors import BalcliError
 if TYPE_CHECKING:
     from ..engine.layout import Plan
 
-MOST = 1_000_000_000            # values of one parameter
-_EXACT = 2**53                  # whole numbers below it are exact as floating-point numbers
+MOST = 1_000_000_000  # values of one parameter
+_EXACT = 2**53  # whole numbers below it are exact as floating-point numbers
 _FIGURE = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?")
 
 
@@ -42,10 +45,12 @@ class Parameter:
 
 # ------------------------------------------------------------------ which numbers there are
 def numeric(file: EngineFile) -> dict[str, Number]:
-    """All numbers that an engine file has or might have, by dotted name; members of lists count from 1."""
+    """All numbers that an engine file has or might have, by dotted name; members of lists count
+    from 1.
+    """
     found: dict[str, Number] = {}
     for key, table in TABLES.items():
-        if key != "bobweight" and getattr(file, key) is not None:            # bobweights move nothing
+        if key != "bobweight" and getattr(file, key) is not None:  # bobweights move nothing
             found |= _numbers(key, table, getattr(file, key))
     for key, table in DEVICES.items():
         for k, device in enumerate(getattr(file, key), 1):
@@ -53,7 +58,7 @@ def numeric(file: EngineFile) -> dict[str, Number]:
     layout = _plan(file)
     for number in {*file.cylinder, *layout.numbers}:
         found |= _numbers(f"cylinder.{number}", Override, file.cylinder.get(number))
-    if len(layout.banks) != 2:                          # it would make a vee of the engine, with other cylinders
+    if len(layout.banks) != 2:  # it would make a vee of the engine, with other cylinders
         found.pop("layout.bank_angle", None)
     return found
 
@@ -76,9 +81,13 @@ def _numbers(path: str, table: type[Table], value: Any) -> Iterator[tuple[str, N
 
 @cache
 def _number(table: type[Table], key: str) -> Number | None:
-    """How a field is read, if it is a number or a list of them (whole numbers change what the engine is made of)."""
+    """How a field is read, if it is a number or a list of them (whole numbers change what the
+    engine is made of).
+    """
     field = table.model_fields[key]
-    return next((n for n in (*field.metadata, *_marks(field.annotation)) if isinstance(n, Number)), None)
+    return next(
+        (n for n in (*field.metadata, *_marks(field.annotation)) if isinstance(n, Number)), None
+    )
 
 
 def _marks(annotation: Any) -> Iterator[Any]:
@@ -100,12 +109,16 @@ def parse(text: str, file: EngineFile) -> Parameter:
     """`path=from:to:step` (ends included) or `path=a,b,c`; figures may bear units.
 
     Raises:
-        BalcliError: no such number in the file (with the nearest name), no values, or values out of its bounds.
+        BalcliError: no such number in the file (with the nearest name), no values, or values out of
+        its bounds.
     """
     path, equals, wanted = (part.strip() for part in text.partition("="))
     known = numeric(file)
     if not equals or not path:
-        raise BalcliError(f'"{text}": give a number of the engine file and its values, such as rod.ratio=0.24:0.32:0.01')
+        raise BalcliError(
+            f'"{text}": give a number of the engine file and its values, such as '
+            "rod.ratio=0.24:0.32:0.01"
+        )
     if path not in known:
         raise BalcliError(_unknown(path, known))
     try:
@@ -118,7 +131,11 @@ def parse(text: str, file: EngineFile) -> Parameter:
 def _unknown(path: str, known: Mapping[str, Number]) -> str:
     near = nearest(path, known)
     table = [name for name in known if name.split(".")[0] == path.split(".")[0]] or list(known)
-    hint = f"did you mean {near}?" if near else f"there are {', '.join(table[:6])}{' ...' if len(table) > 6 else ''}"
+    hint = (
+        f"did you mean {near}?"
+        if near
+        else f"there are {', '.join(table[:6])}{' ...' if len(table) > 6 else ''}"
+    )
     return f"{path} is no number of this engine file; {hint}"
 
 
@@ -150,7 +167,10 @@ def _values(text: str, number: Number) -> NDArray[np.float64]:
         raise ValueError("the step is 0; give the distance of neighbouring values")
     count = math.floor((last - first) / step) + 1
     if not 0 < count <= MOST:
-        raise ValueError(f"has {max(count, 0)} values; give a step that leads from the first to the last in at most {MOST:g} steps")
+        raise ValueError(
+            f"has {max(count, 0)} values; give a step that leads from the first to the last in at "
+            f"most {MOST:g} steps"
+        )
     return ladder(first, step, count)
 
 
@@ -175,15 +195,24 @@ def _exact(text: str, number: Number) -> Fraction:
 
 # ------------------------------------------------------------------ replaced
 def varied(file: EngineFile, numbers: Mapping[str, Any]) -> EngineFile:
-    """The file with numbers replaced, by arrays too; what says the same otherwise (rod.length beside rod.ratio) gives way.
+    """The file with numbers replaced, by arrays too; what says the same otherwise (rod.length
+    beside rod.ratio) gives way.
 
-    A firing order beside given throws is left out: it would have to fit every variant, and adds nothing.
+    A firing order beside given throws is left out: it would have to fit every variant, and adds
+    nothing.
 
     Raises:
-        BalcliError: a number of which the file gives only the alternative (a mass for which it has an unbalance).
+        BalcliError: a number of which the file gives only the alternative (a mass for which it has
+        an unbalance).
     """
     if file.crank.throws is not None:
-        file = file.model_copy(update={"layout": file.layout.model_copy(update={"firing_order": None, "firing_intervals": None})})
+        file = file.model_copy(
+            update={
+                "layout": file.layout.model_copy(
+                    update={"firing_order": None, "firing_intervals": None}
+                )
+            }
+        )
     for path, value in numbers.items():
         file = _replaced(file, path.split("."), value, path)
     return file
@@ -196,9 +225,11 @@ def _replaced(node: Any, keys: Sequence[str], value: Any, path: str) -> Any:
     key, *rest = keys
     if isinstance(node, tuple):
         row = int(key) - 1
-        return (*node[:row], _replaced(node[row], rest, value, path), *node[row + 1:])
+        return (*node[:row], _replaced(node[row], rest, value, path), *node[row + 1 :])
     if isinstance(node, dict):
-        return node | {int(key): _replaced(node.get(int(key), Override.model_construct()), rest, value, path)}
+        return node | {
+            int(key): _replaced(node.get(int(key), Override.model_construct()), rest, value, path)
+        }
     gone = {} if rest else _giving_way(node, key, path)
     return node.model_copy(update={key: _replaced(getattr(node, key), rest, value, path), **gone})
 
@@ -208,8 +239,17 @@ def _giving_way(table: Table, key: str, path: str) -> dict[str, None]:
     others: dict[str, None] = {}
     for choice in table.choices:
         own = next((group for group in choice.groups if key in group), ())
-        rest = [k for group in choice.groups if own and group != own for k in group if getattr(table, k) is not None]
+        rest = [
+            k
+            for group in choice.groups
+            if own and group != own
+            for k in group
+            if getattr(table, k) is not None
+        ]
         if rest and any(getattr(table, k) is None for k in own if k != key):
-            raise BalcliError(f"{path}: the file gives {' and '.join(rest)} instead; vary that, or give {' and '.join(own)} in the file")
+            raise BalcliError(
+                f"{path}: the file gives {' and '.join(rest)} instead; vary that, or give "
+                f"{' and '.join(own)} in the file"
+            )
         others |= dict.fromkeys(rest)
     return others

@@ -1,4 +1,7 @@
-"""What a picture shows: an engine as it is or with a scheme's devices, over the balance factor, or over the bank angle."""
+"""What a picture shows: an engine as it is or with a scheme's devices, over the balance factor, or
+over the bank angle.
+"""
+
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -17,11 +20,13 @@ from ..results.balance import balance
 from ..sizing.sizing import Wish, remedy_for
 
 FACTORS = tuple(k / 20 for k in range(21))
-_ALONE = ("factor", "bank")     # studies of the engine as it is
+_ALONE = ("factor", "bank")  # studies of the engine as it is
 
 
 class Banks(NamedTuple):
-    """Free force of one order over the bank angle of a vee, all else unchanged; the phasors have the angles as their axis."""
+    """Free force of one order over the bank angle of a vee, all else unchanged; the phasors have
+    the angles as their axis.
+    """
 
     order: int
     angles_deg: Array
@@ -30,8 +35,9 @@ class Banks(NamedTuple):
 
 
 class Study(NamedTuple):
-    """Now, and before devices were fitted if any were; rows of peaks over the balance factor; the order over the bank angle;
-    what bends the crankshaft now and before."""
+    """Now, and before devices were fitted if any were; rows of peaks over the balance factor; the
+    order over the bank angle; what bends the crankshaft now and before.
+    """
 
     now: Analysis
     before: Analysis | None = None
@@ -40,7 +46,9 @@ class Study(NamedTuple):
     bent: tuple[Inner, ...] = ()
 
 
-def study(engine: Engine, what: str, orders: Sequence[int] | None = None, scheme: str | None = None) -> Study:
+def study(
+    engine: Engine, what: str, orders: Sequence[int] | None = None, scheme: str | None = None
+) -> Study:
     """What the page `what` shows.
 
     Args:
@@ -49,7 +57,8 @@ def study(engine: Engine, what: str, orders: Sequence[int] | None = None, scheme
         scheme: the balance scheme to compare with, if any.
 
     Raises:
-        BalcliError: an unknown scheme, one that cannot be fitted, or one beside a study that takes none; a bank angle is asked
+        BalcliError: an unknown scheme, one that cannot be fitted, or one beside a study that takes
+        none; a bank angle is asked
             of an engine that is no vee.
     """
     if scheme is not None and what in _ALONE:
@@ -64,21 +73,40 @@ def study(engine: Engine, what: str, orders: Sequence[int] | None = None, scheme
     if what == "factor":
         details: Any = remedy_for(engine, "factor", Wish(factor=FACTORS)).details
         return Study(now, factors=details["sweep"])
-    return Study(now, banks=over_bank_angle(engine, _lowest(now) if orders is None else orders[0])) if what == "bank" else Study(now)
+    return (
+        Study(now, banks=over_bank_angle(engine, _lowest(now) if orders is None else orders[0]))
+        if what == "bank"
+        else Study(now)
+    )
 
 
 def over_bank_angle(engine: Engine, order: int) -> Banks:
-    """The free force of an order while the two banks of a vee are swung apart from 0 to 180 degrees, the crankshaft unchanged."""
+    """The free force of an order while the two banks of a vee are swung apart from 0 to 180
+    degrees, the crankshaft unchanged.
+    """
     c = engine.cylinders
     axes = np.ravel(c.axis_deg)
     if len(axes) != 2 or c.linkage is not None:
-        raise BalcliError(f"--what bank swings the two banks of a vee; this engine has {len(axes)} bank{'s' if len(axes) > 1 else ''}"
-                          f"{' and articulated or turning cylinders' if c.linkage is not None else ''}")
+        raise BalcliError(
+            f"--what bank swings the two banks of a vee; this engine has {len(axes)} "
+            f"bank{'s' if len(axes) > 1 else ''}"
+            f"{' and articulated or turning cylinders' if c.linkage is not None else ''}"
+        )
     middle, side = axes.mean(), np.sign(axes - axes.mean())
     angles = np.arange(0.0, 180.5, 1.0)
-    columns = [_force(replace(engine, cylinders=replace(c, axis_deg=middle + side * angle / 2), devices=()), order) for angle in angles]
-    force = Phasors(np.array([float(order)]), np.stack([f.forward for f in columns], axis=1),
-                    np.stack([f.backward for f in columns], axis=1), np.zeros(1))
+    columns = [
+        _force(
+            replace(engine, cylinders=replace(c, axis_deg=middle + side * angle / 2), devices=()),
+            order,
+        )
+        for angle in angles
+    ]
+    force = Phasors(
+        np.array([float(order)]),
+        np.stack([f.forward for f in columns], axis=1),
+        np.stack([f.backward for f in columns], axis=1),
+        np.zeros(1),
+    )
     return Banks(order, angles, float(np.ptp(axes)), force)
 
 
@@ -90,5 +118,9 @@ def _force(engine: Engine, order: int) -> Phasors:
 def _lowest(now: Analysis) -> int:
     """The lowest order with a free force, or the second."""
     force: Any = now.spectra.force
-    free = [int(n) for n, balanced in zip(force.orders, force.balanced, strict=True) if n >= 1 and not balanced]
+    free = [
+        int(n)
+        for n, balanced in zip(force.orders, force.balanced, strict=True)
+        if n >= 1 and not balanced
+    ]
     return free[0] if free else 2

@@ -1,9 +1,12 @@
-"""Grids of variants of an engine: numbers of the file over ranges, evaluated as arrays, in boxes of bounded size.
+"""Grids of variants of an engine: numbers of the file over ranges, evaluated as arrays, in boxes of
+bounded size.
 
-Every parameter has a trailing axis of its own, so that what does not depend on it is not computed again: on a grid of bank
-angles and rod ratios, phases are computed once for each angle, coefficients once for each ratio, and only their products
-for each variant. Rows run with the last parameter fastest.
+Every parameter has a trailing axis of its own, so that what does not depend on it is not computed
+again: on a grid of bank angles and rod ratios, phases are computed once for each angle,
+coefficients once for each ratio, and only their products for each variant. Rows run with the last
+parameter fastest.
 """
+
 from __future__ import annotations
 
 import math
@@ -25,7 +28,7 @@ from .parameters import Parameter, parse, varied
 Array = NDArray[np.float64]
 Box = tuple[slice, ...]
 MOST_KEPT = 4_000_000
-CHUNK = 32_768                  # variants at a time: few enough for the cache, enough for what they share
+CHUNK = 32_768  # variants at a time: few enough for the cache, enough for what they share
 
 
 class Chunk(NamedTuple):
@@ -42,7 +45,7 @@ class Sweep:
     file: EngineFile
     parameters: tuple[Parameter, ...]
     quantities: tuple[Quantity, ...]
-    name: str = "engine"                # of the file, in messages
+    name: str = "engine"  # of the file, in messages
 
     @property
     def columns(self) -> list[str]:
@@ -63,9 +66,14 @@ class Sweep:
             InputError: one of them cannot be.
         """
         rank = len(self.parameters)
-        axes = {p.path: p.values[cut].reshape(-1, *(1,) * (rank - 1 - k))
-                for k, (p, cut) in enumerate(zip(self.parameters, box, strict=True))}
-        arrays = {path: values.reshape((1,) * (rank - values.ndim) + values.shape) for path, values in axes.items()}
+        axes = {
+            p.path: p.values[cut].reshape(-1, *(1,) * (rank - 1 - k))
+            for k, (p, cut) in enumerate(zip(self.parameters, box, strict=True))
+        }
+        arrays = {
+            path: values.reshape((1,) * (rank - values.ndim) + values.shape)
+            for path, values in axes.items()
+        }
         try:
             return build(varied(self.file, arrays), rank)
         except InputError as error:
@@ -76,7 +84,8 @@ def ask(file: str, vary: Sequence[str], quantities: str) -> Sweep:
     """The sweep of an engine file that a user asks for.
 
     Raises:
-        BalcliError: what is wrong with the file, a parameter or a quantity, or if one of the variants cannot be.
+        BalcliError: what is wrong with the file, a parameter or a quantity, or if one of the
+        variants cannot be.
     """
     model = enginefile.read(file)
     parameters = tuple(parse(text, model) for text in vary)
@@ -89,32 +98,43 @@ def ask(file: str, vary: Sequence[str], quantities: str) -> Sweep:
 
 
 def check(sweep: Sweep) -> None:
-    """A first look whether all variants can be, at the corners of the grid: what can lock a mechanism grows towards one of them (what an
-    uneven speed can do to it may lie between them, and is found on the way).
+    """A first look whether all variants can be, at the corners of the grid: what can lock a
+    mechanism grows towards one of them (what an uneven speed can do to it may lie between them, and
+    is found on the way).
 
     Raises:
         InputError: one of them cannot be.
     """
-    corners = tuple(Parameter(p.path, np.array([p.values.min(), p.values.max()])) for p in sweep.parameters)
+    corners = tuple(
+        Parameter(p.path, np.array([p.values.min(), p.values.max()])) for p in sweep.parameters
+    )
     Sweep(sweep.file, corners, (), sweep.name).engine((slice(None),) * len(corners))
 
 
 def values(sweep: Sweep, box: Box) -> list[Array]:
     """Each quantity for all variants of a box, shape (variants in it,)."""
     shape = tuple(len(range(*cut.indices(n))) for cut, n in zip(box, sweep.shape, strict=True))
-    return [np.broadcast_to(found, shape).ravel() for found in evaluate(sweep.engine(box), sweep.quantities)]
+    return [
+        np.broadcast_to(found, shape).ravel()
+        for found in evaluate(sweep.engine(box), sweep.quantities)
+    ]
 
 
 def boxes(shape: tuple[int, ...], most: int = CHUNK) -> Iterator[Box]:
-    """The grid in boxes of at most `most` variants, in the order of rows: the last axes whole, one cut, the first one by one."""
+    """The grid in boxes of at most `most` variants, in the order of rows: the last axes whole, one
+    cut, the first one by one.
+    """
     axis = len(shape) - 1
     while axis > 0 and math.prod(shape[axis:]) <= most:
         axis -= 1
-    step = max(most // math.prod(shape[axis + 1:]), 1)
+    step = max(most // math.prod(shape[axis + 1 :]), 1)
     for fixed in np.ndindex(shape[:axis]):
         for start in range(0, shape[axis], step):
-            yield (*(slice(k, k + 1) for k in fixed), slice(start, min(start + step, shape[axis])),
-                   *(slice(0, n) for n in shape[axis + 1:]))
+            yield (
+                *(slice(k, k + 1) for k in fixed),
+                slice(start, min(start + step, shape[axis])),
+                *(slice(0, n) for n in shape[axis + 1 :]),
+            )
 
 
 def chunks(sweep: Sweep) -> Iterator[Chunk]:
@@ -136,6 +156,8 @@ def grid(sweep: Sweep) -> list[Array]:
         BalcliError: too many variants to be kept in memory.
     """
     if sweep.variants > MOST_KEPT:
-        raise BalcliError(f"{sweep.variants} variants are too many for one picture; {MOST_KEPT} are allowed")
+        raise BalcliError(
+            f"{sweep.variants} variants are too many for one picture; {MOST_KEPT} are allowed"
+        )
     found = zip(*(chunk.values for chunk in chunks(sweep)), strict=True)
     return [np.concatenate(parts).reshape(sweep.shape) for parts in found]

@@ -1,7 +1,10 @@
-"""How free forces and moments spread when masses, rod lengths and throw angles vary within tolerances.
+"""How free forces and moments spread when masses, rod lengths and throw angles vary within
+tolerances.
 
-Every piston, rod and throw deviates by itself. Samples are variants of the engine along one trailing axis.
+Every piston, rod and throw deviates by itself. Samples are variants of the engine along one
+trailing axis.
 """
+
 from __future__ import annotations
 
 import re
@@ -23,10 +26,10 @@ from ..forces.quantity import Quantity, evaluate
 from ..forces.spectrum import spectra
 
 Array = NDArray[np.float64]
-CHUNK = 8_192                   # samples at a time
-AT_ONCE = 400_000               # deviations at a time, where there are many sources
+CHUNK = 8_192  # samples at a time
+AT_ONCE = 400_000  # deviations at a time, where there are many sources
 MOST = 20_000_000
-STEP = 1e-3                     # of a tolerance, for derivatives; masses act linearly, so that theirs are exact
+STEP = 1e-3  # of a tolerance, for derivatives; masses act linearly, so that theirs are exact
 PERCENTILES = {"p05": 5.0, "p50": 50.0, "p95": 95.0}
 SPREADS = ("major", "forward", "backward", "amplitude")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?", re.ASCII)
@@ -35,7 +38,9 @@ Shape = Literal["uniform", "normal"]
 
 @dataclass(frozen=True)
 class Tolerances:
-    """Largest deviations: of masses and rod lengths relative to themselves, of throw angles in degrees."""
+    """Largest deviations: of masses and rod lengths relative to themselves, of throw angles in
+    degrees.
+    """
 
     mass: float = 0.0
     length: float = 0.0
@@ -50,21 +55,30 @@ def tolerances(mass: str, length: str, angle: str) -> Tolerances:
     """
     degrees = Number(ANGLE, least=0, most=90)
     try:
-        return Tolerances(_share(mass, "--mass-scatter"), _share(length, "--length-scatter"),
-                          degrees.read(float(angle) if _NUMBER.fullmatch(angle.strip()) else angle))
+        return Tolerances(
+            _share(mass, "--mass-scatter"),
+            _share(length, "--length-scatter"),
+            degrees.read(float(angle) if _NUMBER.fullmatch(angle.strip()) else angle),
+        )
     except ValueError as error:
         raise BalcliError(f"--angle-scatter {error}") from None
 
 
 def _share(text: str, option: str) -> float:
     number = text.strip().removesuffix("%")
-    if text.strip() == number or not _NUMBER.fullmatch(number.strip()) or not 0 <= float(number) < 100:
+    if (
+        text.strip() == number
+        or not _NUMBER.fullmatch(number.strip())
+        or not 0 <= float(number) < 100
+    ):
         raise BalcliError(f'{option} "{text}": give a percentage of 0 to 100, such as 0.5%')
     return float(number) / 100
 
 
 class Source(NamedTuple):
-    """One thing that deviates: `piston mass`, `rod mass`, `throw mass`, `rod length` or `throw angle`, whose, and by how much."""
+    """One thing that deviates: `piston mass`, `rod mass`, `throw mass`, `rod length` or `throw
+    angle`, whose, and by how much.
+    """
 
     what: str
     number: int
@@ -82,7 +96,8 @@ class Spread:
     Attributes:
         nominal: without deviations.
         mean, percentiles, largest: of the samples.
-        bound: what no combination of deviations exceeds: the nominal vectors and the sizes of all changes added up (exact for
+        bound: what no combination of deviations exceeds: the nominal vectors and the sizes of all
+        changes added up (exact for
             masses, to first order for lengths and angles).
         shares: by source, the change that its tolerance alone makes, to first order; largest first.
     """
@@ -105,8 +120,14 @@ class Scatter:
     spreads: tuple[Spread, ...]
 
 
-def scatter(file: EngineFile, tolerances: Tolerances, quantities: Sequence[Quantity], samples: int, seed: int | None = None,
-            shape: Shape = "uniform") -> Scatter:
+def scatter(
+    file: EngineFile,
+    tolerances: Tolerances,
+    quantities: Sequence[Quantity],
+    samples: int,
+    seed: int | None = None,
+    shape: Shape = "uniform",
+) -> Scatter:
     """Spread of quantities over random engines.
 
     Args:
@@ -116,20 +137,39 @@ def scatter(file: EngineFile, tolerances: Tolerances, quantities: Sequence[Quant
         BalcliError: quantities that are no sizes of vectors, too many samples, no tolerance at all.
     """
     if strange := [q.name for q in quantities if q.part not in SPREADS]:
-        raise BalcliError(f"{strange[0]} has no scatter of its own; choose one of {', '.join(SPREADS)} of an order, such as force.1.major")
+        raise BalcliError(
+            f"{strange[0]} has no scatter of its own; choose one of {', '.join(SPREADS)} of an "
+            "order, such as force.1.major"
+        )
     if not 1 <= samples <= MOST:
         raise BalcliError(f"{samples} samples: from 1 to {MOST} are allowed")
     if file.layout.rotary:
-        raise BalcliError("there is no scatter of rotary engines, whose masses move on curves: vary single masses with sweep")
+        raise BalcliError(
+            "there is no scatter of rotary engines, whose masses move on curves: vary single "
+            "masses with sweep"
+        )
     crowd = _Crowd(file, tolerances)
     if not crowd.sources:
         raise BalcliError("nothing deviates; give a tolerance, such as --mass-scatter 0.5%")
-    found = np.concatenate([np.stack([np.broadcast_to(v, count) for v in evaluate(crowd.engine(deviations), quantities)])
-                            for count, deviations in _drawn(crowd.sources, samples, seed, shape)], axis=1)
-    return Scatter(file, samples, tuple(_spread(crowd, q, values) for q, values in zip(quantities, found, strict=True)))
+    found = np.concatenate(
+        [
+            np.stack(
+                [np.broadcast_to(v, count) for v in evaluate(crowd.engine(deviations), quantities)]
+            )
+            for count, deviations in _drawn(crowd.sources, samples, seed, shape)
+        ],
+        axis=1,
+    )
+    return Scatter(
+        file,
+        samples,
+        tuple(_spread(crowd, q, values) for q, values in zip(quantities, found, strict=True)),
+    )
 
 
-def _drawn(sources: Sequence[Source], samples: int, seed: int | None, shape: Shape) -> Iterator[tuple[int, Array]]:
+def _drawn(
+    sources: Sequence[Source], samples: int, seed: int | None, shape: Shape
+) -> Iterator[tuple[int, Array]]:
     """Deviations in chunks, shape (sources, samples)."""
     random = np.random.default_rng(seed)
     tolerance = np.array([s.tolerance for s in sources])[:, None]
@@ -151,33 +191,57 @@ class _Crowd:
         self._throws = [cells[n].throw for n in self._engine.numbers]
         bare = build(_without(file, "piston"), 1).cylinders
         self._pistons = self._whole(self._engine.cylinders.reciprocating - bare.reciprocating)
-        self._webs = self._whole(self._engine.cylinders.rotating - build(_without(file, "throw"), 1).cylinders.rotating)
+        self._webs = self._whole(
+            self._engine.cylinders.rotating - build(_without(file, "throw"), 1).cylinders.rotating
+        )
         rods, throws = sorted(self._engine.numbers), range(1, 1 + max(self._throws) + 1)
-        self.sources = [Source(what, number, tolerance) for what, numbers, tolerance, there in (
-            ("piston mass", rods, tolerances.mass, self._pistons.any()), ("rod mass", rods, tolerances.mass, self._rods.any()),
-            ("throw mass", throws, tolerances.mass, self._webs.any()), ("rod length", rods, tolerances.length, True),
-            ("throw angle", throws, tolerances.angle_deg, True)) if tolerance and there for number in numbers]
+        self.sources = [
+            Source(what, number, tolerance)
+            for what, numbers, tolerance, there in (
+                ("piston mass", rods, tolerances.mass, self._pistons.any()),
+                ("rod mass", rods, tolerances.mass, self._rods.any()),
+                ("throw mass", throws, tolerances.mass, self._webs.any()),
+                ("rod length", rods, tolerances.length, True),
+                ("throw angle", throws, tolerances.angle_deg, True),
+            )
+            if tolerance and there
+            for number in numbers
+        ]
 
     @property
     def _rods(self) -> Array:
         """Rods' masses at the piston pin and at the crank pin, shape (2, cylinders, 1)."""
         c = self._engine.cylinders
-        return np.stack([self._whole(c.reciprocating) - self._pistons, self._whole(c.rotating) - self._webs])
+        return np.stack(
+            [self._whole(c.reciprocating) - self._pistons, self._whole(c.rotating) - self._webs]
+        )
 
     def _whole(self, rows: Array) -> Array:
         return np.broadcast_to(rows, (len(self._throws), rows.shape[1]))
 
     def engine(self, deviations: Array) -> Engine:
-        """Engines with deviations of the sources, shape (sources, samples); masses and lengths relative, angles in degrees."""
-        by_cylinder = {what: self._of_cylinders(what, deviations) for what in {s.what for s in self.sources}}
+        """Engines with deviations of the sources, shape (sources, samples); masses and lengths
+        relative, angles in degrees.
+        """
+        by_cylinder = {
+            what: self._of_cylinders(what, deviations) for what in {s.what for s in self.sources}
+        }
         c, none = self._engine.cylinders, np.zeros((1, 1))
-        piston, rod, web, length, angle = (by_cylinder.get(what, none) for what in (
-            "piston mass", "rod mass", "throw mass", "rod length", "throw angle"))
+        piston, rod, web, length, angle = (
+            by_cylinder.get(what, none)
+            for what in ("piston mass", "rod mass", "throw mass", "rod length", "throw angle")
+        )
         small, big = self._rods
         changed = replace(
-            c, reciprocating=c.reciprocating + piston * self._pistons + rod * small, rotating=c.rotating + web * self._webs + rod * big,
-            couple=c.couple * (1 + rod), lam=c.lam / (1 + length), eps=c.eps / (1 + length),
-            pin_deg=c.pin_deg + angle, linkage=c.linkage and replace(c.linkage, mass=c.linkage.mass * (1 + rod)))
+            c,
+            reciprocating=c.reciprocating + piston * self._pistons + rod * small,
+            rotating=c.rotating + web * self._webs + rod * big,
+            couple=c.couple * (1 + rod),
+            lam=c.lam / (1 + length),
+            eps=c.eps / (1 + length),
+            pin_deg=c.pin_deg + angle,
+            linkage=c.linkage and replace(c.linkage, mass=c.linkage.mass * (1 + rod)),
+        )
         return replace(self._engine, cylinders=changed)
 
     def _of_cylinders(self, what: str, deviations: Array) -> Array:
@@ -187,10 +251,14 @@ class _Crowd:
         return deviations[[rows[owner] for owner in owners]]
 
     def slopes(self, q: Quantity) -> tuple[Phasors, Phasors]:
-        """The nominal vectors of a quantity's order, and their changes by each source's tolerance, shape (1, sources)."""
+        """The nominal vectors of a quantity's order, and their changes by each source's tolerance,
+        shape (1, sources).
+        """
         steps = np.diag([STEP * s.tolerance for s in self.sources])
-        up, down, nominal = (getattr(spectra(self.engine(d), [q.order], {q.kind}), q.kind)
-                             for d in (steps, -steps, 0 * steps[:, :1]))
+        up, down, nominal = (
+            getattr(spectra(self.engine(d), [q.order], {q.kind}), q.kind)
+            for d in (steps, -steps, 0 * steps[:, :1])
+        )
         return nominal, (1 / (2 * STEP)) * (up - down)
 
 
@@ -198,21 +266,44 @@ def _without(file: EngineFile, part: str) -> EngineFile:
     """The file with all pistons, or all throws, weightless."""
     if part == "throw":
         return file.model_copy(update={"crank": file.crank.model_copy(update={"throw_mass": 0.0})})
-    own = {n: o if o.piston_mass is None else o.model_copy(update={"piston_mass": 0.0}) for n, o in file.cylinder.items()}
-    return file.model_copy(update={"piston": file.piston.model_copy(update={"mass": 0.0}), "cylinder": own})
+    own = {
+        n: o if o.piston_mass is None else o.model_copy(update={"piston_mass": 0.0})
+        for n, o in file.cylinder.items()
+    }
+    return file.model_copy(
+        update={"piston": file.piston.model_copy(update={"mass": 0.0}), "cylinder": own}
+    )
 
 
 def _spread(crowd: _Crowd, q: Quantity, values: Array) -> Spread:
     nominal, change = crowd.slopes(q)
-    sides: list[Any] = [(getattr(nominal, side), getattr(change, side)) for side in ("forward", "backward")
-                        if q.part in ("major", "amplitude", side)]
+    sides: list[Any] = [
+        (getattr(nominal, side), getattr(change, side))
+        for side in ("forward", "backward")
+        if q.part in ("major", "amplitude", side)
+    ]
     slope = sum(_grown(v[0], d[0]) for v, d in sides)
     bound = sum(float(np.abs(v).sum() + np.abs(d).sum()) for v, d in sides)
-    shares = sorted(zip(crowd.sources, (float(s) for s in np.broadcast_to(slope, len(crowd.sources))), strict=True),
-                    key=lambda pair: -abs(pair[1]))
-    percentiles = dict(zip(PERCENTILES, np.percentile(values, list(PERCENTILES.values())).tolist(), strict=True))
-    return Spread(q, float(sum(np.abs(v).sum() for v, _ in sides)), float(values.mean()), percentiles, float(values.max()), bound,
-                  tuple(shares))
+    shares = sorted(
+        zip(
+            crowd.sources,
+            (float(s) for s in np.broadcast_to(slope, len(crowd.sources))),
+            strict=True,
+        ),
+        key=lambda pair: -abs(pair[1]),
+    )
+    percentiles = dict(
+        zip(PERCENTILES, np.percentile(values, list(PERCENTILES.values())).tolist(), strict=True)
+    )
+    return Spread(
+        q,
+        float(sum(np.abs(v).sum() for v, _ in sides)),
+        float(values.mean()),
+        percentiles,
+        float(values.max()),
+        bound,
+        tuple(shares),
+    )
 
 
 def _grown(vector: Any, change: Any) -> Array:

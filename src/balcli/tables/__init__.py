@@ -1,4 +1,7 @@
-"""The printed coefficient tables of five sources, recomputed; what deviates is found, never typed."""
+"""The printed coefficient tables of five sources, recomputed; what deviates is found, never
+typed.
+"""
+
 from __future__ import annotations
 
 from .options import Options

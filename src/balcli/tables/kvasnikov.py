@@ -1,7 +1,9 @@
 """Kvasnikov, Determination of the unbalance of piston engines, Tomsk 1920: Tables I and II.
 
-A_n of the piston's and D_k of the rod's acceleration. The errata are recomputed from one and two terms of the series.
+A_n of the piston's and D_k of the rod's acceleration. The errata are recomputed from one and two
+terms of the series.
 """
+
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -43,10 +45,16 @@ def _table(printed: Print, options: Options, exact: Exact, terms: Terms) -> Tabl
 
     def first(count: int) -> tuple[Row, ...]:
         return rows(np.array([_sum(terms(n, n + 2 * count), lam, count) for n in orders]))
-    return printed.table(columns, rows(exact(orders, lam)), printed.aligned(stub, columns), [
-        Explanation("author's approximation: first term of the series alone", first(1)),
-        Explanation("author's approximation: two terms of the series", first(2)),
-    ])
+
+    return printed.table(
+        columns,
+        rows(exact(orders, lam)),
+        printed.aligned(stub, columns),
+        [
+            Explanation("author's approximation: first term of the series alone", first(1)),
+            Explanation("author's approximation: two terms of the series", first(2)),
+        ],
+    )
 
 
 def _sum(terms: series.Series, lam: Real, count: int) -> Real:

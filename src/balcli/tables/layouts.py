@@ -1,9 +1,12 @@
-"""Free forces and moments of the common layouts in textbook units, computed from the example engines.
+"""Free forces and moments of the common layouts in textbook units, computed from the example
+engines.
 
-What the textbook leaves out is taken off each engine: rotating masses, rods' inertia, pin offsets, stagger of the
-banks, balancing devices. F_n = m_rec r omega^2 A_n is the force of order n of one cylinder (F_1 with A_1 = 1), a the
-distance of neighbouring throws; moments are about the middle of the crankshaft.
+What the textbook leaves out is taken off each engine: rotating masses, rods' inertia, pin offsets,
+stagger of the banks, balancing devices. F_n = m_rec r omega^2 A_n is the force of order n of one
+cylinder (F_1 with A_1 = 1), a the distance of neighbouring throws; moments are about the middle of
+the crankshaft.
 """
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
@@ -23,7 +26,9 @@ ORDERS = (1, 2, 4, 6)
 
 
 def textbook(printed: Print, options: Options) -> Table:
-    """One row an engine; semi-axes (equal: a circle) of the force F and the moment M of each order."""
+    """One row an engine; semi-axes (equal: a circle) of the force F and the moment M of each
+    order.
+    """
     ends = [f"{letter}{n}_{axis}" for n in ORDERS for letter in "FM" for axis in ("major", "minor")]
     rows = [_row(name or "") for name in printed.column("engine")]
     return printed.table(("engine", "layout", "cylinders", *ends), rows, stub=3)
@@ -34,27 +39,44 @@ def _row(name: str) -> Row:
     from ..engine.build import build
     from ..engine.load import parse
     from ..forces.spectrum import spectra
+
     file = parse((folder() / f"{name}.toml").read_text(encoding="utf-8"), name)
     engine = build(_bare(file))
     found = dict(spectra(engine, ORDERS, ("force", "moment")).items())
     c = engine.cylinders
     unit = engine.omega**2 * float(c.reciprocating.ravel()[0] * c.radius.ravel()[0])
     each = unit * harmonics.piston(ORDERS, c.lam.ravel()[:1]).ravel()
-    axes = np.stack([axis.ravel() for q in ("force", "moment") for axis in (found[q].major, found[q].minor)], axis=-1)
+    axes = np.stack(
+        [axis.ravel() for q in ("force", "moment") for axis in (found[q].major, found[q].minor)],
+        axis=-1,
+    )
     scale = np.abs(each)[:, None] * np.array([1, 1, _distance(engine), _distance(engine)])
     return (name, file.name, len(engine.numbers), *(axes / scale).ravel().tolist())
 
 
 def _bare(file: EngineFile) -> EngineFile:
     """The engine as the textbook has it."""
-    rod = file.rod.model_copy(update={"mass": None, "cg": None, "small_end": None, "big_end": None, "inertia": None,
-                                      "pendulum": None})
-    return file.model_copy(update={
-        "crank": file.crank.model_copy(update={"throw_mass": 0.0}), "rod": rod,
-        "piston": file.piston.model_copy(update={"offset": 0.0}),
-        "layout": file.layout.model_copy(update={"stagger": 0.0}),
-        "counterweight": (), "shaft": (), "slider": (),
-    })
+    rod = file.rod.model_copy(
+        update={
+            "mass": None,
+            "cg": None,
+            "small_end": None,
+            "big_end": None,
+            "inertia": None,
+            "pendulum": None,
+        }
+    )
+    return file.model_copy(
+        update={
+            "crank": file.crank.model_copy(update={"throw_mass": 0.0}),
+            "rod": rod,
+            "piston": file.piston.model_copy(update={"offset": 0.0}),
+            "layout": file.layout.model_copy(update={"stagger": 0.0}),
+            "counterweight": (),
+            "shaft": (),
+            "slider": (),
+        }
+    )
 
 
 def _distance(engine: Engine) -> float:

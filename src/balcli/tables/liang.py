@@ -1,4 +1,5 @@
 """Liang Shoupan, Engine Dynamics, 1948: the worked examples, in inches, pounds and seconds."""
+
 from __future__ import annotations
 
 from math import floor, log10
@@ -13,7 +14,7 @@ from .table import Cell, Explanation, Row, Table
 if TYPE_CHECKING:
     from ..engine.build import Engine
 
-POUND, FOOT, GRAVITY = 0.45359237, 0.3048, 9.80665          # kg, m (international, 1959), m/s^2 (standard)
+POUND, FOOT, GRAVITY = 0.45359237, 0.3048, 9.80665  # kg, m (international, 1959), m/s^2 (standard)
 POUND_FORCE = POUND * GRAVITY
 
 FIRST = """
@@ -40,11 +41,24 @@ def examples(printed: Print, options: Options) -> Table:
     exact = (*_first(), *_second(), *_third())
     margin = [words[:-1] for words in printed.rows]
     rows = [(*words, answer) for words, answer in zip(margin, exact, strict=True)]
-    return printed.table(printed.columns, rows, stub=4, explanations=[
-        _instead("author's approximation: omega taken as 418 rad/s", 1, _three_digits(_acceleration(418.0))),
-        _instead("follows from the rounded figures 1.79 and 37400, g = 32.2", 2, _three_digits(1.79 * 37400 / 32.2)),
-        _instead("author's approximation: g taken as 32.2 ft/s^2", 7, _second(32.2 * FOOT)[-1]),
-    ])
+    return printed.table(
+        printed.columns,
+        rows,
+        stub=4,
+        explanations=[
+            _instead(
+                "author's approximation: omega taken as 418 rad/s",
+                1,
+                _three_digits(_acceleration(418.0)),
+            ),
+            _instead(
+                "follows from the rounded figures 1.79 and 37400, g = 32.2",
+                2,
+                _three_digits(1.79 * 37400 / 32.2),
+            ),
+            _instead("author's approximation: g taken as 32.2 ft/s^2", 7, _second(32.2 * FOOT)[-1]),
+        ],
+    )
 
 
 def _instead(kind: str, answer: int, value: Cell) -> Explanation:
@@ -54,7 +68,9 @@ def _instead(kind: str, answer: int, value: Cell) -> Explanation:
 
 
 def _first() -> Row:
-    """Section 1-3: reciprocating weight, its greatest acceleration and inertia force; rod weighed at its ends."""
+    """Section 1-3: reciprocating weight, its greatest acceleration and inertia force; rod weighed
+    at its ends.
+    """
     mass = float(_engine(FIRST).cylinders.reciprocating[0])
     return (mass / POUND, _acceleration(), mass * _acceleration() * FOOT / POUND_FORCE)
 
@@ -62,34 +78,47 @@ def _first() -> Row:
 def _acceleration(omega: float | None = None) -> float:
     """At top dead centre, ft/s^2."""
     from ..forces.curves import cylinder_curves
+
     engine = _engine(FIRST)
-    greatest = float(cylinder_curves(engine, 1, np.zeros(1)).values["acceleration_m_per_s2"][0]) / FOOT
+    greatest = (
+        float(cylinder_curves(engine, 1, np.zeros(1)).values["acceleration_m_per_s2"][0]) / FOOT
+    )
     return greatest if omega is None else greatest * (omega / engine.omega) ** 2
 
 
 def _second(gravity: float = GRAVITY) -> Row:
-    """Section 1-4: hk, q^2, their difference, peak of beta''/p, residual couple in ft lb (all at 90 degrees)."""
+    """Section 1-4: hk, q^2, their difference, peak of beta''/p, residual couple in ft lb (all at 90
+    degrees).
+    """
     from ..core.mechanisms.slidercrank import rod_acceleration
     from ..forces.curves import engine_curves
+
     engine = _engine(SECOND)
     lam, c = float(engine.cylinders.lam[0]), engine.cylinders
     hk = 1 / 3 * 2 / 3
-    difference = float(c.couple[0]) / (2.75 * POUND * (7 * FOOT / 12) ** 2)             # H/(m l^2)
+    difference = float(c.couple[0]) / (2.75 * POUND * (7 * FOOT / 12) ** 2)  # H/(m l^2)
     couple = float(engine_curves(engine, np.array([90.0])).values["couple_Nm"][0])
     peak = -float(rod_acceleration(np.pi / 2, lam)) / lam
     return (hk, hk - difference, difference, peak, couple / (POUND * gravity * FOOT))
 
 
 def _third() -> Row:
-    """Section 2-1: rotating and reciprocating weight; weight at 3.5 in for the first and half of the second."""
+    """Section 2-1: rotating and reciprocating weight; weight at 3.5 in for the first and half of
+    the second.
+    """
     c = _engine(THIRD).cylinders
     rotating, reciprocating = float(c.rotating[0]) / POUND, float(c.reciprocating[0]) / POUND
-    return (rotating, reciprocating, (rotating + reciprocating / 2) * float(c.radius) / (3.5 * FOOT / 12))
+    return (
+        rotating,
+        reciprocating,
+        (rotating + reciprocating / 2) * float(c.radius) / (3.5 * FOOT / 12),
+    )
 
 
 def _engine(text: str) -> Engine:
     from ..engine.build import build
     from ..engine.load import parse
+
     return build(parse(text, "example"))
 
 

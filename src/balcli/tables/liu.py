@@ -1,9 +1,10 @@
 """Liu Xianzhi, two-shaft and slider balance of the flat-plane V8, received 1979: Tables 1 to 3.
 
-The second-order force of the engine is two vectors: K cos(gamma/2) turns with the crank, K cos(3 gamma/2) against it;
-gamma is the bank angle. The shafts that cancel them without a roll moment lie at radii b''' and b''
-in the same proportion; sliders cancel the components Z_x and Z_y.
+The second-order force of the engine is two vectors: K cos(gamma/2) turns with the crank, K cos(3
+gamma/2) against it; gamma is the bank angle. The shafts that cancel them without a roll moment lie
+at radii b''' and b'' in the same proportion; sliders cancel the components Z_x and Z_y.
 """
+
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -19,7 +20,7 @@ from .printed import Print, cells
 from .ranges import values
 from .table import Explanation, Row, Table, figure
 
-Cosine: TypeAlias = Callable[[Real], Real]                               # of degrees
+Cosine: TypeAlias = Callable[[Real], Real]  # of degrees
 ROUGH = "author's approximation: cos 45° taken as 0.706"
 
 
@@ -27,9 +28,10 @@ def _cos(degrees: Real) -> Real:
     return unit(degrees).real
 
 
-
 def _rough(degrees: Real) -> Real:
-    """The cosine with 0.706 for cos 45 degrees and 0.258 for cos 75 degrees, as Tables 1 and 3 were computed."""
+    """The cosine with 0.706 for cos 45 degrees and 0.258 for cos 75 degrees, as Tables 1 and 3 were
+    computed.
+    """
     exact = _cos(degrees)
     for angle, taken in ((45, 0.706), (75, 0.258)):
         near = np.abs(np.abs(exact) - cos(radians(angle))) < 1e-12
@@ -40,10 +42,14 @@ def _rough(degrees: Real) -> Real:
 def paths(printed: Print, options: Options) -> Table:
     """Table 1: radii of the two shafts over gamma, their ratio, and the same for their rates."""
     gamma = np.array(values(printed.headings()))
-    return _laid_out(printed, _paths(gamma, _cos), [
-        Explanation(ROUGH, _labelled(printed, _paths(gamma, _rough))),
-        Explanation("quotient of the rounded lines above", _quotients(printed)),
-    ])
+    return _laid_out(
+        printed,
+        _paths(gamma, _cos),
+        [
+            Explanation(ROUGH, _labelled(printed, _paths(gamma, _rough))),
+            Explanation("quotient of the rounded lines above", _quotients(printed)),
+        ],
+    )
 
 
 def vectors(printed: Print, options: Options) -> Table:
@@ -56,18 +62,25 @@ def sliders(printed: Print, options: Options) -> Table:
     """Table 3: the sliders' forces over the crank angle alpha, for each gamma."""
     gammas = [None if text is None else float(text) for text in printed.column("gamma_deg")]
     rough = _sliders(printed, gammas, _rough)
-    return printed.table(printed.columns, _sliders(printed, gammas, _cos), explanations=[Explanation(ROUGH, rough)],
-                         stub=2)
+    return printed.table(
+        printed.columns,
+        _sliders(printed, gammas, _cos),
+        explanations=[Explanation(ROUGH, rough)],
+        stub=2,
+    )
 
 
 def _paths(gamma: Real, cosine: Cosine) -> Real:
-    """b''/b, b'''/b, their ratio, their derivatives by gamma, the ratio of these; ratios with the zeros divided out.
+    """b''/b, b'''/b, their ratio, their derivatives by gamma, the ratio of these; ratios with the
+    zeros divided out.
 
     -cos 3x/cos x = 3 - 4 cos^2 x and -3 sin 3x/sin x = 3 - 12 cos^2 x.
     """
     near, far = cosine(gamma / 2), cosine(3 * gamma / 2)
     rates = 1.5 * cosine(3 * gamma / 2 - 90), -0.5 * cosine(gamma / 2 - 90)
-    return np.array([-far, near, 3 - 4 * _cos(gamma / 2) ** 2, *rates, 3 - 12 * _cos(gamma / 2) ** 2])
+    return np.array(
+        [-far, near, 3 - 4 * _cos(gamma / 2) ** 2, *rates, 3 - 12 * _cos(gamma / 2) ** 2]
+    )
 
 
 def _sliders(printed: Print, gammas: Sequence[float | None], cosine: Cosine) -> tuple[Row, ...]:
@@ -80,22 +93,30 @@ def _sliders(printed: Print, gammas: Sequence[float | None], cosine: Cosine) -> 
             return margin[label]
         near, far = cosine(np.array(gamma / 2)), cosine(np.array(3 * gamma / 2))
         return (far - near) * sine if label == "Zx" else (far + near) * double
+
     labels = [label or "" for label in printed.column("row")]
-    return tuple((label, g, *cells(line(label, g).tolist())) for label, g in zip(labels, gammas, strict=True))
+    return tuple(
+        (label, g, *cells(line(label, g).tolist())) for label, g in zip(labels, gammas, strict=True)
+    )
 
 
 def _quotients(printed: Print) -> tuple[Row, ...]:
     """Lines 3 and 6 of Table 1 from the lines before them as printed."""
+
     def quotient(above: Sequence[str | None], below: Sequence[str | None]) -> Row:
         pairs = [(figure(a or ""), figure(b or "")) for a, b in zip(above, below, strict=True)]
         return tuple(float(a / b) if a is not None and b else None for a, b in pairs)
+
     nothing = (None,) * len(printed.columns)
     a, b, _, c, d, _ = printed.rows
     return (nothing, nothing, quotient(a, b), nothing, nothing, quotient(c, d))
 
 
 def _labelled(printed: Print, body: Real) -> tuple[Row, ...]:
-    return tuple((label, *cells(line)) for label, line in zip(printed.column(printed.columns[0]), body, strict=True))
+    return tuple(
+        (label, *cells(line))
+        for label, line in zip(printed.column(printed.columns[0]), body, strict=True)
+    )
 
 
 def _laid_out(printed: Print, body: Real, explanations: Sequence[Explanation] = ()) -> Table:

@@ -1,4 +1,5 @@
 """What a reader may ask of a table beside its name."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -6,7 +7,9 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Options:
-    """Other columns (lambda) and rows (crank angle, degrees) than the printed ones; highest power of lambda."""
+    """Other columns (lambda) and rows (crank angle, degrees) than the printed ones; highest power
+    of lambda.
+    """
 
     lam: tuple[str, ...] | None = None
     angle: tuple[str, ...] | None = None

@@ -1,4 +1,5 @@
 """The printed figures: package data, one CSV file a table, headed by its source."""
+
 from __future__ import annotations
 
 import csv
@@ -35,22 +36,41 @@ class Print:
         return tuple(c for c in self.columns if isinstance(key(c), Fraction))
 
     def aligned(self, stub: Sequence[str], columns: Sequence[str]) -> tuple[Words, ...]:
-        """The printed cells of these rows (found by the first column) and columns; None where nothing is printed."""
+        """The printed cells of these rows (found by the first column) and columns; None where
+        nothing is printed.
+        """
         rows = {key(row[0] or ""): row for row in self.rows}
         places = {key(c): j for j, c in enumerate(self.columns)}
 
         def cell(row: Words | None, column: str) -> str | None:
             place = places.get(key(column))
             return None if row is None or place is None else row[place]
+
         return tuple(tuple(cell(rows.get(key(s)), c) for c in columns) for s in stub)
 
-    def table(self, columns: Sequence[str], rows: Sequence[Row], printed: Sequence[Words] | None = None,
-              explanations: Sequence[Explanation] = (), stub: int = 1) -> Table:
-        """The recomputed rows beside the print; without `printed`, row by row, further columns having no print."""
+    def table(
+        self,
+        columns: Sequence[str],
+        rows: Sequence[Row],
+        printed: Sequence[Words] | None = None,
+        explanations: Sequence[Explanation] = (),
+        stub: int = 1,
+    ) -> Table:
+        """The recomputed rows beside the print; without `printed`, row by row, further columns
+        having no print.
+        """
         if printed is None:
             printed = [words + (None,) * (len(columns) - len(words)) for words in self.rows]
-        return Table(self.name, self.title, self.source, tuple(columns), tuple(rows), tuple(printed),
-                     tuple(explanations), stub)
+        return Table(
+            self.name,
+            self.title,
+            self.source,
+            tuple(columns),
+            tuple(rows),
+            tuple(printed),
+            tuple(explanations),
+            stub,
+        )
 
 
 def load(name: str) -> Print:
@@ -77,7 +97,9 @@ def number(text: str) -> Fraction:
 
 
 def key(text: str) -> Key:
-    """What identifies a row or column: its number where it is one (so that 0.3 is 0.30), or else its text."""
+    """What identifies a row or column: its number where it is one (so that 0.3 is 0.30), or else
+    its text.
+    """
     try:
         return number(text)
     except ValueError:

@@ -1,4 +1,5 @@
 """Ranges on the command line: `0.20:0.40:0.01`, `0.24,0.28,1/3`."""
+
 from __future__ import annotations
 
 import re
@@ -41,7 +42,9 @@ def crank_ratios(text: str) -> tuple[str, ...]:
     found = headings(text, "--lambda")
     bad = next((heading for heading in found if not 0 < float(number(heading)) < 1), None)
     if bad is not None:
-        raise BalcliError(f"--lambda {text!r}: lambda = {bad}, but a crank turns only with 0 < lambda < 1")
+        raise BalcliError(
+            f"--lambda {text!r}: lambda = {bad}, but a crank turns only with 0 < lambda < 1"
+        )
     return found
 
 
@@ -55,8 +58,11 @@ def _exact(text: str) -> tuple[str, Fraction]:
     return text.strip(), value
 
 
-def _run(start: tuple[str, Fraction], stop: tuple[str, Fraction] | None = None,
-         step: tuple[str, Fraction] | None = None) -> list[str]:
+def _run(
+    start: tuple[str, Fraction],
+    stop: tuple[str, Fraction] | None = None,
+    step: tuple[str, Fraction] | None = None,
+) -> list[str]:
     if stop is None:
         return [start[0]]
     stride = step[1] if step else Fraction(1)

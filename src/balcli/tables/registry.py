@@ -1,4 +1,5 @@
 """Which tables there are, and what each may be asked."""
+
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -50,7 +51,10 @@ def recompute(name: str, options: Options | None = None) -> Table:
     entry = REGISTRY.get(name)
     if entry is None:
         near = nearest(name, NAMES)
-        raise BalcliError(f"no table {name!r}{f'; the nearest name is {near!r}' if near else ''}. Tables: {', '.join(NAMES)}")
+        raise BalcliError(
+            f"no table {name!r}{f'; the nearest name is {near!r}' if near else ''}. Tables: "
+            f"{', '.join(NAMES)}"
+        )
     asked = options or Options()
     for option in asked.given():
         if option not in entry.takes:
@@ -59,13 +63,18 @@ def recompute(name: str, options: Options | None = None) -> Table:
     return entry.compute(load(name), asked)
 
 
-def select(name: str | None, lam: str | None = None, angle: str | None = None, power: int | None = None) -> list[Table]:
+def select(
+    name: str | None, lam: str | None = None, angle: str | None = None, power: int | None = None
+) -> list[Table]:
     """The table of this name, or all of them; ranges as text (`0.20:0.40:0.01`).
 
     Raises:
-        BalcliError: no such table or range, an option that the table does not take, or a range without a name.
+        BalcliError: no such table or range, an option that the table does not take, or a range
+        without a name.
     """
-    options = Options(crank_ratios(lam) if lam else None, headings(angle, "--angle") if angle else None, power)
+    options = Options(
+        crank_ratios(lam) if lam else None, headings(angle, "--angle") if angle else None, power
+    )
     if name is None and options.given():
         some = ", ".join(_taking(options)) or "these do not go together"
         raise BalcliError(f"--{options.given()[0]}: name the table that it is for ({some})")

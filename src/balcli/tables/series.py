@@ -1,4 +1,5 @@
 """Exact coefficients in powers of lambda, beside those that the five sources print."""
+
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
@@ -14,7 +15,7 @@ Generator: TypeAlias = Callable[[int, int], series.Series]
 POWER = 12
 COLUMNS = ("function", "order", "power", "coefficient", "source", "equation")
 
-GENERATED: dict[str, Generator] = {                                          # listed up to the power asked for
+GENERATED: dict[str, Generator] = {  # listed up to the power asked for
     "displacement x/r from TDC": series.displacement,
     "velocity v/(r w)": series.velocity,
     "acceleration A_n (r w^2)": series.piston,
@@ -22,17 +23,23 @@ GENERATED: dict[str, Generator] = {                                          # l
     "rod angle": series.beta,
     "rod angular acceleration D_k": series.rod,
 }
-PRINTED: dict[str, Generator] = {                                            # other forms, where a source has them
+PRINTED: dict[str, Generator] = {  # other forms, where a source has them
     "displacement (from shaft)/r": series.from_shaft,
-    "acceleration (l w^2)": lambda n, power: {p: n * n * c for p, c in series.cos_beta(n, power).items()},
-    "rod angular acceleration D_k / p": lambda k, power: {p - 1: c for p, c in series.rod(k, power + 1).items()},
+    "acceleration (l w^2)": lambda n, power: {
+        p: n * n * c for p, c in series.cos_beta(n, power).items()
+    },
+    "rod angular acceleration D_k / p": lambda k, power: {
+        p - 1: c for p, c in series.rod(k, power + 1).items()
+    },
     "cos beta, power of sin^p": lambda _, power: series.cos_beta_in_sine(power),
     "rod angle, power of sin^p": lambda _, power: series.beta_in_sine(power),
 }
 
 
 def coefficients(printed: Print, options: Options) -> Table:
-    """One row a coefficient, repeated for every source that prints it; what no source prints stands without one."""
+    """One row a coefficient, repeated for every source that prints it; what no source prints stands
+    without one.
+    """
     power = POWER if options.power is None else options.power
     shown = [words for words in printed.rows if int(words[2] or 0) <= power]
     pairs = sorted([*_beside(shown), *_unprinted(shown, power)], key=lambda pair: _place(pair[0]))

@@ -1,4 +1,5 @@
 """A recomputed table beside its print, and the rule that says which printed figures are wrong."""
+
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -11,12 +12,14 @@ Cell: TypeAlias = float | str | None
 Row: TypeAlias = tuple[Cell, ...]
 Words: TypeAlias = tuple[str | None, ...]
 
-NEAR_A_TIE = Decimal("0.1")                 # units of the last printed digit
+NEAR_A_TIE = Decimal("0.1")  # units of the last printed digit
 
 
 @dataclass(frozen=True)
 class Explanation:
-    """Figures as the author may have computed them, in the places of the exact ones; None where it says nothing."""
+    """Figures as the author may have computed them, in the places of the exact ones; None where it
+    says nothing.
+    """
 
     kind: str
     rows: tuple[Row, ...]
@@ -44,7 +47,7 @@ class Table:
     rows: tuple[Row, ...]
     printed: tuple[Words, ...]
     explanations: tuple[Explanation, ...] = ()
-    stub: int = 1                                       # leading columns that name a row
+    stub: int = 1  # leading columns that name a row
 
     @property
     def errata(self) -> tuple[Erratum, ...]:
@@ -52,7 +55,9 @@ class Table:
 
     def label(self, row: int) -> str:
         """What names a row: the cells of its stub."""
-        shown = [shortest(c) if isinstance(c, (int, float)) else c for c in self.rows[row][:self.stub]]
+        shown = [
+            shortest(c) if isinstance(c, (int, float)) else c for c in self.rows[row][: self.stub]
+        ]
         return ", ".join(text for text in shown if text)
 
     def _errata(self) -> Iterator[Erratum]:
@@ -99,7 +104,9 @@ def rounded(value: float, like: Decimal, rounding: str = ROUND_HALF_UP) -> Decim
 
 
 def deviates(value: Cell, text: str) -> bool:
-    """Whether a printed figure is not the exact value rounded to its digits. Words and ranges never deviate."""
+    """Whether a printed figure is not the exact value rounded to its digits. Words and ranges never
+    deviate.
+    """
     printed = figure(text)
     if isinstance(value, (int, float)):
         if printed is not None:
@@ -111,7 +118,9 @@ def deviates(value: Cell, text: str) -> bool:
 
 
 def explained(value: Cell, text: str) -> str | None:
-    """How this value leads to the printed figure: "" by rounding, ", truncated", ...; None if it does not."""
+    """How this value leads to the printed figure: "" by rounding, ", truncated", ...; None if it
+    does not.
+    """
     printed = figure(text)
     if printed is None or not isinstance(value, (int, float)):
         return None
@@ -133,11 +142,15 @@ def _plain_kind(value: Cell, text: str) -> str:
     tie = abs(Decimal(repr(float(value))) - (exact + printed) / 2)
     if tie <= NEAR_A_TIE * _unit(printed):
         return "last digit, near a tie"
-    return "last digit, truncated" if rounded(value, printed, ROUND_DOWN) == printed else "last digit"
+    return (
+        "last digit, truncated" if rounded(value, printed, ROUND_DOWN) == printed else "last digit"
+    )
 
 
 def _same(a: Cell, b: Cell) -> bool:
-    return isinstance(a, (int, float)) and isinstance(b, (int, float)) and abs(a - b) <= 1e-9 * abs(b)
+    return (
+        isinstance(a, (int, float)) and isinstance(b, (int, float)) and abs(a - b) <= 1e-9 * abs(b)
+    )
 
 
 def _unit(printed: Decimal) -> Decimal:

@@ -1,4 +1,5 @@
 """Lu Jiqing, Meng Sizong, Automobile Engine Design, 1990: Tables 1-1 to 1-6."""
+
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -13,20 +14,26 @@ from .printed import Print, cells
 from .ranges import values
 from .table import Cell, Explanation, Row, Table, figure
 
-ByAngle: TypeAlias = Callable[[sc.Real, sc.Real], sc.Real]           # degrees, lambda
+ByAngle: TypeAlias = Callable[[sc.Real, sc.Real], sc.Real]  # degrees, lambda
 
 
 def engines(printed: Print, options: Options) -> Table:
     """Table 1-1: lambda = r/l, mean piston speed S n/30 and xi = e/r from the dimensions given."""
+
     def row(words: tuple[str | None, ...], **computed: float) -> Row:
-        return tuple(computed.get(head, _given(text)) for head, text in zip(printed.columns, words, strict=True))
+        return tuple(
+            computed.get(head, _given(text))
+            for head, text in zip(printed.columns, words, strict=True)
+        )
 
     def number(head: str, words: tuple[str | None, ...]) -> float:
         return float(words[printed.columns.index(head)] or "")
 
     rows, supposed = [], []
     for words in printed.rows:
-        r, length, e, stroke, rpm = (number(h, words) for h in ("r_mm", "l_mm", "e_mm", "stroke_mm", "rated_speed_rpm"))
+        r, length, e, stroke, rpm = (
+            number(h, words) for h in ("r_mm", "l_mm", "e_mm", "stroke_mm", "rated_speed_rpm")
+        )
         rows.append(row(words, Cm_m_per_s=stroke * rpm / 30e3, xi=e / r, **{"lambda": r / length}))
         supposed.append(row(words, **{"lambda": r / 280}))
     shorter = Explanation("misprint, as with l = 280 mm", tuple(supposed))
@@ -39,8 +46,14 @@ def travel(printed: Print, options: Options) -> Table:
 
 
 def speed(printed: Print, options: Options) -> Table:
-    """Table 1-3: v/(r omega); the sign columns say its sign at the crank angles of the left and right margins."""
-    return _by_angle(printed, options, lambda a, lam: np.where(a % 180 == 0, 0.0, sc.velocity(np.radians(a), lam)))
+    """Table 1-3: v/(r omega); the sign columns say its sign at the crank angles of the left and
+    right margins.
+    """
+    return _by_angle(
+        printed,
+        options,
+        lambda a, lam: np.where(a % 180 == 0, 0.0, sc.velocity(np.radians(a), lam)),
+    )
 
 
 def acceleration(printed: Print, options: Options) -> Table:
@@ -49,15 +62,25 @@ def acceleration(printed: Print, options: Options) -> Table:
 
 
 def extremes(printed: Print, options: Options) -> Table:
-    """Table 1-4: where and how large the greatest velocity is, by the two-term formula as printed, then exactly."""
+    """Table 1-4: where and how large the greatest velocity is, by the two-term formula as printed,
+    then exactly.
+    """
     headings = options.lam or printed.headings()
     lam = np.array(values(headings))
     columns = (printed.columns[0], *headings, *(f"exact {h}" for h in headings))
-    approximate, exact = (_extreme(lam, *fastest(lam)) for fastest in (sc.fastest_two_term, sc.fastest))
+    approximate, exact = (
+        _extreme(lam, *fastest(lam)) for fastest in (sc.fastest_two_term, sc.fastest)
+    )
     stub = printed.column(printed.columns[0])
-    rows = [(name, *cells(a), *cells(b)) for name, a, b in zip(stub, approximate, exact, strict=True)]
-    return printed.table(columns, rows, printed.aligned([s or "" for s in stub], columns),
-                         [Explanation("sum of the rounded lines above", _sums(printed, columns))])
+    rows = [
+        (name, *cells(a), *cells(b)) for name, a, b in zip(stub, approximate, exact, strict=True)
+    ]
+    return printed.table(
+        columns,
+        rows,
+        printed.aligned([s or "" for s in stub], columns),
+        [Explanation("sum of the rounded lines above", _sums(printed, columns))],
+    )
 
 
 def mean_speeds(printed: Print, options: Options) -> Table:
@@ -85,7 +108,9 @@ def _margins(angle: float, line: list[Cell], signs: bool) -> Row:
     return (angle, "+-"[not down], *line, "-+"[not down], 360 - angle)
 
 
-def _extreme(lam: sc.Real, psi: sc.Real, value: sc.Real) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
+def _extreme(
+    lam: sc.Real, psi: sc.Real, value: sc.Real
+) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
     """The seven lines of Table 1-4, angles in degrees; the mean piston speed is (2/pi) r omega."""
     alpha = np.degrees(psi)
     beta = np.degrees(np.arctan2(*sc.rod_angle(psi, lam)))
@@ -95,12 +120,15 @@ def _extreme(lam: sc.Real, psi: sc.Real, value: sc.Real) -> np.ndarray[tuple[int
 
 def _sums(printed: Print, columns: tuple[str, ...]) -> tuple[Row, ...]:
     """Lines 4 and 5 of Table 1-4 from lines 1 to 3 as printed."""
-    first, second, beta = printed.aligned([text or "" for text in printed.column(printed.columns[0])[:3]], columns)
+    first, second, beta = printed.aligned(
+        [text or "" for text in printed.column(printed.columns[0])[:3]], columns
+    )
     nothing = (None,) * len(columns)
 
     def add(words: tuple[str | None, ...], sign: int) -> Row:
         figures = [(figure(a or ""), figure(b or "")) for a, b in zip(words, beta, strict=True)]
         return tuple(None if a is None or b is None else float(a + sign * b) for a, b in figures)
+
     return (nothing, nothing, nothing, add(first, 1), add(second, -1), nothing, nothing)
 
 

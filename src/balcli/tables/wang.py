@@ -1,10 +1,11 @@
 """Wang Yongding, Methods of balancing single-cylinder engines: Table 1.
 
-A counterweight k m_j r, alpha ahead of the point opposite the crank, leaves, of orders 1 and 2,
-P = J (cos th + lam cos 2 th - k e^{i(th + alpha)}). The print searched k in steps of 0.1, alpha of 5 and theta of
-1 degree, the last over half a revolution only. The best alpha is 0: the greatest |P| is convex in k e^{i alpha}, and a
-change of sign of alpha only mirrors the curve.
+A counterweight k m_j r, alpha ahead of the point opposite the crank, leaves, of orders 1 and 2, P =
+J (cos th + lam cos 2 th - k e^{i(th + alpha)}). The print searched k in steps of 0.1, alpha of 5
+and theta of 1 degree, the last over half a revolution only. The best alpha is 0: the greatest |P|
+is convex in k e^{i alpha}, and a change of sign of alpha only mirrors the curve.
 """
+
 from __future__ import annotations
 
 import numpy as np
@@ -15,12 +16,16 @@ from .options import Options
 from .printed import Print, cells
 from .table import Explanation, Row, Table
 
-SEARCHED = tuple(f"half_cycle_{what}" for what in ("Pmax_min", "k0", "alpha0_deg", "phi0_deg", "theta0_deg"))
+SEARCHED = tuple(
+    f"half_cycle_{what}" for what in ("Pmax_min", "k0", "alpha0_deg", "phi0_deg", "theta0_deg")
+)
 FOLLOWED = ("printed_choice_Pmax", "printed_choice_theta_deg")
 
 
 def optimum(printed: Print, options: Options) -> Table:
-    """The true optimum, the printed search, and what the printed choice really leaves over the whole revolution."""
+    """The true optimum, the printed search, and what the printed choice really leaves over the
+    whole revolution.
+    """
     columns = (*printed.columns, *SEARCHED, *FOLLOWED)
     lams, k0, alpha0 = (printed.numbers(head) for head in ("lambda", "k0", "alpha0_deg"))
     searches = [_half_cycle(lam) for lam in lams]
@@ -30,13 +35,17 @@ def optimum(printed: Print, options: Options) -> Table:
         rows.append((lam, *_true(lam), *search, size, theta % 360 % 360))
     rest = (None,) * (len(columns) - 6)
     search_rows = tuple((lam, *search, *rest) for lam, search in zip(lams, searches, strict=True))
-    return printed.table(columns, rows, explanations=[Explanation("half-cycle search", search_rows)])
+    return printed.table(
+        columns, rows, explanations=[Explanation("half-cycle search", search_rows)]
+    )
 
 
 def _true(lam: float) -> Row:
-    """Smallest peak, k, alpha, and where one of its three equal maxima lies: at theta = 0, along the cylinder.
+    """Smallest peak, k, alpha, and where one of its three equal maxima lies: at theta = 0, along
+    the cylinder.
 
-    There P = 1 + lam - k, falling with k; the two others, symmetric to the cylinder, rise. The best k makes them equal.
+    There P = 1 + lam - k, falling with k; the two others, symmetric to the cylinder, rise. The best
+    k makes them equal.
     """
     low, high = 0.0, 1.0
     for _ in range(60):
@@ -47,9 +56,11 @@ def _true(lam: float) -> Row:
 
 
 def _stationary(lam: float, weight: complex) -> list[tuple[float, float]]:
-    """(|P|/J, theta in degrees) where |P| is stationary: the roots z = e^{i theta} of the derivative of P conj(P)."""
-    p = np.array([lam / 2, 0.5, 0, 0.5 - weight, lam / 2])                   # of z^-2 ... z^2
-    square = np.convolve(p, np.conj(p[::-1]))                                # of z^-4 ... z^4
+    """(|P|/J, theta in degrees) where |P| is stationary: the roots z = e^{i theta} of the
+    derivative of P conj(P).
+    """
+    p = np.array([lam / 2, 0.5, 0, 0.5 - weight, lam / 2])  # of z^-2 ... z^2
+    square = np.convolve(p, np.conj(p[::-1]))  # of z^-4 ... z^4
     z = np.roots((np.arange(-4, 5) * square)[::-1])
     z = z[np.abs(np.abs(z) - 1) < 1e-6]
     z /= np.abs(z)
@@ -58,7 +69,9 @@ def _stationary(lam: float, weight: complex) -> list[tuple[float, float]]:
 
 
 def _half_cycle(lam: float) -> Row:
-    """The printed search: P, k, alpha, direction phi of the force (of an undirected line) and theta."""
+    """The printed search: P, k, alpha, direction phi of the force (of an undirected line) and
+    theta.
+    """
     k, alpha, theta = np.arange(11) / 10, np.arange(0.0, 91.0, 5.0), np.arange(181.0)
     force = _force(lam, k[:, None, None], alpha[:, None], theta)
     peaks = np.abs(force).max(axis=-1)

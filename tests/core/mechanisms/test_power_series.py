@@ -1,4 +1,7 @@
-"""The generated series: against the closed forms they expand, and in coefficients that are easily found by hand."""
+"""The generated series: against the closed forms they expand, and in coefficients that are easily
+found by hand.
+"""
+
 from __future__ import annotations
 
 from fractions import Fraction
@@ -10,7 +13,7 @@ from balcli.core.mechanisms import power_series as series
 from balcli.core.mechanisms import slidercrank as sc
 
 LAM = Fraction(1, 4)
-POWER = 24                      # lambda^26 = 2e-16: the remainder is below the rounding error
+POWER = 24  # lambda^26 = 2e-16: the remainder is below the rounding error
 PSI = [0.0, 20.0, 73.0, 90.0, 131.0, 180.0, 250.0]
 
 
@@ -23,19 +26,26 @@ def sum_of_orders(generate, wave, degrees):
 
 
 @pytest.mark.parametrize("degrees", PSI)
-@pytest.mark.parametrize(("generate", "wave", "closed"), [
-    (series.displacement, cos, sc.displacement),
-    (series.velocity, sin, sc.velocity),
-    (series.piston, cos, sc.acceleration),
-    (series.cos_beta, cos, lambda psi, lam: sc.rod_angle(psi, lam)[1]),
-    (series.rod, sin, lambda psi, lam: -sc.rod_acceleration(psi, lam)),
-])
+@pytest.mark.parametrize(
+    ("generate", "wave", "closed"),
+    [
+        (series.displacement, cos, sc.displacement),
+        (series.velocity, sin, sc.velocity),
+        (series.piston, cos, sc.acceleration),
+        (series.cos_beta, cos, lambda psi, lam: sc.rod_angle(psi, lam)[1]),
+        (series.rod, sin, lambda psi, lam: -sc.rod_acceleration(psi, lam)),
+    ],
+)
 def test_orders_add_up_to_the_closed_form(generate, wave, closed, degrees):
-    assert sum_of_orders(generate, wave, degrees) == pytest.approx(float(closed(radians(degrees), 0.25)), abs=1e-12)
+    assert sum_of_orders(generate, wave, degrees) == pytest.approx(
+        float(closed(radians(degrees), 0.25)), abs=1e-12
+    )
 
 
 def test_rod_angle_is_the_arc_sine():
-    assert sin(sum_of_orders(series.beta, sin, 65.0)) == pytest.approx(0.25 * sin(radians(65.0)), abs=1e-14)
+    assert sin(sum_of_orders(series.beta, sin, 65.0)) == pytest.approx(
+        0.25 * sin(radians(65.0)), abs=1e-14
+    )
 
 
 def test_piston_orders_at_top_dead_centre_add_up_to_1_plus_lambda():
@@ -46,11 +56,16 @@ def test_piston_orders_at_top_dead_centre_add_up_to_1_plus_lambda():
 
 
 def test_leading_terms():
-    """The leading term of A_2m is (2m)^2 (-1)^(m+1) binom(2m, m) / ((2m - 1) 2^(4m - 1)) lambda^(2m - 1)."""
+    """The leading term of A_2m is (2m)^2 (-1)^(m+1) binom(2m, m) / ((2m - 1) 2^(4m - 1)) lambda^(2m
+    - 1).
+    """
     from math import comb
+
     for m in range(1, 9):
         power = 2 * m - 1
-        expected = Fraction((-1) ** (m + 1) * (2 * m) ** 2 * comb(2 * m, m), (2 * m - 1) * 2 ** (4 * m - 1))
+        expected = Fraction(
+            (-1) ** (m + 1) * (2 * m) ** 2 * comb(2 * m, m), (2 * m - 1) * 2 ** (4 * m - 1)
+        )
         assert series.piston(2 * m, power) == {power: expected}
 
 
@@ -64,7 +79,10 @@ def test_to_any_power_and_without_zeros():
 
 
 @pytest.mark.parametrize("power", range(1, 9))
-@pytest.mark.parametrize("generate", [series.piston, series.rod, series.velocity, series.displacement, series.cos_beta, series.beta])
+@pytest.mark.parametrize(
+    "generate",
+    [series.piston, series.rod, series.velocity, series.displacement, series.cos_beta, series.beta],
+)
 def test_no_power_beyond_the_one_asked_for(generate, power):
     """And all up to it: one more power adds that power alone."""
     for order in range(8):

@@ -1,17 +1,19 @@
 """Rotary engines: the crank stands still, the cylinders turn."""
+
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from balcli.engine import build as engine, load as enginefile
-from balcli.forces import spectrum
-from balcli.results.analysis import analyze
 from balcli.core.strokes import travel
+from balcli.engine import build as engine
+from balcli.engine import load as enginefile
 from balcli.errors import BalcliError, InputError
-from balcli.results.knuckles import even_knuckles
+from balcli.forces import spectrum
 from balcli.render.page_scene import scene
 from balcli.render.units import SYSTEMS
+from balcli.results.analysis import analyze
+from balcli.results.knuckles import even_knuckles
 
 GNOME = """\
 [crank]
@@ -37,8 +39,12 @@ def built(layout="radial = 7", offset=0, more=""):
 
 @pytest.mark.parametrize("count", [3, 4, 5, 7, 9])
 def test_three_or_more_cylinders_have_no_first_order_force(count):
-    """Well known: the pistons run round the crank pin almost on a circle. What is left has the order of the cylinders."""
-    force = spectrum.spectra(built(f"radial = {count}"), np.arange(1.0, 2 * count + 1), ["force"]).force
+    """Well known: the pistons run round the crank pin almost on a circle. What is left has the
+    order of the cylinders.
+    """
+    force = spectrum.spectra(
+        built(f"radial = {count}"), np.arange(1.0, 2 * count + 1), ["force"]
+    ).force
     assert force is not None
     assert force.balanced[0]
     left = force.orders[~force.balanced]
@@ -46,7 +52,9 @@ def test_three_or_more_cylinders_have_no_first_order_force(count):
 
 
 def test_one_cylinder_has_a_first_order_force_of_its_mean_distance():
-    """Forward first order: m omega^2 times the mean distance of the piston pin, here by quadrature (lambda = 6/23)."""
+    """Forward first order: m omega^2 times the mean distance of the piston pin, here by quadrature
+    (lambda = 6/23).
+    """
     force = spectrum.spectra(built("banks = [0]"), [1.0], ["force"]).force
     assert force is not None
     psi = np.arange(64) * (2 * np.pi / 64)
@@ -57,16 +65,23 @@ def test_one_cylinder_has_a_first_order_force_of_its_mean_distance():
 
 def test_the_throw_stands_still():
     text = GNOME.format(layout="banks = [0]", offset=0)
-    light, heavy = (spectrum.spectra(engine.build(enginefile.parse(text.replace("throw_mass = 3", mass))), np.arange(1.0, 4.0))
-                    for mass in ("throw_mass = 0", "throw_mass = 9"))
+    light, heavy = (
+        spectrum.spectra(
+            engine.build(enginefile.parse(text.replace("throw_mass = 3", mass))),
+            np.arange(1.0, 4.0),
+        )
+        for mass in ("throw_mass = 0", "throw_mass = 9")
+    )
     for (_, a), (_, b) in zip(light.items(), heavy.items(), strict=True):
         assert np.array_equal(a.forward, b.forward)
 
 
 def test_strokes_and_dead_centres_are_those_of_the_same_engine_with_a_turning_crank():
     text = GNOME.format(layout="radial = 5", offset=9)
-    turning, still = (travel(engine.build(enginefile.parse(text.replace("rotary = true", flag))).cylinders)
-                      for flag in ("", "rotary = true"))
+    turning, still = (
+        travel(engine.build(enginefile.parse(text.replace("rotary = true", flag))).cylinders)
+        for flag in ("", "rotary = true")
+    )
     assert still.stroke == pytest.approx(turning.stroke, rel=1e-12)
     assert still.top_deg == pytest.approx(turning.top_deg, abs=1e-9)
 
@@ -74,42 +89,68 @@ def test_strokes_and_dead_centres_are_those_of_the_same_engine_with_a_turning_cr
 def test_every_second_cylinder_fires_as_they_come_round():
     """Cylinder 5 of 5 stands 72 degrees behind cylinder 1 and comes to the top after it."""
     built("radial = 5", more="firing_order = [1, 4, 2, 5, 3]\n")
-    with pytest.raises(InputError, match="cylinder 3 is not at top dead centre when it fires: its crank pin stands 0 deg "
-                                         "ahead of cylinder 1's, and would have to stand at 288 deg"):
+    with pytest.raises(
+        InputError,
+        match="cylinder 3 is not at top dead centre when it fires: its crank pin stands 0 deg "
+        "ahead of cylinder 1's, and would have to stand at 288 deg",
+    ):
         built("radial = 5", more="firing_order = [1, 3, 5, 2, 4]\n")
 
 
 def test_the_throws_of_two_rows_follow_from_the_firing_order():
-    """Cylinder 6 stands at 240 degrees and is to fire 60 degrees after cylinder 1: its pin stands still at 300."""
+    """Cylinder 6 stands at 240 degrees and is to fire 60 degrees after cylinder 1: its pin stands
+    still at 300.
+    """
     found = built("radial = 3", more="firing_order = [1, 6, 5, 4, 3, 2]\nstrokes = 2\n")
     assert found.cylinders.axis_deg == pytest.approx([0, 300])
     assert found.numbers == (1, 3, 5, 2, 4, 6)
 
 
-@pytest.mark.parametrize(("layout", "message"), [
-    ("rotary = 1", "layout.rotary: 1 is neither true nor false; write one of these, without quotes"),
-    ('rotary = "yes"', 'layout.rotary: "yes" is neither true nor false; write one of these, without quotes'),
-])
+@pytest.mark.parametrize(
+    ("layout", "message"),
+    [
+        (
+            "rotary = 1",
+            "layout.rotary: 1 is neither true nor false; write one of these, without quotes",
+        ),
+        (
+            'rotary = "yes"',
+            'layout.rotary: "yes" is neither true nor false; write one of these, without quotes',
+        ),
+    ],
+)
 def test_true_or_false(layout, message):
     with pytest.raises(InputError) as caught:
-        enginefile.parse(GNOME.format(layout="radial = 5", offset=0).replace("rotary = true", layout))
+        enginefile.parse(
+            GNOME.format(layout="radial = 5", offset=0).replace("rotary = true", layout)
+        )
     assert [str(p) for p in caught.value.problems] == [message]
 
 
-ARTICULATED = "[articulation]\nknuckle_radius = {radius}\nrod = {{ length = {length}, mass = 0.9, cg = {cg}, inertia = 7000 }}\n"
+ARTICULATED = (
+    "[articulation]\nknuckle_radius = {radius}\nrod = {{ length = {length}, mass = "
+    "0.9, cg = "
+    "{cg}, inertia = 7000 }}\n"
+)
 
 
 def test_a_master_rod_with_knuckle_pins_nearly_on_the_crank_pin_is_no_master_rod():
     orders = np.arange(1.0, 15.0)
-    equal, hung = (spectrum.spectra(built(offset=4, more=more), orders)
-                   for more in ("", ARTICULATED.format(radius=1e-9, length=230, cg=70)))
+    equal, hung = (
+        spectrum.spectra(built(offset=4, more=more), orders)
+        for more in ("", ARTICULATED.format(radius=1e-9, length=230, cg=70))
+    )
     for (quantity, wanted), (_, found) in zip(equal.items(), hung.items(), strict=True):
-        assert np.abs(found.forward - wanted.forward).max() < 1e-6, quantity                # N, N m; a cylinder makes thousands
+        assert np.abs(found.forward - wanted.forward).max() < 1e-6, (
+            quantity
+        )  # N, N m; a cylinder makes thousands
         assert np.abs(found.backward - wanted.backward).max() < 1e-6, quantity
 
 
 def test_articulated_rods_leave_orders_that_equal_rods_do_not():
-    found = spectrum.spectra(built(more=ARTICULATED.format(radius=48, length=184, cg=60)), [1.0, 2, 3], ["force"]).force
+    found = spectrum.spectra(
+        built(more=ARTICULATED.format(radius=48, length=184, cg=60)), [1.0, 2, 3], ["force"]
+    ).force
     assert found is not None
     assert not found.balanced.any()
 
@@ -121,34 +162,54 @@ def test_an_articulated_rod_that_is_too_short():
 
 
 def test_even_knuckles_are_not_for_rotary_engines():
-    file = enginefile.parse(GNOME.format(layout="radial = 7", offset=0) + ARTICULATED.format(radius=48, length=184, cg=60))
+    file = enginefile.parse(
+        GNOME.format(layout="radial = 7", offset=0)
+        + ARTICULATED.format(radius=48, length=184, cg=60)
+    )
     with pytest.raises(BalcliError) as caught:
         even_knuckles(file)
-    assert str(caught.value) == "knuckles: this engine is rotary; even knuckle angles are looked for where the crank turns only"
+    assert (
+        str(caught.value)
+        == "knuckles: this engine is rotary; even knuckle angles are looked for where the crank "
+        "turns only"
+    )
 
 
 def test_the_page_has_the_knuckle_pins_of_turning_cylinders():
     """As seen from the cylinder, in the mirror."""
     subject = built(more=ARTICULATED.format(radius=48, length=184, cg=60))
-    third = next(c for c in scene(analyze(subject), None, SYSTEMS["si"])["cylinders"] if c["number"] == 3)
+    third = next(
+        c for c in scene(analyze(subject), None, SYSTEMS["si"])["cylinders"] if c["number"] == 3
+    )
     assert third["lead"] == pytest.approx(-720 / 7)
-    assert third["knuckle"] == pytest.approx([48 * np.cos(4 * np.pi / 7), -48 * np.sin(4 * np.pi / 7)])
+    assert third["knuckle"] == pytest.approx(
+        [48 * np.cos(4 * np.pi / 7), -48 * np.sin(4 * np.pi / 7)]
+    )
 
 
 def test_variants_along_two_axes():
-    """Strokes along one axis, rod lengths along the other: what each variant alone gives, also at an uneven speed."""
+    """Strokes along one axis, rod lengths along the other: what each variant alone gives, also at
+    an uneven speed.
+    """
     ripple = "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.1, angle = 20 }]\n"
     file = enginefile.parse(GNOME.format(layout="radial = 3", offset=4) + ripple)
     strokes, lengths = np.array([[100.0], [120.0], [130.0]]), np.array([[220.0, 240.0]])
 
     def variant(stroke, length):
-        return file.model_copy(update={"crank": file.crank.model_copy(update={"stroke": stroke}),
-                                       "rod": file.rod.model_copy(update={"length": length})})
+        return file.model_copy(
+            update={
+                "crank": file.crank.model_copy(update={"stroke": stroke}),
+                "rod": file.rod.model_copy(update={"length": length}),
+            }
+        )
+
     orders = np.arange(1.0, 7.0)
     together = spectrum.spectra(engine.build(variant(strokes, lengths), rank=2), orders)
     for i in range(3):
         for j in range(2):
             alone = spectrum.spectra(engine.build(variant(strokes[i, 0], lengths[0, j])), orders)
             for (quantity, many), (_, one) in zip(together.items(), alone.items(), strict=True):
-                difference = np.abs(np.broadcast_to(many.forward, (6, 3, 2))[:, i, j] - one.forward).max()
+                difference = np.abs(
+                    np.broadcast_to(many.forward, (6, 3, 2))[:, i, j] - one.forward
+                ).max()
                 assert difference <= 1e-12 * np.abs(one.forward).max(initial=1e-6), quantity

@@ -1,4 +1,5 @@
 """Searches: the best of all candidates, each arrangement once."""
+
 from __future__ import annotations
 
 from itertools import permutations
@@ -8,16 +9,16 @@ import pytest
 from support.engines import GOOD, changed, engine_text
 
 from balcli.engine.build import build
-from balcli.engine.load import parse as load
-from balcli.errors import BalcliError, InputError
 from balcli.engine.layout import plan
+from balcli.engine.load import parse as load
 from balcli.enginefile.model import EngineFile
-from balcli.studies.parameters import varied
+from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate, parse
-from balcli.studies.search.search import fires_evenly, search
+from balcli.studies.parameters import varied
 from balcli.studies.search.objective import objective
-from balcli.studies.search.throws import best
+from balcli.studies.search.search import fires_evenly, search
 from balcli.studies.search.throw_contributions import shares
+from balcli.studies.search.throws import best
 from balcli.studies.search.write import arranged
 
 NO_ORDER = ("[layout]\nfiring_order = [1, 3, 4, 2]\n", "")
@@ -30,19 +31,42 @@ def engine(throws: list[float], layout: str = "") -> EngineFile:
 
 def test_in_line_four() -> None:
     found = search(load(SHUFFLED), "throws", objective("moment.1.major,force.1.major=1")).results
-    assert [r.arrangement["throws"] for r in found] == [[0, 180, 180, 0], [0, 180, 0, 180], [0, 0, 180, 180]]
+    assert [r.arrangement["throws"] for r in found] == [
+        [0, 180, 180, 0],
+        [0, 180, 0, 180],
+        [0, 0, 180, 180],
+    ]
     assert found[0].objective == 0
 
 
-@pytest.mark.parametrize(("throws", "layout"), [
-    ([0, 72, 144, 216, 288], ""), ([0, 100, 250, 190, 20, 300], ""), ([0, 120, 240, 240, 120, 0], "bank_angle = 60\nstagger = 20"),
-    ([0, 90, 270, 180], "bank_angle = 90\nnumbering = [[5, 6, 7, 8], [1, 2, 3, 4]]"), ([0, 60, 120, 180, 240, 300, 30, 40, 50], ""),
-])
+@pytest.mark.parametrize(
+    ("throws", "layout"),
+    [
+        ([0, 72, 144, 216, 288], ""),
+        ([0, 100, 250, 190, 20, 300], ""),
+        ([0, 120, 240, 240, 120, 0], "bank_angle = 60\nstagger = 20"),
+        ([0, 90, 270, 180], "bank_angle = 90\nnumbering = [[5, 6, 7, 8], [1, 2, 3, 4]]"),
+        ([0, 60, 120, 180, 240, 300, 30, 40, 50], ""),
+    ],
+)
 def test_branch_and_bound_finds_what_trying_all_finds(throws: list[float], layout: str) -> None:
-    file, wanted = engine(throws, layout), objective("moment.1.major,moment.2.backward=2,force.1.major=0.5")
-    every = np.array(sorted(set(permutations(throws))) if len(throws) < 8 else [(0, *p) for p in permutations(throws[1:])])
-    sample = every if len(every) < 1000 else every[np.random.default_rng(1).choice(len(every), 1000, replace=False)]
-    whole = build(varied(file, {f"crank.throws.{t + 1}": column for t, column in enumerate(sample.T)}), 1)
+    file, wanted = (
+        engine(throws, layout),
+        objective("moment.1.major,moment.2.backward=2,force.1.major=0.5"),
+    )
+    every = np.array(
+        sorted(set(permutations(throws)))
+        if len(throws) < 8
+        else [(0, *p) for p in permutations(throws[1:])]
+    )
+    sample = (
+        every
+        if len(every) < 1000
+        else every[np.random.default_rng(1).choice(len(every), 1000, replace=False)]
+    )
+    whole = build(
+        varied(file, {f"crank.throws.{t + 1}": column for t, column in enumerate(sample.T)}), 1
+    )
     values = dict(zip(wanted.quantities, evaluate(whole, wanted.quantities), strict=True))
     tried = np.broadcast_to(wanted.of(values.__getitem__), len(sample)).min()
     first = search(file, "throws", wanted, 1).results[0].objective
@@ -52,9 +76,11 @@ def test_branch_and_bound_finds_what_trying_all_finds(throws: list[float], layou
 
 
 def test_every_arrangement_of_a_five_once() -> None:
-    found = search(engine([0, 72, 144, 216, 288]), "throws", objective("moment.1.major"), 100).results
+    found = search(
+        engine([0, 72, 144, 216, 288]), "throws", objective("moment.1.major"), 100
+    ).results
     keys = {tuple(r.arrangement["throws"]) for r in found}
-    assert len(keys) == len(found) == 8         # 5!/5 rotations = 24 cranks, 8 but for mirror images
+    assert len(keys) == len(found) == 8  # 5!/5 rotations = 24 cranks, 8 but for mirror images
     assert all(r.arrangement["throws"][0] == 0 for r in found)
 
 
@@ -76,7 +102,10 @@ def test_limits_are_kept() -> None:
 
 def test_firing_orders_of_a_given_crank_once() -> None:
     found = search(load(GOOD), "firing_order", objective("moment.1.major")).results
-    assert [r.arrangement["firing_order"] for r in found] in ([[1, 3, 4, 2]], [[1, 2, 4, 3]])       # mirror images
+    assert [r.arrangement["firing_order"] for r in found] in (
+        [[1, 3, 4, 2]],
+        [[1, 2, 4, 3]],
+    )  # mirror images
 
 
 def test_firing_orders_bring_their_cranks() -> None:
@@ -95,25 +124,38 @@ def test_v8_firing_orders_fit_their_crank() -> None:
     file = engine([0, 90, 270, 180], "bank_angle = 90")
     found = search(file, "firing_order", objective("moment.1.major"), 100).results
     orders = [r.arrangement["firing_order"] for r in found]
-    assert len(orders) == 4                                                     # 16, but for mirror images
+    assert len(orders) == 4  # 16, but for mirror images
     common, from_the_other_end = [1, 5, 4, 2, 6, 3, 7, 8], [1, 3, 7, 2, 6, 5, 4, 8]
     assert common in orders or from_the_other_end in orders
 
 
-@pytest.mark.parametrize(("layout", "splay"), [
-    ("firing_order = [1, 5, 3, 6, 2, 4]", 0), ("bank_angle = 120\nfiring_order = [1, 4, 2, 5, 3, 6]", 0),
-    ("banks = [-90, 90]\nfiring_order = [1, 4, 5, 2, 3, 6]\nrods = \"alternating\"", 0),
-    ("bank_angle = 90\nfiring_order = [1, 4, 2, 5, 3, 6]", -30), ("strokes = 2\nfiring_order = [1, 5, 3, 6, 2, 4]", 0),
-    ("radial = 5\nfiring_order = [1, 3, 5, 2, 4]", 0), ("radial = 5\nrotary = true\nfiring_order = [1, 3, 5, 2, 4]", 0),
-    ("bank_angle = 180\nrotary = true\nfiring_order = [1, 2, 4, 3]", 0),
-    ("radial = 5\nfiring_order = [1, 3, 5, 2, 4]\n[articulation]\nknuckle_radius = 30\n[articulation.rod]\nlength = 130", 0),
-])
+@pytest.mark.parametrize(
+    ("layout", "splay"),
+    [
+        ("firing_order = [1, 5, 3, 6, 2, 4]", 0),
+        ("bank_angle = 120\nfiring_order = [1, 4, 2, 5, 3, 6]", 0),
+        ('banks = [-90, 90]\nfiring_order = [1, 4, 5, 2, 3, 6]\nrods = "alternating"', 0),
+        ("bank_angle = 90\nfiring_order = [1, 4, 2, 5, 3, 6]", -30),
+        ("strokes = 2\nfiring_order = [1, 5, 3, 6, 2, 4]", 0),
+        ("radial = 5\nfiring_order = [1, 3, 5, 2, 4]", 0),
+        ("radial = 5\nrotary = true\nfiring_order = [1, 3, 5, 2, 4]", 0),
+        ("bank_angle = 180\nrotary = true\nfiring_order = [1, 2, 4, 3]", 0),
+        (
+            "radial = 5\nfiring_order = [1, 3, 5, 2, 4]\n[articulation]\nknuckle_radius = "
+            "30\n[articulation.rod]\nlength = 130",
+            0,
+        ),
+    ],
+)
 def test_firing_orders_are_those_that_an_engine_file_may_have(layout: str, splay: float) -> None:
     def text(order: tuple[int, ...]) -> str:
         at = layout.index("firing_order"), layout.index("]", layout.index("firing_order")) + 1
-        own = layout[:at[0]] + f"firing_order = {list(order)}" + layout[at[1]:]
-        return changed(("throws = [0, 180, 180, 0]\n", f"splay = {splay}\n"), ("firing_order = [1, 3, 4, 2]", own),
-                       ("[piston]\n", "[piston]\noffset = 5\n"))
+        own = layout[: at[0]] + f"firing_order = {list(order)}" + layout[at[1] :]
+        return changed(
+            ("throws = [0, 180, 180, 0]\n", f"splay = {splay}\n"),
+            ("firing_order = [1, 3, 4, 2]", own),
+            ("[piston]\n", "[piston]\noffset = 5\n"),
+        )
 
     def fits(order: tuple[int, ...]) -> bool:
         try:
@@ -122,10 +164,13 @@ def test_firing_orders_are_those_that_an_engine_file_may_have(layout: str, splay
             return False
         return True
 
-    count = layout[layout.index("firing_order"):].partition("]")[0].count(",") + 1
+    count = layout[layout.index("firing_order") :].partition("]")[0].count(",") + 1
     every = {order for rest in permutations(range(2, count + 1)) if fits(order := (1, *rest))}
     given = load(text(next(iter(every))))
-    found = [tuple(r.arrangement["firing_order"]) for r in search(given, "firing_order", objective("moment.1.major"), 1000).results]
+    found = [
+        tuple(r.arrangement["firing_order"])
+        for r in search(given, "firing_order", objective("moment.1.major"), 1000).results
+    ]
     mirrored = {other for order in found for other in _images(order, given)}
     assert every <= mirrored
     assert set(found) <= every
@@ -137,18 +182,40 @@ def _images(order: tuple[int, ...], file: EngineFile) -> list[tuple[int, ...]]:
     last = max(throw for _, throw in cells)
     other_end = {n: cells.get((bank, last - throw), n) for (bank, throw), n in cells.items()}
     ends = [order, tuple(other_end[n] for n in order)]
-    turned = [(*row[row.index(1):], *row[:row.index(1)]) for row in ends]
+    turned = [(*row[row.index(1) :], *row[: row.index(1)]) for row in ends]
     return turned + [(1, *reversed(row[1:])) for row in turned]
 
 
 def test_millions_of_firing_orders_are_no_hindrance() -> None:
     order = [1, 2, 3, 4, 5, 6, 7, 8, 15, 16, 9, 10, 11, 12, 13, 14]
-    file = load(changed(("throws = [0, 180, 180, 0]\n", ""), ("firing_order = [1, 3, 4, 2]", f"bank_angle = 90\nfiring_order = {order}")))
+    file = load(
+        changed(
+            ("throws = [0, 180, 180, 0]\n", ""),
+            ("firing_order = [1, 3, 4, 2]", f"bank_angle = 90\nfiring_order = {order}"),
+        )
+    )
     found = search(file, "firing_order", objective("moment.1.major,moment.2.major=1"), 3).results
     assert [r.objective for r in found] == [0, 0, 0]
-    assert all(fires_evenly(build(load(arranged(changed(
-        ("throws = [0, 180, 180, 0]\n", ""), ("firing_order = [1, 3, 4, 2]", f"bank_angle = 90\nfiring_order = {order}")).encode(),
-        r.arrangement))), file).all() for r in found)
+    assert all(
+        fires_evenly(
+            build(
+                load(
+                    arranged(
+                        changed(
+                            ("throws = [0, 180, 180, 0]\n", ""),
+                            (
+                                "firing_order = [1, 3, 4, 2]",
+                                f"bank_angle = 90\nfiring_order = {order}",
+                            ),
+                        ).encode(),
+                        r.arrangement,
+                    )
+                )
+            ),
+            file,
+        ).all()
+        for r in found
+    )
 
 
 def test_ninety_degree_twin() -> None:
@@ -164,18 +231,33 @@ def test_splay_of_the_90_degree_v6_for_even_firing() -> None:
 
 
 def test_even_firing() -> None:
-    for throws, layout, even in (([0, 180, 180, 0], "", True), ([0, 90, 270, 180], "", False), ([0, 0], "strokes = 4", True),
-                                 ([0, 180], "strokes = 4", False), ([0, 180], "strokes = 2", True)):
+    for throws, layout, even in (
+        ([0, 180, 180, 0], "", True),
+        ([0, 90, 270, 180], "", False),
+        ([0, 0], "strokes = 4", True),
+        ([0, 180], "strokes = 4", False),
+        ([0, 180], "strokes = 2", True),
+    ):
         file = engine(throws, layout)
         assert bool(fires_evenly(build(file), file)) is even
 
 
-@pytest.mark.parametrize(("over", "message"), [
-    ("colour", '--over "colour": choose from throws, firing_order, bank_angle, splay'),
-    ("trows", '--over "trows": choose from throws, firing_order, bank_angle, splay; did you mean throws?'),
-    ("bank_angle", "there is no bank angle to look for: the engine is no vee (give layout.bank_angle)"),
-    ("splay", "there is no splay to look for: the engine is no vee (give layout.bank_angle)"),
-])
+@pytest.mark.parametrize(
+    ("over", "message"),
+    [
+        ("colour", '--over "colour": choose from throws, firing_order, bank_angle, splay'),
+        (
+            "trows",
+            '--over "trows": choose from throws, firing_order, bank_angle, splay; did you mean '
+            "throws?",
+        ),
+        (
+            "bank_angle",
+            "there is no bank angle to look for: the engine is no vee (give layout.bank_angle)",
+        ),
+        ("splay", "there is no splay to look for: the engine is no vee (give layout.bank_angle)"),
+    ],
+)
 def test_mistakes_in_words(over: str, message: str) -> None:
     with pytest.raises(BalcliError) as caught:
         search(load(GOOD), over, objective("force.1.major"))
@@ -185,17 +267,39 @@ def test_mistakes_in_words(over: str, message: str) -> None:
 @pytest.mark.parametrize("over", ["bank_angle", "splay"])
 def test_an_angle_is_looked_for_on_a_given_crank(over: str) -> None:
     """Two rods on one pin, 90 degrees apart, fire in turn with this bank angle alone."""
-    file = load(changed(("throws = [0, 180, 180, 0]\n", ""), ("[1, 3, 4, 2]", "[1, 3, 2, 4]\nbank_angle = 90\nstrokes = 2")))
+    file = load(
+        changed(
+            ("throws = [0, 180, 180, 0]\n", ""),
+            ("[1, 3, 4, 2]", "[1, 3, 2, 4]\nbank_angle = 90\nstrokes = 2"),
+        )
+    )
     with pytest.raises(BalcliError, match=r"give crank\.throws, so that the crank stays as it is"):
         search(file, over, objective("force.1.major"))
 
 
-@pytest.mark.parametrize(("minimise", "limits", "message"), [
-    ("force.1.major=heavy", (), '"force.1.major=heavy": heavy is no positive number'),
-    ("force.1.major", ("force.2.major=3",), '--limit "force.2.major=3": give a quantity and what it must stay below'),
-    ("force.1.axis", (), "force.1.axis is a direction, which cannot be large or small; name a size such as force.1.major"),
-    ("roll.2.cos", (), "roll.2.cos may be negative, and then would be the better the larger it is; name a size such as roll.2.major"),
-])
+@pytest.mark.parametrize(
+    ("minimise", "limits", "message"),
+    [
+        ("force.1.major=heavy", (), '"force.1.major=heavy": heavy is no positive number'),
+        (
+            "force.1.major",
+            ("force.2.major=3",),
+            '--limit "force.2.major=3": give a quantity and what it must stay below',
+        ),
+        (
+            "force.1.axis",
+            (),
+            "force.1.axis is a direction, which cannot be large or small; name a size such as "
+            "force.1.major",
+        ),
+        (
+            "roll.2.cos",
+            (),
+            "roll.2.cos may be negative, and then would be the better the larger it is; name a "
+            "size such as roll.2.major",
+        ),
+    ],
+)
 def test_mistakes_of_objectives(minimise: str, limits: tuple[str, ...], message: str) -> None:
     with pytest.raises(BalcliError) as caught:
         objective(minimise, limits)
@@ -208,8 +312,16 @@ def test_peaks_do_not_add_up() -> None:
 
 
 def test_written_file_keeps_its_comments() -> None:
-    text = changed(("throws = [0, 180, 180, 0]", "throws = [0, 180, 180, 0]  # deg"), ("firing_order = [1, 3, 4, 2]\n", "")) + "# the end\n"
-    wanted = text.replace("[0, 180, 180, 0]  # deg", "[0.0, 180.0, 0.0, 180.0]  # deg (found by balcli)")
+    text = (
+        changed(
+            ("throws = [0, 180, 180, 0]", "throws = [0, 180, 180, 0]  # deg"),
+            ("firing_order = [1, 3, 4, 2]\n", ""),
+        )
+        + "# the end\n"
+    )
+    wanted = text.replace(
+        "[0, 180, 180, 0]  # deg", "[0.0, 180.0, 0.0, 180.0]  # deg (found by balcli)"
+    )
     assert arranged(text.encode(), {"throws": [0.0, 180.0, 0.0, 180.0]}) == wanted
 
 
@@ -221,8 +333,11 @@ def test_written_file_drops_a_firing_order_that_no_longer_fits() -> None:
 
 
 ARTICULATED = engine_text(
-    crank="stroke = 100\nthrows = [0, 100, 190, 250]\nspacing = 100", rod="length = 200\nmass = 1\ncg = 60", layout="banks = [-50, 10, 60]",
-    articulation="knuckle_radius = 40\nrod = { length = 160, mass = 0.9, cg = 20 }")
+    crank="stroke = 100\nthrows = [0, 100, 190, 250]\nspacing = 100",
+    rod="length = 200\nmass = 1\ncg = 60",
+    layout="banks = [-50, 10, 60]",
+    articulation="knuckle_radius = 40\nrod = { length = 160, mass = 0.9, cg = 20 }",
+)
 
 
 def test_articulated_rods_count_once_for_their_throw() -> None:
@@ -232,4 +347,6 @@ def test_articulated_rods_count_once_for_their_throw() -> None:
     found = shares(file, angles, 0, quantities)
     for q, whole in zip(quantities, evaluate(build(file), quantities), strict=True):
         forward, backward = found[q.kind, q.order].sums(range(4), np.array([[0, 1, 2, 3]], np.int8))
-        assert found[q.kind, q.order].value(q, forward, backward)[0] == pytest.approx(float(whole), rel=1e-9)
+        assert found[q.kind, q.order].value(q, forward, backward)[0] == pytest.approx(
+            float(whole), rel=1e-9
+        )

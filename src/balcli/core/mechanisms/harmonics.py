@@ -1,9 +1,11 @@
 """Fourier coefficients of the slider-crank mechanism, for one crank of radius 1 turning at speed 1.
 
-Every function of the crank angle psi is written `Re sum c_n e^{i n psi}`, so a cosine series has real and a sine series
-imaginary coefficients. Centred mechanisms have closed forms without cancellation, good to about 1e-14 *relative* in every
-order and for every lambda in (0, 1); offset ones are sampled, which is good to about 1e-16 *absolute*.
+Every function of the crank angle psi is written `Re sum c_n e^{i n psi}`, so a cosine series has
+real and a sine series imaginary coefficients. Centred mechanisms have closed forms without
+cancellation, good to about 1e-14 *relative* in every order and for every lambda in (0, 1); offset
+ones are sampled, which is good to about 1e-16 *absolute*.
 """
+
 from __future__ import annotations
 
 import math
@@ -18,19 +20,20 @@ from numpy.typing import ArrayLike, NDArray
 Array = NDArray[Any]
 Rows: TypeAlias = NDArray[np.intp] | slice
 EPS = float(np.finfo(float).eps)
-HARDEST = 1 << 16               # samples of a revolution that a mechanism takes at 1 - 1e-6 of its lock
-CLOSED_FORM = 4096              # highest order of closed forms; only mechanisms near their lock have more
-_AT_ONCE = 1 << 18              # factors of Gauss's functions that are kept in memory
+HARDEST = 1 << 16  # samples of a revolution that a mechanism takes at 1 - 1e-6 of its lock
+CLOSED_FORM = 4096  # highest order of closed forms; only mechanisms near their lock have more
+_AT_ONCE = 1 << 18  # factors of Gauss's functions that are kept in memory
 
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """Coefficients c_n (real: of cosines alone), shape (orders, cylinders or any axes), and their own error bound, which
-    broadcasts to it (0: some ulp)."""
+    """Coefficients c_n (real: of cosines alone), shape (orders, cylinders or any axes), and their
+    own error bound, which broadcasts to it (0: some ulp).
+    """
 
     c: Array
     noise: Array | float = 0.0
-    __array_ufunc__ = None              # array * series is ours to answer
+    __array_ufunc__ = None  # array * series is ours to answer
 
     def __add__(self, other: Series) -> Series:
         return Series(self.c + other.c, self.noise + other.noise)
@@ -50,24 +53,28 @@ class Series:
 
 
 class Curve(NamedTuple):
-    """What unit mass does on a closed curve z(psi) (complex, in crank radii, x along the cylinder's axis)."""
+    """What unit mass does on a closed curve z(psi) (complex, in crank radii, x along the cylinder's
+    axis).
+    """
 
-    along: Series                       # -Re z''
-    across: Series                      # -Im z''
-    couple: Series                      # -Im(conj(z) z''): minus the rate of its moment of momentum
-    kinetic: Series                     # |z'|^2
-    momentum: Array                     # mean of Im(conj(z) z'), shape (cylinders, *trailing)
+    along: Series  # -Re z''
+    across: Series  # -Im z''
+    couple: Series  # -Im(conj(z) z''): minus the rate of its moment of momentum
+    kinetic: Series  # |z'|^2
+    momentum: Array  # mean of Im(conj(z) z'), shape (cylinders, *trailing)
 
 
 class Harmonics(NamedTuple):
     """The Fourier series of a mechanism (or many); those of rod and energy may be left out."""
 
-    piston: Series                      # -s''/r: acceleration towards the crank
-    rod: Series                         # -beta'': angular acceleration of the rod, in the crank's sense
-    kinetic: Series                     # (s'/r)^2
-    rod_kinetic: Series                 # beta'^2
-    curve: Curve | None = None          # of a further mass, where a mechanism has one that moves in the plane
-    turns: float = 0.0                  # of the rod for each of the crank
+    piston: Series  # -s''/r: acceleration towards the crank
+    rod: Series  # -beta'': angular acceleration of the rod, in the crank's sense
+    kinetic: Series  # (s'/r)^2
+    rod_kinetic: Series  # beta'^2
+    curve: Curve | None = (
+        None  # of a further mass, where a mechanism has one that moves in the plane
+    )
+    turns: float = 0.0  # of the rod for each of the crank
 
     def of_orders(self, which: slice) -> Harmonics:
         """Of the orders in these rows."""
@@ -84,14 +91,25 @@ class Harmonics(NamedTuple):
     def _each(self, change: Callable[[Series], Series]) -> Harmonics:
         """With every series changed."""
         c = self.curve
-        return Harmonics(change(self.piston), change(self.rod), change(self.kinetic), change(self.rod_kinetic),
-                         c and Curve(change(c.along), change(c.across), change(c.couple), change(c.kinetic), c.momentum), self.turns)
+        return Harmonics(
+            change(self.piston),
+            change(self.rod),
+            change(self.kinetic),
+            change(self.rod_kinetic),
+            c
+            and Curve(
+                change(c.along), change(c.across), change(c.couple), change(c.kinetic), c.momentum
+            ),
+            self.turns,
+        )
 
 
-NONE = Series(np.zeros((1, 1)))         # what is left out
+NONE = Series(np.zeros((1, 1)))  # what is left out
 
 
-def of(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: bool = True) -> Harmonics:
+def of(
+    orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: bool = True
+) -> Harmonics:
     """Harmonics of mechanisms by lambda and offset ratio, shapes (cylinders, *trailing).
 
     Raises nothing: that every mechanism turns (`lambda + |eps| < 1`) is the caller's to see to.
@@ -100,7 +118,9 @@ def of(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: b
     return few.of_rows(which)
 
 
-def of_distinct(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> tuple[Harmonics, Rows]:
+def of_distinct(
+    orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool
+) -> tuple[Harmonics, Rows]:
     """Those of the mechanisms that differ, and which of them each cylinder has."""
     if lam.ndim > 1 or lam.size * eps.size == 1:
         return _of_all(orders, lam, eps, rod=rod, energy=energy), slice(None)
@@ -113,7 +133,10 @@ def of_distinct(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy:
             return NONE
         noise = np.concatenate([np.broadcast_to(s.noise, s.c.shape[1:]) for s in series])
         return Series(np.concatenate([s.c for s in series], axis=1), noise)
-    return Harmonics(gather("piston"), gather("rod"), gather("kinetic"), gather("rod_kinetic")), which
+
+    return Harmonics(
+        gather("piston"), gather("rod"), gather("kinetic"), gather("rod_kinetic")
+    ), which
 
 
 def samples(lam: Array, eps: Array) -> tuple[int, int]:
@@ -123,7 +146,9 @@ def samples(lam: Array, eps: Array) -> tuple[int, int]:
 
 
 def distinct(lam: Array, eps: Array) -> tuple[list[tuple[float, float]], NDArray[np.intp]]:
-    """(lambda, eps) of the mechanisms that differ, of shapes (cylinders or 1,), and which of them each cylinder has."""
+    """(lambda, eps) of the mechanisms that differ, of shapes (cylinders or 1,), and which of them
+    each cylinder has.
+    """
     pairs = list(zip(*(v.tolist() for v in np.broadcast_arrays(lam, eps)), strict=True))
     place = {pair: k for k, pair in enumerate(dict.fromkeys(pairs))}
     return list(place), np.array([place[pair] for pair in pairs])
@@ -138,8 +163,12 @@ def _of_all(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: boo
 
 
 @lru_cache(maxsize=64)
-def _of_one(orders: bytes, lam: float, shape: tuple[int, ...], rod: bool, energy: bool) -> Harmonics:
-    """Those of one mechanism, kept: sizing and analysing an engine ask for the same again and again."""
+def _of_one(
+    orders: bytes, lam: float, shape: tuple[int, ...], rod: bool, energy: bool
+) -> Harmonics:
+    """Those of one mechanism, kept: sizing and analysing an engine ask for the same again and
+    again.
+    """
     return centred(np.frombuffer(orders), np.full(shape, lam), rod=rod, energy=energy)
 
 
@@ -155,8 +184,9 @@ def piston(orders: ArrayLike, lam: ArrayLike) -> Array:
 def rod(orders: ArrayLike, lam: ArrayLike) -> Array:
     """D_k of `-beta'' = sum D_k sin k psi`, shape (orders, *lam.shape), even orders 0.
 
-    From `-beta'' = lambda w^2 sin psi / cos^3 beta`; Euler's transformation turns the series of `cos^-3 beta` into that of
-    `cos beta`: `D_k = lambda (1+w)/2 (f_(k-1)/2 - f_(k+1)/2)`, `f_m = binom(-3/2, m) x^2m G_m`. The f alternate: no cancellation.
+    From `-beta'' = lambda w^2 sin psi / cos^3 beta`; Euler's transformation turns the series of
+    `cos^-3 beta` into that of `cos beta`: `D_k = lambda (1+w)/2 (f_(k-1)/2 - f_(k+1)/2)`, `f_m =
+    binom(-3/2, m) x^2m G_m`. The f alternate: no cancellation.
     """
     return _Ladder(orders, lam).rod()
 
@@ -164,19 +194,25 @@ def rod(orders: ArrayLike, lam: ArrayLike) -> Array:
 def kinetic(orders: ArrayLike, lam: ArrayLike) -> Array:
     """K_n of `(s'/r)^2 = sum K_n cos n psi`, shape (orders, *lam.shape).
 
-    Odd orders are the product of `sin psi` with the even part of s': `K_n = A_(n+1)/(n+1) - A_(n-1)/(n-1)`; even ones are
-    `cos^2 psi / cos^2 beta - cos 2 psi`, a geometric series.
+    Odd orders are the product of `sin psi` with the even part of s': `K_n = A_(n+1)/(n+1) -
+    A_(n-1)/(n-1)`; even ones are `cos^2 psi / cos^2 beta - cos 2 psi`, a geometric series.
     """
     return _Ladder(orders, lam).kinetic()
 
 
 def rod_kinetic(orders: ArrayLike, lam: ArrayLike) -> Array:
-    """B_n of `beta'^2 = sum B_n cos n psi` (`= (lambda cos psi / cos beta)^2`), shape (orders, *lam.shape), odd orders 0."""
+    """B_n of `beta'^2 = sum B_n cos n psi` (`= (lambda cos psi / cos beta)^2`), shape (orders,
+    *lam.shape), odd orders 0.
+    """
     return _Ladder(orders, lam).rod_kinetic()
 
 
-def centred(orders: ArrayLike, lam: ArrayLike, *, rod: bool = True, energy: bool = True) -> Harmonics:
-    """All coefficients of centred mechanisms for orders >= 0, each of shape (orders, *lam.shape)."""
+def centred(
+    orders: ArrayLike, lam: ArrayLike, *, rod: bool = True, energy: bool = True
+) -> Harmonics:
+    """All coefficients of centred mechanisms for orders >= 0, each of shape (orders,
+    *lam.shape).
+    """
     ladder = _Ladder(orders, lam)
     return Harmonics(
         piston=Series(ladder.piston()),
@@ -189,10 +225,12 @@ def centred(orders: ArrayLike, lam: ArrayLike, *, rod: bool = True, energy: bool
 class _Ladder:
     """The terms of which all series are made, for m = 0 .. (highest order)/2 + 1.
 
-    With `w = cos(arcsin lambda)` and `x = tan(arcsin(lambda)/2)`, `cos beta = (1+w)/2 |1 + x^2 e^{2 i psi}|` has its binomial
-    series in powers of x^2, with Gauss's functions `G_m(x^4)`. `x` as computed is off by some ulp, which the 2m-th power would
-    multiply; one Newton step on `lambda (1 + x^2) = 2x`, with the residual in twice the working precision, gives that error
-    (`slip`), and powers are corrected for it. A single lambda is a plain float here, which is quicker than numpy's arrays.
+    With `w = cos(arcsin lambda)` and `x = tan(arcsin(lambda)/2)`, `cos beta = (1+w)/2 |1 + x^2 e^{2
+    i psi}|` has its binomial series in powers of x^2, with Gauss's functions `G_m(x^4)`. `x` as
+    computed is off by some ulp, which the 2m-th power would multiply; one Newton step on `lambda (1
+    + x^2) = 2x`, with the residual in twice the working precision, gives that error (`slip`), and
+    powers are corrected for it. A single lambda is a plain float here, which is quicker than
+    numpy's arrays.
     """
 
     def __init__(self, orders: ArrayLike, lam: ArrayLike) -> None:
@@ -205,7 +243,7 @@ class _Ladder:
         slip = _residual(self._lam, x) / (2 * self._w * x)
         self._x = x * (1 + slip)
         twice = 2 * self._rows.m
-        self._power = x**twice * (1 + twice * slip)                        # x^2m, a few ulp for any m
+        self._power = x**twice * (1 + twice * slip)  # x^2m, a few ulp for any m
         self._gauss = self._power * _G(self._rows.m, x**4 * (1 + 4 * slip))
 
     def piston(self) -> Array:
@@ -232,26 +270,30 @@ class _Ladder:
 
     @cached_property
     def _square(self) -> Array:
-        """Coefficients of `cos^2 psi / cos^2 beta` by order: 1/(1+w), then `2w/(1+w)^2 (-1)^(m-1) x^(2m-2)`."""
+        """Coefficients of `cos^2 psi / cos^2 beta` by order: 1/(1+w), then `2w/(1+w)^2 (-1)^(m-1)
+        x^(2m-2)`.
+        """
         rows, lead = self._rows, 2 * self._w / (1 + self._w) ** 2
-        return rows.sign_if_even * (lead * self._power[rows.half_down]) + rows.zeroth / (1 + self._w)
+        return rows.sign_if_even * (lead * self._power[rows.half_down]) + rows.zeroth / (
+            1 + self._w
+        )
 
 
 class _Rows(NamedTuple):
     """What the series need of the orders alone, columns before the axes of lambda."""
 
-    half: NDArray[np.intp]              # rows of the ladder: n/2 or (n-1)/2, the next one, the one before
+    half: NDArray[np.intp]  # rows of the ladder: n/2 or (n-1)/2, the next one, the one before
     half_up: NDArray[np.intp]
     half_down: NDArray[np.intp]
     n_if_even: Array
-    sign_if_even: Array                 # (-1)^(m-1) for n = 2m > 0
+    sign_if_even: Array  # (-1)^(m-1) for n = 2m > 0
     odd: NDArray[np.bool_]
     zeroth: NDArray[np.bool_]
     first: NDArray[np.bool_]
     second: NDArray[np.bool_]
-    m: Array                            # the ladder
-    one_half: Array                     # 2m binom(1/2, m)
-    minus_three_halves: Array           # binom(-3/2, m)
+    m: Array  # the ladder
+    one_half: Array  # 2m binom(1/2, m)
+    minus_three_halves: Array  # binom(-3/2, m)
 
 
 @lru_cache(maxsize=64)
@@ -264,22 +306,31 @@ def _rows(orders: bytes, axes: int) -> _Rows:
     m = np.arange(half.max(initial=0) + 2)
     one_half, minus = _binomials(len(m))
     signs = column(np.where(even, 2 * (half % 2) - 1, 0))
-    return _Rows(half, half + 1, np.maximum(half - 1, 0), column(np.where(even, n, 0)), signs,
-                 *map(column, (n % 2 == 1, n == 0, n == 1, n == 2, m.astype(float), 2 * m * one_half, minus)))
+    return _Rows(
+        half,
+        half + 1,
+        np.maximum(half - 1, 0),
+        column(np.where(even, n, 0)),
+        signs,
+        *map(
+            column, (n % 2 == 1, n == 0, n == 1, n == 2, m.astype(float), 2 * m * one_half, minus)
+        ),
+    )
 
 
 def _binomials(count: int) -> tuple[Array, Array]:
     """binom(1/2, m) and binom(-3/2, m) for m = 0 .. count-1, each correctly rounded."""
-    half, minus, middle = np.empty(count), np.empty(count), 1           # middle: binom(2m, m), exactly
+    half, minus, middle = np.empty(count), np.empty(count), 1  # middle: binom(2m, m), exactly
     for m in range(count):
-        half[m] = -(-1) ** m * middle / ((2 * m - 1) << 2 * m)
+        half[m] = -((-1) ** m) * middle / ((2 * m - 1) << 2 * m)
         minus[m] = (-1) ** m * (2 * m + 1) * middle / (1 << 2 * m)
         middle = middle * 2 * (2 * m + 1) // (m + 1)
     return half, minus
 
 
 def _G(m: Array, z: Any) -> Any:
-    """Gauss's `F(-1/2, m-1/2; m+1; z)` for m = 0, 1 .. as a column, shape (m, *z.shape), by Horner's rule.
+    """Gauss's `F(-1/2, m-1/2; m+1; z)` for m = 0, 1 .. as a column, shape (m, *z.shape), by
+    Horner's rule.
 
     All terms after the first have one sign, and each is less than z times the one before.
     """
@@ -297,8 +348,9 @@ def _G(m: Array, z: Any) -> Any:
 
 @lru_cache(maxsize=8)
 def _ratios(last: int, before: int, shape: tuple[int, ...]) -> Array:
-    """What makes each coefficient of G_m from the one before, the last term first and down to `before` (without it), shape
-    (terms, *shape of the column m)."""
+    """What makes each coefficient of G_m from the one before, the last term first and down to
+    `before` (without it), shape (terms, *shape of the column m).
+    """
     m = np.arange(float(shape[0])).reshape(shape)
     j = np.arange(last, before, -1.0).reshape(-1, *(1,) * m.ndim)
     return (j - 1.5) / j * ((m + j - 1.5) / (m + j))
@@ -322,42 +374,50 @@ def _product(a: Any, b: Any) -> tuple[Any, Any]:
 
 
 def _split(a: Any) -> tuple[Any, Any]:
-    c = 134217729.0 * a                     # 2^27 + 1
+    c = 134217729.0 * a  # 2^27 + 1
     high = c - (c - a)
     return high, a - high
 
 
 # ------------------------------------------------------------------ offset: sampled
-def sampled(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: bool = True) -> Harmonics:
-    """The same for offset mechanisms, whole orders, from one revolution of samples; lam and eps are broadcast.
+def sampled(
+    orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: bool = True
+) -> Harmonics:
+    """The same for offset mechanisms, whole orders, from one revolution of samples; lam and eps are
+    broadcast.
 
     Accelerations are sampled as such, not differentiated, so that no order's error grows.
     """
     from . import slidercrank
 
-    many = np.ndim(lam) > 1                                             # variants; of one engine an order is the same among any others
+    many = np.ndim(lam) > 1  # variants; of one engine an order is the same among any others
     count = points(lam, eps, np.max(orders, initial=0) if many else math.inf)
     arguments = circle(count), np.asarray(lam)[..., None], np.asarray(eps)[..., None]
     return Harmonics(
         piston=from_samples(slidercrank.acceleration(*arguments), orders),
         rod=from_samples(-slidercrank.rod_acceleration(*arguments), orders) if rod else NONE,
         kinetic=from_samples(slidercrank.velocity(*arguments) ** 2, orders) if energy else NONE,
-        rod_kinetic=from_samples(slidercrank.rod_rate(*arguments) ** 2, orders) if energy and rod else NONE,
+        rod_kinetic=from_samples(slidercrank.rod_rate(*arguments) ** 2, orders)
+        if energy and rod
+        else NONE,
     )
 
 
-SAMPLING = 16 * EPS         # error of a sampled coefficient, in units of the curve's root mean square
+SAMPLING = 16 * EPS  # error of a sampled coefficient, in units of the curve's root mean square
 
 
 def circle(count: int) -> Array:
-    """e^{i psi} at evenly spaced psi, each component within 2 ulp of itself: `np.exp` would round psi before."""
+    """e^{i psi} at evenly spaced psi, each component within 2 ulp of itself: `np.exp` would round
+    psi before.
+    """
     from ..phasors import unit
 
     return unit(np.arange(count) * (360 / count))
 
 
 def from_samples(samples: Array, orders: ArrayLike, condition: Array | float = 1.0) -> Series:
-    """Coefficients of whole orders from one revolution of samples (last axis), shape (orders, *the other axes).
+    """Coefficients of whole orders from one revolution of samples (last axis), shape (orders, *the
+    other axes).
 
     `condition`: the error of each sample, relative and in roundings.
     """
@@ -371,19 +431,26 @@ def from_samples(samples: Array, orders: ArrayLike, condition: Array | float = 1
 
 
 def rounding(samples: Array, condition: Array | float = 1.0) -> Array:
-    """What one rounding of every sample does to a coefficient, in units of the rounding: root mean square of the samples
-    and, where they are not good to some ulp, mean of what each is multiplied by."""
-    spread = np.sqrt(2 * np.mean(np.abs(samples)**2, axis=-1))
-    return spread if np.isscalar(condition) else np.asarray(spread + np.mean(np.abs(samples) * condition, axis=-1))
+    """What one rounding of every sample does to a coefficient, in units of the rounding: root mean
+    square of the samples and, where they are not good to some ulp, mean of what each is multiplied
+    by.
+    """
+    spread = np.sqrt(2 * np.mean(np.abs(samples) ** 2, axis=-1))
+    return (
+        spread
+        if np.isscalar(condition)
+        else np.asarray(spread + np.mean(np.abs(samples) * condition, axis=-1))
+    )
 
 
 def points(lam: ArrayLike, eps: ArrayLike, highest: float = math.inf) -> int:
-    """Number of samples (a power of two) that leaves no alias above rounding in orders up to the highest, nor a tail beyond it,
-    in any of these mechanisms.
+    """Number of samples (a power of two) that leaves no alias above rounding in orders up to the
+    highest, nor a tail beyond it, in any of these mechanisms.
 
-    Coefficients decay like `x^n`, x = tan(arcsin(lambda')/2), `lambda' = lambda / (1 - |eps|)`; order n of N samples is mixed with N - n.
+    Coefficients decay like `x^n`, x = tan(arcsin(lambda')/2), `lambda' = lambda / (1 - |eps|)`;
+    order n of N samples is mixed with N - n.
     """
     steep = np.minimum(np.max(np.asarray(lam) / (1 - np.abs(eps))), 1 - EPS)
     decay = -np.log(steep / (1 + np.sqrt((1 - steep) * (1 + steep))))
-    last = -1.2 * np.log(EPS) / decay                                   # the order beyond which all is rounding
+    last = -1.2 * np.log(EPS) / decay  # the order beyond which all is rounding
     return 1 << int(np.ceil(np.log2(max(last + min(highest, last), 16))))

@@ -1,10 +1,13 @@
-"""Mechanisms with masses on planar curves, sampled over a revolution: what articulated rods and rotary engines share.
+"""Mechanisms with masses on planar curves, sampled over a revolution: what articulated rods and
+rotary engines share.
 
-A plain slider-crank needs no more than its piston's motion along the cylinder's axis. Here another mass moves on a closed
-curve `z(psi)` (complex, in crank radii, in the cylinder's frame): the knuckle pin of an articulated rod, the piston of a
-cylinder that itself turns, or shares of it on both. It adds two components of force, a moment of momentum and a kinetic energy,
-all of which are harmonics of the crank angle like the others (`harmonics.Curve`).
+A plain slider-crank needs no more than its piston's motion along the cylinder's axis. Here another
+mass moves on a closed curve `z(psi)` (complex, in crank radii, in the cylinder's frame): the
+knuckle pin of an articulated rod, the piston of a cylinder that itself turns, or shares of it on
+both. It adds two components of force, a moment of momentum and a kinetic energy, all of which are
+harmonics of the crank angle like the others (`harmonics.Curve`).
 """
+
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
@@ -15,11 +18,22 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .harmonics import NONE, SAMPLING, Array, Curve, Harmonics, Rows, circle, from_samples, points, rounding
+from .harmonics import (
+    NONE,
+    SAMPLING,
+    Array,
+    Curve,
+    Harmonics,
+    Rows,
+    circle,
+    from_samples,
+    points,
+    rounding,
+)
 
-STEPS = 1440                        # crank angles that do not miss a lock
-FEWEST, MOST = 64, 1 << 18          # samples
-_AT_ONCE = 1 << 16                  # cylinders x angles of figures by themselves
+STEPS = 1440  # crank angles that do not miss a lock
+FEWEST, MOST = 64, 1 << 18  # samples
+_AT_ONCE = 1 << 16  # cylinders x angles of figures by themselves
 
 
 class Point(NamedTuple):
@@ -32,16 +46,20 @@ class Point(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """A mechanism in motion; each of shape (cylinders, *trailing, samples), lengths in crank radii."""
+    """A mechanism in motion; each of shape (cylinders, *trailing, samples), lengths in crank
+    radii.
+    """
 
-    lean: Array                         # sine of the rod's angle beta to the cylinder's axis
-    place: Array                        # s of the piston along its axis
-    velocity: Array                     # s'
-    acceleration: Array                 # s''
-    spin: Array                         # angular velocity of the rod, in the crank's sense
+    lean: Array  # sine of the rod's angle beta to the cylinder's axis
+    place: Array  # s of the piston along its axis
+    velocity: Array  # s'
+    acceleration: Array  # s''
+    spin: Array  # angular velocity of the rod, in the crank's sense
     spin_rate: Array
-    points: tuple[Point, ...]           # where the mass is
-    condition: Array | float = 1.0      # relative error of what the rod does, in roundings: near its lock they are amplified
+    points: tuple[Point, ...]  # where the mass is
+    condition: Array | float = (
+        1.0  # relative error of what the rod does, in roundings: near its lock they are amplified
+    )
 
     def of(self, what: Callable[[Point], Any]) -> Any:
         """What unit mass does, shared out over its points."""
@@ -84,7 +102,9 @@ class Linkage(ABC):
     """
 
     mass: Array
-    turning: ClassVar[bool] = False     # whether the cylinders, and so the rods, turn about a crank that stands still
+    turning: ClassVar[bool] = (
+        False  # whether the cylinders, and so the rods, turn about a crank that stands still
+    )
 
     @property
     @abstractmethod
@@ -93,19 +113,26 @@ class Linkage(ABC):
 
     @abstractmethod
     def motion(self, psi: Array, lam: Array, eps: Array) -> Motion:
-        """The cylinders at their own crank angles psi, shape (samples,) or one row each, or at e^{i psi}; lam and eps as in `Cylinders`."""
+        """The cylinders at their own crank angles psi, shape (samples,) or one row each, or at e^{i
+        psi}; lam and eps as in `Cylinders`.
+        """
 
     def distinct(self, lam: Array, eps: Array) -> tuple[Linkage, Array, Array, Rows]:
         """The mechanisms that differ, their lam and eps, and which of them each cylinder has."""
         return self, lam, eps, slice(None)
 
-    def harmonics(self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> tuple[Harmonics, Rows]:
-        """Those of the mechanisms that differ, for whole orders, and which of them each cylinder has; accelerations are sampled as
-        such, so that no order's error grows."""
+    def harmonics(
+        self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool
+    ) -> tuple[Harmonics, Rows]:
+        """Those of the mechanisms that differ, for whole orders, and which of them each cylinder
+        has; accelerations are sampled as such, so that no order's error grows.
+        """
         few, *mechanisms, which = self.distinct(lam, eps)
         return few._harmonics(orders, *mechanisms, rod=rod, energy=energy), which
 
-    def _harmonics(self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> Harmonics:
+    def _harmonics(
+        self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool
+    ) -> Harmonics:
         m = self._sampled(lam, eps)
         shake = -m.acceleration_of_mass
         return Harmonics(
@@ -118,17 +145,29 @@ class Linkage(ABC):
                 across=from_samples(shake.imag, orders),
                 couple=from_samples(-m.swirl_rate, orders),
                 kinetic=from_samples(m.energy, orders) if energy else NONE,
-                momentum=m.swirl.mean(axis=-1)),
-            turns=float(self.turning))
+                momentum=m.swirl.mean(axis=-1),
+            ),
+            turns=float(self.turning),
+        )
 
     def each(self, name: str, psi: Array, lam: Array, eps: Array) -> Array:
-        """One figure of `Motion` at crank angles that all cylinders share, by so many at a time that memory stays small."""
+        """One figure of `Motion` at crank angles that all cylinders share, by so many at a time
+        that memory stays small.
+        """
         count = max(len(self.mass), lam.size, eps.size)
         step = max(_AT_ONCE // count, 1)
-        return np.concatenate([getattr(self.motion(psi[k:k + step], lam, eps), name) for k in range(0, len(psi), step)], axis=-1)
+        return np.concatenate(
+            [
+                getattr(self.motion(psi[k : k + step], lam, eps), name)
+                for k in range(0, len(psi), step)
+            ],
+            axis=-1,
+        )
 
     def samples(self, lam: Array, eps: Array) -> tuple[int, int]:
-        """How many mechanisms differ, and about how many samples of a revolution they take together."""
+        """How many mechanisms differ, and about how many samples of a revolution they take
+        together.
+        """
         few, *mechanisms, _ = self.distinct(lam, eps)
         lean = np.abs(few.each("lean", revolution(STEPS), *mechanisms)).max(axis=-1)
         return lean.size, lean.size * points(lean.max(), 0.0)
@@ -139,11 +178,16 @@ class Linkage(ABC):
         return int(few._sampled(*mechanisms).place.shape[-1]) // 2
 
     def _sampled(self, lam: Array, eps: Array) -> Motion:
-        """A revolution on as many points (a power of two) as leave neither alias nor tail above rounding."""
+        """A revolution on as many points (a power of two) as leave neither alias nor tail above
+        rounding.
+        """
         count = FEWEST
         while True:
             motion = self.motion(circle(count), lam, eps)
-            rod = (_resolved(samples, motion.condition) for samples in (motion.acceleration, motion.spin_rate))
+            rod = (
+                _resolved(samples, motion.condition)
+                for samples in (motion.acceleration, motion.spin_rate)
+            )
             if count >= MOST or (all(rod) and _resolved(motion.acceleration_of_mass)):
                 return motion
             count *= 2
@@ -158,5 +202,5 @@ def _resolved(samples: NDArray[Any], condition: Array | float = 1.0) -> bool:
     """Whether the upper half of the spectrum holds rounding errors alone."""
     sizes = np.abs(np.fft.fft(samples, norm="forward"))
     count = samples.shape[-1]
-    tails = sizes[..., count // 4:-(count // 4)].max(axis=-1)
+    tails = sizes[..., count // 4 : -(count // 4)].max(axis=-1)
     return bool(np.all(tails <= SAMPLING / 4 * np.maximum(rounding(samples, condition), 1.0)))

@@ -1,9 +1,10 @@
 """Exact power series in lambda of the centred slider-crank, every order to any power, as fractions.
 
-Generated from the binomial series of cos beta = sqrt(1 - lam^2 sin^2 psi) and from that of
-beta = arcsin(lam sin psi), whose powers of the sine are finite Fourier sums. A series is a dictionary from the power of
-lambda to its coefficient; powers whose coefficient vanishes are left out.
+Generated from the binomial series of cos beta = sqrt(1 - lam^2 sin^2 psi) and from that of beta =
+arcsin(lam sin psi), whose powers of the sine are finite Fourier sums. A series is a dictionary from
+the power of lambda to its coefficient; powers whose coefficient vanishes are left out.
 """
+
 from __future__ import annotations
 
 from fractions import Fraction
@@ -14,13 +15,19 @@ Series: TypeAlias = dict[int, Fraction]
 
 
 def cos_beta_in_sine(power: int) -> Series:
-    """cos beta = sum over p of coefficient (lam sin psi)^p, p = 0, 2, ... up to `power`: 1, -1/2, -1/8, ..."""
+    """cos beta = sum over p of coefficient (lam sin psi)^p, p = 0, 2, ... up to `power`: 1, -1/2,
+    -1/8, ...
+    """
     return {2 * j: Fraction(-comb(2 * j, j), 4**j * (2 * j - 1)) for j in range(power // 2 + 1)}
 
 
 def beta_in_sine(power: int) -> Series:
-    """beta = sum over p of coefficient (lam sin psi)^p, p = 1, 3, ... up to `power`: 1, 1/6, 3/40, ..."""
-    return {2 * j + 1: Fraction(comb(2 * j, j), 4**j * (2 * j + 1)) for j in range((power + 1) // 2)}
+    """beta = sum over p of coefficient (lam sin psi)^p, p = 1, 3, ... up to `power`: 1, 1/6, 3/40,
+    ...
+    """
+    return {
+        2 * j + 1: Fraction(comb(2 * j, j), 4**j * (2 * j + 1)) for j in range((power + 1) // 2)
+    }
 
 
 def cos_beta(order: int, power: int) -> Series:
@@ -34,7 +41,9 @@ def beta(order: int, power: int) -> Series:
 
 
 def piston(order: int, power: int) -> Series:
-    """A_n of the piston's acceleration j/(r omega^2) = sum A_n cos n psi; A_1 = 1, other odd orders vanish."""
+    """A_n of the piston's acceleration j/(r omega^2) = sum A_n cos n psi; A_1 = 1, other odd orders
+    vanish.
+    """
     return _scaled(from_shaft(order, power), order**2)
 
 
@@ -44,7 +53,9 @@ def rod(order: int, power: int) -> Series:
 
 
 def from_shaft(order: int, power: int) -> Series:
-    """Coefficients of the piston pin's distance from the shaft, s/r = cos psi + cos beta/lam = sum cos n psi."""
+    """Coefficients of the piston pin's distance from the shaft, s/r = cos psi + cos beta/lam = sum
+    cos n psi.
+    """
     if order == 1:
         return {0: Fraction(1)}
     return {p - 1: c for p, c in cos_beta(order, power + 1).items()}
@@ -57,7 +68,9 @@ def displacement(order: int, power: int) -> Series:
 
 
 def velocity(order: int, power: int) -> Series:
-    """Coefficients of the velocity v/(r omega) = sum sin n psi, positive away from top dead centre."""
+    """Coefficients of the velocity v/(r omega) = sum sin n psi, positive away from top dead
+    centre.
+    """
     return _scaled(from_shaft(order, power), order)
 
 

@@ -1,15 +1,20 @@
 """The slider-crank in closed form, centred or offset, without cancellation.
 
-Everything is dimensionless: lengths in crank radii r, the crank angle psi in radians from the position in which the
-crank pin lies along the cylinder's axis, derivatives with respect to psi. `lam` = r/l, `eps` = e/l with the offset e of
-the piston pin's path towards the side to which the crank pin moves; the mechanism turns if lam + |eps| < 1. All
-arguments are broadcast against each other, so that scalars and arrays of any shape serve. Near its lock the mechanism is so
-quick that the rounding of psi itself would show; rates and accelerations therefore also take the complex e^{i psi} for psi.
+Everything is dimensionless: lengths in crank radii r, the crank angle psi in radians from the
+position in which the crank pin lies along the cylinder's axis, derivatives with respect to psi.
+`lam` = r/l, `eps` = e/l with the offset e of the piston pin's path towards the side to which the
+crank pin moves; the mechanism turns if lam + |eps| < 1. All arguments are broadcast against each
+other, so that scalars and arrays of any shape serve. Near its lock the mechanism is so quick that
+the rounding of psi itself would show; rates and accelerations therefore also take the complex e^{i
+psi} for psi.
 
-Source: the closed forms are those of every textbook (Lu Jiqing, Meng Sizong, Automobile Engine Design, 1990, (1-2),
-(1-7), (1-10)); here differences of nearly equal terms are multiplied out, so that results are good to about 1e-15
-relative: travel near the dead centres, velocity near both of them, acceleration but for the neighbourhood of its zeros.
+Source: the closed forms are those of every textbook (Lu Jiqing, Meng Sizong, Automobile Engine
+Design, 1990, (1-2), (1-7), (1-10)); here differences of nearly equal terms are multiplied out, so
+that results are good to about 1e-15
+relative: travel near the dead centres, velocity near both of them, acceleration but for the
+neighbourhood of its zeros.
 """
+
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -31,8 +36,9 @@ class Extreme(NamedTuple):
 def rod_angle(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> tuple[Real, Real]:
     """(sin beta, cos beta) of the rod's angle; the rod stands at -beta from the cylinder's axis.
 
-    sin beta = lam sin psi - eps. In cos^2 beta = (1 - sin beta)(1 + sin beta) the factor that can become small is
-    written 1 - lam +- eps + lam (1 - |sin psi|), and 1 - |sin psi| = cos^2 psi/(1 + |sin psi|).
+    sin beta = lam sin psi - eps. In cos^2 beta = (1 - sin beta)(1 + sin beta) the factor that can
+    become small is written 1 - lam +- eps + lam (1 - |sin psi|), and 1 - |sin psi| = cos^2 psi/(1 +
+    |sin psi|).
     """
     sine, cosine, lam, eps = _given(psi, lam, eps)
     height, lean = np.abs(sine), np.where(sine < 0, -eps, eps)
@@ -42,9 +48,11 @@ def rod_angle(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> tuple[Rea
 
 
 def displacement(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
-    """Travel x/r from top dead centre, which an offset mechanism reaches at tau with sin tau = eps/(1 + lam).
+    """Travel x/r from top dead centre, which an offset mechanism reaches at tau with sin tau =
+    eps/(1 + lam).
 
-    From x/r = 2 sin((psi - tau)/2) sin((psi + beta)/2) / cos((beta - tau)/2), with beta = -tau at top dead centre.
+    From x/r = 2 sin((psi - tau)/2) sin((psi + beta)/2) / cos((beta - tau)/2), with beta = -tau at
+    top dead centre.
     """
     psi, lam, eps = _floats(psi, lam, eps)
     sin_beta, cos_beta = rod_angle(psi, lam, eps)
@@ -57,8 +65,8 @@ def displacement(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
 def velocity(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
     """Piston velocity v/(r omega) = sin(psi + beta)/cos beta, positive away from top dead centre.
 
-    Where the two terms of the sine differ in sign, their difference is replaced by that of their squares,
-    sin^2 psi - sin^2 beta, whose factors vanish exactly at the dead centres.
+    Where the two terms of the sine differ in sign, their difference is replaced by that of their
+    squares, sin^2 psi - sin^2 beta, whose factors vanish exactly at the dead centres.
     """
     sin_beta, cos_beta = rod_angle(psi, lam, eps)
     sine, cosine, lam, eps = _given(psi, lam, eps)
@@ -72,8 +80,8 @@ def velocity(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
 def acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
     """Piston acceleration j/(r omega^2), positive towards the crankshaft (as near top dead centre).
 
-    cos psi - sin psi tan beta + lam cos^2 psi/cos^3 beta. Accurate relative to its value without offset, and to about
-    1e-16/cos^3 beta absolute with one.
+    cos psi - sin psi tan beta + lam cos^2 psi/cos^3 beta. Accurate relative to its value without
+    offset, and to about 1e-16/cos^3 beta absolute with one.
     """
     sin_beta, cos_beta = rod_angle(psi, lam, eps)
     sine, cosine, lam, eps = _given(psi, lam, eps)
@@ -84,7 +92,8 @@ def acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
 def _centred_acceleration(sine: Real, cosine: Real, lam: Real, cos_beta: Real) -> Real:
     """cos psi + P/cos^3 beta, P = lam (cos^4 psi - w^2 sin^4 psi), w^2 = 1 - lam^2.
 
-    Where the two differ in sign: P^2 - cos^6 beta cos^2 psi = -w^2 (cos^2 psi - lam^2 sin^4 psi cos^2 beta).
+    Where the two differ in sign: P^2 - cos^6 beta cos^2 psi = -w^2 (cos^2 psi - lam^2 sin^4 psi
+    cos^2 beta).
     """
     w2, s2, cube = (1 - lam) * (1 + lam), sine**2, cos_beta**3
     w = np.sqrt(w2)
@@ -102,35 +111,43 @@ def rod_rate(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
 
 
 def rod_acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
-    """beta'' = -lam ((w^2 - eps^2) sin psi + eps lam (1 + sin^2 psi))/cos^3 beta, w^2 = (1 - lam)(1 + lam).
+    """beta'' = -lam ((w^2 - eps^2) sin psi + eps lam (1 + sin^2 psi))/cos^3 beta, w^2 = (1 - lam)(1
+    + lam).
 
-    With h = |sin psi| and e = +-eps, by its sign, the bracket is h (1 - lam + e)(1 + lam - e) + e lam (1 - h)^2: near the
-    lock, where both factors 1 - .. are small, nothing cancels.
+    With h = |sin psi| and e = +-eps, by its sign, the bracket is h (1 - lam + e)(1 + lam - e) + e
+    lam (1 - h)^2: near the lock, where both factors 1 - .. are small, nothing cancels.
     """
     cos_beta = rod_angle(psi, lam, eps)[1]
     sine, cosine, lam, eps = _given(psi, lam, eps)
     height, lean = np.abs(sine), np.where(sine < 0, -eps, eps)
     short = cosine**2 / (1 + height)
     bracket = height * _clearance(lam, lean) * ((1 - lean) + lam) + lean * lam * short**2
-    return _real(-lam * np.where(sine < 0, -1.0, 1.0) * bracket / cos_beta**3)      # as in lean, whatever the sign of zero is
+    return _real(
+        -lam * np.where(sine < 0, -1.0, 1.0) * bracket / cos_beta**3
+    )  # as in lean, whatever the sign of zero is
 
 
 # ---------------------------------------------------------------- extremes of the velocity
 def fastest(lam: ArrayLike) -> Extreme:
-    """Crank angle (0 to 90 degrees) and size of the greatest piston velocity of the centred mechanism.
+    """Crank angle (0 to 90 degrees) and size of the greatest piston velocity of the centred
+    mechanism.
 
-    The acceleration vanishes where cos psi = lam sin^2 psi cos beta, that is with t = sin^2 psi where
-    1 - t = lam^2 t^2 (1 - lam^2 t).
+    The acceleration vanishes where cos psi = lam sin^2 psi cos beta, that is with t = sin^2 psi
+    where 1 - t = lam^2 t^2 (1 - lam^2 t).
     """
     lam = np.asarray(lam, dtype=np.float64)
     square = lam**2
-    t = _bisect(lambda t: (1 - t) - square * t**2 * (1 - square * t), 1 / (1 + square), np.ones_like(lam))
+    t = _bisect(
+        lambda t: (1 - t) - square * t**2 * (1 - square * t), 1 / (1 + square), np.ones_like(lam)
+    )
     psi = np.arctan2(np.sqrt(t), lam * t * np.sqrt(1 - square * t))
     return Extreme(_real(psi), velocity(psi, lam))
 
 
 def fastest_two_term(lam: ArrayLike) -> Extreme:
-    """The same of the two-term form sin psi + lam/2 sin 2 psi: cos psi = (sqrt(1 + 8 lam^2) - 1)/(4 lam)."""
+    """The same of the two-term form sin psi + lam/2 sin 2 psi: cos psi = (sqrt(1 + 8 lam^2) - 1)/(4
+    lam).
+    """
     lam = np.asarray(lam, dtype=np.float64)
     psi = np.arccos(2 * lam / (1 + np.sqrt(1 + 8 * lam**2)))
     return Extreme(_real(psi), _real(np.sin(psi) * (1 + lam * np.cos(psi))))
@@ -138,7 +155,11 @@ def fastest_two_term(lam: ArrayLike) -> Extreme:
 
 # ---------------------------------------------------------------- small helpers
 def _floats(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike) -> tuple[Real, Real, Real]:
-    return np.asarray(psi, dtype=np.float64), np.asarray(lam, dtype=np.float64), np.asarray(eps, dtype=np.float64)
+    return (
+        np.asarray(psi, dtype=np.float64),
+        np.asarray(lam, dtype=np.float64),
+        np.asarray(eps, dtype=np.float64),
+    )
 
 
 def _given(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike) -> tuple[Real, Real, Real, Real]:
@@ -170,7 +191,9 @@ def _top(lam: Real, eps: Real) -> tuple[Real, Real]:
 
 
 def _bisect(falling: Callable[[Real], Real], low: Real, high: Real) -> Real:
-    """Root of a function that is positive at `low` and not at `high`, halved down to neighbouring numbers."""
+    """Root of a function that is positive at `low` and not at `high`, halved down to neighbouring
+    numbers.
+    """
     for _ in range(60):
         middle = (low + high) / 2
         positive = falling(middle) > 0

@@ -1,4 +1,5 @@
 """Which pictures there are, and how each page is laid out."""
+
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -26,7 +27,9 @@ ALL = (*VECTORS, "about")
 
 @dataclass(frozen=True)
 class Subject:
-    """What a page shows: an analysis of all spectra, one of the engine before devices were fitted, to compare with, and studies."""
+    """What a page shows: an analysis of all spectra, one of the engine before devices were fitted,
+    to compare with, and studies.
+    """
 
     now: Analysis
     before: Analysis | None = None
@@ -56,7 +59,9 @@ def form_of(file: Path) -> Form:
     for form in FORMS:
         if file.suffix.lower() == f".{form}":
             return form
-    raise BalcliError(f"{file}: a picture is written as .svg, .png or .pdf; give a name that ends so")
+    raise BalcliError(
+        f"{file}: a picture is written as .svg, .png or .pdf; give a name that ends so"
+    )
 
 
 def picture(subject: Subject, what: str, form: Form) -> bytes:
@@ -65,7 +70,11 @@ def picture(subject: Subject, what: str, form: Form) -> bytes:
     with figure(width, height, form) as fig:
         layout(fig, subject)
         engine = subject.now.engine
-        fig.suptitle(f"{plain(engine.name) or 'engine without a name'}, {engine.speed_rpm:g} rpm", x=0.01, ha="left")
+        fig.suptitle(
+            f"{plain(engine.name) or 'engine without a name'}, {engine.speed_rpm:g} rpm",
+            x=0.01,
+            ha="left",
+        )
         return saved(fig, form)
 
 
@@ -106,8 +115,11 @@ def _curves(fig: Figure, subject: Subject) -> None:
 
 def _orders(fig: Figure, subject: Subject) -> None:
     """The largest orders of force and of moment, a row each; a row without any is left out."""
-    shown = {q: [k for k in draw.visible(curve) if not curve.balanced[k] and curve.orders[k] >= 1][:4]
-             for q in VECTORS for curve in subject.phasors(q)[:1]}
+    shown = {
+        q: [k for k in draw.visible(curve) if not curve.balanced[k] and curve.orders[k] >= 1][:4]
+        for q in VECTORS
+        for curve in subject.phasors(q)[:1]
+    }
     rows = {q: found for q, found in shown.items() if found} or {"force": []}
     columns = max(2, *map(len, rows.values()))
     fig.set_size_inches(0.6 + 3.3 * columns, 0.4 + 3.5 * len(rows))
@@ -136,10 +148,26 @@ def _bank(fig: Figure, subject: Subject) -> None:
 
 def _inner(fig: Figure, subject: Subject) -> None:
     shear, bending, bearings = fig.subplots(3, 1, sharex=True)
-    studied.along(shear, [b.shear for b in subject.bent], ("Shear force along the crankshaft", "force"), subject.system.force, "steps-post")
-    studied.along(bending, [b.bending for b in subject.bent], ("Bending moment", "moment"), subject.system.moment)
-    studied.along(bearings, [b.bearings for b in subject.bent if b.bearings], ("Inertia load of each main bearing", "force"),
-                  subject.system.force, "")
+    studied.along(
+        shear,
+        [b.shear for b in subject.bent],
+        ("Shear force along the crankshaft", "force"),
+        subject.system.force,
+        "steps-post",
+    )
+    studied.along(
+        bending,
+        [b.bending for b in subject.bent],
+        ("Bending moment", "moment"),
+        subject.system.moment,
+    )
+    studied.along(
+        bearings,
+        [b.bearings for b in subject.bent if b.bearings],
+        ("Inertia load of each main bearing", "force"),
+        subject.system.force,
+        "",
+    )
     bearings.set_xlabel("z, mm (free end on the left)")
     for ax in (shear, bending):
         ax.label_outer()

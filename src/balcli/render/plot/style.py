@@ -1,4 +1,7 @@
-"""One style for all pictures, and the one place that owns figures: nothing global is left changed, no display is needed."""
+"""One style for all pictures, and the one place that owns figures: nothing global is left changed,
+no display is needed.
+"""
+
 from __future__ import annotations
 
 import logging
@@ -16,42 +19,95 @@ if TYPE_CHECKING:
 Form = Literal["svg", "png", "pdf"]
 FORMS: tuple[Form, ...] = ("svg", "png", "pdf")
 
-# Wong, Nature Methods 8 (2011) 441: told apart by colour-blind readers; line styles and hatches do it in black and white.
+# Wong, Nature Methods 8 (2011) 441: told apart by colour-blind readers; line styles and hatches do
+# it in black and white.
 INK, SOFT, FAINT, PAPER = "#1a1a1a", "#6b6b6b", "#d4d4d4", "#ffffff"
 BLUE, RED, GREEN = "#0072b2", "#d55e00", "#009e73"
-NAMES = {INK: "ink", SOFT: "soft", FAINT: "faint", PAPER: "paper", BLUE: "blue", RED: "red", GREEN: "green"}
+NAMES = {
+    INK: "ink",
+    SOFT: "soft",
+    FAINT: "faint",
+    PAPER: "paper",
+    BLUE: "blue",
+    RED: "red",
+    GREEN: "green",
+}
 
 STYLE: Any = {
-    "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial"], "font.size": 9,
-    "axes.titlesize": 9.5, "axes.titleweight": "bold", "axes.labelsize": 8.5, "legend.fontsize": 8,
-    "xtick.labelsize": 8, "ytick.labelsize": 8, "figure.titlesize": 12, "figure.titleweight": "bold",
-    "text.parse_math": False, "axes.unicode_minus": True, "axes.formatter.use_mathtext": False,
-    "text.color": INK, "axes.labelcolor": INK, "axes.titlecolor": INK, "axes.edgecolor": SOFT,
-    "xtick.color": SOFT, "ytick.color": SOFT,
-    "xtick.labelcolor": INK, "ytick.labelcolor": INK, "legend.labelcolor": INK, "grid.color": FAINT, "grid.linewidth": 0.6,
-    "axes.grid": True, "axes.axisbelow": True, "axes.spines.top": False, "axes.spines.right": False,
-    "axes.titlelocation": "left", "axes.titlepad": 17,
-    "lines.linewidth": 1.6, "legend.frameon": False, "hatch.linewidth": 0.6, "hatch.color": PAPER,
-    "figure.facecolor": PAPER, "axes.facecolor": "none", "savefig.facecolor": PAPER, "savefig.dpi": 160,
-    "svg.fonttype": "none", "svg.hashsalt": "balcli", "pdf.fonttype": 42,
+    "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial"],
+    "font.size": 9,
+    "axes.titlesize": 9.5,
+    "axes.titleweight": "bold",
+    "axes.labelsize": 8.5,
+    "legend.fontsize": 8,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "figure.titlesize": 12,
+    "figure.titleweight": "bold",
+    "text.parse_math": False,
+    "axes.unicode_minus": True,
+    "axes.formatter.use_mathtext": False,
+    "text.color": INK,
+    "axes.labelcolor": INK,
+    "axes.titlecolor": INK,
+    "axes.edgecolor": SOFT,
+    "xtick.color": SOFT,
+    "ytick.color": SOFT,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+    "legend.labelcolor": INK,
+    "grid.color": FAINT,
+    "grid.linewidth": 0.6,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.titlelocation": "left",
+    "axes.titlepad": 17,
+    "lines.linewidth": 1.6,
+    "legend.frameon": False,
+    "hatch.linewidth": 0.6,
+    "hatch.color": PAPER,
+    "figure.facecolor": PAPER,
+    "axes.facecolor": "none",
+    "savefig.facecolor": PAPER,
+    "savefig.dpi": 160,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "balcli",
+    "pdf.fonttype": 42,
 }
-# Families with Chinese, Japanese and Korean glyphs, for names that need them; SVG leaves that to the reader's fonts.
-_EAST = ("Noto Sans CJK SC", "Noto Sans CJK JP", "Source Han Sans SC", "WenQuanYi Micro Hei", "Droid Sans Fallback",
-         "Microsoft YaHei", "PingFang SC", "Hiragino Sans", "Malgun Gothic", "Arial Unicode MS")
+# Families with Chinese, Japanese and Korean glyphs, for names that need them; SVG leaves that to
+# the reader's fonts.
+_EAST = (
+    "Noto Sans CJK SC",
+    "Noto Sans CJK JP",
+    "Source Han Sans SC",
+    "WenQuanYi Micro Hei",
+    "Droid Sans Fallback",
+    "Microsoft YaHei",
+    "PingFang SC",
+    "Hiragino Sans",
+    "Malgun Gothic",
+    "Arial Unicode MS",
+)
 _UNDATED = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
 
 
 @contextmanager
 def figure(width: float, height: float, form: Form) -> Iterator[Figure]:
     """A figure of that size in inches, in our style; save it (`saved`) before the context ends."""
-    logging.getLogger("matplotlib").setLevel(logging.ERROR)         # "building the font cache" is no news for our users
+    logging.getLogger("matplotlib").setLevel(
+        logging.ERROR
+    )  # "building the font cache" is no news for our users
     import matplotlib
     from matplotlib.figure import Figure as Page
 
     with warnings.catch_warnings(), matplotlib.rc_context():
         warnings.filterwarnings("ignore", message="Glyph .* missing from")
-        matplotlib.rcdefaults()                                     # whatever the user's own matplotlibrc says
-        matplotlib.rcParams.update(STYLE | {"font.family": ["sans-serif", *(_eastern() if form != "svg" else ())]})
+        matplotlib.rcdefaults()  # whatever the user's own matplotlibrc says
+        matplotlib.rcParams.update(
+            STYLE | {"font.family": ["sans-serif", *(_eastern() if form != "svg" else ())]}
+        )
         yield Page(figsize=(width, height), layout="constrained")
 
 
@@ -59,7 +115,7 @@ def saved(figure: Figure, form: Form) -> bytes:
     """The picture as a file's content; the same figure gives the same bytes."""
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
-    for ax in figure.axes:                              # the solver of the layout is exact to the last bits only
+    for ax in figure.axes:  # the solver of the layout is exact to the last bits only
         left, bottom, width, height = (round(edge, 5) for edge in ax.get_position().bounds)
         ax.set_position((left, bottom, width, height))
     buffer = BytesIO()
@@ -68,12 +124,19 @@ def saved(figure: Figure, form: Form) -> bytes:
 
 
 def inline(svg: bytes, name: str) -> str:
-    """An SVG to stand in a page: colours follow the page's (`--ink` ...), ids are its own, and it grows with its column."""
+    """An SVG to stand in a page: colours follow the page's (`--ink` ...), ids are its own, and it
+    grows with its column.
+    """
     text = svg.decode()
-    text = text[text.index("<svg"):]
+    text = text[text.index("<svg") :]
     text = re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.S)
     text = re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{name}-", text)
-    text = re.sub(r'(<svg[^>]*?) width="([\d.]+)pt" height="[\d.]+pt"', r'\1 style="max-width: \2pt"', text, count=1)
+    text = re.sub(
+        r'(<svg[^>]*?) width="([\d.]+)pt" height="[\d.]+pt"',
+        r'\1 style="max-width: \2pt"',
+        text,
+        count=1,
+    )
     return re.sub("|".join(NAMES), lambda colour: f"var(--{NAMES[colour[0]]})", text)
 
 
@@ -81,7 +144,7 @@ def plain(name: str, most: int = 90) -> str:
     """A name on one line that any format can hold, not longer than a title may be."""
     text = "".join(c if c.isprintable() else " " for c in name)
     text = " ".join(text.split())
-    return text if len(text) <= most else text[:most - 1].rstrip() + "…"
+    return text if len(text) <= most else text[: most - 1].rstrip() + "…"
 
 
 @lru_cache(1)

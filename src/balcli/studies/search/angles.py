@@ -1,4 +1,5 @@
 """The best value of one angle: a grid for the valleys, then ever finer grids in each."""
+
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -7,19 +8,21 @@ import numpy as np
 
 from .objective import Array
 
-STEP = 0.5                      # deg
-FINER = 20                      # times, from one grid to the next
+STEP = 0.5  # deg
+FINER = 20  # times, from one grid to the next
 ROUNDS = 6
-ROUND = (1.0, 0.1, 0.01, 0.001, 1e-4)    # deg: the roundest angle that is as good is taken
+ROUND = (1.0, 0.1, 0.01, 0.001, 1e-4)  # deg: the roundest angle that is as good is taken
 
 
 def valleys(value: Callable[[Array], Array], low: float, high: float, count: int) -> Array:
-    """The lowest places of a function of an angle in [low, high], at most `count`, lowest first; inf is no value."""
+    """The lowest places of a function of an angle in [low, high], at most `count`, lowest first;
+    inf is no value.
+    """
     x = np.linspace(low, high, round((high - low) / STEP) + 1)
     y = value(x)
     padded = np.concatenate([[np.inf], y, [np.inf]])
     deep = np.isfinite(y) & (y <= padded[:-2]) & (y <= padded[2:])
-    deep[1:] &= ~(deep[:-1] & (y[1:] == y[:-1]))                            # a level stretch is one valley
+    deep[1:] &= ~(deep[:-1] & (y[1:] == y[:-1]))  # a level stretch is one valley
     best = np.flatnonzero(deep)[np.argsort(y[deep], kind="stable")][:count]
     if not len(best):
         return x[best]

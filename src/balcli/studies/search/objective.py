@@ -1,4 +1,5 @@
 """What makes an arrangement good: a weighted sum of quantities, and limits that must be kept."""
+
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -26,7 +27,9 @@ class Objective:
         return tuple(dict.fromkeys((*self.weights, *self.limits)))
 
     def of(self, value: Callable[[Quantity], Any]) -> Array:
-        """The weighted sum, infinite where a limit is broken; `value` gives a quantity for all candidates."""
+        """The weighted sum, infinite where a limit is broken; `value` gives a quantity for all
+        candidates.
+        """
         total = np.asarray(sum(weight * value(q) for q, weight in self.weights.items()), float)
         for q, limit in self.limits.items():
             total = np.where(value(q) < limit, total, np.inf)
@@ -47,7 +50,10 @@ def objective(minimise: str, limits: Sequence[str] = ()) -> Objective:
     for text in limits:
         name, less, bound = text.partition("<")
         if not less:
-            raise BalcliError(f'--limit "{text}": give a quantity and what it must stay below, such as "moment.2.major<100"')
+            raise BalcliError(
+                f'--limit "{text}": give a quantity and what it must stay below, such as '
+                '"moment.2.major<100"'
+            )
         bounds |= dict.fromkeys(_quantity(name), _positive(bound, text))
     return Objective(weights, bounds)
 
@@ -56,10 +62,15 @@ def _quantity(name: str) -> tuple[Quantity, ...]:
     found = parse(name)
     for q in found:
         if q.part == "axis":
-            raise BalcliError(f"{q.name} is a direction, which cannot be large or small; name a size such as {q.kind}.{q.order}.major")
+            raise BalcliError(
+                f"{q.name} is a direction, which cannot be large or small; name a size such as "
+                f"{q.kind}.{q.order}.major"
+            )
         if q.signed:
-            raise BalcliError(f"{q.name} may be negative, and then would be the better the larger it is; "
-                              f"name a size such as {q.kind}.{q.order}.major")
+            raise BalcliError(
+                f"{q.name} may be negative, and then would be the better the larger it is; "
+                f"name a size such as {q.kind}.{q.order}.major"
+            )
     return found
 
 

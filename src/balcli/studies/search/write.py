@@ -1,4 +1,5 @@
 """The engine file with an arrangement that was found."""
+
 from __future__ import annotations
 
 from collections.abc import Mapping
@@ -14,7 +15,9 @@ NOTE = "found by balcli"
 
 
 def arranged(text: bytes, arrangement: Mapping[str, Any]) -> str:
-    """The text of an engine file, comments and all, with an arrangement; a firing order that no longer fits is left out."""
+    """The text of an engine file, comments and all, with an arrangement; a firing order that no
+    longer fits is left out.
+    """
     new = text.decode("utf-8-sig")
     for key, value in arrangement.items():
         new = changed(new, TABLES[key], {key: value}, NOTE)
