@@ -13,7 +13,7 @@ import numpy as np
 from .engine.build import Engine
 from .errors import BalcliError
 from .forces.spectrum import SPECTRAL, Spectra
-from .render import json as documents
+from .render import analysis as documents
 from .render.figures import KEYS
 from .results.analysis import analyze
 
@@ -50,7 +50,7 @@ def recorded_at(engine_file: Path) -> Path:
 def record(engine: Engine) -> str:
     """What `check --update` writes."""
     return (
-        json.dumps(documents.analysis(analyze(engine, only=RECORDED)), indent=1, ensure_ascii=False)
+        json.dumps(documents.document(analyze(engine, only=RECORDED)), indent=1, ensure_ascii=False)
         + "\n"
     )
 
@@ -72,7 +72,7 @@ def differences(name: str, engine: Engine, file: Path) -> list[Difference]:
         found = analyze(
             engine, {*(entry["order"] for entry in recorded["orders"]), *shown.orders}, RECORDED
         )
-        now = documents.analysis(found)
+        now = documents.document(found)
     except (
         OSError,
         ValueError,

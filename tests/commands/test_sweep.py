@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 import pytest
+from support.commands import run_command
 from support.engines import GOOD
 
 
@@ -20,24 +21,14 @@ def engine(tmp_path: Path) -> str:
     return str(path)
 
 
-def run(*argv: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "balcli", *argv],
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
-
-
 SWEEP = ("--vary", "rod.ratio=0.2,0.3", "--quantity", "force.2.major")
 
 
 def test_sweep_writes_what_it_prints(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "x.csv"
     printed, written = (
-        run("sweep", engine, *SWEEP),
-        run("sweep", engine, *SWEEP, "-o", str(target), "--progress"),
+        run_command("sweep", engine, *SWEEP),
+        run_command("sweep", engine, *SWEEP, "-o", str(target), "--progress"),
     )
     assert (printed.returncode, written.returncode, written.stdout, written.stderr) == (
         0,
@@ -52,7 +43,7 @@ def test_sweep_writes_what_it_prints(engine: str, tmp_path: Path) -> None:
 def test_a_refused_sweep_leaves_the_older_file(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "x.csv"
     target.write_text("old\n")
-    done = run(
+    done = run_command(
         "sweep",
         engine,
         "--vary",
@@ -76,7 +67,7 @@ def test_a_variant_that_cannot_be_is_told_before_anything_is_written(tmp_path: P
         "0.5\n[operation]\nspeed_ripple = ["
         "{ order = 1, amplitude = 0.6 }, { order = 2, amplitude = 0.5 }]\n"
     )
-    done = run(
+    done = run_command(
         "sweep",
         str(file),
         "--vary",
@@ -126,7 +117,7 @@ def test_ctrl_c_leaves_a_valid_part(engine: str, tmp_path: Path) -> None:
 def test_parquet_and_pictures(engine: str, tmp_path: Path) -> None:
     parquet = pytest.importorskip("pyarrow.parquet")
     target, picture = tmp_path / "x.parquet", tmp_path / "x.svg"
-    done = run(
+    done = run_command(
         "sweep",
         engine,
         *SWEEP,
@@ -146,7 +137,7 @@ def test_parquet_and_pictures(engine: str, tmp_path: Path) -> None:
 
 def test_search_writes_the_best(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "best.toml"
-    done = run(
+    done = run_command(
         "search",
         engine,
         "--over",
@@ -163,7 +154,7 @@ def test_search_writes_the_best(engine: str, tmp_path: Path) -> None:
     assert document["format"] == "balcli.search/1"
     assert document["results"][0]["throws"] == [0, 180, 180, 0]
     assert document["results"][0]["objective"] == 0
-    assert run("analyze", str(target)).returncode == 0
+    assert run_command("analyze", str(target)).returncode == 0
 
 
 def test_scatter_as_json_and_table(engine: str) -> None:
@@ -179,17 +170,19 @@ def test_scatter_as_json_and_table(engine: str) -> None:
         "-q",
         "force.1.major",
     )
-    document = json.loads(run(*options, "-f", "json").stdout)
+    document = json.loads(run_command(*options, "-f", "json").stdout)
     assert document["format"] == "balcli.scatter/1"
     assert document["samples"] == 1000
     figures = document["quantities"]["force.1.major"]
     assert 0 < figures["p05"] < figures["p50"] < figures["p95"] < figures["max"] < figures["bound"]
-    assert "Spread of 1000 engines" in run(*options).stdout
+    assert "Spread of 1000 engines" in run_command(*options).stdout
 
 
 def test_compare_in_every_format(engine: str) -> None:
     document = json.loads(
-        run("compare", engine, engine, "--orders", "2", "--only", "force", "-f", "json").stdout
+        run_command(
+            "compare", engine, engine, "--orders", "2", "--only", "force", "-f", "json"
+        ).stdout
     )
     (figure,) = document["figures"]
     assert (figure["quantity"], figure["order"], figure["ratios"]) == ("force_N", 2, [1.0, 1.0])
@@ -198,4 +191,4 @@ def test_compare_in_every_format(engine: str) -> None:
         ("csv", "quantity,order,unit,"),
         ("markdown", "| order 2 |"),
     ):
-        assert said in run("compare", engine, engine, "-f", form).stdout
+        assert said in run_command("compare", engine, engine, "-f", form).stdout

@@ -10,16 +10,16 @@ import threading
 from pathlib import Path
 
 import pytest
+from support.commands import run_here, start_command
 from support.engines import GOOD
 
-ROOT = Path(__file__).parents[2]
 unix = pytest.mark.skipif(sys.platform == "win32", reason="needs links, pipes and signals")
 
 
 @pytest.fixture
-def balcli(balcli):
+def balcli():
     """Runs a command in this process, with an engine file as standard input."""
-    return lambda *args: balcli(*args, stdin=GOOD)
+    return lambda *args: run_here(*args, stdin=GOOD)
 
 
 @pytest.fixture
@@ -38,15 +38,6 @@ def good(tmp_path, monkeypatch):
 
 def contents() -> dict[str, str]:
     return {path.name: path.read_text() for path in Path().iterdir() if path.is_file()}
-
-
-def started(*args: str, **more) -> subprocess.Popen:
-    return subprocess.Popen(
-        [sys.executable, "-m", "balcli", *args],
-        env={**os.environ, "PYTHONPATH": str(ROOT / "src")},
-        stderr=subprocess.PIPE,
-        **more,
-    )
 
 
 COMMANDS = [
@@ -213,7 +204,7 @@ def test_a_disk_that_fills_up_during_a_sweep(balcli, good, monkeypatch):
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("balcli.commands.sweep_output._copy", full)
+    monkeypatch.setattr("balcli.commands.sweep_output._write_text", full)
     assert balcli("sweep", good, "--vary", "crank.stroke=80,90", "-o", "out.csv") == (
         2,
         "",
@@ -251,7 +242,7 @@ def test_a_folder_in_which_nothing_may_be_made(balcli, good, monkeypatch):
 def test_standard_output_that_is_full(good, command):
     name, *rest = command
     with Path("/dev/full").open("wb") as full:
-        running = started(name, str(good), *rest, stdout=full)
+        running = start_command(name, good, *rest, stdout=full, stderr=subprocess.PIPE)
         err = running.communicate(timeout=30)[1].decode()
     assert (running.returncode, err) == (
         2,
@@ -263,7 +254,11 @@ def test_standard_output_that_is_full(good, command):
 def test_a_reader_who_leaves_early_ends_a_sweep_quietly(good):
     reading, writing = os.pipe()
     os.close(reading)
-    running = started("sweep", str(good), "--vary", "crank.stroke=1:90:0.001", stdout=writing)
+    running = start_command(
+        *("sweep", good, "--vary", "crank.stroke=1:90:0.001"),
+        stdout=writing,
+        stderr=subprocess.PIPE,
+    )
     os.close(writing)
     assert (running.communicate(timeout=60)[1], running.returncode) == (b"", 0)
 
@@ -271,7 +266,12 @@ def test_a_reader_who_leaves_early_ends_a_sweep_quietly(good):
 @unix
 def test_an_interrupt_is_no_traceback():
     """It waits for the rest of its standard input: more than a pipe holds has been read."""
-    running = started("analyze", "-", stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    running = start_command(
+        *("analyze", "-"),
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
     assert running.stdin is not None
     running.stdin.write(b"#\n" * 200_000)
     running.stdin.flush()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .csv import write
+from .csv import Rows
 from .sheet import Grid, Sheet, number
 
 if TYPE_CHECKING:
@@ -36,21 +36,16 @@ def _key(line: Line) -> str:
     return f"{'peak_' if line.order is None else ''}{name}_{'N' if name == 'force' else 'Nm'}"
 
 
-def rows(result: Comparison, system: System) -> str:
-    """CSV, a figure a line."""
-    return write(
-        ("quantity", "order", "unit", *result.names),
-        [
-            (
-                line.quantity if line.order is not None else f"peak {line.quantity}",
-                line.order,
-                unit.name,
-                *map(unit.of, line.values),
-            )
-            for line in result.lines
-            for unit in [system.force if line.quantity == "force" else system.moment]
-        ],
-    )
+def rows(result: Comparison, system: System) -> Rows:
+    """CSV: a figure a line, a column an engine."""
+    header = ("quantity", "order", "unit", *result.names)
+    return Rows(header, [_csv_line(line, system) for line in result.lines])
+
+
+def _csv_line(line: Line, system: System) -> tuple[Any, ...]:
+    unit = system.force if line.quantity == "force" else system.moment
+    name = line.quantity if line.order is not None else f"peak {line.quantity}"
+    return name, line.order, unit.name, *map(unit.of, line.values)
 
 
 def sheet(result: Comparison, system: System) -> Sheet:
