@@ -152,7 +152,7 @@ class _Motion:
             np.broadcast_to(_column(c.lam), count),
             np.broadcast_to(_column(c.eps), count),
         )
-        axes = np.repeat(_column(c.axis_deg), np.diff([*c.starts, c.count]), axis=0)
+        axes = _column(c.axis_of_each_deg)
         self.crank_deg = crank_deg
         self.pin = crank_deg + float(np.ravel(c.axis_deg)[c.first]) + _column(c.pin_deg)  # from x
         self.psi = np.radians(np.remainder(self.pin - axes + 180, 360) - 180)

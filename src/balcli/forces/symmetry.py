@@ -127,7 +127,7 @@ class _Layout:
     def __init__(self, engine: Engine, orders: Array) -> None:
         self._c = c = engine.cylinders
         self._orders = orders
-        self._axis_deg = np.repeat(c.axis_deg, np.diff([*c.starts, c.count]))
+        self._axis_deg = c.axis_of_each_deg
         self._arms = (c.z - engine.reference_m[2]) * 1e3
         self._whole = spectra(engine, orders, _KINDS)
         self._single = {

@@ -48,7 +48,7 @@ def _cylinders(engine: Engine) -> list[dict[str, Any]]:
     """
     c, linkage = engine.cylinders, engine.cylinders.linkage
     rods = linkage.hung if isinstance(linkage, Rotary) else linkage
-    axes = np.repeat(c.axis_deg, np.diff([*c.starts, c.count]), axis=0)
+    axes = c.axis_of_each_deg
     lengths, offsets = (
         np.broadcast_to(np.ravel(v) * 1e3, c.count) for v in (c.radius / c.lam, c.offset)
     )
