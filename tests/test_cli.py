@@ -577,7 +577,7 @@ main()
         (["check", str(ENGINES / "i4.toml")], {"numpy", "pydantic"}),
         *(([command, "--help"], {"rich", "pydantic"}) for command in COMMANDS),
     ],
-    ids=lambda value: " ".join(Path(word).name for word in value),
+    ids=lambda value: " ".join(Path(word).name for word in value) if type(value) is list else "",
 )
 def test_only_what_is_needed_is_imported(args, allowed):
     loaded = set(run_python("-c", PROBE, *args).stderr.split())

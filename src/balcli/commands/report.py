@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from ..forces.kinds import KINDS
 from ..render.formats import Units
 from ..render.units import SYSTEMS
 from .options import EnginePath, Orders, Scheme, Speed, UnitsOption, check_speed, parse_orders
@@ -33,7 +34,6 @@ def report(
     before and after.
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
-    from ..forces.spectrum import SPECTRAL
     from ..render.html import page
     from ..results.analysis import analyze
     from ..results.balance import balance
@@ -41,6 +41,6 @@ def report(
 
     asked = parse_orders(orders)
     engine = read_engine(path, check_speed(speed)).engine
-    result = analyze(engine, asked, {*SPECTRAL, "peak"})
+    result = analyze(engine, asked, {*KINDS, "peak"})
     balanced = balance(engine, scheme or "auto", orders=asked)
     emit(page(result, balanced, SYSTEMS[units]), output)
