@@ -42,11 +42,7 @@ ARTICULATED = """
 knuckle_radius = 52
 rod = { length = 188, mass = 0.62, cg = 90, inertia = 3500 }
 """
-RIPPLE = (
-    "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }, { order = 3, amplitude = "
-    "0.02, "
-    "angle = -75 }]"
-)
+RIPPLE = "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }, { order = 3, amplitude = 0.02, angle = -75 }]"
 DISPLACED = """
 [frame]
 reference = [70, -40, 25]
@@ -167,9 +163,7 @@ def test_every_engine_that_comes_with_balcli(path):
 
 
 def test_one_cylinder_of_an_articulated_engine_alone():
-    """The share of a master and of an articulated cylinder in what the engine does (`--by
-    cylinder`).
-    """
+    """The share of a master and of an articulated cylinder in what the engine does (`--by cylinder`)."""
     text = BASE.format(crank="", piston="", layout="radial = 5", operation="", more=ARTICULATED)
     oracle, whole = momentum.Engine.read(text), engine.build(enginefile.parse(text))
     for number in (1, 3):

@@ -19,11 +19,7 @@ from balcli.render.units import IMPERIAL, SI
 from balcli.results.analysis import analyze
 from balcli.results.balance import balance
 
-HOSTILE = (
-    "</script><script>alert('name')</script><img src=x onerror=alert(1)> & \"quoted\" {{ 7 "
-    "* 7 }} "
-    "发动机"
-)
+HOSTILE = "</script><script>alert('name')</script><img src=x onerror=alert(1)> & \"quoted\" {{ 7 * 7 }} 发动机"
 RADIAL = """\
 name = "radial with a master rod"
 [crank]
@@ -225,8 +221,7 @@ def test_orders_are_switched(show):
     page = show()
     before = numbers(page, "#force-vector", "y2")
     page.run(
-        "for (const box of document.querySelectorAll('[name=order]')) if (box.value !== '4') "
-        "box.click()"
+        "for (const box of document.querySelectorAll('[name=order]')) if (box.value !== '4') box.click()"
     )
     fourth = page.run("document.getElementById('force-now').textContent")
     page.run("document.querySelector('[name=order][value=\"4\"]').click()")

@@ -1,6 +1,4 @@
-"""Analysis: which orders are shown, what is computed, what balanced means; over all engines of
-engines/.
-"""
+"""Analysis: which orders are shown, what is computed, what balanced means; over all engines of engines/."""
 
 from __future__ import annotations
 
@@ -142,9 +140,7 @@ def test_a_small_order_that_is_there_is_not_swallowed(name, order, factor):
 
 
 def test_a_high_order_beside_it_swallows_no_small_one():
-    """The orders 1 to 4096 of a single cylinder: the first forty are there as they are by
-    themselves.
-    """
+    """The orders 1 to 4096 of a single cylinder: the first forty are there as they are by themselves."""
     everything, few = (
         analyze(example("single"), range(1, last + 1), only=["force"]).spectra.force
         for last in (4096, 40)
@@ -154,9 +150,7 @@ def test_a_high_order_beside_it_swallows_no_small_one():
 
 
 def test_each_vector_is_settled_for_itself():
-    """The first-order moment of a cross-plane V8 turns with the crank and has no backward part at
-    all.
-    """
+    """The first-order moment of a cross-plane V8 turns with the crank and has no backward part at all."""
     moment = analysed("v8_crossplane").spectra.moment
     assert moment.backward[0] == 0
     assert abs(moment.forward[0]) > 100
@@ -176,9 +170,7 @@ def test_only_one_quantity(quantity):
 
 
 def test_what_is_not_asked_for_is_not_computed(monkeypatch):
-    """Without couple, torque and roll no harmonics of rod and energy; with explicit orders and no
-    peak, no others.
-    """
+    """Without couple, torque and roll no harmonics of rod and energy; with explicit orders and no peak, no others."""
     asked = []
     original = harmonics.of_distinct
 
@@ -244,9 +236,7 @@ def test_one_cylinder_alone_has_no_devices_and_no_other_mass():
 
 @pytest.mark.parametrize("name", NAMES)
 def test_peaks_are_those_of_the_whole_curve(name):
-    """No sample of the whole curve lies above the peak, and the peak lies on it; whatever orders
-    are shown.
-    """
+    """No sample of the whole curve lies above the peak, and the peak lies on it; whatever orders are shown."""
     e, theta = example(name), np.linspace(0, 2 * np.pi, 2881)
     whole = spectra(e, relevant_orders(e), ("force", "moment"))
     for q in ("force", "moment"):

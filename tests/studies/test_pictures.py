@@ -1,6 +1,4 @@
-"""Studies over the balance factor and the bank angle: what books say of them, and their
-pictures.
-"""
+"""Studies over the balance factor and the bank angle: what books say of them, and their pictures."""
 
 from __future__ import annotations
 
@@ -28,9 +26,7 @@ def engine(text):
 
 
 def test_flat_plane_vee_eight_over_its_bank_angle():
-    """Liu: with K = 4 A_2 m r omega^2 the second order is K cos(gamma/2) with the crank and K cos(3
-    gamma/2) against it.
-    """
+    """Liu: with K = 4 A_2 m r omega^2 the second order is K cos(gamma/2) with the crank and K cos(3 gamma/2) against it."""
     vee = engine(VEE)
     banks = over_bank_angle(vee, 2)
     c = vee.cylinders

@@ -22,9 +22,7 @@ CHROMIUM = next(
 
 
 class Browser:
-    """One page. Messages that the page writes to its console, and errors in it, are kept in
-    `complaints`.
-    """
+    """One page. Messages that the page writes to its console, and errors in it, are kept in `complaints`."""
 
     def __init__(self, profile: Path) -> None:
         (ours_in, theirs_out), (theirs_in, ours_out) = os.pipe(), os.pipe()
@@ -133,7 +131,7 @@ class Browser:
             self.call("Browser.close")
         except (OSError, EOFError):
             self._process.terminate()
-        self._process.wait(10)
+        self._process.wait(300)
         self._in.close()
         self._out.close()
 

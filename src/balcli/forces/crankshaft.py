@@ -16,6 +16,7 @@ import numpy as np
 from ..core.loads import Device
 from ..core.peaks import Peak, peak
 from ..core.phasors import Array, Phasors
+from ..engine.arrays import ranked
 from ..engine.build import Engine
 from ..errors import BalcliError
 from .spectrum import considerable, each, few_enough, relevant_orders, weight
@@ -43,8 +44,8 @@ class Along:
 
     @property
     def largest(self) -> int:
-        """Which place has the highest peak."""
-        return int(np.argmax([found.value for found in self.peaks]))
+        """Which place has the highest peak; of equal ones the first."""
+        return int(np.argmax(ranked([found.value for found in self.peaks])))
 
 
 @dataclass(frozen=True)

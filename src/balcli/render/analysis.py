@@ -85,10 +85,8 @@ def facts(result: Analysis, system: System) -> Facts:
         ("firing", _firing(engine)),
         (
             "speed",
-            (
-                f"{number(engine.speed_rpm, 6)} rpm"
-                f"{', uneven: figures are those of the uneven speed' if engine.ripple else ''}"
-            ),
+            f"{number(engine.speed_rpm, 6)} "
+            f"rpm{', uneven: figures are those of the uneven speed' if engine.ripple else ''}",
         ),
         ("masses", masses + unequal),
         ("orders", f"to {UNASKED}; --orders asks for higher ones" if result.beyond else ""),
@@ -176,7 +174,7 @@ def _vectors(title: str, phasors: Phasors, unit: Unit) -> Grid:
             abs(phasors.backward[k]),
         )
         largest, smallest, ahead, against = (number(unit.of(float(v))) for v in sizes)
-        return name, largest, smallest, degrees(float(phasors.axis_deg[k])), ahead, against
+        return name, largest, smallest, degrees(float(phasors.axis_deg[k]), 180), ahead, against
 
     return Grid(
         title,
