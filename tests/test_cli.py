@@ -1,4 +1,6 @@
-"""The command line: exit statuses, messages, formats, files, pipes, terminals, and what is imported."""
+"""The command line: exit statuses, messages, formats, files, pipes, terminals, and what is
+imported.
+"""
 
 from __future__ import annotations
 
@@ -155,7 +157,8 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         ),
         (
             ["analyze", V8, "--only", "force,noise"],
-            "there is no quantity noise: choose from force, moment, couple, torque, roll, peak, sizing, inner, guide",
+            "there is no quantity noise: choose from force, moment, couple, torque, roll, peak, "
+            "sizing, inner, guide",
         ),
         (
             ["analyze", V8, "-o", "/nowhere/x.txt"],
@@ -166,7 +169,8 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         (["check", str(ROOT / "src")], f"{ROOT / 'src'}: has no engine files (*.toml)"),
         (
             ["new", "inlin"],
-            '"inlin" is no kind of engine; there are single, inline, vee, boxer, radial, w. Did you mean inline?',
+            '"inlin" is no kind of engine; there are single, inline, vee, boxer, radial, w. Did '
+            "you mean inline?",
         ),
     ],
 )
@@ -194,7 +198,9 @@ def test_a_warning_does_not_stop_the_analysis(balcli, tmp_path):
 # ------------------------------------------------------------------ formats
 @pytest.mark.parametrize("form", Format)
 def test_every_format(balcli, good, form):
-    """Each is what its name says, ends in one newline, and holds the second-order force of the same analysis."""
+    """Each is what its name says, ends in one newline, and holds the second-order force of the same
+    analysis.
+    """
     status, out, err = balcli("analyze", good, "--format", form)
     assert (status, err) == (0, "")
     assert out.endswith("\n")
@@ -373,7 +379,9 @@ def test_what_cannot_be_an_engine_goes_by_its_file(balcli, tmp_path, command):
 
 
 def test_several_files_and_a_bad_one_among_them(balcli, good, bad):
-    """One JSON document a line, in order; the bad one is named, the rest is reported, and the status is 2."""
+    """One JSON document a line, in order; the bad one is named, the rest is reported, and the
+    status is 2.
+    """
     status, out, err = balcli("analyze", good, bad, V8, "--format", "json")
     assert status == 2
     assert [json.loads(line)["engine"]["cylinders"] for line in out.splitlines()] == [4, 8]
@@ -633,12 +641,16 @@ def test_only_what_is_needed_is_imported(args, allowed):
     [
         "import importlib.metadata; print(importlib.metadata.version('numpy'))",
         "from importlib.metadata import version; print(version('numpy'))",
-        "from importlib.metadata import entry_points; print(len(entry_points(group='console_scripts')) > 0)",
+        "from importlib.metadata import entry_points; "
+        "print(len(entry_points(group='console_scripts')) > 0)",
         "import importlib.metadata._meta as m; print(m.__name__)",
-        "import secrets; from secrets import token_hex; print(secrets.compare_digest('a', 'a'), len(token_hex(3)))",
+        "import secrets; from secrets import token_hex; print(secrets.compare_digest('a', 'a'), "
+        "len(token_hex(3)))",
         "import secrets; print(hasattr(secrets, 'no_such_thing'), hasattr(secrets, '__path__'))",
-        "import importlib.util as u; s = u.find_spec('importlib.metadata'); print(s.name, s.origin)",
-        "import importlib.metadata as m; m.version; import sys; print(type(sys.modules[m.__name__]) is type(sys))",
+        "import importlib.util as u; s = u.find_spec('importlib.metadata'); print(s.name, "
+        "s.origin)",
+        "import importlib.metadata as m; m.version; import sys; "
+        "print(type(sys.modules[m.__name__]) is type(sys))",
     ],
 )
 def test_what_is_deferred_is_there_when_it_is_asked_for(use):
@@ -653,7 +665,8 @@ def test_what_is_deferred_is_there_when_it_is_asked_for(use):
         return done.stdout
 
     assert run(
-        "from balcli.__main__ import _Later as L; [L.defer(n) for n in 2 * ('importlib.metadata', 'secrets')]\n"
+        "from balcli.__main__ import _Later as L; [L.defer(n) for n in 2 * ('importlib.metadata', "
+        "'secrets')]\n"
     ) == run("")
 
 

@@ -1,4 +1,6 @@
-"""README.md and docs/*.md: what they show is what is printed, their links lead somewhere, and every command is described."""
+"""README.md and docs/*.md: what they show is what is printed, their links lead somewhere, and every
+command is described.
+"""
 
 from __future__ import annotations
 
@@ -25,8 +27,8 @@ def test_everything_shown_is_what_is_printed(document: Path, tmp_path: Path) -> 
         if not guide.agrees(one.expected, found := guide.printed(one, folder))
     ]
     assert not wrong, (
-        f"{document.name} shows something else (python tools/docs_examples.py {document.name} renews it):\n"
-        + "\n\n".join(wrong)
+        f"{document.name} shows something else (python tools/docs_examples.py {document.name} "
+        "renews it):\n" + "\n\n".join(wrong)
     )
 
 

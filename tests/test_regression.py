@@ -85,7 +85,9 @@ def test_an_engine_without_a_recorded_result_is_a_difference(check, tmp_path):
 
 
 def test_every_figure_that_moved_is_named(check, file):
-    """A tenth of a per cent more piston moves forces, torque and roll; order, part, old and new figure are told."""
+    """A tenth of a per cent more piston moves forces, torque and roll; order, part, old and new
+    figure are told.
+    """
     before = {
         (e["order"], "force"): e["force_N"]
         for e in json.loads(recorded_at(file).read_text())["orders"]
@@ -111,7 +113,9 @@ def test_every_figure_that_moved_is_named(check, file):
 
 @pytest.mark.parametrize(("share", "moved"), [(0.9, False), (1.1, True)])
 def test_the_tolerance_is_a_share_of_the_largest_order(file, share, moved):
-    """What matters is the size of the quantity: the same change in a small order counts the same."""
+    """What matters is the size of the quantity: the same change in a small order counts the
+    same.
+    """
     largest = max(
         max(map(abs, e["force_N"]["forward"]))
         for e in json.loads(recorded_at(file).read_text())["orders"]
@@ -129,7 +133,9 @@ def test_the_tolerance_is_a_share_of_the_largest_order(file, share, moved):
 
 @pytest.mark.parametrize(("roundings", "moved"), [(1.9, False), (4, True)])
 def test_where_all_large_orders_cancel_rounding_is_no_difference(tmp_path, roundings, moved):
-    """The rotary's only forces are millionths of what each cylinder makes: their rounding is more than 1e-9 of them."""
+    """The rotary's only forces are millionths of what each cylinder makes: their rounding is more
+    than 1e-9 of them.
+    """
     engine_file = Path(shutil.copy(ENGINES / "rotary9.toml", tmp_path))
     recorded_at(engine_file).parent.mkdir()
     shutil.copy(recorded_at(ENGINES / "rotary9.toml"), recorded_at(engine_file))
@@ -179,7 +185,8 @@ def test_speed_and_number_of_cylinders(check, file):
     )
     assert check(file) == (
         1,
-        "four: number of cylinders: 5 -> 4\nfour: speed, rpm: 2999.0 -> 3000.0\n1 engine, 2 differences\n",
+        "four: number of cylinders: 5 -> 4\nfour: speed, rpm: 2999.0 -> 3000.0\n1 engine, 2 "
+        "differences\n",
         "",
     )
 
@@ -189,7 +196,8 @@ def test_speed_and_number_of_cylinders(check, file):
     [
         (
             "{",
-            "JSONDecodeError: Expecting property name enclosed in double quotes: line 1 column 2 (char 1)",
+            "JSONDecodeError: Expecting property name enclosed in double quotes: line 1 column 2 "
+            "(char 1)",
         ),
         ("{}", "KeyError: 'orders'"),
         ("[]", "TypeError: list indices must be integers or slices, not str"),

@@ -1,4 +1,6 @@
-"""The house in order: one way through it, rooms that keep to themselves, commands that only call, all of them documented."""
+"""The house in order: one way through it, rooms that keep to themselves, commands that only call,
+all of them documented.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,9 @@ def name_of(file: Path) -> str:
 
 
 def imported(file: Path) -> Iterator[tuple[str, str]]:
-    """(module, name) of everything a file imports, modules of its own with their full name; also inside functions."""
+    """(module, name) of everything a file imports, modules of its own with their full name; also
+    inside functions.
+    """
     package = ["balcli", *file.relative_to(SOURCE).parts[:-1]]
     for node in ast.walk(tree(file)):
         if isinstance(node, ast.Import):
@@ -58,7 +62,9 @@ def test_a_command_is_a_module_with_a_function_of_its_name(command):
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_a_command_prints_once_and_computes_nothing(command):
-    """No arithmetic library is imported by a command, and results leave by way of commands/output.py."""
+    """No arithmetic library is imported by a command, and results leave by way of
+    commands/output.py.
+    """
     file = SOURCE / "commands" / f"{command}.py"
     assert not {module.partition(".")[0] for module, _ in imported(file)} & {
         "numpy",
@@ -76,7 +82,9 @@ def test_every_format_is_documented():
 
 
 def test_modules_of_commands_are_commands_or_their_helpers():
-    """No command is forgotten in the list: a module whose function bears its name and has help is one."""
+    """No command is forgotten in the list: a module whose function bears its name and has help is
+    one.
+    """
     forgotten = []
     for file in (SOURCE / "commands").glob("*.py"):
         functions = [
@@ -88,7 +96,9 @@ def test_modules_of_commands_are_commands_or_their_helpers():
 
 
 def test_python_examples_of_the_readme_run(tmp_path, monkeypatch):
-    """As they stand, beside a copy of engines/; what its commands show is the business of test_docs.py."""
+    """As they stand, beside a copy of engines/; what its commands show is the business of
+    test_docs.py.
+    """
     shutil.copytree(ROOT / "engines", tmp_path / "engines")
     monkeypatch.chdir(tmp_path)
     blocks = re.findall(r"^```python\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
@@ -109,7 +119,8 @@ def test_core_knows_numpy_and_the_standard_library_alone(file):
     assert strangers == set()
 
 
-# Types and constants of a room may be named by what shows them, functions not: these shape figures for the eye.
+# Types and constants of a room may be named by what shows them, functions not: these shape figures
+# for the eye.
 SHAPING = {
     ("balcli.results.analysis", "textbook"),
     ("balcli.tables.table", "deviates"),

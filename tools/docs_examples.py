@@ -1,11 +1,13 @@
 """What README.md and docs/*.md show, and how to run it.
 
-In a ```console block a line that begins with `$ ` is a command, the lines below are all that it prints, and a line `…`
-stands for any lines left out. A ```toml block whose first line is `# NAME.toml` is written under that name; a ```python
-block is run, and what it prints is the ```text block below. Everything in a document runs in one folder, top to bottom.
+In a ```console block a line that begins with `$ ` is a command, the lines below are all that it
+prints, and a line `…` stands for any lines left out. A ```toml block whose first line is `#
+NAME.toml` is written under that name; a ```python block is run, and what it prints is the ```text
+block below. Everything in a document runs in one folder, top to bottom.
 
-`python tools/docs_examples.py FILE.md…` writes what is printed now into the documents; lines that stand between `…` are replaced
-by the ones most like them, so look at the difference before you believe it.
+`python tools/docs_examples.py FILE.md…` writes what is printed now into the documents; lines that
+stand between `…` are replaced by the ones most like them, so look at the difference before you
+believe it.
 """
 
 from __future__ import annotations
@@ -34,7 +36,9 @@ ENVIRONMENT = os.environ | {"PYTHONPATH": str(ROOT / "src"), "NO_COLOR": "1", "C
 
 
 class Shown(NamedTuple):
-    """A command (or a Python program) and what a document says it prints, with the lines of the document it fills."""
+    """A command (or a Python program) and what a document says it prints, with the lines of the
+    document it fills.
+    """
 
     command: str
     expected: list[str]
@@ -44,7 +48,9 @@ class Shown(NamedTuple):
 
 
 class Block(NamedTuple):
-    """A fenced block: its language, its lines, and the line of the document with which it begins."""
+    """A fenced block: its language, its lines, and the line of the document with which it
+    begins.
+    """
 
     language: str
     lines: list[str]
@@ -144,7 +150,8 @@ def _outside(one: Shown, folder: Path) -> tuple[object, str]:
 
 
 def agrees(expected: list[str], found: list[str]) -> bool:
-    """Whether the lines are the same but for those that are left out; at either end, empty lines count for nothing.
+    """Whether the lines are the same but for those that are left out; at either end, empty lines
+    count for nothing.
 
     Figures in full precision need to agree to nine digits: the last ones are the machine's.
     """
@@ -159,7 +166,9 @@ def agrees(expected: list[str], found: list[str]) -> bool:
 
 
 def _rounded(line: str) -> str:
-    """With numbers of more than nine decimals to nine digits, and rounding errors as what they are: 0."""
+    """With numbers of more than nine decimals to nine digits, and rounding errors as what they are:
+    0.
+    """
 
     def nine(number: re.Match[str]) -> str:
         value = float(number[0])
@@ -197,7 +206,9 @@ def renewed(text: str, folder: Path) -> str:
 
 
 def _alike(expected: list[str], found: list[str]) -> list[str]:
-    """For every line the most similar one of those that follow the last; all lines where none is left out."""
+    """For every line the most similar one of those that follow the last; all lines where none is
+    left out.
+    """
     if not any(line.strip() == LEFT_OUT for line in expected):
         return _trimmed(found)
     result, rest = [], found

@@ -1,4 +1,5 @@
-"""The tables of docs/engine-file.md, made of the models; `python tools/engine_file_reference.py` writes them anew.
+"""The tables of docs/engine-file.md, made of the models; `python tools/engine_file_reference.py`
+writes them anew.
 
 They stand between two comments; what is above and below is written by hand.
 """
@@ -83,7 +84,10 @@ def _row(key: str, table: type[Table], definition: dict[str, Any]) -> str:
     if options := shown.get("enum"):
         meaning += f" ({' or '.join(map(_toml, options))})"
     example = _toml(field.examples[0]) if field.examples else ""
-    return f"| `{key}` | {unit} | {_left_out(key, table, definition)} | {meaning} | {f'`{example}`' if example else ''} |"
+    return (
+        f"| `{key}` | {unit} | {_left_out(key, table, definition)} | {meaning} | "
+        f"{f'`{example}`' if example else ''} |"
+    )
 
 
 def _left_out(key: str, table: type[Table], definition: dict[str, Any]) -> str:

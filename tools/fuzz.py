@@ -1,7 +1,9 @@
-"""Hostile input: engine files and options that nobody would write, through the entry of the command line.
+"""Hostile input: engine files and options that nobody would write, through the entry of the command
+line.
 
-Every case must end as a result or as a message: no traceback, no hang, no half-written file, no control character on the
-terminal, and a message that names the file or the option. `python -m tests.stress.fuzz --cases 20000 --seed 1` runs many.
+Every case must end as a result or as a message: no traceback, no hang, no half-written file, no
+control character on the terminal, and a message that names the file or the option. `python -m
+tests.stress.fuzz --cases 20000 --seed 1` runs many.
 """
 
 from __future__ import annotations
@@ -328,7 +330,8 @@ def _devices(random: random.Random) -> str:
         lines += [
             table,
             *(
-                f"{random.choice(KEYS[12:-10])} = {random.choice((0, 1, -1, 2, 40, 100.5, '[0, 80]', '[0,0,0]', '1e9'))}"
+                f"{random.choice(KEYS[12:-10])} = "
+                f"{random.choice((0, 1, -1, 2, 40, 100.5, '[0, 80]', '[0,0,0]', '1e9'))}"
                 for _ in range(random.randrange(1, 6))
             ),
         ]
@@ -336,7 +339,9 @@ def _devices(random: random.Random) -> str:
 
 
 def engine_file(random: random.Random) -> bytes:
-    """An engine file: mostly sound TOML with wrong content, sometimes broken text, sometimes bytes."""
+    """An engine file: mostly sound TOML with wrong content, sometimes broken text, sometimes
+    bytes.
+    """
     kind = random.randrange(20)
     if kind == 0:
         return random.randbytes(random.choice((0, 1, 10, 1000)))
@@ -637,7 +642,9 @@ def _drawn(random: random.Random) -> list[str]:
 # ------------------------------------------------------------------ running
 @dataclass(frozen=True)
 class Case:
-    """An engine file and a command on it; FILE stands for its name, GOOD for that of a sound engine."""
+    """An engine file and a command on it; FILE stands for its name, GOOD for that of a sound
+    engine.
+    """
 
     number: int
     data: bytes
@@ -646,7 +653,9 @@ class Case:
 
 
 def cases(seed: int, count: int, only: str = "") -> Iterator[Case]:
-    """Cases that depend on the seed and their number alone. `only`: "force" for the quick analysis, "drawn" for pictures."""
+    """Cases that depend on the seed and their number alone. `only`: "force" for the quick analysis,
+    "drawn" for pictures.
+    """
     for number in range(count):
         source = random.Random(f"{seed}/{number}")
         data = engine_file(source)
@@ -750,7 +759,9 @@ def counted(case: Case, place: Path) -> Outcome:
 
 
 def weighed(case: Case, place: Path, way: Callable[[Case, Path], Outcome] = run) -> Outcome:
-    """The same with the memory it asks for: as much on any machine, and on any number of threads."""
+    """The same with the memory it asks for: as much on any machine, and on any number of
+    threads.
+    """
     tracemalloc.start()
     try:
         done = way(case, place)
@@ -777,7 +788,10 @@ def fault(case: Case, done: Outcome) -> str:
     if done.memory > MOST_MEMORY:
         return f"took {done.memory:.0f} MB"
     if found := _CONTROL.search(done.out + done.err):
-        return f"control character {found[0]!r}: {(done.out + done.err)[max(found.start() - 60, 0) : found.start() + 60]!r}"
+        return (
+            f"control character {found[0]!r}: "
+            f"{(done.out + done.err)[max(found.start() - 60, 0) : found.start() + 60]!r}"
+        )
     if done.status == 2 and not re.search(r"(?m)^(balcli: .|Error: .)", done.err):
         return f"refused without a word: {done.err!r}"
     if len(done.err) > 100_000:
@@ -826,7 +840,8 @@ def main() -> None:
                 print(f"{case.number}: {case.args}\n{wrong}\n", flush=True)
     print(
         f"{asked.cases - asked.first} cases, {accepted} accepted, {faults} faults; "
-        f"most calls {costliest[0]} (case {costliest[1]}), most memory {largest[0]:.0f} MB (case {largest[1]})"
+        f"most calls {costliest[0]} (case {costliest[1]}), most memory {largest[0]:.0f} MB (case "
+        f"{largest[1]})"
     )
 
 

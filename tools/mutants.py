@@ -2,11 +2,13 @@
 
     python tools/mutants.py core sizing/solver.py core/peaks.py:36 --sample 40 --seconds 20
 
-One node of a module's syntax tree is changed at a time: operators, comparisons, conditions, constants, functions by their
-counterparts, results by None, statements left out. Tests run once, with the lines that each of them reaches; then every mutant
-has a process of its own, forked when all is imported, in which the changed functions are put in place and the tests that reach
-the line run, those first that reach little else or have found others, until one fails or those left would take longer than `--seconds`.
-Survivors are printed and end the run with exit code 1; docs/development.md says which are known, and why.
+One node of a module's syntax tree is changed at a time: operators, comparisons, conditions,
+constants, functions by their counterparts, results by None, statements left out. Tests run once,
+with the lines that each of them reaches; then every mutant has a process of its own, forked when
+all is imported, in which the changed functions are put in place and the tests that reach the line
+run, those first that reach little else or have found others, until one fails or those left would
+take longer than `--seconds`. Survivors are printed and end the run with exit code 1;
+docs/development.md says which are known, and why.
 """
 
 from __future__ import annotations
@@ -218,7 +220,9 @@ def _with(node: ast.AST, **fields: Any) -> ast.AST:
 
 
 class Mutant(NamedTuple):
-    """A changed module; `lines` are those whose tests may notice, the nearest first: statement, function, module."""
+    """A changed module; `lines` are those whose tests may notice, the nearest first: statement,
+    function, module.
+    """
 
     module: str
     line: int
@@ -295,7 +299,9 @@ def _without_effect(node: ast.AST) -> bool:
 
 # ------------------------------------------------------------------ putting it in place
 def patch(mutant: Mutant) -> None:
-    """The functions, classes and constants of the changed module in place of the module's own, wherever they were imported."""
+    """The functions, classes and constants of the changed module in place of the module's own,
+    wherever they were imported.
+    """
     name = _dotted(mutant.module)
     module = importlib.import_module(name)
     fresh = {
@@ -400,7 +406,9 @@ class Runner:
         return True
 
     def _trace(self) -> None:
-        """What each test reaches, and how long it takes; from the file of an earlier run, unless a module that it reaches has changed."""
+        """What each test reaches, and how long it takes; from the file of an earlier run, unless a
+        module that it reaches has changed.
+        """
         kept, sources = (
             self.options.trace,
             {p.relative_to(SOURCE).as_posix(): p.read_bytes() for p in SOURCE.rglob("*.py")},
@@ -426,7 +434,8 @@ class Runner:
             for place in self.traced[name].places:
                 self.reached[place].add(name)
         print(
-            f"{len(self.items)} tests, {sum(self.traced[name].seconds for name in self.items):.0f} s",
+            f"{len(self.items)} tests, "
+            f"{sum(self.traced[name].seconds for name in self.items):.0f} s",
             flush=True,
         )
 
@@ -547,7 +556,9 @@ def wanted(names: Iterable[str]) -> list[tuple[str, set[int]]]:
 
 
 def printed(log: str) -> set[tuple[str, str]]:
-    """Module and change of the survivors that an earlier run printed; their lines may have moved since."""
+    """Module and change of the survivors that an earlier run printed; their lines may have moved
+    since.
+    """
     found = re.findall(
         r"(?m)^([\w/]+\.py):\d+: (.*) \(\d+ tests\)$", Path(log).read_text(encoding="utf-8")
     )

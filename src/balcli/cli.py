@@ -7,9 +7,11 @@ Only the module of the command that is called is imported; what a command does i
 from __future__ import annotations
 
 import gc
+import re
 import sys
 from difflib import get_close_matches
 from importlib import import_module
+from inspect import cleandoc
 from io import StringIO
 from typing import Annotated, Any
 
@@ -54,9 +56,8 @@ class _OnDemand(TyperGroup):
         from .commands.overwrite_guard import guarded
 
         single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-        single.command(cmd_name)(
-            guarded(getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name))
-        )
+        function = getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name)
+        single.command(cmd_name, help=_unwrapped(cleandoc(function.__doc__)))(guarded(function))
         return get_command(single)
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
@@ -66,6 +67,11 @@ class _OnDemand(TyperGroup):
             if near := get_close_matches(args[0].lower()[:100], COMMANDS, 1):
                 error.message += f" Did you mean {near[0]}?"
             raise
+
+
+def _unwrapped(text: str) -> str:
+    """Paragraphs as one line each: the terminal wraps them to its own width."""
+    return re.sub(r"(?<=\S)\n(?=\S)", " ", text)
 
 
 app = typer.Typer(

@@ -49,12 +49,16 @@ def errors() -> dict[tuple[str, str], float | None]:
 
 
 def rounding(task: str) -> float:
-    """What an order's rounding may come to: that of the first order, grown by what is divided by."""
+    """What an order's rounding may come to: that of the first order, grown by what is divided
+    by.
+    """
     return ROUNDING / abs(float(coefficient(ORDERS[task], LAM)))
 
 
 def test_closed_form_is_exact_where_sampling_is_not() -> None:
-    """Sixteen samples cannot tell order 2 from 14 and 18; more are good to the rounding of the first order, not of their own."""
+    """Sixteen samples cannot tell order 2 from 14 and 18; more are good to the rounding of the
+    first order, not of their own.
+    """
     found = errors()
     for task in ("A_2", "A_8", "one V8, force and moment"):
         assert found[task, "closed form"] is not None
@@ -75,7 +79,9 @@ PAGE = Path(__file__).parents[2] / "docs" / "accuracy.md"
 
 
 def shown() -> dict[tuple[str, str], str]:
-    """Errors on the page, by task (heading) and method (first cell of a row; the last one is the error)."""
+    """Errors on the page, by task (heading) and method (first cell of a row; the last one is the
+    error).
+    """
     rows, task = {}, ""
     for line in PAGE.read_text(encoding="utf-8").splitlines():
         if line.startswith("## "):

@@ -1,4 +1,6 @@
-"""Commands as users give them, in this process: plot, report, bench, cluster and files of sweeps, and what the schemes refuse."""
+"""Commands as users give them, in this process: plot, report, bench, cluster and files of sweeps,
+and what the schemes refuse.
+"""
 
 from __future__ import annotations
 
@@ -207,7 +209,8 @@ def test_the_quickest_of_several_runs_counts(monkeypatch):
     assert bench._seconds(lambda: None) == pytest.approx(0.003)
 
 
-# ------------------------------------------------------------------ sweeps: cluster, files, progress
+# ------------------------------------------------------------------ sweeps: cluster, files,
+# progress
 SWEEP = ("--vary", "rod.ratio=0.2,0.25,0.3", "--quantity", "force.2.major")
 
 
@@ -354,7 +357,8 @@ def test_a_search_and_a_scatter_in_csv(balcli, four):
         ),
         (
             ("balance", "vtwin90", "--scheme", "two-shaft", "--order", "1", "--roll", "zero"),
-            "order 1: its force turns with the crank alone, so that one shaft takes it and none is left to be placed for the roll",
+            "order 1: its force turns with the crank alone, so that one shaft takes it and none "
+            "is left to be placed for the roll",
         ),
         (
             ("balance", "single", "--scheme", "single-shaft", "--at", "1,2", "--at", "3,4"),
@@ -404,7 +408,9 @@ def test_refusals_say_what_would_be_right(balcli, args, message):
 
 
 def test_a_minimax_weight_in_two_planes_leaves_the_moment_that_turns_with_the_crank_alone(balcli):
-    """The whole weight, and its moment about the middle of the engine 0: equal halves at equal distance of a single."""
+    """The whole weight, and its moment about the middle of the engine 0: equal halves at equal
+    distance of a single.
+    """
     status, out, _ = balcli(
         "balance",
         ENGINES / "single.toml",

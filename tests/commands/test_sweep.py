@@ -75,7 +75,8 @@ def test_a_variant_that_cannot_be_is_told_before_anything_is_written(tmp_path: P
     """One between the corners of the grid: the ripple's angle."""
     file = tmp_path / "rip.toml"
     file.write_text(
-        "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n[operation]\nspeed_ripple = ["
+        "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = "
+        "0.5\n[operation]\nspeed_ripple = ["
         "{ order = 1, amplitude = 0.6 }, { order = 2, amplitude = 0.5 }]\n"
     )
     done = run(

@@ -25,7 +25,9 @@ def balcli(balcli):
 
 @pytest.fixture
 def good(tmp_path, monkeypatch):
-    """A folder with good.toml, other.toml and a symbolic and a hard link to the first, in which commands run."""
+    """A folder with good.toml, other.toml and a symbolic and a hard link to the first, in which
+    commands run.
+    """
     monkeypatch.chdir(tmp_path)
     for name in ("good.toml", "other.toml"):
         Path(name).write_text(GOOD)
@@ -77,7 +79,8 @@ def test_never_onto_the_engine_file(balcli, good, command, target):
     assert (status, out) == (2, "")
     assert (
         err
-        == f"balcli: {option} {Path(target)}: this is the engine file itself, which stays as it is; choose another name\n"
+        == f"balcli: {option} {Path(target)}: this is the engine file itself, which stays as it "
+        "is; choose another name\n"
     )
     assert contents() == before
 

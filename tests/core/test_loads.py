@@ -6,14 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.engines import engine, engine_text
+from support.engines import alone, engine, engine_text
 
 from balcli.core.loads import Loads
 from balcli.core.mechanisms.harmonics import Series
 from balcli.core.phasors import EPS
 from balcli.engine.build import build
 from balcli.engine.load import parse
-from balcli.forces.spectrum import alone, spectra
+from balcli.forces.spectrum import spectra
 from balcli.studies.parameters import parse as parameter
 from balcli.studies.parameters import varied
 from balcli.studies.sweep import Sweep
@@ -52,7 +52,9 @@ def test_every_order_has_a_bound_of_its_rounding(name, along):
 
 
 def test_what_balances_does_so_about_any_point():
-    """An in-line six has neither force nor moment of orders 1 and 2, a kilometre away or at its own cylinders."""
+    """An in-line six has neither force nor moment of orders 1 and 2, a kilometre away or at its own
+    cylinders.
+    """
     for reference in ([0, 0, 1e6], [3e5, -2e5, 250], [0, 0, -250]):
         six = engine(
             crank={"stroke": 100, "throws": [0, 240, 120, 120, 240, 0], "spacing": 100},
@@ -64,7 +66,9 @@ def test_what_balances_does_so_about_any_point():
 
 
 def test_each_cylinder_has_its_own_crank_angle():
-    """Cylinder 1's pin lies on its axis, at 50 degrees; the others' lie at -60, 40 and -50; also for variants side by side."""
+    """Cylinder 1's pin lies on its axis, at 50 degrees; the others' lie at -60, 40 and -50; also
+    for variants side by side.
+    """
     text = engine_text(
         crank="stroke = 100\nthrows = [0, 100]\nsplay = 10",
         layout="banks = [-20, 50]\nnumbering = [[4, 2], [3, 1]]",
@@ -115,7 +119,7 @@ def test_variants_side_by_side_are_what_each_is_alone(vary):
     for place in np.ndindex(*shape):
         values = {p.path: float(p.values[k]) for p, k in zip(sweep.parameters, place, strict=True)}
         for quantity, single in spectra(build(varied(file, values)), LOW, QUANTITIES).items():
-            found = getattr(together, quantity)
+            found = together[quantity.name]
             for name in ("forward", "backward", "noise"):
                 whole = np.broadcast_to(getattr(found, name), (len(LOW), *shape))[
                     (slice(None), *place)
@@ -130,7 +134,9 @@ def test_variants_side_by_side_are_what_each_is_alone(vary):
     "ripple", ["", "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }]"]
 )
 def test_an_engine_does_what_its_cylinders_do(ripple):
-    """Unlike cylinders: the sum of what each does alone, with a bound no smaller than that of any of them."""
+    """Unlike cylinders: the sum of what each does alone, with a bound no smaller than that of any
+    of them.
+    """
     text = (
         VEE
         + ripple
@@ -139,7 +145,7 @@ def test_an_engine_does_what_its_cylinders_do(ripple):
     built = build(parse(text))
     parts = [spectra(alone(built, number), LOW, QUANTITIES) for number in built.numbers]
     for quantity, whole in spectra(built, LOW, QUANTITIES).items():
-        each = [getattr(part, quantity) for part in parts]
+        each = [part[quantity.name] for part in parts]
         assert np.all(np.abs(sum(p.forward for p in each) - whole.forward) <= whole.noise), quantity
         assert np.all(np.abs(sum(p.backward for p in each) - whole.backward) <= whole.noise), (
             quantity
@@ -163,7 +169,9 @@ def test_a_heavy_device_has_a_bound_of_its_rounding(device):
 @pytest.mark.parametrize("name", ["articulated", "rotary"])
 @pytest.mark.parametrize("size", [0.0, 1e-6])
 def test_errors_of_a_curve_stay_within_the_bounds_of_the_forces(name, size):
-    """Both components off by their own bounds; a bound for the rounding of the sum even if they are exact."""
+    """Both components off by their own bounds; a bound for the rounding of the sum even if they are
+    exact.
+    """
     built = engine(**ENGINES[name])
     c = built.cylinders
     few, which = c.linkage.harmonics(LOW, c.lam, c.eps, rod=False, energy=False)

@@ -59,8 +59,9 @@ def test_piston_acceleration_of_two_terms():
 
 
 def test_beside_top_dead_centre():
-    """|cos t - lambda cos 2t| is largest where cos t = 1/(4 lambda) if lambda > 1/4: lambda + 1/(8 lambda); but
-    at pi it is 1 + lambda, which is more."""
+    """|cos t - lambda cos 2t| is largest where cos t = 1/(4 lambda) if lambda > 1/4: lambda + 1/(8
+    lambda); but at pi it is 1 + lambda, which is more.
+    """
     found = peak(curve((1, 0.5, 0.5), (2, -0.25, -0.25)))
     assert found.value == pytest.approx(1.5, rel=RELATIVE)
     assert found.theta == pytest.approx(np.pi, abs=1e-7)
@@ -73,7 +74,9 @@ def test_a_mean_counts():
 
 
 def test_a_narrow_peak_between_samples():
-    """All orders in step at an angle that no regular sampling meets: their sum there, and the angle itself."""
+    """All orders in step at an angle that no regular sampling meets: their sum there, and the angle
+    itself.
+    """
     orders, at = np.arange(1, 41), 1.2345678
     found = peak(
         curve(*[(n, 0.5 * np.exp(-1j * n * at), 0.5 * np.exp(1j * n * at)) for n in orders])
@@ -109,7 +112,9 @@ def test_random_curves_against_many_samples(seed):
 
 
 def test_of_equal_peaks_the_first_counts():
-    """|cos 3 theta| is 1 at 0, 60, 120 .. deg, |sin 3 theta| at 30, 90 ..; rounding must not choose."""
+    """|cos 3 theta| is 1 at 0, 60, 120 .. deg, |sin 3 theta| at 30, 90 ..; rounding must not
+    choose.
+    """
     for turned, first in (
         (1, 0.0),
         (1j, 30.0),

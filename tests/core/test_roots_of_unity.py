@@ -1,4 +1,6 @@
-"""Vanishing sums of roots of unity: the exact decision against polynomial division and against floating point."""
+"""Vanishing sums of roots of unity: the exact decision against polynomial division and against
+floating point.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,9 @@ from balcli.core.roots_of_unity import even, rational, turns, vanishes
 
 
 def cyclotomic(n: int) -> list[int]:
-    """Coefficients of the n-th cyclotomic polynomial, lowest first: x^n - 1 divided by those of all proper divisors."""
+    """Coefficients of the n-th cyclotomic polynomial, lowest first: x^n - 1 divided by those of all
+    proper divisors.
+    """
     poly = [-1] + [0] * (n - 1) + [1]
     for d in range(1, n):
         if n % d == 0:
@@ -42,7 +46,9 @@ def divisible(weights, angles) -> bool:
 
 
 def polygons(rng: random.Random, divisors: list[int]) -> tuple[list[int], list[Fraction]]:
-    """Regular polygons, turned and weighted at random, all of them vanishing sums; sometimes spoilt in one place."""
+    """Regular polygons, turned and weighted at random, all of them vanishing sums; sometimes spoilt
+    in one place.
+    """
     weights, angles = [], []
     for _ in range(rng.randint(1, 3)):
         corners, weight, start = (
@@ -88,7 +94,9 @@ def test_ten_thousand_layouts_against_floating_point():
 
 @pytest.mark.parametrize("k", [40, 60, 200])
 def test_what_floating_point_cannot_settle(k):
-    """`F_k psi + F_(k-1) = psi^k`, psi = (1 - sqrt 5)/2 = -2 cos 72 deg: far below the rounding error of its terms, but not 0."""
+    """`F_k psi + F_(k-1) = psi^k`, psi = (1 - sqrt 5)/2 = -2 cos 72 deg: far below the rounding
+    error of its terms, but not 0.
+    """
     fibonacci = [0, 1]
     while len(fibonacci) <= k:
         fibonacci.append(fibonacci[-1] + fibonacci[-2])

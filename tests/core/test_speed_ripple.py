@@ -146,7 +146,8 @@ def test_amplitudes_of_more_than_one_may_leave_the_crank_turning():
 def test_a_crank_that_stops_or_turns_back_is_refused(lines, what):
     tables = [{"order": n, "amplitude": a, "angle": angle} for n, a, angle in lines]
     assert refused(operation={"speed": 60, "speed_ripple": tables}) == (
-        f"engine: operation.speed_ripple: the crank would {what}; it must stay above 0: make the amplitudes smaller, they are shares of "
+        f"engine: operation.speed_ripple: the crank would {what}; it must stay above 0: make the "
+        "amplitudes smaller, they are shares of "
         "the mean speed (0.01 is one per cent)"
     )
 
@@ -193,8 +194,9 @@ def test_the_rounding_error_grows_with_the_parts_and_never_vanishes_where_they_d
 @pytest.mark.parametrize("mean", [0.0, 300.0, -300.0])
 @pytest.mark.parametrize("lines", [[(2, 0.3, 40.0)], [(1, 0.2, 170.0), (3, 0.1, -120.0)]])
 def test_the_bound_holds_for_errors_of_the_parts(lines, mean):
-    """Errors of the size that the parts' noise tells, with signs as they come, move no order by more than the bound; and the bound
-    knows of lines no more than their sizes."""
+    """Errors of the size that the parts' noise tells, with signs as they come, move no order by
+    more than the bound; and the bound knows of lines no more than their sizes.
+    """
     w, level = ripple.speed(lines), ripple.speed([(order, size, 0.0) for order, size, _ in lines])
     random = np.random.default_rng(7)
     for rule in (ripple.force, ripple.torque):
@@ -221,7 +223,9 @@ def test_the_bound_holds_for_errors_of_the_parts(lines, mean):
 
 @pytest.mark.parametrize("mean", [300.0, -300.0])
 def test_a_mean_momentum_is_rounded_too(mean):
-    """Where nothing else is, the force is `-W W' mean`, and its bound not below its own rounding."""
+    """Where nothing else is, the force is `-W W' mean`, and its bound not below its own
+    rounding.
+    """
     nothing = Phasors(ORDERS, np.zeros(15, complex), np.zeros(15, complex), np.zeros(15))
     for rule in (ripple.force, ripple.torque):
         found = rule(nothing, ripple.speed([(2, 0.3, 40.0)]), mean)
@@ -231,7 +235,9 @@ def test_a_mean_momentum_is_rounded_too(mean):
 
 
 def test_at_steady_speed_nothing_changes_not_even_the_bound():
-    """W = 1: the orders come back, each with the error it had (of the torque and of a force alike)."""
+    """W = 1: the orders come back, each with the error it had (of the torque and of a force
+    alike).
+    """
     noise = 1e-16 * np.arange(1.0, 16.0)
     steady = Phasors(ORDERS, FORWARD.astype(complex), BACKWARD.astype(complex), noise)
     for rule in (

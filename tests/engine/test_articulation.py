@@ -1,4 +1,6 @@
-"""Articulated rods: what the file may say, strokes and dead centres, and what distinguishes them from equal rods."""
+"""Articulated rods: what the file may say, strokes and dead centres, and what distinguishes them
+from equal rods.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +42,8 @@ def mistakes(*changes: tuple[str, str], more: str = "") -> list[str]:
         (
             [("radial = 7", "")],
             "",
-            "articulation: needs a throw that carries the rods of several banks; this engine has 1 bank: "
+            "articulation: needs a throw that carries the rods of several banks; this engine has "
+            "1 bank: "
             "give bank_angle, banks or radial",
         ),
         (
@@ -49,7 +52,8 @@ def mistakes(*changes: tuple[str, str], more: str = "") -> list[str]:
                 ("stroke = 120", "stroke = 120\nthrows = [0, 90]"),
             ],
             "",
-            'articulation: needs a throw that carries the rods of several banks; this engine has 2 banks with rods = "alternating", '
+            "articulation: needs a throw that carries the rods of several banks; this engine has "
+            '2 banks with rods = "alternating", '
             'one rod a throw: give rods = "shared"',
         ),
         (
@@ -60,7 +64,8 @@ def mistakes(*changes: tuple[str, str], more: str = "") -> list[str]:
         (
             [("[articulation]", "[articulation]\nknuckle_angles = [0, 72]")],
             "",
-            "articulation.knuckle_angles: has 2 angles for 7 banks: give one for each, the master's own is 0",
+            "articulation.knuckle_angles: has 2 angles for 7 banks: give one for each, the "
+            "master's own is 0",
         ),
         (
             [
@@ -70,17 +75,20 @@ def mistakes(*changes: tuple[str, str], more: str = "") -> list[str]:
                 )
             ],
             "",
-            "articulation.knuckle_angles: has 3 for bank 1, which carries the master rod: its own is 0",
+            "articulation.knuckle_angles: has 3 for bank 1, which carries the master rod: its own "
+            "is 0",
         ),
         (
             [("stroke = 120", "stroke = 120\nsplay = 10")],
             "",
-            "crank.splay: articulated rods hang on the master rod and have no crank pins to split: leave splay out, or [articulation]",
+            "crank.splay: articulated rods hang on the master rod and have no crank pins to "
+            "split: leave splay out, or [articulation]",
         ),
         (
             [],
             "[cylinder.3]\nthrow = 20\n",
-            "cylinder.3.throw: cylinder 3 has an articulated rod, which hangs on the master rod and not on "
+            "cylinder.3.throw: cylinder 3 has an articulated rod, which hangs on the master rod "
+            "and not on "
             "a crank pin: leave this out",
         ),
     ],
@@ -103,7 +111,9 @@ def test_the_masters_own_knuckle_angle_does_not_vary():
 
 
 def test_a_rod_that_cannot_follow_names_the_cylinder_and_the_crank_angle():
-    """Cylinder 3's knuckle pin, on a grid of a quarter of a degree, leaves the cylinder's axis by more than its rod is long."""
+    """Cylinder 3's knuckle pin, on a grid of a quarter of a degree, leaves the cylinder's axis by
+    more than its rod is long.
+    """
     degrees = np.arange(0, 360, 0.25)
     theta, bank = np.radians(degrees), math.radians(720 / 7)
     lean = np.arcsin(60 / 240 * np.sin(theta))
@@ -112,8 +122,10 @@ def test_a_rod_that_cannot_follow_names_the_cylinder_and_the_crank_angle():
     )
     first, *rest = mistakes(("length = 188", "length = 60"), ("cg = 90", "cg = 30"))
     found = re.fullmatch(
-        r"articulation\.rod\.length: the crank cannot turn: at crank angle ([\d.]+) deg the knuckle pin of cylinder 3 "
-        r"stands ([\d.]+) rod lengths beside the path of its piston pin; at most 1 - 1e-06 is allowed: "
+        r"articulation\.rod\.length: the crank cannot turn: at crank angle ([\d.]+) deg the "
+        r"knuckle pin of cylinder 3 "
+        r"stands ([\d.]+) rod lengths beside the path of its piston pin; at most 1 - 1e-06 is "
+        r"allowed: "
         r"make the articulated rod longer or the knuckle radius smaller",
         first,
     )
@@ -148,7 +160,9 @@ def test_strokes_and_dead_centres_against_fine_sampling(offset):
 
 
 def test_an_offset_slider_crank_has_its_stroke_in_closed_form():
-    """Stroke sqrt((l+r)^2 - e^2) - sqrt((l-r)^2 - e^2), dead centres where crank and rod are in line."""
+    """Stroke sqrt((l+r)^2 - e^2) - sqrt((l-r)^2 - e^2), dead centres where crank and rod are in
+    line.
+    """
     text = "[crank]\nstroke = 80\n[rod]\nlength = 140\n[piston]\nmass = 1\noffset = 10\n"
     found = travel(engine.build(enginefile.parse(text)).cylinders)
     assert found.stroke[0] * 1e3 == pytest.approx(
@@ -160,7 +174,9 @@ def test_an_offset_slider_crank_has_its_stroke_in_closed_form():
 
 # ------------------------------------------------------------------ forces
 def test_a_radial_with_a_master_rod_shakes_forward_in_the_second_order():
-    """Equal rods on one pin: no second order at all. A master rod: a vector that turns with the crank, and little against it."""
+    """Equal rods on one pin: no second order at all. A master rod: a vector that turns with the
+    crank, and little against it.
+    """
     equal = RADIAL[: RADIAL.index("[articulation]")]
     before, after = (
         spectrum.spectra(e, [2.0], ["force"]).force
@@ -174,7 +190,9 @@ def test_a_radial_with_a_master_rod_shakes_forward_in_the_second_order():
 
 @pytest.mark.parametrize("angles", [(0, 60, 120), (0, 60, -60), (0, 120, -120)])
 def test_knuckles_that_differ_in_one_component_alone(angles):
-    """Two rods in one direction, hung on opposite sides of the master's big end: against the momentum of every part."""
+    """Two rods in one direction, hung on opposite sides of the master's big end: against the
+    momentum of every part.
+    """
     text = RADIAL.replace("radial = 7", "banks = [0, 60, 60]").replace(
         "knuckle_radius", f"knuckle_angles = {list(angles)}\nknuckle_radius"
     )
@@ -187,10 +205,10 @@ def test_knuckles_that_differ_in_one_component_alone(angles):
         [1.0, 2.0, 3.0],
     )
     for quantity, phasors in found.items():
-        size = max(sum(map(abs, want.order(quantity, n))) for n in (1, 2, 3))
+        size = max(sum(map(abs, want.order(quantity.name, n))) for n in (1, 2, 3))
         for row, n in enumerate((1, 2, 3)):
             assert (phasors.forward[row], phasors.backward[row]) == pytest.approx(
-                want.order(quantity, n), abs=1e-10 * size + 1e-9
+                want.order(quantity.name, n), abs=1e-10 * size + 1e-9
             )
 
 
@@ -216,7 +234,9 @@ def highest(c):
 @pytest.mark.parametrize("angle", [60, 89.999, 90, 90.001, 120, 180])
 @pytest.mark.parametrize("rotary", ["", "rotary = true"])
 def test_few_orders_far_from_the_lock(angle, rotary):
-    """Wherever the master's crank angle comes to a multiple of 90 degrees in a cylinder's frame, too."""
+    """Wherever the master's crank angle comes to a multiple of 90 degrees in a cylinder's frame,
+    too.
+    """
     for master in (1, 2):
         e = built(
             ("radial = 7", f"bank_angle = {angle}\n{rotary}"),
@@ -227,7 +247,9 @@ def test_few_orders_far_from_the_lock(angle, rotary):
 
 
 def test_variants_on_a_trailing_axis():
-    """A sweep of knuckle radius and rod length gives what each variant alone gives, also at an uneven speed."""
+    """A sweep of knuckle radius and rod length gives what each variant alone gives, also at an
+    uneven speed.
+    """
     file = enginefile.parse(
         RADIAL + "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.1, angle = 20 }]\n"
     )

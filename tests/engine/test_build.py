@@ -95,7 +95,9 @@ def test_pendulum(pivot, arm):
 
 
 def test_a_rod_of_its_own():
-    """What a cylinder gives displaces what the engine says otherwise of the same thing; the rest stays."""
+    """What a cylinder gives displaces what the engine says otherwise of the same thing; the rest
+    stays.
+    """
     e = engine(
         crank={"throws": [0, 120, 240]},
         rod={"length": 200, "mass": 0.6, "cg": 50, "inertia": 4000},
@@ -139,14 +141,24 @@ def test_a_free_layout():
         },
     )
     c = e.cylinders
-    axis = np.repeat(c.axis_deg, np.diff([*c.starts, c.count]))
     rows = {
         n: (float(a), float(p), float(z))
-        for n, a, p, z in zip(e.numbers, axis, c.pin_deg, c.z, strict=True)
+        for n, a, p, z in zip(e.numbers, c.axis_of_each_deg, c.pin_deg, c.z, strict=True)
     }
     assert rows == {1: (30, 0, -0.07), 2: (-30, 90, 0), 3: (30, 180, 0.08)}
+    assert list(c.axis_deg) == [30, -30]
     assert c.axis_deg[c.first] == 30
     assert e.reference_m == pytest.approx((0, 0, 0.005))
+
+
+def test_cylinders_on_equal_axes_are_one_bank_however_the_file_says_so():
+    turned = engine(
+        crank={"throws": [0, 180, 180, 0]},
+        cylinder={str(number): {"bank": 45} for number in range(1, 5)},
+    )
+    assert list(turned.cylinders.axis_deg) == [45]
+    assert list(engine(layout={"banks": [30, -30, 30]}).cylinders.axis_deg) == [30, -30]
+    assert list(engine(layout={"bank_angle": 0}).cylinders.axis_deg) == [0]
 
 
 def test_pins_count_from_cylinder_1s_which_may_be_in_the_second_bank():
@@ -179,7 +191,9 @@ def test_a_throw_mass_is_shared_by_the_pins_of_its_throw():
 
 # ------------------------------------------------------------------ devices
 def test_devices():
-    """A counterweight counts from pin 1, a shaft and a slider from the x axis; unbalance or mass and radius."""
+    """A counterweight counts from pin 1, a shaft and a slider from the x axis; unbalance or mass
+    and radius.
+    """
     e = engine(
         crank={"throws": [0]},
         layout={"banks": [45, -45]},
@@ -229,28 +243,35 @@ def test_uneven_speed():
     [
         (
             {"cylinder": {"3": {"piston_mass": 1}}},
-            "cylinder.3: there is no cylinder 3: crank.throws and layout make 1 cylinder; give every throw its angle in crank.throws",
+            "cylinder.3: there is no cylinder 3: crank.throws and layout make 1 cylinder; give "
+            "every throw its angle in crank.throws",
         ),
         (
             {"rod": {"length": 50}},
-            "rod.length: the crank cannot turn: crank radius 50 mm over rod length 50 mm is lambda = 1; "
+            "rod.length: the crank cannot turn: crank radius 50 mm over rod length 50 mm is "
+            "lambda = 1; "
             "at most 1 - 1e-06 is allowed: make the rod longer",
         ),
         (
             {"rod": {"length": 65}, "piston": {"mass": 1, "offset": -20}},
-            "rod.length: the crank cannot turn: crank radius 50 mm over rod length 65 mm is lambda = 0.769230769, with the "
-            "piston offset of 20 mm lambda + |offset|/length = 1.07692308; at most 1 - 1e-06 is allowed: make the rod longer "
+            "rod.length: the crank cannot turn: crank radius 50 mm over rod length 65 mm is "
+            "lambda = 0.769230769, with the "
+            "piston offset of 20 mm lambda + |offset|/length = 1.07692308; at most 1 - 1e-06 is "
+            "allowed: make the rod longer "
             "or the offset smaller",
         ),
         (
             {"crank": {"throws": [0, 0]}, "cylinder": {"2": {"rod_length": 40}}},
-            "cylinder.2.rod_length: the crank cannot turn: crank radius 50 mm over rod length 40 mm is lambda = 1.25; "
+            "cylinder.2.rod_length: the crank cannot turn: crank radius 50 mm over rod length 40 "
+            "mm is lambda = 1.25; "
             "at most 1 - 1e-06 is allowed: make the rod longer",
         ),
         (
             {"rod": {"ratio": 0.25}, "piston": {"mass": 1, "offset": 150}},
-            "rod.ratio: the crank cannot turn: crank radius 50 mm over rod length 200 mm is lambda = 0.25, with the piston "
-            "offset of 150 mm lambda + |offset|/length = 1; at most 1 - 1e-06 is allowed: make the rod longer or the offset "
+            "rod.ratio: the crank cannot turn: crank radius 50 mm over rod length 200 mm is "
+            "lambda = 0.25, with the piston "
+            "offset of 150 mm lambda + |offset|/length = 1; at most 1 - 1e-06 is allowed: make "
+            "the rod longer or the offset "
             "smaller",
         ),
     ],
@@ -268,8 +289,10 @@ def test_a_pendulum_that_swings_too_quickly_for_a_cylinders_own_rod():
     )
     inertia = (STANDARD_GRAVITY * 0.15 * (0.1 / 2 / math.pi) ** 2 - 0.15**2) * 1e6
     assert text == (
-        "engine: cylinder.2.rod_pendulum: the period is too quick for the distance of its pivot from the centre of "
-        f"mass: the moment of inertia about it would be {inertia:g} kg mm2 (period: a full swing, s)"
+        "engine: cylinder.2.rod_pendulum: the period is too quick for the distance of its pivot "
+        "from the centre of "
+        f"mass: the moment of inertia about it would be {inertia:g} kg mm2 (period: a full swing, "
+        "s)"
     )
 
 
@@ -291,16 +314,21 @@ def test_a_pendulum_that_swings_too_quickly_for_a_cylinders_own_rod():
     ],
 )
 def test_a_centre_of_mass_outside_the_rod_needs_an_inertia(parts, message):
-    """Two masses at the ends would have m s_a s_b < 0; with its own inertia it is a rod like any other."""
+    """Two masses at the ends would have m s_a s_b < 0; with its own inertia it is a rod like any
+    other.
+    """
     assert refused(**parts) == (
-        f"engine: {message}, and two masses at its ends cannot stand for such a rod, one would be negative: give a cg from 0 to 200 mm, "
+        f"engine: {message}, and two masses at its ends cannot stand for such a rod, one would be "
+        "negative: give a cg from 0 to 200 mm, "
         "or the rod's inertia"
     )
     assert engine(**parts | {"rod": parts["rod"] | {"inertia": 1000}}).cylinders.count == 1
 
 
 def test_a_rod_weighed_at_one_end_hides_no_other_mistake():
-    """Its own cylinder and all others are looked at, whatever else is wrong with the lay-out or with one table."""
+    """Its own cylinder and all others are looked at, whatever else is wrong with the lay-out or
+    with one table.
+    """
     cylinders = {
         "1": {"rod_small_end": 0.2},
         "2": {"rod_length": 30},
@@ -308,10 +336,12 @@ def test_a_rod_weighed_at_one_end_hides_no_other_mistake():
     }
     found = [
         "cylinder.1.rod_small_end: needs rod_big_end beside it: weigh the rod at both ends",
-        "cylinder.2.rod_length: the crank cannot turn: crank radius 50 mm over rod length 30 mm is lambda = 1.66666667; "
+        "cylinder.2.rod_length: the crank cannot turn: crank radius 50 mm over rod length 30 mm "
+        "is lambda = 1.66666667; "
         "at most 1 - 1e-06 is allowed: make the rod longer",
         "cylinder.3.rod_big_end: needs rod_small_end beside it: weigh the rod at both ends",
-        "cylinder.3.rod_length: the crank cannot turn: crank radius 50 mm over rod length 35 mm is lambda = 1.42857143; "
+        "cylinder.3.rod_length: the crank cannot turn: crank radius 50 mm over rod length 35 mm "
+        "is lambda = 1.42857143; "
         "at most 1 - 1e-06 is allowed: make the rod longer",
     ]
     crank = {"throws": [0, 0, 0]}

@@ -50,7 +50,9 @@ def fires(**parts):
     ],
 )
 def test_throws_follow_from_the_firing_order(layout, wanted):
-    """Pins of in-line engines are minus the firing angle; the rest are the shared pins of real engines."""
+    """Pins of in-line engines are minus the firing angle; the rest are the shared pins of real
+    engines.
+    """
     assert pins(layout=layout) == wanted
 
 
@@ -63,7 +65,9 @@ def test_the_first_bank_fires_405_and_315_degrees_apart_in_a_45_degree_v_twin():
 
 
 def test_vr6_pins_of_neighbours_are_split_by_the_offset_of_the_banks():
-    """a_2 = g_2 - g_1 + tau_2 - tau_1 - f_2, sin tau = e/(r + l): 15 degrees of bank and twice tau of the offset."""
+    """a_2 = g_2 - g_1 + tau_2 - tau_1 - f_2, sin tau = e/(r + l): 15 degrees of bank and twice tau
+    of the offset.
+    """
     e = engine(
         crank={"stroke": 90, "spacing": 65},
         rod={"length": 164},
@@ -163,16 +167,20 @@ def test_given_both_they_must_agree():
         crank={"throws": [0, 180, 180, 0]},
         layout={"firing_order": [1, 2, 3, 4], "firing_intervals": [180] * 4},
     ) == (
-        "engine: layout.firing_order: cylinder 3 is not at top dead centre when it fires: its crank pin stands 180 deg "
-        "ahead of cylinder 1's, and would have to stand at 0 deg (allowed difference 1 deg); change crank.throws, "
+        "engine: layout.firing_order: cylinder 3 is not at top dead centre when it fires: its "
+        "crank pin stands 180 deg "
+        "ahead of cylinder 1's, and would have to stand at 0 deg (allowed difference 1 deg); "
+        "change crank.throws, "
         "crank.splay, firing_order or firing_intervals, or leave crank.throws out"
     )
 
 
 def test_an_order_that_takes_more_than_a_cycle():
     assert refused(crank={"throws": [0, 180, 180, 0]}, layout={"firing_order": [1, 4, 2, 3]}) == (
-        "engine: layout.firing_order: 1-4-2-3 would take 1080 deg with these throws, a cycle has 720; firing evenly, "
-        "every 180 deg, cylinder 4 is the first that is not at top dead centre when it fires (allowed difference 1 "
+        "engine: layout.firing_order: 1-4-2-3 would take 1080 deg with these throws, a cycle has "
+        "720; firing evenly, "
+        "every 180 deg, cylinder 4 is the first that is not at top dead centre when it fires "
+        "(allowed difference 1 "
         "deg): change firing_order or crank.throws, or leave crank.throws out"
     )
 
@@ -180,8 +188,10 @@ def test_an_order_that_takes_more_than_a_cycle():
 def test_shared_pins_that_an_order_cannot_have():
     """Throws from the first bank, and then the second bank must agree with them."""
     assert refused(layout={"firing_order": [1, 2, 3, 4], "bank_angle": 60}) == (
-        "engine: layout.firing_order: cylinder 3 is not at top dead centre when it fires: its crank pin stands 0 deg "
-        "ahead of cylinder 1's, and would have to stand at 60 deg (allowed difference 1 deg); change crank.splay, "
+        "engine: layout.firing_order: cylinder 3 is not at top dead centre when it fires: its "
+        "crank pin stands 0 deg "
+        "ahead of cylinder 1's, and would have to stand at 60 deg (allowed difference 1 deg); "
+        "change crank.splay, "
         "firing_order or firing_intervals, or give crank.throws and no firing_order"
     )
 
@@ -201,12 +211,14 @@ def test_a_degree_is_forgiven(throw, good):
 
 
 def test_the_first_cylinder_that_cannot_fire_in_time_is_named():
-    """Cylinders 2, 3 and 4 come to top dead centre at 170, 160 and 150 deg: 1-2-3-4 waits 170 + 350 + 350 + 210 deg."""
+    """Cylinders 2, 3 and 4 come to top dead centre at 170, 160 and 150 deg: 1-2-3-4 waits 170 + 350
+    + 350 + 210 deg.
+    """
     pin = {1: 0.0, 2: -170.0, 3: -160.0, 4: -150.0}
     found = from_pins([1, 2, 3, 4], pin, dict.fromkeys(pin, 0.0), 720.0)
     assert (
-        "1-2-3-4 would take 1080 deg with these throws, a cycle has 720; firing evenly, every 180 deg, cylinder 2 is the"
-        in str(found)
+        "1-2-3-4 would take 1080 deg with these throws, a cycle has 720; firing evenly, every 180 "
+        "deg, cylinder 2 is the" in str(found)
     )
 
 

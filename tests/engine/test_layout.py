@@ -127,12 +127,14 @@ ONCE = "each of the cylinders 1 to {} must stand once"
     [
         (
             {"crank": {"throws": [0, 90]}, "layout": {"banks": [0, 30, 60], "rods": "alternating"}},
-            'layout.rods: "alternating" gives every throw one rod, but there are 3 banks and only 2 throws: '
+            'layout.rods: "alternating" gives every throw one rod, but there are 3 banks and only '
+            "2 throws: "
             'give more throws, or "shared"',
         ),
         (
             {"layout": {"banks": [0, 30], "rods": "alternating"}},
-            'layout.rods: "alternating" gives every throw one rod, but there are 2 banks and only 1 throw: '
+            'layout.rods: "alternating" gives every throw one rod, but there are 2 banks and only '
+            "1 throw: "
             'give more throws, or "shared"',
         ),
         (
@@ -173,7 +175,8 @@ ONCE = "each of the cylinders 1 to {} must stand once"
         ),
         (
             {"crank": {"throws": [0, 180, 180, 0]}, "layout": {"firing_order": [1, 7]}},
-            f"layout.firing_order: there is no cylinder 7, cylinders 2, 3, 4 are missing: {ONCE.format(4)}",
+            "layout.firing_order: there is no cylinder 7, cylinders 2, 3, 4 are missing: "
+            f"{ONCE.format(4)}",
         ),
     ],
 )

@@ -1,4 +1,6 @@
-"""Reading engine files: every mistake at once, by its path, in words; nothing that a file holds can do harm."""
+"""Reading engine files: every mistake at once, by its path, in words; nothing that a file holds can
+do harm.
+"""
 
 from __future__ import annotations
 
@@ -107,7 +109,8 @@ def test_standard_input(monkeypatch):
         ),
         (
             changed(("stroke = 90", "stroke = 90\nxyz = 1")),
-            "crank.xyz: is no key of [crank]; it has stroke, throws, spacing, positions, throw_mass, splay",
+            "crank.xyz: is no key of [crank]; it has stroke, throws, spacing, positions, "
+            "throw_mass, splay",
         ),
         (
             changed(("[piston]", "[pistons]\nmass = 0.5\n[piston]")),
@@ -151,15 +154,18 @@ def test_standard_input(monkeypatch):
         ),
         (
             changed(("speed = 3000", "speed_ripple = [{ order = 1.5, amplitude = 0.01 }]")),
-            "operation.speed_ripple.1.order: 1.5 is not a whole number; a whole number from 1 to 256 is wanted",
+            "operation.speed_ripple.1.order: 1.5 is not a whole number; a whole number from 1 to "
+            "256 is wanted",
         ),
         (
             changed(("speed = 3000", "speed_ripple = [{ order = 1, amplitude = 2 }]")),
-            "operation.speed_ripple.1.amplitude: 2 is more than 1; a plain number is wanted, without quotes, up to 1",
+            "operation.speed_ripple.1.amplitude: 2 is more than 1; a plain number is wanted, "
+            "without quotes, up to 1",
         ),
         (
             changed(("speed = 3000", "speed_ripple = [3]")),
-            "operation.speed_ripple: the 1st value 3 is not a table; write it in braces with its keys",
+            "operation.speed_ripple: the 1st value 3 is not a table; write it in braces with its "
+            "keys",
         ),
         (
             changed(("speed = 3000", "speed_ripple = [{ order = 1, amplitud = 0.1 }]")),
@@ -198,7 +204,8 @@ def test_standard_input(monkeypatch):
         ),
         (
             GOOD + "[cylinder.x]\npiston_mass = 1\n",
-            "cylinder.x: does not name a cylinder; write [cylinder.3] for what differs in cylinder 3",
+            "cylinder.x: does not name a cylinder; write [cylinder.3] for what differs in "
+            "cylinder 3",
         ),
         (
             GOOD + "[cylinder]\n3 = 5\n",

@@ -1,4 +1,6 @@
-"""Keys of an engine file's text are changed, and all else stays: comments, lay-out, other tables."""
+"""Keys of an engine file's text are changed, and all else stays: comments, lay-out, other
+tables.
+"""
 
 from __future__ import annotations
 

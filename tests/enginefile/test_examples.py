@@ -1,4 +1,6 @@
-"""The shipped examples: all are listed, each is the file of the repository, and a wheel has them."""
+"""The shipped examples: all are listed, each is the file of the repository, and a wheel has
+them.
+"""
 
 from __future__ import annotations
 

@@ -147,11 +147,13 @@ def test_unusual_but_allowed(text):
         ),
         (
             changed(("cg = 45", "cg = 45\nsmall_end = 0.2")),
-            "e.toml: rod: has mass, cg and small_end; give either mass and cg or small_end and big_end",
+            "e.toml: rod: has mass, cg and small_end; give either mass and cg or small_end and "
+            "big_end",
         ),
         (
             changed(("mass = 0.6\ncg = 45", "small_end = 0.2")),
-            "e.toml: rod: has small_end without big_end; weigh the rod at both ends, or give mass and cg",
+            "e.toml: rod: has small_end without big_end; weigh the rod at both ends, or give mass "
+            "and cg",
         ),
         (
             changed(
@@ -181,18 +183,21 @@ def test_unusual_but_allowed(text):
         ),
         (
             changed(("[layout]", "[layout]\nnumbering = [[1, 2], [2, 1]]")),
-            "e.toml: layout: numbering has cylinder 1 and 2 more than once; name every cylinder once",
+            "e.toml: layout: numbering has cylinder 1 and 2 more than once; name every cylinder "
+            "once",
         ),
         (
             changed(("[1, 3, 4, 2]", "[1, 3, 4, 2]\nfiring_intervals = [180, 180, 180]")),
             (
-                "e.toml: layout: firing_intervals has 3 intervals for 4 firings; give one for each, the last "
+                "e.toml: layout: firing_intervals has 3 intervals for 4 firings; give one for "
+                "each, the last "
                 "one back to the first cylinder"
             ),
         ),
         (
             changed(("[1, 3, 4, 2]", "[1, 3, 4, 2]\nfiring_intervals = [180, 180, 180, 160]")),
-            "e.toml: layout: firing_intervals add up to 700 degrees; the cycle of a 4-stroke has 720 (within 0.5)",
+            "e.toml: layout: firing_intervals add up to 700 degrees; the cycle of a 4-stroke has "
+            "720 (within 0.5)",
         ),
         (
             changed(("firing_order = [1, 3, 4, 2]", "firing_intervals = [180, 180, 180, 180]")),
@@ -201,21 +206,25 @@ def test_unusual_but_allowed(text):
         (
             GOOD + "[[counterweight]]\nangle = 180\n",
             (
-                "e.toml: counterweight.1: has neither unbalance nor mass and radius; give either unbalance or "
+                "e.toml: counterweight.1: has neither unbalance nor mass and radius; give either "
+                "unbalance or "
                 "mass and radius"
             ),
         ),
         (
             GOOD + "[[counterweight]]\nunbalance = 1\n[[counterweight]]\nmass = 1\n",
-            "e.toml: counterweight.2: has mass without radius; give either unbalance or mass and radius",
+            "e.toml: counterweight.2: has mass without radius; give either unbalance or mass and "
+            "radius",
         ),
         (
             GOOD + "[[shaft]]\nunbalance = 1\nratio = 0\n",
-            "e.toml: shaft.1.ratio: 0 is out of range; a whole number from -1000 to 1000, not 0, is wanted",
+            "e.toml: shaft.1.ratio: 0 is out of range; a whole number from -1000 to 1000, not 0, "
+            "is wanted",
         ),
         (
             GOOD + "[[shaft]]\nunbalance = 1\nratio = 1.5\n",
-            "e.toml: shaft.1.ratio: 1.5 is not a whole number; a whole number from -1000 to 1000, not 0, is wanted",
+            "e.toml: shaft.1.ratio: 1.5 is not a whole number; a whole number from -1000 to 1000, "
+            "not 0, is wanted",
         ),
     ],
 )
@@ -224,12 +233,15 @@ def test_contradictions(text, message):
 
 
 def test_a_pendulum_is_never_quicker_than_a_point_mass():
-    """J_g = m (g h T^2 / 4 pi^2 - h^2) is positive just above the period of a point mass at h, here 160 - 45 mm."""
+    """J_g = m (g h T^2 / 4 pi^2 - h^2) is positive just above the period of a point mass at h, here
+    160 - 45 mm.
+    """
     shortest = 2 * math.pi * math.sqrt(0.115 / 9.80665)
     text = 'cg = 45\npendulum = {{ pivot = "small_end", period = {!r} }}'
     parse(changed(("cg = 45", text.format(shortest * 1.000001))))
     assert refusal(changed(("cg = 45", text.format(0.1)))) == (
-        "e.toml: rod: pendulum.period 0.1 s is too quick: with the centre of mass 115 mm from the pivot a full swing "
+        "e.toml: rod: pendulum.period 0.1 s is too quick: with the centre of mass 115 mm from the "
+        "pivot a full swing "
         f"takes more than {shortest:.4g} s"
     )
     ends = changed(

@@ -89,5 +89,9 @@ def test_units_and_bounds():
 
 
 def test_it_needs_no_numpy():
-    code = "import sys; from balcli.enginefile.schema import schema; schema(); sys.exit('numpy' in sys.modules)"
+    code = (
+        "import sys; from balcli.enginefile.schema import schema; schema(); sys.exit('numpy' "
+        "in "
+        "sys.modules)"
+    )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -23,18 +23,21 @@ def test_ordinary_engines_pass(text):
                 ("mass = 0.5", "mass = 65"), ("bore = 86", "bore = 80"), ("mass = 0.6", "mass = 60")
             ),
             (
-                "piston.mass is 65 kg in a bore of 80 mm, where 0.051 to 2.6 kg is usual; are the units right? "
+                "piston.mass is 65 kg in a bore of 80 mm, where 0.051 to 2.6 kg is usual; are the "
+                "units right? "
                 "Bare numbers are kg and mm"
             ),
         ),
         (
             changed(("mass = 0.5", "mass = 0")),
-            "piston.mass is 0: only the rod moves to and fro; give the mass of piston, rings, pin and clips",
+            "piston.mass is 0: only the rod moves to and fro; give the mass of piston, rings, pin "
+            "and clips",
         ),
         (
             changed(("length = 160", "length = 100")),
             (
-                "crank radius / rod length is 0.45, where 0.15 to 0.4 is usual; crank.stroke is twice the "
+                "crank radius / rod length is 0.45, where 0.15 to 0.4 is usual; crank.stroke is "
+                "twice the "
                 "crank radius, "
                 "rod.length the distance of its two centres"
             ),
@@ -42,7 +45,8 @@ def test_ordinary_engines_pass(text):
         (
             changed(("length = 160", "ratio = 0.1")),
             (
-                "crank radius / rod length is 0.1, where 0.15 to 0.4 is usual; crank.stroke is twice the crank radius, "
+                "crank radius / rod length is 0.1, where 0.15 to 0.4 is usual; crank.stroke is "
+                "twice the crank radius, "
                 "rod.length the distance of its two centres"
             ),
         ),
@@ -52,27 +56,32 @@ def test_ordinary_engines_pass(text):
                 ("mass = 0.5", "mass = 20"),
                 ("mass = 0.6", "mass = 16"),
             ),
-            "piston.bore / crank.stroke is 3.333, where 0.2 to 3 is usual; are both in the same unit?",
+            "piston.bore / crank.stroke is 3.333, where 0.2 to 3 is usual; are both in the same "
+            "unit?",
         ),
         (
             changed(("mass = 0.6\ncg = 45", "small_end = 1.2\nbig_end = 3.8")),
-            "the rod weighs 5 kg, 10 times the piston, where 0.1 to 8 times is usual; are both in the same unit?",
+            "the rod weighs 5 kg, 10 times the piston, where 0.1 to 8 times is usual; are both in "
+            "the same unit?",
         ),
         (
             changed(("cg = 45\n", "")),
-            "rod.cg is not given: all of the rod counts at the crank pin; measure it from the big-end centre",
+            "rod.cg is not given: all of the rod counts at the crank pin; measure it from the "
+            "big-end centre",
         ),
         (
             changed(("cg = 45", "cg = -45")),
             (
-                "rod.cg is -45 mm, outside the rod (0 to 160 mm); it is measured from the big-end centre "
+                "rod.cg is -45 mm, outside the rod (0 to 160 mm); it is measured from the big-end "
+                "centre "
                 "towards the small end"
             ),
         ),
         (
             changed(("cg = 45", "cg = 45\ninertia = 0.0023")),
             (
-                "rod.inertia is 0.0023 kg mm^2, where 307 to 6.14e+03 is usual for 0.6 kg and 160 mm; it is "
+                "rod.inertia is 0.0023 kg mm^2, where 307 to 6.14e+03 is usual for 0.6 kg and 160 "
+                "mm; it is "
                 "taken about the centre "
                 "of mass, in kg mm^2"
             ),
@@ -80,7 +89,8 @@ def test_ordinary_engines_pass(text):
         (
             changed(("speed = 3000", "speed = 30000")),
             (
-                "the mean piston speed is 90 m/s at 30000 rpm and a stroke of 90 mm, more than 40; are "
+                "the mean piston speed is 90 m/s at 30000 rpm and a stroke of 90 mm, more than "
+                "40; are "
                 "operation.speed and "
                 "crank.stroke right?"
             ),
@@ -95,18 +105,21 @@ def test_ordinary_engines_pass(text):
                 ("spacing = 100", "positions = [-90, -30, 40, 90]"),
             ),
             (
-                "layout.stagger is 220 mm, more than the distance of neighbouring throws (50 mm); it is the "
+                "layout.stagger is 220 mm, more than the distance of neighbouring throws (50 mm); "
+                "it is the "
                 "distance of two rods "
                 "on one throw"
             ),
         ),
         (
             changed(
-                more="[[counterweight]]\nunbalance = 10\n[[counterweight]]\nmass = 40\nradius = 60\n"
+                more="[[counterweight]]\nunbalance = 10\n[[counterweight]]\nmass = 40\nradius = "
+                "60\n"
             ),
             # 5 x (4 x 0.8 + 4 x (0.5 + 0.6)) kg x 45 mm
             (
-                "counterweight.2: its unbalance is 2.4e+06 g mm, more than 5 times all moving masses at the "
+                "counterweight.2: its unbalance is 2.4e+06 g mm, more than 5 times all moving "
+                "masses at the "
                 "crank radius (1.71e+06); "
                 "is it in g mm?"
             ),
@@ -118,7 +131,9 @@ def test_warnings(text, warning):
 
 
 def test_moving_masses_count_every_rod_of_a_vee():
-    """A weight that would be too much for four rods is not for the eight of a vee, nor for a radial's nine."""
+    """A weight that would be too much for four rods is not for the eight of a vee, nor for a
+    radial's nine.
+    """
     weight = "[[counterweight]]\nunbalance = 2.4e6\n"
     assert len(suspicious(parse(changed(more=weight)))) == 1
     assert (

@@ -1,4 +1,6 @@
-"""Starting files are valid, also with their optional keys switched on, and tell the truth about alternatives."""
+"""Starting files are valid, also with their optional keys switched on, and tell the truth about
+alternatives.
+"""
 
 from __future__ import annotations
 
@@ -89,7 +91,8 @@ def test_unknown_kinds():
     with pytest.raises(BalcliError) as caught:
         template("boxxer")
     assert str(caught.value) == (
-        '"boxxer" is no kind of engine; there are single, inline, vee, boxer, radial, w. Did you mean boxer?'
+        '"boxxer" is no kind of engine; there are single, inline, vee, boxer, radial, w. Did you '
+        "mean boxer?"
     )
     with pytest.raises(BalcliError, match=r"there are single, inline, vee, boxer, radial, w\.$"):
         template("q" * 10_000)

@@ -94,7 +94,8 @@ def test_units_that_only_pint_knows(text, dimension, expected):
         (
             "90 zorks",
             LENGTH,
-            'has the unknown unit "zorks"; a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"',
+            'has the unknown unit "zorks"; a length is wanted: a bare number in mm, or "90 mm" or '
+            '"3.5 in"',
         ),
         (
             "90 kg",
@@ -105,24 +106,28 @@ def test_units_that_only_pint_knows(text, dimension, expected):
             "30 rpm",
             ANGLE,
             (
-                'is a speed of rotation, but an angle is wanted: a bare number in deg, or "30 deg" or "1.2 '
+                'is a speed of rotation, but an angle is wanted: a bare number in deg, or "30 '
+                'deg" or "1.2 '
                 'rad" or "1/7 turn"'
             ),
         ),
         (
             "50 Hz",
             SPEED,
-            'is a frequency, but a speed of rotation is wanted: a bare number in rpm, or "6000 rpm" or "300 rad/s"',
+            'is a frequency, but a speed of rotation is wanted: a bare number in rpm, or "6000 '
+            'rpm" or "300 rad/s"',
         ),
         (
             "3 ampere",
             TIME,
-            'is of another dimension, but a time is wanted: a bare number in s, or "0.82 s" or "820 ms"',
+            'is of another dimension, but a time is wanted: a bare number in s, or "0.82 s" or '
+            '"820 ms"',
         ),
         (
             "20 degC",
             MASS,
-            'is of another dimension, but a mass is wanted: a bare number in kg, or "650 g" or "0.8 lb"',
+            'is of another dimension, but a mass is wanted: a bare number in kg, or "650 g" or '
+            '"0.8 lb"',
         ),
         ("5 deg", PLAIN, "is an angle, but a plain number is wanted, without quotes"),
         ("0.25", PLAIN, "has no unit; a plain number is wanted, without quotes"),
@@ -187,7 +192,8 @@ def test_any_text_is_read_or_refused_in_words(text):
 
 def test_common_units_need_no_pint():
     code = (
-        "import sys; from balcli.enginefile.units import INERTIA, convert; convert('8.1 lb in^2', INERTIA); "
+        "import sys; from balcli.enginefile.units import INERTIA, convert; convert('8.1 lb in^2', "
+        "INERTIA); "
         "sys.exit('pint' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

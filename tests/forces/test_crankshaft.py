@@ -1,4 +1,6 @@
-"""Inner forces and moments against statics worked out here, and the classical comparison of in-line engines."""
+"""Inner forces and moments against statics worked out here, and the classical comparison of in-line
+engines.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support.engines import alone
 
 from balcli.core.peaks import peak
 from balcli.engine import build as engine
@@ -45,7 +48,9 @@ def built(throws, layout="", more=""):
 
 
 def test_the_first_order_along_an_inline_four():
-    """Loads +1 -1 -1 +1, 100 mm apart: shear 1 0 -1 0, moment about the section 0 -100 -100 0 (times i)."""
+    """Loads +1 -1 -1 +1, 100 mm apart: shear 1 0 -1 0, moment about the section 0 -100 -100 0
+    (times i).
+    """
     found = inner(built([0, 180, 180, 0]), ORDERS)
     assert found.shear.z_m == pytest.approx([-0.15, -0.05, 0.05, 0.15])
     ahead, against = ROTATING + RECIPROCATING / 2, RECIPROCATING / 2
@@ -62,10 +67,13 @@ def test_the_first_order_along_an_inline_four():
 
 
 def test_an_inline_six_has_a_large_inner_moment_and_counterweights_take_most_of_it():
-    """0-120-240-240-120-0: nothing is free, but the middle carries what three throws on one side make."""
+    """0-120-240-240-120-0: nothing is free, but the middle carries what three throws on one side
+    make.
+    """
     plain = built([0, 120, 240, 240, 120, 0])
     weights = "".join(
-        f"[[counterweight]]\nunbalance = {(ROTATING + RECIPROCATING / 2) / OMEGA**2 * 1e6}\nangle = {angle + 180}\n"
+        f"[[counterweight]]\nunbalance = {(ROTATING + RECIPROCATING / 2) / OMEGA**2 * 1e6}\nangle "
+        f"= {angle + 180}\n"
         f"position = {place}\n"
         for angle, place in zip([0, 120, 240, 240, 120, 0], range(-250, 251, 100), strict=True)
     )
@@ -120,17 +128,22 @@ def test_one_throw_in_the_middle_of_its_bearings_would_be_a_guess():
 
 
 def test_shafts_and_sliders_act_on_the_block_not_on_the_crank():
-    more = "[[shaft]]\nratio = -1\nunbalance = 9000\n[[slider]]\norder = 1\nunbalance = 9000\ndirection = 0\n"
+    more = (
+        "[[shaft]]\nratio = -1\nunbalance = 9000\n[[slider]]\norder = 1\nunbalance = "
+        "9000\ndirection = 0\n"
+    )
     plain, with_devices = (inner(built([0, 180], more=text), ORDERS) for text in ("", more))
     assert np.array_equal(plain.bending.phasors.forward, with_devices.bending.phasors.forward)
 
 
 def test_guide_force_moments():
-    """H is the roll moment of the engine; X of two cylinders at +-L/2 is half the difference of their rolls."""
+    """H is the roll moment of the engine; X of two cylinders at +-L/2 is half the difference of
+    their rolls.
+    """
     subject = built([0, 180])
     found, roll = guide(subject, ORDERS), spectrum.spectra(subject, ORDERS).roll
     assert found.h.forward == pytest.approx(roll.forward, rel=1e-11, abs=1e-9)
-    first, second = (spectrum.spectra(spectrum.alone(subject, n), ORDERS).roll for n in (1, 2))
+    first, second = (spectrum.spectra(alone(subject, n), ORDERS).roll for n in (1, 2))
     assert found.x is not None
     assert found.x.forward == pytest.approx(
         (second.forward - first.forward) / 2, rel=1e-11, abs=1e-9
@@ -142,7 +155,8 @@ def test_one_throw_has_no_x_type():
     assert guide(built([0]), ORDERS).x is None
 
 
-# ------------------------------------------------------------------ cylinder by cylinder, and near the lock
+# ------------------------------------------------------------------ cylinder by cylinder, and near
+# the lock
 @pytest.mark.parametrize("name", ["w12", "vr6", "radial9", "tsinghua_ca72", "ripple"])
 def test_each_cylinder_is_what_it_is_alone(name):
     layout = "firing_order = [1, 3, 4, 2]" if name == "ripple" else ""
@@ -154,12 +168,12 @@ def test_each_cylinder_is_what_it_is_alone(name):
     )
     together = spectrum.each(subject, ORDERS)
     for row, number in enumerate(subject.numbers):
-        for quantity, single in spectrum.spectra(spectrum.alone(subject, number), ORDERS).items():
+        for quantity, single in spectrum.spectra(alone(subject, number), ORDERS).items():
             one = together.of(row)
-            np.testing.assert_allclose(getattr(one, quantity).forward, single.forward, rtol=1e-14)
-            np.testing.assert_allclose(getattr(one, quantity).backward, single.backward, rtol=1e-14)
+            np.testing.assert_allclose(one[quantity.name].forward, single.forward, rtol=1e-14)
+            np.testing.assert_allclose(one[quantity.name].backward, single.backward, rtol=1e-14)
             np.testing.assert_array_equal(
-                getattr(one, quantity).noise, np.broadcast_to(single.noise, one.orders.shape)
+                one[quantity.name].noise, np.broadcast_to(single.noise, one.orders.shape)
             )
 
 
@@ -203,7 +217,8 @@ def test_so_many_loads_that_they_would_fill_the_memory_are_refused():
 def test_more_results_along_the_crank_than_anybody_reads_are_refused():
     with pytest.raises(
         BalcliError,
-        match=r"^along the crankshaft, 4096 orders of 9 cylinders and counterweights are 36864 results, "
+        match=r"^along the crankshaft, 4096 orders of 9 cylinders and counterweights are 36864 "
+        r"results, "
         r"and at most 32768 are told: ask for fewer orders$",
     ):
         inner(built([0] * 9), np.arange(1.0, 4097))

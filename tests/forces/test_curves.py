@@ -1,4 +1,6 @@
-"""Curves by direct evaluation: equal to the sum of all orders, and to what the mechanism must do."""
+"""Curves by direct evaluation: equal to the sum of all orders, and to what the mechanism must
+do.
+"""
 
 from __future__ import annotations
 
@@ -66,7 +68,9 @@ def summed(subject, crank_deg):
 
 
 def scale(subject):
-    """Size of what is added up: force of one cylinder times their number; times a length for moments."""
+    """Size of what is added up: force of one cylinder times their number; times a length for
+    moments.
+    """
     c = subject.cylinders
     moving = c.reciprocating + c.rotating + (0 if c.linkage is None else c.linkage.mass / c.lam)
     force = c.count * float(subject.omega) ** 2 * float(np.max(c.radius)) * float(np.max(moving))
@@ -116,7 +120,9 @@ def test_force_of_a_single_at_top_dead_centre():
 
 @pytest.mark.parametrize("name", ["single", "i4", "v6_60", "v12_60", "boxer6", "radial7"])
 def test_what_is_zero_is_exactly_zero(name):
-    """No rounding noise and no negative zeros beside real figures, which may be as small as 1e-9 of their parts."""
+    """No rounding noise and no negative zeros beside real figures, which may be as small as 1e-9 of
+    their parts.
+    """
     subject = engine(name)
     curves = engine_curves(subject, crank_angles(15)).values
     for quantity, curve in curves.items():
@@ -133,7 +139,9 @@ def test_a_piston_stands_still_at_its_dead_centres():
 
 
 def test_a_mean_under_uneven_speed_keeps_its_sign_where_the_documents_say():
-    """Order 0 is the mean over the crank angle: in `forward` with signs, in the amplitudes of x and y without them."""
+    """Order 0 is the mean over the crank angle: in `forward` with signs, in the amplitudes of x and
+    y without them.
+    """
     subject, angles = engine("uneven"), crank_angles(0.5)
     (order,) = orders(spectra(subject, [0]))
     mean = {
@@ -155,7 +163,9 @@ def test_a_mean_under_uneven_speed_keeps_its_sign_where_the_documents_say():
 
 
 def test_piston_motion_is_consistent_with_its_derivatives():
-    """Travel from top dead centre over a stroke; velocity and acceleration as its derivatives (central differences)."""
+    """Travel from top dead centre over a stroke; velocity and acceleration as its derivatives
+    (central differences).
+    """
     subject, h = engine("i4"), 1e-3
     angles = crank_angles(30)
     mid, before, after = (cylinder_curves(subject, 1, angles + d).values for d in (0, -h, h))
@@ -201,7 +211,9 @@ def test_an_unknown_cylinder():
 
 @pytest.mark.parametrize("name", ["articulated", "rotary"])
 def test_other_mechanisms_by_differences(name):
-    """Velocity and acceleration are the slopes of the travel, which is 0 at the top and nowhere less."""
+    """Velocity and acceleration are the slopes of the travel, which is 0 at the top and nowhere
+    less.
+    """
     text = TEXTS[name].replace(", speed_ripple = [{ order = 2, amplitude = 0.02, angle = 40 }]", "")
     subject, fine = build(parse(text)), crank_angles(0.05)
     omega, step = float(subject.omega), np.radians(0.05)

@@ -40,15 +40,18 @@ def test_names_read_back(name: str) -> None:
         ("forse.2.major", "forse.2.major is no quantity: did you mean force?"),
         (
             "noise.2.major",
-            "noise.2.major is no quantity: it begins with force, moment, couple, torque, roll or peak",
+            "noise.2.major is no quantity: it begins with force, moment, couple, torque, roll or "
+            "peak",
         ),
         (
             "force.two.major",
-            "force.two.major is no quantity: after force comes a whole order up to 4096, as in force.2.major",
+            "force.two.major is no quantity: after force comes a whole order up to 4096, as in "
+            "force.2.major",
         ),
         (
             "force.2",
-            "force.2 is no quantity: after the order comes one of major, minor, forward, backward, axis, x, y, "
+            "force.2 is no quantity: after the order comes one of major, minor, forward, "
+            "backward, axis, x, y, "
             "x_cos, x_sin, y_cos, y_sin",
         ),
         (
@@ -90,7 +93,9 @@ def test_they_are_what_analyze_gives() -> None:
 
 
 def test_the_signed_parts_of_an_order_are_those_of_the_curve() -> None:
-    """Value = cos cos n theta + sin sin n theta; order 0, the mean under uneven speed, is its cos."""
+    """Value = cos cos n theta + sin sin n theta; order 0, the mean under uneven speed, is its
+    cos.
+    """
     engine = build(load(UNEVEN + "speed_ripple = [{ order = 2, amplitude = 0.02, angle = 25 }]\n"))
     theta = np.radians(np.arange(0.0, 360.0, 0.5))
     curves = {

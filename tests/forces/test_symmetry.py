@@ -36,7 +36,9 @@ def sentences(throws, *, spacing=100, more="", orders=(1, 2)):
 
 
 def test_the_inline_four():
-    """Textbook: orders 1 balanced; order 2 adds up to four times one cylinder, on one line through the middle."""
+    """Textbook: orders 1 balanced; order 2 adds up to four times one cylinder, on one line through
+    the middle.
+    """
     assert sentences([0, 180, 180, 0], more="[layout]\nfiring_order = [1, 3, 4, 2]\n") == (
         "order 1 force: balanced exactly, by symmetry",
         "order 1 moment: balanced exactly, by symmetry",
@@ -55,7 +57,9 @@ def test_orders_that_no_cylinder_has():
 
 
 def test_master_and_articulated_rods_of_a_rotary_engine_are_not_alike():
-    """Alike in mass and length, they differ in where they hang: without knuckle pins the first order would vanish by symmetry."""
+    """Alike in mass and length, they differ in where they hang: without knuckle pins the first
+    order would vanish by symmetry.
+    """
     star = "[layout]\nradial = 5\nrotary = true\n"
     hung = "[articulation]\nknuckle_radius = 30\nrod = { length = 160, mass = 0 }\n"
     assert sentences([0], more=star)[0] == "order 1 force: balanced exactly, by symmetry"
@@ -71,7 +75,9 @@ def test_a_hundredth_of_a_degree_is_nearly_balanced():
 
 
 def test_places_that_are_no_exact_numbers_in_binary():
-    """Moments of order 2 of 0-120-240-240-120-0 vanish by mirror symmetry for any spacing, also 0.1 in."""
+    """Moments of order 2 of 0-120-240-240-120-0 vanish by mirror symmetry for any spacing, also 0.1
+    in.
+    """
     found = sentences([0, 120, 240, 240, 120, 0], spacing='"4.1 in"')
     assert found[4] == "order 2 moment: balanced exactly, by symmetry"
 
@@ -85,7 +91,9 @@ def test_the_middle_piston_as_heavy_as_both_others():
 
 
 def test_two_banks_of_different_mechanisms_that_are_each_balanced():
-    """A VR6: neighbouring pins stand at no fraction of a turn, but each bank is a balanced three."""
+    """A VR6: neighbouring pins stand at no fraction of a turn, but each bank is a balanced
+    three.
+    """
     vr6 = engine.build(enginefile.read(next(p for p in ENGINES if p.stem == "vr6")))
     assert why(vr6, [1]).reasons[0].verdict == "exact"
 
@@ -98,7 +106,9 @@ def test_pairs_that_stand_at_no_fraction_of_a_turn_to_each_other():
 
 
 def test_balanced_by_figures_only():
-    """Worked out: 1 + 2 · 2 cos a = 0 for masses 1:2:2; no symmetry, and nothing left but rounding."""
+    """Worked out: 1 + 2 · 2 cos a = 0 for masses 1:2:2; no symmetry, and nothing left but
+    rounding.
+    """
     found = sentences(
         [0, float(np.degrees(np.arccos(-0.25))), -float(np.degrees(np.arccos(-0.25)))],
         more="[cylinder.2]\npiston_mass = 1\n[cylinder.3]\npiston_mass = 1\n",
@@ -130,7 +140,9 @@ def test_firing(layout, text):
 
 @pytest.mark.parametrize("path", ENGINES, ids=lambda path: path.stem)
 def test_exact_and_numeric_decisions_agree(path):
-    """What is balanced exactly has no force left but rounding, and what is free is not reported as balanced."""
+    """What is balanced exactly has no force left but rounding, and what is free is not reported as
+    balanced.
+    """
     built = engine.build(enginefile.read(path))
     bare = replace(built, devices=())
     found = spectrum.spectra(bare, np.arange(1.0, 9.0))

@@ -1,9 +1,11 @@
-"""Free forces and moments straight from the momentum of every part, on a grid of crank angles: the oracle.
+"""Free forces and moments straight from the momentum of every part, on a grid of crank angles: the
+oracle.
 
-Nothing here comes from `src/`, nor any formula of the theory: pistons are points, rods rigid bodies with centre of mass and
-moment of inertia, places come from plain geometry (where a rod's circle meets its cylinder's axis), velocities from
-differentiating those places by Fourier transform, forces from differentiating momentum. The engine file is read by its own
-few lines too. Good to about 1e-12 of the largest force for the lower orders.
+Nothing here comes from `src/`, nor any formula of the theory: pistons are points, rods rigid bodies
+with centre of mass and moment of inertia, places come from plain geometry (where a rod's circle
+meets its cylinder's axis), velocities from differentiating those places by Fourier transform,
+forces from differentiating momentum. The engine file is read by its own few lines too. Good to
+about 1e-12 of the largest force for the lower orders.
 """
 
 from __future__ import annotations
@@ -50,7 +52,9 @@ def slope(values: np.ndarray) -> np.ndarray:
 
 @dataclass
 class Body:
-    """A part: place of its centre of mass over the crank angle (m, x + iy), mass, and its turning about that centre."""
+    """A part: place of its centre of mass over the crank angle (m, x + iy), mass, and its turning
+    about that centre.
+    """
 
     place: np.ndarray
     z: float
@@ -188,7 +192,9 @@ class Engine:
         )
 
     def _parts(self, cell: dict[str, Any]) -> tuple[dict[str, float], dict[str, float]]:
-        """Piston (mass, offset) and rod (length, mass, cg from its lower end, inertia) of a cylinder, SI."""
+        """Piston (mass, offset) and rod (length, mass, cg from its lower end, inertia) of a
+        cylinder, SI.
+        """
         own, table = cell["own"], self.data.get("articulation")
         hung = table is not None and cell["bank"] != table.get("master", 1) - 1
         rod = dict(table["rod"] if hung and table else self.data["rod"])
@@ -342,7 +348,9 @@ class Engine:
         return total
 
     def scales(self) -> dict[str, float]:
-        """Largest first-order amplitude of one cylinder alone; for turning quantities the largest of all three, any low order."""
+        """Largest first-order amplitude of one cylinder alone; for turning quantities the largest
+        of all three, any low order.
+        """
         alone = [self.curves([n]) for n in self.cylinders]
 
         def largest(quantity: str, orders: range) -> float:

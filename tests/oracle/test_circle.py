@@ -1,4 +1,6 @@
-"""The smallest enclosing circle against exhaustive search, a convex minimiser at high precision, and its own bound."""
+"""The smallest enclosing circle against exhaustive search, a convex minimiser at high precision,
+and its own bound.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +35,9 @@ def seen(curve: Phasors, theta: np.ndarray) -> np.ndarray:
 
 
 def smallest_of_points(points: np.ndarray) -> float:
-    """Radius by all triples, in exact fractions: the largest of the smallest circles around three points (Helly)."""
+    """Radius by all triples, in exact fractions: the largest of the smallest circles around three
+    points (Helly).
+    """
 
     def square(p, q) -> Fraction:
         return (p[0] - q[0]) ** 2 + (p[1] - q[1]) ** 2
@@ -71,7 +75,9 @@ def test_the_lower_bound_is_one_about_any_centre(points, centre):
 @pytest.mark.parametrize("offset", [0, 4, -15])
 @pytest.mark.parametrize("lam", [0.05, 0.1, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6])
 def test_single_cylinder_at_high_precision(lam, offset):
-    """mpmath finds where the curve is farthest from the centre; three such points, solved to 30 digits, are the true optimum."""
+    """mpmath finds where the curve is farthest from the centre; three such points, solved to 30
+    digits, are the true optimum.
+    """
     found = circle.enclosing(
         force(rod=f"ratio = {lam}", piston=f"mass = 1\noffset = {offset}", operation="speed = 1000")
     )
@@ -122,7 +128,9 @@ def test_single_cylinder_at_high_precision(lam, offset):
     ],
 )
 def test_nothing_near_is_better(tables):
-    """Convex: if no centre on a small ring is better, none is; and points of the curve alone prove the radius."""
+    """Convex: if no centre on a small ring is better, none is; and points of the curve alone prove
+    the radius.
+    """
     curve = force(**tables)
     found = circle.enclosing(curve)
     samples = seen(curve, np.linspace(0, 2 * np.pi, 20001))
@@ -173,8 +181,10 @@ def test_no_force_is_a_circle_without_points():
     ],
 )
 def test_cardioids_and_a_deltoid(forward, backward, centre, radius, touching, first):
-    """Seen from the crank: a cardioid `2 e^{it} + e^{2it}` (mirrored, begun elsewhere) in a circle about 1/2 that it touches at
-    t = +-60 deg, the deltoid `2 e^{it} + e^{-2it}` in one about 0. Whatever turns with the crank moves the centre alone."""
+    """Seen from the crank: a cardioid `2 e^{it} + e^{2it}` (mirrored, begun elsewhere) in a circle
+    about 1/2 that it touches at t = +-60 deg, the deltoid `2 e^{it} + e^{-2it}` in one about 0.
+    Whatever turns with the crank moves the centre alone.
+    """
     orders = np.arange(4.0)
     whole = np.array(forward, complex) + np.where(orders == 1, first, 0)
     found = circle.enclosing(Phasors(orders, whole, np.array(backward, complex), np.zeros(1)))
@@ -191,7 +201,9 @@ def test_angles_on_both_sides_of_0_are_one():
 
 @pytest.mark.parametrize("scale", [1e-9, 1e-3, 1e6])
 def test_a_curve_of_any_size_is_treated_alike(scale):
-    """Nanonewtons or meganewtons: the same circle, touched at the same angles, its error as small."""
+    """Nanonewtons or meganewtons: the same circle, touched at the same angles, its error as
+    small.
+    """
     curve = force(layout="radial = 5", **{"cylinder.3": "piston_mass = 1.5"})
     small = Phasors(
         curve.orders, scale * curve.forward, scale * curve.backward, scale * np.asarray(curve.noise)

@@ -1,8 +1,9 @@
 """The harmonics against two computations in mpmath that share nothing with the closed forms.
 
-Up to lambda = 0.3 the power series in lambda (binomial series of `cos beta` and `arcsin`, powers of the sine as
-multiple angles), whose terms have one sign; above, the trapezoidal rule over a revolution of the textbook's own
-expressions, which converges geometrically for a periodic analytic function. At 0.3 the two are compared.
+Up to lambda = 0.3 the power series in lambda (binomial series of `cos beta` and `arcsin`, powers of
+the sine as multiple angles), whose terms have one sign; above, the trapezoidal rule over a
+revolution of the textbook's own expressions, which converges geometrically for a periodic analytic
+function. At 0.3 the two are compared.
 """
 
 from __future__ import annotations
@@ -80,7 +81,9 @@ def _half(j: int) -> mp.mpf:
 
 
 def squared(a: list[mp.mpf], sign: int) -> list[mp.mpf]:
-    """Cosine series of (sum a_n sin n psi)^2 (sign -1) or of (sum a_n cos n psi)^2 (sign 1), a_0 = 0."""
+    """Cosine series of (sum a_n sin n psi)^2 (sign -1) or of (sum a_n cos n psi)^2 (sign 1), a_0 =
+    0.
+    """
     there = [n for n, c in enumerate(a) if c]
     found = [mp.mpf(0)] * len(a)
     for i in there:
@@ -96,7 +99,9 @@ def squared(a: list[mp.mpf], sign: int) -> list[mp.mpf]:
 def of_revolution(
     lam: float, eps: float = 0.0, highest: int = 64, digits: int = 25
 ) -> dict[str, list[mp.mpc]]:
-    """Coefficients c_n of `Re c_n e^{i n psi}` for the orders 0 .. highest, by sampling one revolution."""
+    """Coefficients c_n of `Re c_n e^{i n psi}` for the orders 0 .. highest, by sampling one
+    revolution.
+    """
     steep = mp.mpf(lam) / (1 - abs(mp.mpf(eps)))
     decay = mp.log10((1 + mp.sqrt(1 - steep**2)) / steep)
     count = 4 * (
@@ -181,7 +186,9 @@ def test_means_of_the_squares(lam):
 
 @pytest.mark.parametrize("lam", [0.9, 0.97, 0.995])
 def test_high_orders_are_no_less_accurate(lam):
-    """Orders about 600 are 1e-29 to 1e-121 and have the error of a few roundings: that of x = tan(arcsin(lambda)/2) is not multiplied."""
+    """Orders about 600 are 1e-29 to 1e-121 and have the error of a few roundings: that of x =
+    tan(arcsin(lambda)/2) is not multiplied.
+    """
     with mp.workdps(145):
         count = 1700  # aliases of orders above 1098
         turn = [mp.expjpi(mp.mpf(2 * k) / count) for k in range(count)]
@@ -209,8 +216,10 @@ def test_high_orders_are_no_less_accurate(lam):
 
 
 def test_first_coefficients_are_those_of_the_books():
-    """A_2 = lambda + lambda^3/4 + 15 lambda^5/128, A_4 = -(lambda^3/4 + 3 lambda^5/16), A_6 = 9 lambda^5/128,
-    A_8 = -5 lambda^7/256; D_1 = lambda (1 + lambda^2/8), D_3 = -3 lambda^3/8, each up to its next term."""
+    """A_2 = lambda + lambda^3/4 + 15 lambda^5/128, A_4 = -(lambda^3/4 + 3 lambda^5/16), A_6 = 9
+    lambda^5/128, A_8 = -5 lambda^7/256; D_1 = lambda (1 + lambda^2/8), D_3 = -3 lambda^3/8, each up
+    to its next term.
+    """
     lam = 1e-4
     a = harmonics.piston([1, 2, 3, 4, 6, 8], lam)
     assert list(a[[0, 2]]) == [1, 0]
@@ -315,14 +324,17 @@ def test_multiples_and_sums_of_series_keep_bounds_of_their_errors():
 
 
 def test_orders_beyond_the_samples_vanish():
-    """Order 4096 of a mild offset is far below every number that could be sampled; it must not be an alias."""
+    """Order 4096 of a mild offset is far below every number that could be sampled; it must not be
+    an alias.
+    """
     assert harmonics.of([4096], np.array([0.25]), np.array([0.01])).piston.c == 0
 
 
 @pytest.mark.parametrize(("lam", "eps"), [(0.3, 0.1), (0.6, 0.39), (0.05, 0.9)])
 def test_an_offset_to_the_other_side_is_the_mirror_image(lam, eps):
-    """Seen in a mirror along the cylinder's axis the crank turns backward: coefficients become conjugate, those of the rod's angle
-    change sign besides; as many samples either way."""
+    """Seen in a mirror along the cylinder's axis the crank turns backward: coefficients become
+    conjugate, those of the rod's angle change sign besides; as many samples either way.
+    """
     assert harmonics.points(lam, eps) == harmonics.points(lam, -eps)
     orders = np.arange(1, 40)
     one, other = (harmonics.sampled(orders, np.array([lam]), np.array([e])) for e in (eps, -eps))

@@ -1,4 +1,6 @@
-"""What analyze shows only where it is asked for: inner moments, guide-force moments; and strokes of articulated cylinders."""
+"""What analyze shows only where it is asked for: inner moments, guide-force moments; and strokes of
+articulated cylinders.
+"""
 
 from __future__ import annotations
 
@@ -135,6 +137,7 @@ def test_the_words_that_can_be_chosen():
     with pytest.raises(BalcliError) as caught:
         analysis.analyze(built([0]), only=["bending"])
     assert str(caught.value) == (
-        "there is no quantity bending: choose from force, moment, couple, torque, roll, peak, sizing, "
+        "there is no quantity bending: choose from force, moment, couple, torque, roll, peak, "
+        "sizing, "
         "inner, guide"
     )

@@ -1,4 +1,6 @@
-"""Pictures: every page of every form, the same bytes each time, names that look like markup, and values where they belong."""
+"""Pictures: every page of every form, the same bytes each time, names that look like markup, and
+values where they belong.
+"""
 
 from __future__ import annotations
 
@@ -82,8 +84,10 @@ def test_nothing_global_is_left_changed():
 
 def test_matplotlib_is_imported_for_pictures_only():
     code = (
-        "import sys\nimport balcli.render.plot.pages\nfrom balcli.render.plot import style\nassert 'matplotlib' not in sys.modules\n"
-        "with style.figure(2, 2, 'png') as f: f.subplots(); style.saved(f, 'png')\nassert 'matplotlib.pyplot' not in sys.modules"
+        "import sys\nimport balcli.render.plot.pages\nfrom balcli.render.plot import "
+        "style\nassert 'matplotlib' not in sys.modules\n"
+        "with style.figure(2, 2, 'png') as f: f.subplots(); style.saved(f, 'png')\nassert "
+        "'matplotlib.pyplot' not in sys.modules"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
@@ -109,7 +113,9 @@ def ax():
 
 
 def test_locus_has_x_upwards(ax):
-    """One cylinder's rotating mass: m r omega^2 along the crank pin, up at crank angle 0, to the right at 90 degrees."""
+    """One cylinder's rotating mass: m r omega^2 along the crank pin, up at crank angle 0, to the
+    right at 90 degrees.
+    """
     one = analyze(
         engine(
             changed(

@@ -13,13 +13,17 @@ from support.engines import GOOD, changed
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
-from balcli.forces.spectrum import SPECTRAL
+from balcli.forces.kinds import KINDS
 from balcli.render.html import page
 from balcli.render.units import IMPERIAL, SI
 from balcli.results.analysis import analyze
 from balcli.results.balance import balance
 
-HOSTILE = "</script><script>alert('name')</script><img src=x onerror=alert(1)> & \"quoted\" {{ 7 * 7 }} 发动机"
+HOSTILE = (
+    "</script><script>alert('name')</script><img src=x onerror=alert(1)> & \"quoted\" {{ 7 "
+    "* 7 }} "
+    "发动机"
+)
 RADIAL = """\
 name = "radial with a master rod"
 [crank]
@@ -45,7 +49,7 @@ ROTARY = RADIAL.partition("[articulation]")[0].replace("radial = 5", "radial = 5
 
 def report(text: str, scheme: str = "auto", system=SI) -> str:
     engine = build(parse(text))
-    return page(analyze(engine, None, {*SPECTRAL, "peak"}), balance(engine, scheme), system)
+    return page(analyze(engine, None, {*KINDS, "peak"}), balance(engine, scheme), system)
 
 
 class Outline(HTMLParser):
@@ -221,7 +225,8 @@ def test_orders_are_switched(show):
     page = show()
     before = numbers(page, "#force-vector", "y2")
     page.run(
-        "for (const box of document.querySelectorAll('[name=order]')) if (box.value !== '4') box.click()"
+        "for (const box of document.querySelectorAll('[name=order]')) if (box.value !== '4') "
+        "box.click()"
     )
     fourth = page.run("document.getElementById('force-now').textContent")
     page.run("document.querySelector('[name=order][value=\"4\"]').click()")

@@ -1,4 +1,6 @@
-"""Pictures of characters: proportions of bars, shape of loci, 80 columns, and nothing of it where nobody looks."""
+"""Pictures of characters: proportions of bars, shape of loci, 80 columns, and nothing of it where
+nobody looks.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +42,9 @@ def test_balanced_orders_have_no_bar():
 
 @pytest.mark.parametrize(("backward", "left", "start"), [(0, True, 0), (1j, False, 4)])
 def test_a_circle_is_all_round_and_a_diagonal_is_not(backward, left, start):
-    """1 and 1j: a line at 45 degrees, from the lower left to the upper right, as x is up and y to the right."""
+    """1 and 1j: a line at 45 degrees, from the lower left to the upper right, as x is up and y to
+    the right.
+    """
     lines = locus(phasors((1, 1, backward)))
     assert (len(lines), {len(line) for line in lines}) == (SIDE, {2 * SIDE})
     assert bool("".join(line[: SIDE - 1] for line in lines[: SIDE // 2]).strip()) == left

@@ -19,27 +19,31 @@ CASES = [
         1,
         "force",
         (100, 0),
-        "First order: force of 100 N, turning with the crank: counterweights on the crankshaft cancel it.",
+        "First order: force of 100 N, turning with the crank: counterweights on the crankshaft "
+        "cancel it.",
     ),
     (
         1,
         "force",
         (0, 5),
-        "First order: force of 5 N, turning against the crank: nothing on the crankshaft cancels it; "
+        "First order: force of 5 N, turning against the crank: nothing on the crankshaft cancels "
+        "it; "
         "it takes a shaft at −1 times crank speed.",
     ),
     (
         1,
         "moment",
         (20j, 10j),
-        "First order: moment of up to 30 N·m about y (20 turns with the crank, 10 against it): counterweights "
+        "First order: moment of up to 30 N·m about y (20 turns with the crank, 10 against it): "
+        "counterweights "
         "cancel the first part, a shaft at −1 times crank speed the second.",
     ),
     (
         2,
         "force",
         (2, 2),
-        "Second order: force of up to 4 N along x (2 turns with the crank, 2 against it): nothing on the "
+        "Second order: force of up to 4 N along x (2 turns with the crank, 2 against it): nothing "
+        "on the "
         "crankshaft cancels it; it takes shafts at +2 and −2 times crank speed.",
     ),
     (
@@ -53,14 +57,16 @@ CASES = [
         2,
         "moment",
         (3, cmath.rect(1, math.radians(60))),
-        "Second order: moment of up to 4 N·m about an axis at 30.0 deg (3 turns with the crank, 1 against it): nothing on the "
+        "Second order: moment of up to 4 N·m about an axis at 30.0 deg (3 turns with the crank, 1 "
+        "against it): nothing on the "
         "crankshaft cancels it; it takes shafts at +2 and −2 times crank speed.",
     ),
     (
         4,
         "force",
         (250, 250),
-        "Fourth order: force up to 500 N; rarely balanced, it would take shafts at 4 times crank speed.",
+        "Fourth order: force up to 500 N; rarely balanced, it would take shafts at 4 times crank "
+        "speed.",
     ),
 ]
 
@@ -80,7 +86,8 @@ def test_force_and_moment_of_one_order() -> None:
         Phasors(orders, *np.array(v, complex).reshape(2, 1), np.zeros(1)) for v in ((0, 0), (7, 0))
     )
     assert verdict(Spectra(orders, force=none, moment=some), SI) == (
-        "First order: moment of 7 N·m, turning with the crank: counterweights on the crankshaft cancel it. No force.",
+        "First order: moment of 7 N·m, turning with the crank: counterweights on the crankshaft "
+        "cancel it. No force.",
     )
 
 
@@ -98,7 +105,8 @@ LINES = {
             {6: 0.5, 12: 0.6},
             (
                 *LINES["free"],
-                "Higher orders: negligible, at most a force of 0.008 N in order 6 and a moment of 1.2 N·m in order 12.",
+                "Higher orders: negligible, at most a force of 0.008 N in order 6 and a moment of "
+                "1.2 N·m in order 12.",
             ),
         ),
         (
@@ -120,7 +128,8 @@ LINES = {
             {},
             (
                 *LINES["free"],
-                "Sixth order: force up to 60 N; rarely balanced, it would take shafts at 6 times crank speed.",
+                "Sixth order: force up to 60 N; rarely balanced, it would take shafts at 6 times "
+                "crank speed.",
             ),
         ),
     ],

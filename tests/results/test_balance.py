@@ -282,7 +282,9 @@ def test_drill_depth_removes_the_unbalance():
 
 
 def test_a_first_guess_of_a_device_in_steel():
-    """A half disc 20 mm thick (if nothing else is said) of 50 mm radius, 7850 kg/m3: its unbalance `t 2/3 R^3` times that."""
+    """A half disc 20 mm thick (if nothing else is said) of 50 mm radius, 7850 kg/m3: its unbalance
+    `t 2/3 R^3` times that.
+    """
     weight = Remedy(
         "",
         counterweights=(
@@ -303,7 +305,9 @@ def test_lengths_of_tools_are_positive(name, length):
 
 
 def test_a_hole_ends_at_the_axis():
-    """Drilled from the rim to the axis, `rim^2/2` times area and density is removed: that much, and no more."""
+    """Drilled from the rim to the axis, `rim^2/2` times area and density is removed: that much, and
+    no more.
+    """
     most = STEEL * math.pi / 4 * 0.01**2 * 0.05**2 / 2
     assert drill_depth(most * (1 - 1e-14), 0.05, 0.01) == pytest.approx(0.05, rel=1e-6)
     assert math.isnan(drill_depth(most * (1 + 1e-14), 0.05, 0.01))

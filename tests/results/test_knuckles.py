@@ -44,7 +44,9 @@ def test_two_rows_are_set_by_the_first():
 
 
 def test_where_the_knuckle_pin_goes_for_an_even_dead_centre():
-    """On the cylinder's axis when the crank pin is: turned on by the master rod's lean there, arcsin(lambda sin Delta)."""
+    """On the cylinder's axis when the crank pin is: turned on by the master rod's lean there,
+    arcsin(lambda sin Delta).
+    """
     angles = even_knuckles(enginefile.parse(RADIAL)).angles_deg
     for bank in range(1, 7):
         apart = 2 * np.pi * bank / 7
@@ -54,7 +56,9 @@ def test_where_the_knuckle_pin_goes_for_an_even_dead_centre():
 
 
 def test_a_bank_that_no_angle_makes_even():
-    """Opposite the master, turning the knuckle pin hardly changes the stroke, and this offset has added too much to it."""
+    """Opposite the master, turning the knuckle pin hardly changes the stroke, and this offset has
+    added too much to it.
+    """
     text = RADIAL.replace("radial = 7", "banks = [0, 180]") + "[cylinder.2]\npiston_offset = 60\n"
     found = even_knuckles(enginefile.parse(text), "strokes")
     assert found.reasons[1:] == ("no angle makes bank 2 even: the knuckle pin stays where it is",)
@@ -66,7 +70,8 @@ def test_an_engine_without_articulated_rods():
         even_knuckles(enginefile.parse(RADIAL[: RADIAL.index("[articulation]")]))
     assert (
         str(caught.value)
-        == "knuckles: this engine has no articulated rods; an engine file says so with [articulation]"
+        == "knuckles: this engine has no articulated rods; an engine file says so with "
+        "[articulation]"
     )
 
 

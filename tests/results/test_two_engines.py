@@ -1,4 +1,6 @@
-"""Two engines on one frame: the sum is what one file with all their cylinders gives, or what mirroring curves gives."""
+"""Two engines on one frame: the sum is what one file with all their cylinders gives, or what
+mirroring curves gives.
+"""
 
 from __future__ import annotations
 
@@ -75,7 +77,9 @@ def test_two_singles_on_one_pin_are_a_vee():
 
 
 def test_counter_rotating_cranks_side_by_side():
-    """Two equal singles with counterweights: nothing is left across their axes, and the forces along them add up."""
+    """Two equal singles with counterweights: nothing is left across their axes, and the forces
+    along them add up.
+    """
     one = built(more="[[counterweight]]\nunbalance = 70000\nangle = 180\n")
     both = combine(one, one, Arrangement(at_m=(0, 0.2, 0), reverse=True), ORDERS)
     assert np.allclose(both.spectra.force.y, 0, atol=1e-9)
@@ -84,7 +88,9 @@ def test_counter_rotating_cranks_side_by_side():
 
 
 def test_mirrored_turned_and_placed_against_curves():
-    """The second engine's curves, mirrored in y, turned by 35 degrees and moved, taken at its own crank angle."""
+    """The second engine's curves, mirrored in y, turned by 35 degrees and moved, taken at its own
+    crank angle.
+    """
     first, second = (
         built(),
         built("throws = [0, 90]\nspacing = 110", "[layout]\nbank_angle = 50\nstagger = 20\n"),

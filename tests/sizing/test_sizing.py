@@ -66,7 +66,9 @@ def test_sliders_in_two_directions_take_any_ellipse(forward, backward):
 
 
 def test_a_force_and_a_roll_by_shafts_at_three_places():
-    """The roll couples both senses; with a shaft to spare it is cancelled together with the force."""
+    """The roll couples both senses; with a shaft to spare it is cancelled together with the
+    force.
+    """
     slots = [
         Slot("shaft", 2, sense, 0.0, place)
         for sense, place in ((1, 0.1 + 0j), (-1, -0.1 + 0.05j), (1, -0.2j))
@@ -89,7 +91,9 @@ def test_a_force_and_a_roll_by_shafts_at_three_places():
     ],
 )
 def test_effect_is_what_the_analysis_says(slot):
-    """Moments and roll about a point that is neither on the crank axis nor in the middle of the throws."""
+    """Moments and roll about a point that is neither on the crank axis nor in the middle of the
+    throws.
+    """
     engine = build(parse(text(0, 180, 180, 0, frame="reference = [40, -25, 130]")))
     arm = (complex(*engine.reference_m[:2]), float(engine.reference_m[2]))
     u = cmath.rect(2e-3, 0.4)
@@ -115,7 +119,9 @@ def test_more_slots_than_needed_share_the_work():
 
 
 def test_of_more_slots_than_needed_the_far_ones_do_most():
-    """The least sum of squares that makes a moment: unbalances in proportion to the arms, `u = -m z / sum z^2`."""
+    """The least sum of squares that makes a moment: unbalances in proportion to the arms, `u = -m z
+    / sum z^2`.
+    """
     places = np.array([-0.1, 0.2, 0.4])
     fit = solve(
         [Slot("counterweight", 1, 1, z) for z in places], wish(moment=0.21 - 0.42j), (MOMENT,)
@@ -144,7 +150,9 @@ def test_one_slot_does_what_it_can(scale):
 
 
 def test_arms_count_from_the_point_of_reference_in_all_directions():
-    """A slot beside the crank on that point's own axis has no arm but along it: u = -(f + m/z)/2 at z from there."""
+    """A slot beside the crank on that point's own axis has no arm but along it: u = -(f + m/z)/2 at
+    z from there.
+    """
     asked = wish(forward=1, moment=0.6)._replace(arm=(0.3 + 0.4j, 0.1))
     fit = solve([Slot("shaft", 2, 1, 0.3, 0.3 + 0.4j)], asked, (FORCE, MOMENT))
     assert fit.unbalances == pytest.approx([-(1 + 0.6 / 0.2) / 2])
@@ -214,7 +222,9 @@ def test_every_device_has_its_reason():
 
 
 def test_reasons_name_what_turns_and_how_it_is_cancelled():
-    """One eccentric for a force, two planes for force and moment, two opposite ones for a moment."""
+    """One eccentric for a force, two planes for force and moment, two opposite ones for a
+    moment.
+    """
     four, three, vee = (
         auto(build(parse(text(*throws, **more)))).reasons
         for throws, more in (
@@ -224,7 +234,8 @@ def test_reasons_name_what_turns_and_how_it_is_cancelled():
         )
     )
     assert four[0] == (
-        "Order 2 force turning with the crank: nothing on the crankshaft can cancel it; one eccentric on a shaft at "
+        "Order 2 force turning with the crank: nothing on the crankshaft can cancel it; one "
+        "eccentric on a shaft at "
         "+2 times crank speed can"
     )
     assert three[2].startswith("Order 1 moment turning against the crank: nothing")
@@ -232,7 +243,8 @@ def test_reasons_name_what_turns_and_how_it_is_cancelled():
         "and moment turning with the crank: counterweights turn with it too and cancel both"
     )
     assert vee[-1] == (
-        "Order 2 force and moment turning against the crank: nothing on the crankshaft can cancel it; eccentrics in two "
+        "Order 2 force and moment turning against the crank: nothing on the crankshaft can cancel "
+        "it; eccentrics in two "
         "planes on a shaft at -2 times crank speed can"
     )
 
@@ -336,7 +348,9 @@ def test_a_remedy_does_not_depend_on_the_point_of_reference(name, scheme):
 
 
 def test_no_roll_about_the_crank_whatever_the_point_of_reference():
-    """A given first shaft, the second placed for no roll: the same about any point, the force being cancelled."""
+    """A given first shaft, the second placed for no roll: the same about any point, the force being
+    cancelled.
+    """
     wish = Wish(at=(-0.04 + 0.06j,), roll="zero")
     plain, moved = (
         build(parse(ENGINES["four"] + frame))
@@ -484,7 +498,8 @@ def test_planes_are_named_or_given():
         remedy_for(engine, "counterweights", Wish(planes="left"))
     with pytest.raises(
         BalcliError,
-        match=r"--planes: opposite eccentrics stand in two planes; give ends, or two places along z in mm, "
+        match=r"--planes: opposite eccentrics stand in two planes; give ends, or two places along "
+        r"z in mm, "
         r"such as -200,200$",
     ):
         remedy_for(engine, "couple-shaft", Wish(planes=(-0.1, 0.0, 0.1)))
@@ -571,7 +586,8 @@ def test_a_pair_of_shafts_stands_on_the_crank_axis_if_nothing_is_said():
     remedy = remedy_for(build(parse(ENGINES["vee"])), "two-shaft")
     assert [s.at for s in remedy.shafts] == [(0, 0), (0, 0)]
     assert remedy.reasons[0] == (
-        "Order 1 force and moment turning against the crank: nothing on the crankshaft can cancel it; "
+        "Order 1 force and moment turning against the crank: nothing on the crankshaft can cancel "
+        "it; "
         "one eccentric on a shaft at -1 times crank speed can"
     )
     assert "radius_ratio" not in remedy.details["order_1"]
@@ -580,7 +596,9 @@ def test_a_pair_of_shafts_stands_on_the_crank_axis_if_nothing_is_said():
 @pytest.mark.parametrize("frame", ["", "[frame]\nreference = [30, -20, 170]\n"])
 @pytest.mark.parametrize("order", [1, 2])
 def test_no_roll_by_the_nearest_places(order, frame):
-    """Of all pairs of places that take force and roll, those with the least sum of squares; about the crank axis."""
+    """Of all pairs of places that take force and roll, those with the least sum of squares; about
+    the crank axis.
+    """
     at_crank = build(parse(UNEVEN))
     wish = Wish(order=order, roll="zero")
     remedy = remedy_for(build(parse(UNEVEN + frame)), "two-shaft", wish)
@@ -652,11 +670,14 @@ def test_four_shafts_are_for_the_orders_that_are_there():
 
 @pytest.mark.parametrize(("order", "turning"), [(2, "against"), (4, "with")])
 def test_a_force_in_one_sense_leaves_no_shaft_for_the_roll(order, turning):
-    """Of three cylinders in a star, order n turns with the crank if n - 1 is divisible by 3, against it if n + 1 is."""
+    """Of three cylinders in a star, order n turns with the crank if n - 1 is divisible by 3,
+    against it if n + 1 is.
+    """
     engine = build(parse(text(0, layout="radial = 3")))
     with pytest.raises(
         BalcliError,
-        match=f"order {order}: its force turns {turning} the crank alone, so that one shaft takes it and none",
+        match=f"order {order}: its force turns {turning} the crank alone, so that one shaft takes "
+        "it and none",
     ):
         remedy_for(engine, "two-shaft", Wish(order=order, roll="zero"))
     remedy = remedy_for(engine, "two-shaft", Wish(order=order, at=(0.03j,)))
@@ -675,7 +696,8 @@ def test_couple_shafts_say_what_they_do_and_what_is_left():
     engine = build(parse(ENGINES["vee"]))
     remedy = remedy_for(engine, "couple-shaft", Wish(order=1))
     assert list(remedy.reasons[::2]) == [
-        f"Order 1 moment turning {turning} the crank: two opposite eccentrics on a shaft at {ratio} times crank speed make the opposite "
+        f"Order 1 moment turning {turning} the crank: two opposite eccentrics on a shaft at "
+        f"{ratio} times crank speed make the opposite "
         "moment and no force"
         for turning, ratio in (("with", "+1"), ("against", "-1"))
     ]
@@ -762,7 +784,9 @@ def forces(engine, quantity="force"):
 
 @pytest.mark.parametrize("more", ["", "[[counterweight]]\nunbalance = 30000\nangle = 170\n"])
 def test_minimax_reaches_what_it_says_where_it_says(more):
-    """The peak, the crank angles at which it is reached, and the gain over half the reciprocating mass, by the analysis."""
+    """The peak, the crank angles at which it is reached, and the gain over half the reciprocating
+    mass, by the analysis.
+    """
     engine = build(parse(ENGINES["one"] + more))
     remedy = remedy_for(engine, "minimax")
     told, curve = remedy.details, forces(fitted(engine, remedy))
@@ -851,7 +875,9 @@ def test_minimax_without_a_force():
 
 
 def test_minimax_of_an_engine_without_any_force():
-    """A boxer twin: whatever one piston does, the other does against it; its moment has a part that turns with the crank."""
+    """A boxer twin: whatever one piston does, the other does against it; its moment has a part that
+    turns with the crank.
+    """
     engine = build(parse(text(0, 180, layout='banks = [0, 180]\nrods = "alternating"')))
     told = remedy_for(engine, "minimax", Wish(planes="ends")).details
     assert (
@@ -894,7 +920,9 @@ def test_own_counterweights_are_not_counted_and_said():
 
 
 def test_peaks_along_and_across_are_those_of_the_curve():
-    """Across the first bank, which leans, and off its axis by an offset: samples of what the remedy leaves, every 0.01 degrees."""
+    """Across the first bank, which leans, and off its axis by an offset: samples of what the remedy
+    leaves, every 0.01 degrees.
+    """
     engine = build(
         parse(ENGINES["vee"].replace("mass = 1\n[layout]", "mass = 1\noffset = 6\n[layout]"))
     )
@@ -927,6 +955,7 @@ def test_factors_at_their_bounds(share):
     assert remedy_for(engine, "factor", Wish(factor=(share,))).details["factor"] == share
     with pytest.raises(
         BalcliError,
-        match=r"--factor: give a share of the reciprocating mass such as 0.5, or a range such as 0:1:0.1$",
+        match=r"--factor: give a share of the reciprocating mass such as 0.5, or a range such as "
+        r"0:1:0.1$",
     ):
         remedy_for(engine, "factor", Wish(factor=(share * (1 + 1e-15), 0.5)))

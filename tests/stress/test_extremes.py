@@ -1,4 +1,5 @@
-"""Numerical extremes of the mechanisms and of what engines make of them, against mpmath and the momentum of every part.
+"""Numerical extremes of the mechanisms and of what engines make of them, against mpmath and the
+momentum of every part.
 
 Each test holds a bound of `BOUNDS`, as `docs/accuracy.md` prints them.
 """
@@ -50,7 +51,9 @@ def _digits():
 
 # ------------------------------------------------------------------ centred mechanisms
 def exact(name: str, n: int, lam: float) -> mp.mpf:
-    """A_n, D_n, K_n, B_n by Gauss's functions (docs/theory.md), with 50 digits: D as the book's sum, which cancels, and no ladder."""
+    """A_n, D_n, K_n, B_n by Gauss's functions (docs/theory.md), with 50 digits: D as the book's
+    sum, which cancels, and no ladder.
+    """
     ratio = mp.mpf(lam)
     w = mp.sqrt(1 - ratio**2)
     q = (ratio / (1 + w)) ** 2
@@ -102,9 +105,12 @@ def test_closed_forms_at_any_lambda(exponent, which, n):
     )
 
 
-# ------------------------------------------------------------------ offset and articulated mechanisms
+# ------------------------------------------------------------------ offset and articulated
+# mechanisms
 def revolution(motion, count: int, orders: list[int]) -> list[list[mp.mpc]]:
-    """Coefficients of `Re c_n e^{i n psi}` of each curve, from as many samples as the product takes."""
+    """Coefficients of `Re c_n e^{i n psi}` of each curve, from as many samples as the product
+    takes.
+    """
     turn = [mp.expjpi(mp.mpf(2 * k) / count) for k in range(count)]
     curves = list(zip(*(motion(e) for e in turn), strict=True))
     return [
@@ -144,7 +150,9 @@ NEAR_LOCK = [
 
 @pytest.mark.parametrize(("lam", "eps"), NEAR_LOCK)
 def test_offset_mechanisms_keep_the_bound_they_state(lam, eps):
-    """lambda + |eps| to 1 - 1e-6: 16 roundings of the root mean square of the curve, of which half is never reached."""
+    """lambda + |eps| to 1 - 1e-6: 16 roundings of the root mean square of the curve, of which half
+    is never reached.
+    """
 
     def motion(e):
         sine = ratio * e.imag - offset
@@ -168,17 +176,21 @@ def test_offset_mechanisms_keep_the_bound_they_state(lam, eps):
 
 
 def test_near_its_lock_an_offset_engine_without_a_resultant_is_exactly_balanced():
-    """Three throws at 120 degrees: only orders 3, 6, 9 .. are left, exactly, at lambda + eps = 1 - 1.1e-6."""
+    """Three throws at 120 degrees: only orders 3, 6, 9 .. are left, exactly, at lambda + eps = 1 -
+    1.1e-6.
+    """
     found = three(rod={"ratio": 0.3}, piston={"mass": 1, "offset": 50 / 0.3 * (1 - 1.1e-6 - 0.3)})
     assert list(found.orders[~found.force.balanced]) == list(range(3, 65, 3))
 
 
-DEAD = 42.869366513132036  # mm, farthest that the knuckle pin of `vee` comes beside the second cylinder's axis
+# mm, farthest that the knuckle pin of `vee` comes beside the second cylinder's axis
+DEAD = 42.869366513132036
 
 
 def vee(short: float, master: int = 1) -> Engine:
-    """A V twin whose articulated rod comes this close to dead lock: its angle's sine reaches 1 - short, or short - 1 where the
-    second cylinder has the master rod."""
+    """A V twin whose articulated rod comes this close to dead lock: its angle's sine reaches 1 -
+    short, or short - 1 where the second cylinder has the master rod.
+    """
     return engine(
         crank={"stroke": 100},
         rod={"length": 180, "mass": 1, "cg": 50},
@@ -193,7 +205,9 @@ def vee(short: float, master: int = 1) -> Engine:
 
 @pytest.mark.parametrize(("short", "master"), [(0.5, 1), (1e-2, 1), (1e-2, 2), (1e-3, 1)])
 def test_articulated_rods_near_dead_lock_keep_the_bound_they_state(short, master):
-    """16 roundings of the root mean square of the curve, and of its mean by 1/(1 - |sin|) of the rod's angle."""
+    """16 roundings of the root mean square of the curve, and of its mean by 1/(1 - |sin|) of the
+    rod's angle.
+    """
     c = vee(short, master).cylinders
     row = 1 - int(c.linkage.master[0])
     ratio, chief = (mp.mpf(float(np.broadcast_to(c.lam, 2)[k])) for k in (row, 1 - row))
@@ -287,11 +301,14 @@ def short(number: int) -> float:
 def test_too_many_different_mechanisms_near_their_lock_are_refused_with_the_number(
     kind, parts, different, samples
 ):
-    """Each takes milliseconds, and megabytes where rods are articulated; equal ones are computed once."""
+    """Each takes milliseconds, and megabytes where rods are articulated; equal ones are computed
+    once.
+    """
     with pytest.raises(InputError) as caught:
         engine(crank={"stroke": 100, "throws": [0] * 64}, **parts)
     assert str(caught.value).startswith(
-        f"engine: cylinder: the cylinders have {different} different mechanisms, some so near their lock that all of them need {samples} "
+        f"engine: cylinder: the cylinders have {different} different mechanisms, some so near "
+        f"their lock that all of them need {samples} "
         "samples of a revolution; at most 524288 are taken: "
     ), caught.value
 
@@ -320,7 +337,9 @@ def three(**parts) -> Spectra:
 
 @pytest.mark.parametrize("off", [1e-9, -1e-9, 1e-7, 1e-3])
 def test_throws_that_almost_cancel(off):
-    """x off in one throw: a force of x in order 1 and 2 A_2 x in order 2, as the file's rounding to 1.4e-14 degrees lets it be."""
+    """x off in one throw: a force of x in order 1 and 2 A_2 x in order 2, as the file's rounding to
+    1.4e-14 degrees lets it be.
+    """
     found = three(crank={"throws": [0, 120 + off, 240]})
     true = np.radians((120 + off) - 120)  # exact, of the number that is in the file
     a = harmonics.piston([1, 2, 4], 0.25)
@@ -339,7 +358,9 @@ def test_throws_that_almost_cancel(off):
     "layout", [{}, {"bank_angle": 72}, {"bank_angle": 72 + 720e6}, {"banks": [36, 36 - 360e6]}]
 )
 def test_whole_turns_and_thirds_cancel_exactly(throws, layout):
-    """A million full turns more or less: forces of the orders 3, 6, 9 .. alone, and these as without the turns."""
+    """A million full turns more or less: forces of the orders 3, 6, 9 .. alone, and these as
+    without the turns.
+    """
     found = three(crank={"throws": throws}, layout=layout)
     left = found.orders % 3 == 0
     assert found.force.balanced[~left].all()
@@ -363,7 +384,9 @@ def test_banks_and_throws_of_72_degrees_cancel_exactly(count):
 
 @pytest.mark.parametrize("apart", [1e-9, 1e-6, 1.0])
 def test_planes_that_almost_coincide(apart):
-    """Two opposed pistons `apart` mm: a couple of m r omega^2 times that, to 1e-12 of it (positions are sums of halves)."""
+    """Two opposed pistons `apart` mm: a couple of m r omega^2 times that, to 1e-12 of it (positions
+    are sums of halves).
+    """
     found = spectra(
         engine(crank={"stroke": 100, "throws": [0, 180], "positions": [0, apart]}), [1, 2]
     )
@@ -390,7 +413,9 @@ def test_planes_that_almost_coincide_far_from_the_point_of_reference():
 @pytest.mark.parametrize("mass", [1e-9, 1.0, 1e9])
 @pytest.mark.parametrize("speed", [1e-3, 1e3, 1e6])
 def test_scale(stroke, mass, speed):
-    """Forces go with m r omega^2, moments with the length too: bores of a um to a km, to 16 roundings."""
+    """Forces go with m r omega^2, moments with the length too: bores of a um to a km, to 16
+    roundings.
+    """
 
     def found(stroke, mass, speed):
         return analyze(
@@ -422,7 +447,9 @@ def test_scale(stroke, mass, speed):
 
 
 def test_a_microgram_beside_a_million_tonnes():
-    """1e-9 and 1e9 kg: the small piston is below the rounding of the sum, but not of its own figures."""
+    """1e-9 and 1e9 kg: the small piston is below the rounding of the sum, but not of its own
+    figures.
+    """
     both = engine(
         crank={"stroke": 100, "throws": [0, 90]},
         cylinder={"1": {"piston_mass": 1e-9}, "2": {"piston_mass": 1e9}},
@@ -436,7 +463,9 @@ def test_a_microgram_beside_a_million_tonnes():
 
 @pytest.mark.parametrize("count", [1, 2, 64, 512])
 def test_many_cylinders(count):
-    """n throws spread evenly: order n is n times that of one cylinder, all below vanish exactly; to 8 n roundings."""
+    """n throws spread evenly: order n is n times that of one cylinder, all below vanish exactly; to
+    8 n roundings.
+    """
     throws = [360 * k / count for k in range(count)]
     found = spectra(
         engine(crank={"stroke": 100, "throws": throws}, rod={"ratio": 0.999}), np.arange(1.0, 513.0)
@@ -450,7 +479,9 @@ def test_many_cylinders(count):
 
 
 def test_512_cylinders_at_odd_angles():
-    """Against the sum with 50 digits: 8 roundings a cylinder, of the sum of their sizes, and n roundings of the angle."""
+    """Against the sum with 50 digits: 8 roundings a cylinder, of the sum of their sizes, and n
+    roundings of the angle.
+    """
     throws = [7.3 * k % 360 for k in range(512)]
     orders = [1, 2, 4, 64, 256]
     found = spectra(
@@ -468,7 +499,9 @@ def test_512_cylinders_at_odd_angles():
 
 
 def test_peaks_of_32768_orders_and_64_cylinders_are_the_sum_of_all():
-    """lambda = 1 - 1e-6, all pistons together: at the quick point beside 90 degrees 64 times the peak of one."""
+    """lambda = 1 - 1e-6, all pistons together: at the quick point beside 90 degrees 64 times the
+    peak of one.
+    """
 
     def highest(count: int) -> float:
         whole = engine(crank={"stroke": 100, "throws": [0] * count}, rod={"ratio": NEAREST})

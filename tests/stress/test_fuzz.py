@@ -1,4 +1,6 @@
-"""Hostile input in numbers: 2000 cases in this process, some of them counted, 50 as processes of their own, and the costliest files."""
+"""Hostile input in numbers: 2000 cases in this process, some of them counted, 50 as processes of
+their own, and the costliest files.
+"""
 
 from __future__ import annotations
 
@@ -72,7 +74,10 @@ def test_as_processes(place):
     ] == []
 
 
-BODY = "[crank]\nstroke = 90\n{crank}\n[rod]\nlength = 160\nmass = 0.6\ncg = 50\n[piston]\nmass = 0.5\n{more}\n"
+BODY = (
+    "[crank]\nstroke = 90\n{crank}\n[rod]\nlength = 160\nmass = 0.6\ncg = 50\n[piston]\nmass = "
+    "0.5\n{more}\n"
+)
 
 
 def body(crank: str = "", more: str = "") -> str:
@@ -95,7 +100,8 @@ COSTLY = {
     "wrong lists": (
         body(
             f"throws = {listed(['true'] * 9_990)}\npositions = {listed(['true'] * 9_990)}",
-            f"[layout]\nbanks = {listed(['true'] * 9_990)}\nfiring_order = {listed(['true'] * 9_990)}",
+            f"[layout]\nbanks = {listed(['true'] * 9_990)}\nfiring_order = "
+            f"{listed(['true'] * 9_990)}",
         ),
         " mistakes\n  crank.throws: the 1st value true is not a number",
     ),
@@ -125,7 +131,8 @@ COSTLY = {
     ),
     "most articulated rods": (
         body(
-            more="[layout]\nradial = 1000\n[articulation]\nknuckle_radius = 10\nrod = {length = 150}"
+            more="[layout]\nradial = 1000\n[articulation]\nknuckle_radius = 10\nrod = {length = "
+            "150}"
         ),
         "",
     ),
@@ -135,7 +142,9 @@ COSTLY = {
 @pytest.mark.slow
 @pytest.mark.parametrize("what", COSTLY)
 def test_the_costliest_files(place, what):
-    """What a file of a few bytes to 6 MB can ask for at worst, refused or not, stays below the limits of memory and of calls."""
+    """What a file of a few bytes to 6 MB can ask for at worst, refused or not, stays below the
+    limits of memory and of calls.
+    """
     text, message = COSTLY[what]
     case = fuzz.Case(0, text.encode(), ("analyze", "FILE", "--format", "csv"))
     done = fuzz.weighed(case, place, fuzz.counted)
@@ -154,7 +163,8 @@ def test_a_name_that_commands_a_terminal_is_refused(place, name):
     assert (done.status, done.out) == (2, "")
     assert (
         done.err
-        == f"balcli: case.toml: name: has the control character U+{ord(control):04X}, which could command a terminal; leave it out\n"
+        == f"balcli: case.toml: name: has the control character U+{ord(control):04X}, which could "
+        "command a terminal; leave it out\n"
     )
 
 
@@ -166,7 +176,8 @@ def test_a_name_that_would_fill_gigabytes_is_refused(place):
     assert (done.status, done.out) == (2, "")
     assert (
         done.err
-        == "balcli: case.toml: name: has 201 characters; it stands in every line of a CSV, at most 200 are taken\n"
+        == "balcli: case.toml: name: has 201 characters; it stands in every line of a CSV, at "
+        "most 200 are taken\n"
     )
 
 
@@ -211,7 +222,9 @@ def test_a_broken_record_is_a_difference(place, record):
 
 
 def test_many_orders_along_the_crank_take_work_in_proportion(place, monkeypatch):
-    """Each figure was once computed for all orders each time: here the orders are counted for which axes are computed."""
+    """Each figure was once computed for all orders each time: here the orders are counted for which
+    axes are computed.
+    """
     axis, computed = Phasors.axis_deg.fget, []
     monkeypatch.setattr(
         Phasors,

@@ -1,4 +1,6 @@
-"""One engine, one result: from run to run, on any number of threads, in whatever order a file lists its cylinders."""
+"""One engine, one result: from run to run, on any number of threads, in whatever order a file lists
+its cylinders.
+"""
 
 from __future__ import annotations
 
@@ -9,11 +11,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.engines import engine
+from support.engines import alone, engine
 
 from balcli.core.mechanisms.harmonics import EPS
 from balcli.engine.build import Engine
-from balcli.forces.spectrum import SPECTRAL, spectra
+from balcli.forces.kinds import KINDS
+from balcli.forces.spectrum import spectra
 
 ENGINES = Path(__file__).parents[2] / "engines"
 ORDERS = np.arange(1.0, 17.0)
@@ -49,7 +52,9 @@ def test_runs_and_threads_do_not_matter():
 
 
 def listed(order: list[int]) -> Engine:
-    """Eight unequal cylinders on their own throws in two banks, the throws in this order in the file."""
+    """Eight unequal cylinders on their own throws in two banks, the throws in this order in the
+    file.
+    """
     masses, throws = (
         [0.3 + 0.17 * k for k in range(8)],
         [0, 91.7, 183.1, 274.9, 45, 135.3, 222.2, 311.1],
@@ -75,10 +80,12 @@ def listed(order: list[int]) -> Engine:
 
 @pytest.mark.parametrize("seed", range(4))
 def test_the_order_of_cylinders_in_the_file_does_not_matter(seed):
-    """To 8 N roundings of the sum of what single cylinders make, as the noise of the whole has it (cylinder 1 stays the first)."""
+    """To 8 N roundings of the sum of what single cylinders make, as the noise of the whole has it
+    (cylinder 1 stays the first).
+    """
     order = [0, *(1 + np.random.default_rng(seed).permutation(7)).tolist()]
     one, other = (spectra(listed(each), ORDERS) for each in (list(range(8)), order))
-    for q in SPECTRAL:
+    for q in KINDS:
         p, o = getattr(one, q), getattr(other, q)
         sizes = sum(getattr(part, q).major for part in alone_each(listed(list(range(8)))))
         for way in ("forward", "backward"):
@@ -87,14 +94,12 @@ def test_the_order_of_cylinders_in_the_file_does_not_matter(seed):
 
 
 def alone_each(whole: Engine) -> list:
-    from balcli.forces.spectrum import alone
-
     return [spectra(alone(whole, n), ORDERS) for n in whole.numbers]
 
 
 LARGEST = """
 import tracemalloc
-from support.engines import engine
+from support.engines import alone, engine
 from balcli.core.peaks import peak
 from balcli.forces.spectrum import relevant_orders, spectra
 whole = engine(crank={"stroke": 100, "throws": [7.3 * k % 360 for k in range(512)], "spacing": 1}, rod={"ratio": 1 - 1e-6})
@@ -107,7 +112,9 @@ print(tracemalloc.get_traced_memory()[1] / 1e6)
 
 
 def test_512_cylinders_and_32768_orders_ask_for_less_than_100_mb():
-    """At a time. All at once they would be 16 million complex numbers, 256 MB, for each of some 16 arrays."""
+    """At a time. All at once they would be 16 million complex numbers, 256 MB, for each of some 16
+    arrays.
+    """
     env = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
     run = subprocess.run([sys.executable, "-c", LARGEST], env=env, capture_output=True, check=True)
     assert float(run.stdout) < 100

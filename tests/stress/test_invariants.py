@@ -1,8 +1,11 @@
-"""What must hold for every engine, on random ones: turned, mirrored, shifted, split, sped up, renumbered.
+"""What must hold for every engine, on random ones: turned, mirrored, shifted, split, sped up,
+renumbered.
 
-Engines are drawn as the tables of an engine file and pass through the loader, so that all ways to say a thing are met.
-Tolerance: 1e-12 of the largest order of the quantity, or of what single cylinders make where they cancel, and the bound of the
-rounding error that both sides state (a place 158 mm away is not known to 1e-12 of a spacing of 4 um).
+Engines are drawn as the tables of an engine file and pass through the loader, so that all ways to
+say a thing are met.
+Tolerance: 1e-12 of the largest order of the quantity, or of what single cylinders make where they
+cancel, and the bound of the rounding error that both sides state (a place 158 mm away is not known
+to 1e-12 of a spacing of 4 um).
 """
 
 from __future__ import annotations
@@ -14,11 +17,13 @@ import numpy as np
 import tomli_w
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.engines import alone
 
 from balcli.core.phasors import Phasors
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
-from balcli.forces.spectrum import SPECTRAL, Spectra, alone, spectra
+from balcli.forces.kinds import KINDS
+from balcli.forces.spectrum import Spectra, spectra
 
 SCALED = 1e-12
 ORDERS = np.arange(0.0, 9.0)
@@ -46,7 +51,9 @@ points = st.lists(places, min_size=2, max_size=2)
 
 @st.composite
 def rods(draw: st.DrawFn) -> Tables:
-    """Long enough to turn with any piston offset of `engines`; by mass and place or weighed at its ends."""
+    """Long enough to turn with any piston offset of `engines`; by mass and place or weighed at its
+    ends.
+    """
     length = draw(figures(110, 400))
     masses = draw(
         st.one_of(
@@ -132,10 +139,10 @@ def found(engine: Engine) -> Spectra:
 def sizes(engine: Engine) -> dict[str, float]:
     """What cylinders and devices make of each quantity by themselves."""
     parts = [alone(engine, n) for n in engine.numbers]
-    total = dict.fromkeys(SPECTRAL, 0.0)
+    total = dict.fromkeys(KINDS, 0.0)
     for part in [engine, *parts]:
         for q, p in found(part).items():
-            total[q] += float(p.major.max())
+            total[q.name] += float(p.major.max())
     for d in engine.devices:
         force = (abs(d.forward) + abs(d.backward)) * d.order**2 * engine.omega**2
         for q, arm in (("force", 1.0), ("moment", 1.0), ("couple", 1.0), ("roll", 1.0)):
@@ -154,7 +161,7 @@ def assert_same(
     *,
     forward: complex = 1,
     by: float = 1.0,
-    quantities: tuple[str, ...] = SPECTRAL,
+    quantities: tuple[str, ...] = tuple(KINDS),
 ) -> None:
     """The other makes `by` times what the first makes; vectors are turned by `forward`."""
     scale = sizes(one)
@@ -221,7 +228,9 @@ def end_to_end(m: Tables) -> None:
 @quick
 @given(engines(), figures(-180, 180))
 def test_a_turned_engine_makes_the_same_turned(model, turn):
-    """Banks, devices and the point of reference about the crank axis: every vector turns, no scalar changes."""
+    """Banks, devices and the point of reference about the crank axis: every vector turns, no scalar
+    changes.
+    """
 
     def change(m: Tables) -> None:
         m["layout"]["banks"] = [bank + turn for bank in banks(m["layout"])]
@@ -244,8 +253,10 @@ def about(at: list[float], turn: float) -> list[float]:
 @quick
 @given(engines())
 def test_an_engine_in_a_mirror(model):
-    """Mirrored in the plane of x and z, turning the same way: at crank angle -theta it is the mirror image of the first
-    at theta. Force: conjugate; moment (over i): conjugate; scalars: odd in the crank angle, with their sign changed."""
+    """Mirrored in the plane of x and z, turning the same way: at crank angle -theta it is the
+    mirror image of the first at theta. Force: conjugate; moment (over i): conjugate; scalars: odd
+    in the crank angle, with their sign changed.
+    """
     one, other = made(model), made(changed(model, in_a_mirror))
     before, after, scale = found(one), found(other), sizes(one)
     for q, sign in {"force": 1, "moment": -1, "couple": -1, "torque": -1, "roll": -1}.items():
@@ -267,12 +278,14 @@ def test_an_engine_with_its_throws_in_reverse(model):
 @quick
 @given(engines())
 def test_time_reversed(model):
-    """What turns backward through the same angles at the same speeds makes the same forces at each of them; seen from its
-    other end (half a turn about x) it is an engine that turns forward, at crank angle -theta."""
+    """What turns backward through the same angles at the same speeds makes the same forces at each
+    of them; seen from its other end (half a turn about x) it is an engine that turns forward, at
+    crank angle -theta.
+    """
     one, other = made(model), made(changed(changed(model, in_a_mirror), end_to_end))
     before, after, scale = found(one), found(other), sizes(one)
     theta = np.radians(np.arange(0.0, 360.0, 30.0))
-    for q in SPECTRAL:
+    for q in KINDS:
         seen = np.conj if q in ("force", "moment") else np.negative
         error = np.abs(
             getattr(after, q).values(-theta) - seen(getattr(before, q).values(theta))
@@ -354,7 +367,9 @@ def test_a_counterweight_in_two_parts(model, share):
 @quick
 @given(engines(), st.lists(angles, max_size=3), st.lists(places, min_size=9, max_size=9))
 def test_two_engines_on_one_crank_add_up(model, more, where):
-    """One with the devices and one without, whose first pins stand alike; equal but for their throws and places."""
+    """One with the devices and one without, whose first pins stand alike; equal but for their
+    throws and places.
+    """
     model.pop("cylinder", None)
     del model["crank"]["spacing"]
     first, second = model["crank"]["throws"], [model["crank"]["throws"][0], *more]
@@ -368,7 +383,7 @@ def test_two_engines_on_one_crank_add_up(model, more, where):
     other = made(changed(bare, with_throws(second, where[count:both])))
     whole = found(made(changed(model, with_throws(first + second, where[:both]))))
     p, o, scale, scale_too = found(one), found(other), sizes(one), sizes(other)
-    for q in SPECTRAL:
+    for q in KINDS:
         for way in ("forward", "backward"):
             total = getattr(getattr(p, q), way) + getattr(getattr(o, q), way)
             error = np.abs(getattr(getattr(whole, q), way) - total).max()
@@ -380,7 +395,9 @@ def test_two_engines_on_one_crank_add_up(model, more, where):
 @quick
 @given(engines(), figures(0, 1))
 def test_every_mass_in_two_parts(model, share):
-    """All moving masses of the cylinders split in one proportion between two engines at the same place."""
+    """All moving masses of the cylinders split in one proportion between two engines at the same
+    place.
+    """
     model.pop("cylinder", None)
     del model["crank"]["spacing"]
     throws, along = (
@@ -410,7 +427,7 @@ def test_every_mass_in_two_parts(model, share):
         found(made(changed(placed[0], masses(share)))),
         found(made(changed(placed[1], masses(1 - share)))),
     )
-    for q in SPECTRAL:
+    for q in KINDS:
         for way in ("forward", "backward"):
             total = getattr(getattr(p, q), way) + getattr(getattr(o, q), way)
             error = np.abs(getattr(getattr(whole, q), way) - total).max()
@@ -433,7 +450,9 @@ def test_a_counterweight_is_a_shaft_on_the_crank_axis(model):
 @quick
 @given(engines())
 def test_a_slider_is_two_shafts_turning_against_each_other(model):
-    """Half its unbalance each: with the crank at direction + angle, against it at direction - angle."""
+    """Half its unbalance each: with the crank at direction + angle, against it at direction -
+    angle.
+    """
 
     def change(m: Tables) -> None:
         (slider,) = m.pop("slider")
@@ -454,7 +473,9 @@ def test_a_slider_is_two_shafts_turning_against_each_other(model):
 @quick
 @given(engines(), figures(0, 1))
 def test_mass_moved_from_the_throw_to_the_big_ends(model, share):
-    """What turns with the crank pin is one mass: as throw mass or at the big end of a rod weighed at its ends."""
+    """What turns with the crank pin is one mass: as throw mass or at the big end of a rod weighed
+    at its ends.
+    """
 
     def change(m: Tables) -> None:
         rods_on_throw = len(banks(dict(m["layout"])))
@@ -486,7 +507,9 @@ def test_everything_grows_with_the_square_of_the_speed(model):
 @quick
 @given(engines(), st.randoms(use_true_random=False))
 def test_numbers_are_names(model, random):
-    """Other numbers for the same cylinders move the origin of the crank angle to another pin, and change no size."""
+    """Other numbers for the same cylinders move the origin of the crank angle to another pin, and
+    change no size.
+    """
     for key in ("cylinder", "counterweight", "shaft", "slider"):
         model.pop(key, None)
     model["operation"].pop("speed_ripple")
@@ -499,7 +522,7 @@ def test_numbers_are_names(model, random):
         made(changed(model, lambda m: m["layout"].update(numbering=numbering))),
     )
     before, after, scale = found(one), found(other), sizes(one)
-    for q in SPECTRAL:
+    for q in KINDS:
         for name in ("major", "minor"):
             error = np.abs(
                 getattr(getattr(before, q), name) - getattr(getattr(after, q), name)
@@ -512,7 +535,9 @@ def test_numbers_are_names(model, random):
 @quick
 @given(engines())
 def test_units_of_the_file_do_not_matter(model):
-    """Inches, pounds, turns, radians a second and so on for millimetres, kilograms, degrees and rpm."""
+    """Inches, pounds, turns, radians a second and so on for millimetres, kilograms, degrees and
+    rpm.
+    """
 
     def change(m: Tables) -> None:
         crank = m["crank"]
@@ -547,8 +572,9 @@ def test_cylinders_and_devices_add_up(model):
         changed(model, lambda m: [m.pop(key) for key in ("counterweight", "shaft", "slider")])
     )
     scale = sizes(engine)
-    for q, whole in found(bare).items():
-        parts = [getattr(found(alone(engine, n)), q) for n in engine.numbers]
+    for kind, whole in found(bare).items():
+        q = kind.name
+        parts = [found(alone(engine, n))[q] for n in engine.numbers]
         for way in ("forward", "backward"):
             total = sum(getattr(p, way) for p in parts)
             assert np.abs(total - getattr(whole, way)).max() <= SCALED * scale[q] + rounding(

@@ -1,4 +1,6 @@
-"""Sizing at numerical extremes: whatever is promised to vanish is below 1e-12 of what was there, or there is an error that says why."""
+"""Sizing at numerical extremes: whatever is promised to vanish is below 1e-12 of what was there, or
+there is an error that says why.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,9 @@ LEFT = 1e-12
 
 
 def share_left(engine: Engine, after: Engine, quantities=("force", "moment")) -> float:
-    """Largest of what is left of orders 1 and 2, against the largest of the same quantity before."""
+    """Largest of what is left of orders 1 and 2, against the largest of the same quantity
+    before.
+    """
     before, rest = spectra(engine, [1, 2], quantities), spectra(after, [1, 2], quantities)
     return max(
         float(getattr(rest, q).major.max() / (getattr(before, q).major.max() or 1))
@@ -43,11 +47,16 @@ def random_engine(seed: int) -> Engine:
         parse(
             engine_text(
                 crank=f"stroke = 100\nthrows = {list(map(float, r.uniform(0, 360, throws)))}\n"
-                f"positions = {list(map(float, np.sort(r.uniform(-400, 400, throws))))}\nthrow_mass = {r.uniform(0, 3)}",
-                rod=f"ratio = {r.uniform(0.05, 0.5)}\nmass = {r.uniform(0, 2)}\ncg = {r.uniform(0, 100)}",
+                "positions = "
+                f"{list(map(float, np.sort(r.uniform(-400, 400, throws))))}\nthrow_mass = "
+                f"{r.uniform(0, 3)}",
+                rod=f"ratio = {r.uniform(0.05, 0.5)}\nmass = {r.uniform(0, 2)}\ncg = "
+                f"{r.uniform(0, 100)}",
                 piston=f"mass = 1\noffset = {r.choice([0.0, 3.0, -8.0])}",
-                layout=f"banks = {list(map(float, r.uniform(-180, 180, banks)))}\nstagger = {r.choice([0.0, 22.0])}",
-                frame=f"reference = [{r.uniform(-50, 50)}, {r.uniform(-50, 50)}, {r.uniform(-300, 300)}]",
+                layout=f"banks = {list(map(float, r.uniform(-180, 180, banks)))}\nstagger = "
+                f"{r.choice([0.0, 22.0])}",
+                frame=f"reference = [{r.uniform(-50, 50)}, {r.uniform(-50, 50)}, "
+                f"{r.uniform(-300, 300)}]",
             )
             + more
         )
@@ -136,7 +145,9 @@ def test_a_gram_next_to_a_hundred_tonnes(light):
 
 @pytest.mark.parametrize("apart", [100, 1, 0.1])
 def test_planes_next_to_each_other(apart):
-    """Planes 1 mm apart in an engine of 200 mm: the unbalances grow a hundredfold, and still nothing is left."""
+    """Planes 1 mm apart in an engine of 200 mm: the unbalances grow a hundredfold, and still
+    nothing is left.
+    """
     engine = build(
         parse(
             engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nthrow_mass = 2")

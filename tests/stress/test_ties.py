@@ -1,4 +1,6 @@
-"""Equal figures stand in the order of the file, or of the search, whatever the last digits of the machine."""
+"""Equal figures stand in the order of the file, or of the search, whatever the last digits of the
+machine.
+"""
 
 from __future__ import annotations
 

@@ -86,7 +86,8 @@ def test_numbers_of_devices_and_cylinders(path: str) -> None:
         ("shaft.1.ratio=1,2", "shaft.1.ratio is no number of this engine file"),
         (
             "rod.ratio",
-            '"rod.ratio": give a number of the engine file and its values, such as rod.ratio=0.24:0.32:0.01',
+            '"rod.ratio": give a number of the engine file and its values, such as '
+            "rod.ratio=0.24:0.32:0.01",
         ),
         (
             "rod.ratio=",

@@ -1,4 +1,6 @@
-"""Studies over the balance factor and the bank angle: what books say of them, and their pictures."""
+"""Studies over the balance factor and the bank angle: what books say of them, and their
+pictures.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,9 @@ def engine(text):
 
 
 def test_flat_plane_vee_eight_over_its_bank_angle():
-    """Liu: with K = 4 A_2 m r omega^2 the second order is K cos(gamma/2) with the crank and K cos(3 gamma/2) against it."""
+    """Liu: with K = 4 A_2 m r omega^2 the second order is K cos(gamma/2) with the crank and K cos(3
+    gamma/2) against it.
+    """
     vee = engine(VEE)
     banks = over_bank_angle(vee, 2)
     c = vee.cylinders
@@ -48,6 +52,25 @@ def test_its_own_bank_angle_is_the_engine_as_it_is():
     force = study(vee, "all").now.spectra.force.at([2])
     assert found.banks.force.major[0, at] == pytest.approx(float(force.major[0]), rel=1e-12)
     assert found.banks.order == 2
+
+
+def test_a_vee_of_free_cylinders_swings_as_one_of_two_banks():
+    """The same two cylinders on each throw, once by their banks and once each by its own axis."""
+    vee = changed(
+        ("throws = [0, 180, 180, 0]", "throws = [0, 120]"),
+        ("firing_order = [1, 3, 4, 2]", "bank_angle = 75"),
+    )
+    axes = "".join(f"[cylinder.{n}]\nbank = {-37.5 if n < 3 else 37.5}\n" for n in (1, 2, 3, 4))
+    free = changed(
+        ("throws = [0, 180, 180, 0]", "throws = [0, 120, 0, 120]\npositions = [-50, 50, -50, 50]"),
+        ("spacing = 100\nthrow_mass = 0.8", "throw_mass = 0.4"),
+        ("firing_order = [1, 3, 4, 2]", ""),
+        more=axes,
+    )
+    expected, found = (over_bank_angle(engine(text), 1) for text in (vee, free))
+    assert found.own_deg == expected.own_deg == 75
+    assert found.force.forward == pytest.approx(expected.force.forward, rel=1e-9)
+    assert found.force.backward == pytest.approx(expected.force.backward, rel=1e-9)
 
 
 def test_half_the_reciprocating_mass_balances_a_cross_plane_vee_eight():

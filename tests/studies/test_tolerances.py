@@ -24,7 +24,9 @@ TWIN = changed(
 
 
 def test_two_pistons_alone_have_a_triangular_difference() -> None:
-    """180-degree twin of pistons alone: the free force of order 1 is |d1 - d2| m r w^2, with uniform d of +-t: its mean is 2t/3."""
+    """180-degree twin of pistons alone: the free force of order 1 is |d1 - d2| m r w^2, with
+    uniform d of +-t: its mean is 2t/3.
+    """
     t, samples = 0.01, 200_000
     (spread,) = scatter(
         load(TWIN), Tolerances(mass=t), parse("force.1.major"), samples, seed=1

@@ -1,4 +1,6 @@
-"""What several tests need: a good engine file, the same with some text replaced, and small engines."""
+"""What several tests need: a good engine file, the same with some text replaced, and small
+engines.
+"""
 
 from __future__ import annotations
 
@@ -45,7 +47,9 @@ rod = { length = 188, mass = 0.62, cg = 90 }
 
 
 def changed(*replacements: tuple[str, str], more: str = "") -> str:
-    """GOOD with each old text (which must be there) replaced by the new one, and `more` at its end."""
+    """GOOD with each old text (which must be there) replaced by the new one, and `more` at its
+    end.
+    """
     text = GOOD
     for old, new in replacements:
         if old not in text:
@@ -55,7 +59,9 @@ def changed(*replacements: tuple[str, str], more: str = "") -> str:
 
 
 def tables(**parts: dict[str, Any] | list[dict[str, Any]]) -> dict[str, Any]:
-    """A plain engine of one cylinder (lambda 1/4, 1 kg piston, rod without mass, 60 rpm) with some tables changed."""
+    """A plain engine of one cylinder (lambda 1/4, 1 kg piston, rod without mass, 60 rpm) with some
+    tables changed.
+    """
     plain: dict[str, Any] = {
         "crank": {"stroke": 100},
         "rod": {"length": 200},
@@ -93,6 +99,15 @@ def refused(**parts: dict[str, Any] | list[dict[str, Any]]) -> str:
 
 
 def engine_text(**tables: str) -> str:
-    """A small engine in 1 kg, 100 mm stroke, unit figures; each keyword names a table and gives its lines, replacing the default."""
+    """A small engine in 1 kg, 100 mm stroke, unit figures; each keyword names a table and gives its
+    lines, replacing the default.
+    """
     lines = {"crank": "stroke = 100", "rod": "ratio = 0.25", "piston": "mass = 1"} | tables
     return "\n".join(f"[{table}]\n{body}" for table, body in lines.items()) + "\n"
+
+
+def alone(engine: Engine, number: int) -> Engine:
+    """The engine with the masses of one cylinder alone, and without devices."""
+    from balcli.forces.spectrum import with_only
+
+    return with_only(engine, [n == number for n in engine.numbers])

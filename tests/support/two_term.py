@@ -1,4 +1,6 @@
-"""The textbooks' two-term forms of the centred slider-crank (in crank radii, by lambda = r/l), and how far they are out."""
+"""The textbooks' two-term forms of the centred slider-crank (in crank radii, by lambda = r/l), and
+how far they are out.
+"""
 
 from __future__ import annotations
 

@@ -174,7 +174,9 @@ def test_a_mechanism_that_cannot_turn():
     ],
 )
 def test_other_angles_and_ratios(name, function):
-    """The print stands beside the exact values wherever it has the angle and the ratio, and only there."""
+    """The print stands beside the exact values wherever it has the angle and the ratio, and only
+    there.
+    """
     table = recompute(name, Options(lam=("0.3", "0.35"), angle=("70", "71.5")))
     place = table.columns.index("0.35")
     assert table.rows[1][place] == pytest.approx(float(function(np.radians(71.5), 0.35)), rel=1e-14)

@@ -1,4 +1,6 @@
-"""The schemes of every textbook, for engines whose answer can be written down (and as hardware that was built)."""
+"""The schemes of every textbook, for engines whose answer can be written down (and as hardware that
+was built).
+"""
 
 from __future__ import annotations
 
@@ -53,7 +55,9 @@ def test_v_twin_at_90_degrees_needs_a_counterweight_alone():
 
 
 def test_cross_plane_v8_needs_counterweights_alone():
-    """Each throw acts like a rotating mass m_rec + m_rot (Cadillac 1923); end weights take the couple of `sqrt 10` throw distances."""
+    """Each throw acts like a rotating mass m_rec + m_rot (Cadillac 1923); end weights take the
+    couple of `sqrt 10` throw distances.
+    """
     remedy = auto(CROSS_V8)
     assert not remedy.shafts
     assert not remedy.sliders
@@ -103,7 +107,9 @@ def test_factor_leaves_what_it_does_not_take():
 
 
 def test_bobweight_card_of_a_cross_plane_v8():
-    """Rotating 2 x (big end + bearing + oil), reciprocating 2 x (piston + small end); bobweight = rotating + half."""
+    """Rotating 2 x (big end + bearing + oil), reciprocating 2 x (piston + small end); bobweight =
+    rotating + half.
+    """
     rod = "length = 150\nsmall_end = 0.17\nbig_end = 0.43"
     e = engine(
         [0, 90, 270, 180],
@@ -141,7 +147,9 @@ def test_split_pins_have_a_card_each():
 
 
 def test_factor_sweep_trades_along_for_across():
-    """One cylinder, order 1 alone as lambda -> 0: peak along falls by K, across rises by K, both in units of m r omega^2."""
+    """One cylinder, order 1 alone as lambda -> 0: peak along falls by K, across rises by K, both in
+    units of m r omega^2.
+    """
     e = build(parse(engine_text(rod="ratio = 1e-7")))
     rows = remedy_for(e, "factor", Wish(factor=(0.0, 0.25, 0.5, 0.75, 1.0))).details["sweep"]
     unit = M * R * e.omega**2
@@ -157,7 +165,9 @@ def test_factor_sweep_trades_along_for_across():
 
 # ------------------------------------------------------------------ shafts
 def test_lanchester_shafts_of_an_inline_four():
-    """Lanchester 1912: two shafts at twice crank speed, each A2 m r / 2 (of `4 A2 m r omega^2 = 2 U (2 omega)^2`)."""
+    """Lanchester 1912: two shafts at twice crank speed, each A2 m r / 2 (of `4 A2 m r omega^2 = 2 U
+    (2 omega)^2`).
+    """
     for remedy in (auto(INLINE_4), remedy_for(INLINE_4, "two-shaft")):
         assert sorted(s.ratio for s in remedy.shafts) == [-2, 2]
         assert sizes(remedy.shafts) == pytest.approx([A2 * M * R / 2] * 2, rel=1e-14)
@@ -165,9 +175,11 @@ def test_lanchester_shafts_of_an_inline_four():
 
 
 def test_shafts_at_different_heights_take_the_roll():
-    """Nakamura 1974 (Mitsubishi): the height between the shafts that makes the second-order roll vanish, and what is left at others.
+    """Nakamura 1974 (Mitsubishi): the height between the shafts that makes the second-order roll
+    vanish, and what is left at others.
 
-    Inertia torque of order 2 of one cylinder: `1/2 m r^2 K_2 2 sin 2 theta` with K_2 the coefficient of (s'/r)^2; four of them.
+    Inertia torque of order 2 of one cylinder: `1/2 m r^2 K_2 2 sin 2 theta` with K_2 the
+    coefficient of (s'/r)^2; four of them.
     """
     inertia_torque = 4 * M * R**2 * abs(float(harmonics.kinetic([2], LAM)[0]))  # per omega^2
     height = inertia_torque / (4 * A2 * M * R / 2)  # force of one shaft
@@ -192,7 +204,9 @@ def test_roll_vanishes_with_the_first_shaft_given_and_the_reference_elsewhere():
 
 
 def test_inline_three_needs_couples():
-    """Order 1 backward couple `sqrt3/2 m r a omega^2`: two opposite eccentrics 2a apart (a the throw spacing)."""
+    """Order 1 backward couple `sqrt3/2 m r a omega^2`: two opposite eccentrics 2a apart (a the
+    throw spacing).
+    """
     remedy = auto(INLINE_3)
     at = {ratio: [s for s in remedy.shafts if s.ratio == ratio] for ratio in (-1, 2, -2)}
     assert sizes(at[-1]) == pytest.approx([math.sqrt(3) / 4 * M * R] * 2, rel=1e-13)
@@ -234,7 +248,9 @@ def test_inline_six_needs_nothing():
 
 
 def test_eccentric_stands_where_the_force_acts():
-    """A twin whose second-order force acts off the middle of the throws: one eccentric there takes the moment too."""
+    """A twin whose second-order force acts off the middle of the throws: one eccentric there takes
+    the moment too.
+    """
     e = engine([0, 180], more="[cylinder.2]\npiston_mass = 3\n")
     at = {s.ratio: s for s in auto(e).shafts if abs(s.ratio) == 2}
     assert at[2].position == at[-2].position == pytest.approx((3 * 50 - 50) / 4, rel=1e-14)
@@ -265,14 +281,16 @@ def test_eccentric_stands_where_the_force_acts():
         (
             "magic",
             Wish(),
-            "there is no scheme 'magic': choose from auto, counterweights, factor, minimax, single-shaft, two-shaft, four-shaft, "
+            "there is no scheme 'magic': choose from auto, counterweights, factor, minimax, "
+            "single-shaft, two-shaft, four-shaft, "
             "couple-shaft, slider, eccentric-slider, oldham, knuckles",
         ),
         ("knuckle", Wish(), "there is no scheme 'knuckle': did you mean knuckles\\? choose from"),
         (
             "knuckles",
             Wish(),
-            "scheme knuckles sizes no devices but changes the engine file: `balcli balance --scheme knuckles` does so",
+            "scheme knuckles sizes no devices but changes the engine file: `balcli balance "
+            "--scheme knuckles` does so",
         ),
         ("mini-max", Wish(), "did you mean minimax"),
         ("two-shaft", Wish(order=6, roll="nought"), 'only "zero" can be asked for'),

@@ -1,7 +1,9 @@
-"""Liu Xianzhi 1979: balance of the second-order force of flat-plane V8 engines with two shafts, one shaft, or two sliders.
+"""Liu Xianzhi 1979: balance of the second-order force of flat-plane V8 engines with two shafts, one
+shaft, or two sliders.
 
-K = 4 A2 m r omega^2. Misprints of the source that are corrected here: (4.2) prints the inverse of b1/b2; (5.6) has a factor 4 too many;
-(5.5) and the first line of 6.1 print Z_x with the opposite sign. A2 stands for the source's lambda, its leading term.
+K = 4 A2 m r omega^2. Misprints of the source that are corrected here: (4.2) prints the inverse of
+b1/b2; (5.6) has a factor 4 too many; (5.5) and the first line of 6.1 print Z_x with the opposite
+sign. A2 stands for the source's lambda, its leading term.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
 """Wang Yongding: balance of the single cylinder. J = m r omega^2, lambda the crank ratio.
 
-Corrected misprints: (24) must have + phi'' sin phi; (18) leaves out the sine term of the couple; Table 1 searched half a revolution
-only, so that three of its five minima lie below the true ones. Optima of the eccentric slider were computed independently, by search.
+Corrected misprints: (24) must have + phi'' sin phi; (18) leaves out the sine term of the couple;
+Table 1 searched half a revolution only, so that three of its five minima lie below the true ones.
+Optima of the eccentric slider were computed independently, by search.
 """
 
 from __future__ import annotations
@@ -78,7 +79,9 @@ def test_eccentric_slider_smallest_mean(lam, design, force, k, mu, mean):
 
 @pytest.mark.parametrize(("design", "residual"), [("a", 9 / 32), ("b", 27 / 32)])
 def test_eccentric_slider_leading_order(design, residual):
-    """k = 2/lambda, mu = 1/2, residual a third order of 9/32 (27/32) lambda^2: design a is three times better."""
+    """k = 2/lambda, mu = 1/2, residual a third order of 9/32 (27/32) lambda^2: design a is three
+    times better.
+    """
     lam = 1e-3
     found = eccentric.best(design, "largest", "orders 1+2", lam)
     assert found.k * lam / 2 == pytest.approx(1, abs=1e-5)
@@ -88,7 +91,9 @@ def test_eccentric_slider_leading_order(design, residual):
 
 @pytest.mark.parametrize("design", eccentric.DESIGNS)
 def test_eccentric_slider_beats_its_neighbours(design):
-    """Direct evaluation of the corrected (24) on a fine grid, with the angle of the linkage differentiated numerically."""
+    """Direct evaluation of the corrected (24) on a fine grid, with the angle of the linkage
+    differentiated numerically.
+    """
     lam, theta = 0.25, np.linspace(0, 2 * np.pi, 4001)
 
     def largest(k, mu):
@@ -127,7 +132,9 @@ def test_an_eccentric_slider_has_no_optimum_near_lambda_1(design, criterion, lam
     ("design", "criterion", "lam"), [("a", "mean", 0.2), ("b", "mean", 0.6), ("b", "largest", 0.4)]
 )
 def test_eccentric_slider_says_the_largest_of_what_remains(design, criterion, lam):
-    """Of either sign, by samples; the shafts' cosine from the triangle of disc centre, shaft and pin, differentiated by Fourier."""
+    """Of either sign, by samples; the shafts' cosine from the triangle of disc centre, shaft and
+    pin, differentiated by Fourier.
+    """
     best = eccentric.best(design, criterion, "all orders", lam)
     theta = np.arange(4096) * (2 * np.pi / 4096)
     phi = theta + (
@@ -143,7 +150,9 @@ def test_eccentric_slider_says_the_largest_of_what_remains(design, criterion, la
 
 
 def test_eccentric_slider_leaves_its_residual():
-    """The devices as analysed give what the optimum promises, but for the orders of the engine beyond 1 and 2."""
+    """The devices as analysed give what the optimum promises, but for the orders of the engine
+    beyond 1 and 2.
+    """
     engine = single(0.25)
     remedy = remedy_for(engine, "eccentric-slider")
     left = spectra(fitted(engine, remedy), np.arange(1.0, 12), ("force",)).force
@@ -158,7 +167,9 @@ def test_eccentric_slider_leaves_its_residual():
 
 
 def test_eccentric_slider_of_any_mass_in_any_direction():
-    """What is left is that of 1 kg times the mass, along the cylinder axis; no moment arises and no mean is left."""
+    """What is left is that of 1 kg times the mass, along the cylinder axis; no moment arises and no
+    mean is left.
+    """
     plain, mass, bank, z = single(0.25), 0.4, 37, 60
     other = build(
         parse(
@@ -243,7 +254,9 @@ def test_oldham_couplings_suit_an_offset_too():
 
 
 def test_two_and_four_shafts():
-    """(2.1) m_b r_b = m r / 2 each (here with the rotating mass on the one that turns with the crank); (2.2) A2 m r / 8."""
+    """(2.1) m_b r_b = m r / 2 each (here with the rotating mass on the one that turns with the
+    crank); (2.2) A2 m r / 8.
+    """
     shafts = {s.ratio: s.unbalance / 1e6 for s in remedy_for(single(), "four-shaft").shafts}
     second = float(harmonics.piston([2], 0.25)[0]) * M * R / 8
     assert shafts == pytest.approx(
@@ -252,7 +265,9 @@ def test_two_and_four_shafts():
 
 
 def test_single_shaft_leaves_a_couple():
-    """(18), with its sine term: a couple Z0 m_b r_b omega^2 turning with the shaft, Z0 the axial distance."""
+    """(18), with its sine term: a couple Z0 m_b r_b omega^2 turning with the shaft, Z0 the axial
+    distance.
+    """
     engine = single()
     remedy = remedy_for(engine, "single-shaft", Wish(position=0.08))
     couple = 0.08 * M * R / 2 * engine.omega**2
@@ -277,9 +292,11 @@ def test_single_shaft_leaves_a_couple():
     ],
 )
 def test_overbalance_optimum_of_both_orders(lam, peak, k):
-    """Table 1 over the full cycle, for his two-term force: P^2 is convex, the weight stands opposite the pin, three angles are active.
+    """Table 1 over the full cycle, for his two-term force: P^2 is convex, the weight stands
+    opposite the pin, three angles are active.
 
-    Our minimax is of all orders; here it must not do better than two terms by more than the terms left out.
+    Our minimax is of all orders; here it must not do better than two terms by more than the terms
+    left out.
     """
     engine = single(lam)
     (weight,) = remedy_for(engine, "minimax").counterweights

@@ -47,7 +47,7 @@ def sweep(
             ),
         ),
     ] = "force.1.major,force.2.major,moment.1.major,moment.2.major",
-    format: Annotated[
+    format: Annotated[  # noqa: A002
         Form, typer.Option("--format", "-f", help="How to write the variants.")
     ] = Form.CSV,
     output: Output = None,

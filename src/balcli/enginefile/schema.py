@@ -34,6 +34,8 @@ def _tidy(node: Any) -> Any:
     if not isinstance(node, dict):
         return node
     node = {key: _tidy(value) for key, value in node.items()}
+    if isinstance(node.get("description"), str):
+        node["description"] = " ".join(node["description"].split())  # docstrings are wrapped
     options = [option for option in node.get("anyOf", ()) if option != {"type": "null"}]
     if len(options) == 1:
         del node["anyOf"]

@@ -191,8 +191,10 @@ def _along_the_crank(inner: Inner, system: System) -> Iterator[Grid | Facts]:
         (
             (
                 "largest inner moment",
-                f"{number(system.moment.of(inner.bending.peaks[most].value))} "
-                f"{system.moment.name} {at}",
+                (
+                    f"{number(system.moment.of(inner.bending.peaks[most].value))} "
+                    f"{system.moment.name} {at}"
+                ),
             ),
         )
     )

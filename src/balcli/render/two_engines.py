@@ -61,8 +61,10 @@ def sheet(result: Combined, system: System) -> Sheet:
         ("place", f"the second at {place(how.at_m)}, turned by {how.turn_deg:g} deg"),
         (
             "crank",
-            f"the second leads by {how.phase_deg:g} "
-            f"deg{', and turns against the first' if how.reverse else ''}",
+            (
+                f"the second leads by {how.phase_deg:g} deg"
+                f"{', and turns against the first' if how.reverse else ''}"
+            ),
         ),
         ("speed", f"{number(first.speed_rpm, 6)} rpm, both"),
         ("reference", f"moments about {place(first.reference_m)}"),

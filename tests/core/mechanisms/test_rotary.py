@@ -39,7 +39,9 @@ def built(layout="radial = 7", offset=0, more=""):
 
 @pytest.mark.parametrize("count", [3, 4, 5, 7, 9])
 def test_three_or_more_cylinders_have_no_first_order_force(count):
-    """Well known: the pistons run round the crank pin almost on a circle. What is left has the order of the cylinders."""
+    """Well known: the pistons run round the crank pin almost on a circle. What is left has the
+    order of the cylinders.
+    """
     force = spectrum.spectra(
         built(f"radial = {count}"), np.arange(1.0, 2 * count + 1), ["force"]
     ).force
@@ -50,7 +52,9 @@ def test_three_or_more_cylinders_have_no_first_order_force(count):
 
 
 def test_one_cylinder_has_a_first_order_force_of_its_mean_distance():
-    """Forward first order: m omega^2 times the mean distance of the piston pin, here by quadrature (lambda = 6/23)."""
+    """Forward first order: m omega^2 times the mean distance of the piston pin, here by quadrature
+    (lambda = 6/23).
+    """
     force = spectrum.spectra(built("banks = [0]"), [1.0], ["force"]).force
     assert force is not None
     psi = np.arange(64) * (2 * np.pi / 64)
@@ -94,7 +98,9 @@ def test_every_second_cylinder_fires_as_they_come_round():
 
 
 def test_the_throws_of_two_rows_follow_from_the_firing_order():
-    """Cylinder 6 stands at 240 degrees and is to fire 60 degrees after cylinder 1: its pin stands still at 300."""
+    """Cylinder 6 stands at 240 degrees and is to fire 60 degrees after cylinder 1: its pin stands
+    still at 300.
+    """
     found = built("radial = 3", more="firing_order = [1, 6, 5, 4, 3, 2]\nstrokes = 2\n")
     assert found.cylinders.axis_deg == pytest.approx([0, 300])
     assert found.numbers == (1, 3, 5, 2, 4, 6)
@@ -121,7 +127,11 @@ def test_true_or_false(layout, message):
     assert [str(p) for p in caught.value.problems] == [message]
 
 
-ARTICULATED = "[articulation]\nknuckle_radius = {radius}\nrod = {{ length = {length}, mass = 0.9, cg = {cg}, inertia = 7000 }}\n"
+ARTICULATED = (
+    "[articulation]\nknuckle_radius = {radius}\nrod = {{ length = {length}, mass = "
+    "0.9, cg = "
+    "{cg}, inertia = 7000 }}\n"
+)
 
 
 def test_a_master_rod_with_knuckle_pins_nearly_on_the_crank_pin_is_no_master_rod():
@@ -160,7 +170,8 @@ def test_even_knuckles_are_not_for_rotary_engines():
         even_knuckles(file)
     assert (
         str(caught.value)
-        == "knuckles: this engine is rotary; even knuckle angles are looked for where the crank turns only"
+        == "knuckles: this engine is rotary; even knuckle angles are looked for where the crank "
+        "turns only"
     )
 
 
@@ -177,7 +188,9 @@ def test_the_page_has_the_knuckle_pins_of_turning_cylinders():
 
 
 def test_variants_along_two_axes():
-    """Strokes along one axis, rod lengths along the other: what each variant alone gives, also at an uneven speed."""
+    """Strokes along one axis, rod lengths along the other: what each variant alone gives, also at
+    an uneven speed.
+    """
     ripple = "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.1, angle = 20 }]\n"
     file = enginefile.parse(GNOME.format(layout="radial = 3", offset=4) + ripple)
     strokes, lengths = np.array([[100.0], [120.0], [130.0]]), np.array([[220.0, 240.0]])

@@ -141,7 +141,8 @@ def test_v8_firing_orders_fit_their_crank() -> None:
         ("radial = 5\nrotary = true\nfiring_order = [1, 3, 5, 2, 4]", 0),
         ("bank_angle = 180\nrotary = true\nfiring_order = [1, 2, 4, 3]", 0),
         (
-            "radial = 5\nfiring_order = [1, 3, 5, 2, 4]\n[articulation]\nknuckle_radius = 30\n[articulation.rod]\nlength = 130",
+            "radial = 5\nfiring_order = [1, 3, 5, 2, 4]\n[articulation]\nknuckle_radius = "
+            "30\n[articulation.rod]\nlength = 130",
             0,
         ),
     ],
@@ -247,7 +248,8 @@ def test_even_firing() -> None:
         ("colour", '--over "colour": choose from throws, firing_order, bank_angle, splay'),
         (
             "trows",
-            '--over "trows": choose from throws, firing_order, bank_angle, splay; did you mean throws?',
+            '--over "trows": choose from throws, firing_order, bank_angle, splay; did you mean '
+            "throws?",
         ),
         (
             "bank_angle",
@@ -287,12 +289,14 @@ def test_an_angle_is_looked_for_on_a_given_crank(over: str) -> None:
         (
             "force.1.axis",
             (),
-            "force.1.axis is a direction, which cannot be large or small; name a size such as force.1.major",
+            "force.1.axis is a direction, which cannot be large or small; name a size such as "
+            "force.1.major",
         ),
         (
             "roll.2.cos",
             (),
-            "roll.2.cos may be negative, and then would be the better the larger it is; name a size such as roll.2.major",
+            "roll.2.cos may be negative, and then would be the better the larger it is; name a "
+            "size such as roll.2.major",
         ),
     ],
 )

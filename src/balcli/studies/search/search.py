@@ -217,11 +217,10 @@ def fires_evenly(
     deg), shape (variants,).
     """
     c = engine.cylinders
-    axis = np.repeat(c.axis_deg, np.diff([*c.starts, c.count]), axis=0)
     late = (
         0.0 if file.articulation else np.degrees(np.arcsin(c.eps / (1 + c.lam)))
     )  # see engine.tops
-    ready = axis + late - c.pin_deg
+    ready = c.axis_of_each_deg + late - c.pin_deg
     ready = np.sort(np.mod(ready - ready[engine.numbers.index(1)] + tolerance, 360.0), axis=0)
     even = np.sort(np.mod(np.arange(c.count) * cycle(file.layout) / c.count, 360.0)).reshape(
         -1, *(1,) * (ready.ndim - 1)
