@@ -21,6 +21,7 @@ from ..core.strokes import travel as dead_centres
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import FINEST_STEP_DEG
+from .kinds import COUPLE, FORCE, MOMENT, ROLL, TORQUE
 
 AT_ONCE = 200_000  # cylinders x angles, which bounds the memory
 _EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
@@ -102,13 +103,13 @@ def _engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     couple = np.concatenate([_couple(engine, motion), (np.conj(places)[:, None] * force).imag])
     torque = _torque(engine, motion)
     return {
-        "force_x_N": force.real,
-        "force_y_N": force.imag,
-        "moment_x_Nm": moment.real,
-        "moment_y_Nm": moment.imag,
-        "couple_Nm": couple,
-        "inertia_torque_Nm": torque,
-        "roll_Nm": np.concatenate([couple, -torque]),
+        FORCE.key_along("x"): force.real,
+        FORCE.key_along("y"): force.imag,
+        MOMENT.key_along("x"): moment.real,
+        MOMENT.key_along("y"): moment.imag,
+        COUPLE.key: couple,
+        TORQUE.key: torque,
+        ROLL.key: np.concatenate([couple, -torque]),
     }
 
 

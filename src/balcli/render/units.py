@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ..enginefile import units
+from ..forces.kinds import Kind
 
 POUND, INCH = float(units.POUND), float(units.INCH)  # kg, m
 POUND_FORCE = POUND * units.STANDARD_GRAVITY  # N
@@ -30,6 +31,10 @@ class System(NamedTuple):
     mass: Unit
     length: Unit
     volume: Unit
+
+    def unit(self, kind: Kind) -> Unit:
+        """The unit of a kind of force or moment."""
+        return self.force if kind.dimension == "force" else self.moment
 
 
 SI = System(
