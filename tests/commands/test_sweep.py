@@ -7,10 +7,11 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from support.commands import run_command
+from support.commands import HANGS, run_command, start_command
 from support.engines import GOOD
 
 
@@ -81,33 +82,34 @@ def test_a_variant_that_cannot_be_is_told_before_anything_is_written(tmp_path: P
     )
 
 
+HEAD = 100_000  # bytes: more than what is written before the first rows
+
+
+def until(happened: Callable[[], bool]) -> None:
+    """Wait for it."""
+    end = time.monotonic() + HANGS
+    while not happened():
+        assert time.monotonic() < end, "nothing happens"
+        time.sleep(0.02)
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_ctrl_c_leaves_a_valid_part(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "x.json"
-    process = subprocess.Popen(
-        [
-            sys.executable,
-            "-m",
-            "balcli",
-            "sweep",
-            engine,
-            "--vary",
-            "rod.ratio=0.2:0.3:0.00001",
-            "--vary",
-            "crank.stroke=80:90:0.001",
-            "-q",
-            "force.2.major",
-            "-f",
-            "json",
-            "-o",
-            str(target),
-        ],
+    process = start_command(
+        *("sweep", engine, "-q", "force.2.major", "-f", "json", "-o", target),
+        *("--vary", "rod.ratio=0.2:0.3:0.00001", "--vary", "crank.stroke=80:90:0.001"),
         stderr=subprocess.PIPE,
-        text=True,
+        encoding="utf-8",
     )
-    time.sleep(2)
+    until(
+        lambda: (
+            process.poll() is not None
+            or any(p.stat().st_size > HEAD for p in tmp_path.glob(".x.json*"))
+        )
+    )
     process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=HANGS)
     assert process.returncode == 130
     rows = json.loads(target.read_text())["rows"]
     assert errors == f"balcli: stopped after {len(rows)} of 100020001 variants\n"

@@ -7,10 +7,11 @@ import signal
 import subprocess
 import sys
 import threading
+from functools import partial
 from pathlib import Path
 
 import pytest
-from support.commands import run_here, start_command
+from support.commands import HANGS, run_here, start_command
 from support.engines import GOOD
 
 unix = pytest.mark.skipif(sys.platform == "win32", reason="needs links, pipes and signals")
@@ -243,7 +244,7 @@ def test_standard_output_that_is_full(good, command):
     name, *rest = command
     with Path("/dev/full").open("wb") as full:
         running = start_command(name, good, *rest, stdout=full, stderr=subprocess.PIPE)
-        err = running.communicate(timeout=30)[1].decode()
+        err = running.communicate(timeout=HANGS)[1].decode()
     assert (running.returncode, err) == (
         2,
         "balcli: standard output: cannot be written (No space left on device)\n",
@@ -260,21 +261,24 @@ def test_a_reader_who_leaves_early_ends_a_sweep_quietly(good):
         stderr=subprocess.PIPE,
     )
     os.close(writing)
-    assert (running.communicate(timeout=60)[1], running.returncode) == (b"", 0)
+    assert (running.communicate(timeout=HANGS)[1], running.returncode) == (b"", 0)
 
 
 @unix
 def test_an_interrupt_is_no_traceback():
     """It waits for the rest of its standard input: more than a pipe holds has been read."""
+    # Jobs in the background of a script ignore it.
+    heeded = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
     running = start_command(
         *("analyze", "-"),
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
+        preexec_fn=heeded,
     )
     assert running.stdin is not None
     running.stdin.write(b"#\n" * 200_000)
     running.stdin.flush()
     running.send_signal(signal.SIGINT)
-    out, err = running.communicate(timeout=30)
+    out, err = running.communicate(timeout=HANGS)
     assert (running.returncode, out, err.strip()) == (130, b"", b"")

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from ..errors import BalcliError
+from ..limits import FARTHEST_DEG, FARTHEST_M
 from ..results.two_engines import Arrangement
 from .options import parse_numbers
-
-MOST = 1e6  # degrees; metres
 
 
 def parse_arrangement(phase: float, at: str, turn: float, reverse: bool) -> Arrangement:
@@ -22,8 +21,10 @@ def parse_arrangement(phase: float, at: str, turn: float, reverse: bool) -> Arra
         BalcliError: a place that is not three numbers, or anything infinite.
     """
     for option, value in (("--phase", phase), ("--turn", turn)):
-        if not abs(value) <= MOST:
-            raise BalcliError(f"{option} {value:g}: give an angle in degrees, up to {MOST:g}")
+        if not abs(value) <= FARTHEST_DEG:
+            raise BalcliError(
+                f"{option} {value:g}: give an angle in degrees, up to {FARTHEST_DEG:g}"
+            )
     return Arrangement(phase, _parse_place(at), turn, reverse)
 
 
@@ -31,6 +32,6 @@ def _parse_place(text: str) -> tuple[float, float, float]:
     """x, y and z in m."""
     wanted = "three numbers, X,Y,Z in mm, such as 0,300,0"
     x, y, z = (v / 1e3 for v in parse_numbers("--at", text, wanted, 3))
-    if max(map(abs, (x, y, z))) > MOST:
-        raise BalcliError(f'--at "{text[:60]}": the places may be up to {MOST:g} m')
+    if max(map(abs, (x, y, z))) > FARTHEST_M:
+        raise BalcliError(f'--at "{text[:60]}": the places may be up to {FARTHEST_M:g} m')
     return x, y, z

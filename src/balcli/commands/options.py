@@ -11,6 +11,7 @@ import typer
 
 from ..errors import BalcliError
 from ..forces.kinds import KINDS
+from ..limits import HIGHEST_ORDER
 from ..render.formats import Format, Units
 from .completion import complete_schemes
 
@@ -96,9 +97,9 @@ def parse_orders(text: str | None) -> list[int] | None:
         if not _is_whole(first) or (dash and not _is_whole(last)) or len(first + last) > 12:
             raise BalcliError(f'--orders "{text}": give whole numbers such as 1-8 or 1,2,4')
         low, high = int(first), int(last or first)
-        if low > high or high > 4096:
+        if low > high or high > HIGHEST_ORDER:
             raise BalcliError(
-                f'--orders "{text}": {part.strip()} must rise and end at 4096 at most'
+                f'--orders "{text}": {part.strip()} must rise and end at {HIGHEST_ORDER} at most'
             )
         orders += range(low, high + 1)
     return orders
