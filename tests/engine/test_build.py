@@ -9,7 +9,7 @@ import pytest
 from support.engines import engine, refused
 
 from balcli.core.phasors import unit
-from balcli.engine.rods import STANDARD_GRAVITY
+from balcli.enginefile.units import STANDARD_GRAVITY
 
 TIGHT = 1e-14
 
@@ -141,14 +141,24 @@ def test_a_free_layout():
         },
     )
     c = e.cylinders
-    axis = np.repeat(c.axis_deg, np.diff([*c.starts, c.count]))
     rows = {
         n: (float(a), float(p), float(z))
-        for n, a, p, z in zip(e.numbers, axis, c.pin_deg, c.z, strict=True)
+        for n, a, p, z in zip(e.numbers, c.axis_of_each_deg, c.pin_deg, c.z, strict=True)
     }
     assert rows == {1: (30, 0, -0.07), 2: (-30, 90, 0), 3: (30, 180, 0.08)}
+    assert list(c.axis_deg) == [30, -30]
     assert c.axis_deg[c.first] == 30
     assert e.reference_m == pytest.approx((0, 0, 0.005))
+
+
+def test_cylinders_on_equal_axes_are_one_bank_however_the_file_says_so():
+    turned = engine(
+        crank={"throws": [0, 180, 180, 0]},
+        cylinder={str(number): {"bank": 45} for number in range(1, 5)},
+    )
+    assert list(turned.cylinders.axis_deg) == [45]
+    assert list(engine(layout={"banks": [30, -30, 30]}).cylinders.axis_deg) == [30, -30]
+    assert list(engine(layout={"bank_angle": 0}).cylinders.axis_deg) == [0]
 
 
 def test_pins_count_from_cylinder_1s_which_may_be_in_the_second_bank():

@@ -54,6 +54,25 @@ def test_its_own_bank_angle_is_the_engine_as_it_is():
     assert found.banks.order == 2
 
 
+def test_a_vee_of_free_cylinders_swings_as_one_of_two_banks():
+    """The same two cylinders on each throw, once by their banks and once each by its own axis."""
+    vee = changed(
+        ("throws = [0, 180, 180, 0]", "throws = [0, 120]"),
+        ("firing_order = [1, 3, 4, 2]", "bank_angle = 75"),
+    )
+    axes = "".join(f"[cylinder.{n}]\nbank = {-37.5 if n < 3 else 37.5}\n" for n in (1, 2, 3, 4))
+    free = changed(
+        ("throws = [0, 180, 180, 0]", "throws = [0, 120, 0, 120]\npositions = [-50, 50, -50, 50]"),
+        ("spacing = 100\nthrow_mass = 0.8", "throw_mass = 0.4"),
+        ("firing_order = [1, 3, 4, 2]", ""),
+        more=axes,
+    )
+    expected, found = (over_bank_angle(engine(text), 1) for text in (vee, free))
+    assert found.own_deg == expected.own_deg == 75
+    assert found.force.forward == pytest.approx(expected.force.forward, rel=1e-9)
+    assert found.force.backward == pytest.approx(expected.force.backward, rel=1e-9)
+
+
 def test_half_the_reciprocating_mass_balances_a_cross_plane_vee_eight():
     rows = study(engine(CROSS), "factor").factors
     best = min(rows, key=lambda row: row["peak_moment_Nm"])

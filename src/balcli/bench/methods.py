@@ -166,7 +166,7 @@ def _columns(engine: Engine) -> tuple[Any, Any, Any, Any, Any]:
     arm (m) of every cylinder.
     """
     c = engine.cylinders
-    axis = np.radians(np.repeat(c.axis_deg, np.diff([*c.starts, c.count])))
+    axis = np.radians(c.axis_of_each_deg)
     scale = c.radius * engine.omega**2
     return (
         float(c.reciprocating[0] * scale),

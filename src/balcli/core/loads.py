@@ -73,12 +73,16 @@ class Cylinders:
         return len(self.pin_deg)
 
     @property
+    def axis_of_each_deg(self) -> Array:
+        """Axis of each cylinder from x, deg, shape (cylinders, *trailing)."""
+        return np.repeat(self.axis_deg, np.diff([*self.starts, self.count]), axis=0)
+
+    @property
     def angle_deg(self) -> Array:
         """Each cylinder's own crank angle at crank angle 0 (`phi` in docs/theory.md), deg, shape
         (cylinders, *trailing).
         """
-        axis = np.repeat(self.axis_deg, np.diff([*self.starts, self.count]), axis=0)
-        return np.asarray(self.axis_deg[self.first] + self.pin_deg - axis)
+        return np.asarray(self.axis_deg[self.first] + self.pin_deg - self.axis_of_each_deg)
 
     @property
     def offset(self) -> Array:

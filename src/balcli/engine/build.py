@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -17,20 +18,18 @@ from ..core.loads import Cylinders, Device
 from ..core.mechanisms import harmonics
 from ..enginefile.model import Bobweight, EngineFile
 from ..errors import InputError, Problem
+from ..limits import MOST_SAMPLES
 from . import articulation
 from .arrays import column, shared
 from .devices import devices
 from .layout import Plan, plan
-from .positions import by_axis, one_object, pins, places, reference, strangers
+from .positions import pins, places, reference, share_axes, strangers
 from .rods import Parts, mistakes, own_or, rod_of
 
 if TYPE_CHECKING:
     from ..core.mechanisms.articulated import Articulated
     from ..core.mechanisms.rotary import Rotary
 
-MOST_SAMPLES = (
-    1 << 19
-)  # of a revolution, of all mechanisms that differ; far from their lock they take 64 to 256 each
 STANDSTILL = 1e-12  # of the mean speed: rounding
 
 
@@ -267,21 +266,20 @@ def _cylinders(
     """Rows sorted by axis, and the number of each."""
     still, turning = axis, {n: pin[n] - pin[1] for n in layout.numbers}
     if file.layout.rotary:  # cylinders turn about pins that stand still (core.rotary)
-        still, turning = (
-            one_object({n: axis[1] + turning[n] for n in axis}),
-            {n: axis[n] - axis[1] for n in axis},
-        )
-    numbers = tuple(layout.numbers[row] for row in by_axis(layout, still))
-    starts = [k for k, n in enumerate(numbers) if k == 0 or still[n] is not still[numbers[k - 1]]]
+        still = {n: axis[1] + turning[n] for n in axis}
+        turning = {n: axis[n] - axis[1] for n in axis}
+    banks = share_axes(still)
+    numbers = tuple(chain.from_iterable(banks))
+    starts = np.cumsum([0, *map(len, banks[:-1])])
     parts, radius = [rods[n] for n in numbers], file.crank.stroke / 2e3
     masters = articulation.masters(file, layout)
     at_pistons = shared([rod.piston + rod.small_end for rod in parts], rank)
     hung = articulation.linkage(file, layout, numbers, axis, [rod.big_end for rod in parts], rank)
     return Cylinders(
-        axis_deg=column([still[numbers[row]] for row in starts], rank),
+        axis_deg=column([still[bank[0]] for bank in banks], rank),
         pin_deg=column([turning[n] for n in numbers], rank),
-        starts=np.array(starts),
-        first=int(np.searchsorted(starts, numbers.index(1), side="right")) - 1,
+        starts=starts,
+        first=next(k for k, bank in enumerate(banks) if 1 in bank),
         z=column([along[n] for n in numbers], rank),
         radius=column([radius], rank)[0],
         lam=shared([radius / rod.length for rod in parts], rank),

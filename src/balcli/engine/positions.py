@@ -89,22 +89,16 @@ def reference(file: EngineFile, throws: NDArray[np.float64]) -> tuple[Any, Any, 
     return 0.0, 0.0, (throws.min(axis=0) + throws.max(axis=0)) / 2
 
 
-def one_object(angles: Mapping[int, Any]) -> dict[int, Any]:
-    """Equal angles as one object."""
-    known: dict[bytes, Any] = {}
-    return {
-        n: known.setdefault(np.asarray(angle, float).tobytes(), angle)
-        for n, angle in angles.items()
-    }
+def share_axes(axis_deg: Mapping[int, Any]) -> list[list[int]]:
+    """The banks: numbers of the cylinders that have the same axis, by value, at every variant.
 
-
-def by_axis(layout: Plan, axis: Mapping[int, Any]) -> list[int]:
-    """Rows of the cells such that cylinders on one axis stand together."""
-    seen: dict[int, int] = {}
-    return sorted(
-        range(len(layout.cells)),
-        key=lambda row: seen.setdefault(id(axis[layout.cells[row].number]), row),
-    )
+    Banks, and the cylinders of each, stand in the order in which `axis_deg` names them.
+    """
+    banks: dict[bytes, list[int]] = {}
+    for number, axis in axis_deg.items():
+        value = np.asarray(axis, float) + 0.0  # which makes 0.0 of -0.0
+        banks.setdefault(value.tobytes(), []).append(number)
+    return list(banks.values())
 
 
 def strangers(layout: Plan, own: Mapping[int, Override]) -> list[Problem]:

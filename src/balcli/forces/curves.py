@@ -20,8 +20,9 @@ from ..core.phasors import EPS, Array, Complex, unit
 from ..core.strokes import travel as dead_centres
 from ..engine.build import Engine
 from ..errors import BalcliError
+from ..limits import FINEST_STEP_DEG
+from .kinds import COUPLE, FORCE, MOMENT, ROLL, TORQUE
 
-FINEST = 1e-3  # degrees
 AT_ONCE = 200_000  # cylinders x angles, which bounds the memory
 _EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
 
@@ -44,9 +45,10 @@ def crank_angles(step: float = 1.0) -> Array:
     Raises:
         BalcliError: the step is not from 0.001 to 360.
     """
-    if not FINEST <= step <= 360:
+    if not FINEST_STEP_DEG <= step <= 360:
         raise BalcliError(
-            f"--step {step:g}: give a step of the crank angle from {FINEST:g} to 360 degrees"
+            f"--step {step:g}: give a step of the crank angle from {FINEST_STEP_DEG:g} to 360 "
+            "degrees"
         )
     return np.arange(0.0, np.ceil(360 / step - 1e-9)) * step
 
@@ -101,13 +103,13 @@ def _engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     couple = np.concatenate([_couple(engine, motion), (np.conj(places)[:, None] * force).imag])
     torque = _torque(engine, motion)
     return {
-        "force_x_N": force.real,
-        "force_y_N": force.imag,
-        "moment_x_Nm": moment.real,
-        "moment_y_Nm": moment.imag,
-        "couple_Nm": couple,
-        "inertia_torque_Nm": torque,
-        "roll_Nm": np.concatenate([couple, -torque]),
+        FORCE.key_along("x"): force.real,
+        FORCE.key_along("y"): force.imag,
+        MOMENT.key_along("x"): moment.real,
+        MOMENT.key_along("y"): moment.imag,
+        COUPLE.key: couple,
+        TORQUE.key: torque,
+        ROLL.key: np.concatenate([couple, -torque]),
     }
 
 
@@ -151,7 +153,7 @@ class _Motion:
             np.broadcast_to(_column(c.lam), count),
             np.broadcast_to(_column(c.eps), count),
         )
-        axes = np.repeat(_column(c.axis_deg), np.diff([*c.starts, c.count]), axis=0)
+        axes = _column(c.axis_of_each_deg)
         self.crank_deg = crank_deg
         self.pin = crank_deg + float(np.ravel(c.axis_deg)[c.first]) + _column(c.pin_deg)  # from x
         self.psi = np.radians(np.remainder(self.pin - axes + 180, 360) - 180)

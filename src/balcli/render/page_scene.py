@@ -48,7 +48,7 @@ def _cylinders(engine: Engine) -> list[dict[str, Any]]:
     """
     c, linkage = engine.cylinders, engine.cylinders.linkage
     rods = linkage.hung if isinstance(linkage, Rotary) else linkage
-    axes = np.repeat(c.axis_deg, np.diff([*c.starts, c.count]), axis=0)
+    axes = c.axis_of_each_deg
     lengths, offsets = (
         np.broadcast_to(np.ravel(v) * 1e3, c.count) for v in (c.radius / c.lam, c.offset)
     )
@@ -109,9 +109,5 @@ def _device(device: Device) -> dict[str, Any]:
 
 
 def _shakes(result: Analysis, order: float) -> bool:
-    rows = [
-        p.at([order])
-        for q, p in result.spectra.items()
-        if q in ("force", "moment") and order in p.orders
-    ]
+    rows = [p.at([order]) for _, p in result.spectra.vectors() if order in p.orders]
     return any(not row.balanced[0] for row in rows)

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-POUND = 0.45359237  # kg, by definition (1959)
-INCH = 0.0254  # m, by definition (1959)
-POUND_FORCE = POUND * 9.80665  # N
+from ..enginefile import units
+from ..forces.kinds import Kind
+
+POUND, INCH = float(units.POUND), float(units.INCH)  # kg, m
+POUND_FORCE = POUND * units.STANDARD_GRAVITY  # N
 
 
 class Unit(NamedTuple):
@@ -29,6 +31,10 @@ class System(NamedTuple):
     mass: Unit
     length: Unit
     volume: Unit
+
+    def unit(self, kind: Kind) -> Unit:
+        """The unit of a kind of force or moment."""
+        return self.force if kind.dimension == "force" else self.moment
 
 
 SI = System(

@@ -15,17 +15,15 @@ from ..core.peaks import Peak, peak
 from ..core.phasors import Array
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..forces.spectrum import SHOWN as SHOWN
+from ..forces.kinds import KINDS, SCALARS, VECTORS, Kind
 from ..forces.spectrum import (
-    SPECTRAL,
-    UNASKED,
     Spectra,
     considerable,
     each,
     relevant_orders,
     spectra,
 )
-from ..forces.spectrum import alone as alone
+from ..limits import HIGHEST_ORDER, HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
 from ..sizing.auto import auto
 from ..sizing.sizing import Remedy, fitted
 
@@ -35,10 +33,8 @@ if TYPE_CHECKING:
     from ..forces.guide_moments import Guide
     from ..forces.symmetry import Why
 
-QUANTITIES = (*SPECTRAL, "peak", "sizing")
+QUANTITIES = (*KINDS, "peak", "sizing")
 EXTRAS = ("inner", "guide")  # computed only when they are named
-HIGHEST = 4096  # order that may be asked for
-MOST_TOLD = 1 << 14  # cylinders x orders that are told one by one
 
 
 class Sizing(NamedTuple):
@@ -81,9 +77,15 @@ class Analysis:
         return self.spectra.orders
 
     @property
+    def peaks(self) -> list[tuple[Kind, Peak]]:
+        """Each kind whose peak was asked for, with its peak."""
+        found = [(kind, getattr(self, kind.name)) for kind in VECTORS]
+        return [(kind, peak) for kind, peak in found if peak is not None]
+
+    @property
     def beyond(self) -> bool:
         """Whether there may be orders above those that are shown unless they are asked for."""
-        return bool(relevant_orders(self.engine)[-1] > UNASKED)
+        return bool(relevant_orders(self.engine)[-1] > HIGHEST_ORDER_UNASKED)
 
     @property
     def of_one_cylinder(self) -> dict[str, float]:
@@ -117,7 +119,7 @@ def analyze(
         reasons: also why each order is balanced, or is not.
 
     Raises:
-        BalcliError: an unknown quantity, an order that is negative or above HIGHEST, too many
+        BalcliError: an unknown quantity, an order that is negative or above HIGHEST_ORDER, too many
         orders of too many cylinders.
     """
     wanted = set(QUANTITIES if only is None else only)
@@ -127,8 +129,8 @@ def analyze(
             f"{', '.join((*QUANTITIES, *EXTRAS))}"
         )
     asked = None if orders is None else checked_orders(orders)
-    curves = {"force", "moment"} if "peak" in wanted else set()
-    shown = wanted.intersection(SPECTRAL)
+    curves = {kind.name for kind in VECTORS} if "peak" in wanted else set()
+    shown = wanted.intersection(KINDS)
     due = np.array([1.0, 2.0]) if asked is None else asked
     whole = due
     if (
@@ -136,15 +138,16 @@ def analyze(
     ):  # a set: np.union1d imports masked arrays, which takes longer than all the rest
         whole = np.array(sorted({*relevant_orders(engine).tolist(), *due.tolist()}))
     everything = spectra(engine, whole, shown | curves)
-    visible = Spectra(everything.orders, **{q: p for q, p in everything.items() if q in shown})
+    visible = everything.only(shown)
     visible = visible.at(shown_orders(visible) if asked is None else asked)
-    if by_cylinder and (apart := len(visible.orders) * len(engine.numbers)) > MOST_TOLD:
+    apart = len(visible.orders) * len(engine.numbers)
+    if by_cylinder and apart > MOST_RESULTS_BY_CYLINDER:
         raise BalcliError(
             f"by cylinder, {len(visible.orders)} orders of {len(engine.numbers)} cylinders are "
             f"{apart} results, and at most "
-            f"{MOST_TOLD} are told: ask for fewer orders"
+            f"{MOST_RESULTS_BY_CYLINDER} are told: ask for fewer orders"
         )
-    peaks = {q: peak(getattr(everything, q)) for q in curves}
+    peaks = {q: peak(everything[q]) for q in curves}
     return Analysis(
         engine,
         visible,
@@ -213,7 +216,7 @@ def _extras(engine: Engine, asked: Array | None, wanted: Collection[str]) -> dic
 def _explained(engine: Engine, orders: Array, quantities: Collection[str]) -> Why:
     from ..forces.symmetry import QUANTITIES, why
 
-    turning = not {"couple", "torque", "roll"}.isdisjoint(quantities)
+    turning = any(kind.name in quantities for kind in SCALARS)
     return why(
         engine,
         orders[orders > 0],
@@ -231,20 +234,20 @@ def _sized(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizi
 
 def checked_orders(orders: Iterable[float]) -> Array:
     """Orders that were asked for, ascending; BalcliError unless they are whole numbers up to
-    HIGHEST.
+    HIGHEST_ORDER.
     """
     asked = np.array(sorted(set(orders)), float)
-    if not len(asked) or asked[0] < 0 or asked[-1] > HIGHEST or (asked % 1).any():
+    if not len(asked) or asked[0] < 0 or asked[-1] > HIGHEST_ORDER or (asked % 1).any():
         raise BalcliError(
-            f"orders must be whole numbers from 0 to {HIGHEST}, not "
+            f"orders must be whole numbers from 0 to {HIGHEST_ORDER}, not "
             f"{', '.join(f'{n:g}' for n in asked[:8]) or 'none'}"
         )
     return asked
 
 
 def shown_orders(found: Spectra) -> Array:
-    """Orders to 2, and those up to UNASKED in which a quantity exceeds SHOWN of its own largest
-    order.
+    """Orders to 2, and those up to HIGHEST_ORDER_UNASKED in which a quantity exceeds SHOWN of its
+    own largest order.
     """
     due = found.orders <= 2
     for _, phasors in found.items():

@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core import least_squares
 from ..core.loads import Device
 from ..core.phasors import EPS, unit
 from ..engine.build import Engine
@@ -25,7 +26,6 @@ from ..forces.spectrum import spectra
 from . import remedy
 
 LEFT = 1e-12  # of what was there before: more must not remain of what a scheme promises to cancel
-_LOST = 1e-14  # singular values below this share of the largest are none
 
 
 class Part(NamedTuple):
@@ -144,14 +144,10 @@ def solve(slots: Sequence[Slot], wish: Rest, parts: Sequence[Part]) -> Fit:
     columns = [effect(slot.device(u), parts, wish.arm) for slot in slots for u in (1 + 0j, 1j)]
     matrix = np.column_stack([_real(c) for c in columns])
     target = -_real(np.array([wish.parts[p] for p in parts]))
-    inverse, condition = _inverse(scale[:, None] * matrix)
-    x = np.zeros(matrix.shape[1])
-    for _ in range(3):
-        x = x + inverse @ (scale * (target - matrix @ x))
-    size = float(np.linalg.norm(scale * target))
-    left = float(np.linalg.norm(scale * (target - matrix @ x))) / (size or 1.0)
-    x[np.abs(x) <= 4 * EPS * np.abs(x).max()] = 0
-    return Fit(tuple(complex(a, b) for a, b in x.reshape(-1, 2)), condition, left)
+    found = least_squares.solve(matrix, target, scale)
+    size = np.abs(found.x)
+    x = np.where(size <= 4 * EPS * size.max(), 0, found.x)
+    return Fit(tuple(complex(a, b) for a, b in x.reshape(-1, 2)), found.condition, found.left)
 
 
 def exactly(slots: Sequence[Slot], wish: Rest, parts: Sequence[Part], reason: str) -> Fit:
@@ -190,16 +186,6 @@ def _length(slots: Sequence[Slot], wish: Rest) -> float:
         max([abs(s.z - wish.arm[1]) for s in slots] + [abs(s.place - wish.arm[0]) for s in slots])
         or 1.0
     )
-
-
-def _inverse(matrix: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
-    """Pseudo-inverse, and the condition number: infinite where a direction of the wish is beyond
-    the reach of all slots.
-    """
-    u, s, vt = np.linalg.svd(matrix, full_matrices=False)
-    kept = s > _LOST * s[0]
-    inverse: NDArray[np.float64] = (vt[kept].T / s[kept]) @ u[:, kept].T
-    return inverse, float(s[0] / s[-1]) if kept.all() else float("inf")
 
 
 def _real(parts: NDArray[np.complex128]) -> NDArray[np.float64]:

@@ -11,6 +11,7 @@ from typing import Literal as OneOf
 import numpy as np
 from numpy.typing import NDArray
 
+from ...engine.arrays import ranked
 from ...engine.build import Engine, build, tops
 from ...engine.firing import TOLERANCE
 from ...engine.layout import cycle, plan
@@ -216,11 +217,10 @@ def fires_evenly(
     deg), shape (variants,).
     """
     c = engine.cylinders
-    axis = np.repeat(c.axis_deg, np.diff([*c.starts, c.count]), axis=0)
     late = (
         0.0 if file.articulation else np.degrees(np.arcsin(c.eps / (1 + c.lam)))
     )  # see engine.tops
-    ready = axis + late - c.pin_deg
+    ready = c.axis_of_each_deg + late - c.pin_deg
     ready = np.sort(np.mod(ready - ready[engine.numbers.index(1)] + tolerance, 360.0), axis=0)
     even = np.sort(np.mod(np.arange(c.count) * cycle(file.layout) / c.count, 360.0)).reshape(
         -1, *(1,) * (ready.ndim - 1)
@@ -243,7 +243,7 @@ def _figures(file: EngineFile, candidates: Candidates, objective: Objective) -> 
     )
     values = {q: np.broadcast_to(v, count) for q, v in values.items()}
     total = np.broadcast_to(objective.of(values.__getitem__), count)
-    for k in np.argsort(total, kind="stable"):
+    for k in np.argsort(ranked(total), kind="stable"):
         if np.isfinite(total[k]):
             arrangement = {key: column[k].tolist() for key, column in candidates.items()}
             yield Found(
