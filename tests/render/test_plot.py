@@ -17,7 +17,10 @@ from balcli.commands.plot import What
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.render.plot import draw, style
+from balcli.render.plot import style
+from balcli.render.plot.axes import choose_scale
+from balcli.render.plot.bars import draw_vector_bars, visible_rows
+from balcli.render.plot.locus import count_repeats, draw_locus
 from balcli.render.plot.pages import PAGES, Subject, form_of, picture
 from balcli.render.units import IMPERIAL, SI
 from balcli.results.analysis import analyze
@@ -126,7 +129,7 @@ def test_locus_has_x_upwards(ax):
             )
         )
     )
-    draw.locus(ax, one.spectra.force, "force", SI.force)
+    draw_locus(ax, one.spectra.force, "force", SI.force)
     right, up = next(line for line in ax.lines if len(line.get_xdata()) > 100).get_data()
     force = 0.8 * 0.045 * (3000 * np.pi / 30) ** 2
     assert (right[0], up[0]) == pytest.approx((0, force))
@@ -135,8 +138,8 @@ def test_locus_has_x_upwards(ax):
 
 def test_bars_are_both_vectors_and_add_up_to_the_largest_value(ax, four):
     force = four.spectra.force
-    draw.vector_spectrum(ax, force, "force", SI.force)
-    rows = draw.visible(force)
+    draw_vector_bars(ax, force, "force", SI.force)
+    rows = visible_rows(force)
     heights = np.array([bar.get_height() for bar in ax.patches[: 2 * len(rows)]]).reshape(2, -1)
     unit = 1e3 if force.major.max() >= 5000 else 1
     assert heights.sum(axis=0) * unit == pytest.approx(force.major[rows])
@@ -152,7 +155,7 @@ def test_a_balanced_quantity_says_so(ax):
             )
         )
     )
-    draw.locus(ax, six.spectra.moment, "moment", SI.moment)
+    draw_locus(ax, six.spectra.moment, "moment", SI.moment)
     assert "no free moment" in [text.get_text() for text in ax.texts]
 
 
@@ -166,12 +169,12 @@ def test_a_balanced_quantity_says_so(ax):
     ],
 )
 def test_long_figures_get_a_larger_unit(unit, largest, name):
-    assert draw.scale(unit, largest).name == name
+    assert choose_scale(unit, largest).name == name
 
 
 def test_an_even_engine_repeats_its_locus(four):
     """Orders 2, 4, 6 of an in-line four: twice a revolution."""
-    assert draw.repeats(four.spectra.force) == 2
+    assert count_repeats(four.spectra.force) == 2
 
 
 def test_in_a_page_colours_follow_it_and_ids_are_its_own(four):

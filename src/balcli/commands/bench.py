@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..render import bench as renderer
 from ..render.formats import Format
 from .options import FormatOption, Output
 from .output import show, write_file
@@ -12,7 +13,6 @@ def bench(form: FormatOption = Format.TABLE, output: Output = None) -> None:
     as a picture.
     """
     from ..bench.bench import bench as measure
-    from ..render import bench as renderer
 
     found = measure()
     if output is not None and output.suffix == ".svg":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..render import comparison as renderer
 from ..render.formats import Format, Units
 from .options import (
     EnginePaths,
@@ -32,7 +33,6 @@ def compare(
     engine's.
     """
     refuse_overwriting(reads=paths, writes={"--output": output})
-    from ..render import comparison as renderer
     from ..results.comparison import compare as compare_engines
     from .inputs import distinct_names, read_engine
 

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from ..render import tolerances as renderer
 from ..render.formats import Format
 from .options import EnginePath, FormatOption, Output
 from .output import show
@@ -71,7 +72,6 @@ def scatter(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     from ..forces import quantity as quantities
-    from ..render import tolerances as renderer
     from ..studies import tolerances as studies
     from .inputs import read_engine
 

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from ..render import search as renderer
 from ..render.formats import Format
 from .options import EnginePath, FormatOption, Output
 from .output import show, write_file
@@ -71,7 +72,6 @@ def search(
     """The best crank, firing order, bank angle or splay; mirror images and rotations once."""
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     from ..engine.load import built, name_of, parse, text_of
-    from ..render import search as renderer
     from ..studies.search import search as searches
     from ..studies.search.write import arranged
 

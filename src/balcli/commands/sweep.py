@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from ..errors import Exit
+from ..render.sweep_plot import draw
 from .options import EnginePath, Output, SeriesFormat
 from .output import write_file
 from .overwrite_guard import refuse_overwriting
@@ -69,7 +70,6 @@ def sweep(
     the name of -o) Parquet.
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
-    from ..render.sweep_plot import draw
     from ..studies import dask_cluster
     from ..studies import sweep as studies
     from .sweep_output import noting_interrupt, showing_progress, until_interrupted, write_sweep

@@ -5,14 +5,16 @@ rows.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..forces.crankshaft import Along, Inner
 from .figures import Row, clean, order_number, order_rows, peak_rows, vector
 from .sheet import Facts, Grid, degrees, number
-from .units import System, Unit
+
+if TYPE_CHECKING:
+    from ..forces.crankshaft import Along, Inner
+    from .units import System, Unit
 
 ORDERS_SHOWN = 6  # in a table, which has a column an order
 

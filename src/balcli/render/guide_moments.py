@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ..core.phasors import Phasors
-from ..forces.guide_moments import Guide
 from .figures import Row, order_number, order_rows, scalar
 from .sheet import Grid, number
-from .units import System, Unit
+
+if TYPE_CHECKING:
+    from ..core.phasors import Phasors
+    from ..forces.guide_moments import Guide
+    from .units import System, Unit
 
 
 def sheet_parts(guide: Guide, system: System) -> Iterator[Grid]:

@@ -4,11 +4,10 @@ it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 
-@dataclass(frozen=True)
-class Grid:
+class Grid(NamedTuple):
     """A table. Cells are text; the first column is a heading of its row. Cells in `marked` (row,
     column) stand out, and the columns in `words` are read, not compared: they stand to the left.
     """
@@ -21,24 +20,21 @@ class Grid:
     words: tuple[int, ...] = (0,)
 
 
-@dataclass(frozen=True)
-class Facts:
+class Facts(NamedTuple):
     """Names and what they are."""
 
     pairs: tuple[tuple[str, str], ...]
     title: str = ""
 
 
-@dataclass(frozen=True)
-class Text:
+class Text(NamedTuple):
     """Paragraphs under a title."""
 
     title: str
     paragraphs: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class Sheet:
+class Sheet(NamedTuple):
     """A title and its parts, in order."""
 
     title: str

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ..core.strokes import Travel
 from .figures import Row, clean
 from .sheet import Grid, number
-from .units import System
+
+if TYPE_CHECKING:
+    from ..core.strokes import Travel
+    from .units import System
 
 
 def sheet_parts(travel: Travel, numbers: Sequence[int], system: System) -> Iterator[Grid]:

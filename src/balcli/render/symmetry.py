@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import asdict
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ..forces.symmetry import Why
 from .figures import Row, clean
 from .sheet import Text
+
+if TYPE_CHECKING:
+    from ..forces.symmetry import Why
 
 
 def sheet_parts(why: Why) -> Iterator[Text]:

@@ -5,7 +5,6 @@ no terminal.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from io import StringIO
 from typing import TYPE_CHECKING, Any
 
@@ -79,9 +78,8 @@ def _fitting(grid: Grid, width: int) -> Iterator[Table]:
         if sum(natural) + gap * (len(natural) - 1) <= width:
             yield _grid(grid, dict(enumerate(natural)), gap)
             return
-    grid = replace(
-        grid, columns=tuple(name.replace("_", " ") for name in grid.columns)
-    )  # may be broken into lines
+    breakable = tuple(name.replace("_", " ") for name in grid.columns)
+    grid = grid._replace(columns=breakable)
     least = [
         max((len(word) for text in _texts(grid, k) for word in text.split()), default=1)
         for k in range(len(grid.columns))

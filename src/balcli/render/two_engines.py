@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from . import figures
-from .analysis import largest, order_by_order
 from .csv import Rows
 from .figures import clean, order_entries, peaks
+from .order_tables import order_tables, peak_facts
 from .sheet import Facts, Sheet, number
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ def sheet(result: Combined, system: System) -> Sheet:
         " and ".join(names),
         (
             Facts(pairs),
-            *order_by_order(result.spectra, system),
-            largest(result, system, "Largest over a revolution, all orders"),
+            *order_tables(result.spectra, system),
+            peak_facts(result, system, "Largest over a revolution, all orders"),
         ),
     )

@@ -14,8 +14,14 @@ from ...forces.kinds import KINDS, VECTORS
 from ...results.analysis import Analysis
 from ...studies.pictures import Banks
 from ..units import SI, System, Unit
-from . import draw, studied
+from .along_crankshaft import draw_along
+from .balance_factor import draw_factors
+from .bank_angle import draw_end_curves, draw_roses
+from .bars import draw_scalar_bars, draw_vector_bars, visible_rows
+from .crank_curves import draw_scalar_curves, draw_vector_curves
+from .locus import draw_locus
 from .style import FORMS, Form, figure, inline, plain, saved
+from .two_vectors import draw_order
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -87,36 +93,36 @@ def panel(subject: Subject, what: str, quantity: str) -> str:
 
 
 # ------------------------------------------------------------------ layouts
-def _all(fig: Figure, subject: Subject) -> None:
+def _lay_out_all(fig: Figure, subject: Subject) -> None:
     grid = fig.add_gridspec(2, 3, height_ratios=(1.25, 1))
     bars = grid[0, 2].subgridspec(3, 1)
     for k, quantity in enumerate(_VECTORS):
-        _locus(fig.add_subplot(grid[0, k]), subject, quantity)
+        _locus_panel(fig.add_subplot(grid[0, k]), subject, quantity)
     for k, quantity in enumerate(_PICTURED):
-        _bars(fig.add_subplot(bars[k]), subject, quantity)
-        _over_crank(fig.add_subplot(grid[1, k]), subject, quantity)
+        _bars_panel(fig.add_subplot(bars[k]), subject, quantity)
+        _curves_panel(fig.add_subplot(grid[1, k]), subject, quantity)
 
 
-def _polar(fig: Figure, subject: Subject) -> None:
+def _lay_out_polar(fig: Figure, subject: Subject) -> None:
     for ax, quantity in zip(fig.subplots(1, 2), _VECTORS, strict=True):
-        _locus(ax, subject, quantity)
+        _locus_panel(ax, subject, quantity)
 
 
-def _spectrum(fig: Figure, subject: Subject) -> None:
+def _lay_out_spectrum(fig: Figure, subject: Subject) -> None:
     for ax, quantity in zip(fig.subplots(3, 1), _PICTURED, strict=True):
-        _bars(ax, subject, quantity)
+        _bars_panel(ax, subject, quantity)
 
 
-def _curves(fig: Figure, subject: Subject) -> None:
+def _lay_out_curves(fig: Figure, subject: Subject) -> None:
     for ax, quantity in zip(fig.subplots(3, 1, sharex=True), _PICTURED, strict=True):
-        _over_crank(ax, subject, quantity)
+        _curves_panel(ax, subject, quantity)
         ax.label_outer()
 
 
-def _orders(fig: Figure, subject: Subject) -> None:
+def _lay_out_orders(fig: Figure, subject: Subject) -> None:
     """The largest orders of force and of moment, a row each; a row without any is left out."""
     shown = {
-        q: [k for k in draw.visible(curve) if not curve.balanced[k] and curve.orders[k] >= 1][:4]
+        q: [k for k in visible_rows(curve) if not curve.balanced[k] and curve.orders[k] >= 1][:4]
         for q in _VECTORS
         for curve in subject.phasors(q)[:1]
     }
@@ -129,39 +135,39 @@ def _orders(fig: Figure, subject: Subject) -> None:
     for row, (quantity, found) in zip(grid, rows.items(), strict=True):
         for ax, k in zip(row, found, strict=False):
             ax.set_axis_on()
-            draw.ellipse(ax, subject.phasors(quantity)[0], k, quantity, subject.unit(quantity))
+            draw_order(ax, subject.phasors(quantity)[0], k, quantity, subject.unit(quantity))
     if not any(rows.values()):
         grid[0, 0].text(0, 0.5, "no free force and no free moment")
 
 
-def _factor(fig: Figure, subject: Subject) -> None:
-    studied.factors(fig.subplots(), subject.factors, subject.system.force, subject.system.moment)
+def _lay_out_factor(fig: Figure, subject: Subject) -> None:
+    draw_factors(fig.subplots(), subject.factors, subject.system.force, subject.system.moment)
 
 
-def _bank(fig: Figure, subject: Subject) -> None:
+def _lay_out_bank(fig: Figure, subject: Subject) -> None:
     if subject.banks is None:
         raise ValueError("a page of bank angles needs a study of them")
     grid = fig.add_gridspec(1, 2)
-    studied.end_curves(fig.add_subplot(grid[0]), subject.banks, subject.system.force)
-    studied.roses(fig.add_subplot(grid[1], projection="polar"), subject.banks, subject.system.force)
+    draw_end_curves(fig.add_subplot(grid[0]), subject.banks, subject.system.force)
+    draw_roses(fig.add_subplot(grid[1], projection="polar"), subject.banks, subject.system.force)
 
 
-def _inner(fig: Figure, subject: Subject) -> None:
+def _lay_out_inner(fig: Figure, subject: Subject) -> None:
     shear, bending, bearings = fig.subplots(3, 1, sharex=True)
-    studied.along(
+    draw_along(
         shear,
         [b.shear for b in subject.bent],
         ("Shear force along the crankshaft", "force"),
         subject.system.force,
         "steps-post",
     )
-    studied.along(
+    draw_along(
         bending,
         [b.bending for b in subject.bent],
         ("Bending moment", "moment"),
         subject.system.moment,
     )
-    studied.along(
+    draw_along(
         bearings,
         [b.bearings for b in subject.bent if b.bearings],
         ("Inertia load of each main bearing", "force"),
@@ -174,45 +180,45 @@ def _inner(fig: Figure, subject: Subject) -> None:
 
 
 # ------------------------------------------------------------------ panels
-def _locus(ax: Axes, subject: Subject, quantity: str) -> None:
+def _locus_panel(ax: Axes, subject: Subject, quantity: str) -> None:
     curve, before = subject.phasors(quantity)
-    draw.locus(ax, curve, quantity, subject.unit(quantity), before)
+    draw_locus(ax, curve, quantity, subject.unit(quantity), before)
     ax.set_title(f"Free {quantity}", pad=6 if before is None else None)
 
 
-def _bars(ax: Axes, subject: Subject, quantity: str) -> None:
+def _bars_panel(ax: Axes, subject: Subject, quantity: str) -> None:
     if quantity == "about":
-        draw.scalar_spectrum(ax, subject.scalars, subject.system.moment)
+        draw_scalar_bars(ax, subject.scalars, subject.system.moment)
         ax.set_title("About the crank")
         return
     curve, before = subject.phasors(quantity)
-    draw.vector_spectrum(ax, curve, quantity, subject.unit(quantity), before)
+    draw_vector_bars(ax, curve, quantity, subject.unit(quantity), before)
     ax.set_title(f"Free {quantity}")
 
 
-def _over_crank(ax: Axes, subject: Subject, quantity: str) -> None:
+def _curves_panel(ax: Axes, subject: Subject, quantity: str) -> None:
     if quantity == "about":
-        draw.scalar_curves(ax, subject.scalars, subject.system.moment, subject.phasors("roll")[1])
+        draw_scalar_curves(ax, subject.scalars, subject.system.moment, subject.phasors("roll")[1])
         ax.set_title("About the crank")
         return
     curve, before = subject.phasors(quantity)
-    draw.vector_curves(ax, curve, quantity, subject.unit(quantity), before)
+    draw_vector_curves(ax, curve, quantity, subject.unit(quantity), before)
     ax.set_title(f"Free {quantity}")
 
 
 Layout = Callable[["Figure", Subject], None]
 PAGES: dict[str, tuple[float, float, Layout]] = {
-    "all": (11.7, 8.3, _all),
-    "polar": (9.6, 5.6, _polar),
-    "orders": (11.7, 7.4, _orders),
-    "spectrum": (6.5, 8.0, _spectrum),
-    "curves": (7.5, 8.6, _curves),
-    "factor": (7.2, 4.6, _factor),
-    "bank": (9.6, 5.4, _bank),
-    "inner": (7.5, 7.6, _inner),
+    "all": (11.7, 8.3, _lay_out_all),
+    "polar": (9.6, 5.6, _lay_out_polar),
+    "orders": (11.7, 7.4, _lay_out_orders),
+    "spectrum": (6.5, 8.0, _lay_out_spectrum),
+    "curves": (7.5, 8.6, _lay_out_curves),
+    "factor": (7.2, 4.6, _lay_out_factor),
+    "bank": (9.6, 5.4, _lay_out_bank),
+    "inner": (7.5, 7.6, _lay_out_inner),
 }
 _PANELS: dict[str, Callable[[Figure, Subject, str], None]] = {
-    "polar": lambda fig, subject, quantity: _locus(fig.subplots(), subject, quantity),
-    "spectrum": lambda fig, subject, quantity: _bars(fig.subplots(), subject, quantity),
-    "curves": lambda fig, subject, quantity: _over_crank(fig.subplots(), subject, quantity),
+    "polar": lambda fig, subject, quantity: _locus_panel(fig.subplots(), subject, quantity),
+    "spectrum": lambda fig, subject, quantity: _bars_panel(fig.subplots(), subject, quantity),
+    "curves": lambda fig, subject, quantity: _curves_panel(fig.subplots(), subject, quantity),
 }

@@ -1,0 +1,185 @@
+"""Forces and moments order by order, as tables; and their largest values over a revolution."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .figures import order_number, peak_deg, phase_deg
+from .sheet import Facts, Grid, capitalized, degrees, number
+
+if TYPE_CHECKING:
+    from ..core.peaks import Peak
+    from ..core.phasors import Array, Phasors
+    from ..forces.kinds import Kind
+    from ..forces.spectrum import Spectra
+    from ..results.analysis import Textbook
+    from .figures import Result
+    from .units import System, Unit
+
+Cells = tuple[str, ...]
+
+
+def order_tables(spectra: Spectra, system: System) -> Iterator[Grid]:
+    """A table of each vector, one of what acts about the crank's axis, and one of vectors along x
+    and y.
+    """
+    for kind, phasors in spectra.vectors():
+        yield _vector_table(kind, phasors, system.unit(kind))
+    if spectra.scalars():
+        yield _scalar_table(spectra, system.moment)
+    if spectra.vectors():
+        yield _direction_table(spectra, system)
+
+
+def textbook_tables(spectra: Spectra, units: Textbook, system: System) -> Iterator[Grid]:
+    """Force and moment as multiples of the units of textbooks, where those are not 0 or unknown."""
+    if not units.force:
+        return
+    if spectra.force is not None:
+        unit, cylinder = system.force, "one cylinder" if units.equal else "cylinder 1"
+        note = (
+            f"F1 = m r ω² = {number(unit.of(units.force))} {unit.name} "
+            f"(reciprocating mass of {cylinder}), Fn = A_n F1 its n-th order."
+        )
+        yield _textbook_table("force", spectra.force, units.force, units.ratios, note)
+    if spectra.moment is not None and units.arm == units.arm:
+        arm = f"{number(system.length.of(units.arm), 4)} {system.length.name}"
+        note = f"a = {arm}, the distance of neighbouring throws."
+        size = units.force * units.arm
+        yield _textbook_table("moment", spectra.moment, size, units.ratios, note)
+
+
+def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
+    """The part of one cylinder, as lecturers have it: vectors as size and angle."""
+    vectors = [(phasors, system.unit(kind)) for kind, phasors in share.vectors()]
+
+    def cells(k: int) -> Iterator[str]:
+        yield str(order_number(share.orders[k]))
+        for phasors, unit in vectors:
+            yield _size_and_angle(phasors.forward[k], unit)
+            yield _size_and_angle(phasors.backward[k], unit)
+
+    heads = [
+        f"{kind.name} {way}, {system.unit(kind).name}"
+        for kind, _ in share.vectors()
+        for way in ("with", "against")
+    ]
+    rows = tuple(tuple(cells(k)) for k in range(len(share.orders)))
+    return Grid(f"Cylinder {cylinder} alone", ("order", *heads), rows)
+
+
+def peak_facts(result: Result, system: System, title: str) -> Facts:
+    """The largest values over a revolution that were asked for."""
+    pairs = [(kind.name, _peak(peak, system.unit(kind))) for kind, peak in result.peaks]
+    return Facts(tuple(pairs), title)
+
+
+def _shown_rows(
+    orders: Array, phasors: list[Phasors], cells: Callable[[int], Cells]
+) -> tuple[Cells, ...]:
+    """Rows of orders up to 2, and of those in which one of these quantities is not balanced."""
+    return tuple(
+        cells(k)
+        for k, order in enumerate(orders)
+        if order <= 2 or not all(p.balanced[k] for p in phasors)
+    )
+
+
+def _vector_table(kind: Kind, phasors: Phasors, unit: Unit) -> Grid:
+    def cells(k: int) -> Cells:
+        name = str(order_number(phasors.orders[k]))
+        if phasors.balanced[k]:
+            return name, "balanced", "", "", "", ""
+        values = (phasors.major, phasors.minor, abs(phasors.forward), abs(phasors.backward))
+        largest, smallest, ahead, against = (number(unit.of(float(v[k]))) for v in values)
+        return name, largest, smallest, degrees(float(phasors.axis_deg[k]), 180), ahead, against
+
+    return Grid(
+        f"{capitalized(kind.label)} by order, {unit.name}",
+        ("order", "largest", "smallest", "axis, deg", "with crank", "against"),
+        _shown_rows(phasors.orders, [phasors], cells),
+    )
+
+
+def _scalar_table(spectra: Spectra, unit: Unit) -> Grid:
+    scalars = spectra.scalars()
+
+    def cells(k: int) -> Cells:
+        pairs = (_amplitude(phasors.x[k], spectra.orders[k], unit) for _, phasors in scalars)
+        return (str(order_number(spectra.orders[k])), *(cell for pair in pairs for cell in pair))
+
+    heads = [head for kind, _ in scalars for head in (kind.label, "peak, deg")]
+    return Grid(
+        f"About the crank axis, {unit.name}",
+        ("order", *heads),
+        _shown_rows(spectra.orders, [phasors for _, phasors in scalars], cells),
+    )
+
+
+def _amplitude(c: complex, order: float, unit: Unit) -> tuple[str, str]:
+    """Amplitude, and where it is reached first."""
+    if c == 0:
+        return "balanced", ""
+    at = peak_deg(c, order)
+    return number(unit.of(abs(c))), "–" if at is None else degrees(at)
+
+
+def _direction_table(spectra: Spectra, system: System) -> Grid:
+    """Vertical and horizontal, as builders state them."""
+    vectors = [(phasors, system.unit(kind)) for kind, phasors in spectra.vectors()]
+
+    def cells(k: int) -> Iterator[str]:
+        yield str(order_number(spectra.orders[k]))
+        for phasors, unit in vectors:
+            for c in (phasors.x[k], phasors.y[k]):
+                yield number(unit.of(abs(c)), 4) if c else "0"
+                yield degrees(phase_deg(c)) if c else "–"
+
+    axes = [kind.symbol + axis for kind, _ in spectra.vectors() for axis in "xy"]
+    return Grid(
+        f"Along x (vertical) and y (horizontal), {', '.join(unit.name for _, unit in vectors)}",
+        ("order", *(head for axis in axes for head in (axis, "deg"))),
+        _shown_rows(spectra.orders, [phasors for phasors, _ in vectors], lambda k: (*cells(k),)),
+        note="Value = amplitude · cos(order · θ − angle). The moment about y is that of the "
+        "forces along x.",
+    )
+
+
+def _textbook_table(quantity: str, phasors: Phasors, size: float, ratios: Array, note: str) -> Grid:
+    """Multiples of `size` (N or N m), and of each order's own `size * ratios`."""
+
+    def cells(k: int) -> Cells:
+        values = (phasors.major[k], abs(phasors.forward[k]), abs(phasors.backward[k]))
+        largest, ahead, against = (float(v) for v in values)
+        own = size * ratios[k] if ratios[k] > 1e-12 else 0.0
+        return (
+            str(order_number(phasors.orders[k])),
+            *(_ratio(value, size) for value in (largest, ahead, against)),
+            _ratio(largest, own),
+        )
+
+    unit = "F1" if quantity == "force" else "F1·a"
+    own_unit = unit.replace("1", "n")
+    heads = ("order", f"largest, {unit}", "with crank", "against", f"largest, {own_unit}")
+    rows = _shown_rows(phasors.orders, [phasors], cells)
+    return Grid(f"Free {quantity} in textbook units", heads, rows, note)
+
+
+def _ratio(value: float, size: float) -> str:
+    return number(value / size, 4) if size else "–"
+
+
+def _size_and_angle(v: complex, unit: Unit) -> str:
+    if v == 0:
+        return "0"
+    return f"{number(unit.of(abs(v)), 4)} ∠ {degrees(float(np.degrees(np.angle(v))))}"
+
+
+def _peak(peak: Peak, unit: Unit) -> str:
+    if not peak.value:
+        return "none"
+    at = degrees(float(np.degrees(peak.theta)))
+    return f"{number(unit.of(peak.value))} {unit.name} at crank angle {at} deg"

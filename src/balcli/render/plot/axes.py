@@ -1,0 +1,71 @@
+"""What several pictures share: units, the plane of forces and moments, looks and legends.
+
+The plane is seen from the free end: x up, y to the right, so that the crank turns clockwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ...core.phasors import Complex
+from ..units import Unit
+from .style import BLUE, GREEN, RED, SOFT
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+SHARE = 1e-3  # orders below this share of the largest are too small to be seen
+FINE = np.radians(np.arange(0, 360.5, 1))  # crank angles at which curves are drawn
+LOOKS = ((BLUE, "-", ""), (RED, (0, (5, 1.5)), "////"), (GREEN, (0, (1.5, 1)), "...."))
+_PREFIXES = {"N": "kN", "N·m": "kN·m"}
+
+
+class Scale(NamedTuple):
+    """Values over `size` are in the unit `name`."""
+
+    size: float
+    name: str
+
+
+def choose_scale(unit: Unit, largest: float) -> Scale:
+    """The unit, or its thousandfold where figures would be long."""
+    if largest >= 5000 * unit.size and unit.name in _PREFIXES:
+        return Scale(1e3 * unit.size, _PREFIXES[unit.name])
+    return Scale(unit.size, unit.name)
+
+
+def set_up_plane(ax: Axes, curves: Sequence[Complex | None], what: str, s: Scale) -> float:
+    """A square with the origin in its middle, x up."""
+    largest = max(np.abs(c).max(initial=0) for c in curves if c is not None) / s.size
+    limit = float(largest or 1) * 1.25
+    ax.set(
+        xlim=(-limit, limit),
+        ylim=(-limit, limit),
+        aspect="equal",
+        xlabel=f"{what} along y, {s.name}",
+        ylabel=f"{what} along x, {s.name}",
+    )
+    ax.locator_params(nbins=5)
+    ax.axhline(0, color=SOFT, linewidth=0.7)
+    ax.axvline(0, color=SOFT, linewidth=0.7)
+    if not largest:
+        ax.set(xticks=[0], yticks=[0])
+    return limit
+
+
+def put_legend_above(ax: Axes) -> None:
+    """On one line between the axes and their title."""
+    legend = ax.legend(
+        loc="lower left",
+        bbox_to_anchor=(0, 1),
+        ncols=4,
+        handlelength=1.6,
+        columnspacing=1,
+        borderpad=0,
+        borderaxespad=0.3,
+        handletextpad=0.5,
+    )
+    legend.set_in_layout(False)  # what is too long may not narrow the axes

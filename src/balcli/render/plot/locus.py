@@ -1,0 +1,111 @@
+"""The way of a vector's tip over a revolution."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...core.phasors import Complex, Phasors
+from ..sheet import number
+from ..units import Unit
+from .axes import FINE, SHARE, Scale, choose_scale, put_legend_above, set_up_plane
+from .style import BLUE, INK, PAPER, SOFT
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+def draw_locus(
+    ax: Axes, curve: Phasors, what: str, unit: Unit, before: Phasors | None = None
+) -> None:
+    """Where the tip of the vector goes in a revolution, with crank angles along it; `before`: a
+    second locus to compare with.
+    """
+    values, old = _values_once(curve), None if before is None else _values_once(before)
+    s = choose_scale(unit, max(np.abs(v).max(initial=0) for v in (values, old) if v is not None))
+    limit = set_up_plane(ax, [values, old], what, s)
+    if old is not None:
+        ax.plot(
+            old.imag / s.size,
+            old.real / s.size,
+            color=SOFT,
+            linewidth=1,
+            linestyle=(0, (4, 2)),
+            label="before",
+        )
+    ax.plot([], [], color=BLUE, label="after")
+    if old is not None:
+        put_legend_above(ax)
+    largest = float(np.abs(values).max()) / s.size
+    if largest < 0.02 * limit:
+        ax.plot(0, 0, "o", color=BLUE, markersize=4)
+        told = f"at most {number(largest, 3)} {s.name}" if largest else f"no free {what}"
+        ax.text(
+            0,
+            0.06 * limit,
+            told,
+            ha="center",
+            va="bottom",
+            bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 1},
+        )
+        return
+    ax.plot(values.imag / s.size, values.real / s.size, color=BLUE)
+    _mark_crank_angles(ax, curve, s, limit)
+
+
+def _values_once(curve: Phasors) -> Complex:
+    """Values along the locus, no part of it twice: dashes drawn over one another would make a full
+    line.
+    """
+    return curve.values(FINE[: 360 // count_repeats(curve) + 1])
+
+
+def _mark_crank_angles(ax: Axes, curve: Phasors, s: Scale, limit: float) -> None:
+    """Draw dots at every twelfth of the period, and crank angles at every second one, on the outer
+    side of the curve.
+    """
+    period = 360 // count_repeats(curve)
+    marks = np.arange(12) * period / 12
+    at, along = curve.values(np.radians(marks)), _derivative(curve).values(np.radians(marks))
+    ax.plot(at.imag / s.size, at.real / s.size, "o", color=BLUE, markersize=2.6)
+    side = -1 if _turning(curve) >= 0 else 1  # left or right of the way, in x up and y right
+    for mark, place, way in zip(marks[::2], at[::2], along[::2], strict=True):
+        normal = 1j * side * way if abs(way) > 0.05 * np.abs(along).max(initial=0) else place
+        out = normal / abs(normal) if abs(normal) else 1
+        spot = place / s.size + 0.085 * limit * out
+        ax.text(spot.imag, spot.real, f"{mark:g}°", ha="center", va="center", fontsize=7, color=INK)
+    _draw_arrow(ax, curve.values(np.radians([0.04 * period, 0.055 * period])) / s.size, limit)
+
+
+def _draw_arrow(ax: Axes, step: Complex, limit: float) -> None:
+    """Draw which way the tip goes, from the first place to the second."""
+    way = step[1] - step[0]
+    if abs(way) > 1e-4 * limit:
+        tip = step[0] + way / abs(way) * 0.02 * limit
+        ax.annotate(
+            "",
+            (tip.imag, tip.real),
+            (step[0].imag, step[0].real),
+            arrowprops={"arrowstyle": "-|>", "color": BLUE, "linewidth": 1.2, "mutation_scale": 13},
+        )
+
+
+def count_repeats(curve: Phasors) -> int:
+    """How often the curve repeats itself in a revolution, as far as can be seen."""
+    seen = curve.orders[curve.major > SHARE * curve.major.max(initial=0)].astype(int)
+    return min(max(int(np.gcd.reduce(seen, initial=0)), 1), 12)
+
+
+def _turning(curve: Phasors) -> float:
+    """Twice the area inside the locus, positive if it is run through with the crank."""
+    return float((curve.orders * (np.abs(curve.forward) ** 2 - np.abs(curve.backward) ** 2)).sum())
+
+
+def _derivative(curve: Phasors) -> Phasors:
+    return Phasors(
+        curve.orders,
+        1j * curve.orders * curve.forward,
+        -1j * curve.orders * curve.backward,
+        np.zeros(1),
+    )
