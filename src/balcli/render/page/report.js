@@ -9,7 +9,9 @@
     if (parent) parent.append(made);
     return made;
   };
-  const set = (made, attributes) => { for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value); };
+  const set = (made, attributes) => {
+    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  };
 
   // ---------------------------------------------------------------- mechanism
   const r = scene.stroke / 2, bore = scene.bore, crown = 0.42 * bore, skirt = 0.33 * bore;
@@ -23,18 +25,27 @@
       const master = scene.cylinders[cylinder.master], angle = rad(theta + master.phase), lead = rad(cylinder.lead);
       const sine = (r * Math.sin(angle) - master.offset) / master.rod, lean = Math.asin(sine);
       const [a, b] = cylinder.knuckle;
-      const u = r * Math.cos(angle) + a * Math.cos(lean) + b * Math.sin(lean), v = r * Math.sin(angle) - a * Math.sin(lean) + b * Math.cos(lean);
+      const u = r * Math.cos(angle) + a * Math.cos(lean) + b * Math.sin(lean);
+      const v = r * Math.sin(angle) - a * Math.sin(lean) + b * Math.cos(lean);
       lower = [u * Math.cos(lead) + v * Math.sin(lead), v * Math.cos(lead) - u * Math.sin(lead)];
     }
     const beside = lower[1] - cylinder.offset;
     const place = lower[0] + Math.sqrt(cylinder.rod ** 2 - beside ** 2);
-    return { lower: [lower[0], sense * lower[1]], piston: [place, sense * cylinder.offset], axis: cylinder.axis + (scene.rotary ? theta + cylinder.phase : 0) };
+    return {
+      lower: [lower[0], sense * lower[1]],
+      piston: [place, sense * cylinder.offset],
+      axis: cylinder.axis + (scene.rotary ? theta + cylinder.phase : 0),
+    };
   }
-  const turned = ([u, v], degrees) => { const a = rad(degrees); return [u * Math.cos(a) - v * Math.sin(a), u * Math.sin(a) + v * Math.cos(a)]; };
+  const turned = ([u, v], degrees) => {
+    const a = rad(degrees);
+    return [u * Math.cos(a) - v * Math.sin(a), u * Math.sin(a) + v * Math.cos(a)];
+  };
   const pinAngle = (cylinder, theta) => scene.rotary ? cylinder.axis : cylinder.axis + cylinder.phase + theta;
   const plain = scene.cylinders.filter((c) => c.master === undefined);
   const depths = scene.cylinders.map((c) => c.z), near = Math.min(...depths), far = Math.max(...depths);
-  const reach = Math.max(...scene.cylinders.map((c) => Math.max(...Array.from({ length: 72 }, (_, k) => drive(c, 5 * k).piston[0])))) + crown;
+  const places = (c) => Array.from({ length: 72 }, (_, k) => drive(c, 5 * k).piston[0]);
+  const reach = Math.max(...scene.cylinders.map((c) => Math.max(...places(c)))) + crown;
   const backToFront = [...scene.cylinders].sort((a, b) => b.z - a.z);
 
   // Numbers of the cylinders of each bank, beyond its end.
@@ -43,7 +54,8 @@
     const banks = new Map();
     for (const c of scene.rotary ? [] : scene.cylinders) banks.set(c.axis, [...(banks.get(c.axis) || []), c.number]);
     return [...banks].map(([axis, numbers]) => {
-      const text = (numbers.length > 6 ? [...numbers.slice(0, 5), "…"] : numbers).join(" "), wide = 0.3 * LETTER * text.length, high = 0.6 * LETTER;
+      const shown = numbers.length > 6 ? [...numbers.slice(0, 5), "…"] : numbers;
+      const text = shown.join(" "), wide = 0.3 * LETTER * text.length, high = 0.6 * LETTER;
       const [x, y] = turned([reach + 0.3 * LETTER + high + (wide - high) * Math.abs(Math.sin(rad(axis))), 0], axis);
       return { text, x, y, wide, high };
     });
@@ -55,29 +67,40 @@
       const angles = scene.rotary ? Array.from({ length: 24 }, (_, k) => 15 * k) : [c.axis];
       for (const a of angles) for (const v of [-0.6 * bore, 0.6 * bore]) corners.push(turned([reach * 1.03, v], a));
     }
-    for (const variant of scene.variants) for (const d of variant.devices) for (const s of [-1, 1]) corners.push([d.at[0] + s * 0.5 * r, d.at[1] + s * 0.5 * r]);
+    for (const d of scene.variants.flatMap((variant) => variant.devices)) {
+      for (const s of [-0.5 * r, 0.5 * r]) corners.push([d.at[0] + s, d.at[1] + s]);
+    }
     const labels = bankLabels();
     for (const { x, y, wide, high } of labels) corners.push([x + high, y - wide], [x - high, y + wide]);
     frame(svg, corners.map(([x, y]) => [y, -x]));
     const cylinders = backToFront.map((c) => {
       const behind = far > near ? (c.z - near) / (far - near) : 0;
       const group = element("g", { opacity: 1 - 0.65 * behind }, svg), own = element("g", {}, group);
-      const low = Math.min(...Array.from({ length: 72 }, (_, k) => drive(c, 5 * k).piston[0])) - skirt, e = sense * c.offset;
+      const low = Math.min(...places(c)) - skirt, e = sense * c.offset;
       element("path", { class: "bore", d: `M ${e - bore / 2} ${-low} V ${-reach} H ${e + bore / 2} V ${-low}` }, own);
       element("path", { class: "axis dashed", d: `M ${e} 0 V ${-reach * 1.03}` }, own);
       const rod = element("line", { class: "rod", "stroke-width": 0.24 * r }, own);
-      const piston = element("path", { class: "piston", d: `M ${-bore * 0.485} ${skirt} V ${-crown} H ${bore * 0.485} V ${skirt} Z` }, own);
+      const outline = `M ${-bore * 0.485} ${skirt} V ${-crown} H ${bore * 0.485} V ${skirt} Z`;
+      const piston = element("path", { class: "piston", d: outline }, own);
       const pin = element("circle", { class: "pin", r: 0.16 * r }, own);
       return { c, own, rod, piston, pin };
     });
     const crank = element("g", { opacity: 0.92 }, svg);
     const knuckles = Math.max(0, ...scene.cylinders.map((c) => c.master === undefined ? 0 : Math.hypot(...c.knuckle)));
     const bigEnd = element("circle", { class: "web", r: knuckles ? knuckles + 0.2 * r : 0 }, crank);
-    const eyes = scene.cylinders.filter((c) => c.master !== undefined).map((c) => ({ c, eye: element("circle", { class: "pin", r: 0.13 * r }, crank) }));
-    const webs = plain.map((c) => ({ c, web: element("path", { class: "web", d: web(r) }, crank), pin: element("circle", { class: "pin", r: 0.2 * r }, crank) }));
+    const eyes = scene.cylinders.filter((c) => c.master !== undefined)
+      .map((c) => ({ c, eye: element("circle", { class: "pin", r: 0.13 * r }, crank) }));
+    const webs = plain.map((c) => ({
+      c,
+      web: element("path", { class: "web", d: web(r) }, crank),
+      pin: element("circle", { class: "pin", r: 0.2 * r }, crank),
+    }));
     element("circle", { class: "pin", r: 0.26 * r }, crank);
     const devices = element("g", {}, svg);
-    for (const { x, y, text } of labels) element("text", { class: "number", x: y, y: -x, "font-size": LETTER }, svg).textContent = text;
+    for (const { x, y, text } of labels) {
+      const place = { x: y, y: -x, "font-size": LETTER };
+      element("text", { class: "number", ...place }, svg).textContent = text;
+    }
     return (theta, variant) => {
       for (const { c, own, rod, piston, pin } of cylinders) {
         const { lower, piston: at, axis } = drive(c, theta);
@@ -100,11 +123,16 @@
       drawDevices(devices, variant.devices, theta);
     };
   }
-  const web = (r) => `M ${-0.3 * r} ${-r} A ${0.3 * r} ${0.3 * r} 0 0 1 ${0.3 * r} ${-r} L ${0.36 * r} 0 A ${0.36 * r} ${0.36 * r} 0 0 1 ${-0.36 * r} 0 Z`;
+  const web = (r) => {
+    const small = 0.3 * r, large = 0.36 * r;              // radii about the pin and about the shaft
+    return `M ${-small} ${-r} A ${small} ${small} 0 0 1 ${small} ${-r} `
+      + `L ${large} 0 A ${large} ${large} 0 0 1 ${-large} 0 Z`;
+  };
 
   // A weight as half a disc that points where it pulls; a slider as a block on its path.
   function drawDevices(group, devices, theta) {
-    const sizeOf = (d) => Math.hypot(...d.forward) + Math.hypot(...d.backward), most = Math.max(...devices.map(sizeOf)) || 1;
+    const sizeOf = (d) => Math.hypot(...d.forward) + Math.hypot(...d.backward);
+    const most = Math.max(...devices.map(sizeOf)) || 1;
     group.replaceChildren();
     for (const d of devices) {
       const size = sizeOf(d), [x, y] = d.at, radius = (0.2 + 0.5 * Math.sqrt(size / most)) * r;
@@ -113,32 +141,49 @@
         element("circle", { class: "weight", cx: y + v[1] * k, cy: -x - v[0] * k, r: radius / 2 }, group);
         continue;
       }
-      const v = add(spin(d.forward, d.order * theta), spin(d.backward, -d.order * theta)), angle = Math.atan2(v[1], v[0]) * 180 / Math.PI;
+      const v = add(spin(d.forward, d.order * theta), spin(d.backward, -d.order * theta));
+      const angle = Math.atan2(v[1], v[0]) * 180 / Math.PI;
       const place = `translate(${y} ${-x}) rotate(${angle})`;
       element("circle", { class: "shaft", r: radius, transform: place }, group);
-      element("path", { class: "weight", d: `M ${-radius} 0 A ${radius} ${radius} 0 0 1 ${radius} 0 Z`, transform: place }, group);
+      const half = `M ${-radius} 0 A ${radius} ${radius} 0 0 1 ${radius} 0 Z`;
+      element("path", { class: "weight", d: half, transform: place }, group);
     }
   }
 
   function sideView() {
-    const svg = byId("side"), spread = (f) => plain.concat(scene.cylinders).reduce((sum, c) => sum + f(rad(c.axis)) ** 2, 0);
+    const svg = byId("side"), all = plain.concat(scene.cylinders);
+    const spread = (f) => all.reduce((sum, c) => sum + f(rad(c.axis)) ** 2, 0);
     const above = !scene.rotary && spread(Math.sin) > spread(Math.cos) * 1.01;      // flat engines are seen from above
     const height = ([x, y]) => above ? y : x;
-    byId("side-caption").textContent = `From ${above ? "above" : "the side"}: z to the right, free end on the left; ${above ? "y" : "x"} up`;
+    byId("side-caption").textContent = `From ${above ? "above" : "the side"}: `
+      + `z to the right, free end on the left; ${above ? "y" : "x"} up`;
     const corners = [[near - bore * 0.75, -1.4 * r], [far + bore * 0.75, 1.4 * r]];
-    for (const c of scene.cylinders) for (const s of [0, 1]) for (const a of scene.rotary ? [0, 90, 180, 270] : [c.axis]) corners.push([c.z, height(turned([reach * 1.04, (s - 0.5) * bore], a))]);
+    for (const c of scene.cylinders) {
+      for (const v of [-0.5 * bore, 0.5 * bore]) {
+        for (const a of scene.rotary ? [0, 90, 180, 270] : [c.axis]) {
+          corners.push([c.z, height(turned([reach * 1.04, v], a))]);
+        }
+      }
+    }
     frame(svg, corners.map(([z, h]) => [z, -h]));
     element("path", { class: "axis dashed", d: `M ${near - bore} 0 H ${far + bore}` }, svg);
     const crank = element("g", {}, svg);
-    const shaft = element("path", { class: "crank", "stroke-width": Math.min(0.16 * r, 0.2 * throwWidth) }, crank), throws = throwsOf();
+    const throws = throwsOf(), thick = Math.min(0.16 * r, 0.2 * throwWidth);
+    const shaft = element("path", { class: "crank", "stroke-width": thick }, crank);
     const cylinders = backToFront.map((c) => {
       const group = element("g", { opacity: 0.8 }, svg);
-      return { c, rod: element("line", { class: "rod", "stroke-width": Math.min(0.2 * r, 0.4 * throwWidth) }, group), piston: element("rect", { class: "piston" }, group),
-        text: element("text", { class: "number", "font-size": 0.26 * bore }, group) };
+      const thickness = Math.min(0.2 * r, 0.4 * throwWidth);
+      return {
+        c,
+        rod: element("line", { class: "rod", "stroke-width": thickness }, group),
+        piston: element("rect", { class: "piston" }, group),
+        text: element("text", { class: "number", "font-size": 0.26 * bore }, group),
+      };
     });
     for (const { c, text } of cylinders) text.textContent = c.number;
     return (theta) => {
-      const bends = throws.map(({ c, from, to }) => `H ${from} V ${-height(turned([r, 0], pinAngle(c, theta)))} H ${to} V 0`);
+      const bend = (c) => -height(turned([r, 0], pinAngle(c, theta)));
+      const bends = throws.map(({ c, from, to }) => `H ${from} V ${bend(c)} H ${to} V 0`);
       set(shaft, { d: `M ${near - bore * 0.6} 0 ${bends.join(" ")} H ${far + bore * 0.6}` });
       for (const { c, rod, piston, text } of cylinders) {
         const { lower, piston: at, axis } = drive(c, theta);
@@ -151,7 +196,8 @@
       }
     };
   }
-  const gaps = [...new Set(depths.map((z) => Math.round(z * 10) / 10))].sort((a, b) => a - b).map((z, k, all) => k ? z - all[k - 1] : Infinity);
+  const planes = [...new Set(depths.map((z) => Math.round(z * 10) / 10))].sort((a, b) => a - b);
+  const gaps = planes.map((z, k) => k ? z - planes[k - 1] : Infinity);
   const throwWidth = Math.min(0.5 * bore, 0.6 * Math.min(...gaps));
 
   // Crank pins along the shaft; neighbouring rods whose pins point the same way stand on one.
@@ -168,14 +214,20 @@
   function frame(svg, points) {
     const xs = points.map((p) => p[0]), ys = points.map((p) => p[1]), margin = 0.03 * scene.stroke;
     const left = Math.min(...xs) - margin, top = Math.min(...ys) - margin;
-    svg.setAttribute("viewBox", [left, top, Math.max(...xs) + margin - left, Math.max(...ys) + margin - top].map((v) => v.toFixed(2)).join(" "));
+    const wide = Math.max(...xs) + margin - left, high = Math.max(...ys) + margin - top;
+    svg.setAttribute("viewBox", [left, top, wide, high].map((v) => v.toFixed(2)).join(" "));
   }
 
   // ---------------------------------------------------------------- vectors
   const add = ([a, b], [c, d]) => [a + c, b + d];
   const spin = (v, degrees) => turned(v, degrees);
-  const sum = (rows, theta) => rows.reduce((v, [n, a, b, c, d]) => add(v, add(spin([a, b], n * theta), spin([c, d], -n * theta))), [0, 0]);
-  const nice = (value) => { const power = 10 ** Math.floor(Math.log10(value)); return [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10].map((k) => k * power).find((v) => v >= value * 0.999999); };
+  const ofOrder = ([n, a, b, c, d], theta) => add(spin([a, b], n * theta), spin([c, d], -n * theta));
+  const sum = (rows, theta) => rows.reduce((v, row) => add(v, ofOrder(row, theta)), [0, 0]);
+  const STEPS = [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10];
+  const nice = (value) => {
+    const power = 10 ** Math.floor(Math.log10(value));
+    return STEPS.map((k) => k * power).find((v) => v >= value * 0.999999);
+  };
   const digits = (value) => value >= 1000 ? value.toFixed(0) : value.toPrecision(4);
   function figure(value, { name, thousand }, write = digits) {
     return thousand && value >= 5000 ? `${write(value / 1000)} ${thousand}` : `${write(value)} ${name}`;
@@ -186,14 +238,22 @@
     const svg = byId(id), now = byId(`${id}-now`);
     svg.setAttribute("viewBox", "-112 -112 224 224");
     element("path", { class: "axis", d: "M -108 0 H 108 M 0 -108 V 108" }, svg);
-    const rings = [0.5, 1].map((share) => ({ share, ring: element("circle", { class: "axis", r: HALF * share }, svg), label: element("text", { class: "scale", x: 3, y: -HALF * share - 2 }, svg) }));
+    const rings = [0.5, 1].map((share) => ({
+      share,
+      ring: element("circle", { class: "axis", r: HALF * share }, svg),
+      label: element("text", { class: "scale", x: 3, y: -HALF * share - 2 }, svg),
+    }));
     element("text", { class: "scale", x: -9, y: -104 }, svg).textContent = "x";
     element("text", { class: "scale", x: 104, y: -3 }, svg).textContent = "y";
-    const old = element("path", { class: "old" }, svg), curve = element("path", { class: "curve" }, svg), chain = element("g", {}, svg);
-    const vector = element("line", { class: "vector", id: `${id}-vector`, x1: 0, y1: 0 }, svg), tip = element("circle", { class: "tip", r: 3.2 }, svg);
+    const old = element("path", { class: "old" }, svg);
+    const curve = element("path", { class: "curve" }, svg), chain = element("g", {}, svg);
+    const line = { class: "vector", id: `${id}-vector`, x1: 0, y1: 0 };
+    const vector = element("line", line, svg), tip = element("circle", { class: "tip", r: 3.2 }, svg);
     let rows = [], scale = 1;
-    const path = (of) => "M" + Array.from({ length: 361 }, (_, k) => { const [x, y] = sum(of, k); return `${(y * scale).toFixed(2)} ${(-x * scale).toFixed(2)}`; }).join("L");
-    const largest = (of) => Math.max(0, ...Array.from({ length: 361 }, (_, k) => Math.hypot(...sum(of, k))));
+    const point = ([x, y]) => `${(y * scale).toFixed(2)} ${(-x * scale).toFixed(2)}`;
+    const turns = (of) => Array.from({ length: 361 }, (_, k) => sum(of, k));
+    const path = (of) => "M" + turns(of).map(point).join("L");
+    const largest = (of) => Math.max(0, ...turns(of).map((v) => Math.hypot(...v)));
     return {
       choose(all, before) {
         rows = all;
@@ -207,13 +267,20 @@
         const [x, y] = sum(rows, theta), size = Math.hypot(x, y);
         set(vector, { x2: (y * scale).toFixed(3), y2: (-x * scale).toFixed(3) });
         set(tip, { cx: y * scale, cy: -x * scale });
-        now.textContent = size ? `${figure(size, unit)} at ${(Math.atan2(y, x) * 180 / Math.PI).toFixed(0)}° from x` : "none";
+        const direction = (Math.atan2(y, x) * 180 / Math.PI).toFixed(0);
+        now.textContent = size ? `${figure(size, unit)} at ${direction}° from x` : "none";
         chain.replaceChildren();
         let at = [0, 0];
-        for (const [n, a, b, c, d] of showChain ? rows : []) for (const [kind, v, sign] of [["forward", [a, b], 1], ["backward", [c, d], -1]]) {
-          const next = add(at, spin(v, sign * n * theta)), length = Math.hypot(...v) * scale;
+        const links = (showChain ? rows : []).flatMap(([n, a, b, c, d]) => [
+          ["forward", [a, b], n],
+          ["backward", [c, d], -n],
+        ]);
+        for (const [kind, v, order] of links) {
+          const next = add(at, spin(v, order * theta)), length = Math.hypot(...v) * scale;
           if (length > 0.5) {
-            element("line", { class: kind, x1: at[1] * scale, y1: -at[0] * scale, x2: next[1] * scale, y2: -next[0] * scale }, chain);
+            const from = { x1: at[1] * scale, y1: -at[0] * scale };
+            const to = { x2: next[1] * scale, y2: -next[0] * scale };
+            element("line", { class: kind, ...from, ...to }, chain);
             element("circle", { class: "axis", cx: at[1] * scale, cy: -at[0] * scale, r: length }, chain);
           }
           at = next;
@@ -223,8 +290,15 @@
   }
 
   // ---------------------------------------------------------------- controls
-  if (scene.rotary) byId("end-caption").textContent = "From the free end: x up, y to the right; the cylinders turn clockwise, the crank stands still";
-  const end = endView(), side = sideView(), views = { force: locusView("force", scene.units.force), moment: locusView("moment", scene.units.moment) };
+  if (scene.rotary) {
+    byId("end-caption").textContent = "From the free end: x up, y to the right; "
+      + "the cylinders turn clockwise, the crank stands still";
+  }
+  const end = endView(), side = sideView();
+  const views = {
+    force: locusView("force", scene.units.force),
+    moment: locusView("moment", scene.units.moment),
+  };
   const angle = byId("angle"), play = byId("play"), chain = byId("chain");
   const switchFor = (parent, type, name, value, text, checked) => {
     const label = document.createElement("label"), input = document.createElement("input");
@@ -262,7 +336,11 @@
   let last = null;
   function step(time) {
     if (play.getAttribute("aria-pressed") !== "true") { last = null; return; }
-    if (last !== null) { angle.step = "any"; angle.value = (Number(angle.value) + DEGREES_PER_SECOND * (time - last) / 1000) % 360; turn(); }
+    if (last !== null) {
+      angle.step = "any";
+      angle.value = (Number(angle.value) + DEGREES_PER_SECOND * (time - last) / 1000) % 360;
+      turn();
+    }
     last = time;
     requestAnimationFrame(step);
   }
@@ -277,7 +355,8 @@
   const theme = byId("theme");
   theme.hidden = false;
   theme.addEventListener("click", () => {
-    const set = document.documentElement.dataset.theme, dark = set ? set === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
+    const set = document.documentElement.dataset.theme;
+    const dark = set ? set === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
     document.documentElement.dataset.theme = dark ? "light" : "dark";
   });
   choose();
