@@ -34,7 +34,7 @@ from ..enginefile.model import (
     Table,
     mistakes_of_choice,
 )
-from ..errors import BalcliError, InputError, Problem
+from ..errors import DISGUISES, BalcliError, InputError, Problem
 from ..limits import (
     DEEPEST_KEY,
     LARGEST_FILE_BYTES,
@@ -47,8 +47,8 @@ from ..limits import (
 from .build import Engine, build
 
 CONTROL = {
-    "name": re.compile(r"[\x00-\x1f\x7f-\x9f]"),
-    "source": re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]"),
+    "name": re.compile(rf"[\x00-\x1f\x7f-\x9f{DISGUISES}]"),
+    "source": re.compile(rf"[\x00-\x08\x0b-\x1f\x7f-\x9f{DISGUISES}]"),
 }
 REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5"}
 
@@ -85,9 +85,9 @@ def read(source: str | Path) -> EngineFile:
 
 def text_of(source: str | Path) -> bytes:
     """The text of a file (or of standard input) as it is; BalcliError if it cannot be read."""
-    if str(source) == "-":
-        return sys.stdin.buffer.read(LARGEST_FILE_BYTES + 1)
     try:
+        if str(source) == "-":
+            return sys.stdin.buffer.read(LARGEST_FILE_BYTES + 1)
         with Path(source).open("rb") as stream:
             return stream.read(LARGEST_FILE_BYTES + 1)
     except IsADirectoryError:
@@ -96,7 +96,8 @@ def text_of(source: str | Path) -> bytes:
         raise BalcliError(f"{source}: no such file") from None
     except (OSError, ValueError) as error:  # ValueError: a zero byte in the name
         reason = error.strerror if isinstance(error, OSError) else error
-        raise BalcliError(f"{str(source)[:200]!r}: cannot be read ({reason})") from None
+        name = "standard input" if str(source) == "-" else repr(str(source)[:200])
+        raise BalcliError(f"{name}: cannot be read ({reason})") from None
 
 
 def name_of(source: str | Path) -> str:
@@ -271,7 +272,7 @@ class _Reader:
             self._add(
                 key,
                 f"has the control character U+{ord(strange[0]):04X}, which could command a "
-                "terminal; leave it out",
+                "terminal or disguise what it shows; leave it out",
             )
         elif key == "name" and len(value) > LONGEST_NAME:
             self._add(
