@@ -37,6 +37,7 @@ COMMANDS = (
     "scatter",
     "compare",
     "sum",
+    "field",
     "engines",
     "bench",
 )

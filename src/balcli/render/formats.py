@@ -7,6 +7,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING, Any, assert_never
 
 if TYPE_CHECKING:
+    from ..field_balancing.balance import FieldBalance
     from ..results.analysis import Analysis
     from ..results.balance import Balance
     from ..results.two_engines import Combined
@@ -133,5 +134,19 @@ def sums(result: Combined, form: Format, units: Units, *, into_file: bool = Fals
         sheets=lambda: [combined.sheet(result, system)],
         documents=lambda: [combined.document(result)],
         rows=lambda: csv.sums(result, system),
+        into_file=into_file,
+    )
+
+
+def fields(result: FieldBalance, form: Format, *, into_file: bool = False) -> str:
+    """One rotor on the machine, in the units of its file."""
+    from . import csv
+    from . import field_balancing as field
+
+    return render(
+        form,
+        sheets=lambda: [field.sheet(result)],
+        documents=lambda: [field.document(result)],
+        rows=lambda: csv.write(field.HEADER, field.rows(result)),
         into_file=into_file,
     )
