@@ -8,7 +8,11 @@ from typing import Annotated
 
 import typer
 
-from .options import Format, FormatOption, Output
+from ..errors import BalcliError, Exit, say
+from ..render.formats import Format
+from .options import FormatOption, Output
+from .output import show, write_file
+from .overwrite_guard import refuse_overwriting
 
 
 class Smallest(StrEnum):
@@ -19,7 +23,7 @@ class Smallest(StrEnum):
 
 
 def field(
-    file: Annotated[
+    path: Annotated[
         str,
         typer.Argument(
             metavar="RUNS",
@@ -51,7 +55,7 @@ def field(
             "--check", help="Exit status 1 unless every plane is within the file's grade."
         ),
     ] = False,
-    format: FormatOption = Format.TABLE,  # noqa: A002 (the option's name)
+    form: FormatOption = Format.TABLE,
     output: Output = None,
 ) -> None:
     """Balance a rotor on the machine or in its bearings: from readings with trial weights to
@@ -61,23 +65,22 @@ def field(
     with a trial weight in each plane.
     """
     from ..enginefile.toml_text import name_of
-    from ..errors import BalcliError, Exit, say
+
+    refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     from ..field_balancing.balance import balance_rotor, find_doubts
     from ..field_balancing.read import read_runs
-    from ..render.formats import fields
-    from .output import emit, write
+    from ..render import field_balancing as renderer
 
-    runs, name = read_runs(file), name_of(file)
-    if check and runs.grade is None:
+    file, name = read_runs(path), name_of(path)
+    if check and file.grade is None:
         raise BalcliError(f"{name}: --check needs a grade, such as grade = 6.3, and mass and speed")
-    result = balance_rotor(runs, minimise.value, without or (), name)
+    result = balance_rotor(file, minimise.value, without or (), name)
     for doubt in find_doubts(result):
         say(f"warning: {name}: {doubt}")
-    shown = fields(result, format, into_file=output is not None)
     if plot is not None:
-        from ..render.plot.field_balancing import draw_field
+        from ..render.plot.field_balancing import draw_field  # brings matplotlib
 
-        write(draw_field(result, plot), plot)
-    emit(shown, output)
+        write_file(draw_field(result, plot), plot)
+    show([result], renderer, form, output)
     if check and not result.reached:
         raise typer.Exit(Exit.DIFFERENCE)

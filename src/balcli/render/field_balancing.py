@@ -15,15 +15,17 @@ from ..field_balancing.balance import (
     find_angle_deg,
     find_eccentricity,
 )
+from .csv import Rows
 from .figures import clean
 from .sheet import Facts, Grid, Sheet, Text, degrees, number
+from .units import System
 
-HEADER = ("part", "speed_rpm", "name", "figure", "value", "unit")
+_HEADER = ("part", "speed_rpm", "name", "figure", "value", "unit")
 _WAY = {"with": "the way the rotor turns", "against": "against the way the rotor turns"}
 
 
-def sheet(result: FieldBalance) -> Sheet:
-    """Everything, the corrections first."""
+def sheet(result: FieldBalance, system: System) -> Sheet:
+    """Everything, the corrections first; units are those of the file, not of a system."""
     file = result.file
     parts: list[Grid | Facts | Text] = [_angles(result), _corrections(result)]
     if file.places or file.drill:
@@ -284,8 +286,12 @@ def _piece(piece: Piece) -> dict[str, float | None]:
     return found if piece.depth_mm is None else found | {"depth_mm": clean(piece.depth_mm)}
 
 
-def rows(result: FieldBalance) -> Iterator[tuple[Any, ...]]:
-    """Every figure a row, under HEADER: as JSON says them."""
+def rows(result: FieldBalance, system: System) -> Rows:
+    """Every figure of the document a row, in the units of the file."""
+    return Rows(_HEADER, _lines(result))
+
+
+def _lines(result: FieldBalance) -> Iterator[tuple[Any, ...]]:
     said = document(result)
     for p in said["corrections"]:
         plane = p.pop("plane")

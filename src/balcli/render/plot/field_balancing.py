@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -15,12 +15,13 @@ from .pages import form_of
 from .style import BLUE, GREEN, INK, PAPER, RED, SOFT, figure, plain, saved
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from matplotlib.projections.polar import PolarAxes
 
 _COLOURS = (BLUE, RED, GREEN, INK)
 _LINES = ("-", "--", "-.", ":")
 _MOST_LABELLED = 8  # readings; more names would lie on one another
-_SIZE = (11.0, 5.8)
+_SIZE = (11.0, 6.6)
 
 
 def draw_field(result: FieldBalance, file: Path) -> bytes:
@@ -28,8 +29,8 @@ def draw_field(result: FieldBalance, file: Path) -> bytes:
     form = form_of(file)
     phases, weights = find_senses(result)
     with figure(*_SIZE, form) as fig:
-        left = fig.add_subplot(1, 2, 1, projection="polar")
-        right = fig.add_subplot(1, 2, 2, projection="polar")
+        fig.set_layout_engine("none")
+        left, right = (_add_polar(fig, place) for place in (0.06, 0.56))
         _draw_readings(left, result)
         _draw_weights(right, result)
         unit = f", {result.file.unit}" if result.file.unit else ""
@@ -42,6 +43,11 @@ def draw_field(result: FieldBalance, file: Path) -> bytes:
         return saved(fig, form)
 
 
+def _add_polar(fig: Figure, left: float) -> PolarAxes:
+    axes: Any = fig.add_axes((left, 0.16, 0.38, 0.633), projection="polar")
+    return cast("PolarAxes", axes)
+
+
 def _set_up(ax: PolarAxes, sense: str, title: str) -> None:
     """0 at the top; the rotor turns anticlockwise, so what counts with it goes that way round."""
     ax.set_theta_zero_location("N")
@@ -49,7 +55,6 @@ def _set_up(ax: PolarAxes, sense: str, title: str) -> None:
     ax.set_thetagrids(np.arange(0, 360, 30))
     ax.set_title(title, pad=24)
     ax.set_rlabel_position(15)
-    ax.locator_params(axis="y", nbins=4)
     ax.spines["polar"].set_color(SOFT)
     ax.annotate(
         "",
