@@ -17,6 +17,8 @@ from .model import Run, RunsFile
 
 Complex = NDArray[np.complex128]
 
+_ROUNDING = 1e-13  # share of the largest reading below which a change is none
+
 
 class Influence(NamedTuple):
     """Readings of all speeds, one speed after the other, and what weights do to them.
@@ -178,8 +180,10 @@ def _fit(runs: _Series, used: list[int]) -> tuple[Complex, Complex]:
     there = [k for k in range(planes) if k in used or runs.on[:, k].any()]
     design, largest = _design(runs, used), np.abs(runs.on).max() or 1.0
     fitted = np.array([solve(design, column).x for column in runs.readings.T])
+    changes = fitted[:, 1:]
+    unmoved = np.abs(changes) <= _ROUNDING * np.abs(runs.readings).max(axis=0)[:, None]
     coefficients = np.zeros((len(fitted), planes), dtype=complex)
-    coefficients[:, there] = fitted[:, 1:] / largest
+    coefficients[:, there] = np.where(unmoved, 0, changes) / largest
     return coefficients, _find_measured(runs, fitted[:, 0])
 
 

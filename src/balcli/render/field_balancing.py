@@ -45,7 +45,7 @@ def find_senses(result: FieldBalance) -> tuple[str, str]:
 
 def _angles(result: FieldBalance) -> Text:
     phases, weights = find_senses(result)
-    same = "as the phases do" if phases == weights else "the other way than the phases"
+    same = "as phases do" if phases == weights else "the other way round than phases"
     senses = (
         f"Phases of readings {result.file.rotation}: they count {phases} rotation. Angles of "
         f"weights count {weights} rotation, {same}:"
@@ -140,14 +140,15 @@ def _permitted(result: FieldBalance) -> Grid:
             )
             if not p.permitted.reached:
                 marked.add((k, 3))
-    state = result.influence.trimmed or "the rotor as found"
+    trimmed = result.influence.trimmed
+    state = f"in '{trimmed}'" if trimmed else "in the rotor as found"
     eccentricity = number(1e3 * (find_eccentricity(file) or 0.0), 4)
     return Grid(
         f"Permitted residual unbalance, ISO 21940-11, G {file.grade:g}",
         ("plane", "permitted, g·mm", "there now, g·mm", ""),
         tuple(rows),
-        f"{file.mass:g} kg at {file.speed:g} rpm: {eccentricity} µm. There now: in '{state}', by "
-        "its readings.",
+        f"{file.mass:g} kg at {file.speed:g} rpm: {eccentricity} µm. There now: {state}, by its "
+        "readings.",
         frozenset(marked),
         words=(0, 3),
     )

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _COLOURS = (BLUE, RED, GREEN, INK)
 _LINES = ("-", "--", "-.", ":")
 _MOST_LABELLED = 8  # readings; more names would lie on one another
-_SIZE = (11.0, 6.6)
+_SIZE = (11.0, 6.2)
 
 
 def draw_field(result: FieldBalance, file: Path) -> bytes:
@@ -44,7 +44,7 @@ def draw_field(result: FieldBalance, file: Path) -> bytes:
 
 
 def _add_polar(fig: Figure, left: float) -> PolarAxes:
-    axes: Any = fig.add_axes((left, 0.16, 0.38, 0.633), projection="polar")
+    axes: Any = fig.add_axes((left, 0.13, 0.38, 0.674), projection="polar")
     return cast("PolarAxes", axes)
 
 
@@ -55,6 +55,7 @@ def _set_up(ax: PolarAxes, sense: str, title: str) -> None:
     ax.set_thetagrids(np.arange(0, 360, 30))
     ax.set_title(title, pad=24)
     ax.set_rlabel_position(15)
+    ax.set_yticks(ax.get_yticks()[::2])
     ax.spines["polar"].set_color(SOFT)
     ax.annotate(
         "",
@@ -80,7 +81,7 @@ def _draw_readings(ax: PolarAxes, result: FieldBalance) -> None:
         ax.plot(angles[:1], sizes[:1], "o", color=SOFT, markerfacecolor=PAPER)
         ax.plot(angles[1:], sizes[1:], "o", color=BLUE, markersize=5, zorder=3)
         if len(before) <= _MOST_LABELLED:
-            label = f"{find_label(result, k)} {number(abs(start), 3)}"
+            label = f"{plain(find_label(result, k), 30)}: {number(abs(start), 3)}"
             ax.annotate(label, (angles[0], sizes[0]), xytext=(6, 5), textcoords="offset points")
     state = result.influence.trimmed or "as found"
     ax.plot([], [], "o", color=SOFT, markerfacecolor=PAPER, label=plain(state, 30))
