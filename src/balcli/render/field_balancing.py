@@ -180,7 +180,9 @@ def _readings(result: FieldBalance) -> Grid:
     ]
     weighted = " weighted" if result.file.reading_weights else ""
     note = f"Largest{weighted} after: {number(result.largest, 4)}, rms {number(result.rms, 4)}. "
-    if result.minimise == "max":
+    if not result.after.any():
+        note = "All readings are cancelled."
+    elif result.minimise == "max":
         note += f"No weights leave less than {number(result.bound, 4)} as the largest."
     else:
         note += "The sum of their squares is the least possible."
