@@ -10,6 +10,7 @@ from support.engines import engine, engine_text
 
 from balcli.core.loads import Loads
 from balcli.core.mechanisms.harmonics import Series
+from balcli.core.phases import Phases
 from balcli.core.phasors import EPS
 from balcli.engine.build import build
 from balcli.engine.load import parse
@@ -185,7 +186,8 @@ def test_errors_of_a_curve_stay_within_the_bounds_of_the_forces(name, size):
             along=Series(curve.along.c + size), across=Series(curve.across.c + 3 * turn * size)
         )
         here, there = (
-            Loads(c, (), (0j, 0.0), LOW, exact._replace(curve=it), 1.0).force for it in (curve, off)
+            Loads(c, (), 0j, 0.0, Phases(c, LOW), exact._replace(curve=it), 1.0).force
+            for it in (curve, off)
         )
         assert np.all(here.noise >= EPS * here.major)
         assert np.all(np.abs(there.forward - here.forward) <= here.noise)

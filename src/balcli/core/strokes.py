@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .loads import Cylinders
+from .cylinders import Cylinders
 from .mechanisms.harmonics import Array
 from .mechanisms.linkage import Linkage, revolution
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from ..core.loads import Cylinders
+from ..core.cylinders import Cylinders
 from ..enginefile.fields import counted
 from ..enginefile.model import Articulation, EngineFile
 from ..errors import Problem

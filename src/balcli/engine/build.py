@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core import speed_ripple as ripple
-from ..core.loads import Cylinders, Device
+from ..core.cylinders import Cylinders, Device
 from ..core.mechanisms import harmonics
 from ..enginefile.model import Bobweight, EngineFile
 from ..errors import InputError, Problem

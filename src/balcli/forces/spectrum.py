@@ -12,8 +12,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..core import speed_ripple as ripple
-from ..core.loads import Device, Loads, turning
+from ..core.cylinders import Device
+from ..core.loads import Loads, find_device_force
 from ..core.mechanisms import harmonics
+from ..core.phases import Phases, SeparatePhases
 from ..core.phasors import Array, Complex, Phasors, joined
 from ..engine.build import Engine
 from ..errors import BalcliError
@@ -101,9 +103,10 @@ def few_enough(engine: Engine, orders: int, loads: int) -> None:
 def weight(engine: Engine, device: Device, orders: Array) -> Phasors:
     """Force of one device, of an engine without trailing axes, N."""
     if not engine.ripple:
-        return turning(device, orders, engine.omega**2).settled()
+        return find_device_force(device, orders, engine.omega**2).settled()
     w, dense = _uneven_speed(engine, orders)
-    return ripple.force(turning(device, dense, engine.omega**2).settled(), w).at(orders).settled()
+    steady = find_device_force(device, dense, engine.omega**2).settled()
+    return ripple.force(steady, w).at(orders).settled()
 
 
 def _spectra(
@@ -169,15 +172,9 @@ def _steady(
 
     def loads(block: slice) -> Loads:
         own = few if block == _ALL else few.of_orders(block)
-        return Loads(
-            c,
-            engine.devices,
-            (x + 1j * y, z),
-            orders[block],
-            own.of_rows(which),
-            engine.omega**2,
-            apart=apart,
-        )
+        phases = (SeparatePhases if apart else Phases)(c, orders[block])
+        square = engine.omega**2
+        return Loads(c, engine.devices, x + 1j * y, z, phases, own.of_rows(which), square)
 
     most = max(_AT_ONCE // c.count, 1)
     blocks = (

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..core.peaks import Peak, peak
-from ..core.phasors import Phasors, unit
+from ..core.phasors import Complex, Phasors, unit
 from ..engine.build import Engine, Ripple
 from ..forces.spectrum import SPECTRAL, Spectra, relevant_orders, spectra
 from .analysis import checked_orders, shown_orders
@@ -130,13 +130,10 @@ def _mirrored(phasors: Phasors, axial: bool) -> Phasors:
     """
     sign = -1.0 if axial else 1.0
     mean = phasors.orders == 0
-    forward = np.where(mean, np.conj(phasors.forward), np.conj(phasors.backward))
-    return Phasors(
-        phasors.orders,
-        sign * forward,
-        sign * np.where(mean, 0, np.conj(phasors.forward)),
-        phasors.noise,
-    )
+    ahead, against = phasors.forward.conj(), phasors.backward.conj()
+    forward: Complex = np.where(mean, ahead, against)
+    backward: Complex = np.where(mean, 0, ahead)
+    return Phasors(phasors.orders, sign * forward, sign * backward, phasors.noise)
 
 
 def _sum(one: Spectra, other: Spectra) -> Spectra:

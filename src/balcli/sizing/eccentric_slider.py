@@ -92,7 +92,7 @@ def shafts(design: str, k: Any) -> tuple[Array, Array]:
     """Cosine coefficients of `g m^-2 = cos phi` up to sign, i.e. of cos phi, and of its derivative
     by k.
     """
-    theta = np.arange(_COUNT) * (2 * np.pi / _COUNT)
+    theta = np.arange(_COUNT, dtype=np.float64) * (2 * np.pi / _COUNT)
     step = 1e-30  # complex step: the derivative to rounding
     wave = _cos_phi(design, theta, k + 1j * step)
     return _cosines(wave.real), _cosines(wave.imag / step)
