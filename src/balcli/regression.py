@@ -12,15 +12,14 @@ import numpy as np
 
 from .engine.build import Engine
 from .errors import BalcliError
-from .forces.spectrum import SPECTRAL, Spectra
+from .forces.kinds import KINDS, VECTORS
+from .forces.spectrum import Spectra
 from .render import json as documents
-from .render.figures import KEYS
 from .results.analysis import analyze
 
 TOLERANCE = 1e-9  # of a quantity's largest order, beyond what rounding may do
-RECORDED = (*SPECTRAL, "peak")
+RECORDED = (*KINDS, "peak")
 _PARTS = ("forward", "backward", "cos", "sin")
-_UNITS = {"force": "N"}
 
 
 @dataclass(frozen=True)
@@ -133,40 +132,32 @@ def _roundings(found: Spectra) -> dict[tuple[str, str], float]:
     next processor may round otherwise.
     """
     errors: dict[tuple[str, str], float] = {}
-    for quantity, phasors in found.items():
+    for kind, phasors in found.items():
         each = 2 * np.broadcast_to(phasors.noise, phasors.forward.shape)
         errors |= {
-            (quantity, f"order {order:g}"): float(error)
+            (kind.name, f"order {order:g}"): float(error)
             for order, error in zip(phasors.orders, each, strict=True)
         }
-        errors[quantity, "peak,"] = float(each.sum())
+        errors[kind.name, "peak,"] = float(each.sum())
     return errors
 
 
 def _figures(document: dict[str, Any]) -> Iterator[tuple[tuple[str, str, str], float]]:
     """(quantity, order, part) and value of everything that is compared."""
     for entry in document["orders"]:
-        for quantity, key in KEYS.items():
-            for part in _PARTS:
-                value = entry[key].get(part)
-                if isinstance(value, list):
-                    for axis, component in zip("xy", value, strict=True):
-                        yield (
-                            (
-                                quantity,
-                                f"order {entry['order']}",
-                                f"{part} {axis}, {_unit(quantity)}",
-                            ),
-                            float(component),
-                        )
-                elif value is not None:
-                    yield (
-                        (quantity, f"order {entry['order']}", f"{part}, {_unit(quantity)}"),
-                        float(value),
-                    )
-    yield ("force", "peak,", "N"), float(document["peak"]["force_N"])
-    yield ("moment", "peak,", "N·m"), float(document["peak"]["moment_Nm"])
+        for kind in KINDS.values():
+            for part, value in _parts(entry[kind.key]):
+                yield (kind.name, f"order {entry['order']}", f"{part}, {kind.si_unit}"), value
+    for kind in VECTORS:
+        yield (kind.name, "peak,", kind.si_unit), float(document["peak"][kind.key])
 
 
-def _unit(quantity: str) -> str:
-    return _UNITS.get(quantity, "N·m")
+def _parts(figures: dict[str, Any]) -> Iterator[tuple[str, float]]:
+    """The figures of one kind and order that are compared, vectors component by component."""
+    for part in _PARTS:
+        value = figures.get(part)
+        if isinstance(value, list):
+            for axis, component in zip("xy", value, strict=True):
+                yield f"{part} {axis}", float(component)
+        elif value is not None:
+            yield part, float(value)

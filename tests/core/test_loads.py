@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.engines import engine, engine_text
+from support.engines import alone, engine, engine_text
 
 from balcli.core.loads import Loads
 from balcli.core.mechanisms.harmonics import Series
@@ -14,7 +14,7 @@ from balcli.core.phases import Phases
 from balcli.core.phasors import EPS
 from balcli.engine.build import build
 from balcli.engine.load import parse
-from balcli.forces.spectrum import alone, spectra
+from balcli.forces.spectrum import spectra
 from balcli.studies.parameters import parse as parameter
 from balcli.studies.parameters import varied
 from balcli.studies.sweep import Sweep
@@ -120,7 +120,7 @@ def test_variants_side_by_side_are_what_each_is_alone(vary):
     for place in np.ndindex(*shape):
         values = {p.path: float(p.values[k]) for p, k in zip(sweep.parameters, place, strict=True)}
         for quantity, single in spectra(build(varied(file, values)), LOW, QUANTITIES).items():
-            found = getattr(together, quantity)
+            found = together[quantity.name]
             for name in ("forward", "backward", "noise"):
                 whole = np.broadcast_to(getattr(found, name), (len(LOW), *shape))[
                     (slice(None), *place)
@@ -146,7 +146,7 @@ def test_an_engine_does_what_its_cylinders_do(ripple):
     built = build(parse(text))
     parts = [spectra(alone(built, number), LOW, QUANTITIES) for number in built.numbers]
     for quantity, whole in spectra(built, LOW, QUANTITIES).items():
-        each = [getattr(part, quantity) for part in parts]
+        each = [part[quantity.name] for part in parts]
         assert np.all(np.abs(sum(p.forward for p in each) - whole.forward) <= whole.noise), quantity
         assert np.all(np.abs(sum(p.backward for p in each) - whole.backward) <= whole.noise), (
             quantity

@@ -205,10 +205,10 @@ def test_knuckles_that_differ_in_one_component_alone(angles):
         [1.0, 2.0, 3.0],
     )
     for quantity, phasors in found.items():
-        size = max(sum(map(abs, want.order(quantity, n))) for n in (1, 2, 3))
+        size = max(sum(map(abs, want.order(quantity.name, n))) for n in (1, 2, 3))
         for row, n in enumerate((1, 2, 3)):
             assert (phasors.forward[row], phasors.backward[row]) == pytest.approx(
-                want.order(quantity, n), abs=1e-10 * size + 1e-9
+                want.order(quantity.name, n), abs=1e-10 * size + 1e-9
             )
 
 

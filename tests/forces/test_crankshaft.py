@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support.engines import alone
 
 from balcli.core.peaks import peak
 from balcli.engine import build as engine
@@ -142,7 +143,7 @@ def test_guide_force_moments():
     subject = built([0, 180])
     found, roll = guide(subject, ORDERS), spectrum.spectra(subject, ORDERS).roll
     assert found.h.forward == pytest.approx(roll.forward, rel=1e-11, abs=1e-9)
-    first, second = (spectrum.spectra(spectrum.alone(subject, n), ORDERS).roll for n in (1, 2))
+    first, second = (spectrum.spectra(alone(subject, n), ORDERS).roll for n in (1, 2))
     assert found.x is not None
     assert found.x.forward == pytest.approx(
         (second.forward - first.forward) / 2, rel=1e-11, abs=1e-9
@@ -167,12 +168,12 @@ def test_each_cylinder_is_what_it_is_alone(name):
     )
     together = spectrum.each(subject, ORDERS)
     for row, number in enumerate(subject.numbers):
-        for quantity, single in spectrum.spectra(spectrum.alone(subject, number), ORDERS).items():
+        for quantity, single in spectrum.spectra(alone(subject, number), ORDERS).items():
             one = together.of(row)
-            np.testing.assert_allclose(getattr(one, quantity).forward, single.forward, rtol=1e-14)
-            np.testing.assert_allclose(getattr(one, quantity).backward, single.backward, rtol=1e-14)
+            np.testing.assert_allclose(one[quantity.name].forward, single.forward, rtol=1e-14)
+            np.testing.assert_allclose(one[quantity.name].backward, single.backward, rtol=1e-14)
             np.testing.assert_array_equal(
-                getattr(one, quantity).noise, np.broadcast_to(single.noise, one.orders.shape)
+                one[quantity.name].noise, np.broadcast_to(single.noise, one.orders.shape)
             )
 
 

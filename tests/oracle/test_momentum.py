@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from oracle import momentum
+from support.engines import alone
 
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
 from balcli.forces import spectrum
-from balcli.results import analysis
 
 TOLERANCE = 1e-11  # of the largest first-order amplitude of one cylinder
 ORDERS = np.arange(0.0, 11.0)
@@ -145,7 +145,8 @@ def compare(text: str) -> None:
     oracle = momentum.Engine.read(text)
     curves, scales = oracle.curves(), oracle.scales()
     found = spectrum.spectra(engine.build(enginefile.parse(text)), ORDERS)
-    for quantity, phasors in found.items():
+    for kind, phasors in found.items():
+        quantity = kind.name
         for row, n in enumerate(ORDERS):
             forward, backward = curves.order(quantity, int(n))
             error = (
@@ -174,7 +175,7 @@ def test_one_cylinder_of_an_articulated_engine_alone():
     oracle, whole = momentum.Engine.read(text), engine.build(enginefile.parse(text))
     for number in (1, 3):
         curves = oracle.curves([number])
-        force = spectrum.spectra(analysis.alone(whole, number), ORDERS, ["force"]).force
+        force = spectrum.spectra(alone(whole, number), ORDERS, ["force"]).force
         for row, n in enumerate(ORDERS):
             assert (
                 abs(force.forward[row] - curves.order("force", int(n))[0])

@@ -13,7 +13,7 @@ from support.engines import GOOD, changed
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
-from balcli.forces.spectrum import SPECTRAL
+from balcli.forces.kinds import KINDS
 from balcli.render.html import page
 from balcli.render.units import IMPERIAL, SI
 from balcli.results.analysis import analyze
@@ -49,7 +49,7 @@ ROTARY = RADIAL.partition("[articulation]")[0].replace("radial = 5", "radial = 5
 
 def report(text: str, scheme: str = "auto", system=SI) -> str:
     engine = build(parse(text))
-    return page(analyze(engine, None, {*SPECTRAL, "peak"}), balance(engine, scheme), system)
+    return page(analyze(engine, None, {*KINDS, "peak"}), balance(engine, scheme), system)
 
 
 class Outline(HTMLParser):

@@ -10,14 +10,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.engines import engine
+from support.engines import alone, engine
 
 from balcli.core.mechanisms import harmonics
 from balcli.engine.build import Engine, build
 from balcli.engine.load import read
 from balcli.errors import BalcliError
-from balcli.forces.spectrum import SHOWN, SPECTRAL, relevant_orders, spectra
-from balcli.results.analysis import HIGHEST, QUANTITIES, Analysis, alone, analyze, textbook
+from balcli.forces.kinds import KINDS
+from balcli.forces.spectrum import SHOWN, relevant_orders, spectra
+from balcli.results.analysis import HIGHEST, QUANTITIES, Analysis, analyze, textbook
 
 FOLDER = Path(__file__).parents[2] / "engines"
 NAMES = sorted(file.stem for file in FOLDER.glob("*.toml"))
@@ -51,10 +52,11 @@ def test_orders_asked_for_are_the_same_to_the_last_bit(name):
     """A figure does not depend on which other orders are shown with it."""
     default = analysed(name)
     asked = analyze(example(name), default.orders[::-1], only=STEADY)
-    single = analyze(example(name), [2], only=SPECTRAL)
-    many = analyze(example(name), range(1, 300), only=SPECTRAL)
-    for q, phasors in default.spectra.items():
-        again, alone_ = getattr(asked.spectra, q), getattr(single.spectra, q)
+    single = analyze(example(name), [2], only=KINDS)
+    many = analyze(example(name), range(1, 300), only=KINDS)
+    for kind, phasors in default.spectra.items():
+        q = kind.name
+        again, alone_ = asked.spectra[q], single.spectra[q]
         assert np.array_equal(phasors.forward, again.forward), q
         assert np.array_equal(phasors.backward, again.backward), q
         assert np.array_equal(phasors.at([2]).forward, alone_.forward), q
@@ -70,7 +72,7 @@ def test_nothing_beyond_the_relevant_orders(name):
     highest = relevant_orders(example(name))[-1]
     beyond = np.arange(highest + 1, highest + 17)
     for q, phasors in spectra(example(name), beyond).items():
-        assert phasors.major.max() <= 1e-12 * getattr(analysed(name).spectra, q).major.max(), q
+        assert phasors.major.max() <= 1e-12 * analysed(name).spectra[q.name].major.max(), q
 
 
 def test_under_uneven_speed_orders_begin_at_0():
@@ -115,7 +117,7 @@ BALANCED = {
 @pytest.mark.parametrize("name", BALANCED)
 def test_a_balanced_order_is_exactly_zero(name):
     for q, orders in BALANCED[name].items():
-        phasors = getattr(analyze(example(name), orders, only=[q]).spectra, q)
+        phasors = analyze(example(name), orders, only=[q]).spectra[q]
         assert phasors.balanced.all(), (q, orders)
         assert np.array_equal(phasors.major, np.zeros(len(orders)))
 
@@ -166,13 +168,13 @@ def test_each_vector_is_settled_for_itself():
 @pytest.mark.parametrize("quantity", QUANTITIES)
 def test_only_one_quantity(quantity):
     result = analyze(example("vr6"), only=[quantity])
-    there = {q for q, _ in result.spectra.items()}
-    assert there == {quantity} & set(SPECTRAL)
+    there = {kind.name for kind, _ in result.spectra.items()}
+    assert there == {quantity} & set(KINDS)
     assert (result.force is not None) == (result.moment is not None) == (quantity == "peak")
     assert (result.sizing is not None) == (quantity == "sizing")
-    if quantity in SPECTRAL:
-        whole = getattr(analysed("vr6").spectra.at(result.orders), quantity)
-        assert np.array_equal(getattr(result.spectra, quantity).forward, whole.forward)
+    if quantity in KINDS:
+        whole = analysed("vr6").spectra.at(result.orders)[quantity]
+        assert np.array_equal(result.spectra[quantity].forward, whole.forward)
 
 
 def test_what_is_not_asked_for_is_not_computed(monkeypatch):
@@ -212,7 +214,7 @@ def test_more_by_cylinder_than_anyone_reads_is_refused():
 
 def test_everything_by_default():
     result = analyze(example("vr6"))
-    assert [q for q, _ in result.spectra.items()] == list(SPECTRAL)
+    assert [kind.name for kind, _ in result.spectra.items()] == list(KINDS)
     assert None not in (result.force, result.moment, result.sizing)
     assert result.cylinders == ()
 
@@ -221,7 +223,7 @@ def test_everything_by_default():
 @pytest.mark.parametrize("name", ["v5", "vr6", "i4_shafts", "v8_crossplane", "radial5", "boxer4"])
 def test_cylinders_and_devices_sum_to_the_engine(name):
     e = example(name)
-    result = analyze(e, range(1, 9), only=SPECTRAL, by_cylinder=True)
+    result = analyze(e, range(1, 9), only=KINDS, by_cylinder=True)
     assert [n for n, _ in result.cylinders] == sorted(e.numbers)
     nothing = np.zeros_like(e.cylinders.reciprocating)
     still = replace(
@@ -229,9 +231,9 @@ def test_cylinders_and_devices_sum_to_the_engine(name):
     )
     parts = [spectra(still, result.orders), *(share for _, share in result.cylinders)]
     for q, whole in result.spectra.items():
-        scale = sum(getattr(part, q).major.max() for part in parts)
+        scale = sum(part[q.name].major.max() for part in parts)
         for way in ("forward", "backward"):
-            total = sum(getattr(getattr(part, q), way) for part in parts)
+            total = sum(getattr(part[q.name], way) for part in parts)
             assert np.abs(total - getattr(whole, way)).max() <= 1e-14 * scale, q
 
 

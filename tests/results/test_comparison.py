@@ -16,7 +16,7 @@ from balcli.results.comparison import compare
 def test_force_of_order_2_goes_with_the_square_of_the_speed() -> None:
     slow, fast = build(parse(GOOD)), build(parse(changed(("speed = 3000", "speed = 6000"))))
     lines = {
-        (line.quantity, line.order): line for line in compare([slow, fast], ["slow", "fast"]).lines
+        (line.kind.name, line.order): line for line in compare([slow, fast], ["slow", "fast"]).lines
     }
     assert lines["force", 2].ratios == pytest.approx((1, 4))
     assert lines["force", None].ratios == pytest.approx((1, 4))
@@ -34,7 +34,7 @@ def test_orders_of_every_engine_are_shown() -> None:
         )
     )
     lines = {
-        (line.quantity, line.order): line
+        (line.kind.name, line.order): line
         for line in compare([build(parse(GOOD)), six], ["4", "6"], only=["force"]).lines
     }
     assert {order for _, order in lines} >= {1, 2, 4, 6}

@@ -11,11 +11,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.engines import engine
+from support.engines import alone, engine
 
 from balcli.core.mechanisms.harmonics import EPS
 from balcli.engine.build import Engine
-from balcli.forces.spectrum import SPECTRAL, spectra
+from balcli.forces.kinds import KINDS
+from balcli.forces.spectrum import spectra
 
 ENGINES = Path(__file__).parents[2] / "engines"
 ORDERS = np.arange(1.0, 17.0)
@@ -84,7 +85,7 @@ def test_the_order_of_cylinders_in_the_file_does_not_matter(seed):
     """
     order = [0, *(1 + np.random.default_rng(seed).permutation(7)).tolist()]
     one, other = (spectra(listed(each), ORDERS) for each in (list(range(8)), order))
-    for q in SPECTRAL:
+    for q in KINDS:
         p, o = getattr(one, q), getattr(other, q)
         sizes = sum(getattr(part, q).major for part in alone_each(listed(list(range(8)))))
         for way in ("forward", "backward"):
@@ -93,14 +94,12 @@ def test_the_order_of_cylinders_in_the_file_does_not_matter(seed):
 
 
 def alone_each(whole: Engine) -> list:
-    from balcli.forces.spectrum import alone
-
     return [spectra(alone(whole, n), ORDERS) for n in whole.numbers]
 
 
 LARGEST = """
 import resource
-from support.engines import engine
+from support.engines import alone, engine
 from balcli.core.peaks import peak
 from balcli.forces.spectrum import relevant_orders, spectra
 whole = engine(crank={"stroke": 100, "throws": [7.3 * k % 360 for k in range(512)], "spacing": 1}, rod={"ratio": 1 - 1e-6})

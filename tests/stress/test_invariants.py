@@ -17,11 +17,13 @@ import numpy as np
 import tomli_w
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.engines import alone
 
 from balcli.core.phasors import Phasors
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
-from balcli.forces.spectrum import SPECTRAL, Spectra, alone, spectra
+from balcli.forces.kinds import KINDS
+from balcli.forces.spectrum import Spectra, spectra
 
 SCALED = 1e-12
 ORDERS = np.arange(0.0, 9.0)
@@ -137,10 +139,10 @@ def found(engine: Engine) -> Spectra:
 def sizes(engine: Engine) -> dict[str, float]:
     """What cylinders and devices make of each quantity by themselves."""
     parts = [alone(engine, n) for n in engine.numbers]
-    total = dict.fromkeys(SPECTRAL, 0.0)
+    total = dict.fromkeys(KINDS, 0.0)
     for part in [engine, *parts]:
         for q, p in found(part).items():
-            total[q] += float(p.major.max())
+            total[q.name] += float(p.major.max())
     for d in engine.devices:
         force = (abs(d.forward) + abs(d.backward)) * d.order**2 * engine.omega**2
         for q, arm in (("force", 1.0), ("moment", 1.0), ("couple", 1.0), ("roll", 1.0)):
@@ -159,7 +161,7 @@ def assert_same(
     *,
     forward: complex = 1,
     by: float = 1.0,
-    quantities: tuple[str, ...] = SPECTRAL,
+    quantities: tuple[str, ...] = tuple(KINDS),
 ) -> None:
     """The other makes `by` times what the first makes; vectors are turned by `forward`."""
     scale = sizes(one)
@@ -283,7 +285,7 @@ def test_time_reversed(model):
     one, other = made(model), made(changed(changed(model, in_a_mirror), end_to_end))
     before, after, scale = found(one), found(other), sizes(one)
     theta = np.radians(np.arange(0.0, 360.0, 30.0))
-    for q in SPECTRAL:
+    for q in KINDS:
         seen = np.conj if q in ("force", "moment") else np.negative
         error = np.abs(
             getattr(after, q).values(-theta) - seen(getattr(before, q).values(theta))
@@ -381,7 +383,7 @@ def test_two_engines_on_one_crank_add_up(model, more, where):
     other = made(changed(bare, with_throws(second, where[count:both])))
     whole = found(made(changed(model, with_throws(first + second, where[:both]))))
     p, o, scale, scale_too = found(one), found(other), sizes(one), sizes(other)
-    for q in SPECTRAL:
+    for q in KINDS:
         for way in ("forward", "backward"):
             total = getattr(getattr(p, q), way) + getattr(getattr(o, q), way)
             error = np.abs(getattr(getattr(whole, q), way) - total).max()
@@ -425,7 +427,7 @@ def test_every_mass_in_two_parts(model, share):
         found(made(changed(placed[0], masses(share)))),
         found(made(changed(placed[1], masses(1 - share)))),
     )
-    for q in SPECTRAL:
+    for q in KINDS:
         for way in ("forward", "backward"):
             total = getattr(getattr(p, q), way) + getattr(getattr(o, q), way)
             error = np.abs(getattr(getattr(whole, q), way) - total).max()
@@ -520,7 +522,7 @@ def test_numbers_are_names(model, random):
         made(changed(model, lambda m: m["layout"].update(numbering=numbering))),
     )
     before, after, scale = found(one), found(other), sizes(one)
-    for q in SPECTRAL:
+    for q in KINDS:
         for name in ("major", "minor"):
             error = np.abs(
                 getattr(getattr(before, q), name) - getattr(getattr(after, q), name)
@@ -570,8 +572,9 @@ def test_cylinders_and_devices_add_up(model):
         changed(model, lambda m: [m.pop(key) for key in ("counterweight", "shaft", "slider")])
     )
     scale = sizes(engine)
-    for q, whole in found(bare).items():
-        parts = [getattr(found(alone(engine, n)), q) for n in engine.numbers]
+    for kind, whole in found(bare).items():
+        q = kind.name
+        parts = [found(alone(engine, n))[q] for n in engine.numbers]
         for way in ("forward", "backward"):
             total = sum(getattr(p, way) for p in parts)
             assert np.abs(total - getattr(whole, way)).max() <= SCALED * scale[q] + rounding(

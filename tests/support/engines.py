@@ -104,3 +104,10 @@ def engine_text(**tables: str) -> str:
     """
     lines = {"crank": "stroke = 100", "rod": "ratio = 0.25", "piston": "mass = 1"} | tables
     return "\n".join(f"[{table}]\n{body}" for table, body in lines.items()) + "\n"
+
+
+def alone(engine: Engine, number: int) -> Engine:
+    """The engine with the masses of one cylinder alone, and without devices."""
+    from balcli.forces.spectrum import with_only
+
+    return with_only(engine, [n == number for n in engine.numbers])

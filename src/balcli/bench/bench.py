@@ -19,8 +19,9 @@ from ..core.phasors import EPS
 from ..engine.build import Engine, build
 from ..engine.load import parse
 from ..enginefile.model import EngineFile
+from ..forces.kinds import KINDS
 from ..forces.quantity import parse as quantities
-from ..forces.spectrum import SPECTRAL, spectra
+from ..forces.spectrum import spectra
 from ..results.analysis import analyze
 from ..studies.parameters import Parameter, ladder
 from ..studies.sweep import CHUNK, Sweep, chunks
@@ -235,9 +236,7 @@ def ratios() -> Iterator[Ratio]:
     yield _ratio(
         "the same of a V8 not seen before", lambda: spectra(another(), eight, forces), plain
     )
-    yield _ratio(
-        "all quantities of it to the same", lambda: spectra(engine, eight, SPECTRAL), plain
-    )
+    yield _ratio("all quantities of it to the same", lambda: spectra(engine, eight, KINDS), plain)
     yield _ratio(
         "orders: 1-32 to 1 and 2",
         lambda: spectra(engine, long, forces),

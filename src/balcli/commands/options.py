@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from ..errors import BalcliError
+from ..forces.kinds import KINDS
 from ..render.formats import Format as Format
 from ..render.formats import Units as Units
 from . import completion
@@ -56,7 +57,7 @@ Only = Annotated[
         "--only",
         metavar="WHAT,...",
         show_default=False,
-        help="Compute only some of force, moment, couple, torque, roll, peak, sizing; or inner "
+        help=f"Compute only some of {', '.join(KINDS)}, peak, sizing; or inner "
         "(shear, bending, bearing loads along the crankshaft) and guide (H- and X-type).",
     ),
 ]

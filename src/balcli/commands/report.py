@@ -29,7 +29,7 @@ def report(
     """Write one self-contained page: the engine in motion, what it shakes, and a balance scheme
     before and after.
     """
-    from ..forces.spectrum import SPECTRAL
+    from ..forces.kinds import KINDS
     from ..render.html import page
     from ..render.units import SYSTEMS
     from ..results.analysis import analyze
@@ -39,5 +39,5 @@ def report(
 
     asked = order_list(orders)
     _, engine = engine_of(file, checked_speed(speed))
-    result = analyze(engine, asked, {*SPECTRAL, "peak"})
+    result = analyze(engine, asked, {*KINDS, "peak"})
     emit(page(result, balance(engine, scheme or "auto", orders=asked), SYSTEMS[units]), output)

@@ -124,14 +124,10 @@ def _loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
     counterweights = [device for device in engine.devices if on_crank(device)]
     few_enough(engine, len(orders), engine.cylinders.count + len(counterweights))
     forces = [
-        each(engine, orders, ["force"]).force,
+        each(engine, orders, ["force"])["force"],
         *(weight(engine, device, orders) for device in counterweights),
     ]
-    columns = [
-        [f.forward, f.backward, np.broadcast_to(f.noise, f.forward.shape)]
-        for f in forces
-        if f is not None
-    ]
+    columns = [[f.forward, f.backward, np.broadcast_to(f.noise, f.forward.shape)] for f in forces]
     forward, backward, noise = (np.column_stack(column) for column in zip(*columns, strict=True))
     return Phasors(orders, forward, backward, noise), np.array(
         [*np.ravel(engine.cylinders.z), *(d.z for d in counterweights)], float

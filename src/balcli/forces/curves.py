@@ -20,6 +20,7 @@ from ..core.phasors import EPS, Array, Complex, unit
 from ..core.strokes import travel as dead_centres
 from ..engine.build import Engine
 from ..errors import BalcliError
+from .kinds import COUPLE, FORCE, MOMENT, ROLL, TORQUE
 
 FINEST = 1e-3  # degrees
 AT_ONCE = 200_000  # cylinders x angles, which bounds the memory
@@ -101,13 +102,13 @@ def _engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     couple = np.concatenate([_couple(engine, motion), (np.conj(places)[:, None] * force).imag])
     torque = _torque(engine, motion)
     return {
-        "force_x_N": force.real,
-        "force_y_N": force.imag,
-        "moment_x_Nm": moment.real,
-        "moment_y_Nm": moment.imag,
-        "couple_Nm": couple,
-        "inertia_torque_Nm": torque,
-        "roll_Nm": np.concatenate([couple, -torque]),
+        FORCE.key_along("x"): force.real,
+        FORCE.key_along("y"): force.imag,
+        MOMENT.key_along("x"): moment.real,
+        MOMENT.key_along("y"): moment.imag,
+        COUPLE.key: couple,
+        TORQUE.key: torque,
+        ROLL.key: np.concatenate([couple, -torque]),
     }
 
 

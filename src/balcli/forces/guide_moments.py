@@ -30,7 +30,7 @@ def guide(engine: Engine, orders: Array | None = None) -> Guide:
     """
     axis = replace(engine, reference_m=(0.0, 0.0, engine.reference_m[2]))
     every = relevant_orders(engine) if orders is None else orders
-    rolls = dict(each(axis, every, ["roll"]).items())["roll"]
+    rolls = each(axis, every, ["roll"])["roll"]
     length = float(np.ptp(engine.throws_m))
     arms = (np.ravel(engine.cylinders.z) - engine.reference_m[2]) / length if length else None
     h, x = _sum(rolls, np.ones(engine.cylinders.count)), None if arms is None else _sum(rolls, arms)

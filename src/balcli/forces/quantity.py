@@ -16,9 +16,9 @@ from ..core.phasors import Phasors
 from ..engine.build import Engine
 from ..enginefile.fields import nearest
 from ..errors import BalcliError
-from .spectrum import SPECTRAL, relevant_orders, spectra
+from .kinds import KINDS, VECTORS
+from .spectrum import relevant_orders, spectra
 
-VECTORS = ("force", "moment")
 PARTS = (
     "major",
     "minor",
@@ -58,7 +58,7 @@ class Quantity:
 
     @property
     def unit(self) -> str:
-        return "deg" if self.part == "axis" else "N" if self.kind == "force" else "N·m"
+        return "deg" if self.part == "axis" else KINDS[self.kind].si_unit
 
     @property
     def signed(self) -> bool:
@@ -100,16 +100,16 @@ def parse(text: str) -> tuple[Quantity, ...]:
 
 def _parse(text: str) -> Quantity:
     kind, _, rest = text.partition(".")
-    if kind == "peak" and rest in VECTORS:
+    if kind == "peak" and rest in (vector.name for vector in VECTORS):
         return Quantity(rest, 0, "peak")
     order, _, part = rest.partition(".")
-    allowed = PARTS if kind in VECTORS else SCALAR_PARTS
-    if kind not in SPECTRAL:
-        near = nearest(kind, (*SPECTRAL, "peak"))
+    if kind not in KINDS:
+        near = nearest(kind, (*KINDS, "peak"))
         raise BalcliError(
             f"{text} is no quantity: {f'did you mean {near}?' if near else 'it begins with'} "
-            f"{'' if near else ', '.join(SPECTRAL) + ' or peak'}".rstrip()
+            f"{'' if near else ', '.join(KINDS) + ' or peak'}".rstrip()
         )
+    allowed = PARTS if KINDS[kind].vector else SCALAR_PARTS
     if not (order.isascii() and order.isdigit() and len(order) < 6 and int(order) <= HIGHEST):
         raise BalcliError(
             f"{text} is no quantity: after {kind} comes a whole order up to {HIGHEST}, as in "
@@ -132,11 +132,11 @@ def evaluate(engine: Engine, quantities: Sequence[Quantity]) -> list[Array]:
     found: dict[Quantity, Array] = {}
     for orders, members in _together(quantities):
         result = spectra(engine, orders, {q.kind for q in members})
-        found |= {q: q.of(getattr(result, q.kind)) for q in members}
+        found |= {q: q.of(result[q.kind]) for q in members}
     peaks = [q for q in quantities if q.part == "peak"]
     if peaks:
         whole = spectra(engine, relevant_orders(engine), {q.kind for q in peaks})
-        found |= {q: _peaks(getattr(whole, q.kind)) for q in peaks}
+        found |= {q: _peaks(whole[q.kind]) for q in peaks}
     return [found[q] for q in quantities]
 
 

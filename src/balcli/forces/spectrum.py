@@ -4,9 +4,8 @@ asked for.
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from dataclasses import replace
-from typing import NamedTuple
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,9 +18,8 @@ from ..core.phases import Phases, SeparatePhases
 from ..core.phasors import Array, Complex, Phasors, joined
 from ..engine.build import Engine
 from ..errors import BalcliError
+from .kinds import KINDS, Kind
 
-SPECTRAL = ("force", "moment", "couple", "torque", "roll")
-_ONLY_FORCES = {"force", "moment"}
 SHOWN = 1e-6  # share of a quantity's largest order below which an order is not worth showing
 # highest order that is shown unless it is asked for: only a mechanism near its lock has more
 UNASKED = 512
@@ -35,9 +33,14 @@ _AT_ONCE = (
 )
 
 
-class Spectra(NamedTuple):
-    """Phasors by order: force (N), moment, couple, inertia torque on the crank and roll (N m);
-    None: not asked for.
+@dataclass(frozen=True, eq=False)
+class Spectra:
+    """Phasors by order of each kind (`kinds.KINDS`) that was asked for; None: it was not.
+
+    Attributes:
+        orders: shape (orders,), ascending.
+        force: N.
+        moment, couple, torque, roll: N m; the torque is the inertia torque on the crank.
     """
 
     orders: Array
@@ -47,35 +50,55 @@ class Spectra(NamedTuple):
     torque: Phasors | None = None
     roll: Phasors | None = None
 
+    def __getitem__(self, kind: str) -> Phasors:
+        """Phasors of the kind with this name; KeyError if it was not asked for."""
+        phasors: Phasors | None = getattr(self, KINDS[kind].name)
+        if phasors is None:
+            raise KeyError(kind)
+        return phasors
+
+    def items(self) -> list[tuple[Kind, Phasors]]:
+        """Each kind that was asked for, with its phasors, as in the table of kinds."""
+        found = [(kind, getattr(self, name)) for name, kind in KINDS.items()]
+        return [(kind, phasors) for kind, phasors in found if phasors is not None]
+
+    def vectors(self) -> list[tuple[Kind, Phasors]]:
+        """Those of `items` that are vectors: force and moment."""
+        return [(kind, phasors) for kind, phasors in self.items() if kind.vector]
+
+    def scalars(self) -> list[tuple[Kind, Phasors]]:
+        """Those of `items` that act about the crank's axis."""
+        return [(kind, phasors) for kind, phasors in self.items() if not kind.vector]
+
+    def only(self, kinds: Collection[str]) -> Spectra:
+        """The same without all other kinds."""
+        return Spectra(self.orders, **{k.name: p for k, p in self.items() if k.name in kinds})
+
     def at(self, orders: ArrayLike) -> Spectra:
-        """Only these orders."""
+        """The same without all other orders."""
         if orders is self.orders:
             return self
-        rows = {q: phasors.at(orders) for q, phasors in self.items()}
+        rows = {kind.name: phasors.at(orders) for kind, phasors in self.items()}
         return Spectra(np.asarray(orders, float), **rows)
 
     def of(self, place: int) -> Spectra:
-        """Only one place of the trailing axis."""
-        return Spectra(self.orders, **{q: phasors.of(place) for q, phasors in self.items()})
-
-    def items(self) -> list[tuple[str, Phasors]]:
-        """Name and phasors of everything that was asked for."""
-        return [(q, phasors) for q in SPECTRAL if (phasors := getattr(self, q)) is not None]
+        """Those of one place along the trailing axis."""
+        return Spectra(self.orders, **{kind.name: p.of(place) for kind, p in self.items()})
 
 
-def spectra(engine: Engine, orders: ArrayLike, quantities: Collection[str] = SPECTRAL) -> Spectra:
+def spectra(engine: Engine, orders: ArrayLike, kinds: Collection[str] = tuple(KINDS)) -> Spectra:
     """Free forces and moments of an engine.
 
     Args:
         engine: the engine; trailing axes of its arrays become those of the phasors.
         orders: shape (orders,), ascending, not negative.
-        quantities: any of SPECTRAL.
+        kinds: names of KINDS.
     """
-    return _spectra(engine, orders, quantities, apart=False)
+    return _spectra(engine, orders, kinds, apart=False)
 
 
-def each(engine: Engine, orders: ArrayLike, quantities: Collection[str] = SPECTRAL) -> Spectra:
-    """What each cylinder does by itself, as if no other had a mass (`alone`), the devices left out.
+def each(engine: Engine, orders: ArrayLike, kinds: Collection[str] = tuple(KINDS)) -> Spectra:
+    """What each cylinder does by itself, as if no other had a mass; the devices are left out.
 
     The phasors have the shape (orders, cylinders), the cylinders as in `engine.numbers`; the engine
     has no trailing axes.
@@ -84,7 +107,7 @@ def each(engine: Engine, orders: ArrayLike, quantities: Collection[str] = SPECTR
         BalcliError: more than MOST_APART of them.
     """
     few_enough(engine, np.size(orders), engine.cylinders.count)
-    return _spectra(replace(engine, devices=()), orders, quantities, apart=True)
+    return _spectra(replace(engine, devices=()), orders, kinds, apart=True)
 
 
 def few_enough(engine: Engine, orders: int, loads: int) -> None:
@@ -109,21 +132,27 @@ def weight(engine: Engine, device: Device, orders: Array) -> Phasors:
     return ripple.force(steady, w).at(orders).settled()
 
 
-def _spectra(
-    engine: Engine, orders: ArrayLike, quantities: Collection[str], *, apart: bool
-) -> Spectra:
+def _spectra(engine: Engine, orders: ArrayLike, kinds: Collection[str], *, apart: bool) -> Spectra:
     wanted = np.asarray(orders, float)
-    needed = {*quantities, *(("couple", "torque") if "roll" in quantities else ())}
-    found = (
-        _uneven(engine, wanted, needed, apart)
-        if engine.ripple
-        else _steady(engine, wanted, needed, apart)[0]
-    )
-    if "roll" in quantities:
-        found["roll"] = found["couple"] - found["torque"]
-    return Spectra(
-        wanted, **{q: phasors.settled() for q, phasors in found.items() if q in quantities}
-    )
+    parts = {part for name in kinds for part in KINDS[name].parts}
+    if engine.ripple:
+        found = _uneven(engine, wanted, parts, apart)
+    else:
+        found, _ = _steady(engine, wanted, parts, apart)
+    return Spectra(wanted, **{name: assembled(KINDS[name], found).settled() for name in kinds})
+
+
+def assembled(kind: Kind, parts: Mapping[str, Phasors]) -> Phasors:
+    """Phasors of a kind by those of its parts (`Kind.parts`), which are given by their names."""
+    if not kind.plus:
+        return parts[kind.name]
+    first, *others = kind.plus
+    total = parts[first]
+    for name in others:
+        total = total + parts[name]
+    for name in kind.minus:
+        total = total - parts[name]
+    return total
 
 
 def relevant_orders(engine: Engine) -> Array:
@@ -146,29 +175,34 @@ def considerable(phasors: Phasors) -> NDArray[np.bool_]:
     return np.asarray((sizes > SHOWN * sizes.max(initial=0)) & (phasors.orders <= UNASKED))
 
 
-def alone(engine: Engine, number: int) -> Engine:
-    """The engine with only this cylinder's masses moving, and no devices."""
+def with_only(engine: Engine, moving: ArrayLike) -> Engine:
+    """The engine with the masses of some cylinders alone, and without devices.
+
+    Args:
+        moving: which cylinders, shape (cylinders,), in the order of `engine.numbers`.
+    """
     c = engine.cylinders
-    here = np.array([n == number for n in engine.numbers], float).reshape(
-        -1, *(1,) * (c.pin_deg.ndim - 1)
+    here = np.asarray(moving, bool).reshape(-1, *(1,) * (c.pin_deg.ndim - 1)).astype(float)
+    cylinders = replace(
+        c,
+        reciprocating=here * c.reciprocating,
+        rotating=here * c.rotating,
+        couple=here * c.couple,
+        linkage=c.linkage and replace(c.linkage, mass=here * c.linkage.mass),
     )
-    masses = {key: here * getattr(c, key) for key in ("reciprocating", "rotating", "couple")}
-    linkage = c.linkage and replace(c.linkage, mass=here * c.linkage.mass)
-    return replace(engine, cylinders=replace(c, linkage=linkage, **masses), devices=())
+    return replace(engine, cylinders=cylinders, devices=())
 
 
 def _steady(
-    engine: Engine, orders: Array, quantities: Collection[str], apart: bool
+    engine: Engine, orders: Array, parts: Collection[str], apart: bool
 ) -> tuple[dict[str, Phasors], Loads]:
     """Phasors at a steady speed, and the loads of the lowest orders."""
-    c, names, (x, y, z) = (
-        engine.cylinders,
-        [q for q in SPECTRAL[:4] if q in quantities],
-        engine.reference_m,
-    )
+    c, (x, y, z) = engine.cylinders, engine.reference_m
+    names = [name for name in KINDS if name in parts]
     find = c.linkage.harmonics if c.linkage else harmonics.of_distinct
-    rod = bool(np.count_nonzero(c.couple)) and not _ONLY_FORCES.issuperset(quantities)
-    few, which = find(orders, c.lam, c.eps, rod=rod, energy="torque" in quantities)
+    about_crank = any(not KINDS[name].vector for name in parts)
+    rod = about_crank and bool(np.count_nonzero(c.couple))
+    few, which = find(orders, c.lam, c.eps, rod=rod, energy="torque" in parts)
 
     def loads(block: slice) -> Loads:
         own = few if block == _ALL else few.of_orders(block)
@@ -181,29 +215,28 @@ def _steady(
         [slice(k, k + most) for k in range(0, len(orders), most)] if len(orders) > most else [_ALL]
     )
     lowest = loads(blocks[0])
-    parts = [{q: getattr(lowest, q) for q in names}]
+    found = [{name: getattr(lowest, name) for name in names}]
     for block in blocks[1:]:
         these = loads(block)
-        parts.append({q: getattr(these, q) for q in names})
-    return {
-        q: joined([part[q] for part in parts]) if parts[1:] else parts[0][q] for q in names
-    }, lowest
+        found.append({name: getattr(these, name) for name in names})
+    if len(found) == 1:
+        return found[0], lowest
+    return {name: joined([block[name] for block in found]) for name in names}, lowest
 
 
 def _uneven(
-    engine: Engine, orders: Array, quantities: Collection[str], apart: bool
+    engine: Engine, orders: Array, parts: Collection[str], apart: bool
 ) -> dict[str, Phasors]:
     w, dense = _uneven_speed(engine, orders)
-    steady, loads = _steady(engine, dense, quantities, apart)
-    means = {"couple": loads.mean_momentum} if "couple" in quantities else {}
-    if "torque" in quantities:
-        means["torque"] = loads.mean_inertia
-    return {
-        q: (ripple.torque if q == "torque" else ripple.force)(
-            phasors.settled(), w, means.get(q, 0.0)
-        ).at(orders)
-        for q, phasors in steady.items()
-    }
+    steady, loads = _steady(engine, dense, parts, apart)
+    found = {name: phasors.settled() for name, phasors in steady.items()}
+    for name, phasors in found.items():
+        if name == "torque":
+            uneven = ripple.torque(phasors, w, loads.mean_inertia)
+        else:
+            uneven = ripple.force(phasors, w, loads.mean_momentum if name == "couple" else 0.0)
+        found[name] = uneven.at(orders)
+    return found
 
 
 def _uneven_speed(engine: Engine, orders: Array) -> tuple[Complex, Array]:

@@ -22,11 +22,17 @@ from numpy.typing import NDArray
 from ..core.phasors import Array
 from ..core.roots_of_unity import even, rational, turns, vanishes
 from ..engine.build import Engine
-from .spectrum import SPECTRAL, each, spectra
+from .spectrum import each, spectra
 
 Verdict = Literal["none", "exact", "rounding", "nearly", "free"]
 Quantity = Literal["force", "moment", "turning"]  # turning: couple, torque and roll
-QUANTITIES: tuple[Quantity, ...] = ("force", "moment", "turning")
+KINDS_OF: dict[Quantity, tuple[str, ...]] = {
+    "force": ("force",),
+    "moment": ("moment",),
+    "turning": ("couple", "torque"),  # and roll, their difference
+}
+QUANTITIES: tuple[Quantity, ...] = tuple(KINDS_OF)
+_KINDS = tuple(name for names in KINDS_OF.values() for name in names)
 NEARLY = 1e-2  # of one cylinder
 _DECIMALS = 10_000  # largest denominator of a place in mm or a mass in g
 _ULPS = 4
@@ -123,18 +129,15 @@ class _Layout:
         self._orders = orders
         self._axis_deg = c.axis_of_each_deg
         self._arms = (c.z - engine.reference_m[2]) * 1e3
-        self._whole = spectra(engine, orders, SPECTRAL[:4])
+        self._whole = spectra(engine, orders, _KINDS)
         self._single = {
-            name: phasors.major for name, phasors in each(engine, orders, SPECTRAL[:4]).items()
+            kind.name: phasors.major for kind, phasors in each(engine, orders, _KINDS).items()
         }
 
     def reason(self, row: int, quantity: Quantity) -> Reason:
-        order, names = (
-            int(self._orders[row]),
-            ("couple", "torque") if quantity == "turning" else (quantity,),
-        )
+        order, names = int(self._orders[row]), KINDS_OF[quantity]
         single = {name: self._single[name][row] for name in names}
-        whole = {name: getattr(self._whole, name).major[row] for name in names}
+        whole = {name: self._whole[name].major[row] for name in names}
         sizes = [whole[name] / single[name].max() for name in names if single[name].any()]
         if not sizes:
             return Reason(order, quantity, "none", 0.0)

@@ -10,15 +10,14 @@ import numpy as np
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
+from ..forces.kinds import Kind
 from ..forces.spectrum import UNASKED, Spectra
 from ..results.analysis import Analysis, Sizing, Textbook, textbook
 from .devices import device_grid
 from .figures import Result, order_number, peak_deg, phase_deg
-from .sheet import Facts, Grid, Sheet, Text, degrees, number
+from .sheet import Facts, Grid, Sheet, Text, capitalized, degrees, number
 from .units import System, Unit
 from .verdict import verdict
-
-_SCALARS = {"couple": "couple C", "torque": "inertia torque T", "roll": "roll C − T"}
 
 
 def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
@@ -28,9 +27,9 @@ def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
     engine, spectra = result.engine, result.spectra
     parts: list[Grid | Facts | Text] = [facts(result, system)]
     parts += order_by_order(spectra, system)
-    if spectra.force is not None or spectra.moment is not None:
+    if spectra.vectors():
         parts += _textbook(spectra, textbook(engine, spectra.orders), system)
-    if result.force is not None:
+    if result.peaks:
         parts.append(largest(result, system, "Largest over a revolution, all orders"))
     parts += [_share(n, share, system) for n, share in result.cylinders]
     if result.inner is not None or result.guide is not None or result.travel is not None:
@@ -153,18 +152,15 @@ def _rows(
 
 def order_by_order(spectra: Spectra, system: System) -> Iterator[Grid]:
     """Phasors and scalars, and vectors along x and y."""
-    for quantity, unit in (("force", system.force), ("moment", system.moment)):
-        phasors = getattr(spectra, quantity)
-        if phasors is not None:
-            yield _vectors(f"Free {quantity} by order, {unit.name}", phasors, unit)
-    scalars = {q: p for q, p in spectra.items() if q in _SCALARS}
-    if scalars:
-        yield _scalars(scalars, spectra, system.moment)
-    if spectra.force is not None or spectra.moment is not None:
+    for kind, phasors in spectra.vectors():
+        yield _vectors(kind, phasors, system.unit(kind))
+    if spectra.scalars():
+        yield _scalars(spectra, system.moment)
+    if spectra.vectors():
         yield _directions(spectra, system)
 
 
-def _vectors(title: str, phasors: Phasors, unit: Unit) -> Grid:
+def _vectors(kind: Kind, phasors: Phasors, unit: Unit) -> Grid:
     def row(k: int) -> tuple[str, ...]:
         name = f"{order_number(phasors.orders[k])}"
         if phasors.balanced[k]:
@@ -179,16 +175,18 @@ def _vectors(title: str, phasors: Phasors, unit: Unit) -> Grid:
         return name, largest, smallest, degrees(float(phasors.axis_deg[k])), ahead, against
 
     return Grid(
-        title,
+        f"{capitalized(kind.label)} by order, {unit.name}",
         ("order", "largest", "smallest", "axis, deg", "with crank", "against"),
         _rows(phasors.orders, [phasors], row),
     )
 
 
-def _scalars(scalars: dict[str, Phasors], spectra: Spectra, unit: Unit) -> Grid:
+def _scalars(spectra: Spectra, unit: Unit) -> Grid:
+    scalars = spectra.scalars()
+
     def row(k: int) -> tuple[str, ...]:
         cells = [f"{order_number(spectra.orders[k])}"]
-        for phasors in scalars.values():
+        for _, phasors in scalars:
             c = phasors.x[k]
             at = peak_deg(c, spectra.orders[k])
             cells += (
@@ -198,38 +196,34 @@ def _scalars(scalars: dict[str, Phasors], spectra: Spectra, unit: Unit) -> Grid:
             )
         return tuple(cells)
 
-    heads = [head for q in scalars for head in (_SCALARS[q], "peak, deg")]
+    heads = [head for kind, _ in scalars for head in (kind.label, "peak, deg")]
     return Grid(
         f"About the crank axis, {unit.name}",
         ("order", *heads),
-        _rows(spectra.orders, list(scalars.values()), row),
+        _rows(spectra.orders, [phasors for _, phasors in scalars], row),
     )
 
 
 def _directions(spectra: Spectra, system: System) -> Grid:
     """Vertical and horizontal, as builders state them."""
-    quantities = [
-        (q, unit)
-        for q, unit in (("force", system.force), ("moment", system.moment))
-        if getattr(spectra, q) is not None
-    ]
+    vectors = spectra.vectors()
 
     def row(k: int) -> tuple[str, ...]:
         cells = [f"{order_number(spectra.orders[k])}"]
-        for q, unit in quantities:
-            phasors = getattr(spectra, q)
+        for kind, phasors in vectors:
+            unit = system.unit(kind)
             for c in (phasors.x[k], phasors.y[k]):
                 cells += (
                     ["0", "–"] if c == 0 else [number(unit.of(abs(c)), 4), degrees(phase_deg(c))]
                 )
         return tuple(cells)
 
-    names = {"force": ("Fx", "Fy"), "moment": ("Mx", "My")}
-    heads = [head for q, _ in quantities for axis in names[q] for head in (axis, "deg")]
+    units = ", ".join(system.unit(kind).name for kind, _ in vectors)
+    heads = [head for kind, _ in vectors for axis in "xy" for head in (kind.symbol + axis, "deg")]
     return Grid(
-        f"Along x (vertical) and y (horizontal), {', '.join(unit.name for _, unit in quantities)}",
+        f"Along x (vertical) and y (horizontal), {units}",
         ("order", *heads),
-        _rows(spectra.orders, [getattr(spectra, q) for q, _ in quantities], row),
+        _rows(spectra.orders, [phasors for _, phasors in vectors], row),
         note="Value = amplitude · cos(order · θ − angle). The moment about y is that of the "
         "forces along x.",
     )
@@ -282,9 +276,8 @@ def _multiples(quantity: str, phasors: Phasors, size: float, ratios: Array, note
 
 def largest(result: Result, system: System, title: str) -> Facts:
     """The peaks."""
-    pairs = (("force", result.force, system.force), ("moment", result.moment, system.moment))
     return Facts(
-        tuple((name, _peak(peak, unit)) for name, peak, unit in pairs if peak is not None), title
+        tuple((kind.name, _peak(peak, system.unit(kind))) for kind, peak in result.peaks), title
     )
 
 
@@ -307,20 +300,20 @@ def _share(cylinder: int, share: Spectra, system: System) -> Grid:
             else f"{number(unit.of(abs(v)), 4)} ∠ {degrees(float(np.degrees(np.angle(v))))}"
         )
 
-    quantities = [
-        (q, unit)
-        for q, unit in (("force", system.force), ("moment", system.moment))
-        if getattr(share, q) is not None
-    ]
+    vectors = share.vectors()
 
     def row(k: int) -> tuple[str, ...]:
         cells = [f"{order_number(share.orders[k])}"]
-        for q, unit in quantities:
-            phasors = getattr(share, q)
+        for kind, phasors in vectors:
+            unit = system.unit(kind)
             cells += [cell(phasors.forward[k], unit), cell(phasors.backward[k], unit)]
         return tuple(cells)
 
-    heads = [f"{q} {way}, {unit.name}" for q, unit in quantities for way in ("with", "against")]
+    heads = [
+        f"{kind.name} {way}, {system.unit(kind).name}"
+        for kind, _ in vectors
+        for way in ("with", "against")
+    ]
     return Grid(
         f"Cylinder {cylinder} alone",
         ("order", *heads),

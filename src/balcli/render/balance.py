@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..core.peaks import Peak
+from ..forces.kinds import FORCE, MOMENT, ROLL
 from ..results.balance import Balance
 from .devices import device_grid
 from .figures import order_number
@@ -104,13 +105,14 @@ def _practical(result: Balance, system: System) -> Grid:
 
 # ------------------------------------------------------------------ before and after
 def _orders(result: Balance, system: System) -> Grid:
-    columns = (("force", system.force), ("moment", system.moment), ("roll", system.moment))
+    columns = (FORCE, MOMENT, ROLL)
 
     def row(k: int) -> tuple[str, ...]:
         cells = [f"{order_number(result.before.orders[k])}"]
-        for quantity, unit in columns:
+        for kind in columns:
+            unit = system.unit(kind)
             for analysis in (result.before, result.after):
-                phasors = getattr(analysis.spectra, quantity)
+                phasors = analysis.spectra[kind.name]
                 cells.append(
                     "balanced"
                     if phasors.balanced[k]
@@ -119,7 +121,7 @@ def _orders(result: Balance, system: System) -> Grid:
         return tuple(cells)
 
     heads = [
-        f"{name}, {unit.name}" if n == 0 else "after" for name, unit in columns for n in (0, 1)
+        head for kind in columns for head in (f"{kind.name}, {system.unit(kind).name}", "after")
     ]
     return Grid(
         "Largest value by order, before and after",
@@ -129,15 +131,10 @@ def _orders(result: Balance, system: System) -> Grid:
 
 
 def _peaks(result: Balance, system: System) -> Grid:
-    before, after = result.before, result.after
-    pairs = (
-        ("force", before.force, after.force, system.force),
-        ("moment", before.moment, after.moment, system.moment),
-    )
-    rows = [
-        (f"{name}, {unit.name}", *(cell for peak in peaks for cell in _peak(peak, unit)))
-        for name, *peaks, unit in pairs
-    ]
+    rows = []
+    for (kind, before), (_, after) in zip(result.before.peaks, result.after.peaks, strict=True):
+        unit = system.unit(kind)
+        rows.append((f"{kind.name}, {unit.name}", *_peak(before, unit), *_peak(after, unit)))
     note = (
         "Sized for steady mean speed; both columns are those of the uneven speed."
         if result.before.engine.ripple
@@ -151,8 +148,8 @@ def _peaks(result: Balance, system: System) -> Grid:
     )
 
 
-def _peak(peak: Peak | None, unit: Unit) -> tuple[str, str]:
-    if peak is None or not peak.value:
+def _peak(peak: Peak, unit: Unit) -> tuple[str, str]:
+    if not peak.value:
         return "none", "–"
     return number(unit.of(peak.value)), degrees(float(np.degrees(peak.theta)))
 

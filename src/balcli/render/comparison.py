@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ..forces.kinds import TORQUE
 from .csv import write
-from .sheet import Grid, Sheet, number
+from .sheet import Grid, Sheet, capitalized, number
+
+_TITLES = {TORQUE: "inertia torque"}
 
 if TYPE_CHECKING:
     from ..results.comparison import Comparison, Line
     from .units import System
-
-_WORDS = {"torque": "inertia torque", "roll": "roll C − T", "couple": "couple C"}
 
 
 def document(result: Comparison) -> dict[str, Any]:
@@ -32,8 +33,7 @@ def document(result: Comparison) -> dict[str, Any]:
 
 
 def _key(line: Line) -> str:
-    name = {"torque": "inertia_torque"}.get(line.quantity, line.quantity)
-    return f"{'peak_' if line.order is None else ''}{name}_{'N' if name == 'force' else 'Nm'}"
+    return f"peak_{line.kind.key}" if line.order is None else line.kind.key
 
 
 def rows(result: Comparison, system: System) -> str:
@@ -42,13 +42,12 @@ def rows(result: Comparison, system: System) -> str:
         ("quantity", "order", "unit", *result.names),
         [
             (
-                line.quantity if line.order is not None else f"peak {line.quantity}",
+                line.kind.name if line.order is not None else f"peak {line.kind.name}",
                 line.order,
-                unit.name,
-                *map(unit.of, line.values),
+                system.unit(line.kind).name,
+                *map(system.unit(line.kind).of, line.values),
             )
             for line in result.lines
-            for unit in [system.force if line.quantity == "force" else system.moment]
         ],
     )
 
@@ -57,13 +56,11 @@ def sheet(result: Comparison, system: System) -> Sheet:
     """Amplitudes, with ratios to the first engine's below their size."""
     heads = ("", result.names[0], *(head for name in result.names[1:] for head in (name, "ratio")))
     grids = []
-    for quantity in dict.fromkeys(line.quantity for line in result.lines):
-        unit = system.force if quantity == "force" else system.moment
-        lines = [line for line in result.lines if line.quantity == quantity]
-        title = f"{_WORDS.get(quantity, f'Free {quantity}')}, {unit.name}: largest by order"
-        grids.append(
-            Grid(title[0].upper() + title[1:], heads, tuple(_row(line, unit.of) for line in lines))
-        )
+    for kind in dict.fromkeys(line.kind for line in result.lines):
+        unit = system.unit(kind)
+        lines = [line for line in result.lines if line.kind == kind]
+        title = f"{capitalized(_TITLES.get(kind, kind.label))}, {unit.name}: largest by order"
+        grids.append(Grid(title, heads, tuple(_row(line, unit.of) for line in lines)))
     return Sheet("Engines side by side", tuple(grids))
 
 

@@ -9,17 +9,9 @@ import numpy as np
 
 from ..core.peaks import Peak
 from ..core.phasors import Phasors
+from ..forces.kinds import Kind
 from ..forces.spectrum import Spectra
 from .units import System, Unit
-
-KEYS = {
-    "force": "force_N",
-    "moment": "moment_Nm",
-    "couple": "couple_Nm",
-    "torque": "inertia_torque_Nm",
-    "roll": "roll_Nm",
-}
-VECTORS = ("force", "moment")
 
 
 class Result(Protocol):
@@ -29,10 +21,7 @@ class Result(Protocol):
     def spectra(self) -> Spectra: ...
 
     @property
-    def force(self) -> Peak | None: ...
-
-    @property
-    def moment(self) -> Peak | None: ...
+    def peaks(self) -> list[tuple[Kind, Peak]]: ...
 
     @property
     def cylinders(self) -> tuple[tuple[int, Spectra], ...]: ...
@@ -57,6 +46,11 @@ def clean(value: Any) -> float | None:
     """A plain float; None for nan, and no negative zero."""
     number = float(value)
     return None if number != number else number + 0.0
+
+
+def figures(kind: Kind, phasors: Phasors, k: int) -> dict[str, Any]:
+    """All figures of the k-th order of a kind, SI and degrees."""
+    return vector(phasors, k) if kind.vector else scalar(phasors, k)
 
 
 def vector(phasors: Phasors, k: int) -> dict[str, Any]:
@@ -113,21 +107,16 @@ def phase_deg(c: complex) -> float:
 
 
 def entries(spectra: Spectra, k: int) -> dict[str, dict[str, Any]]:
-    """All quantities of the k-th order by their JSON keys."""
-    return {
-        KEYS[q]: (vector if q in VECTORS else scalar)(phasors, k) for q, phasors in spectra.items()
-    }
+    """All kinds of the k-th order by their JSON keys."""
+    return {kind.key: figures(kind, phasors, k) for kind, phasors in spectra.items()}
 
 
 def peaks(analysis: Result) -> dict[str, float | None]:
     """The largest force and moment over a revolution."""
     found: dict[str, float | None] = {}
-    for name, unit, peak in (("force", "N", analysis.force), ("moment", "Nm", analysis.moment)):
-        if peak is not None:
-            found |= {
-                f"{name}_{unit}": clean(peak.value),
-                f"{name}_deg": clean(np.degrees(peak.theta)) if peak.value else None,
-            }
+    for kind, peak in analysis.peaks:
+        found[kind.key] = clean(peak.value)
+        found[f"{kind.name}_deg"] = clean(np.degrees(peak.theta)) if peak.value else None
     return found
 
 
@@ -136,17 +125,11 @@ def rows(analysis: Result, system: System) -> Iterator[Row]:
     """Every figure of an analysis, one a row."""
     for cylinder, spectra in ((0, analysis.spectra), *analysis.cylinders):
         for k, order in enumerate(spectra.orders):
-            for q, phasors in spectra.items():
-                unit = system.force if q == "force" else system.moment
-                yield from order_rows(
-                    q, order, (vector if q in VECTORS else scalar)(phasors, k), unit, cylinder
-                )
-    for q, unit, peak in (
-        ("force", system.force, analysis.force),
-        ("moment", system.moment, analysis.moment),
-    ):
-        if peak is not None:
-            yield from peak_rows(q, peak, unit)
+            for kind, phasors in spectra.items():
+                entry = figures(kind, phasors, k)
+                yield from order_rows(kind.name, order, entry, system.unit(kind), cylinder)
+    for kind, peak in analysis.peaks:
+        yield from peak_rows(kind.name, peak, system.unit(kind))
 
 
 def peak_rows(quantity: str, peak: Peak, unit: Unit) -> Iterator[Row]:

@@ -45,6 +45,11 @@ class Sheet:
     parts: tuple[Grid | Facts | Text, ...]
 
 
+def capitalized(text: str) -> str:
+    """Text with its first letter large, the others as they are."""
+    return text[0].upper() + text[1:]
+
+
 def number(value: float, digits: int = 5) -> str:
     """A number for people: that many significant digits, no exponent between 0.001 and a million, a
     plain 0.

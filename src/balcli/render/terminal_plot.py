@@ -10,7 +10,7 @@ import numpy as np
 from ..core.phasors import Complex, Phasors
 from ..results.analysis import Analysis
 from .figures import order_number
-from .sheet import Text, number
+from .sheet import Text, capitalized, number
 from .units import System, Unit
 
 BAR, SIDE = 52, 17  # columns of the longest bar; rows of a locus, which has twice as many columns
@@ -21,18 +21,15 @@ _DOTS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
 
 def sketches(result: Analysis, system: System) -> Iterator[Text]:
     """Bars and loci of the force and the moment that were computed."""
-    spectra = result.spectra
-    both = (("force", spectra.force, system.force), ("moment", spectra.moment, system.moment))
-    shown = [(q, p, unit) for q, p, unit in both if p is not None]
-    for quantity, phasors, unit in shown:
+    shown = [(kind, p, system.unit(kind)) for kind, p in result.spectra.vectors()]
+    for kind, phasors, unit in shown:
         yield Text(
-            f"Free {quantity} by order, {unit.name} (█ with the crank, ▒ against it)",
+            f"{capitalized(kind.label)} by order, {unit.name} (█ with the crank, ▒ against it)",
             tuple(bars(phasors, unit)),
         )
     if shown:
         blocks = [
-            [f"{quantity}, {_size(p, unit)}".ljust(2 * SIDE), *locus(p)]
-            for quantity, p, unit in shown
+            [f"{kind.name}, {_size(p, unit)}".ljust(2 * SIDE), *locus(p)] for kind, p, unit in shown
         ]
         yield Text(
             "Over a revolution: x up, y right, + at crank angle 0",

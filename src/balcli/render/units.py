@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from ..forces.kinds import Kind
+
 POUND = 0.45359237  # kg, by definition (1959)
 INCH = 0.0254  # m, by definition (1959)
 POUND_FORCE = POUND * 9.80665  # N
@@ -29,6 +31,10 @@ class System(NamedTuple):
     mass: Unit
     length: Unit
     volume: Unit
+
+    def unit(self, kind: Kind) -> Unit:
+        """The unit of a kind of force or moment."""
+        return self.force if kind.dimension == "force" else self.moment
 
 
 SI = System(

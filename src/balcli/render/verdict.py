@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from ..core.phasors import Phasors
 from ..forces.spectrum import Spectra
-from .sheet import degrees, number
+from .sheet import capitalized, degrees, number
 from .units import System, Unit
 
 _NAMES = {
@@ -54,12 +54,8 @@ def verdict(
     may be negligible.
     """
     found = [
-        _Found(name, phasors, unit, single.get(name, 0.0))
-        for name, phasors, unit in (
-            ("force", spectra.force, system.force),
-            ("moment", spectra.moment, system.moment),
-        )
-        if phasors is not None
+        _Found(kind.name, phasors, system.unit(kind), single.get(kind.name, 0.0))
+        for kind, phasors in spectra.vectors()
     ]
     if not found:
         return ()
@@ -81,9 +77,7 @@ def _low(k: int, order: int, found: list[_Found]) -> str:
     if not there:
         return f"{_name(order)}: free of {' and '.join(free)}."
     rest = [f"no {what}." for what in free]
-    return f"{_name(order)}: " + " ".join(
-        [there[0], *(text[0].upper() + text[1:] for text in [*there[1:], *rest])]
-    )
+    return f"{_name(order)}: " + " ".join([there[0], *map(capitalized, [*there[1:], *rest])])
 
 
 def _high(k: int, order: float, found: list[_Found]) -> str:

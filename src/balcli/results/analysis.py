@@ -15,9 +15,8 @@ from ..core.peaks import Peak, peak
 from ..core.phasors import Array
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..forces.spectrum import SHOWN as SHOWN
+from ..forces.kinds import KINDS, SCALARS, VECTORS, Kind
 from ..forces.spectrum import (
-    SPECTRAL,
     UNASKED,
     Spectra,
     considerable,
@@ -25,7 +24,6 @@ from ..forces.spectrum import (
     relevant_orders,
     spectra,
 )
-from ..forces.spectrum import alone as alone
 from ..sizing.auto import auto
 from ..sizing.sizing import Remedy, fitted
 
@@ -35,7 +33,7 @@ if TYPE_CHECKING:
     from ..forces.guide_moments import Guide
     from ..forces.symmetry import Why
 
-QUANTITIES = (*SPECTRAL, "peak", "sizing")
+QUANTITIES = (*KINDS, "peak", "sizing")
 EXTRAS = ("inner", "guide")  # computed only when they are named
 HIGHEST = 4096  # order that may be asked for
 MOST_TOLD = 1 << 14  # cylinders x orders that are told one by one
@@ -79,6 +77,12 @@ class Analysis:
     @property
     def orders(self) -> Array:
         return self.spectra.orders
+
+    @property
+    def peaks(self) -> list[tuple[Kind, Peak]]:
+        """Each kind whose peak was asked for, with its peak."""
+        found = [(kind, getattr(self, kind.name)) for kind in VECTORS]
+        return [(kind, peak) for kind, peak in found if peak is not None]
 
     @property
     def beyond(self) -> bool:
@@ -127,8 +131,8 @@ def analyze(
             f"{', '.join((*QUANTITIES, *EXTRAS))}"
         )
     asked = None if orders is None else checked_orders(orders)
-    curves = {"force", "moment"} if "peak" in wanted else set()
-    shown = wanted.intersection(SPECTRAL)
+    curves = {kind.name for kind in VECTORS} if "peak" in wanted else set()
+    shown = wanted.intersection(KINDS)
     due = np.array([1.0, 2.0]) if asked is None else asked
     whole = due
     if (
@@ -136,7 +140,7 @@ def analyze(
     ):  # a set: np.union1d imports masked arrays, which takes longer than all the rest
         whole = np.array(sorted({*relevant_orders(engine).tolist(), *due.tolist()}))
     everything = spectra(engine, whole, shown | curves)
-    visible = Spectra(everything.orders, **{q: p for q, p in everything.items() if q in shown})
+    visible = everything.only(shown)
     visible = visible.at(shown_orders(visible) if asked is None else asked)
     if by_cylinder and (apart := len(visible.orders) * len(engine.numbers)) > MOST_TOLD:
         raise BalcliError(
@@ -144,7 +148,7 @@ def analyze(
             f"{apart} results, and at most "
             f"{MOST_TOLD} are told: ask for fewer orders"
         )
-    peaks = {q: peak(getattr(everything, q)) for q in curves}
+    peaks = {q: peak(everything[q]) for q in curves}
     return Analysis(
         engine,
         visible,
@@ -213,7 +217,7 @@ def _extras(engine: Engine, asked: Array | None, wanted: Collection[str]) -> dic
 def _explained(engine: Engine, orders: Array, quantities: Collection[str]) -> Why:
     from ..forces.symmetry import QUANTITIES, why
 
-    turning = not {"couple", "torque", "roll"}.isdisjoint(quantities)
+    turning = any(kind.name in quantities for kind in SCALARS)
     return why(
         engine,
         orders[orders > 0],

@@ -10,16 +10,17 @@ import numpy as np
 
 from ..engine.build import Engine
 from ..errors import BalcliError
-from .analysis import Analysis, analyze
+from ..forces.kinds import Kind
+from .analysis import QUANTITIES, Analysis, analyze
 
 
 @dataclass(frozen=True)
 class Line:
-    """One figure of every engine: an amplitude (N, N m) by quantity and order, or a peak (order
+    """One figure of every engine: an amplitude (N, N m) by kind and order, or a peak (order
     None).
     """
 
-    quantity: str
+    kind: Kind
     order: int | None
     values: tuple[float, ...]
 
@@ -55,7 +56,7 @@ def compare(
     """
     if len(engines) < 2:
         raise BalcliError("there is one engine; name at least two to compare")
-    wanted = set(only or ("force", "moment", "couple", "torque", "roll", "peak")) - {"sizing"}
+    wanted = set(only or QUANTITIES) - {"sizing"}
     shown = [analyze(engine, orders, wanted) for engine in engines]
     every = np.unique(np.concatenate([a.orders for a in shown]))
     same = shown if orders is not None else [analyze(engine, every, wanted) for engine in engines]
@@ -63,15 +64,13 @@ def compare(
 
 
 def _orders(found: Sequence[Analysis], orders: np.ndarray) -> Iterable[Line]:
-    for quantity, _ in found[0].spectra.items():
-        sizes = np.stack([getattr(a.spectra, quantity).major for a in found], axis=1)
+    for kind, _ in found[0].spectra.items():
+        sizes = np.stack([a.spectra[kind.name].major for a in found], axis=1)
         for order, row in zip(orders, sizes, strict=True):
             if order <= 2 or row.any():
-                yield Line(quantity, int(order), tuple(row.tolist()))
+                yield Line(kind, int(order), tuple(row.tolist()))
 
 
 def _peaks(found: Sequence[Analysis]) -> Iterable[Line]:
-    for quantity in ("force", "moment"):
-        peaks = [getattr(a, quantity) for a in found]
-        if None not in peaks:
-            yield Line(quantity, None, tuple(p.value for p in peaks))
+    for same in zip(*(a.peaks for a in found), strict=True):
+        yield Line(same[0][0], None, tuple(peak.value for _, peak in same))

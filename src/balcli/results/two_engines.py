@@ -12,7 +12,8 @@ import numpy as np
 from ..core.peaks import Peak, peak
 from ..core.phasors import Complex, Phasors, unit
 from ..engine.build import Engine, Ripple
-from ..forces.spectrum import SPECTRAL, Spectra, relevant_orders, spectra
+from ..forces.kinds import KINDS, VECTORS, Kind
+from ..forces.spectrum import Spectra, assembled, relevant_orders, spectra
 from .analysis import checked_orders, shown_orders
 
 
@@ -50,6 +51,11 @@ class Combined:
     moment: Peak
     cylinders: tuple[tuple[int, Spectra], ...] = ()
 
+    @property
+    def peaks(self) -> list[tuple[Kind, Peak]]:
+        """Force and moment, with their peaks."""
+        return list(zip(VECTORS, (self.force, self.moment), strict=True))
+
 
 def combine(
     first: Engine, second: Engine, arrangement: Arrangement, orders: Iterable[float] | None = None
@@ -80,8 +86,8 @@ def combine(
         (first, second),
         arrangement,
         everything.at(shown_orders(everything) if asked is None else asked),
-        peak(_phasors(everything, "force")),
-        peak(_phasors(everything, "moment")),
+        peak(everything["force"]),
+        peak(everything["moment"]),
     )
 
 
@@ -102,20 +108,16 @@ def placed(own: Spectra, arrangement: Arrangement, reference_m: Collection[float
     """
     n = own.orders
     x, y, z = (place - point for place, point in zip(arrangement.at_m, reference_m, strict=True))
-    found = {name: _led(phasors, unit(n * arrangement.phase_deg)) for name, phasors in own.items()}
+    lead = unit(n * arrangement.phase_deg)
+    parts = {kind.name: _led(phasors, lead) for kind, phasors in own.items()}
     if arrangement.reverse:
-        found = {name: _mirrored(phasors, name != "force") for name, phasors in found.items()}
+        parts = {name: _mirrored(phasors, KINDS[name]) for name, phasors in parts.items()}
     turn = unit(arrangement.turn_deg)
-    force, moment = turn * found["force"], turn * found["moment"]
-    couple = found["couple"] + force.about(x + 1j * y)
-    return Spectra(
-        n,
-        force=force,
-        moment=moment + 1j * z * force,
-        couple=couple,
-        torque=found["torque"],
-        roll=couple - found["torque"],
-    )
+    force = turn * parts["force"]
+    parts["force"] = force
+    parts["moment"] = turn * parts["moment"] + 1j * z * force
+    parts["couple"] = parts["couple"] + force.about(x + 1j * y)
+    return Spectra(n, **{name: assembled(kind, parts) for name, kind in KINDS.items()})
 
 
 def _led(phasors: Phasors, lead: np.ndarray) -> Phasors:
@@ -124,11 +126,11 @@ def _led(phasors: Phasors, lead: np.ndarray) -> Phasors:
     )
 
 
-def _mirrored(phasors: Phasors, axial: bool) -> Phasors:
+def _mirrored(phasors: Phasors, kind: Kind) -> Phasors:
     """In the mirror that changes the sign of y a vector becomes its conjugate, and what turns
     changes its sign besides.
     """
-    sign = -1.0 if axial else 1.0
+    sign = 1.0 if kind.dimension == "force" else -1.0
     mean = phasors.orders == 0
     ahead, against = phasors.forward.conj(), phasors.backward.conj()
     forward: Complex = np.where(mean, ahead, against)
@@ -137,11 +139,4 @@ def _mirrored(phasors: Phasors, axial: bool) -> Phasors:
 
 
 def _sum(one: Spectra, other: Spectra) -> Spectra:
-    return Spectra(
-        one.orders, **{q: (_phasors(one, q) + _phasors(other, q)).settled() for q in SPECTRAL}
-    )
-
-
-def _phasors(found: Spectra, quantity: str) -> Phasors:
-    phasors: Phasors = getattr(found, quantity)
-    return phasors
+    return Spectra(one.orders, **{name: (one[name] + other[name]).settled() for name in KINDS})

@@ -14,7 +14,8 @@ from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..forces.crankshaft import Inner, inner
-from ..forces.spectrum import SPECTRAL, spectra
+from ..forces.kinds import KINDS
+from ..forces.spectrum import spectra
 from ..results.analysis import Analysis, analyze
 from ..results.balance import balance
 from ..sizing.sizing import Wish, remedy_for
@@ -67,7 +68,7 @@ def study(
         found = balance(engine, scheme, orders=orders)
         bent = (inner(found.after.engine), inner(engine)) if what == "inner" else ()
         return Study(found.after, found.before, bent=bent)
-    now = analyze(engine, orders, SPECTRAL)
+    now = analyze(engine, orders, KINDS)
     if what == "inner":
         return Study(now, bent=(inner(engine),))
     if what == "factor":
@@ -111,13 +112,12 @@ def over_bank_angle(engine: Engine, order: int) -> Banks:
 
 
 def _force(engine: Engine, order: int) -> Phasors:
-    found: Any = spectra(replace(engine, ripple=()), [order], ("force",)).force
-    return found
+    return spectra(replace(engine, ripple=()), [order], ["force"])["force"]
 
 
 def _lowest(now: Analysis) -> int:
     """The lowest order with a free force, or the second."""
-    force: Any = now.spectra.force
+    force = now.spectra["force"]
     free = [
         int(n)
         for n, balanced in zip(force.orders, force.balanced, strict=True)

@@ -256,7 +256,7 @@ class _Crowd:
         """
         steps = np.diag([STEP * s.tolerance for s in self.sources])
         up, down, nominal = (
-            getattr(spectra(self.engine(d), [q.order], {q.kind}), q.kind)
+            spectra(self.engine(d), [q.order], {q.kind})[q.kind]
             for d in (steps, -steps, 0 * steps[:, :1])
         )
         return nominal, (1 / (2 * STEP)) * (up - down)

@@ -42,7 +42,7 @@ def _row(name: str) -> Row:
 
     file = parse((folder() / f"{name}.toml").read_text(encoding="utf-8"), name)
     engine = build(_bare(file))
-    found = dict(spectra(engine, ORDERS, ("force", "moment")).items())
+    found = spectra(engine, ORDERS, ("force", "moment"))
     c = engine.cylinders
     unit = engine.omega**2 * float(c.reciprocating.ravel()[0] * c.radius.ravel()[0])
     each = unit * harmonics.piston(ORDERS, c.lam.ravel()[:1]).ravel()

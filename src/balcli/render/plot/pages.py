@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from ...core.phasors import Phasors
 from ...errors import BalcliError
 from ...forces.crankshaft import Inner
+from ...forces.kinds import KINDS, VECTORS
 from ...results.analysis import Analysis
 from ...studies.pictures import Banks
 from ..units import SI, System, Unit
@@ -20,9 +21,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-SCALARS = {"couple": "couple C", "torque": "torque T", "roll": "roll C − T"}
-VECTORS = ("force", "moment")
-ALL = (*VECTORS, "about")
+_VECTORS = tuple(kind.name for kind in VECTORS)
+_PICTURED = (*_VECTORS, "about")
 
 
 @dataclass(frozen=True)
@@ -39,15 +39,15 @@ class Subject:
     bent: tuple[Inner, ...] = ()
 
     def phasors(self, quantity: str) -> tuple[Phasors, Phasors | None]:
-        old = None if self.before is None else getattr(self.before.spectra, quantity)
-        return getattr(self.now.spectra, quantity), old
+        old = None if self.before is None else self.before.spectra[quantity]
+        return self.now.spectra[quantity], old
 
     def unit(self, quantity: str) -> Unit:
-        return self.system.force if quantity == "force" else self.system.moment
+        return self.system.unit(KINDS[quantity])
 
     @property
     def scalars(self) -> dict[str, Phasors]:
-        return {label: getattr(self.now.spectra, q) for q, label in SCALARS.items()}
+        return {kind.label: phasors for kind, phasors in self.now.spectra.scalars()}
 
 
 def form_of(file: Path) -> Form:
@@ -90,25 +90,25 @@ def panel(subject: Subject, what: str, quantity: str) -> str:
 def _all(fig: Figure, subject: Subject) -> None:
     grid = fig.add_gridspec(2, 3, height_ratios=(1.25, 1))
     bars = grid[0, 2].subgridspec(3, 1)
-    for k, quantity in enumerate(VECTORS):
+    for k, quantity in enumerate(_VECTORS):
         _locus(fig.add_subplot(grid[0, k]), subject, quantity)
-    for k, quantity in enumerate(ALL):
+    for k, quantity in enumerate(_PICTURED):
         _bars(fig.add_subplot(bars[k]), subject, quantity)
         _over_crank(fig.add_subplot(grid[1, k]), subject, quantity)
 
 
 def _polar(fig: Figure, subject: Subject) -> None:
-    for ax, quantity in zip(fig.subplots(1, 2), VECTORS, strict=True):
+    for ax, quantity in zip(fig.subplots(1, 2), _VECTORS, strict=True):
         _locus(ax, subject, quantity)
 
 
 def _spectrum(fig: Figure, subject: Subject) -> None:
-    for ax, quantity in zip(fig.subplots(3, 1), ALL, strict=True):
+    for ax, quantity in zip(fig.subplots(3, 1), _PICTURED, strict=True):
         _bars(ax, subject, quantity)
 
 
 def _curves(fig: Figure, subject: Subject) -> None:
-    for ax, quantity in zip(fig.subplots(3, 1, sharex=True), ALL, strict=True):
+    for ax, quantity in zip(fig.subplots(3, 1, sharex=True), _PICTURED, strict=True):
         _over_crank(ax, subject, quantity)
         ax.label_outer()
 
@@ -117,7 +117,7 @@ def _orders(fig: Figure, subject: Subject) -> None:
     """The largest orders of force and of moment, a row each; a row without any is left out."""
     shown = {
         q: [k for k in draw.visible(curve) if not curve.balanced[k] and curve.orders[k] >= 1][:4]
-        for q in VECTORS
+        for q in _VECTORS
         for curve in subject.phasors(q)[:1]
     }
     rows = {q: found for q, found in shown.items() if found} or {"force": []}

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.phasors import Phasors
-from ...engine.build import Engine, build
+from ...engine.build import build
 from ...engine.layout import plan
 from ...enginefile.model import EngineFile
 from ...forces.quantity import Quantity
-from ...forces.spectrum import spectra
+from ...forces.spectrum import spectra, with_only
 from ..parameters import varied
 
 Array = NDArray[np.float64]
@@ -76,21 +76,21 @@ def shares(
     )
     orders, kinds = sorted({q.order for q in quantities}), {q.kind for q in quantities}
     each = [
-        spectra(_moving(engine, [throw_of[n] == t for n in engine.numbers]), orders, kinds)
+        spectra(with_only(engine, [throw_of[n] == t for n in engine.numbers]), orders, kinds)
         for t in range(count)
     ]
     devices = spectra(
-        replace(_moving(engine, [False] * len(engine.numbers)), devices=engine.devices),
+        replace(with_only(engine, [False] * len(engine.numbers)), devices=engine.devices),
         orders,
         kinds,
     )
 
     def share(kind: str, order: int) -> Share:
-        row, still = orders.index(order), getattr(devices, kind)
+        row, still = orders.index(order), devices[kind]
 
         def table(way: str) -> Complex:
             return np.stack(
-                [np.broadcast_to(getattr(getattr(s, kind), way)[row], angles.shape) for s in each]
+                [np.broadcast_to(getattr(s[kind], way)[row], angles.shape) for s in each]
             )
 
         return Share(
@@ -101,11 +101,3 @@ def shares(
         )
 
     return {(q.kind, q.order): share(q.kind, q.order) for q in quantities}
-
-
-def _moving(engine: Engine, which: Sequence[bool]) -> Engine:
-    """The engine with the masses of some cylinders alone, and no devices."""
-    c, here = engine.cylinders, np.array(which, float)[:, None]
-    masses = {key: here * getattr(c, key) for key in ("reciprocating", "rotating", "couple")}
-    linkage = c.linkage and replace(c.linkage, mass=here * c.linkage.mass)
-    return replace(engine, devices=(), cylinders=replace(c, linkage=linkage, **masses))

@@ -1,0 +1,62 @@
+"""The one table of what shakes: every kind of force and moment, what it is called, how it is
+measured and how it is written.
+
+Whatever is computed, shown, compared, recorded or searched by kind reads this table; a new kind is
+one line here, one member of `spectrum.Spectra`, and the physics that computes it.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+Dimension = Literal["force", "moment"]
+_SI: dict[Dimension, str] = {"force": "N", "moment": "N·m"}
+
+
+class Kind(NamedTuple):
+    """One kind of force or moment.
+
+    Attributes:
+        name: in options (`--only`), quantities (`force.2.major`) and members of `Spectra`.
+        label: in headings and legends, where it may begin with a capital letter.
+        symbol: in formulas and narrow columns.
+        key: in JSON, with its SI unit as the ending.
+        vector: whether it is a vector of the x-y plane; a scalar acts about the crank's axis.
+        dimension: what is measured: a force, or the moment of one.
+        plus, minus: names of the kinds it is the sum of, if it is nothing else.
+    """
+
+    name: str
+    label: str
+    symbol: str
+    key: str
+    vector: bool
+    dimension: Dimension
+    plus: tuple[str, ...] = ()
+    minus: tuple[str, ...] = ()
+
+    @property
+    def si_unit(self) -> str:
+        """N or N·m."""
+        return _SI[self.dimension]
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """Names of the kinds that have to be known for this one: itself, or those it sums up."""
+        return (*self.plus, *self.minus) or (self.name,)
+
+    def key_along(self, axis: str) -> str:
+        """JSON key of its component along an axis: `force_x_N`."""
+        stem, _, unit = self.key.rpartition("_")
+        return f"{stem}_{axis}_{unit}"
+
+
+FORCE = Kind("force", "free force", "F", "force_N", vector=True, dimension="force")
+MOMENT = Kind("moment", "free moment", "M", "moment_Nm", vector=True, dimension="moment")
+COUPLE = Kind("couple", "couple C", "C", "couple_Nm", vector=False, dimension="moment")
+TORQUE = Kind("torque", "inertia torque T", "T", "inertia_torque_Nm", False, "moment")
+ROLL = Kind("roll", "roll C − T", "C − T", "roll_Nm", False, "moment", ("couple",), ("torque",))
+
+KINDS = {kind.name: kind for kind in (FORCE, MOMENT, COUPLE, TORQUE, ROLL)}
+VECTORS = tuple(kind for kind in KINDS.values() if kind.vector)
+SCALARS = tuple(kind for kind in KINDS.values() if not kind.vector)

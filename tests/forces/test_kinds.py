@@ -1,0 +1,51 @@
+"""The table of what shakes, against what the rest of the house makes of it."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+import numpy as np
+import pytest
+from support.engines import engine
+
+from balcli.forces.kinds import FORCE, KINDS, SCALARS, TORQUE, VECTORS
+from balcli.forces.spectrum import Spectra, spectra
+
+
+def test_every_kind_is_a_member_of_spectra_in_the_order_of_the_table():
+    assert [field.name for field in fields(Spectra)] == ["orders", *KINDS]
+
+
+def test_vectors_and_scalars_are_all_kinds():
+    assert [kind.name for kind in VECTORS] == ["force", "moment"]
+    assert [kind.name for kind in SCALARS] == ["couple", "torque", "roll"]
+
+
+@pytest.mark.parametrize("kind", KINDS.values(), ids=lambda kind: kind.name)
+def test_names_say_the_unit(kind):
+    ending = {"N": "_N", "N·m": "_Nm"}[kind.si_unit]
+    assert kind.key.endswith(ending)
+    assert kind.key_along("x") == kind.key.removesuffix(ending) + "_x" + ending
+
+
+@pytest.mark.parametrize("kind", KINDS.values(), ids=lambda kind: kind.name)
+def test_a_sum_is_made_of_kinds_that_are_none(kind):
+    assert all(KINDS[part].parts == (part,) for part in kind.parts)
+
+
+def test_roll_is_couple_less_torque():
+    found = spectra(engine(), np.arange(1.0, 9.0))
+    assert not found["torque"].balanced.all()
+    assert np.array_equal(
+        found["roll"].forward, (found["couple"] - found["torque"]).settled().forward
+    )
+
+
+def test_only_what_was_asked_for_is_there():
+    found = spectra(engine(), [2.0], ["torque", "force"])
+    assert found.items() == [(FORCE, found["force"]), (TORQUE, found["torque"])]
+    assert found.vectors() == [(FORCE, found.force)]
+    assert found.scalars() == [(TORQUE, found.torque)]
+    assert found.only(["torque"]).items() == [(TORQUE, found.torque)]
+    with pytest.raises(KeyError, match="roll"):
+        found["roll"]
