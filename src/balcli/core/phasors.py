@@ -112,10 +112,8 @@ class Phasors:
 
     def __rmul__(self, factor: complex | Figure | Complex) -> Phasors:
         """Scaled, or scaled and turned where the factor is complex."""
-        size: Figure = abs(factor)
-        return Phasors(
-            self.orders, factor * self.forward, factor * self.backward, size * self.noise
-        )
+        noise: Array = np.abs(factor) * self.noise
+        return Phasors(self.orders, factor * self.forward, factor * self.backward, noise)
 
     def about(self, p: complex | Complex) -> Phasors:
         """Moment about z of this force acting at the point p = x + iy: `Im(conj(p) F)`, a
