@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from support.engines import alone, engine
 
-from balcli.core.mechanisms import harmonics
+from balcli.core.mechanisms import closed_form, harmonics
 from balcli.engine.build import Engine, build
 from balcli.engine.load import read
 from balcli.errors import BalcliError
@@ -183,7 +183,7 @@ def test_what_is_not_asked_for_is_not_computed(monkeypatch):
     peak, no others.
     """
     asked = []
-    original = harmonics.of_distinct
+    original = harmonics.find_distinct_harmonics
 
     def spy(orders, *rest, rod=True, energy=True):
         asked.append((list(orders), rod, energy))
@@ -277,7 +277,7 @@ def test_textbook_units():
         pytest.approx(0.1),
         True,
     )
-    assert list(units.ratios) == list(harmonics.piston([1, 2, 3], 0.25))
+    assert list(units.ratios) == list(closed_form.piston([1, 2, 3], 0.25))
     assert np.isnan(textbook(engine(), np.array([1.0])).arm)
 
 

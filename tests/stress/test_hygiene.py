@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from support.engines import alone, engine
 
-from balcli.core.mechanisms.harmonics import EPS
+from balcli.core.phasors import EPS
 from balcli.engine.build import Engine
 from balcli.forces.kinds import KINDS
 from balcli.forces.spectrum import spectra

@@ -45,7 +45,7 @@ def flat_plane(gamma):
 
 def vectors(gamma):
     """|V+| and |V-| of the second order over 4 m r omega^2 A_2 = K, from the engine itself."""
-    from balcli.core.mechanisms.harmonics import piston
+    from balcli.core.mechanisms.closed_form import piston
 
     engine = flat_plane(gamma)
     force = spectra(engine, [2], ["force"]).force

@@ -14,9 +14,9 @@ from functools import cached_property
 import numpy as np
 
 from .cylinders import Cylinders, Device
-from .mechanisms.harmonics import Harmonics, Series
+from .mechanisms.fourier import Harmonics, Series
 from .phases import SUM, Phases, Vectors
-from .phasors import Array, Figure, Phasors
+from .phasors import Array, Complex, Figure, Phasors
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,10 +70,9 @@ class Loads:
     @property
     def torque(self) -> Phasors:
         """Inertia torque on the crank, N m: `-1/2 dI/dtheta` times the square of the speed."""
-        rate = -0.5j * self.phases.n
-        return self.phases.add_scalars(
-            Series(rate * self._inertia.c, abs(rate) * self._inertia.noise)
-        )
+        inertia, n = self._inertia, self.phases.n
+        rate: Complex = np.asarray(-0.5j * n, np.complex128)
+        return self.phases.add_scalars(Series(rate * inertia.c, 0.5 * n * inertia.noise))
 
     @property
     def mean_inertia(self) -> Array:
@@ -125,12 +124,14 @@ def find_pulls(
     c, rounding = cylinders, phases.rounding
     along = (c.reciprocating * c.radius * square / 2) * harmonics.piston
     turning = (phases.n == 1) * (c.rotating * (c.radius * square))
-    forward, mirrored = along.c + turning, along.c
+    forward: Array | Complex = along.c + turning
+    mirrored = along.c
     error = rounding * (np.abs(along.c) + turning) + along.noise
     if harmonics.curve is not None:
         half = _weigh_on_curve(c, square) / 2
         x, y = half * harmonics.curve.along, half * harmonics.curve.across
-        forward, mirrored = forward + (x.c + 1j * y.c), mirrored + (x.c - 1j * y.c)
+        across: Complex = np.asarray(1j * y.c, np.complex128)
+        forward, mirrored = forward + (x.c + across), mirrored + (x.c - across)
         error = error + rounding * (np.abs(x.c) + np.abs(y.c)) + (x.noise + y.noise)
     return Vectors(forward, mirrored, error)
 

@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .cylinders import Cylinders
-from .mechanisms.harmonics import Series
+from .mechanisms.fourier import Series
 from .phasors import EPS, Array, Complex, Phasors, unit
 
 SUM = 8 * EPS  # rounding error of a sum, per term and size of the terms
@@ -50,7 +50,7 @@ class Phases:
     Attributes:
         orders: shape (orders,).
         n: the same as a column before cylinders and trailing axes.
-        once: a 1 for each cylinder, shape (cylinders, *1).
+        count: how many cylinders there are.
         rounding: bound of the error of a sum over cylinders relative to its terms, shape as `n`.
     """
 
@@ -58,8 +58,8 @@ class Phases:
         axis, pin = cylinders.axis_deg, cylinders.pin_deg
         self.orders = orders
         self.n = orders.reshape(-1, *(1,) * pin.ndim)
-        self.once = np.ones((cylinders.count, *(1,) * (pin.ndim - 1)))
-        self.rounding = cylinders.count * SUM + _TURN * self.n
+        self.count = cylinders.count
+        self.rounding = self.count * SUM + _TURN * self.n
         self._axis, self._turn = axis, self.n * (axis - axis[cylinders.first])
         self._starts = cylinders.starts
         self._moving: dict[int, Complex] = {}  # e^{i n pin} by cylinder, (orders, *trailing)
@@ -73,14 +73,13 @@ class Phases:
         others where they are. Those on one throw are computed once.
         """
         rows = [_narrow(row) for row in pin]
-        stays = np.array([row.size == 1 for row in rows]).reshape(self.once.shape)
+        stays = np.array([row.size == 1 for row in rows]).reshape(-1, *(1,) * (pin.ndim - 1))
         first = pin[(_ALL, *(slice(1),) * (pin.ndim - 1))]
         self._still = unit(self.n * first) * stays
         for k, row in enumerate(rows):
             if row.size > 1:
-                twin = next((j for j in self._moving if np.array_equal(rows[j], row)), None)
-                known = None if twin is None else self._moving[twin]
-                self._moving[k] = unit(self.n[:, 0] * row) if known is None else known
+                twin = next((j for j in self._moving if np.array_equal(rows[j], row)), k)
+                self._moving[k] = unit(self.n[:, 0] * row) if twin == k else self._moving[twin]
 
     # -------------------------------------------------------------- sums over the cylinders
     def add_vectors(
@@ -109,10 +108,9 @@ class Phases:
             values: shape (orders, cylinders or 1, *trailing).
             sizes: shape (cylinders, *trailing); 1 if not given.
         """
-        sizes = self.once if sizes is None else sizes
-        if values.shape[1] == 1:
-            return values[:, 0] * np.add.reduce(sizes, axis=0)
-        return np.add.reduce(values * sizes, axis=1)
+        if values.shape[1] > 1:
+            return np.add.reduce(values if sizes is None else values * sizes, axis=1)
+        return values[:, 0] * (self.count if sizes is None else np.add.reduce(sizes, axis=0))
 
     def nothing(self) -> Phasors:
         """A sum of nothing."""
@@ -135,13 +133,16 @@ class Phases:
         Returns: for each side, shape (orders, *trailing).
         """
         found = []
-        arms = self.once if arms is None else arms
         equal = None  # the sum without vectors: equal ones are taken out of it
         for k, vectors in enumerate(sides):
             if vectors.shape[1] > 1:
-                found.append(self._add_turned(turns[k : k + 1], (arms * vectors)[None])[0])
+                factors = vectors if arms is None else arms * vectors
+                found.append(self._add_turned(turns[k : k + 1], factors[None])[0])
             else:
-                equal = self._add_turned(turns, arms[None, None]) if equal is None else equal
+                if equal is None:
+                    equal = self._add_turned(
+                        turns, (self._ones if arms is None else arms)[None, None]
+                    )
                 found.append(vectors[:, 0] * equal[k])
         return found
 
@@ -155,6 +156,11 @@ class Phases:
             moving = sum(factors[:, :, k] * self._moving[k] for k in rows)
             total = total + turns[:, :, bank] * moving
         return total
+
+    @cached_property
+    def _ones(self) -> Array:
+        """A 1 for each cylinder, shape (cylinders, *1)."""
+        return np.ones((self.count, *(1,) * (self.n.ndim - 2)))
 
     def _bank(self, cylinder: int) -> int:
         return int(np.searchsorted(self._starts, cylinder, "right")) - 1
@@ -182,18 +188,18 @@ class SeparatePhases(Phases):
 
     def add_figures(self, values: Array, sizes: Array | None = None) -> Array:
         """The terms of this sum."""
-        return values * (self.once if sizes is None else sizes)
+        return values * (self._ones if sizes is None else sizes)
 
     @property
     def _sum_shape(self) -> tuple[int, ...]:
-        return len(self.orders), len(self.once)
+        return len(self.orders), self.count
 
     def _add(
         self, turns: Complex, sides: Sequence[Array | Complex], arms: Array | None
     ) -> list[Complex]:
         """The terms of this sum, each of shape (orders, cylinders)."""
-        counts = np.diff([*self._starts, len(self.once)])
-        arms = self.once if arms is None else arms
+        counts = np.diff([*self._starts, self.count])
+        arms = self._ones if arms is None else arms
         each = zip(np.repeat(turns, counts, axis=2), sides, strict=True)
         return [turn * (arms * vectors * self._still) for turn, vectors in each]
 

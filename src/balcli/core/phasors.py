@@ -20,7 +20,7 @@ Complex: TypeAlias = NDArray[np.complex128]
 Figure: TypeAlias = float | Array  # a number, or an array of variants
 
 EPS = float(np.finfo(float).eps)
-_STEP = 15  # degrees
+_STEP = 15.0  # degrees
 _COSINES = (1, (6**0.5 + 2**0.5) / 4, 0.75**0.5, 0.5**0.5, 0.5, (6**0.5 - 2**0.5) / 4, 0)
 
 
@@ -43,7 +43,7 @@ def unit(degrees: ArrayLike) -> Complex:
     x = np.asarray(degrees, float)
     steps = np.rint(x / _STEP)
     rest = x - _STEP * steps
-    turned: Complex = _UNITS.take((steps - 24 * np.floor(steps / 24)).astype(np.intp))
+    turned: Complex = _UNITS.take((steps - 24.0 * np.floor(steps / 24.0)).astype(np.intp))
     return turned * _turn(rest * (np.pi / 180)) if np.count_nonzero(rest) else turned
 
 

@@ -157,8 +157,8 @@ def relevant_orders(engine: Engine) -> Array:
     errors.
     """
     c = engine.cylinders
-    own = c.linkage.highest(c.lam, c.eps) if c.linkage else harmonics.points(c.lam, c.eps) // 2
-    highest = max([own, *(d.order for d in engine.devices)])
+    find_highest = c.linkage.find_highest_order if c.linkage else harmonics.find_highest_order
+    highest = max([find_highest(c.lam, c.eps), *(d.order for d in engine.devices)])
     if not engine.ripple:
         return np.arange(1.0, highest + 1)
     return np.arange(0.0, highest + 2 * max(line.order for line in engine.ripple) + 1)
@@ -198,16 +198,16 @@ def _steady(
     """Phasors at a steady speed, and the loads of the lowest orders."""
     c, (x, y, z) = engine.cylinders, engine.reference_m
     names = [name for name in KINDS if name in parts]
-    find = c.linkage.harmonics if c.linkage else harmonics.of_distinct
+    find = c.linkage.find_distinct_harmonics if c.linkage else harmonics.find_distinct_harmonics
     about_crank = any(not KINDS[name].vector for name in parts)
     rod = about_crank and bool(np.count_nonzero(c.couple))
     few, which = find(orders, c.lam, c.eps, rod=rod, energy="torque" in parts)
 
     def loads(block: slice) -> Loads:
-        own = few if block == _ALL else few.of_orders(block)
+        own = few if block == _ALL else few.select_orders(block)
         phases = (SeparatePhases if apart else Phases)(c, orders[block])
         square = engine.omega**2
-        return Loads(c, engine.devices, x + 1j * y, z, phases, own.of_rows(which), square)
+        return Loads(c, engine.devices, x + 1j * y, z, phases, own.select_cylinders(which), square)
 
     most = max(_AT_ONCE // c.count, 1)
     blocks = (

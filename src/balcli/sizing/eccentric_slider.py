@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.mechanisms import harmonics
+from ..core.mechanisms import closed_form
 from ..core.phasors import Array
 from ..errors import BalcliError
 
@@ -111,7 +111,7 @@ def _cosines(samples: Array) -> Array:
 
 def _engine_force(force: str, lam: float) -> Array:
     if force == "all orders":
-        return harmonics.piston(_ORDERS, lam)
+        return closed_form.piston(_ORDERS, lam)
     return np.where(_ORDERS == 1, 1.0, np.where(_ORDERS == 2, lam, 0.0))
 
 

@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..core.mechanisms import harmonics
+from ..core.mechanisms import closed_form
 from ..core.mechanisms import power_series as series
 from ..core.mechanisms.slidercrank import Real
 from .options import Options
@@ -25,12 +25,12 @@ Terms: TypeAlias = Callable[[int, int], series.Series]
 
 def piston(printed: Print, options: Options) -> Table:
     """Table I: A_n."""
-    return _table(printed, options, harmonics.piston, series.piston)
+    return _table(printed, options, closed_form.piston, series.piston)
 
 
 def rod(printed: Print, options: Options) -> Table:
     """Table II: D_k."""
-    return _table(printed, options, harmonics.rod, series.rod)
+    return _table(printed, options, closed_form.rod, series.rod)
 
 
 def _table(printed: Print, options: Options, exact: Exact, terms: Terms) -> Table:

@@ -35,7 +35,7 @@ def textbook(printed: Print, options: Options) -> Table:
 
 
 def _row(name: str) -> Row:
-    from ..core.mechanisms import harmonics
+    from ..core.mechanisms import closed_form
     from ..engine.build import build
     from ..engine.load import parse
     from ..forces.spectrum import spectra
@@ -45,7 +45,7 @@ def _row(name: str) -> Row:
     found = spectra(engine, ORDERS, ("force", "moment"))
     c = engine.cylinders
     unit = engine.omega**2 * float(c.reciprocating.ravel()[0] * c.radius.ravel()[0])
-    each = unit * harmonics.piston(ORDERS, c.lam.ravel()[:1]).ravel()
+    each = unit * closed_form.piston(ORDERS, c.lam.ravel()[:1]).ravel()
     axes = np.stack(
         [axis.ravel() for q in ("force", "moment") for axis in (found[q].major, found[q].minor)],
         axis=-1,
