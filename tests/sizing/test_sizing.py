@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.engines import engine_text
 
-from balcli.core import circle
+from balcli.core import enclosing_circle as circle
 from balcli.core.peaks import peak
 from balcli.engine.build import build
 from balcli.engine.load import parse
