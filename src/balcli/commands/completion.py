@@ -23,7 +23,7 @@ def schemes(incomplete: str) -> list[str]:
 
 def tables(incomplete: str) -> list[str]:
     """Of `balcli tables`."""
-    from ..tables import NAMES
+    from ..tables.registry import NAMES
 
     return _beginning(incomplete, NAMES)
 

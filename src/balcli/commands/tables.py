@@ -66,10 +66,10 @@ def tables(
     them.
     """
     from ..render import tables as printed
-    from ..tables import select
+    from ..tables.registry import select_tables
     from .output import emit
 
-    shown, into_file = select(name, lam, angle, power), output is not None
+    shown, into_file = select_tables(name, lam, angle, power), output is not None
     if errata:
         text = printed.errata(shown, form, into_file=into_file)
     elif name:

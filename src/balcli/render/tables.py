@@ -10,7 +10,15 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict
 from typing import Any
 
-from ..tables.table import Cell, Erratum, Table, deviates, figure, rational, rounded
+from ..tables.recomputed import (
+    Cell,
+    Erratum,
+    Table,
+    deviates,
+    parse_decimal,
+    parse_fraction,
+    round_like,
+)
 from .csv import write
 from .formats import Format, render
 from .sheet import Facts, Grid, Sheet
@@ -93,7 +101,7 @@ def count(table: Table) -> str:
     """How many of the printed figures deviate."""
     words = [text for row in table.printed for text in row[table.stub :] if text is not None]
     printed, wrong = (
-        sum(figure(text) is not None or rational(text) is not None for text in words),
+        sum(parse_decimal(text) is not None or parse_fraction(text) is not None for text in words),
         len(table.errata),
     )
     if not printed:
@@ -146,19 +154,19 @@ def _shown(table: Table, i: int, j: int, digits: int | None) -> str:
 
 
 def _is_word(cell: Cell) -> bool:
-    return isinstance(cell, str) and figure(cell) is None and rational(cell) is None
+    return isinstance(cell, str) and parse_decimal(cell) is None and parse_fraction(cell) is None
 
 
 def _cell(value: Cell, text: str | None, digits: int | None) -> str:
     if not isinstance(value, (int, float)):
         return value or ""
-    like = figure(text) if text else None
+    like = parse_decimal(text) if text else None
     whole = text is not None and text.lstrip("+-").isdigit() and float(value).is_integer()
     if digits is not None and not whole:
         return f"{value:.{digits}f}"
     if like is None or text is None:
         return f"{value:.6g}"
-    shown = f"{rounded(value, like):f}"
+    shown = f"{round_like(value, like):f}"
     shown = (
         shown.replace("0.", ".", 1)
         if text.lstrip("+-").startswith(".") and abs(value) < 1
