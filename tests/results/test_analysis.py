@@ -189,7 +189,7 @@ def test_what_is_not_asked_for_is_not_computed(monkeypatch):
         asked.append((list(orders), rod, energy))
         return original(orders, *rest, rod=rod, energy=energy)
 
-    monkeypatch.setattr(harmonics, "of_distinct", spy)
+    monkeypatch.setattr(harmonics, "find_distinct_harmonics", spy)
     analyze(example("i4"), [1, 2], only=["force"])
     assert [(orders, energy) for orders, _, energy in asked] == [([1, 2], False)]
 
