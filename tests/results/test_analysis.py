@@ -6,11 +6,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 from support.engines import alone, engine
+from support.paths import ENGINES
 
 from balcli.core.mechanisms import closed_form, harmonics
 from balcli.engine.build import Engine, build
@@ -21,14 +21,13 @@ from balcli.forces.spectrum import SHOWN, relevant_orders, spectra
 from balcli.limits import HIGHEST_ORDER
 from balcli.results.analysis import QUANTITIES, Analysis, analyze, textbook
 
-FOLDER = Path(__file__).parents[2] / "engines"
-NAMES = sorted(file.stem for file in FOLDER.glob("*.toml"))
+NAMES = sorted(file.stem for file in ENGINES.glob("*.toml"))
 STEADY = ("force", "moment", "couple", "torque", "roll", "peak")
 
 
 @lru_cache
 def example(name: str) -> Engine:
-    return build(read(FOLDER / f"{name}.toml"))
+    return build(read(ENGINES / f"{name}.toml"))
 
 
 @lru_cache

@@ -6,14 +6,13 @@ Each test holds a bound of `BOUNDS`, as `docs/accuracy.md` prints them.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from support.engines import engine
+from support.paths import DOCS
 
 from balcli.core.mechanisms import closed_form, fourier, harmonics
 from balcli.core.peaks import peak
@@ -39,7 +38,7 @@ LAMBDAS = [1e-12, 1e-9, 1e-6, 1e-3, 0.1, 0.28, 0.5, 0.75, 0.9, 0.99, 1 - 1e-5, 1
 HIGH = [255, 256, 4095, 4096]
 SMALLEST = 1e-290  # below which a float has not all its digits
 NEAREST = 1 - 1e-6  # of lambda + |eps|
-PAGE = Path(__file__).parents[2] / "docs" / "accuracy.md"
+PAGE = DOCS / "accuracy.md"
 REVOLVING = 0.05 * (2 * np.pi) ** 2  # m r omega^2 of `kit.engine`: 1 kg, 50 mm, 60 rpm
 
 
