@@ -59,9 +59,9 @@ def test_orders_asked_for_are_the_same_to_the_last_bit(name):
         again, alone_ = asked.spectra[q], single.spectra[q]
         assert np.array_equal(phasors.forward, again.forward), q
         assert np.array_equal(phasors.backward, again.backward), q
-        assert np.array_equal(phasors.at([2]).forward, alone_.forward), q
+        assert np.array_equal(phasors.select_orders([2]).forward, alone_.forward), q
         assert np.array_equal(
-            phasors.forward, getattr(many.spectra, q).at(default.orders).forward
+            phasors.forward, getattr(many.spectra, q).select_orders(default.orders).forward
         ), q
     assert (asked.force, asked.moment) == (default.force, default.moment)
 

@@ -39,7 +39,7 @@ class Along:
 
     def at(self, place: int) -> Phasors:
         """Phasors at one of the places."""
-        return self.phasors.of(place)
+        return self.phasors.select_place(place)
 
     @property
     def largest(self) -> int:
@@ -151,4 +151,6 @@ def _weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
 
 def _along(places: Array, phasors: Phasors, orders: Array) -> Along:
     every = Along(places, phasors, ())
-    return Along(places, phasors.at(orders), tuple(peak(every.at(k)) for k in range(len(places))))
+    return Along(
+        places, phasors.select_orders(orders), tuple(peak(every.at(k)) for k in range(len(places)))
+    )

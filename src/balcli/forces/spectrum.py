@@ -15,7 +15,7 @@ from ..core.cylinders import Device
 from ..core.loads import Loads, find_device_force
 from ..core.mechanisms import harmonics
 from ..core.phases import Phases, SeparatePhases
-from ..core.phasors import Array, Complex, Phasors, joined
+from ..core.phasors import Array, Complex, Phasors, join_orders
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import HIGHEST_ORDER_UNASKED, MOST_LOADS_APART
@@ -75,12 +75,14 @@ class Spectra:
         """The same without all other orders."""
         if orders is self.orders:
             return self
-        rows = {kind.name: phasors.at(orders) for kind, phasors in self.items()}
+        rows = {kind.name: phasors.select_orders(orders) for kind, phasors in self.items()}
         return Spectra(np.asarray(orders, float), **rows)
 
     def of(self, place: int) -> Spectra:
         """Those of one place along the trailing axis."""
-        return Spectra(self.orders, **{kind.name: p.of(place) for kind, p in self.items()})
+        return Spectra(
+            self.orders, **{kind.name: p.select_place(place) for kind, p in self.items()}
+        )
 
 
 def spectra(engine: Engine, orders: ArrayLike, kinds: Collection[str] = tuple(KINDS)) -> Spectra:
@@ -126,7 +128,7 @@ def weight(engine: Engine, device: Device, orders: Array) -> Phasors:
         return find_device_force(device, orders, engine.omega**2).settled()
     w, dense = _uneven_speed(engine, orders)
     steady = find_device_force(device, dense, engine.omega**2).settled()
-    return ripple.force(steady, w).at(orders).settled()
+    return ripple.force(steady, w).select_orders(orders).settled()
 
 
 def _spectra(engine: Engine, orders: ArrayLike, kinds: Collection[str], *, apart: bool) -> Spectra:
@@ -220,7 +222,7 @@ def _steady(
         found.append({name: getattr(these, name) for name in names})
     if len(found) == 1:
         return found[0], lowest
-    return {name: joined([block[name] for block in found]) for name in names}, lowest
+    return {name: join_orders([block[name] for block in found]) for name in names}, lowest
 
 
 def _uneven(
@@ -234,7 +236,7 @@ def _uneven(
             uneven = ripple.torque(phasors, w, loads.mean_inertia)
         else:
             uneven = ripple.force(phasors, w, loads.mean_momentum if name == "couple" else 0.0)
-        found[name] = uneven.at(orders)
+        found[name] = uneven.select_orders(orders)
     return found
 
 
