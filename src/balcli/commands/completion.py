@@ -24,9 +24,9 @@ def complete_schemes(incomplete: str) -> list[str]:
 
 def complete_tables(incomplete: str) -> list[str]:
     """Printed tables, of `balcli tables`."""
-    from .. import tables  # numpy
+    from ..tables import registry  # numpy
 
-    return _beginning_with(incomplete, tables.NAMES)
+    return _beginning_with(incomplete, registry.NAMES)
 
 
 def complete_examples(incomplete: str) -> list[str]:
