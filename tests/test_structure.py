@@ -153,10 +153,10 @@ def test_core_knows_numpy_and_the_standard_library_alone(file):
 # for the eye.
 SHAPING = {
     ("balcli.results.analysis", "textbook"),
-    ("balcli.tables.table", "deviates"),
-    ("balcli.tables.table", "figure"),
-    ("balcli.tables.table", "rational"),
-    ("balcli.tables.table", "rounded"),
+    ("balcli.tables.recomputed", "deviates"),
+    ("balcli.tables.recomputed", "parse_decimal"),
+    ("balcli.tables.recomputed", "parse_fraction"),
+    ("balcli.tables.recomputed", "round_like"),
 }
 COMPUTING = (
     "balcli.results.analysis",
