@@ -14,7 +14,7 @@ from support.commands import run_command
 from support.engines import alone, engine
 from support.paths import ENGINES
 
-from balcli.core.mechanisms.harmonics import EPS
+from balcli.core.phasors import EPS
 from balcli.engine.build import Engine
 from balcli.forces.kinds import KINDS
 from balcli.forces.spectrum import spectra

@@ -14,9 +14,9 @@ from support.commands import refusal, run_here
 
 from balcli.core.mechanisms import slidercrank as sc
 from balcli.errors import BalcliError
-from balcli.tables import NAMES, Options, recompute, select
-from balcli.tables.ranges import crank_ratios, headings
-from balcli.tables.table import Explanation, Table, deviates
+from balcli.tables.ranges import Ranges, parse_crank_ratios, parse_range
+from balcli.tables.recomputed import Explanation, Table, deviates
+from balcli.tables.registry import NAMES, recompute, select_tables
 
 ERRATA = {  # printed figures that are not the exact ones rounded
     "tsinghua-1-1": 1,
@@ -125,10 +125,10 @@ def test_an_explanation_that_says_the_same_as_the_exact_value_is_none():
 
 # ---------------------------------------------------------------- other ranges
 def test_ranges_include_both_ends():
-    assert headings("0.20:0.40:0.1", "--angle") == ("0.2", "0.3", "0.4")
-    assert headings("0:180:60", "--angle") == ("0", "60", "120", "180")
-    assert headings("0.24,1/3,0.24", "--angle") == ("0.24", "1/3")
-    assert len(crank_ratios("0.20:0.40:0.01")) == 21
+    assert parse_range("0.20:0.40:0.1", "--angle") == ("0.2", "0.3", "0.4")
+    assert parse_range("0:180:60", "--angle") == ("0", "60", "120", "180")
+    assert parse_range("0.24,1/3,0.24", "--angle") == ("0.24", "1/3")
+    assert len(parse_crank_ratios("0.20:0.40:0.01")) == 21
 
 
 @pytest.mark.parametrize(
@@ -152,12 +152,12 @@ def test_bad_ranges(text):
     with pytest.raises(
         BalcliError, match=r"^--angle '.*' is no range: give START:STOP:STEP \(0.20:0.40:0.01\) or"
     ):
-        headings(text, "--angle")
+        parse_range(text, "--angle")
 
 
 def test_a_mechanism_that_cannot_turn():
     with pytest.raises(BalcliError) as error:
-        crank_ratios("0.9:1.1:0.1")
+        parse_crank_ratios("0.9:1.1:0.1")
     assert (
         str(error.value)
         == "--lambda '0.9:1.1:0.1': lambda = 1, but a crank turns only with 0 < lambda < 1"
@@ -176,7 +176,7 @@ def test_other_angles_and_ratios(name, function):
     """The print stands beside the exact values wherever it has the angle and the ratio, and only
     there.
     """
-    table = recompute(name, Options(lam=("0.3", "0.35"), angle=("70", "71.5")))
+    table = recompute(name, Ranges(lam=("0.3", "0.35"), angle=("70", "71.5")))
     place = table.columns.index("0.35")
     assert table.rows[1][place] == pytest.approx(float(function(np.radians(71.5), 0.35)), rel=1e-14)
     assert table.printed[0][place - 1] is not None
@@ -184,7 +184,7 @@ def test_other_angles_and_ratios(name, function):
 
 
 def test_the_acceleration_goes_on_to_180_degrees():
-    table = recompute("tsinghua-1-6", Options(angle=headings("0:180:5", "--angle")))
+    table = recompute("tsinghua-1-6", Ranges(angle=parse_range("0:180:5", "--angle")))
     assert len(table.rows) == 37
     assert len(table.errata) == ERRATA["tsinghua-1-6"]
     assert table.rows[-1][table.columns.index("0.32")] == pytest.approx(-(1 - 0.32), rel=1e-14)
@@ -195,7 +195,7 @@ def test_series_to_a_higher_power():
     """Leading coefficient of A_16: binomial series, (16)^2 (-1)^9 binom(16, 8)/(15 2^31)."""
     from math import comb
 
-    table = recompute("series", Options(power=15))
+    table = recompute("series", Ranges(power=15))
     leading = [row[3] for row in table.rows if row[:3] == ("acceleration A_n (r w^2)", 16, 15)]
     assert leading == [str(Fraction(-(16**2) * comb(16, 8), 15 * 2**31))]
 
@@ -278,4 +278,4 @@ def test_wrong_names_and_options_are_refused(arguments, message):
 
 
 def test_select_without_a_name_gives_all():
-    assert tuple(t.name for t in select(None)) == NAMES
+    assert tuple(t.name for t in select_tables(None)) == NAMES

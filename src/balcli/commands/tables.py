@@ -68,9 +68,9 @@ def tables(
     """
     from ..render import errata as errata_renderer
     from ..render import printed_table, table_list
-    from ..tables import select
+    from ..tables.registry import select_tables
 
-    chosen = select(name, lam, angle, power)
+    chosen = select_tables(name, lam, angle, power)
     if errata:
         show([chosen], errata_renderer, form, output)
     elif name:

@@ -8,7 +8,14 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any, NamedTuple
 
-from ..tables.table import Cell, Table, deviates, figure, rational, rounded
+from ..tables.recomputed import (
+    Cell,
+    Table,
+    deviates,
+    parse_decimal,
+    parse_fraction,
+    round_like,
+)
 from .csv import Rows
 from .sheet import Facts, Grid, Sheet
 from .units import System
@@ -62,7 +69,9 @@ def rows(result: RoundedTable, _system: System) -> Rows:
 def count_deviations(table: Table) -> str:
     """A sentence on how many of the printed figures are not the exact ones rounded."""
     words = [text for row in table.printed for text in row[table.stub :] if text is not None]
-    printed = sum(figure(text) is not None or rational(text) is not None for text in words)
+    printed = sum(
+        parse_decimal(text) is not None or parse_fraction(text) is not None for text in words
+    )
     wrong = len(table.errata)
     if not printed:
         return "nothing printed to compare with"
@@ -80,7 +89,7 @@ def _shown(table: Table, i: int, j: int, digits: int | None) -> str:
 
 
 def _is_word(cell: Cell) -> bool:
-    return isinstance(cell, str) and figure(cell) is None and rational(cell) is None
+    return isinstance(cell, str) and parse_decimal(cell) is None and parse_fraction(cell) is None
 
 
 def _rounded_like(text: str | None, value: Cell, digits: int | None) -> str:
@@ -89,13 +98,13 @@ def _rounded_like(text: str | None, value: Cell, digits: int | None) -> str:
     """
     if not isinstance(value, (int, float)):
         return value or ""
-    like = figure(text) if text else None
+    like = parse_decimal(text) if text else None
     whole = text is not None and text.lstrip("+-").isdigit() and float(value).is_integer()
     if digits is not None and not whole:
         return f"{value:.{digits}f}"
     if like is None or text is None:
         return f"{value:.6g}"
-    shown = f"{rounded(value, like):f}"
+    shown = f"{round_like(value, like):f}"
     if text.lstrip("+-").startswith(".") and abs(value) < 1:
         shown = shown.replace("0.", ".", 1)
     return f"+{shown}" if text.startswith("+") else shown

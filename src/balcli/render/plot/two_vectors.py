@@ -21,7 +21,7 @@ _SHOWN_AT = 36  # degrees of the order's own angle: both vectors are then seen a
 
 def draw_order(ax: Axes, curve: Phasors, k: int, what: str, unit: Unit) -> None:
     """Draw the k-th order: its ellipse, and the two rotating vectors whose sum it is."""
-    one = curve.at(curve.orders[[k]])
+    one = curve.select_orders(curve.orders[[k]])
     order, phase = order_number(curve.orders[k]), np.exp(1j * np.radians(_SHOWN_AT))
     s = choose_scale(unit, float(one.major[0]))
     values = one.values(FINE)
