@@ -50,11 +50,12 @@ def test_version(balcli):
     assert balcli("--version") == (0, f"balcli {__version__}\n", "")
 
 
-def test_help_names_every_command(balcli):
+def test_help_lists_every_command_once_and_in_order(balcli):
     for flag in ("--help", "-h"):
         status, out, err = balcli(flag)
         assert (status, err) == (0, "")
-        assert [name for name in COMMANDS if name not in out] == []
+        listed = re.findall(r"(?m)^│ ([a-z]+) {2,}\S", out.partition(" Commands ")[2])
+        assert listed == list(COMMANDS)
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -83,7 +84,7 @@ def usage(command: str, message: str) -> str:
         ),
     ],
 )
-def test_bad_usage(balcli, args, command, message):
+def test_wrong_usage_shows_how_a_command_is_used(balcli, args, command, message):
     status, out, err = balcli(*args)
     assert (status, out) == (2, "")
     assert re.sub(r"\{?FILE\.\.\.\}?(\.\.\.)?", "{FILE...}...", err) == usage(command, message)
@@ -167,7 +168,7 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         ),
     ],
 )
-def test_bad_input(balcli, args, message):
+def test_bad_input_is_told_in_one_line(balcli, args, message):
     assert balcli(*args) == (2, "", f"balcli: {message}\n")
 
 
@@ -190,7 +191,7 @@ def test_a_warning_does_not_stop_the_analysis(balcli, tmp_path):
 
 # ------------------------------------------------------------------ formats
 @pytest.mark.parametrize("form", Format)
-def test_every_format(balcli, good, form):
+def test_a_format_is_what_its_name_says(balcli, good, form):
     """Each is what its name says, ends in one newline, and holds the second-order force of the same
     analysis.
     """
@@ -286,7 +287,7 @@ def test_what_is_left_out_is_no_key(balcli, only, keys, whole):
     assert set(document) - {"format", "engine", "speed_rpm", "reference_mm", "orders"} == whole
 
 
-def test_by_cylinder(balcli, good):
+def test_shares_of_the_cylinders_add_up(balcli, good):
     document = json.loads(
         balcli("analyze", good, "--format", "json", "--by", "cylinder", "--orders", "2")[1]
     )
@@ -305,7 +306,7 @@ def test_speed_displaces_the_files(balcli, good):
     assert two["orders"][1]["force_N"]["major"] == 4 * one["orders"][1]["force_N"]["major"]
 
 
-def test_imperial_units(balcli, good):
+def test_imperial_figures_are_the_metric_ones_in_other_units(balcli, good):
     def values(*more):
         rows = csv.DictReader(io.StringIO(balcli("analyze", good, "--format", "csv", *more)[1]))
         return {
@@ -508,15 +509,18 @@ def test_headings_of_rows_stay_whole_in_a_narrow_terminal(balcli, monkeypatch):
     "name", ["v8_crossplane", "vr6", "radial9", "w12", "i4_shafts", "single", "tsinghua_12v135q"]
 )
 def test_a_terminal_gets_lines_of_its_width(balcli, monkeypatch, name, columns):
-    """No line is wider, and none of the table's cells is broken."""
+    """No line is wider, and no figure that stands in it without a width is broken."""
     from rich.cells import cell_len
 
+    args = "analyze", ENGINES / f"{name}.toml", "--by", "cylinder"
+    figures = set(re.findall(r"\S*\d\S*", balcli(*args).out))
     monkeypatch.setenv("COLUMNS", str(columns))
     monkeypatch.setenv("TERM", "xterm-256color")
-    out = balcli("analyze", ENGINES / f"{name}.toml", "--by", "cylinder", terminal=True)[1]
+    out = balcli(*args, terminal=True).out
     assert "\x1b[1m" in out
-    lines = ESCAPE.sub("", out).splitlines()
-    assert max(map(cell_len, lines)) <= columns
+    plain = ESCAPE.sub("", out)
+    assert max(map(cell_len, plain.splitlines())) <= columns
+    assert figures - set(plain.split()) == set()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a pseudo-terminal")

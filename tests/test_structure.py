@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import get_type_hints
 
 import pytest
+from support import imports
 from support.paths import ENGINES, PACKAGE, ROOT
 
 import balcli
@@ -147,6 +148,26 @@ def test_core_knows_numpy_and_the_standard_library_alone(file):
         and not module.startswith("balcli.core")
     }
     assert strangers == set()
+
+
+# Imported by a function with a reason that stands beside it.
+BESIDE_A_REASON = {("balcli.__main__", "balcli.cli")}
+
+
+@pytest.mark.parametrize("module", imports.FILES)
+def test_own_modules_are_imported_late_only_where_that_spares_a_library(module):
+    """Numpy and pydantic for the help of a command, for one."""
+    needless = {
+        other
+        for other in imports.later(module)
+        if other in imports.FILES and not imports.weight(other) - imports.weight(module)
+    }
+    assert {(module, other) for other in needless} <= BESIDE_A_REASON
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_and_completion_of_a_command_wait_for_no_library(command):
+    assert imports.weight(f"balcli.commands.{command}") <= {"typer"}
 
 
 # Types and constants of a room may be named by what shows them, functions not: these shape figures

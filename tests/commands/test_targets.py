@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 from functools import partial
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -202,10 +203,11 @@ def test_a_disk_that_fills_up_during_a_sweep(balcli, good, monkeypatch):
     Path("out.csv").write_text("old")
     before = contents()
 
-    def full(*_: object) -> None:
+    def full(*_: object) -> Iterator[str]:
+        yield "crank.stroke,force.2.major\n"
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("balcli.commands.sweep_output._write_text", full)
+    monkeypatch.setattr("balcli.commands.sweep_output.csv_text", full)
     assert balcli("sweep", good, "--vary", "crank.stroke=80,90", "-o", "out.csv") == (
         2,
         "",
@@ -290,6 +292,7 @@ def test_a_signal_leaves_the_older_file_and_nothing_beside_it(good, name):
     before, number = contents(), getattr(signal, name)
     code = f"""
 import os, signal
+from collections.abc import Iterator
 from pathlib import Path
 from balcli.commands import output
 from balcli.process import end_on_signals

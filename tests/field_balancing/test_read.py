@@ -140,7 +140,7 @@ CASES = [
 
 
 @pytest.mark.parametrize(("text", "message"), CASES)
-def test_mistakes(text, message):
+def test_every_mistake_of_a_file_of_runs_is_told(text, message):
     assert message in mistakes(text)
 
 

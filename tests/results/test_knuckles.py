@@ -105,7 +105,7 @@ def test_an_articulation_in_one_line_is_written_anew(tmp_path):
     assert np.abs(even_knuckles(enginefile.read(out)).before.top_deg).max() < 1e-9
 
 
-def test_for_people(tmp_path):
+def test_a_table_says_which_angles_are_even_and_what_is_left(tmp_path):
     file = tmp_path / "radial.toml"
     file.write_text(RADIAL)
     text = run(file, "--even", "strokes", "--speed", "2000").out

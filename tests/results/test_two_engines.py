@@ -132,7 +132,7 @@ def run(*arguments):
     return run_here("sum", *arguments)
 
 
-def test_json(file):
+def test_json_has_the_arrangement_and_the_orders_of_both(file):
     document = json.loads(
         run(
             file, file, "--phase", "180", "--at", "0,0,100", "--orders", "1,2", "--format", "json"

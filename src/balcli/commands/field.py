@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from ..enginefile.toml_text import name_of
 from ..errors import BalcliError, Exit, say
 from ..render.formats import Format
 from .options import FormatOption, Output
@@ -64,8 +65,6 @@ def field(
     `balcli new field runs.toml` writes a file to start from: planes, then a run as found and one
     with a trial weight in each plane.
     """
-    from ..enginefile.toml_text import name_of
-
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     from ..field_balancing.balance import balance_rotor, find_doubts
     from ..field_balancing.read import read_runs

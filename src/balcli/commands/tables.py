@@ -6,6 +6,8 @@ from typing import Annotated
 
 import typer
 
+from ..render import errata as errata_renderer
+from ..render import printed_table, table_list
 from ..render.formats import Format
 from .completion import complete_tables
 from .options import FormatOption, Output
@@ -66,8 +68,6 @@ def tables(
     """The printed coefficient tables of five books and papers, recomputed, and every misprint in
     them.
     """
-    from ..render import errata as errata_renderer
-    from ..render import printed_table, table_list
     from ..tables.registry import select_tables
 
     chosen = select_tables(name, lam, angle, power)

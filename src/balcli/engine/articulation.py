@@ -10,6 +10,10 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from ..core.cylinders import Cylinders
+from ..core.mechanisms.articulated import Articulated
+from ..core.mechanisms.linkage import STEPS, revolution
+from ..core.mechanisms.rotary import Rotary
+from ..core.phasors import unit
 from ..enginefile.fields import counted
 from ..enginefile.model import Articulation, EngineFile
 from ..errors import Problem
@@ -107,9 +111,6 @@ def linkage(
     table = file.articulation
     if table is None:
         return None
-    from ..core.mechanisms.articulated import Articulated
-    from ..core.phasors import unit
-
     chief = masters(file, layout)
     sense = (
         -1 if file.layout.rotary else 1
@@ -136,10 +137,6 @@ def locked(file: EngineFile, c: Cylinders, numbers: Sequence[int]) -> Iterator[P
     """Articulated cylinders whose rod cannot follow its knuckle pin all the way round."""
     if file.articulation is None or c.linkage is None:
         return
-    from ..core.mechanisms.articulated import Articulated
-    from ..core.mechanisms.linkage import STEPS, revolution
-    from ..core.mechanisms.rotary import Rotary
-
     linkage = c.linkage
     hung = cast(Articulated, linkage.hung if isinstance(linkage, Rotary) else linkage)
     with np.errstate(invalid="ignore"):  # beyond 1 there is no angle

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ..core import speed_ripple as ripple
 from ..core.cylinders import Cylinders, Device
 from ..core.mechanisms import harmonics
+from ..core.mechanisms.rotary import Rotary
 from ..enginefile.model import Bobweight, EngineFile
 from ..errors import InputError, Problem
 from ..limits import MOST_SAMPLES
@@ -28,8 +29,6 @@ from .rods import Parts, mistakes, own_or, rod_of
 
 if TYPE_CHECKING:
     from ..core.mechanisms.articulated import Articulated
-    from ..core.mechanisms.rotary import Rotary
-
 STANDSTILL = 1e-12  # of the mean speed: rounding
 
 
@@ -298,8 +297,6 @@ def _cylinders(
 
 
 def _rotary(at_pistons: NDArray[np.float64], hung: Articulated | None) -> Rotary:
-    from ..core.mechanisms.rotary import Rotary
-
     if hung is None:
         return Rotary(at_pistons)
     both = at_pistons + hung.mass

@@ -13,8 +13,12 @@ import numpy as np
 from ..core.mechanisms import harmonics
 from ..core.peaks import Peak, peak
 from ..core.phasors import Array
+from ..core.strokes import travel
 from ..engine.build import Engine
 from ..errors import BalcliError
+from ..forces import symmetry
+from ..forces.crankshaft import inner
+from ..forces.guide_moments import guide
 from ..forces.kinds import KINDS, SCALARS, VECTORS, Kind
 from ..forces.spectrum import (
     Spectra,
@@ -200,28 +204,20 @@ def _extras(engine: Engine, asked: Array | None, wanted: Collection[str]) -> dic
     """What is computed only where it is asked for, or where the engine has it."""
     found: dict[str, Any] = {}
     if "inner" in wanted:
-        from ..forces.crankshaft import inner
-
         found["inner"] = inner(engine, asked)
     if "guide" in wanted:
-        from ..forces.guide_moments import guide
-
         found["guide"] = guide(engine, asked)
     if engine.cylinders.linkage is not None:
-        from ..core.strokes import travel
-
         found["travel"] = travel(engine.cylinders)
     return found
 
 
 def _explained(engine: Engine, orders: Array, quantities: Collection[str]) -> Why:
-    from ..forces.symmetry import QUANTITIES, why
-
     turning = any(kind.name in quantities for kind in SCALARS)
-    return why(
+    return symmetry.why(
         engine,
         orders[orders > 0],
-        [q for q in QUANTITIES if q in quantities or (q == "turning" and turning)],
+        [q for q in symmetry.QUANTITIES if q in quantities or (q == "turning" and turning)],
     )
 
 

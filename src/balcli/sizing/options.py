@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ..engine.build import Engine
+from ..enginefile.fields import nearest
 from ..errors import BalcliError
 from ..limits import HIGHEST_ORDER_SOUGHT, HIGHEST_SHAFT_ORDER
 from .effects import Rest, rest
@@ -105,8 +106,6 @@ def options(scheme: str) -> Sequence[str]:
             "scheme knuckles sizes no devices but changes the engine file: `balcli balance "
             "--scheme knuckles` does so"
         )
-    from ..enginefile.fields import nearest
-
     near = nearest(scheme, NAMES)
     meant = f"did you mean {near}? " if near else ""
     raise BalcliError(f"there is no scheme {scheme[:60]!r}: {meant}choose from {', '.join(NAMES)}")

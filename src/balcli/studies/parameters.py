@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from ..engine.layout import plan
 from ..enginefile.fields import Number, nearest
 from ..enginefile.messages import DEVICES, TABLES
 from ..enginefile.model import EngineFile, Override, Table
@@ -99,8 +100,6 @@ def _marks(annotation: Any) -> Iterator[Any]:
 
 
 def _plan(file: EngineFile) -> Plan:
-    from ..engine.layout import plan
-
     return plan(file.crank, file.layout)
 
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..core.mechanisms import closed_form
 from ..enginefile.examples import folder
 from .printed import Print
 from .ranges import Ranges
@@ -35,7 +36,6 @@ def tabulate_layouts(printed: Print, ranges: Ranges) -> Table:
 
 
 def _row(name: str) -> Row:
-    from ..core.mechanisms import closed_form
     from ..engine.build import build
     from ..engine.load import parse
     from ..forces.spectrum import spectra

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..core.mechanisms.slidercrank import rod_acceleration
 from ..enginefile import units
 from ..enginefile.units import STANDARD_GRAVITY
 from .printed import Print
@@ -92,7 +93,6 @@ def _second(gravity: float = STANDARD_GRAVITY) -> Row:
     """Section 1-4: hk, q^2, their difference, peak of beta''/p, residual couple in ft lb (all at 90
     degrees).
     """
-    from ..core.mechanisms.slidercrank import rod_acceleration
     from ..forces.curves import engine_curves
 
     engine = _engine(SECOND)

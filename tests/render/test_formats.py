@@ -1,0 +1,108 @@
+"""Every kind of result in every format, as its command shows it."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+
+import pytest
+from support import imports
+from support.commands import run_here
+from support.paths import ENGINES
+from support.rotors import three_runs
+
+from balcli.bench import bench
+from balcli.commands import output
+from balcli.render.formats import Format
+
+V6, V8, SINGLE = (ENGINES / f"{name}.toml" for name in ("vr6", "v8_crossplane", "single"))
+RUNS = three_runs()
+SHOWN = {  # by renderer
+    "analyses": ("analyze", V6, V8, "--only", "force,roll,peak,inner,guide", "--why"),
+    "balance": ("balance", SINGLE, "--scheme", "factor", "--factor", "0:1:0.25"),
+    "bench": ("bench",),
+    "comparison": ("compare", V6, V8),
+    "errata": ("tables", "liu-3", "--errata"),
+    "field_balancing": ("field", "-"),
+    "printed_table": ("tables", "liu-1"),
+    "search": ("search", V8, "--over", "throws", "--minimise", "moment.1.major"),
+    "table_list": ("tables",),
+    "tolerances": ("scatter", V8, "--samples", "100", "--seed", "1"),
+    "two_engines": ("sum", V6, SINGLE),
+}
+
+
+@pytest.fixture
+def show(monkeypatch):
+    """Runs the command of a renderer, which has to be the one that is called."""
+    called = []
+    render = output.render
+
+    def recorded(results, renderer, *args, **options):
+        called.append(renderer.__name__)
+        return render(results, renderer, *args, **options)
+
+    rows = (bench.Row("task", "method", 1e-6, None), bench.Row("task", "other", 2e-6, 1e-3))
+    measured = bench.Bench(rows, (bench.Ratio("one to other", 2.0),))
+    monkeypatch.setattr(output, "render", recorded)
+    monkeypatch.setattr(bench, "bench", lambda: measured)
+
+    def run(name: str, form: Format) -> str:
+        status, out, err = run_here(*SHOWN[name], "--format", form, stdin=RUNS)
+        assert (status, err) == (0, "")
+        assert called == [f"balcli.render.{name}"]
+        return out
+
+    return run
+
+
+def test_every_renderer_is_shown_here():
+    """A renderer is a module with these three functions; that of one analysis serves `analyses`."""
+    found = {
+        name.rpartition(".")[2]
+        for name, file in imports.FILES.items()
+        if name.startswith("balcli.render.")
+        and len(re.findall(r"^def (?:sheet|document|rows)\(", file.read_text("utf-8"), re.M)) == 3
+    }
+    assert found == {*SHOWN, "analysis"}
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_a_table_is_text_without_blanks_at_the_ends_of_lines(show, name):
+    lines = show(name, Format.TABLE).splitlines()
+    assert lines[0]
+    assert [line for line in lines if line != line.rstrip()] == []
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_markdown_has_a_title_and_tables_whose_rows_are_as_wide_as_their_headings(show, name):
+    text = show(name, Format.MARKDOWN)
+    assert text.startswith("# ")
+    tables = re.findall(r"(?:^\|.*\n)+", text, re.M)
+    assert tables
+    for table in tables:
+        assert len({len(re.findall(r"(?<!\\)\|", row)) for row in table.splitlines()}) == 1
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_csv_has_one_header_and_rows_of_its_width(show, name):
+    header, *rows = csv.reader(io.StringIO(show(name, Format.CSV)))
+    assert len(set(header)) == len(header)
+    assert rows
+    assert {len(row) for row in rows} == {len(header)}
+    assert header not in rows
+    assert not {"nan", "inf", "None", "True", "False"} & {cell for row in rows for cell in row}
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_json_is_one_document_a_line_without_what_json_has_no_word_for(show, name):
+    def refuse(constant):
+        raise AssertionError(constant)
+
+    lines = show(name, Format.JSON).splitlines()
+    assert len(lines) == (2 if name == "analyses" else 1)
+    for line in lines:
+        document = json.loads(line, parse_constant=refuse)
+        assert isinstance(document, list) or document["format"].startswith("balcli.")
