@@ -21,7 +21,7 @@ from balcli.render.plot import style
 from balcli.render.plot.axes import choose_scale
 from balcli.render.plot.bars import draw_vector_bars, visible_rows
 from balcli.render.plot.locus import count_repeats, draw_locus
-from balcli.render.plot.pages import PAGES, Subject, form_of, picture
+from balcli.render.plot.pages import PAGES, Subject, draw_page
 from balcli.render.units import IMPERIAL, SI
 from balcli.results.analysis import analyze
 
@@ -42,18 +42,18 @@ def four():
 @pytest.mark.parametrize("what", ANALYSES)
 def test_every_page_in_every_form(what, four):
     for form in style.FORMS:
-        assert picture(Subject(four), what, form).startswith(MAGIC[form])
+        assert draw_page(Subject(four), what, form).startswith(MAGIC[form])
 
 
 @pytest.mark.parametrize("what", ANALYSES)
 def test_before_and_after(what, four):
-    compared = ET.fromstring(picture(Subject(four.sizing.after, four), what, "svg"))
+    compared = ET.fromstring(draw_page(Subject(four.sizing.after, four), what, "svg"))
     assert ("before" in " ".join(compared.itertext())) == (what != "orders")
 
 
 @pytest.mark.parametrize("form", style.FORMS)
 def test_the_same_picture_is_the_same_bytes(form, four):
-    assert len({picture(Subject(four), "all", form) for _ in range(4)}) == 1
+    assert len({draw_page(Subject(four), "all", form) for _ in range(4)}) == 1
 
 
 @pytest.mark.parametrize("form", style.FORMS)
@@ -61,25 +61,25 @@ def test_a_hostile_name_stays_text_and_warns_of_nothing(form, four):
     subject = Subject(replace(four, engine=replace(four.engine, name=HOSTILE)))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        data = picture(subject, "polar", form)
+        data = draw_page(subject, "polar", form)
     if form == "svg":
         root = ET.fromstring(data)
         assert not [e for e in root.iter() if e.tag.endswith("script")]
-        assert style.plain(HOSTILE) + ", 3000 rpm" in [
+        assert style.fit_name(HOSTILE) + ", 3000 rpm" in [
             e.text for e in root.iter() if e.tag.endswith("text")
         ]
 
 
 def test_names_are_cut_to_a_title():
-    assert style.plain("a\nb\x00c  d") == "a b c d"
-    assert style.plain("x" * 500) == "x" * 89 + "…"
+    assert style.fit_name("a\nb\x00c  d") == "a b c d"
+    assert style.fit_name("x" * 500) == "x" * 89 + "…"
 
 
 def test_nothing_global_is_left_changed():
     import matplotlib
 
     before = dict(matplotlib.rcParams)
-    with style.figure(2, 2, "png") as figure:
+    with style.open_figure(2, 2, "png") as figure:
         figure.subplots()
     assert dict(matplotlib.rcParams) == before
 
@@ -88,7 +88,7 @@ def test_matplotlib_is_imported_for_pictures_only():
     code = (
         "import sys\nimport balcli.render.plot.pages\nfrom balcli.render.plot import "
         "style\nassert 'matplotlib' not in sys.modules\n"
-        "with style.figure(2, 2, 'png') as f: f.subplots(); style.saved(f, 'png')\nassert "
+        "with style.open_figure(2, 2, 'png') as f: f.subplots(); style.save_figure(f, 'png')\nassert "
         "'matplotlib.pyplot' not in sys.modules"
     )
     assert run_python("-c", code).returncode == 0
@@ -99,18 +99,22 @@ def test_the_command_offers_every_page():
 
 
 def test_forms_by_name(tmp_path):
-    assert [form_of(tmp_path / f"x.{s}") for s in ("svg", "PNG", "pdf")] == ["svg", "png", "pdf"]
+    assert [style.find_form(tmp_path / f"x.{s}") for s in ("svg", "PNG", "pdf")] == [
+        "svg",
+        "png",
+        "pdf",
+    ]
     with pytest.raises(
         BalcliError,
         match=r"x\.jpg: a picture is written as \.svg, \.png or \.pdf; give a name that ends so",
     ):
-        form_of(tmp_path.parent / "x.jpg")
+        style.find_form(tmp_path.parent / "x.jpg")
 
 
 # ------------------------------------------------------------------ what is drawn
 @pytest.fixture
 def ax():
-    with style.figure(3, 3, "svg") as figure:
+    with style.open_figure(3, 3, "svg") as figure:
         yield figure.subplots()
 
 
@@ -178,7 +182,7 @@ def test_an_even_engine_repeats_its_locus(four):
 
 
 def test_in_a_page_colours_follow_it_and_ids_are_its_own(four):
-    text = style.inline(picture(Subject(four), "polar", "svg"), "here")
+    text = style.inline_svg(draw_page(Subject(four), "polar", "svg"), "here")
     assert text.startswith("<svg")
     assert "var(--ink)" in text
     assert not any(colour in text for colour in style.NAMES)

@@ -12,7 +12,7 @@ from balcli.core.mechanisms import harmonics
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.render.plot.pages import Subject, picture
+from balcli.render.plot.pages import Subject, draw_page
 from balcli.studies.pictures import over_bank_angle, study
 
 VEE = changed(("firing_order = [1, 3, 4, 2]", "bank_angle = 75\nstagger = 20"))
@@ -109,11 +109,11 @@ def test_only_a_vee_has_a_bank_angle(text, reason):
 )
 def test_pictures_of_studies_are_the_same_each_time(what, text):
     subject = Subject(**study(engine(text), what)._asdict())
-    assert picture(subject, what, "svg") == picture(subject, what, "svg")
+    assert draw_page(subject, what, "svg") == draw_page(subject, what, "svg")
 
 
 def test_the_page_of_factors_names_the_best():
-    page = picture(Subject(**study(engine(CROSS), "factor")._asdict()), "factor", "svg")
+    page = draw_page(Subject(**study(engine(CROSS), "factor")._asdict()), "factor", "svg")
     assert "best at 0.5<" in page.decode()
 
 

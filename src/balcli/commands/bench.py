@@ -16,6 +16,6 @@ def bench(form: FormatOption = Format.TABLE, output: Output = None) -> None:
 
     found = measure()
     if output is not None and output.suffix == ".svg":
-        write_file(renderer.draw(found), output)
+        write_file(renderer.draw_bench(found), output)
         output = None
     show([found], renderer, form, output)

@@ -59,11 +59,12 @@ def plot(
     angle.
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
-    from ..render.plot.pages import Subject, form_of, picture
+    from ..render.plot.pages import Subject, draw_page
+    from ..render.plot.style import find_form
     from ..studies.pictures import study
     from .inputs import read_engine
 
-    form, asked = form_of(output), parse_orders(orders)
+    form, asked = find_form(output), parse_orders(orders)
     engine = read_engine(path, check_speed(speed)).engine
     subject = Subject(system=SYSTEMS[units], **study(engine, what, asked, scheme)._asdict())
-    write_file(picture(subject, what, form), output)
+    write_file(draw_page(subject, what, form), output)

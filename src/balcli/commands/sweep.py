@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from ..errors import Exit
-from ..render.sweep_plot import draw
+from ..render.sweep_plot import draw_sweep
 from .options import EnginePath, Output, SeriesFormat
 from .output import write_file
 from .overwrite_guard import refuse_overwriting
@@ -85,4 +85,4 @@ def sweep(
         typer.echo(f"balcli: stopped after {interrupt.done} of {job.variants} variants", err=True)
         raise typer.Exit(Exit.INTERRUPTED)
     if plot:
-        write_file(draw(job, studies.grid(job)), plot)
+        write_file(draw_sweep(job, studies.grid(job)), plot)

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from typing import Any
 
 from ..results.analysis import Analysis, Sizing, textbook
-from . import crankshaft, figures, guide_moments, strokes, symmetry
+from . import crankshaft, guide_moments, strokes, symmetry
 from .csv import Rows
 from .devices import device_entries, device_grid
 from .engine_facts import engine_facts
-from .figures import clean, order_entries, peaks
+from .figures import FigureRow, clean, figure_rows, order_entries, peak_entries
 from .order_tables import cylinder_table, order_tables, peak_facts, textbook_tables
 from .sheet import Facts, Grid, Sheet, Text
 from .terminal_plot import sketches
@@ -61,8 +61,8 @@ def document(result: Analysis) -> dict[str, Any]:
         "reference_mm": [clean(v * 1e3) for v in engine.reference_m],
         "orders": order_entries(result.spectra),
     }
-    if largest_values := peaks(result):
-        found["peak"] = largest_values
+    if largest := peak_entries(result):
+        found["peak"] = largest
     if result.sizing is not None:
         found["sizing"] = {
             "scheme": result.sizing.remedy.scheme,
@@ -87,7 +87,7 @@ def document(result: Analysis) -> dict[str, Any]:
 
 def brief_document(result: Analysis) -> dict[str, Any]:
     """Peaks and orders alone, where the engine is known."""
-    return {"peak": peaks(result), "orders": order_entries(result.spectra)}
+    return {"peak": peak_entries(result), "orders": order_entries(result.spectra)}
 
 
 def rows(result: Analysis, system: System) -> Rows:
@@ -97,8 +97,8 @@ def rows(result: Analysis, system: System) -> Rows:
     )
 
 
-def _all_rows(result: Analysis, system: System) -> Iterator[figures.Row]:
-    yield from figures.rows(result, system)
+def _all_rows(result: Analysis, system: System) -> Iterator[FigureRow]:
+    yield from figure_rows(result, system)
     if result.travel is not None:
         yield from strokes.rows(result.travel, result.engine.numbers, system)
     if result.inner is not None:

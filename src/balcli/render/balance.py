@@ -12,11 +12,10 @@ from ..core.peaks import Peak
 from ..forces.kinds import FORCE, MOMENT, ROLL
 from ..results.balance import Balance
 from ..sizing.sizing import Remedy
-from . import figures
 from .analysis import brief_document
 from .csv import Rows
 from .devices import device_entries, device_grid, device_rows, practical_entry
-from .figures import clean, order_number
+from .figures import clean, figure_rows, order_number
 from .sheet import Facts, Grid, Sheet, Text, degrees, number
 from .units import System, Unit
 
@@ -319,7 +318,7 @@ def _all_rows(result: Balance, system: System) -> Iterator[tuple[Any, ...]]:
     for name, value in _with_paths(details_document(result.remedy)):
         yield "details", "", "", name, value, ""
     for state, analysis in (("before", result.before), ("after", result.after)):
-        for row in figures.rows(analysis, system):
+        for row in figure_rows(analysis, system):
             yield state, row.quantity, row.order, row.figure, row.value, row.unit
 
 

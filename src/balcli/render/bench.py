@@ -47,7 +47,7 @@ def sheet(result: Bench, _system: System) -> Sheet:
             f"{task[0].upper()}{task[1:]}",
             ("method", "µs", "relative error"),
             tuple(
-                (r.method, number(r.seconds * 1e6, 3), error(r))
+                (r.method, number(r.seconds * 1e6, 3), _error(r))
                 for r in result.rows
                 if r.task == task
             ),
@@ -62,15 +62,15 @@ def sheet(result: Bench, _system: System) -> Sheet:
     return Sheet("Run time against error", (*grids, ratios))
 
 
-def error(row: Row) -> str:
+def _error(row: Row) -> str:
     """Two digits, where it is more than rounding."""
     return "–" if row.error is None else "rounding" if row.error < ROUNDING else f"{row.error:.1e}"
 
 
-def draw(result: Bench) -> bytes:
+def draw_bench(result: Bench) -> bytes:
     """SVG: run time and error of every method, a panel a task, both axes logarithmic."""
     tasks = list(dict.fromkeys(r.task for r in result.rows))
-    with style.figure(5.2 * len(tasks), 4.6, "svg") as page:
+    with style.open_figure(5.2 * len(tasks), 4.6, "svg") as page:
         for axes, task in zip(page.subplots(1, len(tasks), squeeze=False)[0], tasks, strict=True):
             points = [r for r in result.rows if r.task == task and r.error is not None]
             for r in points:
@@ -86,4 +86,4 @@ def draw(result: Bench) -> bytes:
                 axis.set_major_formatter(
                     lambda value, _: f"{value:.0e}" if not 0.01 <= value < 1e5 else f"{value:g}"
                 )
-        return style.saved(page, "svg")
+        return style.save_figure(page, "svg")

@@ -9,7 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .figures import Row, clean, order_number, order_rows, peak_rows, vector
+from .figures import (
+    FigureRow,
+    clean,
+    order_number,
+    order_rows,
+    peak_angle_deg,
+    peak_rows,
+    vector_entries,
+)
 from .sheet import Facts, Grid, degrees, number
 
 if TYPE_CHECKING:
@@ -54,7 +62,7 @@ def document(inner: Inner) -> dict[str, Any]:
     return found
 
 
-def rows(inner: Inner, system: System) -> Iterator[Row]:
+def rows(inner: Inner, system: System) -> Iterator[FigureRow]:
     """The figures of every place. Places are numbered along the crank: `shear 1` has its position
     as a figure.
     """
@@ -100,17 +108,18 @@ def _entry(along: Along, k: int) -> dict[str, Any]:
     peak, here = along.peaks[k], along.at(k)
     return {
         "peak": clean(peak.value),
-        "peak_deg": clean(np.degrees(peak.theta)) if peak.value else None,
+        "peak_deg": peak_angle_deg(peak),
         "orders": [
-            {"order": order_number(n), **vector(here, row)} for row, n in enumerate(here.orders)
+            {"order": order_number(n)} | entry
+            for n, entry in zip(here.orders, vector_entries(here), strict=True)
         ],
     }
 
 
-def _rows_along(name: str, along: Along, unit: Unit, length: Unit) -> Iterator[Row]:
+def _rows_along(name: str, along: Along, unit: Unit, length: Unit) -> Iterator[FigureRow]:
     for k, z in enumerate(along.z_m):
         here, place = along.at(k), f"{name} {k + 1}"
-        yield Row(0, place, None, "position", clean(length.of(z)), length.name)
+        yield FigureRow(0, place, None, "position", clean(length.of(z)), length.name)
         yield from peak_rows(place, along.peaks[k], unit)
-        for row, n in enumerate(here.orders):
-            yield from order_rows(place, n, vector(here, row), unit)
+        for n, entry in zip(here.orders, vector_entries(here), strict=True):
+            yield from order_rows(place, n, entry, unit)

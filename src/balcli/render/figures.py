@@ -27,7 +27,7 @@ class Result(Protocol):
     def cylinders(self) -> tuple[tuple[int, Spectra], ...]: ...
 
 
-class Row(NamedTuple):
+class FigureRow(NamedTuple):
     """One figure of a result; `cylinder` 0 is the engine, order None the whole curve."""
 
     cylinder: int
@@ -39,6 +39,7 @@ class Row(NamedTuple):
 
 
 def order_number(order: float) -> int | float:
+    """An order as it is written: whole ones without a point."""
     return int(order) if order == int(order) else float(order)
 
 
@@ -48,41 +49,49 @@ def clean(value: Any) -> float | None:
     return None if number != number else number + 0.0
 
 
-def figures(kind: Kind, phasors: Phasors, k: int) -> dict[str, Any]:
-    """All figures of the k-th order of a kind, SI and degrees."""
-    return vector(phasors, k) if kind.vector else scalar(phasors, k)
+Entry = dict[str, Any]  # the figures of one order of one kind, as JSON nests them
 
 
-def vector(phasors: Phasors, k: int) -> dict[str, Any]:
-    """Force or moment of the k-th order."""
-    phasors, k = (
-        phasors.select_orders(phasors.orders[k : k + 1]),
-        0,
-    )  # else each figure would be computed for all orders each time
-    forward, backward = phasors.forward[k], phasors.backward[k]
-    return {
-        "forward": [clean(forward.real), clean(forward.imag)],
-        "backward": [clean(backward.real), clean(backward.imag)],
-        "major": clean(phasors.major[k]),
-        "minor": clean(phasors.minor[k]),
-        "axis_deg": clean(phasors.axis_deg[k]),
-        "x": _component(phasors.x[k], phasors.orders[k]),
-        "y": _component(phasors.y[k], phasors.orders[k]),
-        "balanced": bool(phasors.balanced[k]),
-    }
+def kind_entries(kind: Kind, phasors: Phasors) -> list[Entry]:
+    """All figures of a kind, SI and degrees, an entry an order."""
+    return vector_entries(phasors) if kind.vector else scalar_entries(phasors)
 
 
-def scalar(phasors: Phasors, k: int) -> dict[str, Any]:
-    """Couple, torque or roll of the k-th order."""
-    phasors, k = phasors.select_orders(phasors.orders[k : k + 1]), 0
-    c, order = phasors.x[k], phasors.orders[k]
-    return {
-        "cos": clean(c.real),
-        "sin": clean(-c.imag),
-        "amplitude": clean(abs(c)),
-        "peak_deg": peak_deg(c, order),
-        "balanced": bool(phasors.balanced[k]),
-    }
+def vector_entries(phasors: Phasors) -> list[Entry]:
+    """Forces or moments as JSON has them, an entry an order."""
+    columns = (
+        *(phasors.forward, phasors.backward, phasors.major, phasors.minor, phasors.axis_deg),
+        *(phasors.x, phasors.y, phasors.orders, phasors.balanced),
+    )
+    return [
+        {
+            "forward": [clean(forward.real), clean(forward.imag)],
+            "backward": [clean(backward.real), clean(backward.imag)],
+            "major": clean(major),
+            "minor": clean(minor),
+            "axis_deg": clean(axis_deg),
+            "x": _component_entry(x, order),
+            "y": _component_entry(y, order),
+            "balanced": bool(balanced),
+        }
+        for forward, backward, major, minor, axis_deg, x, y, order, balanced in zip(
+            *columns, strict=True
+        )
+    ]
+
+
+def scalar_entries(phasors: Phasors) -> list[Entry]:
+    """Couples, torques or rolls as JSON has them, an entry an order."""
+    return [
+        {
+            "cos": clean(c.real),
+            "sin": clean(-c.imag),
+            "amplitude": clean(abs(c)),
+            "peak_deg": peak_deg(c, order),
+            "balanced": bool(balanced),
+        }
+        for c, order, balanced in zip(phasors.x, phasors.orders, phasors.balanced, strict=True)
+    ]
 
 
 def peak_deg(c: complex, order: float) -> float | None:
@@ -95,7 +104,7 @@ def peak_deg(c: complex, order: float) -> float | None:
     return clean(angle if angle < 360 / order else 0.0)
 
 
-def _component(c: complex, order: float) -> dict[str, float | None]:
+def _component_entry(c: complex, order: float) -> dict[str, float | None]:
     """`amplitude cos(n theta - phase)`."""
     return {"amplitude": clean(abs(c)), "phase_deg": phase_deg(c) if c and order else None}
 
@@ -106,61 +115,63 @@ def phase_deg(c: complex) -> float:
     return angle + 360 if angle <= -180 else angle + 0.0
 
 
-def entries(spectra: Spectra, k: int) -> dict[str, dict[str, Any]]:
-    """All kinds of the k-th order by their JSON keys."""
-    return {kind.key: figures(kind, phasors, k) for kind, phasors in spectra.items()}
-
-
-def order_entries(spectra: Spectra) -> list[dict[str, Any]]:
-    """What JSON says order by order."""
+def order_entries(spectra: Spectra) -> list[Entry]:
+    """What JSON says order by order: all kinds by their keys."""
+    columns = [(kind.key, kind_entries(kind, phasors)) for kind, phasors in spectra.items()]
     return [
-        {"order": order_number(order), **entries(spectra, k)}
+        {"order": order_number(order)} | {key: entries[k] for key, entries in columns}
         for k, order in enumerate(spectra.orders)
     ]
 
 
-def peaks(analysis: Result) -> dict[str, float | None]:
-    """The largest force and moment over a revolution."""
+def peak_entries(result: Result) -> dict[str, float | None]:
+    """What JSON says of the largest values over a revolution."""
     found: dict[str, float | None] = {}
-    for kind, peak in analysis.peaks:
+    for kind, peak in result.peaks:
         found[kind.key] = clean(peak.value)
-        found[f"{kind.name}_deg"] = clean(np.degrees(peak.theta)) if peak.value else None
+        found[f"{kind.name}_deg"] = peak_angle_deg(peak)
     return found
 
 
+def peak_angle_deg(peak: Peak) -> float | None:
+    """The crank angle of the largest value, None where that is 0."""
+    return clean(np.degrees(peak.theta)) if peak.value else None
+
+
 # ------------------------------------------------------------------ as a list
-def rows(analysis: Result, system: System) -> Iterator[Row]:
-    """Every figure of an analysis, one a row."""
-    for cylinder, spectra in ((0, analysis.spectra), *analysis.cylinders):
+def figure_rows(result: Result, system: System) -> Iterator[FigureRow]:
+    """Every figure of the orders and the peaks, one a row."""
+    for cylinder, spectra in ((0, result.spectra), *result.cylinders):
+        columns = [(kind, kind_entries(kind, phasors)) for kind, phasors in spectra.items()]
         for k, order in enumerate(spectra.orders):
-            for kind, phasors in spectra.items():
-                entry = figures(kind, phasors, k)
-                yield from order_rows(kind.name, order, entry, system.unit(kind), cylinder)
-    for kind, peak in analysis.peaks:
+            for kind, entries in columns:
+                unit = system.unit(kind)
+                yield from order_rows(kind.name, order, entries[k], unit, cylinder)
+    for kind, peak in result.peaks:
         yield from peak_rows(kind.name, peak, system.unit(kind))
 
 
-def peak_rows(quantity: str, peak: Peak, unit: Unit) -> Iterator[Row]:
+def peak_rows(quantity: str, peak: Peak, unit: Unit) -> Iterator[FigureRow]:
     """The largest value over a revolution, and its crank angle."""
-    yield Row(0, quantity, None, "peak", clean(unit.of(peak.value)), unit.name)
-    yield Row(
-        0, quantity, None, "peak_deg", clean(np.degrees(peak.theta)) if peak.value else None, "deg"
-    )
+    yield FigureRow(0, quantity, None, "peak", clean(unit.of(peak.value)), unit.name)
+    yield FigureRow(0, quantity, None, "peak_deg", peak_angle_deg(peak), "deg")
 
 
 def order_rows(
-    quantity: str, order: float, entry: dict[str, Any], unit: Unit, cylinder: int = 0
-) -> Iterator[Row]:
-    """All figures of one order, as JSON has them."""
-    return (Row(cylinder, quantity, order_number(order), *figure) for figure in _flat(entry, unit))
+    quantity: str, order: float, entry: Entry, unit: Unit, cylinder: int = 0
+) -> Iterator[FigureRow]:
+    """All figures of one order; the entry is SI as in JSON, the rows are in the unit."""
+    for figure in _flattened(entry, unit):
+        yield FigureRow(cylinder, quantity, order_number(order), *figure)
 
 
-def _flat(
-    entry: dict[str, Any], unit: Unit, prefix: str = ""
+def _flattened(
+    entry: Entry, unit: Unit, prefix: str = ""
 ) -> Iterator[tuple[str, float | bool | None, str]]:
+    """Name, value and unit of every figure of an entry: `x_amplitude` from `x` and `amplitude`."""
     for name, value in entry.items():
         if isinstance(value, dict):
-            yield from _flat(value, unit, f"{prefix}{name}_")
+            yield from _flattened(value, unit, f"{prefix}{name}_")
         elif isinstance(value, list):
             for axis, part in zip("xy", value, strict=True):
                 yield f"{prefix}{name}_{axis}", unit.of(part), unit.name

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from .figures import Row, order_number, order_rows, scalar
+from .figures import FigureRow, order_number, order_rows, scalar_entries
 from .sheet import Grid, number
 
 if TYPE_CHECKING:
@@ -32,20 +32,22 @@ def sheet_parts(guide: Guide, system: System) -> Iterator[Grid]:
 
 def document(guide: Guide) -> dict[str, Any]:
     """`guide` in `balcli.analysis/1`: an entry an order."""
-    orders = [
-        {"order": order_number(n), "h_Nm": scalar(guide.h, k)}
-        | ({} if guide.x is None else {"x_Nm": scalar(guide.x, k)})
-        for k, n in enumerate(guide.h.orders)
-    ]
+    orders: list[dict[str, Any]] = [{"order": order_number(n)} for n in guide.h.orders]
+    for key, moment in (("h_Nm", guide.h), ("x_Nm", guide.x)):
+        if moment is not None:
+            for order, entry in zip(orders, scalar_entries(moment), strict=True):
+                order[key] = entry
     return {"includes": "inertia, without gas", "orders": orders}
 
 
-def rows(guide: Guide, system: System) -> Iterator[Row]:
+def rows(guide: Guide, system: System) -> Iterator[FigureRow]:
     """The figures of every order, first of the H-type, then of the X-type."""
+    columns = [("guide_h", scalar_entries(guide.h))]
+    if guide.x is not None:
+        columns.append(("guide_x", scalar_entries(guide.x)))
     for k, order in enumerate(guide.h.orders):
-        yield from order_rows("guide_h", order, scalar(guide.h, k), system.moment)
-        if guide.x is not None:
-            yield from order_rows("guide_x", order, scalar(guide.x, k), system.moment)
+        for name, entries in columns:
+            yield from order_rows(name, order, entries[k], system.moment)
 
 
 def _largest(moment: Phasors, k: int, unit: Unit) -> str:

@@ -12,7 +12,7 @@ from ..results.analysis import Analysis
 from ..results.balance import Balance
 from . import analysis, balance
 from .page_scene import scene
-from .plot.pages import Subject, panel
+from .plot.pages import Subject, draw_panel
 from .sheet import Facts, Grid, Sheet, Text
 from .units import System
 
@@ -48,8 +48,8 @@ def page(result: Analysis, balanced: Balance, system: System) -> str:
         remedy=remedy.parts,
         fitted=fitted,
         scene=scene(result, balanced.after if fitted else None, system),
-        pictures=[Markup(panel(now, *each)) for each in _PICTURES],
-        compared=[Markup(panel(after, *each)) for each in _COMPARED] if fitted else [],
+        pictures=[Markup(draw_panel(now, *each)) for each in _PICTURES],
+        compared=[Markup(draw_panel(after, *each)) for each in _COMPARED] if fitted else [],
         style=Markup((FOLDER / "report.css").read_text(encoding="utf-8")),
         script=Markup((FOLDER / "report.js").read_text(encoding="utf-8")),
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 
 from ..errors import legible
 from .sheet import Facts, Grid, Sheet, Text
@@ -11,15 +12,13 @@ _SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~])")
 
 
 def markdown(sheets: list[Sheet]) -> str:
-    """All sheets, one after the other."""
-    return (
-        "\n\n".join(
-            block
-            for sheet in sheets
-            for block in [f"# {escape(sheet.title)}", *map(_part, sheet.parts)]
-        )
-        + "\n"
-    )
+    """All sheets as Markdown, one after the other."""
+    blocks = [
+        block
+        for sheet in sheets
+        for block in (f"# {escape(sheet.title)}", *map(_part, sheet.parts))
+    ]
+    return "\n\n".join(blocks) + "\n"
 
 
 def escape(text: str) -> str:
@@ -27,20 +26,19 @@ def escape(text: str) -> str:
     return _SPECIAL.sub(r"\\\1", legible(text.replace("\n", " ")))
 
 
+def _blocks(sheet: Sheet) -> Iterator[str]:
+    """Title and parts, which blank lines separate."""
+    yield f"# {escape(sheet.title)}"
+    yield from map(_part, sheet.parts)
+
+
 def _part(part: Grid | Facts | Text) -> str:
     head = f"## {escape(part.title)}\n\n" if part.title else ""
     match part:
         case Grid():
-            marked = [
-                [
-                    f"**{escape(cell)}**" if (i, k) in part.marked else escape(cell)
-                    for k, cell in enumerate(row)
-                ]
-                for i, row in enumerate(part.rows)
-            ]
-            rule = ["---" if k in part.words else "---:" for k in range(len(part.columns))]
-            lines = [_row([escape(c) for c in part.columns]), _row(rule), *map(_row, marked)]
-            return head + "\n".join(lines) + (f"\n\n{escape(part.note)}" if part.note else "")
+            return (
+                head + "\n".join(_lines(part)) + (f"\n\n{escape(part.note)}" if part.note else "")
+            )
         case Facts():
             return head + "\n".join(
                 f"- {escape(name)}: {escape(value)}" for name, value in part.pairs
@@ -49,5 +47,16 @@ def _part(part: Grid | Facts | Text) -> str:
             return head + "\n\n".join(escape(p) for p in part.paragraphs)
 
 
-def _row(cells: list[str]) -> str:
+def _lines(grid: Grid) -> Iterator[str]:
+    """Heading, rule and rows of a table."""
+    yield _line(map(escape, grid.columns))
+    yield _line("---" if k in grid.words else "---:" for k in range(len(grid.columns)))
+    for i, row in enumerate(grid.rows):
+        yield _line(
+            f"**{escape(cell)}**" if (i, k) in grid.marked else escape(cell)
+            for k, cell in enumerate(row)
+        )
+
+
+def _line(cells: Iterable[str]) -> str:
     return "| " + " | ".join(cells) + " |"

@@ -24,16 +24,16 @@ def scene(now: Analysis, after: Analysis | None, system: System) -> dict[str, An
     """The mechanism, and what shakes as the engine is and with devices fitted."""
     engine = now.engine
     stroke, bore = 2e3 * float(engine.cylinders.radius), clean(engine.bore_m * 1e3)
-    variants = [_variant("as in the file", now, system)]
+    variants = [_variant_entry("as in the file", now, system)]
     if after is not None:
-        variants.append(_variant("with the devices fitted", after, system))
+        variants.append(_variant_entry("with the devices fitted", after, system))
     return {
         "stroke": stroke,
         "bore": bore or ASSUMED_BORE * stroke,
         "rotary": isinstance(engine.cylinders.linkage, Rotary),
-        "cylinders": _cylinders(engine),
+        "cylinders": _cylinder_entries(engine),
         "variants": variants,
-        "units": {"force": _unit(system.force), "moment": _unit(system.moment)},
+        "units": {"force": _unit_entry(system.force), "moment": _unit_entry(system.moment)},
         "orders": [
             order_number(n)
             for n in now.orders
@@ -42,9 +42,9 @@ def scene(now: Analysis, after: Analysis | None, system: System) -> dict[str, An
     }
 
 
-def _cylinders(engine: Engine) -> list[dict[str, Any]]:
-    """One entry a cylinder: axis, its own crank angle at crank angle 0, rod, offset, place; knuckle
-    pin and master's row.
+def _cylinder_entries(engine: Engine) -> list[dict[str, Any]]:
+    """One entry a cylinder, mm and degrees: axis, its own crank angle at crank angle 0, rod,
+    offset, place; knuckle pin and master's row.
     """
     c, linkage = engine.cylinders, engine.cylinders.linkage
     rods = linkage.hung if isinstance(linkage, Rotary) else linkage
@@ -73,18 +73,18 @@ def _cylinders(engine: Engine) -> list[dict[str, Any]]:
     return found
 
 
-def _variant(label: str, result: Analysis, system: System) -> dict[str, Any]:
+def _variant_entry(label: str, result: Analysis, system: System) -> dict[str, Any]:
     force, moment = result.spectra.force, result.spectra.moment
     return {
         "label": label,
-        "devices": [_device(d) for d in result.engine.devices],
-        "force": [] if force is None else _rows(force, system.force),
-        "moment": [] if moment is None else _rows(moment, system.moment),
+        "devices": [_device_entry(d) for d in result.engine.devices],
+        "force": [] if force is None else _vector_rows(force, system.force),
+        "moment": [] if moment is None else _vector_rows(moment, system.moment),
     }
 
 
-def _rows(phasors: Phasors, unit: Unit) -> list[list[float]]:
-    """order, forward x and y, backward x and y."""
+def _vector_rows(phasors: Phasors, unit: Unit) -> list[list[float]]:
+    """A row an order: the order, forward x and y, backward x and y."""
     vectors = zip(phasors.orders, phasors.forward, phasors.backward, strict=True)
     return [
         [float(n), *(unit.of(float(v)) + 0.0 for v in (f.real, f.imag, b.real, b.imag))]
@@ -92,12 +92,12 @@ def _rows(phasors: Phasors, unit: Unit) -> list[list[float]]:
     ]
 
 
-def _unit(unit: Unit) -> dict[str, str]:
+def _unit_entry(unit: Unit) -> dict[str, str]:
     return {"name": unit.name, "thousand": f"k{unit.name}" if unit.size == 1 else ""}
 
 
-def _device(device: Device) -> dict[str, Any]:
-    """Unbalance in g mm."""
+def _device_entry(device: Device) -> dict[str, Any]:
+    """A device for the page: unbalance in g mm, places in mm."""
     forward, backward, place = (complex(v) for v in (device.forward, device.backward, device.place))
     return {
         "order": order_number(device.order),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from .figures import Row, clean
+from .figures import FigureRow, clean
 from .sheet import Grid, number
 
 if TYPE_CHECKING:
@@ -39,13 +39,15 @@ def document(travel: Travel, numbers: Sequence[int]) -> list[dict[str, Any]]:
     ]
 
 
-def rows(travel: Travel, numbers: Sequence[int], system: System) -> Iterator[Row]:
+def rows(travel: Travel, numbers: Sequence[int], system: System) -> Iterator[FigureRow]:
     """Three figures a cylinder."""
     length = system.length
     for n, row in _by_number(numbers):
-        yield Row(n, "travel", None, "stroke", clean(length.of(travel.stroke[row])), length.name)
-        yield Row(n, "travel", None, "top_deg", clean(travel.top_deg[row]), "deg")
-        yield Row(n, "travel", None, "bottom_deg", clean(travel.bottom_deg[row]), "deg")
+        yield FigureRow(
+            n, "travel", None, "stroke", clean(length.of(travel.stroke[row])), length.name
+        )
+        yield FigureRow(n, "travel", None, "top_deg", clean(travel.top_deg[row]), "deg")
+        yield FigureRow(n, "travel", None, "bottom_deg", clean(travel.bottom_deg[row]), "deg")
 
 
 def _by_number(numbers: Sequence[int]) -> list[tuple[int, int]]:

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 LEVELS = 12
 
 
-def draw(sweep: Sweep, values: list[Array]) -> bytes:
-    """SVG.
+def draw_sweep(sweep: Sweep, values: list[Array]) -> bytes:
+    """Draw the sweep as SVG: curves over one parameter, or contours over two.
 
     Raises:
         BalcliError: more than two parameters, or fewer than two values of one.
@@ -26,18 +26,20 @@ def draw(sweep: Sweep, values: list[Array]) -> bytes:
             f"--plot draws one or two parameters with several values each, not {len(several)}"
         )
     if len(several) == 1:
-        with style.figure(7, 4.2, "svg") as page:
-            _curves(page.subplots(), sweep, values)
-            return style.saved(page, "svg")
-    with style.figure(6 * len(values), 4.8, "svg") as page:
+        with style.open_figure(7, 4.2, "svg") as page:
+            _draw_curves(page.subplots(), sweep, values)
+            return style.save_figure(page, "svg")
+    with style.open_figure(6 * len(values), 4.8, "svg") as page:
         for axes, quantity, value in zip(
             page.subplots(1, len(values), squeeze=False)[0], sweep.quantities, values, strict=True
         ):
-            _contours(page, axes, several, value.squeeze(), f"{quantity.name}, {quantity.unit}")
-        return style.saved(page, "svg")
+            _draw_contours(
+                page, axes, several, value.squeeze(), f"{quantity.name}, {quantity.unit}"
+            )
+        return style.save_figure(page, "svg")
 
 
-def _curves(axes: Any, sweep: Sweep, values: list[Array]) -> None:
+def _draw_curves(axes: Any, sweep: Sweep, values: list[Array]) -> None:
     parameter = next(p for p in sweep.parameters if len(p) > 1)
     looks = [
         (colour, line)
@@ -58,7 +60,7 @@ def _curves(axes: Any, sweep: Sweep, values: list[Array]) -> None:
     axes.legend()
 
 
-def _contours(figure: Any, axes: Any, parameters: Any, value: Array, title: str) -> None:
+def _draw_contours(figure: Any, axes: Any, parameters: Any, value: Array, title: str) -> None:
     first, second = parameters
     filled = axes.contourf(second.values, first.values, value, LEVELS)
     figure.colorbar(filled, ax=axes)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from .figures import Row, clean
+from .figures import FigureRow, clean
 from .sheet import Text
 
 if TYPE_CHECKING:
@@ -23,11 +23,11 @@ def document(why: Why) -> dict[str, Any]:
     return {"reasons": [asdict(reason) for reason in why.reasons], "firing": why.firing}
 
 
-def rows(why: Why) -> Iterator[Row]:
+def rows(why: Why) -> Iterator[FigureRow]:
     """Two figures a reason: what decides, and what is left in units of one cylinder's."""
     for reason in why.reasons:
         about = 0, reason.quantity, reason.order
-        yield Row(*about, "why", reason.verdict, "")
-        yield Row(*about, "why_size", clean(reason.size), "of one cylinder")
+        yield FigureRow(*about, "why", reason.verdict, "")
+        yield FigureRow(*about, "why_size", clean(reason.size), "of one cylinder")
     if why.firing:
-        yield Row(0, "firing", None, "why", why.firing, "")
+        yield FigureRow(0, "firing", None, "why", why.firing, "")

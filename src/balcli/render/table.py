@@ -60,7 +60,7 @@ def _pieces(part: Grid | Facts | Text, width: int) -> Iterator[Any]:
             if part.note:
                 yield Line(part.note, style="dim")
         case Facts():
-            yield _facts(part)
+            yield _facts_table(part)
         case Text():
             yield from part.paragraphs
 
@@ -69,37 +69,37 @@ def _fitting(grid: Grid, width: int) -> Iterator[Table]:
     """The table as wide as it likes to be, else narrowed; figures are never broken, so one that is
     still too wide comes in pieces, each with the first column.
     """
-    natural = [max(map(len, _texts(grid, k))) for k in range(len(grid.columns))]
+    natural = [max(map(len, _column_texts(grid, k))) for k in range(len(grid.columns))]
     if width == UNLIMITED:
         natural = [
             min(size, PROSE) if k and k in grid.words else size for k, size in enumerate(natural)
         ]
     for gap in (3, 2):
         if sum(natural) + gap * (len(natural) - 1) <= width:
-            yield _grid(grid, dict(enumerate(natural)), gap)
+            yield _grid_table(grid, dict(enumerate(natural)), gap)
             return
     breakable = tuple(name.replace("_", " ") for name in grid.columns)
     grid = grid._replace(columns=breakable)
     least = [
-        max((len(word) for text in _texts(grid, k) for word in text.split()), default=1)
+        max((len(word) for text in _column_texts(grid, k) for word in text.split()), default=1)
         for k in range(len(grid.columns))
     ]
     least[0] = max(least[0], min(natural[0], LABEL))
     piece = [0]
     for k in range(1, len(least)):
         if len(piece) > 1 and sum(least[j] for j in [*piece, k]) + 2 * len(piece) > width:
-            yield _grid(grid, _shared_out(width, piece, least, natural), 2)
+            yield _grid_table(grid, _share_out(width, piece, least, natural), 2)
             piece = [0]
         piece.append(k)
-    yield _grid(grid, _shared_out(width, piece, least, natural), 2)
+    yield _grid_table(grid, _share_out(width, piece, least, natural), 2)
 
 
-def _texts(grid: Grid, k: int) -> list[str]:
+def _column_texts(grid: Grid, k: int) -> list[str]:
     """Everything that stands in a column."""
     return [grid.columns[k], *(row[k] for row in grid.rows)]
 
 
-def _shared_out(
+def _share_out(
     width: int, columns: list[int], least: list[int], natural: list[int]
 ) -> dict[int, int]:
     """Width of each column: the least, and what is left over to the one that lacks most, until
@@ -112,7 +112,7 @@ def _shared_out(
     return widths
 
 
-def _grid(grid: Grid, widths: dict[int, int], gap: int) -> Table:
+def _grid_table(grid: Grid, widths: dict[int, int], gap: int) -> Table:
     from rich import box
     from rich.table import Table
     from rich.text import Text as Cell
@@ -133,7 +133,7 @@ def _grid(grid: Grid, widths: dict[int, int], gap: int) -> Table:
     return table
 
 
-def _facts(facts: Facts) -> Table:
+def _facts_table(facts: Facts) -> Table:
     from rich.table import Table
 
     table = Table.grid(padding=(0, 2))

@@ -29,7 +29,8 @@ def sketches(result: Analysis, system: System) -> Iterator[Text]:
         )
     if shown:
         blocks = [
-            [f"{kind.name}, {_size(p, unit)}".ljust(2 * SIDE), *locus(p)] for kind, p, unit in shown
+            [f"{kind.name}, {_largest_size(p, unit)}".ljust(2 * SIDE), *locus(p)]
+            for kind, p, unit in shown
         ]
         yield Text(
             "Over a revolution: x up, y right, + at crank angle 0",
@@ -66,27 +67,27 @@ def locus(phasors: Phasors) -> list[str]:
     dots, grid = 4 * SIDE, np.zeros((SIDE, 2 * SIDE), int)
     middle = dots // 2
     for k in range(0, dots, 4):
-        _dot(grid, k, middle)
-        _dot(grid, middle, k)
-    for row, column in sorted({_place(v, middle) for v in curve / (largest or 1)}):
-        _dot(grid, row, column)
+        _set_dot(grid, k, middle)
+        _set_dot(grid, middle, k)
+    for row, column in sorted({_dot_place(v, middle) for v in curve / (largest or 1)}):
+        _set_dot(grid, row, column)
     lines = [[chr(0x2800 + bits) if bits else " " for bits in row] for row in grid]
     if largest:
-        row, column = _place(complex(curve[0] / largest), middle)
+        row, column = _dot_place(complex(curve[0] / largest), middle)
         lines[row // 4][column // 2] = "+"
     return ["".join(line) for line in lines]
 
 
-def _place(v: complex, middle: int) -> tuple[int, int]:
+def _dot_place(v: complex, middle: int) -> tuple[int, int]:
     """Row and column of the dot for a vector of at most 1."""
     return round(middle - (middle - 1) * v.real), round(middle + (middle - 1) * v.imag)
 
 
-def _dot(grid: np.ndarray, row: int, column: int) -> None:
+def _set_dot(grid: np.ndarray, row: int, column: int) -> None:
     grid[row // 4, column // 2] |= _DOTS[row % 4][column % 2]
 
 
-def _size(phasors: Phasors, unit: Unit) -> str:
+def _largest_size(phasors: Phasors, unit: Unit) -> str:
     curve: Complex = phasors.values(np.radians(np.arange(0, 360, 0.25)))
     largest = float(np.abs(curve).max())
     return f"up to {number(unit.of(largest), 4)} {unit.name}" if largest else "none"

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from . import figures
 from .csv import Rows
-from .figures import clean, order_entries, peaks
+from .figures import clean, figure_rows, order_entries, peak_entries
 from .order_tables import order_tables, peak_facts
 from .sheet import Facts, Sheet, number
 
@@ -37,14 +36,14 @@ def document(result: Combined) -> dict[str, Any]:
         "speed_rpm": clean(first.speed_rpm),
         "reference_mm": [clean(v * 1e3) for v in first.reference_m],
         "orders": order_entries(result.spectra),
-        "peak": peaks(result),
+        "peak": peak_entries(result),
     }
 
 
 def rows(result: Combined, system: System) -> Rows:
     """CSV: a figure a line, of both engines together."""
     header = ("quantity", "order", "figure", "value", "unit")
-    return Rows(header, [row[1:] for row in figures.rows(result, system)])
+    return Rows(header, [row[1:] for row in figure_rows(result, system)])
 
 
 def sheet(result: Combined, system: System) -> Sheet:

@@ -30,7 +30,7 @@ NEGLIGIBLE = 1e-3
 _UNKNOWN: Mapping[str, float] = MappingProxyType({})
 
 
-class _Found(NamedTuple):
+class _Vector(NamedTuple):
     """Force or moment, and what one cylinder makes of it (0: not known)."""
 
     what: str
@@ -53,93 +53,86 @@ def verdict(
     `single`: force (N) and moment (N m) of one cylinder's reciprocating mass, beside which an order
     may be negligible.
     """
-    found = [
-        _Found(kind.name, phasors, system.unit(kind), single.get(kind.name, 0.0))
+    vectors = [
+        _Vector(kind.name, phasors, system.unit(kind), single.get(kind.name, 0.0))
         for kind, phasors in spectra.vectors()
     ]
-    if not found:
+    if not vectors:
         return ()
     rows = [(k, order) for k, order in enumerate(spectra.orders) if order >= 1]
-    high = tuple(filter(None, (_high(k, order, found) for k, order in rows if order > 2)))
-    if not any(one.matters(k) for k, _ in rows for one in found):
-        high = tuple(filter(None, [_rest([(k, order) for k, order in rows if order > 2], found)]))
-    return (*(_low(k, int(order), found) for k, order in rows if order <= 2), *high)
+    higher = [(k, order) for k, order in rows if order > 2]
+    told = [_tell_low_order(k, int(order), vectors) for k, order in rows if order <= 2]
+    if any(vector.matters(k) for k, _ in rows for vector in vectors):
+        told += [_tell_high_order(k, order, vectors) for k, order in higher]
+    else:
+        told.append(_tell_negligible(higher, vectors))
+    return tuple(filter(None, told))
 
 
-def _name(order: float) -> str:
+def _order_name(order: float) -> str:
     return f"{_NAMES.get(int(order)) or f'{order:g}th'} order"
 
 
-def _low(k: int, order: int, found: list[_Found]) -> str:
+def _tell_low_order(k: int, order: int, vectors: list[_Vector]) -> str:
     """Orders 1 and 2: what is there, which way it turns, and what meets it."""
-    there = [_vector(k, order, one) for one in found if not one.phasors.balanced[k]]
-    free = [one.what for one in found if one.phasors.balanced[k]]
+    there = [_tell_vector(k, order, vector) for vector in vectors if not vector.phasors.balanced[k]]
+    free = [vector.what for vector in vectors if vector.phasors.balanced[k]]
     if not there:
-        return f"{_name(order)}: free of {' and '.join(free)}."
+        return f"{_order_name(order)}: free of {' and '.join(free)}."
     rest = [f"no {what}." for what in free]
-    return f"{_name(order)}: " + " ".join([there[0], *map(capitalized, [*there[1:], *rest])])
+    return f"{_order_name(order)}: " + " ".join([there[0], *map(capitalized, [*there[1:], *rest])])
 
 
-def _high(k: int, order: float, found: list[_Found]) -> str:
-    """Higher orders: their size, if it is worth a word."""
+def _tell_high_order(k: int, order: float, vectors: list[_Vector]) -> str:
+    """A higher order: its size, if it is worth a word."""
     sizes = [
-        f"{one.what} up to {one.size(k)}"
-        for one in found
-        if one.matters(k) and one.phasors.major[k] > NEGLIGIBLE * one.phasors.major.max()
+        f"{vector.what} up to {vector.size(k)}"
+        for vector in vectors
+        if vector.matters(k) and vector.phasors.major[k] > NEGLIGIBLE * vector.phasors.major.max()
     ]
-    return (
-        f"{_name(order)}: {', '.join(sizes)}; rarely balanced, it would take shafts at {order:g} "
-        "times crank speed."
-        if sizes
-        else ""
-    )
+    if not sizes:
+        return ""
+    cure = f"rarely balanced, it would take shafts at {order:g} times crank speed"
+    return f"{_order_name(order)}: {', '.join(sizes)}; {cure}."
 
 
-def _rest(rows: list[tuple[int, float]], found: list[_Found]) -> str:
+def _tell_negligible(higher: list[tuple[int, float]], vectors: list[_Vector]) -> str:
     """The largest of the higher orders, where nothing is left that matters."""
-    largest = [(max(rows, key=lambda row: one.phasors.major[row[0]]), one) for one in found if rows]
-    told = [
-        f"a {one.what} of {one.size(k)} in order {order:g}"
-        for (k, order), one in largest
-        if one.phasors.major[k]
-    ]
+    told = []
+    for vector in vectors if higher else ():
+        k, order = max(higher, key=lambda row: vector.phasors.major[row[0]])
+        if vector.phasors.major[k]:
+            told.append(f"a {vector.what} of {vector.size(k)} in order {order:g}")
     return f"Higher orders: negligible, at most {' and '.join(told)}." if told else ""
 
 
-def _vector(k: int, order: int, found: _Found) -> str:
-    what, p, unit, size = found.what, found.phasors, found.unit, found.size(k)
-    if not found.matters(k):
+def _tell_vector(k: int, order: int, vector: _Vector) -> str:
+    """One vector of order 1 or 2: its size, how it turns, and what cancels it."""
+    what, phasors, unit, size = vector.what, vector.phasors, vector.unit, vector.size(k)
+    if not vector.matters(k):
         return f"{what} of up to {size}, negligible."
-    forward, backward = abs(p.forward[k]), abs(p.backward[k])
+    forward, backward = abs(phasors.forward[k]), abs(phasors.backward[k])
     if backward == 0:
-        cure = (
-            "counterweights on the crankshaft cancel it"
-            if order == 1
-            else _shafts(f"a shaft at +{order}")
-        )
+        by_weights = "counterweights on the crankshaft cancel it"
+        cure = by_weights if order == 1 else _cure_by_shafts(f"a shaft at +{order}")
         return f"{what} of {size}, turning with the crank: {cure}."
     if forward == 0:
-        return f"{what} of {size}, turning against the crank: {_shafts(f'a shaft at −{order}')}."
-    parts = (
-        f"{number(unit.of(forward), 4)} turns with the crank, {number(unit.of(backward), 4)} "
-        "against it"
-    )
-    cure = (
-        "counterweights cancel the first part, a shaft at −1 times crank speed the second"
-        if order == 1
-        else _shafts(f"shafts at +{order} and −{order}")
-    )
-    return f"{what} of up to {size} {_direction(what, float(p.axis_deg[k]))} ({parts}): {cure}."
+        cure = _cure_by_shafts(f"a shaft at −{order}")
+        return f"{what} of {size}, turning against the crank: {cure}."
+    by_both = "counterweights cancel the first part, a shaft at −1 times crank speed the second"
+    cure = by_both if order == 1 else _cure_by_shafts(f"shafts at +{order} and −{order}")
+    ahead, against = number(unit.of(forward), 4), number(unit.of(backward), 4)
+    parts = f"{ahead} turns with the crank, {against} against it"
+    direction = _tell_direction(what, float(phasors.axis_deg[k]))
+    return f"{what} of up to {size} {direction} ({parts}): {cure}."
 
 
-def _direction(what: str, axis_deg: float) -> str:
+def _tell_direction(what: str, axis_deg: float) -> str:
     """A force acts along an axis, a moment about it."""
     angle = degrees(axis_deg, 180)
-    return (
-        f"{'about' if what == 'moment' else 'along'} "
-        f"{_AXES.get(angle) or f'an axis at {angle} deg'}"
-    )
+    axis = _AXES.get(angle) or f"an axis at {angle} deg"
+    return f"{'about' if what == 'moment' else 'along'} {axis}"
 
 
-def _shafts(which: str) -> str:
+def _cure_by_shafts(which: str) -> str:
     return f"nothing on the crankshaft cancels it; it takes {which} times crank speed"

@@ -31,14 +31,14 @@ class Scale(NamedTuple):
 
 
 def choose_scale(unit: Unit, largest: float) -> Scale:
-    """The unit, or its thousandfold where figures would be long."""
+    """The unit for a picture, or its thousandfold where figures would be long; `largest` is SI."""
     if largest >= 5000 * unit.size and unit.name in _PREFIXES:
         return Scale(1e3 * unit.size, _PREFIXES[unit.name])
     return Scale(unit.size, unit.name)
 
 
 def set_up_plane(ax: Axes, curves: Sequence[Complex | None], what: str, s: Scale) -> float:
-    """A square with the origin in its middle, x up."""
+    """Make the axes a square with the origin in its middle, x up; returns its half side."""
     largest = max(np.abs(c).max(initial=0) for c in curves if c is not None) / s.size
     limit = float(largest or 1) * 1.25
     ax.set(
@@ -57,7 +57,7 @@ def set_up_plane(ax: Axes, curves: Sequence[Complex | None], what: str, s: Scale
 
 
 def put_legend_above(ax: Axes) -> None:
-    """On one line between the axes and their title."""
+    """Put the legend on one line between the axes and their title."""
     legend = ax.legend(
         loc="lower left",
         bbox_to_anchor=(0, 1),

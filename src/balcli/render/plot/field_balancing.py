@@ -11,8 +11,7 @@ import numpy as np
 from ...field_balancing.balance import FieldBalance, PlaneCorrection, find_angle_deg
 from ..field_balancing import find_label, find_senses
 from ..sheet import number
-from .pages import form_of
-from .style import BLUE, GREEN, INK, PAPER, RED, SOFT, figure, plain, saved
+from .style import BLUE, GREEN, INK, PAPER, RED, SOFT, find_form, fit_name, open_figure, save_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -26,9 +25,9 @@ _SIZE = (11.0, 6.2)
 
 def draw_field(result: FieldBalance, file: Path) -> bytes:
     """The picture in the form that the name of the file asks for, BalcliError if it is none."""
-    form = form_of(file)
+    form = find_form(file)
     phases, weights = find_senses(result)
-    with figure(*_SIZE, form) as fig:
+    with open_figure(*_SIZE, form) as fig:
         fig.set_layout_engine("none")
         left, right = (_add_polar(fig, place) for place in (0.06, 0.56))
         _draw_readings(left, result)
@@ -38,9 +37,9 @@ def draw_field(result: FieldBalance, file: Path) -> bytes:
         _set_up(
             right, weights, f"Weights, {result.file.weight_unit}; angles count {weights} rotation"
         )
-        name = plain(result.file.name or "rotor without a name")
+        name = fit_name(result.file.name or "rotor without a name")
         fig.suptitle(f"{name}: field balancing", x=0.01, ha="left")
-        return saved(fig, form)
+        return save_figure(fig, form)
 
 
 def _add_polar(fig: Figure, left: float) -> PolarAxes:
@@ -81,10 +80,10 @@ def _draw_readings(ax: PolarAxes, result: FieldBalance) -> None:
         ax.plot(angles[:1], sizes[:1], "o", color=SOFT, markerfacecolor=PAPER)
         ax.plot(angles[1:], sizes[1:], "o", color=BLUE, markersize=5, zorder=3)
         if len(before) <= _MOST_LABELLED:
-            label = f"{plain(find_label(result, k), 30)}: {number(abs(start), 3)}"
+            label = f"{fit_name(find_label(result, k), 30)}: {number(abs(start), 3)}"
             ax.annotate(label, (angles[0], sizes[0]), xytext=(6, 5), textcoords="offset points")
     state = result.influence.trimmed or "as found"
-    ax.plot([], [], "o", color=SOFT, markerfacecolor=PAPER, label=plain(state, 30))
+    ax.plot([], [], "o", color=SOFT, markerfacecolor=PAPER, label=fit_name(state, 30))
     ax.plot([], [], "o", color=BLUE, label="after (predicted)")
     ax.set_ylim(0, 1.25 * (float(np.abs(np.concatenate([before, after])).max()) or 1.0))
 
@@ -98,7 +97,9 @@ def _draw_weights(ax: PolarAxes, result: FieldBalance) -> None:
         wanted = p.step
         angles, sizes = _polar([0j, wanted])
         angles[0] = angles[1]
-        text = f"{plain(p.plane, 30)}: {number(abs(wanted), 3)} at {find_angle_deg(wanted):.1f} deg"
+        text = (
+            f"{fit_name(p.plane, 30)}: {number(abs(wanted), 3)} at {find_angle_deg(wanted):.1f} deg"
+        )
         ax.plot(angles, sizes, color=colour, linestyle=line, linewidth=2, label=text)
         ax.plot(angles[1:], sizes[1:], "o", color=colour, markersize=5)
         largest = max([largest, abs(wanted), *_draw_places(ax, p, colour, result)])

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 def draw_locus(
     ax: Axes, curve: Phasors, what: str, unit: Unit, before: Phasors | None = None
 ) -> None:
-    """Where the tip of the vector goes in a revolution, with crank angles along it; `before`: a
+    """Draw where the tip of the vector goes in a revolution, with crank angles along it; dashed a
     second locus to compare with.
     """
     values, old = _values_once(curve), None if before is None else _values_once(before)

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...core.phasors import Phasors
-from ...errors import BalcliError
 from ...forces.crankshaft import Inner
 from ...forces.kinds import KINDS, VECTORS
 from ...results.analysis import Analysis
@@ -20,7 +18,7 @@ from .bank_angle import draw_end_curves, draw_roses
 from .bars import draw_scalar_bars, draw_vector_bars, visible_rows
 from .crank_curves import draw_scalar_curves, draw_vector_curves
 from .locus import draw_locus
-from .style import FORMS, Form, figure, inline, plain, saved
+from .style import Form, fit_name, inline_svg, open_figure, save_figure
 from .two_vectors import draw_order
 
 if TYPE_CHECKING:
@@ -56,40 +54,28 @@ class Subject:
         return {kind.label: phasors for kind, phasors in self.now.spectra.scalars()}
 
 
-def form_of(file: Path) -> Form:
-    """The form that a file's name asks for.
-
-    Raises:
-        BalcliError: none that can be drawn.
-    """
-    for form in FORMS:
-        if file.suffix.lower() == f".{form}":
-            return form
-    raise BalcliError(
-        f"{file}: a picture is written as .svg, .png or .pdf; give a name that ends so"
-    )
-
-
-def picture(subject: Subject, what: str, form: Form) -> bytes:
-    """A page as a file's content. `what` is one of PAGES."""
+def draw_page(subject: Subject, what: str, form: Form) -> bytes:
+    """The content of a file with a page of pictures; `what` is one of PAGES."""
     width, height, layout = PAGES[what]
-    with figure(width, height, form) as fig:
+    with open_figure(width, height, form) as fig:
         layout(fig, subject)
         engine = subject.now.engine
         fig.suptitle(
-            f"{plain(engine.name) or 'engine without a name'}, {engine.speed_rpm:g} rpm",
+            f"{fit_name(engine.name) or 'engine without a name'}, {engine.speed_rpm:g} rpm",
             x=0.01,
             ha="left",
         )
-        return saved(fig, form)
+        return save_figure(fig, form)
 
 
-def panel(subject: Subject, what: str, quantity: str) -> str:
-    """One picture of one quantity to stand in a page of ours."""
-    with figure(*((4.2, 4.0) if what == "polar" else (5.2, 3.1)), "svg") as fig:
+def draw_panel(subject: Subject, what: str, quantity: str) -> str:
+    """One picture of one quantity, as an SVG to stand in a page of ours."""
+    with open_figure(*((4.2, 4.0) if what == "polar" else (5.2, 3.1)), "svg") as fig:
         fig.set_facecolor("none")
         _PANELS[what](fig, subject, quantity)
-        return inline(saved(fig, "svg"), f"{what}-{quantity}{'-after' if subject.before else ''}")
+        return inline_svg(
+            save_figure(fig, "svg"), f"{what}-{quantity}{'-after' if subject.before else ''}"
+        )
 
 
 # ------------------------------------------------------------------ layouts

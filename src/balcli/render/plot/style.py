@@ -11,7 +11,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from io import BytesIO
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
+
+from ...errors import BalcliError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -93,12 +96,27 @@ _EAST = (
 _UNDATED = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
 
 
+def find_form(path: Path) -> Form:
+    """The form that a file's name asks for.
+
+    Raises:
+        BalcliError: none that can be drawn.
+    """
+    for form in FORMS:
+        if path.suffix.lower() == f".{form}":
+            return form
+    raise BalcliError(
+        f"{path}: a picture is written as .svg, .png or .pdf; give a name that ends so"
+    )
+
+
 @contextmanager
-def figure(width: float, height: float, form: Form) -> Iterator[Figure]:
-    """A figure of that size in inches, in our style; save it (`saved`) before the context ends."""
-    logging.getLogger("matplotlib").setLevel(
-        logging.ERROR
-    )  # "building the font cache" is no news for our users
+def open_figure(width: float, height: float, form: Form) -> Iterator[Figure]:
+    """A figure of that size in inches, in our style; save it (`save_figure`) before the context
+    ends.
+    """
+    # "building the font cache" is no news for our users
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
     import matplotlib
     from matplotlib.figure import Figure as Page
 
@@ -106,12 +124,12 @@ def figure(width: float, height: float, form: Form) -> Iterator[Figure]:
         warnings.filterwarnings("ignore", message="Glyph .* missing from")
         matplotlib.rcdefaults()  # whatever the user's own matplotlibrc says
         matplotlib.rcParams.update(
-            STYLE | {"font.family": ["sans-serif", *(_eastern() if form != "svg" else ())]}
+            STYLE | {"font.family": ["sans-serif", *(_eastern_families() if form != "svg" else ())]}
         )
         yield Page(figsize=(width, height), layout="constrained")
 
 
-def saved(figure: Figure, form: Form) -> bytes:
+def save_figure(figure: Figure, form: Form) -> bytes:
     """The picture as a file's content; the same figure gives the same bytes."""
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
@@ -123,7 +141,7 @@ def saved(figure: Figure, form: Form) -> bytes:
     return buffer.getvalue()
 
 
-def inline(svg: bytes, name: str) -> str:
+def inline_svg(svg: bytes, name: str) -> str:
     """An SVG to stand in a page: colours follow the page's (`--ink` ...), ids are its own, and it
     grows with its column.
     """
@@ -140,7 +158,7 @@ def inline(svg: bytes, name: str) -> str:
     return re.sub("|".join(NAMES), lambda colour: f"var(--{NAMES[colour[0]]})", text)
 
 
-def plain(name: str, most: int = 90) -> str:
+def fit_name(name: str, most: int = 90) -> str:
     """A name on one line that any format can hold, not longer than a title may be."""
     text = "".join(c if c.isprintable() else " " for c in name)
     text = " ".join(text.split())
@@ -148,7 +166,8 @@ def plain(name: str, most: int = 90) -> str:
 
 
 @lru_cache(1)
-def _eastern() -> tuple[str, ...]:
+def _eastern_families() -> tuple[str, ...]:
+    """The first of the families with Eastern glyphs that is installed, if any."""
     from matplotlib import font_manager
 
     there = {font.name for font in font_manager.fontManager.ttflist}
