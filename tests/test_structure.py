@@ -122,7 +122,6 @@ def test_core_knows_numpy_and_the_standard_library_alone(file):
 # Types and constants of a room may be named by what shows them, functions not: these shape figures
 # for the eye.
 SHAPING = {
-    ("balcli.results.analysis", "textbook"),
     ("balcli.tables.table", "deviates"),
     ("balcli.tables.table", "figure"),
     ("balcli.tables.table", "rational"),

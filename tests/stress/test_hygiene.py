@@ -16,7 +16,7 @@ from support.engines import alone, engine
 from balcli.core.mechanisms.harmonics import EPS
 from balcli.engine.build import Engine
 from balcli.forces.kinds import KINDS
-from balcli.forces.spectrum import spectra
+from balcli.forces.spectrum import compute_spectra
 
 ENGINES = Path(__file__).parents[2] / "engines"
 ORDERS = np.arange(1.0, 17.0)
@@ -84,7 +84,7 @@ def test_the_order_of_cylinders_in_the_file_does_not_matter(seed):
     (cylinder 1 stays the first).
     """
     order = [0, *(1 + np.random.default_rng(seed).permutation(7)).tolist()]
-    one, other = (spectra(listed(each), ORDERS) for each in (list(range(8)), order))
+    one, other = (compute_spectra(listed(each), ORDERS) for each in (list(range(8)), order))
     for q in KINDS:
         p, o = getattr(one, q), getattr(other, q)
         sizes = sum(getattr(part, q).major for part in alone_each(listed(list(range(8)))))
@@ -94,17 +94,18 @@ def test_the_order_of_cylinders_in_the_file_does_not_matter(seed):
 
 
 def alone_each(whole: Engine) -> list:
-    return [spectra(alone(whole, n), ORDERS) for n in whole.numbers]
+    return [compute_spectra(alone(whole, n), ORDERS) for n in whole.numbers]
 
 
 LARGEST = """
 import resource
 from support.engines import alone, engine
 from balcli.core.peaks import peak
-from balcli.forces.spectrum import relevant_orders, spectra
+from balcli.forces.orders import find_relevant_orders
+from balcli.forces.spectrum import compute_spectra
 whole = engine(crank={"stroke": 100, "throws": [7.3 * k % 360 for k in range(512)], "spacing": 1}, rod={"ratio": 1 - 1e-6})
-orders = relevant_orders(whole)
-found = spectra(whole, orders, ["force", "moment"])
+orders = find_relevant_orders(whole)
+found = compute_spectra(whole, orders, ["force", "moment"])
 assert len(orders) == 32768 and peak(found.force).value > 0 and peak(found.moment).value > 0
 print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
 """

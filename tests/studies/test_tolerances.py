@@ -11,10 +11,10 @@ from support.engines import GOOD, RADIAL, changed
 from balcli.engine.build import build
 from balcli.engine.load import parse as load
 from balcli.errors import BalcliError
-from balcli.forces.quantity import evaluate, parse
+from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
 from balcli.studies.tolerances import Tolerances, scatter, tolerances
 
-FORCES = parse("force.1.major,force.2.major,moment.1.major")
+FORCES = parse_quantity_list("force.1.major,force.2.major,moment.1.major")
 TWIN = changed(
     ("[0, 180, 180, 0]", "[0, 180]"),
     ("throw_mass = 0.8", ""),
@@ -29,7 +29,7 @@ def test_two_pistons_alone_have_a_triangular_difference() -> None:
     """
     t, samples = 0.01, 200_000
     (spread,) = scatter(
-        load(TWIN), Tolerances(mass=t), parse("force.1.major"), samples, seed=1
+        load(TWIN), Tolerances(mass=t), parse_quantity_list("force.1.major"), samples, seed=1
     ).spreads
     whole = 0.5 * 0.045 * (3000 * math.pi / 30) ** 2
     deviation = t * math.sqrt(2 / 9) / math.sqrt(samples)  # of the mean of |d1 - d2|
@@ -41,12 +41,13 @@ def test_two_pistons_alone_have_a_triangular_difference() -> None:
 
 def test_shares_are_what_a_changed_file_gives() -> None:
     (spread,) = scatter(
-        load(GOOD), Tolerances(mass=0.01), parse("force.2.major"), 10, seed=1
+        load(GOOD), Tolerances(mass=0.01), parse_quantity_list("force.2.major"), 10, seed=1
     ).spreads
     share = {source.name: value for source, value in spread.shares}
     heavier = build(load(GOOD + "[cylinder.2]\npiston_mass = 0.505\n"))
     nominal, other = (
-        float(evaluate(e, parse("force.2.major"))[0]) for e in (build(load(GOOD)), heavier)
+        float(evaluate_quantities(e, parse_quantity_list("force.2.major"))[0])
+        for e in (build(load(GOOD)), heavier)
     )
     assert share["piston mass 2"] == pytest.approx(other - nominal, rel=1e-9)
     assert spread.nominal == pytest.approx(nominal, rel=1e-14)
@@ -55,12 +56,17 @@ def test_shares_are_what_a_changed_file_gives() -> None:
 def test_shares_of_angles_and_lengths_are_derivatives() -> None:
     weighed = changed(("mass = 0.6\ncg = 45\n", "small_end = 0.17\nbig_end = 0.43\n"))
     (spread,) = scatter(
-        load(weighed), Tolerances(length=1e-6, angle_deg=1e-5), parse("force.2.major"), 10, seed=1
+        load(weighed),
+        Tolerances(length=1e-6, angle_deg=1e-5),
+        parse_quantity_list("force.2.major"),
+        10,
+        seed=1,
     ).spreads
     share = {source.name: value for source, value in spread.shares}
     longer = build(load(weighed + "[cylinder.3]\nrod_length = 160.00016\n"))
     nominal, other = (
-        float(evaluate(e, parse("force.2.major"))[0]) for e in (build(load(weighed)), longer)
+        float(evaluate_quantities(e, parse_quantity_list("force.2.major"))[0])
+        for e in (build(load(weighed)), longer)
     )
     assert share["rod length 3"] == pytest.approx(other - nominal, rel=1e-4)
     assert (
@@ -114,12 +120,14 @@ def test_mistakes_in_words(given: tuple[str, str, str], message: str) -> None:
 )
 def test_refusals(tolerance: Tolerances, quantity: str, samples: int, message: str) -> None:
     with pytest.raises(BalcliError) as caught:
-        scatter(load(GOOD), tolerance, parse(quantity), samples)
+        scatter(load(GOOD), tolerance, parse_quantity_list(quantity), samples)
     assert str(caught.value).startswith(message)
 
 
 def test_percentiles_are_those_of_the_samples() -> None:
-    result = scatter(load(TWIN), Tolerances(mass=0.01), parse("force.1.major"), 50_000, seed=1)
+    result = scatter(
+        load(TWIN), Tolerances(mass=0.01), parse_quantity_list("force.1.major"), 50_000, seed=1
+    )
     whole = 0.5 * 0.045 * (3000 * math.pi / 30) ** 2
     median = (
         0.01 * (2 - math.sqrt(2)) * whole
@@ -133,13 +141,15 @@ ARTICULATED = RADIAL.replace("radial = 7", "radial = 5").replace("cg = 90", "cg 
 
 def test_an_articulated_rods_mass_deviates_at_its_knuckle_pin_too() -> None:
     def force(text: str) -> float:
-        return float(evaluate(build(load(text)), parse("force.1.major"))[0])
+        return float(
+            evaluate_quantities(build(load(text)), parse_quantity_list("force.1.major"))[0]
+        )
 
     heavier = force(ARTICULATED + "[cylinder.3]\nrod_mass = 0.6231\nrod_cg = 30\n") - force(
         ARTICULATED
     )
     (found,) = scatter(
-        load(ARTICULATED), Tolerances(mass=0.005), parse("force.1.major"), 10, 1
+        load(ARTICULATED), Tolerances(mass=0.005), parse_quantity_list("force.1.major"), 10, 1
     ).spreads
     assert {s.name: share for s, share in found.shares}["rod mass 3"] == pytest.approx(
         heavier, rel=1e-3
@@ -151,4 +161,4 @@ def test_rotary_engines_have_no_scatter() -> None:
     with pytest.raises(
         BalcliError, match="there is no scatter of rotary engines, whose masses move on curves"
     ):
-        scatter(load(rotary), Tolerances(mass=0.005), parse("force.1.major"), 10, 1)
+        scatter(load(rotary), Tolerances(mass=0.005), parse_quantity_list("force.1.major"), 10, 1)

@@ -19,9 +19,8 @@ from ..core.phasors import EPS
 from ..engine.build import Engine, build
 from ..engine.load import parse
 from ..enginefile.model import EngineFile
-from ..forces.kinds import KINDS
-from ..forces.quantity import parse as quantities
-from ..forces.spectrum import spectra
+from ..forces.quantity import parse_quantity_list
+from ..forces.spectrum import compute_spectra
 from ..results.analysis import analyze
 from ..studies.parameters import Parameter, ladder
 from ..studies.sweep import CHUNK, Sweep, chunks
@@ -162,7 +161,9 @@ def _sweep() -> Iterator[Case]:
 
 def _grid(file: EngineFile, *parameters: Parameter) -> Sweep:
     return Sweep(
-        file, parameters, quantities("force.1.major,force.2.major,moment.1.major,moment.2.major")
+        file,
+        parameters,
+        parse_quantity_list("force.1.major,force.2.major,moment.1.major,moment.2.major"),
     )
 
 
@@ -229,28 +230,28 @@ def ratios() -> Iterator[Ratio]:
     eight = np.arange(1.0, 9.0)
     yield _ratio(
         "force and moment of a V8, orders 1-8, to plain numpy (64 angles, FFT)",
-        lambda: spectra(engine, eight, forces),
+        lambda: compute_spectra(engine, eight, forces),
         plain,
     )
     another = _unseen(engine)
     yield _ratio(
-        "the same of a V8 not seen before", lambda: spectra(another(), eight, forces), plain
+        "the same of a V8 not seen before", lambda: compute_spectra(another(), eight, forces), plain
     )
-    yield _ratio("all quantities of it to the same", lambda: spectra(engine, eight, KINDS), plain)
+    yield _ratio("all quantities of it to the same", lambda: compute_spectra(engine, eight), plain)
     yield _ratio(
         "orders: 1-32 to 1 and 2",
-        lambda: spectra(engine, long, forces),
-        lambda: spectra(engine, short, forces),
+        lambda: compute_spectra(engine, long, forces),
+        lambda: compute_spectra(engine, short, forces),
     )
     yield _ratio(
         "moments: force and moment to force",
-        lambda: spectra(engine, eight, forces),
-        lambda: spectra(engine, eight, ("force",)),
+        lambda: compute_spectra(engine, eight, forces),
+        lambda: compute_spectra(engine, eight, ("force",)),
     )
     yield _ratio(
         "equal cylinders: unequal to equal",
-        lambda: spectra(unequal, eight, forces),
-        lambda: spectra(engine, eight, forces),
+        lambda: compute_spectra(unequal, eight, forces),
+        lambda: compute_spectra(engine, eight, forces),
     )
     yield _ratio(
         "peaks: force with peak to force",

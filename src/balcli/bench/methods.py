@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..core.mechanisms import harmonics
 from ..core.mechanisms import power_series as series
 from ..engine.build import Engine
-from ..forces.spectrum import spectra
+from ..forces.spectrum import compute_spectra
 
 Complex = NDArray[np.complex128]
 POWERS = (3, 5, 7)  # of lambda, up to which books print the series
@@ -125,7 +125,7 @@ def from_coefficients(find: Coefficients) -> Vectors:
 
 def of_engine(engine: Engine, orders: list[int]) -> Complex:
     """balcli itself."""
-    found = spectra(engine, orders, ("force", "moment"))
+    found = compute_spectra(engine, orders, ("force", "moment"))
     return np.array([(p.forward, p.backward) for _, p in found.items()]).transpose(0, 2, 1)
 
 

@@ -32,13 +32,13 @@ def compare(
     from ..render import comparison as rendered
     from ..render.formats import render
     from ..render.units import SYSTEMS
-    from ..results.comparison import compare as compared
+    from ..results.comparison import compare_engines
     from .inputs import distinct, engine_of
     from .output import emit
 
     rpm, asked = checked_speed(speed), order_list(orders)
     engines = [engine_of(file, rpm)[1] for file in files]
-    found = compared(
+    found = compare_engines(
         engines, distinct([engine.name for engine in engines], files), asked, only_list(only)
     )
     emit(

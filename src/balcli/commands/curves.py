@@ -39,16 +39,16 @@ def curves(
     output: Output = None,
 ) -> None:
     """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston."""
-    from ..forces.curves import crank_angles, cylinder_curves, engine_curves
+    from ..forces.curves import compute_cylinder_curves, compute_engine_curves, divide_revolution
     from ..render.curves import curves_csv, curves_json
     from .inputs import engine_of
     from .output import emit
 
-    angles = crank_angles(step)
+    angles = divide_revolution(step)
     _, engine = engine_of(file, checked_speed(speed))
     found = (
-        engine_curves(engine, angles)
+        compute_engine_curves(engine, angles)
         if cylinder is None
-        else cylinder_curves(engine, cylinder, angles)
+        else compute_cylinder_curves(engine, cylinder, angles)
     )
     emit(curves_json(found) if form is CurveFormat.JSON else curves_csv(found), output)

@@ -78,7 +78,7 @@ def scatter(
     found = scatters.scatter(
         engine_of(file)[0],
         tolerances,
-        quantities.parse(quantity),
+        quantities.parse_quantity_list(quantity),
         samples,
         seed,
         distribution.value,

@@ -41,7 +41,7 @@ def sum(  # noqa: A001 (the command's name)
 ) -> None:
     """Two engines on one frame, geared one to one: H, U and opposed-piston engines."""
     from ..render.formats import sums
-    from ..results.two_engines import combine
+    from ..results.two_engines import combine_engines
     from .arrangement_options import arrangement
     from .inputs import engine_of, named
     from .output import emit
@@ -52,5 +52,5 @@ def sum(  # noqa: A001 (the command's name)
         arrangement(phase, at, turn, reverse),
     )
     engines = [named(engine_of(file, rpm)[1], file) for file in (first, second)]
-    result = combine(engines[0], engines[1], placed, asked)
+    result = combine_engines(engines[0], engines[1], placed, asked)
     emit(sums(result, format, units, into_file=output is not None), output)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..forces.kinds import TORQUE
 from .csv import write
+from .figures import order_number
 from .sheet import Grid, Sheet, capitalized, number
 
 _TITLES = {TORQUE: "inertia torque"}
@@ -23,7 +24,7 @@ def document(result: Comparison) -> dict[str, Any]:
         "figures": [
             {
                 "quantity": _key(line),
-                "order": line.order,
+                "order": None if line.order is None else order_number(line.order),
                 "values": list(line.values),
                 "ratios": [r if r == r else None for r in line.ratios],
             }
@@ -43,7 +44,7 @@ def rows(result: Comparison, system: System) -> str:
         [
             (
                 line.kind.name if line.order is not None else f"peak {line.kind.name}",
-                line.order,
+                None if line.order is None else order_number(line.order),
                 system.unit(line.kind).name,
                 *map(system.unit(line.kind).of, line.values),
             )
@@ -68,7 +69,7 @@ def _row(line: Line, of: Any) -> tuple[str, ...]:
     first, *others = (number(of(value)) for value in line.values)
     ratios = [number(ratio, 4) for ratio in line.ratios[1:]]
     return (
-        "peak" if line.order is None else f"order {line.order}",
+        "peak" if line.order is None else f"order {line.order:g}",
         first,
         *(cell for pair in zip(others, ratios, strict=True) for cell in pair),
     )

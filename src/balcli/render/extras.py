@@ -14,9 +14,9 @@ from .figures import Row, clean, order_number, order_rows, peak_rows, scalar, ve
 if TYPE_CHECKING:
     from ..core.phasors import Phasors
     from ..core.strokes import Travel
-    from ..forces.crankshaft import Along, Inner
-    from ..forces.guide_moments import Guide
-    from ..forces.symmetry import Why
+    from ..forces.crankshaft import AlongCrank, InnerLoads
+    from ..forces.guide_moments import GuideMoments
+    from ..forces.symmetry import Symmetry
     from ..results.analysis import Analysis
     from .sheet import Facts, Grid
     from .units import System, Unit
@@ -43,7 +43,7 @@ def document(result: Analysis) -> dict[str, Any]:
     return found
 
 
-def _inner(inner: Inner) -> dict[str, Any]:
+def _inner(inner: InnerLoads) -> dict[str, Any]:
     most = inner.bending.largest
     found = {
         "largest_bending_Nm": clean(inner.bending.peaks[most].value),
@@ -65,7 +65,7 @@ def _inner(inner: Inner) -> dict[str, Any]:
     return found
 
 
-def _place(along: Along, k: int) -> dict[str, Any]:
+def _place(along: AlongCrank, k: int) -> dict[str, Any]:
     peak = along.peaks[k]
     here = along.at(k)
     return {
@@ -77,7 +77,7 @@ def _place(along: Along, k: int) -> dict[str, Any]:
     }
 
 
-def _guide(guide: Guide) -> list[dict[str, Any]]:
+def _guide(guide: GuideMoments) -> list[dict[str, Any]]:
     return [
         {
             "order": order_number(n),
@@ -118,14 +118,14 @@ def _travel_rows(result: Analysis, travel: Travel, length: Unit) -> Iterator[Row
         yield Row(n, "travel", None, "bottom_deg", clean(travel.bottom_deg[row]), "deg")
 
 
-def _guide_rows(guide: Guide, unit: Unit) -> Iterator[Row]:
+def _guide_rows(guide: GuideMoments, unit: Unit) -> Iterator[Row]:
     for k, entry in enumerate(_guide(guide)):
         for key, name in (("h_Nm", "guide_h"), ("x_Nm", "guide_x")):
             if key in entry:
                 yield from order_rows(name, guide.h.orders[k], entry[key], unit)
 
 
-def _why_rows(why: Why) -> Iterator[Row]:
+def _why_rows(why: Symmetry) -> Iterator[Row]:
     for reason in why.reasons:
         yield Row(0, reason.quantity, reason.order, "why", reason.verdict, "")
         yield Row(
@@ -135,7 +135,7 @@ def _why_rows(why: Why) -> Iterator[Row]:
         yield Row(0, "firing", None, "why", why.firing, "")
 
 
-def _along_rows(name: str, along: Along, unit: Unit, length: Unit) -> Iterator[Row]:
+def _along_rows(name: str, along: AlongCrank, unit: Unit, length: Unit) -> Iterator[Row]:
     for k, z in enumerate(along.z_m):
         here, place = along.at(k), f"{name} {k + 1}"
         yield Row(0, place, None, "position", clean(length.of(z)), length.name)
@@ -171,7 +171,7 @@ def _strokes(result: Analysis, travel: Travel, system: System) -> Grid:
     )
 
 
-def _along_the_crank(inner: Inner, system: System) -> Iterator[Grid | Facts]:
+def _along_the_crank(inner: InnerLoads, system: System) -> Iterator[Grid | Facts]:
     from .sheet import Facts, number
 
     yield _places(
@@ -200,7 +200,7 @@ def _along_the_crank(inner: Inner, system: System) -> Iterator[Grid | Facts]:
     )
 
 
-def _places(along: Along, system: System, unit: Unit, title: str) -> Grid:
+def _places(along: AlongCrank, system: System, unit: Unit, title: str) -> Grid:
     """One row a place: the peak over a revolution, and the largest value of each of the first
     orders.
     """
@@ -228,7 +228,7 @@ def _places(along: Along, system: System, unit: Unit, title: str) -> Grid:
     return Grid(f"{title}, {unit.name}", heads, tuple(row(k) for k in range(len(along.z_m))))
 
 
-def _guide_forces(guide: Guide, system: System) -> Grid:
+def _guide_forces(guide: GuideMoments, system: System) -> Grid:
     from .sheet import Grid, number
 
     def size(phasors: Phasors | None, k: int) -> str:

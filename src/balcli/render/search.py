@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ..forces.kinds import KINDS
 from .csv import write
 from .sheet import Grid, Sheet, number
 
@@ -68,16 +69,13 @@ def _row(result: Search, one: Found) -> tuple[str, ...]:
 
 def _textbook(result: Search, one: Found) -> dict[str, tuple[float, str]]:
     """Forces and moments in the textbook's units, where those tell more than the figures alone."""
-    scale = result.scale
-    known = {"force": (scale.force, "F1"), "moment": (scale.force * scale.arm, "F1·a")}
-    kinds = {
-        q.name: q.kind for q in result.objective.quantities if q.kind in known and q.part != "peak"
-    }
-    return {
-        name: (one.figures[name] / known[kind][0], known[kind][1])
-        for name, kind in kinds.items()
-        if known[kind][0] == known[kind][0] and known[kind][0] > 0
-    }
+    shown: dict[str, tuple[float, str]] = {}
+    for q in result.objective.quantities:
+        kind = KINDS[q.kind]
+        size = result.scale.size(kind)
+        if kind.vector and q.part != "peak" and size > 0:  # nan where there is one throw
+            shown[q.name] = one.figures[q.name] / size, result.scale.name(kind)
+    return shown
 
 
 def _plain(value: Any) -> str:

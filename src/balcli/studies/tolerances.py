@@ -22,8 +22,8 @@ from ..enginefile.fields import Number
 from ..enginefile.model import EngineFile
 from ..enginefile.units import ANGLE
 from ..errors import BalcliError
-from ..forces.quantity import Quantity, evaluate
-from ..forces.spectrum import spectra
+from ..forces.quantity import Quantity, evaluate_quantities
+from ..forces.spectrum import compute_spectra
 
 Array = NDArray[np.float64]
 CHUNK = 8_192  # samples at a time
@@ -154,7 +154,10 @@ def scatter(
     found = np.concatenate(
         [
             np.stack(
-                [np.broadcast_to(v, count) for v in evaluate(crowd.engine(deviations), quantities)]
+                [
+                    np.broadcast_to(v, count)
+                    for v in evaluate_quantities(crowd.engine(deviations), quantities)
+                ]
             )
             for count, deviations in _drawn(crowd.sources, samples, seed, shape)
         ],
@@ -256,7 +259,7 @@ class _Crowd:
         """
         steps = np.diag([STEP * s.tolerance for s in self.sources])
         up, down, nominal = (
-            spectra(self.engine(d), [q.order], {q.kind})[q.kind]
+            compute_spectra(self.engine(d), [q.order], {q.kind})[q.kind]
             for d in (steps, -steps, 0 * steps[:, :1])
         )
         return nominal, (1 / (2 * STEP)) * (up - down)

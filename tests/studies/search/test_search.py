@@ -13,7 +13,7 @@ from balcli.engine.layout import plan
 from balcli.engine.load import parse as load
 from balcli.enginefile.model import EngineFile
 from balcli.errors import BalcliError, InputError
-from balcli.forces.quantity import evaluate, parse
+from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
 from balcli.studies.parameters import varied
 from balcli.studies.search.objective import objective
 from balcli.studies.search.search import fires_evenly, search
@@ -67,7 +67,9 @@ def test_branch_and_bound_finds_what_trying_all_finds(throws: list[float], layou
     whole = build(
         varied(file, {f"crank.throws.{t + 1}": column for t, column in enumerate(sample.T)}), 1
     )
-    values = dict(zip(wanted.quantities, evaluate(whole, wanted.quantities), strict=True))
+    values = dict(
+        zip(wanted.quantities, evaluate_quantities(whole, wanted.quantities), strict=True)
+    )
     tried = np.broadcast_to(wanted.of(values.__getitem__), len(sample)).min()
     first = search(file, "throws", wanted, 1).results[0].objective
     if len(sample) == len(every):
@@ -115,7 +117,7 @@ def test_firing_orders_bring_their_cranks() -> None:
     assert found[0].objective == 0
     for r in found:
         new = load(arranged(changed(("throws = [0, 180, 180, 0]\n", "")).encode(), r.arrangement))
-        value = evaluate(build(new), parse("moment.1.major"))[0]
+        value = evaluate_quantities(build(new), parse_quantity_list("moment.1.major"))[0]
         assert float(value) == pytest.approx(r.objective, abs=1e-9)
         assert new.layout.firing_order == tuple(r.arrangement["firing_order"])
 
@@ -342,10 +344,10 @@ ARTICULATED = engine_text(
 
 def test_articulated_rods_count_once_for_their_throw() -> None:
     """The shares of all throws add up to the whole."""
-    file, quantities = load(ARTICULATED), parse("force.1.major,moment.2.major")
+    file, quantities = load(ARTICULATED), parse_quantity_list("force.1.major,moment.2.major")
     angles = np.array([0.0, 100, 190, 250])
     found = shares(file, angles, 0, quantities)
-    for q, whole in zip(quantities, evaluate(build(file), quantities), strict=True):
+    for q, whole in zip(quantities, evaluate_quantities(build(file), quantities), strict=True):
         forward, backward = found[q.kind, q.order].sums(range(4), np.array([[0, 1, 2, 3]], np.int8))
         assert found[q.kind, q.order].value(q, forward, backward)[0] == pytest.approx(
             float(whole), rel=1e-9

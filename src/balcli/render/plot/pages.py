@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from ...core.phasors import Phasors
 from ...errors import BalcliError
-from ...forces.crankshaft import Inner
+from ...forces.crankshaft import InnerLoads
 from ...forces.kinds import KINDS, VECTORS
 from ...results.analysis import Analysis
 from ...studies.pictures import Banks
@@ -36,7 +36,7 @@ class Subject:
     system: System = SI
     factors: Sequence[dict[str, float]] = ()
     banks: Banks | None = None
-    bent: tuple[Inner, ...] = ()
+    bent: tuple[InnerLoads, ...] = ()
 
     def phasors(self, quantity: str) -> tuple[Phasors, Phasors | None]:
         old = None if self.before is None else self.before.spectra[quantity]

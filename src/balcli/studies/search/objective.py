@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import BalcliError
-from ...forces.quantity import Quantity, parse
+from ...forces.quantity import Quantity, parse_quantity_list
 
 Array = NDArray[np.float64]
 
@@ -59,7 +59,7 @@ def objective(minimise: str, limits: Sequence[str] = ()) -> Objective:
 
 
 def _quantity(name: str) -> tuple[Quantity, ...]:
-    found = parse(name)
+    found = parse_quantity_list(name)
     for q in found:
         if q.part == "axis":
             raise BalcliError(

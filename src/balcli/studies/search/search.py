@@ -17,8 +17,8 @@ from ...engine.layout import cycle, plan
 from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
-from ...forces.quantity import evaluate
-from ...results.analysis import Textbook, textbook
+from ...forces.quantity import evaluate_quantities
+from ...forces.textbook import TextbookUnits, find_textbook_units
 from ..parameters import varied
 from . import angles
 from . import throws as cranks
@@ -54,7 +54,7 @@ class Search:
     over: What
     objective: Objective
     results: tuple[Found, ...]
-    scale: Textbook
+    scale: TextbookUnits
 
 
 def search(
@@ -86,7 +86,7 @@ def search(
             f"no {over.replace('_', ' ')} keeps these "
             f"limits{' and fires evenly' if even_firing else ''}"
         )
-    return Search(file, over, objective, tuple(found), textbook(engine, np.array([1.0])))  # type: ignore[arg-type]  # checked above
+    return Search(file, over, objective, tuple(found), find_textbook_units(engine, np.array([1.0])))  # type: ignore[arg-type]  # checked above
 
 
 # ------------------------------------------------------------------ the four searches: candidates
@@ -173,7 +173,11 @@ def _over_angle(
         def value(x: Array) -> Array:
             engine = _engines(file, {key: x})
             figures = dict(
-                zip(objective.quantities, evaluate(engine, objective.quantities), strict=True)
+                zip(
+                    objective.quantities,
+                    evaluate_quantities(engine, objective.quantities),
+                    strict=True,
+                )
             )
             values = np.broadcast_to(objective.of(figures.__getitem__), x.shape)
             return np.where(fires_evenly(engine, file, EXACTLY), values, np.inf) if even else values
@@ -236,7 +240,7 @@ def _figures(file: EngineFile, candidates: Candidates, objective: Objective) -> 
     values = dict(
         zip(
             objective.quantities,
-            evaluate(_engines(file, candidates), objective.quantities),
+            evaluate_quantities(_engines(file, candidates), objective.quantities),
             strict=True,
         )
     )

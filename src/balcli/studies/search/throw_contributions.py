@@ -15,7 +15,7 @@ from ...engine.build import build
 from ...engine.layout import plan
 from ...enginefile.model import EngineFile
 from ...forces.quantity import Quantity
-from ...forces.spectrum import spectra, with_only
+from ...forces.spectrum import compute_spectra, with_only
 from ..parameters import varied
 
 Array = NDArray[np.float64]
@@ -54,7 +54,7 @@ class Share:
     def value(self, quantity: Quantity, forward: Complex, backward: Complex) -> Array:
         """A quantity by the sums of all throws and the devices."""
         noise = np.full((1, 1), ROUNDING * self.reach.sum())
-        return quantity.of(
+        return quantity.read_from(
             Phasors(np.array([float(self.order)]), forward[None], backward[None], noise).settled()
         )
 
@@ -76,10 +76,12 @@ def shares(
     )
     orders, kinds = sorted({q.order for q in quantities}), {q.kind for q in quantities}
     each = [
-        spectra(with_only(engine, [throw_of[n] == t for n in engine.numbers]), orders, kinds)
+        compute_spectra(
+            with_only(engine, [throw_of[n] == t for n in engine.numbers]), orders, kinds
+        )
         for t in range(count)
     ]
-    devices = spectra(
+    devices = compute_spectra(
         replace(with_only(engine, [False] * len(engine.numbers)), devices=engine.devices),
         orders,
         kinds,
