@@ -154,6 +154,22 @@ def test_renderers_call_no_computation(file):
     assert called == set()
 
 
+LIMITS = ("MOST", "LARGEST", "LONGEST", "HIGHEST", "DEEPEST", "FARTHEST", "FINEST", "NEAREST")
+
+
+def test_every_limit_stands_in_limits():
+    """Outside the core, whose bounds belong to its methods."""
+    found = {
+        f"{name_of(file)}: {target.id}"
+        for file in {*SOURCE.rglob("*.py")} - {*CORE, SOURCE / "limits.py"}
+        for node in tree(file).body
+        if isinstance(node, ast.Assign)
+        for target in node.targets
+        if isinstance(target, ast.Name) and target.id.startswith(LIMITS)
+    }
+    assert found == set()
+
+
 @pytest.mark.parametrize("file", sorted(SOURCE.rglob("*.py")), ids=name_of)
 def test_files_speak_for_themselves(file):
     """A docstring, and none of what fails silently: blanket except, assert as a check, eval."""

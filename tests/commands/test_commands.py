@@ -421,7 +421,7 @@ def test_mistakes_of_a_built_model_name_its_file():
 def test_more_devices_than_any_engine_has():
     from support.engines import refused
 
-    from balcli.enginefile.model import MOST_PARTS
+    from balcli.limits import MOST_PARTS
 
     assert (
         f"counterweight: stands {MOST_PARTS + 1} times; no engine has more than {MOST_PARTS}"

@@ -17,9 +17,10 @@ from balcli.engine.build import Engine, build
 from balcli.engine.load import read
 from balcli.errors import BalcliError
 from balcli.forces.kinds import KINDS
-from balcli.forces.orders import HIGHEST, SHOWN, find_relevant_orders
+from balcli.forces.orders import SHOWN, find_relevant_orders
 from balcli.forces.spectrum import compute_spectra
 from balcli.forces.textbook import find_textbook_units
+from balcli.limits import HIGHEST_ORDER
 from balcli.results.analysis import QUANTITIES, Analysis, analyze
 
 FOLDER = Path(__file__).parents[2] / "engines"
@@ -89,7 +90,7 @@ def test_exactly_the_orders_asked_for_are_shown(orders):
 
 
 @pytest.mark.parametrize(
-    ("orders", "told"), [([-1], "-1"), ([HIGHEST + 1], "4097"), ([], "none"), ([1.5], "1.5")]
+    ("orders", "told"), [([-1], "-1"), ([HIGHEST_ORDER + 1], "4097"), ([], "none"), ([1.5], "1.5")]
 )
 def test_orders_that_cannot_be(orders, told):
     with pytest.raises(BalcliError) as caught:

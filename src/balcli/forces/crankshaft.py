@@ -18,10 +18,9 @@ from ..core.peaks import Peak, peak
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..errors import BalcliError
+from ..limits import MOST_RESULTS_ALONG_CRANK
 from .orders import find_relevant_orders, mark_considerable
 from .spectrum import compute_device_force, compute_each_cylinder, refuse_too_many_loads
-
-MOST_TOLD = 1 << 15  # orders x loads
 
 
 @dataclass(frozen=True)
@@ -96,11 +95,11 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
 
 def _refuse_too_many_results(orders: int, loads: int) -> None:
     told = orders * loads
-    if told > MOST_TOLD:
+    if told > MOST_RESULTS_ALONG_CRANK:
         raise BalcliError(
             f"along the crankshaft, {orders} orders of {loads} cylinders and counterweights "
             f"are {told} results, and at "
-            f"most {MOST_TOLD} are told: ask for fewer orders"
+            f"most {MOST_RESULTS_ALONG_CRANK} are told: ask for fewer orders"
         )
 
 

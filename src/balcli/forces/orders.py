@@ -16,17 +16,15 @@ from ..core.mechanisms import harmonics
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..errors import BalcliError
+from ..limits import HIGHEST_ORDER, HIGHEST_ORDER_UNASKED
 from .spectrum import Spectra
 
-HIGHEST = 4096  # order that may be asked for
-# highest order that is shown unless it is asked for: only a mechanism near its lock has more
-UNASKED = 512
 SHOWN = 1e-6  # share of a quantity's largest order below which an order is not worth showing
 
 
 def is_order(number: float) -> bool:
-    """Whether a number is an order that may be asked for: whole, from 0 to HIGHEST."""
-    return 0 <= number <= HIGHEST and number % 1 == 0
+    """Whether a number is an order that may be asked for: whole, from 0 to HIGHEST_ORDER."""
+    return 0 <= number <= HIGHEST_ORDER and number % 1 == 0
 
 
 def check_orders(orders: Iterable[float]) -> Array:
@@ -38,13 +36,13 @@ def check_orders(orders: Iterable[float]) -> Array:
     asked = sorted(set(orders))
     if not asked or not all(map(is_order, asked)):
         named = ", ".join(f"{n:g}" for n in asked[:8]) or "none"
-        raise BalcliError(f"orders must be whole numbers from 0 to {HIGHEST}, not {named}")
+        raise BalcliError(f"orders must be whole numbers from 0 to {HIGHEST_ORDER}, not {named}")
     return np.array(asked, float)
 
 
 def parse_order(text: str) -> int | None:
     """The order that a text names, such as `2`; None if it names none."""
-    digits = text.isascii() and text.isdigit() and len(text) <= len(str(HIGHEST)) + 1
+    digits = text.isascii() and text.isdigit() and len(text) <= len(str(HIGHEST_ORDER)) + 1
     return int(text) if digits and is_order(int(text)) else None
 
 
@@ -64,11 +62,12 @@ def find_relevant_orders(engine: Engine) -> Array:
 
 
 def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:
-    """Orders up to UNASKED in which something exceeds SHOWN of its own largest order, shape
-    (orders,).
+    """Orders in which something exceeds SHOWN of its own largest order, shape (orders,); none above
+    HIGHEST_ORDER_UNASKED.
     """
     sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1, initial=0)
-    return np.asarray((sizes > SHOWN * sizes.max(initial=0)) & (phasors.orders <= UNASKED))
+    large = sizes > SHOWN * sizes.max(initial=0)
+    return np.asarray(large & (phasors.orders <= HIGHEST_ORDER_UNASKED))
 
 
 def choose_orders(found: Spectra) -> Array:

@@ -14,8 +14,9 @@ from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..enginefile.fields import nearest
 from ..errors import BalcliError
+from ..limits import HIGHEST_ORDER
 from .kinds import KINDS, VECTORS
-from .orders import HIGHEST, find_relevant_orders, parse_order
+from .orders import find_relevant_orders, parse_order
 from .spectrum import compute_spectra
 
 _SIZES = ("major", "minor", "forward", "backward")
@@ -100,7 +101,7 @@ def _parse_quantity(text: str) -> Quantity:
     allowed = VECTOR_PARTS if KINDS[kind].vector else SCALAR_PARTS
     if order is None:
         raise BalcliError(
-            f"{text} is no quantity: after {kind} comes a whole order up to {HIGHEST}, as in "
+            f"{text} is no quantity: after {kind} comes a whole order up to {HIGHEST_ORDER}, as in "
             f"{kind}.2.{allowed[0]}"
         )
     if part not in allowed:

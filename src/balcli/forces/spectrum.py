@@ -16,10 +16,9 @@ from ..core.mechanisms import harmonics
 from ..core.phasors import Array, Complex, Phasors, joined
 from ..engine.build import Engine
 from ..errors import BalcliError
+from ..limits import MOST_LOADS_APART
 from .kinds import KINDS, Kind
 
-# orders x loads that are kept one by one at a steady speed; half as many at an uneven one
-MOST_APART = 1_100_000
 _ALL = slice(None)
 # orders x cylinders that are computed together, which bounds the memory: about 16 complex arrays
 _AT_ONCE = 1 << 18
@@ -104,7 +103,7 @@ def compute_each_cylinder(
         Phasors of shape (orders, cylinders), the cylinders in the order of `engine.numbers`.
 
     Raises:
-        BalcliError: more than MOST_APART of them.
+        BalcliError: more than MOST_LOADS_APART of them.
     """
     refuse_too_many_loads(engine, np.size(orders), engine.cylinders.count)
     return _compute(replace(engine, devices=()), orders, kinds, apart=True)
@@ -117,7 +116,7 @@ def refuse_too_many_loads(engine: Engine, orders: int, loads: int) -> None:
     Raises:
         BalcliError: they would.
     """
-    most = MOST_APART // 2 if engine.ripple else MOST_APART
+    most = MOST_LOADS_APART // 2 if engine.ripple else MOST_LOADS_APART
     if orders * loads > most:
         raise BalcliError(
             f"{orders} orders of {loads} cylinders and counterweights one by one are "

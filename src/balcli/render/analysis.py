@@ -11,9 +11,9 @@ from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..forces.kinds import FORCE, MOMENT, Kind
-from ..forces.orders import UNASKED
 from ..forces.spectrum import Spectra
 from ..forces.textbook import TextbookUnits
+from ..limits import HIGHEST_ORDER_UNASKED
 from ..results.analysis import Analysis, Sizing
 from .devices import device_grid
 from .figures import Result, order_number, peak_deg, phase_deg
@@ -80,7 +80,11 @@ def facts(result: Analysis, system: System) -> Facts:
             "(rod's share, throw)"
         )
     about = ", ".join(number(length.of(float(v))) for v in engine.reference_m)
-    higher = f"to {UNASKED}; --orders asks for higher ones" if result.has_higher_orders else ""
+    higher = (
+        f"to {HIGHEST_ORDER_UNASKED}; --orders asks for higher ones"
+        if result.has_higher_orders
+        else ""
+    )
     pairs = [
         ("cylinders", f"{c.count}{_banks(engine)}{_bore(engine, system)}"),
         ("crank", crank),

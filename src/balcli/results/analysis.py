@@ -19,7 +19,6 @@ from ..forces.crankshaft import InnerLoads, compute_inner_loads
 from ..forces.guide_moments import GuideMoments, compute_guide_moments
 from ..forces.kinds import KINDS, VECTORS, Kind
 from ..forces.orders import (
-    UNASKED,
     check_orders,
     choose_orders,
     find_relevant_orders,
@@ -28,13 +27,13 @@ from ..forces.orders import (
 from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
 from ..forces.symmetry import Symmetry, explain_symmetry
 from ..forces.textbook import TextbookUnits, find_textbook_units
+from ..limits import HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
 from ..sizing.auto import auto
 from ..sizing.sizing import Remedy, fitted
 
 QUANTITIES = (*KINDS, "peak", "sizing")
 EXTRAS = ("inner", "guide")  # computed only when they are named
 DEFAULT_ORDERS = (1.0, 2.0)
-MOST_TOLD = 1 << 14  # cylinders x orders that are told one by one
 
 
 class Sizing(NamedTuple):
@@ -86,7 +85,7 @@ class Analysis:
     @property
     def has_higher_orders(self) -> bool:
         """Whether there may be orders above those that are shown unless they are asked for."""
-        return bool(find_relevant_orders(self.engine)[-1] > UNASKED)
+        return bool(find_relevant_orders(self.engine)[-1] > HIGHEST_ORDER_UNASKED)
 
     @property
     def textbook(self) -> TextbookUnits:
@@ -124,7 +123,7 @@ def analyze(
         reasons: also why each order is balanced, or is not.
 
     Raises:
-        BalcliError: an unknown quantity, an order that is negative or above HIGHEST, too many
+        BalcliError: an unknown quantity, an order that is negative or above HIGHEST_ORDER, too many
             orders of too many cylinders.
     """
     wanted = _check_quantities(QUANTITIES if only is None else only)
@@ -175,11 +174,11 @@ def _analyze_cylinders(
     engine: Engine, orders: Array, kinds: Collection[str]
 ) -> tuple[tuple[int, Spectra], ...]:
     count = len(orders) * len(engine.numbers)
-    if count > MOST_TOLD:
+    if count > MOST_RESULTS_BY_CYLINDER:
         raise BalcliError(
             f"by cylinder, {len(orders)} orders of {len(engine.numbers)} cylinders are "
             f"{count} results, and at most "
-            f"{MOST_TOLD} are told: ask for fewer orders"
+            f"{MOST_RESULTS_BY_CYLINDER} are told: ask for fewer orders"
         )
     own = compute_each_cylinder(engine, orders, kinds)
     return tuple((n, own.of(engine.numbers.index(n))) for n in sorted(engine.numbers))

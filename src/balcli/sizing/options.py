@@ -7,11 +7,9 @@ from typing import NamedTuple
 
 from ..engine.build import Engine
 from ..errors import BalcliError
+from ..limits import HIGHEST_ORDER_SOUGHT, HIGHEST_SHAFT_ORDER
 from .effects import Rest, rest
 from .schemes import KNUCKLES, NAMES, SCHEMES
-
-HIGHEST = 8  # order up to which something to balance is looked for
-STRONGEST = 1000  # order that a shaft may be asked for
 
 
 class NoNeedError(Exception):
@@ -48,9 +46,10 @@ class Wish(NamedTuple):
                 else "it takes no options"
             )
             raise BalcliError(f"scheme {scheme} has no --{strangers[0]}; {has}")
-        if self.order is not None and not 1 <= self.order <= STRONGEST:
+        if self.order is not None and not 1 <= self.order <= HIGHEST_SHAFT_ORDER:
             raise BalcliError(
-                f"--order {self.order}: the order must be a whole number from 1 to {STRONGEST}"
+                f"--order {self.order}: the order must be a whole number from 1 to "
+                f"{HIGHEST_SHAFT_ORDER}"
             )
         if self.roll not in (None, "zero"):
             raise BalcliError(f'--roll "{self.roll}": only "zero" can be asked for')
@@ -58,14 +57,13 @@ class Wish(NamedTuple):
 
 def lowest(engine: Engine, quantity: str, senses: Sequence[int]) -> Rest:
     """The lowest order at which a free force (or moment) is left; NoNeedError if there is none."""
-    for order in range(1, HIGHEST + 1):
+    for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
         found = rest(engine, order)
         if any(found.at(quantity, sense) for sense in senses):
             return found
     raise NoNeedError(
-        f"there is no free {quantity}{_turning(senses)} of orders 1 to {HIGHEST}: nothing to "
-        "balance; "
-        "--order names a higher one"
+        f"there is no free {quantity}{_turning(senses)} of orders 1 to {HIGHEST_ORDER_SOUGHT}: "
+        "nothing to balance; --order names a higher one"
     )
 
 

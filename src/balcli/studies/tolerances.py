@@ -24,11 +24,11 @@ from ..enginefile.units import ANGLE
 from ..errors import BalcliError
 from ..forces.quantity import Quantity, evaluate_quantities
 from ..forces.spectrum import compute_spectra
+from ..limits import MOST_TOLERANCE_SAMPLES
 
 Array = NDArray[np.float64]
 CHUNK = 8_192  # samples at a time
 AT_ONCE = 400_000  # deviations at a time, where there are many sources
-MOST = 20_000_000
 STEP = 1e-3  # of a tolerance, for derivatives; masses act linearly, so that theirs are exact
 PERCENTILES = {"p05": 5.0, "p50": 50.0, "p95": 95.0}
 SPREADS = ("major", "forward", "backward", "amplitude")
@@ -141,8 +141,8 @@ def scatter(
             f"{strange[0]} has no scatter of its own; choose one of {', '.join(SPREADS)} of an "
             "order, such as force.1.major"
         )
-    if not 1 <= samples <= MOST:
-        raise BalcliError(f"{samples} samples: from 1 to {MOST} are allowed")
+    if not 1 <= samples <= MOST_TOLERANCE_SAMPLES:
+        raise BalcliError(f"{samples} samples: from 1 to {MOST_TOLERANCE_SAMPLES} are allowed")
     if file.layout.rotary:
         raise BalcliError(
             "there is no scatter of rotary engines, whose masses move on curves: vary single "

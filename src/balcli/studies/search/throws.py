@@ -18,13 +18,13 @@ from ...engine.layout import plan
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
 from ...forces.quantity import Quantity
+from ...limits import MOST_ARRANGEMENTS
 from .objective import Objective
 from .throw_contributions import Array, Complex, Key, Share, shares
 
 Indices = NDArray[np.int8]
 Allowed = Callable[[Array], NDArray[np.bool_]]
 Left = tuple[int, ...]  # how often each angle is still to be given
-MOST = 10**10  # arrangements; branch and bound tries few of them
 BLOCK = 7  # throws of which all arrangements are tried at a time (7! = 5040)
 
 
@@ -38,13 +38,13 @@ def best(
         allowed: which of some arrangements (shape (candidates, throws)) may be; None: all.
 
     Raises:
-        BalcliError: more than MOST.
+        BalcliError: more than MOST_ARRANGEMENTS.
     """
     given = np.mod(np.asarray(file.crank.throws, float), 360.0)
-    if _count(given) > MOST:
+    if _count(given) > MOST_ARRANGEMENTS:
         raise BalcliError(
-            f"crank.throws: {len(given)} throws can be arranged in more than {MOST:g} ways, too "
-            "many to search"
+            f"crank.throws: {len(given)} throws can be arranged in more than "
+            f"{MOST_ARRANGEMENTS:g} ways, too many to search"
         )
     fixed = next(c.throw for c in plan(file.crank, file.layout).cells if c.number == 1)
     free = [t for t in range(len(given)) if t != fixed]
