@@ -80,11 +80,9 @@ def facts(result: Analysis, system: System) -> Facts:
             "(rod's share, throw)"
         )
     about = ", ".join(number(length.of(float(v))) for v in engine.reference_m)
-    higher = (
-        f"to {HIGHEST_ORDER_UNASKED}; --orders asks for higher ones"
-        if result.has_higher_orders
-        else ""
-    )
+    higher = ""
+    if result.has_higher_orders:
+        higher = f"to {HIGHEST_ORDER_UNASKED}; --orders asks for higher ones"
     pairs = [
         ("cylinders", f"{c.count}{_banks(engine)}{_bore(engine, system)}"),
         ("crank", crank),
