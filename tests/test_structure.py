@@ -22,7 +22,7 @@ SOURCE = ROOT / "src" / "balcli"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 CORE = sorted((SOURCE / "core").rglob("*.py"))
 RENDER = sorted((SOURCE / "render").rglob("*.py"))
-LINES_OF_A_COMMAND = 30
+LINES_OF_A_COMMAND = 25
 
 
 def tree(file: Path) -> ast.Module:

@@ -16,6 +16,7 @@ import numpy as np
 from ..core.loads import Device
 from ..core.peaks import Peak, peak
 from ..core.phasors import Array, Phasors
+from ..engine.arrays import ranked
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import MOST_RESULTS_ALONG_CRANK
@@ -43,8 +44,8 @@ class AlongCrank:
 
     @property
     def largest(self) -> int:
-        """Index of the place with the highest peak."""
-        return int(np.argmax([peak.value for peak in self.peaks]))
+        """Index of the place with the highest peak; of equal ones the first."""
+        return int(np.argmax(ranked([peak.value for peak in self.peaks])))
 
 
 @dataclass(frozen=True)

@@ -177,7 +177,7 @@ def _vectors(kind: Kind, phasors: Phasors, unit: Unit) -> Grid:
             abs(phasors.backward[k]),
         )
         largest, smallest, ahead, against = (number(unit.of(float(v))) for v in sizes)
-        return name, largest, smallest, degrees(float(phasors.axis_deg[k])), ahead, against
+        return name, largest, smallest, degrees(float(phasors.axis_deg[k]), 180), ahead, against
 
     return Grid(
         f"{capitalized(kind.label)} by order, {unit.name}",

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core import enclosing_circle as circle
 from ..core.peaks import peak
-from ..core.phasors import Complex, Phasors, unit
+from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..engine.build import Engine, Weighed
 from ..errors import BalcliError
 from ..forces.orders import find_relevant_orders
@@ -167,7 +167,7 @@ def _weights(fitting: Fitting, share: float) -> Fitting:
         total = float(masses.sum())
         if total == 0:
             continue
-        z = float(masses @ engine.cylinders.z[rows]) / total
+        z = _middle(masses, engine.cylinders.z[rows])
         pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
         names = ", ".join(str(engine.numbers[row]) for row in rows)
         reason = (
@@ -181,6 +181,15 @@ def _weights(fitting: Fitting, share: float) -> Fitting:
             reason,
         )
     return fitting
+
+
+def _middle(masses: Array, places: Array) -> float:
+    """Centre of masses along z; in thousandths of a nanometre where that differs by rounding
+    alone.
+    """
+    z = float(masses @ places) / float(masses.sum())
+    short = round(z, 12) + 0.0
+    return short if abs(z - short) <= len(places) * EPS * float(np.abs(places).max()) else z
 
 
 def _counted(masses: Weighed, share: float) -> float:
@@ -206,7 +215,7 @@ def _peaks(engine: Engine, share: float) -> dict[str, float]:
 def _component(curve: Phasors, direction: complex) -> float:
     """Largest component along a direction."""
     c: Complex = curve.forward * direction.conjugate() + np.conj(curve.backward) * direction
-    return peak(Phasors.real(curve.orders, c, np.zeros(1))).value
+    return peak(Phasors.real(curve.orders, c, curve.noise).settled()).value
 
 
 def _curve(engine: Engine, quantity: str) -> Phasors:
@@ -228,29 +237,36 @@ def minimax(engine: Engine, wish: Wish) -> Remedy:
     fitting = Fitting.of(engine, "minimax", 1)
     found = circle.enclosing(_curve(fitting.engine, "force"))
     newton = float(engine.omega) ** 2
-    unbalance = -found.centre / newton
     reason = (
         f"The largest force over a revolution, all orders, becomes {found.radius:.5g} N: no "
         "weight on the crankshaft "
         "can make it smaller (smallest circle around the force as seen from the crank)"
     )
-    if (
-        abs(found.centre) <= fitting.rest(1).noise[Part("force", 1)] * newton
-        and wish.planes is None
-    ):
-        raise NoNeedError(
-            "no counterweight makes the largest force smaller than it is: "
-            f"{found.radius:.5g} N, which has no part of order 1 turning with the crank"
-        )
-    fitting = fitting.add(*_split(engine, wish, fitting, unbalance), reason)
+    left = fitting.rest(1)
+    centred = abs(found.centre) <= max(left.noise[Part("force", 1)] * newton, found.noise)
+    idle = (
+        "no counterweight makes the largest force smaller than it is: "
+        f"{found.radius:.5g} N, which has no part of order 1 turning with the crank"
+    )
+    if centred and wish.planes is None:
+        raise NoNeedError(idle)
+    fitting = fitting.add(
+        *_split(engine, wish, fitting, 0j if centred else -found.centre / newton), reason
+    )
     half = _peaks(replace(fitting.engine, devices=_off_crank(engine)), 0.5)["peak_force_N"]
     return fitting.note(
         peak_force_N=found.radius,
-        reached_deg=[round(float(d), 9) % 360 for d in np.degrees(found.theta)],
+        reached_deg=sorted(round(float(d), 9) % 360 for d in np.degrees(found.theta)),
         relative_error_bound=found.excess / found.radius if found.radius else 0.0,
         factor_half_peak_N=half,
-        improvement=1 - found.radius / half if half else 0.0,
+        improvement=_gain(found, half),
+        **({} if fitting.fits else {"note": idle}),
     ).remedy
+
+
+def _gain(found: circle.Circle, half: float) -> float:
+    """The share by which the circle is smaller than that peak; 0 where they differ by rounding."""
+    return 1 - found.radius / half if abs(half - found.radius) > found.noise else 0.0
 
 
 def _off_crank(engine: Engine) -> tuple[Any, ...]:

@@ -273,8 +273,11 @@ def _along(engine: Engine, wish: Wish, left: Rest, sense: int) -> float:
 
 
 def _distance(left: Rest, z: float) -> float:
-    """From the point along the crank where the force against it acts to z."""
-    return z - left.arm[1] - (left.at("moment", -1) / left.at("force", -1)).real
+    """From the point along the crank where the force against it acts to z; less than a nanometre is
+    rounding.
+    """
+    found = z - left.arm[1] - (left.at("moment", -1) / left.at("force", -1)).real
+    return found if abs(found) > 1e-9 else 0.0
 
 
 def _weight_planes(engine: Engine, left: Rest) -> tuple[float, ...]:

@@ -14,6 +14,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from ...engine.arrays import ranked
 from ...engine.layout import plan
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
@@ -169,6 +170,7 @@ class _Tree:
         values = self._objective.of(
             lambda q: self._table[q.kind, q.order].value(q, *sums[q.kind, q.order])
         )
+        values = ranked(values)  # of equal arrangements the first are kept
         good = np.flatnonzero(values < self._found.worst)
         if self._allowed is not None and len(good):
             good = good[self._allowed(self._whole(rows[good]))]
