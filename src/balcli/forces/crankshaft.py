@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.loads import Device
+from ..core.cylinders import Device
 from ..core.peaks import Peak, peak
 from ..core.phasors import Array, Phasors
 from ..engine.arrays import ranked

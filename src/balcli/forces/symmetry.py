@@ -19,7 +19,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.phasors import Array
+from ..core.phasors import Array, Complex
 from ..core.roots_of_unity import even, rational, turns, vanishes
 from ..engine.build import Engine
 from .spectrum import compute_each_cylinder, compute_spectra
@@ -226,10 +226,10 @@ class _Layout:
         """Rows of the cylinders that are there, those with equal mechanisms (and equal `more`, of
         shape (cylinders or 1,)) together.
         """
-        columns = [self._c.lam, self._c.eps, *more]
+        columns: list[Array | Complex] = [self._c.lam, self._c.eps, *more]
         if self._c.linkage is not None:
             columns += [*self._c.linkage.figures, self._c.reciprocating]
-        found: dict[tuple[float, ...], list[int]] = defaultdict(list)
+        found: dict[tuple[complex, ...], list[int]] = defaultdict(list)
         for row in map(int, np.flatnonzero(there)):
             figures = tuple(column[row if len(column) > 1 else 0].item() for column in columns)
             found[figures].append(row)

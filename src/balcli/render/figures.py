@@ -111,6 +111,14 @@ def entries(spectra: Spectra, k: int) -> dict[str, dict[str, Any]]:
     return {kind.key: figures(kind, phasors, k) for kind, phasors in spectra.items()}
 
 
+def order_entries(spectra: Spectra) -> list[dict[str, Any]]:
+    """What JSON says order by order."""
+    return [
+        {"order": order_number(order), **entries(spectra, k)}
+        for k, order in enumerate(spectra.orders)
+    ]
+
+
 def peaks(analysis: Result) -> dict[str, float | None]:
     """The largest force and moment over a revolution."""
     found: dict[str, float | None] = {}

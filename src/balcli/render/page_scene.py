@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.loads import Device
+from ..core.cylinders import Device
 from ..core.mechanisms.articulated import Articulated
 from ..core.mechanisms.rotary import Rotary
 from ..core.phasors import Phasors
