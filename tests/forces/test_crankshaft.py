@@ -158,7 +158,7 @@ def test_each_cylinder_is_what_it_is_alone(name):
     together = spectrum.compute_each_cylinder(subject, ORDERS)
     for row, number in enumerate(subject.numbers):
         for quantity, single in spectrum.compute_spectra(alone(subject, number), ORDERS).items():
-            one = together.of(row)
+            one = together.select_place(row)
             np.testing.assert_allclose(one[quantity.name].forward, single.forward, rtol=1e-14)
             np.testing.assert_allclose(one[quantity.name].backward, single.backward, rtol=1e-14)
             np.testing.assert_array_equal(

@@ -61,9 +61,9 @@ def test_orders_asked_for_are_the_same_to_the_last_bit(name):
         again, alone_ = asked.spectra[q], single.spectra[q]
         assert np.array_equal(phasors.forward, again.forward), q
         assert np.array_equal(phasors.backward, again.backward), q
-        assert np.array_equal(phasors.at([2]).forward, alone_.forward), q
+        assert np.array_equal(phasors.select_orders([2]).forward, alone_.forward), q
         assert np.array_equal(
-            phasors.forward, getattr(many.spectra, q).at(default.orders).forward
+            phasors.forward, getattr(many.spectra, q).select_orders(default.orders).forward
         ), q
     assert (asked.force, asked.moment) == (default.force, default.moment)
 
@@ -175,7 +175,7 @@ def test_only_one_quantity(quantity):
     assert (result.force is not None) == (result.moment is not None) == (quantity == "peak")
     assert (result.sizing is not None) == (quantity == "sizing")
     if quantity in KINDS:
-        whole = analysed("vr6").spectra.at(result.orders)[quantity]
+        whole = analysed("vr6").spectra.select_orders(result.orders)[quantity]
         assert np.array_equal(result.spectra[quantity].forward, whole.forward)
 
 

@@ -99,7 +99,7 @@ class Phases:
         """Sum of what the cylinders do about z."""
         error = self.rounding * np.abs(series.c) + series.noise
         (total,) = self._add(self._scalar, (series.c,), None)
-        return Phasors.real(self.orders, total, self.add_figures(error))
+        return Phasors.from_scalar(self.orders, total, self.add_figures(error))
 
     def add_figures(self, values: Array, sizes: Array | None = None) -> Array:
         """Sum over the cylinders of `values * sizes`, shape (orders, *trailing).

@@ -82,7 +82,7 @@ class Phasors:
     __array_ufunc__ = None  # array * phasors is ours to answer
 
     @classmethod
-    def real(cls, orders: Array, coefficients: Complex, noise: Array) -> Phasors:
+    def from_scalar(cls, orders: Array, coefficients: Complex, noise: Array) -> Phasors:
         """The scalar `Re sum c_n e^{i n theta}`; a mean (order 0) is its own conjugate and stands
         in `forward` alone.
         """
@@ -120,7 +120,7 @@ class Phasors:
         scalar.
         """
         moment = np.conjugate(p) * self.forward - p * np.conjugate(self.backward)
-        return Phasors.real(self.orders, -1j * moment, 2 * np.abs(p) * self.noise)
+        return Phasors.from_scalar(self.orders, -1j * moment, 2 * np.abs(p) * self.noise)
 
     def settled(self) -> Phasors:
         """The same with whatever lies within its rounding error set to exactly 0, each of both
@@ -133,14 +133,14 @@ class Phasors:
             self.noise,
         )
 
-    def at(self, orders: ArrayLike) -> Phasors:
-        """The rows of these orders (each must be there)."""
+    def select_orders(self, orders: ArrayLike) -> Phasors:
+        """Those of these orders, each of which must be there."""
         rows = np.searchsorted(self.orders, np.asarray(orders, float))
         noise = np.broadcast_to(self.noise, self.forward.shape)
         return Phasors(self.orders[rows], self.forward[rows], self.backward[rows], noise[rows])
 
-    def of(self, place: int) -> Phasors:
-        """Those at one place of the trailing axis."""
+    def select_place(self, place: int) -> Phasors:
+        """Those at one place along the trailing axis."""
         noise = np.broadcast_to(self.noise, self.forward.shape)
         return Phasors(
             self.orders, self.forward[:, place], self.backward[:, place], noise[:, place]
@@ -202,7 +202,7 @@ class Phasors:
         return curve
 
 
-def joined(parts: Sequence[Phasors]) -> Phasors:
+def join_orders(parts: Sequence[Phasors]) -> Phasors:
     """One run of orders from several, in their order."""
     noises = [np.broadcast_to(p.noise, p.forward.shape) for p in parts]
     return Phasors(

@@ -15,7 +15,7 @@ from ..core.cylinders import Device
 from ..core.loads import Loads, find_device_force
 from ..core.mechanisms import harmonics
 from ..core.phases import Phases, SeparatePhases
-from ..core.phasors import Array, Complex, Phasors, joined
+from ..core.phasors import Array, Complex, Phasors, join_orders
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import MOST_LOADS_APART
@@ -67,16 +67,18 @@ class Spectra:
         """The same without all other kinds."""
         return Spectra(self.orders, **{k.name: p for k, p in self.items() if k.name in kinds})
 
-    def at(self, orders: ArrayLike) -> Spectra:
+    def select_orders(self, orders: ArrayLike) -> Spectra:
         """The same without all other orders."""
         if orders is self.orders:
             return self
-        rows = {kind.name: phasors.at(orders) for kind, phasors in self.items()}
+        rows = {kind.name: phasors.select_orders(orders) for kind, phasors in self.items()}
         return Spectra(np.asarray(orders, float), **rows)
 
-    def of(self, place: int) -> Spectra:
+    def select_place(self, place: int) -> Spectra:
         """Those of one place along the trailing axis."""
-        return Spectra(self.orders, **{kind.name: p.of(place) for kind, p in self.items()})
+        return Spectra(
+            self.orders, **{kind.name: p.select_place(place) for kind, p in self.items()}
+        )
 
 
 def compute_spectra(
@@ -133,7 +135,7 @@ def compute_device_force(engine: Engine, device: Device, orders: Array) -> Phaso
         return find_device_force(device, orders, engine.omega**2).settled()
     w, dense = _uneven_speed(engine, orders)
     steady = find_device_force(device, dense, engine.omega**2).settled()
-    return ripple.force(steady, w).at(orders).settled()
+    return ripple.force(steady, w).select_orders(orders).settled()
 
 
 def _compute(engine: Engine, orders: ArrayLike, kinds: Collection[str], *, apart: bool) -> Spectra:
@@ -205,7 +207,7 @@ def _steady(
         found.append({name: getattr(these, name) for name in names})
     if len(found) == 1:
         return found[0], lowest
-    return {name: joined([block[name] for block in found]) for name in names}, lowest
+    return {name: join_orders([block[name] for block in found]) for name in names}, lowest
 
 
 def _uneven(
@@ -219,7 +221,7 @@ def _uneven(
             uneven = ripple.torque(phasors, w, loads.mean_inertia)
         else:
             uneven = ripple.force(phasors, w, loads.mean_momentum if name == "couple" else 0.0)
-        found[name] = uneven.at(orders)
+        found[name] = uneven.select_orders(orders)
     return found
 
 

@@ -89,7 +89,7 @@ def combine_engines(
     return Combined(
         (first, second),
         arrangement,
-        everything.at(choose_orders(everything) if asked is None else asked),
+        everything.select_orders(choose_orders(everything) if asked is None else asked),
         peak(everything["force"]),
         peak(everything["moment"]),
     )
