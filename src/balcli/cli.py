@@ -36,6 +36,7 @@ COMMANDS = (
     "scatter",
     "compare",
     "sum",
+    "field",
     "engines",
     "bench",
 )

@@ -12,13 +12,13 @@ import pytest
 from support.commands import refusal, run_here
 from support.engines import GOOD, changed
 
+from balcli.core.drilled_hole import STEEL, find_drill_depth
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.enginefile.model import Counterweight, Slider
 from balcli.errors import BalcliError
 from balcli.results.balance import balance
 from balcli.sizing.sizing import SCHEMES, Remedy, Tools, Wish, practical
-from balcli.sizing.workshop import STEEL, drill_depth
 
 SINGLE = changed(
     ("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4")
@@ -266,11 +266,11 @@ def test_given_thickness_sets_the_radius():
 
 def test_drill_depth_removes_the_unbalance():
     """Radial hole from the rim: the integral of density times area times radius over its depth."""
-    depth = drill_depth(1e-3, 0.08, 0.012)
+    depth = find_drill_depth(1e-3, 0.08, 0.012)
     area = math.pi / 4 * 0.012**2
     assert STEEL * area * (0.08**2 - (0.08 - depth) ** 2) / 2 == pytest.approx(1e-3, rel=1e-13)
-    assert math.isnan(drill_depth(1.0, 0.08, 0.012))
-    assert drill_depth(0.0, 0.08, 0.012) == 0
+    assert math.isnan(find_drill_depth(1.0, 0.08, 0.012))
+    assert find_drill_depth(0.0, 0.08, 0.012) == 0
 
 
 def test_a_first_guess_of_a_device_in_steel():
@@ -301,8 +301,8 @@ def test_a_hole_ends_at_the_axis():
     no more.
     """
     most = STEEL * math.pi / 4 * 0.01**2 * 0.05**2 / 2
-    assert drill_depth(most * (1 - 1e-14), 0.05, 0.01) == pytest.approx(0.05, rel=1e-6)
-    assert math.isnan(drill_depth(most * (1 + 1e-14), 0.05, 0.01))
+    assert find_drill_depth(most * (1 - 1e-14), 0.05, 0.01) == pytest.approx(0.05, rel=1e-6)
+    assert math.isnan(find_drill_depth(most * (1 + 1e-14), 0.05, 0.01))
 
 
 def test_sliders_move_at_their_order():
