@@ -8,7 +8,6 @@ cranks nor orders have to be tried in vain.
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -69,7 +68,7 @@ class Slots:
         return found
 
     def _cranks(
-        self, throws: dict[int, float], free: Sequence[int], left: Counter[float]
+        self, throws: dict[int, float], free: Sequence[int], left: Counter[int]
     ) -> Iterator[tuple[float, ...]]:
         """With the further throws at every angle at which there are slots left for all their
         cylinders.
@@ -78,12 +77,9 @@ class Slots:
             yield tuple(throws[t] for t in sorted(throws))
             return
         cells = [c for c in self.cells if c.throw == free[0]]
-        for slot in sorted(left) if throws else [0.0]:
-            angle = (
-                (self.top[cells[0].number] - self.top[1] - self.sense * slot) % 360.0
-                if throws
-                else 0.0
-            )
+        lead = self.top[cells[0].number] - self.top[1]
+        for slot in sorted(left) if throws else [0]:
+            angle = (lead - self.sense * 180.0 * slot / len(self.cells)) % 360.0 if throws else 0.0
             taken = Counter(self._slot(c, angle) for c in cells)
             if all(left[kind] >= count for kind, count in taken.items()):
                 yield from self._cranks(throws | {free[0]: angle}, free[1:], left - taken)
@@ -96,7 +92,7 @@ class Slots:
             yield from self._orders((1,), kinds)
 
     def _orders(
-        self, order: tuple[int, ...], kinds: Mapping[int, float]
+        self, order: tuple[int, ...], kinds: Mapping[int, int]
     ) -> Iterator[tuple[int, ...]]:
         if len(order) == len(self.cells):
             yield order
@@ -106,20 +102,20 @@ class Slots:
                 yield from self._orders((*order, number), kinds)
 
     @cached_property
-    def _slots(self) -> list[float]:
-        """Where the crank stands at each firing, after cylinder 1's, deg; alike ones are equal."""
-        return [round(self.cycle * k / len(self.cells), 9) % 360.0 for k in range(len(self.cells))]
+    def _slots(self) -> list[int]:
+        """Where the crank stands at each firing, after cylinder 1's: half turns shared out among
+        all cylinders, modulo a turn; whole numbers, so that alike ones are equal.
+        """
+        half_turns = round(self.cycle / 180.0)
+        return [half_turns * k % (2 * len(self.cells)) for k in range(len(self.cells))]
 
-    def _slot(self, cell: Cell, throw: float) -> float:
-        """Where the crank stands when this cylinder is at top dead centre; nan if nothing fires
+    def _slot(self, cell: Cell, throw: float) -> int:
+        """Where the crank stands when this cylinder is at top dead centre; -1 if nothing fires
         there.
         """
+        grain = 180.0 / len(self.cells)
         ready = self.sense * (self.top[cell.number] - self.top[1] - throw)
-        return next(
-            (
-                slot
-                for slot in self._slots
-                if abs((ready - slot + 180.0) % 360.0 - 180.0) <= TOLERANCE
-            ),
-            math.nan,
-        )
+        nearest = round(ready / grain)
+        slot = nearest % (2 * len(self.cells))
+        fires = abs(ready - nearest * grain) <= TOLERANCE and slot in self._slots
+        return slot if fires else -1

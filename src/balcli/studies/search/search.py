@@ -14,15 +14,15 @@ from numpy.typing import NDArray
 from ...engine.arrays import ranked
 from ...engine.build import Engine, build, tops
 from ...engine.firing import TOLERANCE
-from ...engine.layout import cycle, plan
+from ...engine.layout import TURN, cycle, plan
 from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
-from ...forces.quantity import evaluate_quantities
+from ...forces.quantity import Quantity, evaluate_quantities
 from ...forces.textbook import TextbookUnits, find_textbook_units
 from ..parameters import varied
-from . import angles
 from . import throws as cranks
+from .angles import Curve, Span, find_minima, neaten
 from .firing_orders import Slots
 from .objective import Array, Objective, objective
 
@@ -30,7 +30,6 @@ __all__ = ["Found", "Search", "fires_evenly", "objective", "search"]
 
 What = OneOf["throws", "firing_order", "bank_angle", "splay"]
 IMAGES = 8  # candidates kept for each that is asked for, as many are mirror images
-EXACTLY = 1e-6  # deg, of firings, where an angle is free to make them even
 SAME = 1e-9  # objectives of mirror images differ by less, relatively
 
 
@@ -111,9 +110,9 @@ def _over_throws(file: EngineFile, objective: Objective, top: int, even: bool) -
         (lambda throws: fires_evenly(_engines(file, {"throws": throws}), file)) if even else None
     )
     found = cranks.best(file, objective, IMAGES * top, allowed)
-    return _figures(
-        file, {"throws": np.mod(found - found[:, :1], 360.0) if len(found) else found}, objective
-    )
+    if not len(found):
+        return iter(())
+    return _figures(file, {"throws": cranks.count_from(found[:, :1], found)}, objective)
 
 
 def _over_firing_order(
@@ -134,9 +133,7 @@ def _over_firing_order(
     if not possible or next(slots.orders(possible[0]), None) is None:
         raise BalcliError("these throws allow no even firing order")
     throws = np.array(possible)
-    best = _figures(
-        file, {"throws": np.round(np.mod(throws - throws[:, :1], 360.0), 9) % 360.0}, objective
-    )
+    best = _figures(file, {"throws": cranks.count_from(throws[:, :1], throws)}, objective)
     return (
         Found({"firing_order": list(order), **one.arrangement}, one.objective, one.figures)
         for one in best
@@ -154,7 +151,7 @@ def _without_order(file: EngineFile) -> EngineFile:
 
 
 def _over_angle(
-    key: str, low: float, high: float
+    key: str, span: Span
 ) -> Callable[[EngineFile, Objective, int, bool], Iterator[Found]]:
     def over(file: EngineFile, objective: Objective, top: int, even: bool) -> Iterator[Found]:
         if len(plan(file.crank, file.layout).banks) < 2 or (
@@ -170,29 +167,61 @@ def _over_angle(
                 f"{key.replace('_', ' ')}: give crank.throws, "
                 "so that the crank stays as it is"
             )
-
-        def value(x: Array) -> Array:
-            engine = _engines(file, {key: x})
-            figures = dict(
-                zip(
-                    objective.quantities,
-                    evaluate_quantities(engine, objective.quantities),
-                    strict=True,
-                )
-            )
-            values = np.broadcast_to(objective.of(figures.__getitem__), x.shape)
-            return np.where(fires_evenly(engine, file, EXACTLY), values, np.inf) if even else values
-
-        return _figures(file, {key: angles.valleys(value, low, high, IMAGES * top)}, objective)
+        isolated = _find_even_angles(file, key, span) if even else None
+        found = _find_best_angles(file, key, span, objective) if isolated is None else isolated
+        return _figures(file, {key: found}, objective)
 
     return over
+
+
+def _find_best_angles(file: EngineFile, key: str, span: Span, objective: Objective) -> Array:
+    """All local minima of the objective where the limits are kept."""
+
+    def draw(weights: Mapping[Quantity, float]) -> Curve:
+        """The curve of a weighted sum over the angle."""
+        only = Objective(dict(weights), {})
+
+        def value(x: Array) -> Array:
+            figures = evaluate_quantities(_engines(file, {key: x}), only.quantities)
+            total = only.of(dict(zip(only.quantities, figures, strict=True)).__getitem__)
+            return np.broadcast_to(total, x.shape)
+
+        return value
+
+    limits = [(draw({q: 1.0}), limit) for q, limit in objective.limits.items()]
+    highest = max(q.order for q in objective.quantities)
+    return find_minima(draw(objective.weights), limits, span, highest)
+
+
+def _find_even_angles(file: EngineFile, key: str, span: Span) -> Array | None:
+    """The angles at which the cylinders fire evenly, deg; None if they do at any angle.
+
+    Where the crank stands at a cylinder's top dead centre depends on the angle in proportion: that
+    of one cylinder that moves against cylinder 1 has to be at one of the slots of the cycle.
+    """
+    ready = _find_top_dead_centres(_engines(file, {key: np.array([0.0, 1.0])}), file)
+    speeds = np.round(ready[:, 1] - ready[:, 0], 9)
+    moving = np.flatnonzero(speeds)
+    if len(moving):
+        row = moving[0]
+        slots = cycle(file.layout) * np.arange(len(ready)) / len(ready)
+        turns = TURN * np.arange(-len(ready), len(ready) + 1)
+        places = (slots + turns[:, None] - ready[row, 0]).ravel() / speeds[row]
+        x = np.unique(neaten(places[(span.low <= places) & (places <= span.high)]))
+        x = np.unique(span.bring_inside(x))
+    else:
+        x = np.array([span.high])
+    even = fires_evenly(_engines(file, {key: x}), file) if len(x) else np.zeros(0, bool)
+    if len(moving):
+        return x[even]
+    return None if even.all() else x[:0]
 
 
 _SEARCHES: dict[str, Callable[[EngineFile, Objective, int, bool], Iterator[Found]]] = {
     "throws": _over_throws,
     "firing_order": _over_firing_order,
-    "bank_angle": _over_angle("bank_angle", 0.0, 180.0),
-    "splay": _over_angle("splay", -180.0, 180.0),
+    "bank_angle": _over_angle("bank_angle", Span(0.0, 180.0)),
+    "splay": _over_angle("splay", Span(-180.0, 180.0)),
 }
 
 
@@ -214,23 +243,27 @@ def _engines(file: EngineFile, candidates: Candidates) -> Engine:
     return build(varied(file, paths), 1)
 
 
-def fires_evenly(
-    engine: Engine, file: EngineFile, tolerance: float = TOLERANCE
-) -> NDArray[np.bool_]:
-    """Whether the cylinders reach top dead centre in turn at even distances (within a tolerance,
-    deg), shape (variants,).
+def fires_evenly(engine: Engine, file: EngineFile) -> NDArray[np.bool_]:
+    """Whether the cylinders reach top dead centre in turn at even distances (within TOLERANCE),
+    shape (variants,).
+    """
+    ready = np.sort(np.mod(_find_top_dead_centres(engine, file) + TOLERANCE, TURN), axis=0)
+    count = len(ready)
+    even = np.sort(np.mod(np.arange(count) * cycle(file.layout) / count, TURN))
+    even = even.reshape(-1, *(1,) * (ready.ndim - 1))
+    fits: NDArray[np.bool_] = (np.abs(ready - TOLERANCE - even) <= TOLERANCE).all(axis=0)
+    return fits
+
+
+def _find_top_dead_centres(engine: Engine, file: EngineFile) -> Array:
+    """Where the crank stands at each cylinder's top dead centre, deg after cylinder 1's, shape
+    (cylinders, *variants).
     """
     c = engine.cylinders
-    late = (
-        0.0 if file.articulation else np.degrees(np.arcsin(c.eps / (1 + c.lam)))
-    )  # see engine.tops
+    nominal = file.articulation is not None  # see engine.tops
+    late = 0.0 if nominal else np.degrees(np.arcsin(c.eps / (1 + c.lam)))
     ready = c.axis_of_each_deg + late - c.pin_deg
-    ready = np.sort(np.mod(ready - ready[engine.numbers.index(1)] + tolerance, 360.0), axis=0)
-    even = np.sort(np.mod(np.arange(c.count) * cycle(file.layout) / c.count, 360.0)).reshape(
-        -1, *(1,) * (ready.ndim - 1)
-    )
-    fits: NDArray[np.bool_] = (np.abs(ready - tolerance - even) <= tolerance).all(axis=0)
-    return fits
+    return np.asarray(ready - ready[engine.numbers.index(1)])
 
 
 def _figures(file: EngineFile, candidates: Candidates, objective: Objective) -> Iterator[Found]:
@@ -291,6 +324,6 @@ def _mirrored(file: EngineFile) -> Callable[[Found], Iterator[tuple[float, ...]]
                     for sign in (1, -1)
                 )
         else:
-            yield tuple(one.arrangement.values())
+            yield tuple(round(angle, 6) for angle in one.arrangement.values())
 
     return images
