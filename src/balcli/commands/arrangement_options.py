@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
 from ..errors import BalcliError
 from ..limits import FARTHEST_DEG, FARTHEST_M
 from .options import numbers
 
 if TYPE_CHECKING:
-    from ..results.two_engines import Arrangement
+    from ..results.two_engines import Arrangement, Load
 
 
-def arrangement(phase: float, at: str, turn: float, reverse: bool) -> Arrangement:
+def arrangement(phase: float, at: str, turn: float, reverse: bool, load: str) -> Arrangement:
     """From the options' text and numbers.
 
     Raises:
-        BalcliError: a place that is not three numbers, or anything infinite.
+        BalcliError: a place that is not three numbers, anything infinite, an unknown load, or one
+            that makes no difference.
     """
     from ..results.two_engines import Arrangement
 
@@ -25,7 +26,21 @@ def arrangement(phase: float, at: str, turn: float, reverse: bool) -> Arrangemen
             raise BalcliError(
                 f"{option} {value:g}: give an angle in degrees, up to {FARTHEST_DEG:g}"
             )
-    return Arrangement(phase, _place(at), turn, reverse)
+    return Arrangement(phase, _place(at), turn, reverse, _load(load, reverse))
+
+
+def _load(text: str, reverse: bool) -> Load:
+    from ..results.two_engines import Load
+
+    found: Load | None = next((name for name in get_args(Load) if name == text), None)
+    if found is None:
+        raise BalcliError(f'--load "{text[:60]}": choose from {", ".join(get_args(Load))}')
+    if found != "first" and not reverse:
+        raise BalcliError(
+            f"--load {found}: cranks that turn alike roll the frame alike, whichever drives the "
+            "load; it matters with --reverse"
+        )
+    return found
 
 
 def _place(text: str) -> tuple[float, float, float]:

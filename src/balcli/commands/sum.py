@@ -33,6 +33,17 @@ def sum(  # noqa: A001 (the command's name)
     reverse: Annotated[
         bool, typer.Option("--reverse", help="Its crank turns against the first one's.")
     ] = False,
+    load: Annotated[
+        str,
+        typer.Option(
+            "--load",
+            metavar="first|second|both",
+            help=(
+                "With --reverse: the crank that has flywheel and load, and so bears the inertia "
+                "torque of both engines; both: each bears its own."
+            ),
+        ),
+    ] = "first",
     speed: Speed = None,
     orders: Orders = None,
     format: FormatOption = Format.TABLE,  # noqa: A002 (the option's name)
@@ -49,7 +60,7 @@ def sum(  # noqa: A001 (the command's name)
     rpm, asked, placed = (
         checked_speed(speed),
         order_list(orders),
-        arrangement(phase, at, turn, reverse),
+        arrangement(phase, at, turn, reverse, load),
     )
     engines = [named(engine_of(file, rpm)[1], file) for file in (first, second)]
     result = combine_engines(engines[0], engines[1], placed, asked)
