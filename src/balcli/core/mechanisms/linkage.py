@@ -106,10 +106,11 @@ class Linkage(ABC):
         False  # whether the cylinders, and so the rods, turn about a crank that stands still
     )
 
-    @property
     @abstractmethod
-    def figures(self) -> tuple[NDArray[Any], ...]:
-        """What distinguishes the cylinders, each of shape (cylinders or 1, *trailing)."""
+    def figures(self, lam: Array, eps: Array) -> tuple[NDArray[Any], ...]:
+        """What distinguishes the mechanisms of the cylinders, masses left out, each of shape
+        (cylinders or 1, *trailing); lam and eps as in `Cylinders`.
+        """
 
     @abstractmethod
     def motion(self, psi: Array, lam: Array, eps: Array) -> Motion:
