@@ -136,6 +136,7 @@ COMPUTING = (
     "balcli.engine.build",
     "balcli.engine.load",
     "balcli.studies.sweep",
+    "balcli.studies.deviations",
     "balcli.studies.tolerances",
     "balcli.studies.search.search",
     "balcli.results.comparison",

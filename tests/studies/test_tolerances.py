@@ -12,7 +12,8 @@ from balcli.engine.build import build
 from balcli.engine.load import parse as load
 from balcli.errors import BalcliError
 from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
-from balcli.studies.tolerances import Tolerances, scatter, tolerances
+from balcli.studies.deviations import Tolerances
+from balcli.studies.tolerances import parse_tolerances, scatter_engine
 
 FORCES = parse_quantity_list("force.1.major,force.2.major,moment.1.major")
 TWIN = changed(
@@ -28,7 +29,7 @@ def test_two_pistons_alone_have_a_triangular_difference() -> None:
     uniform d of +-t: its mean is 2t/3.
     """
     t, samples = 0.01, 200_000
-    (spread,) = scatter(
+    (spread,) = scatter_engine(
         load(TWIN), Tolerances(mass=t), parse_quantity_list("force.1.major"), samples, seed=1
     ).spreads
     whole = 0.5 * 0.045 * (3000 * math.pi / 30) ** 2
@@ -40,7 +41,7 @@ def test_two_pistons_alone_have_a_triangular_difference() -> None:
 
 
 def test_shares_are_what_a_changed_file_gives() -> None:
-    (spread,) = scatter(
+    (spread,) = scatter_engine(
         load(GOOD), Tolerances(mass=0.01), parse_quantity_list("force.2.major"), 10, seed=1
     ).spreads
     share = {source.name: value for source, value in spread.shares}
@@ -55,7 +56,7 @@ def test_shares_are_what_a_changed_file_gives() -> None:
 
 def test_shares_of_angles_and_lengths_are_derivatives() -> None:
     weighed = changed(("mass = 0.6\ncg = 45\n", "small_end = 0.17\nbig_end = 0.43\n"))
-    (spread,) = scatter(
+    (spread,) = scatter_engine(
         load(weighed),
         Tolerances(length=1e-6, angle_deg=1e-5),
         parse_quantity_list("force.2.major"),
@@ -76,7 +77,9 @@ def test_shares_of_angles_and_lengths_are_derivatives() -> None:
 
 def test_nothing_exceeds_the_bound_of_masses() -> None:
     for shape in ("uniform", "normal"):
-        result = scatter(load(GOOD), Tolerances(mass=0.02), FORCES, 5000, seed=3, shape=shape)
+        result = scatter_engine(
+            load(GOOD), Tolerances(mass=0.02), FORCES, 5000, seed=3, shape=shape
+        )
         for s in result.spreads:
             assert s.percentiles["p05"] <= s.percentiles["p50"] <= s.percentiles["p95"] <= s.largest
             assert shape == "normal" or s.largest <= s.bound * (1 + 1e-12)
@@ -84,15 +87,16 @@ def test_nothing_exceeds_the_bound_of_masses() -> None:
 
 def test_a_seed_repeats_and_chunks_do_not_matter() -> None:
     runs = [
-        scatter(load(GOOD), Tolerances(mass=0.01), FORCES, 20_000, seed=seed) for seed in (7, 7, 8)
+        scatter_engine(load(GOOD), Tolerances(mass=0.01), FORCES, 20_000, seed=seed)
+        for seed in (7, 7, 8)
     ]
     assert runs[0].spreads == runs[1].spreads
     assert runs[0].spreads[0].mean != runs[2].spreads[0].mean
 
 
 def test_tolerances_in_words() -> None:
-    assert tolerances("0.5%", "0 %", "0.2 deg") == Tolerances(0.005, 0.0, 0.2)
-    assert tolerances("1%", "0%", "0.1").angle_deg == 0.1
+    assert parse_tolerances("0.5%", "0 %", "0.2 deg") == Tolerances(0.005, 0.0, 0.2)
+    assert parse_tolerances("1%", "0%", "0.1").angle_deg == 0.1
 
 
 @pytest.mark.parametrize(
@@ -106,7 +110,7 @@ def test_tolerances_in_words() -> None:
 )
 def test_mistakes_in_words(given: tuple[str, str, str], message: str) -> None:
     with pytest.raises(BalcliError) as caught:
-        tolerances(*given)
+        parse_tolerances(*given)
     assert str(caught.value).startswith(message)
 
 
@@ -120,12 +124,12 @@ def test_mistakes_in_words(given: tuple[str, str, str], message: str) -> None:
 )
 def test_refusals(tolerance: Tolerances, quantity: str, samples: int, message: str) -> None:
     with pytest.raises(BalcliError) as caught:
-        scatter(load(GOOD), tolerance, parse_quantity_list(quantity), samples)
+        scatter_engine(load(GOOD), tolerance, parse_quantity_list(quantity), samples)
     assert str(caught.value).startswith(message)
 
 
 def test_percentiles_are_those_of_the_samples() -> None:
-    result = scatter(
+    result = scatter_engine(
         load(TWIN), Tolerances(mass=0.01), parse_quantity_list("force.1.major"), 50_000, seed=1
     )
     whole = 0.5 * 0.045 * (3000 * math.pi / 30) ** 2
@@ -148,7 +152,7 @@ def test_an_articulated_rods_mass_deviates_at_its_knuckle_pin_too() -> None:
     heavier = force(ARTICULATED + "[cylinder.3]\nrod_mass = 0.6231\nrod_cg = 30\n") - force(
         ARTICULATED
     )
-    (found,) = scatter(
+    (found,) = scatter_engine(
         load(ARTICULATED), Tolerances(mass=0.005), parse_quantity_list("force.1.major"), 10, 1
     ).spreads
     assert {s.name: share for s, share in found.shares}["rod mass 3"] == pytest.approx(
@@ -161,4 +165,6 @@ def test_rotary_engines_have_no_scatter() -> None:
     with pytest.raises(
         BalcliError, match="there is no scatter of rotary engines, whose masses move on curves"
     ):
-        scatter(load(rotary), Tolerances(mass=0.005), parse_quantity_list("force.1.major"), 10, 1)
+        scatter_engine(
+            load(rotary), Tolerances(mass=0.005), parse_quantity_list("force.1.major"), 10, 1
+        )

@@ -67,18 +67,17 @@ def scatter(
     """How free forces and moments spread when masses (rod lengths, throw angles) vary, and which
     tolerance matters most.
     """
-    from ..forces import quantity as quantities
+    from ..forces.quantity import parse_quantity_list
     from ..render import tolerances as rendered
     from ..render.formats import render
-    from ..studies import tolerances as scatters
+    from ..studies.tolerances import parse_tolerances, scatter_engine
     from .inputs import engine_of
     from .output import emit
 
-    tolerances = scatters.tolerances(mass, length, angle)
-    found = scatters.scatter(
+    found = scatter_engine(
         engine_of(file)[0],
-        tolerances,
-        quantities.parse_quantity_list(quantity),
+        parse_tolerances(mass, length, angle),
+        parse_quantity_list(quantity),
         samples,
         seed,
         distribution.value,

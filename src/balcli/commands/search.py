@@ -70,8 +70,9 @@ def search(
     from ..engine import load as enginefile
     from ..render import search as rendered
     from ..render.formats import render
-    from ..studies.search import search as searches
-    from ..studies.search.write import arranged
+    from ..studies.search.objective import parse_objective
+    from ..studies.search.search import search_arrangements
+    from ..studies.search.write import write_design
     from .output import emit
     from .output import write as write_file
 
@@ -82,9 +83,8 @@ def search(
     text, name = enginefile.text_of(file), enginefile.name_of(file)
     model = enginefile.parse(text, name)
     enginefile.built(model, name)  # what is wrong with the file itself is told with its name
-    found = searches.search(
-        model, over, searches.objective(minimise, limit or ()), top, bool(require)
-    )
+    objective = parse_objective(minimise, limit or ())
+    found = search_arrangements(model, over, objective, top, bool(require))
     emit(
         render(
             format,
@@ -96,4 +96,4 @@ def search(
         output,
     )
     if write is not None:
-        write_file(arranged(text, found.results[0].arrangement), write)
+        write_file(write_design(text, found.results[0].design), write)

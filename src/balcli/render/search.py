@@ -9,17 +9,18 @@ from .csv import write
 from .sheet import Grid, Sheet, number
 
 if TYPE_CHECKING:
-    from ..studies.search.search import Found, Search
+    from ..studies.search.designs import Found
+    from ..studies.search.search import Search
 
 
 def document(result: Search) -> dict[str, Any]:
     """`balcli.search/1`."""
     return {
         "format": "balcli.search/1",
-        "engine": {"name": result.file.name},
+        "engine": {"name": result.model.name},
         "over": result.over,
         "results": [
-            {**one.arrangement, "objective": one.objective, "quantities": dict(one.figures)}
+            {**one.design.given(), "objective": one.objective, "quantities": dict(one.figures)}
             for one in result.results
         ],
     }
@@ -29,9 +30,9 @@ def rows(result: Search) -> str:
     """CSV, an arrangement a line."""
     first = result.results[0]
     return write(
-        (*first.arrangement, "objective", *first.figures),
+        (*first.design.given(), "objective", *first.figures),
         [
-            (*map(_plain, one.arrangement.values()), one.objective, *one.figures.values())
+            (*map(_plain, one.design.given().values()), one.objective, *one.figures.values())
             for one in result.results
         ],
     )
@@ -44,7 +45,7 @@ def sheet(result: Search) -> Sheet:
     first = result.results[0]
     units = {q.name: q.unit for q in result.objective.quantities}
     heads = [
-        *(name.replace("_", " ") for name in first.arrangement),
+        *(name.replace("_", " ") for name in first.design.given()),
         "objective",
         *(f"{name}, {units[name]}" for name in first.figures),
         *(f"{name}, {unit}" for name, (_, unit) in _textbook(result, first).items()),
@@ -53,14 +54,14 @@ def sheet(result: Search) -> Sheet:
         f"Best {result.over.replace('_', ' ')}",
         tuple(heads),
         tuple(_row(result, one) for one in result.results),
-        words=tuple(range(len(first.arrangement))),
+        words=tuple(range(len(first.design.given()))),
     )
-    return Sheet(result.file.name or "engine without a name", (grid,))
+    return Sheet(result.model.name or "engine without a name", (grid,))
 
 
 def _row(result: Search, one: Found) -> tuple[str, ...]:
     return (
-        *map(_plain, one.arrangement.values()),
+        *map(_plain, one.design.given().values()),
         number(one.objective),
         *map(number, one.figures.values()),
         *(number(value, 4) for value, _ in _textbook(result, one).values()),

@@ -17,7 +17,7 @@ def document(result: Scatter) -> dict[str, Any]:
     """`balcli.scatter/1`."""
     return {
         "format": "balcli.scatter/1",
-        "engine": {"name": result.file.name},
+        "engine": {"name": result.model.name},
         "samples": result.samples,
         "quantities": {
             s.quantity.name: _figures(s)
@@ -63,7 +63,7 @@ def sheet(result: Scatter) -> Sheet:
         tuple((f"{s.quantity.name}, {s.quantity.unit}", *_texts(s)) for s in result.spreads),
         words=tuple(range(SHOWN + 1)),
     )
-    return Sheet(result.file.name or "engine without a name", (spread, shares))
+    return Sheet(result.model.name or "engine without a name", (spread, shares))
 
 
 def _texts(s: Spread) -> list[str]:

@@ -19,9 +19,10 @@ from balcli.forces.quantity import evaluate_quantities
 from balcli.forces.symmetry import explain_symmetry
 from balcli.studies.parameters import varied
 from balcli.studies.search.angles import Span, find_minima, neaten
-from balcli.studies.search.objective import Objective, objective
-from balcli.studies.search.search import fires_evenly, search
-from balcli.studies.search.write import arranged
+from balcli.studies.search.even_firing import fires_evenly
+from balcli.studies.search.objective import Objective, parse_objective
+from balcli.studies.search.search import search_arrangements
+from balcli.studies.search.write import write_design
 
 Array = NDArray[np.float64]
 PATHS = {"bank_angle": "layout.bank_angle", "splay": "crank.splay"}
@@ -122,16 +123,16 @@ def test_angles_as_a_file_has_them() -> None:
 def sweep(file: EngineFile, over: str, wanted: Objective, x: Array) -> Array:
     engine = build(varied(file, {PATHS[over]: x}), 1)
     figures = evaluate_quantities(engine, wanted.quantities)
-    values = wanted.of(dict(zip(wanted.quantities, figures, strict=True)).__getitem__)
+    values = wanted.evaluate(dict(zip(wanted.quantities, figures, strict=True)).__getitem__)
     return np.broadcast_to(values, x.shape)
 
 
 def found_by(file: EngineFile, over: str, wanted: Objective) -> tuple[Array, Array]:
     try:
-        results = search(file, over, wanted, 1000).results
+        results = search_arrangements(file, over, wanted, 1000).results
     except BalcliError:
         return np.empty(0), np.empty(0)
-    return np.array([[r.arrangement[over], r.objective] for r in results]).T
+    return np.array([[r.design.given()[over], r.objective] for r in results]).T
 
 
 @pytest.mark.parametrize("seed", range(40))
@@ -155,15 +156,15 @@ def test_no_angle_of_a_dense_sweep_is_better(seed: int) -> None:
     x = np.linspace(*SPANS[over], 9001 if over == "bank_angle" else 18001)
     limits = []
     for name in limited[: random.integers(1, 3)]:
-        values = sweep(file, over, objective(name), x)
+        values = sweep(file, over, parse_objective(name), x)
         level = float(np.quantile(values, random.choice([0.001, 0.05, 0.5])))
         if level > 1e-6:
             limits.append(f"{name}<{level * 1.0001}")
-    wanted = objective(goal, limits)
+    wanted = parse_objective(goal, limits)
     dense = sweep(file, over, wanted, x)
     angles, values = found_by(file, over, wanted)
     if np.isfinite(dense).any():
-        unlimited = sweep(file, over, objective(goal), x).max()
+        unlimited = sweep(file, over, parse_objective(goal), x).max()
         assert values.min() <= dense.min() + 1e-9 * unlimited
     if not len(angles):
         return
@@ -187,8 +188,8 @@ def test_a_limit_met_by_hand(
 ) -> None:
     """The limit is what the engine has at an angle that is on no grid."""
     place = angle + 0.1234
-    bound = float(sweep(file, over, objective(limit), np.array([place]))[0])
-    wanted = objective(goal, [f"{limit}<{bound!r}"])
+    bound = float(sweep(file, over, parse_objective(limit), np.array([place]))[0])
+    wanted = parse_objective(goal, [f"{limit}<{bound!r}"])
     dense = sweep(file, over, wanted, np.linspace(0, 180, 18_001))
     angles, values = found_by(file, over, wanted)
     assert values.min() <= dense.min() * (1 + 1e-12)
@@ -197,9 +198,9 @@ def test_a_limit_met_by_hand(
 
 def test_a_turn_is_listed_once_and_no_maximum() -> None:
     for goal in ("force.1.major", "force.1.forward", "force.2.major"):
-        angles, values = found_by(vee(), "splay", objective(goal))
+        angles, values = found_by(vee(), "splay", parse_objective(goal))
         x = np.linspace(-180, 180, 3601)
-        dense = sweep(vee(), "splay", objective(goal), x)
+        dense = sweep(vee(), "splay", parse_objective(goal), x)
         assert values.max() <= np.median(dense)
         assert len(np.unique(np.mod(angles, 360))) == len(angles)
 
@@ -215,8 +216,10 @@ def test_the_angle_at_which_a_vee_fires_evenly(pairs: int, over: str) -> None:
     interval = 720 / (2 * pairs)
     throws = [-2 * k * interval for k in range(pairs)]
     file = vee(throws=throws, bank=bank)
-    results = search(file, over, objective("moment.1.major"), 100, even_firing=True).results
-    found = [r.arrangement[over] for r in results]
+    results = search_arrangements(
+        file, over, parse_objective("moment.1.major"), 100, even_firing=True
+    ).results
+    found = [r.design.given()[over] for r in results]
     for angle in found:
         engine = build(varied(file, {PATHS[over]: angle}))
         assert bool(fires_evenly(engine, file))
@@ -243,17 +246,21 @@ def test_uneven_throws_fire_evenly_at_no_angle() -> None:
     file = vee(throws=[0, 100, 190])
     for over in PATHS:
         with pytest.raises(BalcliError, match="fires evenly"):
-            search(file, over, objective("moment.1.major"), even_firing=True)
+            search_arrangements(file, over, parse_objective("moment.1.major"), even_firing=True)
 
 
 def test_even_firing_and_a_limit() -> None:
     """V6 of 72.4 degrees: splays of -47.6, -167.6 and 72.4 fire evenly; the limit leaves two."""
     file = vee(throws=[0, 240, 120], bank=72.4)
-    free = search(file, "splay", objective("moment.1.major"), even_firing=True).results
-    assert sorted(r.arrangement["splay"] for r in free) == [-167.6, -47.6, 72.4]
+    free = search_arrangements(
+        file, "splay", parse_objective("moment.1.major"), even_firing=True
+    ).results
+    assert sorted(r.design.splay for r in free) == [-167.6, -47.6, 72.4]
     limit = f"moment.1.major<{free[-1].objective!r}"
-    kept = search(file, "splay", objective("moment.1.major", [limit]), even_firing=True).results
-    assert sorted(r.arrangement["splay"] for r in kept) == [-167.6, -47.6]
+    kept = search_arrangements(
+        file, "splay", parse_objective("moment.1.major", [limit]), even_firing=True
+    ).results
+    assert sorted(r.design.splay for r in kept) == [-167.6, -47.6]
 
 
 @pytest.mark.parametrize("cylinders", range(4, 29, 2))
@@ -262,19 +269,19 @@ def test_four_strokes_of_any_even_number_have_firing_orders(cylinders: int) -> N
     interval = 720 / cylinders
     half = cylinders // 2
     once = [k * interval for k in range(half)]
-    found = search(
+    found = search_arrangements(
         load(in_line(str([*once, *reversed(once)]))),
         "firing_order",
-        objective("moment.1.major"),
+        parse_objective("moment.1.major"),
         1,
     ).results
-    assert sorted(found[0].arrangement["firing_order"]) == list(range(1, cylinders + 1))
+    assert sorted(found[0].design.firing_order) == list(range(1, cylinders + 1))
     twice = [2 * interval * k for k in range(half)]
     file = vee(throws=twice, bank=interval % 360)
-    (best, *_) = search(file, "firing_order", objective("moment.1.major"), 1).results
-    ordered = file.layout.model_copy(
-        update={"firing_order": tuple(best.arrangement["firing_order"])}
-    )
+    (best, *_) = search_arrangements(
+        file, "firing_order", parse_objective("moment.1.major"), 1
+    ).results
+    ordered = file.layout.model_copy(update={"firing_order": tuple(best.design.firing_order)})
     built = build(file.model_copy(update={"layout": ordered}))
     fires = np.sort(np.mod([float(v) for v in built.fires_deg.values()], 720))
     assert np.diff(fires) == pytest.approx(interval, abs=1e-6)
@@ -284,18 +291,22 @@ def test_four_strokes_of_any_even_number_have_firing_orders(cylinders: int) -> N
 def test_sevenths_of_a_turn_stay_such() -> None:
     turns = [f"{k}/7 turn" for k in range(7)]
     text = in_line(str(turns).replace("'", '"'))
-    (best, *_) = search(load(text), "throws", objective("moment.1.major"), 1).results
-    assert sorted(best.arrangement["throws"]) == [k * 360 / 7 for k in range(7)]
-    written = build(load(arranged(text.encode(), best.arrangement)))
+    (best, *_) = search_arrangements(
+        load(text), "throws", parse_objective("moment.1.major"), 1
+    ).results
+    assert sorted(best.design.throws) == [k * 360 / 7 for k in range(7)]
+    written = build(load(write_design(text.encode(), best.design)))
     verdicts = [reason.verdict for reason in explain_symmetry(written, [1, 2], ["force"]).reasons]
     assert verdicts == ["exact", "exact"]
 
 
 def test_firing_orders_bring_cranks_of_exact_fractions() -> None:
     text = in_line("[0]").replace("throws = [0]\n", "") + "[layout]\nfiring_order = [1,2,3,4,5,6,7]"
-    results = search(load(text), "firing_order", objective("force.1.major"), 3).results
+    results = search_arrangements(
+        load(text), "firing_order", parse_objective("force.1.major"), 3
+    ).results
     for one in results:
-        assert sorted(one.arrangement["throws"]) == [k * 360 / 7 for k in range(7)]
+        assert sorted(one.design.throws) == [k * 360 / 7 for k in range(7)]
 
 
 # ------------------------------------------------------------------ throws and firing orders
@@ -310,13 +321,16 @@ def test_no_permutation_of_throws_is_better(seed: int) -> None:
 
     def values(wanted: Objective) -> Array:
         figures = evaluate_quantities(engine, wanted.quantities)
-        found = wanted.of(dict(zip(wanted.quantities, figures, strict=True)).__getitem__)
+        found = wanted.evaluate(dict(zip(wanted.quantities, figures, strict=True)).__getitem__)
         return np.broadcast_to(found, len(every))
 
     goal, limited = random.permutation(
         ["moment.1.major", "moment.2.backward", "force.2.major", "moment.1.forward"]
     )[:2].tolist()
-    bound = float(np.quantile(values(objective(limited)), random.choice([0.2, 0.6]))) * 1.001 + 1e-3
-    wanted = objective(goal, [f"{limited}<{bound!r}"])
-    angles = search(file, "throws", wanted, 1).results
+    bound = (
+        float(np.quantile(values(parse_objective(limited)), random.choice([0.2, 0.6]))) * 1.001
+        + 1e-3
+    )
+    wanted = parse_objective(goal, [f"{limited}<{bound!r}"])
+    angles = search_arrangements(file, "throws", wanted, 1).results
     assert angles[0].objective == pytest.approx(float(values(wanted).min()), rel=1e-9, abs=1e-7)

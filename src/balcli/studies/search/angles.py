@@ -15,9 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.phasors import Array
 from ...core.roots_of_unity import LARGEST_DENOMINATOR, TURN, rational
 from ...engine.arrays import ranked
-from .objective import Array
 
 Curve = Callable[[Array], Array]  # a figure at some angles (deg), same shape
 STEP = 0.5  # deg: of the grid, and at most
