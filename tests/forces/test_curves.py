@@ -4,10 +4,9 @@ do.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from support.paths import ENGINES
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
@@ -15,9 +14,8 @@ from balcli.errors import BalcliError
 from balcli.forces.curves import compute_cylinder_curves, compute_engine_curves, divide_revolution
 from balcli.forces.orders import find_relevant_orders
 from balcli.forces.spectrum import compute_spectra
-from balcli.render.json import orders
+from balcli.render.figures import order_entries
 
-ENGINES = Path(__file__).parents[2] / "engines"
 RELATIVE = 1e-12  # of the largest parts that are added up
 
 UNEVEN = """
@@ -144,7 +142,7 @@ def test_a_mean_under_uneven_speed_keeps_its_sign_where_the_documents_say():
     y without them.
     """
     subject, angles = engine("uneven"), divide_revolution(0.5)
-    (order,) = orders(compute_spectra(subject, [0]))
+    (order,) = order_entries(compute_spectra(subject, [0]))
     mean = {
         name: float(curve.mean())
         for name, curve in compute_engine_curves(subject, angles).values.items()

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.loads import Device
+from ..core.cylinders import Device
 from ..core.peaks import Peak, peak
 from ..core.phasors import Array, Phasors
 from ..engine.arrays import ranked
@@ -40,7 +40,7 @@ class AlongCrank:
 
     def at(self, place: int) -> Phasors:
         """Phasors at one of the places, by its index."""
-        return self.phasors.of(place)
+        return self.phasors.select_place(place)
 
     @property
     def largest(self) -> int:
@@ -168,5 +168,5 @@ def _with_peaks(places: Array, phasors: Phasors, orders: Array) -> AlongCrank:
     """Phasors of all orders, shape (orders, places), and their peaks; only these orders are
     kept.
     """
-    peaks = tuple(peak(phasors.of(place)) for place in range(len(places)))
-    return AlongCrank(places, phasors.at(orders), peaks)
+    peaks = tuple(peak(phasors.select_place(place)) for place in range(len(places)))
+    return AlongCrank(places, phasors.select_orders(orders), peaks)

@@ -48,10 +48,10 @@ def compute_guide_moments(engine: Engine, orders: Array | None = None) -> GuideM
         due |= mark_considerable(x)
     if orders is None:
         orders = every[due]
-    return GuideMoments(h.at(orders), None if x is None else x.at(orders))
+    return GuideMoments(h.select_orders(orders), None if x is None else x.select_orders(orders))
 
 
 def _sum_weighted(rolls: Phasors, weights: Array) -> Phasors:
     """Sum over the cylinders of phasors of shape (orders, cylinders), each times its weight."""
-    total = [float(weight) * rolls.of(row) for row, weight in enumerate(weights)]
+    total = [float(weight) * rolls.select_place(row) for row, weight in enumerate(weights)]
     return sum(total[1:], total[0]).settled()

@@ -51,11 +51,8 @@ def find_relevant_orders(engine: Engine) -> Array:
     shape (orders,).
     """
     c = engine.cylinders
-    if c.linkage is None:
-        own = harmonics.points(c.lam, c.eps) // 2
-    else:
-        own = c.linkage.highest(c.lam, c.eps)
-    highest = max([own, *(device.order for device in engine.devices)])
+    find_highest = c.linkage.find_highest_order if c.linkage else harmonics.find_highest_order
+    highest = max([find_highest(c.lam, c.eps), *(device.order for device in engine.devices)])
     if not engine.ripple:
         return np.arange(1.0, highest + 1)
     return np.arange(0.0, highest + 2 * max(line.order for line in engine.ripple) + 1)

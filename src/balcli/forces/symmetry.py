@@ -241,7 +241,7 @@ class _Layout:
         """Rows of the cylinders that are there, those with equal mechanisms together."""
         lam, eps, linkage = self._c.lam, self._c.eps, self._c.linkage
         columns = (lam, eps) if linkage is None else linkage.figures(lam, eps)
-        found: dict[tuple[float, ...], list[int]] = defaultdict(list)
+        found: dict[tuple[complex, ...], list[int]] = defaultdict(list)
         for row in map(int, np.flatnonzero(there)):
             figures = tuple(column[row if len(column) > 1 else 0].item() for column in columns)
             found[figures].append(row)

@@ -1,11 +1,9 @@
-"""What a person reads of a balance: devices, their practical figures, and what shakes before and
-after.
-"""
+"""A balance: devices, their practical figures, and what shakes before and after."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -13,8 +11,12 @@ import numpy as np
 from ..core.peaks import Peak
 from ..forces.kinds import FORCE, MOMENT, ROLL
 from ..results.balance import Balance
-from .devices import device_grid
-from .figures import order_number
+from ..sizing.sizing import Remedy
+from . import figures
+from .analysis import brief_document
+from .csv import Rows
+from .devices import device_entries, device_grid, device_rows, practical_entry
+from .figures import clean, order_number
 from .sheet import Facts, Grid, Sheet, Text, degrees, number
 from .units import System, Unit
 
@@ -258,3 +260,77 @@ def _optima(optima: list[dict[str, Any]]) -> Grid:
         ("design", "criterion", "engine force", "k", "μ", "largest/J", "mean/J"),
         tuple(rows),
     )
+
+
+# ------------------------------------------------------------------ JSON and CSV
+def document(result: Balance) -> dict[str, Any]:
+    """`balcli.balance/1`."""
+    remedy = result.remedy
+    return {
+        "format": "balcli.balance/1",
+        "scheme": remedy.scheme,
+        "order": remedy.order,
+        **device_entries(remedy),
+        "reasons": list(remedy.reasons),
+        "practical": [practical_entry(p) for p in result.practical],
+        "details": details_document(remedy),
+        "before": brief_document(result.before),
+        "after": brief_document(result.after),
+    }
+
+
+def details_document(remedy: Remedy) -> dict[str, Any]:
+    """Figures of a scheme that are no device, as JSON has them."""
+    return {key: _cleaned(value) for key, value in remedy.details.items()}
+
+
+def _cleaned(value: Any) -> Any:
+    """The same value with plain floats in it: no nan, no negative zero."""
+    if isinstance(value, Mapping):
+        return {key: _cleaned(part) for key, part in value.items()}
+    if isinstance(value, list):
+        return [_cleaned(part) for part in value]
+    return clean(value) if isinstance(value, float) else value
+
+
+def rows(result: Balance, system: System) -> Rows:
+    """CSV: a figure a line: those of the devices, the scheme's other figures (SI, as in JSON: their
+    names say the unit), and those of the engine without and with the devices.
+    """
+    header = ("part", "quantity", "order", "figure", "value", "unit")
+    return Rows(header, _all_rows(result, system))
+
+
+def _all_rows(result: Balance, system: System) -> Iterator[tuple[Any, ...]]:
+    parts = [
+        (f"{kind} {number}", device)
+        for kind, devices in (
+            ("counterweight", result.remedy.counterweights),
+            ("shaft", result.remedy.shafts),
+            ("slider", result.remedy.sliders),
+        )
+        for number, device in enumerate(devices, 1)
+    ]
+    for (part, device), practical in zip(parts, result.practical, strict=True):
+        for figure in device_rows(device, system):
+            yield part, "", "", *figure
+        for name, value in _with_paths(practical_entry(practical)):
+            yield part, "", "", name, value, ""
+    for name, value in _with_paths(details_document(result.remedy)):
+        yield "details", "", "", name, value, ""
+    for state, analysis in (("before", result.before), ("after", result.after)):
+        for row in figures.rows(analysis, system):
+            yield state, row.quantity, row.order, row.figure, row.value, row.unit
+
+
+def _with_paths(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
+    """Members of tables and lists by their paths: `card.1.bobweight_g`."""
+    if isinstance(value, Mapping):
+        members: Iterable[tuple[Any, Any]] = value.items()
+    elif isinstance(value, list):
+        members = enumerate(value, 1)
+    else:
+        yield path, value
+        return
+    for key, part in members:
+        yield from _with_paths(part, f"{path}.{key}".lstrip("."))

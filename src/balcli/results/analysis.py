@@ -133,7 +133,7 @@ def analyze(
     computed = _choose_computed(engine, asked, whole=bool(peaked))
     everything = compute_spectra(engine, computed, shown | peaked)
     visible = everything.only(shown)
-    visible = visible.at(choose_orders(visible) if asked is None else asked)
+    visible = visible.select_orders(choose_orders(visible) if asked is None else asked)
     above_0 = visible.orders[visible.orders > 0]
     cylinders = _analyze_cylinders(engine, visible.orders, shown) if by_cylinder else ()
     return Analysis(
@@ -181,7 +181,7 @@ def _analyze_cylinders(
             f"{MOST_RESULTS_BY_CYLINDER} are told: ask for fewer orders"
         )
     own = compute_each_cylinder(engine, orders, kinds)
-    return tuple((n, own.of(engine.numbers.index(n))) for n in sorted(engine.numbers))
+    return tuple((n, own.select_place(engine.numbers.index(n))) for n in sorted(engine.numbers))
 
 
 def _size_and_analyze(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizing:

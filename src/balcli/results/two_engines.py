@@ -98,7 +98,7 @@ def combine_engines(
     return Combined(
         (first, second),
         arrangement,
-        everything.at(choose_orders(everything) if asked is None else asked),
+        everything.select_orders(choose_orders(everything) if asked is None else asked),
         peak(everything["force"]),
         peak(everything["moment"]),
     )
@@ -152,13 +152,10 @@ def _mirror(phasors: Phasors, kind: Kind) -> Phasors:
     """
     sign = 1.0 if kind.dimension == "force" else -1.0
     mean = phasors.orders == 0
-    forward = np.where(mean, np.conj(phasors.forward), np.conj(phasors.backward))
-    return Phasors(
-        phasors.orders,
-        sign * forward,
-        sign * np.where(mean, 0, np.conj(phasors.forward)),
-        phasors.noise,
-    )
+    ahead, against = phasors.forward.conj(), phasors.backward.conj()
+    forward: Complex = np.where(mean, ahead, against)
+    backward: Complex = np.where(mean, 0, ahead)
+    return Phasors(phasors.orders, sign * forward, sign * backward, phasors.noise)
 
 
 def _add_spectra(one: Spectra, other: Spectra, arrangement: Arrangement) -> Spectra:

@@ -215,7 +215,7 @@ def _peaks(engine: Engine, share: float) -> dict[str, float]:
 def _component(curve: Phasors, direction: complex) -> float:
     """Largest component along a direction."""
     c: Complex = curve.forward * direction.conjugate() + np.conj(curve.backward) * direction
-    return peak(Phasors.real(curve.orders, c, curve.noise).settled()).value
+    return peak(Phasors.from_scalar(curve.orders, c, curve.noise).settled()).value
 
 
 def _curve(engine: Engine, quantity: str) -> Phasors:

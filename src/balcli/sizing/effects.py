@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core import least_squares
-from ..core.loads import Device
+from ..core.cylinders import Device
 from ..core.phasors import EPS, unit
 from ..engine.build import Engine
 from ..enginefile.model import Counterweight, Shaft, Slider
