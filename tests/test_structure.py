@@ -203,7 +203,9 @@ def test_every_limit_stands_in_limits():
 
 @pytest.mark.parametrize("file", sorted(PACKAGE.rglob("*.py")), ids=name_of)
 def test_files_speak_for_themselves(file):
-    """A docstring, and none of what fails silently: blanket except, assert as a check, eval."""
+    """A docstring, and none of what fails silently: blanket except (but at the process's end, where
+    it is told as our fault), assert as a check, eval.
+    """
     module = tree(file)
     if file.name != "__main__.py":
         assert ast.get_docstring(module)
@@ -214,6 +216,7 @@ def test_files_speak_for_themselves(file):
         )
         assert not (
             isinstance(node, ast.ExceptHandler)
+            and file.name != "__main__.py"
             and ast.unparse(node.type) in ("Exception", "BaseException")
         ), f"line {node.lineno}"
         assert not (isinstance(node, ast.Call) and ast.unparse(node.func) in ("eval", "exec")), (

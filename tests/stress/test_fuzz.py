@@ -162,7 +162,7 @@ def test_a_name_that_commands_a_terminal_is_refused(place, name):
     assert (
         done.err
         == f"balcli: case.toml: name: has the control character U+{ord(control):04X}, which could "
-        "command a terminal; leave it out\n"
+        "command a terminal or disguise what it shows; leave it out\n"
     )
 
 

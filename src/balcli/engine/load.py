@@ -35,7 +35,7 @@ from ..enginefile.model import (
 from ..enginefile.toml_text import name_of as name_of
 from ..enginefile.toml_text import parse_toml
 from ..enginefile.toml_text import text_of as text_of
-from ..errors import InputError, Problem
+from ..errors import DISGUISES, InputError, Problem
 from ..limits import (
     LONGEST_NAME,
     MOST_KEY_VALUES,
@@ -45,8 +45,8 @@ from ..limits import (
 from .build import Engine, build
 
 CONTROL = {
-    "name": re.compile(r"[\x00-\x1f\x7f-\x9f]"),
-    "source": re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]"),
+    "name": re.compile(rf"[\x00-\x1f\x7f-\x9f{DISGUISES}]"),
+    "source": re.compile(rf"[\x00-\x08\x0b-\x1f\x7f-\x9f{DISGUISES}]"),
 }
 REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5"}
 
@@ -210,7 +210,7 @@ class _Reader:
             self._add(
                 key,
                 f"has the control character U+{ord(strange[0]):04X}, which could command a "
-                "terminal; leave it out",
+                "terminal or disguise what it shows; leave it out",
             )
         elif key == "name" and len(value) > LONGEST_NAME:
             self._add(

@@ -19,9 +19,9 @@ _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
 
 def text_of(source: str | Path) -> bytes:
     """The text of a file (or of standard input) as it is; BalcliError if it cannot be read."""
-    if str(source) == "-":
-        return sys.stdin.buffer.read(LARGEST_FILE_BYTES + 1)
     try:
+        if str(source) == "-":
+            return sys.stdin.buffer.read(LARGEST_FILE_BYTES + 1)
         with Path(source).open("rb") as stream:
             return stream.read(LARGEST_FILE_BYTES + 1)
     except IsADirectoryError:
@@ -30,7 +30,8 @@ def text_of(source: str | Path) -> bytes:
         raise BalcliError(f"{source}: no such file") from None
     except (OSError, ValueError) as error:  # ValueError: a zero byte in the name
         reason = error.strerror if isinstance(error, OSError) else error
-        raise BalcliError(f"{str(source)[:200]!r}: cannot be read ({reason})") from None
+        name = "standard input" if str(source) == "-" else repr(str(source)[:200])
+        raise BalcliError(f"{name}: cannot be read ({reason})") from None
 
 
 def name_of(source: str | Path) -> str:
