@@ -14,7 +14,7 @@ from ..core.phasors import Array, Complex
 from ..engine.build import Engine, build
 from ..engine.load import parse
 from ..enginefile.model import EngineFile
-from ..forces.kinds import KINDS
+from ..forces.kinds import DEFAULT_QUANTITIES, KINDS
 from ..forces.quantity import parse_quantity_list
 from ..forces.spectrum import compute_spectra
 from ..results.analysis import analyze
@@ -176,8 +176,7 @@ def _grid(banks: int, ratios: int) -> Sweep:
 
 
 def _sweep(*parameters: Parameter) -> Sweep:
-    wanted = "force.1.major,force.2.major,moment.1.major,moment.2.major"
-    return Sweep(parse(V8), parameters, parse_quantity_list(wanted))
+    return Sweep(parse(V8), parameters, parse_quantity_list(DEFAULT_QUANTITIES))
 
 
 def _run_sweep(sweep: Sweep) -> None:

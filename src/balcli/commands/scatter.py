@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from ..forces.kinds import DEFAULT_QUANTITIES
 from ..render.formats import Format
 from .options import EnginePath, FormatOption, Output
 from .output import show
@@ -62,7 +63,7 @@ def scatter(
         typer.Option(
             "--quantity", "-q", metavar="WHAT,...", help="As force.1.major, couple.4.amplitude."
         ),
-    ] = "force.1.major,force.2.major,moment.1.major,moment.2.major",
+    ] = DEFAULT_QUANTITIES,
     form: FormatOption = Format.TABLE,
     output: Output = None,
 ) -> None:

@@ -20,7 +20,7 @@ from . import crankshaft, figures, guide_moments, strokes, symmetry
 from .csv import Rows
 from .devices import device_entries, device_grid
 from .figures import Result, clean, order_entries, order_number, peak_deg, peaks, phase_deg
-from .sheet import Facts, Grid, Sheet, Text, capitalized, degrees, number
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, capitalized, degrees, number
 from .terminal_plot import sketches
 from .units import System, Unit
 from .verdict import verdict
@@ -52,7 +52,7 @@ def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
         parts += _sizing(result.sizing, system)
     if pictures:
         parts += sketches(result, system)
-    return Sheet(engine.name or "engine without a name", tuple(parts))
+    return Sheet(engine.name or NAMELESS, tuple(parts))
 
 
 def document(result: Analysis) -> dict[str, Any]:

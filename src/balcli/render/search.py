@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..forces.kinds import KINDS
 from .csv import Rows
-from .sheet import Grid, Sheet, number
+from .sheet import NAMELESS, Grid, Sheet, number
 
 if TYPE_CHECKING:
     from ..studies.search.designs import Found
@@ -57,7 +57,7 @@ def sheet(result: Search, _system: System) -> Sheet:
         tuple(_cells(result, one) for one in result.results),
         words=tuple(range(len(first.design.given()))),
     )
-    return Sheet(result.model.name or "engine without a name", (grid,))
+    return Sheet(result.model.name or NAMELESS, (grid,))
 
 
 def _cells(result: Search, one: Found) -> tuple[str, ...]:

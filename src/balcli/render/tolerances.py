@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .csv import Rows
-from .sheet import Grid, Sheet, number
+from .sheet import NAMELESS, Grid, Sheet, number
 
 if TYPE_CHECKING:
     from ..studies.tolerances import Scatter, Shape, Spread
@@ -72,7 +72,7 @@ def sheet(result: Scatter, _system: System) -> Sheet:
         ),
         words=tuple(range(SHOWN + 1)),
     )
-    return Sheet(result.model.name or "engine without a name", (spread, shares))
+    return Sheet(result.model.name or NAMELESS, (spread, shares))
 
 
 def _largest_shares(s: Spread) -> list[str]:

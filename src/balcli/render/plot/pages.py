@@ -13,6 +13,7 @@ from ...forces.crankshaft import InnerLoads
 from ...forces.kinds import KINDS, VECTORS
 from ...results.analysis import Analysis
 from ...studies.pictures import Banks
+from ..sheet import NAMELESS
 from ..units import SI, System, Unit
 from . import draw, studied
 from .style import FORMS, Form, figure, inline, plain, saved
@@ -71,7 +72,7 @@ def picture(subject: Subject, what: str, form: Form) -> bytes:
         layout(fig, subject)
         engine = subject.now.engine
         fig.suptitle(
-            f"{plain(engine.name) or 'engine without a name'}, {engine.speed_rpm:g} rpm",
+            f"{plain(engine.name) or NAMELESS}, {engine.speed_rpm:g} rpm",
             x=0.01,
             ha="left",
         )
