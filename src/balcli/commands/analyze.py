@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from ..errors import BalcliError
 from ..render.formats import Format, Units
 from .options import (
     EnginePaths,
@@ -41,6 +42,16 @@ def analyze(
     why: Annotated[
         bool, typer.Option("--why", help="Also say whether each order is balanced by symmetry.")
     ] = False,
+    guide_height: Annotated[
+        float | None,
+        typer.Option(
+            "--guide-height",
+            metavar="MM",
+            show_default=False,
+            help="With --only guide: from the crankshaft to the middle of the guides; default: "
+            "length of the rod.",
+        ),
+    ] = None,
     units: UnitsOption = Units.SI,
     plot: Annotated[
         bool,
@@ -61,11 +72,19 @@ def analyze(
 
     if by not in ("", "cylinder"):
         raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")
+    height_m = _check_height(guide_height)
     asked, chosen, rpm = parse_orders(orders), parse_quantities(only), check_speed(speed)
 
     def analyze_file(path: str) -> tuple[str, Analysis]:
         engine = read_engine(path, rpm).engine
-        return path, analyze_engine(engine, asked, chosen, by_cylinder=bool(by), reasons=why)
+        return path, analyze_engine(
+            engine,
+            asked,
+            chosen,
+            by_cylinder=bool(by),
+            reasons=why,
+            guide_height_m=height_m,
+        )
 
     found, errors = try_each(paths, analyze_file)
     if found and not (errors and output):  # a file gets all of them or is left as it was
@@ -78,3 +97,19 @@ def analyze(
         ]
         show(named, analyses, form, output, units)
     exit_on_errors(errors)
+
+
+def _check_height(guide_height: float | None) -> float | None:
+    """The height of `--guide-height`, m.
+
+    Raises:
+        BalcliError: unless it is positive and finite.
+    """
+    if guide_height is None:
+        return None
+    if not 0 < guide_height < 1e6:
+        raise BalcliError(
+            f"--guide-height {guide_height:g}: the distance from the crankshaft to the middle of "
+            "the guides must be a positive number of mm, below 1e6"
+        )
+    return guide_height / 1e3
