@@ -6,16 +6,17 @@ from typing import Annotated
 
 import typer
 
-from ..errors import BalcliError
 from ..render.formats import Format, Units
 from .options import (
     EnginePaths,
     FormatOption,
+    GuideHeight,
     Only,
     Orders,
     Output,
     Speed,
     UnitsOption,
+    check_guide_height,
     check_speed,
     parse_orders,
     parse_quantities,
@@ -42,16 +43,7 @@ def analyze(
     why: Annotated[
         bool, typer.Option("--why", help="Also say whether each order is balanced by symmetry.")
     ] = False,
-    guide_height: Annotated[
-        float | None,
-        typer.Option(
-            "--guide-height",
-            metavar="MM",
-            show_default=False,
-            help="With --only guide: from the crankshaft to the middle of the guides; default: "
-            "length of the rod.",
-        ),
-    ] = None,
+    guide_height: GuideHeight = None,
     units: UnitsOption = Units.SI,
     plot: Annotated[
         bool,
@@ -61,9 +53,7 @@ def analyze(
     ] = False,
     output: Output = None,
 ) -> None:
-    """Free forces and moments by order, couple, inertia torque and roll, peaks, and what would
-    balance them.
-    """
+    """Free forces and moments by order, couple, torque and roll, peaks, and what balances them."""
     refuse_overwriting(reads=paths, writes={"--output": output})
     from ..render import analyses
     from ..results.analysis import Analysis
@@ -72,19 +62,12 @@ def analyze(
 
     if by not in ("", "cylinder"):
         raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")
-    height_m = _check_height(guide_height)
     asked, chosen, rpm = parse_orders(orders), parse_quantities(only), check_speed(speed)
+    height_m = check_guide_height(guide_height)
 
     def analyze_file(path: str) -> tuple[str, Analysis]:
         engine = read_engine(path, rpm).engine
-        return path, analyze_engine(
-            engine,
-            asked,
-            chosen,
-            by_cylinder=bool(by),
-            reasons=why,
-            guide_height_m=height_m,
-        )
+        return path, analyze_engine(engine, asked, chosen, bool(by), why, height_m)
 
     found, errors = try_each(paths, analyze_file)
     if found and not (errors and output):  # a file gets all of them or is left as it was
@@ -97,19 +80,3 @@ def analyze(
         ]
         show(named, analyses, form, output, units)
     exit_on_errors(errors)
-
-
-def _check_height(guide_height: float | None) -> float | None:
-    """The height of `--guide-height`, m.
-
-    Raises:
-        BalcliError: unless it is positive and finite.
-    """
-    if guide_height is None:
-        return None
-    if not 0 < guide_height < 1e6:
-        raise BalcliError(
-            f"--guide-height {guide_height:g}: the distance from the crankshaft to the middle of "
-            "the guides must be a positive number of mm, below 1e6"
-        )
-    return guide_height / 1e3
