@@ -74,9 +74,7 @@ def analyze(
         good, results = zip(*found, strict=True)
         names = distinct_names([result.engine.name for result in results], good)
         pictures = plot and form is Format.TABLE and is_seen(output)
-        named = [
-            analyses.NamedAnalysis(name, result, pictures)
-            for name, result in zip(names, results, strict=True)
-        ]
+        paired = zip(names, results, strict=True)
+        named = [analyses.NamedAnalysis(name, result, pictures) for name, result in paired]
         show(named, analyses, form, output, units)
     exit_on_errors(errors)
