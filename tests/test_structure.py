@@ -173,7 +173,6 @@ def test_help_and_completion_of_a_command_wait_for_no_library(command):
 # Types and constants of a room may be named by what shows them, functions not: these shape figures
 # for the eye.
 SHAPING = {
-    ("balcli.results.analysis", "textbook"),
     ("balcli.tables.recomputed", "deviates"),
     ("balcli.tables.recomputed", "parse_decimal"),
     ("balcli.tables.recomputed", "parse_fraction"),
@@ -188,6 +187,7 @@ COMPUTING = (
     "balcli.engine.build",
     "balcli.engine.load",
     "balcli.studies.sweep",
+    "balcli.studies.deviations",
     "balcli.studies.tolerances",
     "balcli.studies.search.search",
     "balcli.results.comparison",

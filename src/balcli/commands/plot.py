@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from ..render.formats import Units
+from ..render.plot.style import find_form
 from ..render.units import SYSTEMS
 from .options import EnginePath, Orders, Scheme, Speed, UnitsOption, check_speed, parse_orders
 from .output import write_file
@@ -60,11 +61,10 @@ def plot(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     from ..render.plot.pages import Subject, draw_page
-    from ..render.plot.style import find_form
-    from ..studies.pictures import study
+    from ..studies.pictures import compute_study
     from .inputs import read_engine
 
     form, asked = find_form(output), parse_orders(orders)
     engine = read_engine(path, check_speed(speed)).engine
-    subject = Subject(system=SYSTEMS[units], **study(engine, what, asked, scheme)._asdict())
+    subject = Subject(system=SYSTEMS[units], **compute_study(engine, what, asked, scheme)._asdict())
     write_file(draw_page(subject, what, form), output)

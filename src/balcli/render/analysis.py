@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from ..results.analysis import Analysis, Sizing, textbook
+from ..results.analysis import Analysis, Sizing
 from . import crankshaft, guide_moments, strokes, symmetry
 from .csv import Rows
 from .devices import device_entries, device_grid
 from .engine_facts import engine_facts
 from .figures import FigureRow, clean, figure_rows, order_entries, peak_entries
 from .order_tables import cylinder_table, order_tables, peak_facts, textbook_tables
-from .sheet import Facts, Grid, Sheet, Text
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text
 from .terminal_plot import sketches
 from .units import System
 from .verdict import verdict
@@ -23,10 +23,11 @@ def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
     such as are made of characters.
     """
     engine, spectra = result.engine, result.spectra
-    parts: list[Grid | Facts | Text] = [engine_facts(engine, system, beyond=result.beyond)]
+    facts = engine_facts(engine, system, higher=result.has_higher_orders)
+    parts: list[Grid | Facts | Text] = [facts]
     parts += order_tables(spectra, system)
     if spectra.vectors():
-        parts += textbook_tables(spectra, textbook(engine, spectra.orders), system)
+        parts += textbook_tables(spectra, result.textbook, system)
     if result.peaks:
         parts.append(peak_facts(result, system, "Largest over a revolution, all orders"))
     parts += [cylinder_table(n, share, system) for n, share in result.cylinders]
@@ -44,7 +45,7 @@ def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
         parts += _sizing_parts(result.sizing, system)
     if pictures:
         parts += sketches(result, system)
-    return Sheet(engine.name or "engine without a name", tuple(parts))
+    return Sheet(engine.name or NAMELESS, tuple(parts))
 
 
 def document(result: Analysis) -> dict[str, Any]:

@@ -15,15 +15,15 @@ AXES_SHOWN = 9  # of banks
 EVEN_DEG = 0.05  # intervals of firing that differ by less are shown as one
 
 
-def engine_facts(engine: Engine, system: System, *, beyond: bool) -> Facts:
+def engine_facts(engine: Engine, system: System, *, higher: bool) -> Facts:
     """Cylinders, crank, firing, speed, masses that the figures include, reference and source.
 
     Args:
-        beyond: whether there may be orders above those that are shown unless they are asked for.
+        higher: whether there may be orders above those that are shown unless they are asked for.
     """
     about = ", ".join(number(system.length.of(float(v))) for v in engine.reference_m)
     uneven = ", uneven: figures are those of the uneven speed" if engine.ripple else ""
-    orders = f"to {HIGHEST_ORDER_UNASKED}; --orders asks for higher ones" if beyond else ""
+    orders = f"to {HIGHEST_ORDER_UNASKED}; --orders asks for higher ones" if higher else ""
     devices = f"{len(engine.devices)} of the file are included" if engine.devices else ""
     cylinders = f"{engine.cylinders.count}{_banks(engine)}{_bore(engine, system)}"
     pairs = (

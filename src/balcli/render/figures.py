@@ -11,6 +11,7 @@ from ..core.peaks import Peak
 from ..core.phasors import Phasors
 from ..forces.kinds import Kind
 from ..forces.spectrum import Spectra
+from .sheet import order_number
 from .units import System, Unit
 
 
@@ -36,11 +37,6 @@ class FigureRow(NamedTuple):
     figure: str
     value: float | bool | str | None
     unit: str
-
-
-def order_number(order: float) -> int | float:
-    """An order as it is written: whole ones without a point."""
-    return int(order) if order == int(order) else float(order)
 
 
 def clean(value: Any) -> float | None:

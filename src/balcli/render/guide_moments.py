@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from .figures import FigureRow, order_number, order_rows, scalar_entries
-from .sheet import Grid, number
+from .figures import FigureRow, clean, order_rows, scalar_entries
+from .sheet import Grid, number, order_number
 
 if TYPE_CHECKING:
     from ..core.phasors import Phasors
-    from ..forces.guide_moments import Guide
+    from ..forces.guide_moments import GuideMoments
     from .units import System, Unit
 
 
-def sheet_parts(guide: Guide, system: System) -> Iterator[Grid]:
+def sheet_parts(guide: GuideMoments, system: System) -> Iterator[Grid]:
     """One table, an order a row."""
     yield Grid(
         f"Guide-force moments of inertia alone, without gas, {system.moment.name}",
@@ -27,20 +27,29 @@ def sheet_parts(guide: Guide, system: System) -> Iterator[Grid]:
             )
             for k, n in enumerate(guide.h.orders)
         ),
+        note=(
+            "H-type: sum of the cylinders' force couples. X-type: sum of each couple times its "
+            f"distance from the reference, divided by L = {_heights(guide, system)} (crankshaft to "
+            "the middle of the guide; unless given, the length of the rod)."
+        ),
     )
 
 
-def document(guide: Guide) -> dict[str, Any]:
+def document(guide: GuideMoments) -> dict[str, Any]:
     """`guide` in `balcli.analysis/1`: an entry an order."""
     orders: list[dict[str, Any]] = [{"order": order_number(n)} for n in guide.h.orders]
     for key, moment in (("h_Nm", guide.h), ("x_Nm", guide.x)):
         if moment is not None:
             for order, entry in zip(orders, scalar_entries(moment), strict=True):
                 order[key] = entry
-    return {"includes": "inertia, without gas", "orders": orders}
+    return {
+        "includes": "inertia, without gas",
+        "height_m": [clean(height) for height in guide.height_m],
+        "orders": orders,
+    }
 
 
-def rows(guide: Guide, system: System) -> Iterator[FigureRow]:
+def rows(guide: GuideMoments, system: System) -> Iterator[FigureRow]:
     """The figures of every order, first of the H-type, then of the X-type."""
     columns = [("guide_h", scalar_entries(guide.h))]
     if guide.x is not None:
@@ -48,6 +57,13 @@ def rows(guide: Guide, system: System) -> Iterator[FigureRow]:
     for k, order in enumerate(guide.h.orders):
         for name, entries in columns:
             yield from order_rows(name, order, entries[k], system.moment)
+
+
+def _heights(guide: GuideMoments, system: System) -> str:
+    """Of all cylinders if they are alike, else the shortest and the longest."""
+    found = (float(guide.height_m.min()), float(guide.height_m.max()))
+    texts = dict.fromkeys(number(system.length.of(height)) for height in found)
+    return f"{' to '.join(texts)} {system.length.name}"
 
 
 def _largest(moment: Phasors, k: int, unit: Unit) -> str:

@@ -7,34 +7,37 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .figures import order_number, peak_deg, phase_deg
-from .sheet import Facts, Grid, capitalized, degrees, number
+from ..forces.kinds import FORCE, MOMENT, ROLL, Kind
+from .figures import peak_deg, phase_deg
+from .sheet import Facts, Grid, capitalized, degrees, number, order_number
 
 if TYPE_CHECKING:
     from ..core.peaks import Peak
     from ..core.phasors import Array, Phasors
-    from ..forces.kinds import Kind
     from ..forces.spectrum import Spectra
-    from ..results.analysis import Textbook
+    from ..forces.textbook import TextbookUnits
     from .figures import Result
     from .units import System, Unit
 
 Cells = tuple[str, ...]
 
 
-def order_tables(spectra: Spectra, system: System) -> Iterator[Grid]:
+def order_tables(spectra: Spectra, system: System, roll: str = "") -> Iterator[Grid]:
     """A table of each vector, one of what acts about the crank's axis, and one of vectors along x
     and y.
+
+    Args:
+        roll: a sentence on what the roll is, if it is more than the couple C less the torque T.
     """
     for kind, phasors in spectra.vectors():
         yield _vector_table(kind, phasors, system.unit(kind))
     if spectra.scalars():
-        yield _scalar_table(spectra, system.moment)
+        yield _scalar_table(spectra, system.moment, roll)
     if spectra.vectors():
         yield _direction_table(spectra, system)
 
 
-def textbook_tables(spectra: Spectra, units: Textbook, system: System) -> Iterator[Grid]:
+def textbook_tables(spectra: Spectra, units: TextbookUnits, system: System) -> Iterator[Grid]:
     """Force and moment as multiples of the units of textbooks, where those are not 0 or unknown."""
     if not units.force:
         return
@@ -44,12 +47,11 @@ def textbook_tables(spectra: Spectra, units: Textbook, system: System) -> Iterat
             f"F1 = m r ω² = {number(unit.of(units.force))} {unit.name} "
             f"(reciprocating mass of {cylinder}), Fn = A_n F1 its n-th order."
         )
-        yield _textbook_table("force", spectra.force, units.force, units.ratios, note)
+        yield _textbook_table(FORCE, spectra.force, units, note)
     if spectra.moment is not None and units.arm == units.arm:
         arm = f"{number(system.length.of(units.arm), 4)} {system.length.name}"
         note = f"a = {arm}, the distance of neighbouring throws."
-        size = units.force * units.arm
-        yield _textbook_table("moment", spectra.moment, size, units.ratios, note)
+        yield _textbook_table(MOMENT, spectra.moment, units, note)
 
 
 def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
@@ -104,18 +106,20 @@ def _vector_table(kind: Kind, phasors: Phasors, unit: Unit) -> Grid:
     )
 
 
-def _scalar_table(spectra: Spectra, unit: Unit) -> Grid:
+def _scalar_table(spectra: Spectra, unit: Unit, roll: str) -> Grid:
     scalars = spectra.scalars()
 
     def cells(k: int) -> Cells:
         pairs = (_amplitude(phasors.x[k], spectra.orders[k], unit) for _, phasors in scalars)
         return (str(order_number(spectra.orders[k])), *(cell for pair in pairs for cell in pair))
 
-    heads = [head for kind, _ in scalars for head in (kind.label, "peak, deg")]
+    labels = [ROLL.name if roll and kind == ROLL else kind.label for kind, _ in scalars]
+    heads = [head for label in labels for head in (label, "peak, deg")]
     return Grid(
         f"About the crank axis, {unit.name}",
         ("order", *heads),
         _shown_rows(spectra.orders, [phasors for _, phasors in scalars], cells),
+        note=roll,
     )
 
 
@@ -148,8 +152,9 @@ def _direction_table(spectra: Spectra, system: System) -> Grid:
     )
 
 
-def _textbook_table(quantity: str, phasors: Phasors, size: float, ratios: Array, note: str) -> Grid:
-    """Multiples of `size` (N or N m), and of each order's own `size * ratios`."""
+def _textbook_table(kind: Kind, phasors: Phasors, units: TextbookUnits, note: str) -> Grid:
+    """Multiples of the textbook's unit, and of each order's own."""
+    size, ratios, unit = units.size(kind), units.ratios, units.name(kind)
 
     def cells(k: int) -> Cells:
         values = (phasors.major[k], abs(phasors.forward[k]), abs(phasors.backward[k]))
@@ -161,11 +166,10 @@ def _textbook_table(quantity: str, phasors: Phasors, size: float, ratios: Array,
             _ratio(largest, own),
         )
 
-    unit = "F1" if quantity == "force" else "F1·a"
     own_unit = unit.replace("1", "n")
     heads = ("order", f"largest, {unit}", "with crank", "against", f"largest, {own_unit}")
     rows = _shown_rows(phasors.orders, [phasors], cells)
-    return Grid(f"Free {quantity} in textbook units", heads, rows, note)
+    return Grid(f"{capitalized(kind.label)} in textbook units", heads, rows, note)
 
 
 def _ratio(value: float, size: float) -> str:

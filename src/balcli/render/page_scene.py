@@ -14,7 +14,8 @@ from ..core.mechanisms.rotary import Rotary
 from ..core.phasors import Phasors
 from ..engine.build import Engine
 from ..results.analysis import Analysis
-from .figures import clean, order_number
+from .figures import clean
+from .sheet import order_number
 from .units import System, Unit
 
 ASSUMED_BORE = 0.95  # of the stroke, where a file gives none: pistons have to be drawn

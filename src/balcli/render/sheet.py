@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+NAMELESS = "engine without a name"
+
 
 class Grid(NamedTuple):
     """A table. Cells are text; the first column is a heading of its row. Cells in `marked` (row,
@@ -44,6 +46,11 @@ class Sheet(NamedTuple):
 def capitalized(text: str) -> str:
     """Text with its first letter large, the others as they are."""
     return text[0].upper() + text[1:]
+
+
+def order_number(order: float) -> int | float:
+    """An order as it is written: whole ones without a point."""
+    return int(order) if order == int(order) else float(order)
 
 
 def number(value: float, digits: int = 5) -> str:

@@ -10,20 +10,20 @@ from .figures import FigureRow, clean
 from .sheet import Text
 
 if TYPE_CHECKING:
-    from ..forces.symmetry import Why
+    from ..forces.symmetry import Symmetry
 
 
-def sheet_parts(why: Why) -> Iterator[Text]:
+def sheet_parts(why: Symmetry) -> Iterator[Text]:
     """One paragraph a reason."""
     yield Text("Why", why.sentences)
 
 
-def document(why: Why) -> dict[str, Any]:
+def document(why: Symmetry) -> dict[str, Any]:
     """`why` in `balcli.analysis/1`."""
     return {"reasons": [asdict(reason) for reason in why.reasons], "firing": why.firing}
 
 
-def rows(why: Why) -> Iterator[FigureRow]:
+def rows(why: Symmetry) -> Iterator[FigureRow]:
     """Two figures a reason: what decides, and what is left in units of one cylinder's."""
     for reason in why.reasons:
         about = 0, reason.quantity, reason.order

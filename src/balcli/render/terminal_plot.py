@@ -9,8 +9,7 @@ import numpy as np
 
 from ..core.phasors import Complex, Phasors
 from ..results.analysis import Analysis
-from .figures import order_number
-from .sheet import Text, capitalized, number
+from .sheet import Text, capitalized, number, order_number
 from .units import System, Unit
 
 BAR, SIDE = 52, 17  # columns of the longest bar; rows of a locus, which has twice as many columns

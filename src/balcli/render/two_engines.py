@@ -10,8 +10,15 @@ from .order_tables import order_tables, peak_facts
 from .sheet import Facts, Sheet, number
 
 if TYPE_CHECKING:
-    from ..results.two_engines import Combined
+    from ..results.two_engines import Combined, Load
     from .units import System
+
+_GEARED = "Geared one to one, kinetic energies add: the first crank feels T = T1 + T2."
+_ROLL: dict[Load, str] = {
+    "first": f"{_GEARED} It drives the load, and the roll is C − T.",
+    "second": f"{_GEARED} The second one drives the load, against its sense: the roll is C + T.",
+    "both": f"{_GEARED} Each has its own flywheel and load: the roll is C − T1 + T2.",
+}
 
 
 def document(result: Combined) -> dict[str, Any]:
@@ -32,6 +39,7 @@ def document(result: Combined) -> dict[str, Any]:
             "at_mm": [clean(v * 1e3) for v in how.at_m],
             "turn_deg": how.turn_deg,
             "reverse": how.reverse,
+            "load": how.load,
         },
         "speed_rpm": clean(first.speed_rpm),
         "reference_mm": [clean(v * 1e3) for v in first.reference_m],
@@ -77,7 +85,7 @@ def sheet(result: Combined, system: System) -> Sheet:
         " and ".join(names),
         (
             Facts(pairs),
-            *order_tables(result.spectra, system),
+            *order_tables(result.spectra, system, _ROLL[how.load] if how.reverse else ""),
             peak_facts(result, system, "Largest over a revolution, all orders"),
         ),
     )

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...forces.crankshaft import Along
+from ...forces.crankshaft import AlongCrank
 from ..units import Unit
 from .axes import choose_scale, put_legend_above
 from .style import BLUE, SOFT
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 def draw_along(
     ax: Axes,
-    now_and_before: Sequence[Along],
+    now_and_before: Sequence[AlongCrank],
     titles: tuple[str, str],
     unit: Unit,
     steps: str = "default",

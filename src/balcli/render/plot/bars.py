@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...core.phasors import Array, Phasors
-from ..figures import order_number
-from ..sheet import number
+from ..sheet import number, order_number
 from ..units import Unit
 from .axes import LOOKS, SHARE, choose_scale, put_legend_above
 from .style import BLUE, RED, SOFT

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...core.phasors import Phasors
-from ..figures import order_number
-from ..sheet import number
+from ..sheet import number, order_number
 from ..units import Unit
 from .axes import FINE, Scale, choose_scale, set_up_plane
 from .style import BLUE, INK, RED
