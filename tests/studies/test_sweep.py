@@ -15,6 +15,7 @@ from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate
 from balcli.forces.quantity import parse as quantities
 from balcli.render.sweep import csv_text, json_text
+from balcli.render.sweep_plot import check_drawable
 from balcli.studies.parameters import parse, varied
 from balcli.studies.sweep import Sweep, boxes, check, chunks, columns, grid
 
@@ -80,7 +81,7 @@ def asked(engine: str, *vary: str, of: str = "") -> Sweep:
 )
 def test_every_variant_is_the_engine_alone(engine: str, vary: tuple[str, ...]) -> None:
     sweep = asked(engine, *vary)
-    found = grid(sweep)
+    found = grid(sweep, chunks(sweep))
     paths = [p.path for p in sweep.parameters]
     variants = [
         dict(zip(paths, values, strict=True))
@@ -141,7 +142,7 @@ def test_chunks_do_not_change_figures() -> None:
     assert len(several) == 2
     every = np.concatenate([np.stack(columns(sweep, chunk)) for chunk in several], axis=1)
     assert every.shape == (4, 36_000)
-    whole = np.stack(grid(sweep)).reshape(2, -1)
+    whole = np.stack(grid(sweep, chunks(sweep))).reshape(2, -1)
     assert np.array_equal(every[2:], whole)
     assert every[:2, [0, 1, 200, -1]].T.tolist() == [[0, 0.2], [0, 0.201], [1, 0.2], [179, 0.399]]
 
@@ -149,7 +150,7 @@ def test_chunks_do_not_change_figures() -> None:
 def test_csv_is_exact_and_an_axis_that_is_none_an_empty_cell() -> None:
     sweep = asked(GOOD, "piston.mass=0.1,0.5", of="force.2.major,force.2.axis,force.1.axis")
     text = "".join(csv_text(sweep, chunks(sweep)))
-    force = [repr(float(v)) for v in grid(sweep)[0]]
+    force = [repr(float(v)) for v in grid(sweep, chunks(sweep))[0]]
     assert (
         text
         == f"piston.mass,force.2.major,force.2.axis,force.1.axis\n0.1,{force[0]},0.0,\n0.5,{force[1]},0.0,\n"
@@ -174,7 +175,7 @@ def test_a_variant_that_cannot_turn_is_found_before_anything_is_computed() -> No
 
 def test_a_picture_of_too_many_variants_is_refused() -> None:
     with pytest.raises(BalcliError, match="4004001 variants are too many for one picture"):
-        grid(asked(GOOD, "piston.mass=0:2:0.001", "crank.stroke=80:100:0.01"))
+        check_drawable(asked(GOOD, "piston.mass=0:2:0.001", "crank.stroke=80:100:0.01"))
 
 
 def test_cluster_gives_identical_rows() -> None:

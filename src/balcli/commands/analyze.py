@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from ..render.formats import Format, Units
+from .file_names import text_format
 from .options import (
     EnginePaths,
     FormatOption,
@@ -25,7 +26,7 @@ from .overwrite_guard import refuse_overwriting
 
 def analyze(
     paths: EnginePaths,
-    form: FormatOption = Format.TABLE,
+    form: FormatOption = None,
     speed: Speed = None,
     orders: Orders = None,
     only: Only = None,
@@ -54,6 +55,7 @@ def analyze(
     balance them.
     """
     refuse_overwriting(reads=paths, writes={"--output": output})
+    form = text_format(output, form)
     from ..render import analyses
     from ..results.analysis import Analysis
     from ..results.analysis import analyze as analyze_engine

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ..render.formats import Format
+from .file_names import text_format
 from .options import EnginePath, FormatOption, Output
 from .output import show
 from .overwrite_guard import refuse_overwriting
@@ -63,13 +63,14 @@ def scatter(
             "--quantity", "-q", metavar="WHAT,...", help="As force.1.major, couple.4.amplitude."
         ),
     ] = "force.1.major,force.2.major,moment.1.major,moment.2.major",
-    form: FormatOption = Format.TABLE,
+    form: FormatOption = None,
     output: Output = None,
 ) -> None:
     """How free forces and moments spread when masses (rod lengths, throw angles) vary, and which
     tolerance matters most.
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
+    form = text_format(output, form)
     from ..forces import quantity as quantities
     from ..render import tolerances as renderer
     from ..studies import tolerances as studies

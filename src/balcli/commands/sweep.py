@@ -8,8 +8,9 @@ from typing import Annotated
 
 import typer
 
-from ..errors import Exit
-from .options import EnginePath, Output, SeriesFormat
+from ..errors import BalcliError, Exit, say
+from .file_names import VARIANTS, VariantsFormat, format_of, picture_form
+from .options import EnginePath, Output
 from .output import write_file
 from .overwrite_guard import refuse_overwriting
 
@@ -43,8 +44,14 @@ def sweep(
         ),
     ] = "force.1.major,force.2.major,moment.1.major,moment.2.major",
     form: Annotated[
-        SeriesFormat, typer.Option("--format", "-f", help="How to write the variants.")
-    ] = SeriesFormat.CSV,
+        VariantsFormat | None,
+        typer.Option(
+            "--format",
+            "-f",
+            show_default=False,
+            help="How to write the variants; default: by the ending of -o, else csv.",
+        ),
+    ] = None,
     output: Output = None,
     progress: Annotated[
         bool, typer.Option("--progress", help="Show a bar on standard error.")
@@ -53,9 +60,12 @@ def sweep(
         Path | None,
         typer.Option(
             "--plot",
-            metavar="X.svg",
+            metavar="FILE",
             show_default=False,
-            help=("Also draw the quantities over one parameter (curves) or two (contours)."),
+            help=(
+                "Also draw the quantities over one parameter (curves) or two (contours); "
+                ".svg, .png or .pdf."
+            ),
         ),
     ] = None,
     dask: Annotated[
@@ -69,20 +79,35 @@ def sweep(
     the name of -o) Parquet.
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
-    from ..render.sweep_plot import draw
+    kind = format_of(output, form, VARIANTS, VariantsFormat.CSV)
+    if kind is VariantsFormat.PARQUET and output is None:
+        raise BalcliError("parquet is written into a file: name one with -o")
+    drawn = picture_form(plot, "--plot") if plot is not None else None
+    from ..render.sweep_plot import check_drawable, draw
     from ..studies import dask_cluster
     from ..studies import sweep as studies
-    from .sweep_output import noting_interrupt, showing_progress, until_interrupted, write_sweep
+    from .sweep_output import (
+        keeping,
+        noting_interrupt,
+        showing_progress,
+        until_interrupted,
+        write_sweep,
+    )
 
     job = studies.ask(path, vary, quantity)
-    kind = "parquet" if output is not None and output.suffix == ".parquet" else form.value
+    if plot is not None:
+        check_drawable(job)
+    kept: list[studies.Chunk] = []
     cluster = dask_cluster.client(dask) if dask else nullcontext()
     with noting_interrupt() as interrupt, cluster as workers:
         chunks = dask_cluster.chunks(job, workers) if dask else studies.chunks(job)
+        if plot is not None:
+            chunks = keeping(chunks, kept)
         shown = showing_progress(until_interrupted(chunks, interrupt), job.variants, progress)
-        write_sweep(job, shown, kind, output)
+        part = write_sweep(job, shown, kind, output, interrupt)
     if interrupt.noted:
-        typer.echo(f"balcli: stopped after {interrupt.done} of {job.variants} variants", err=True)
+        place = f"; they are in {part}" if part is not None else ""
+        say(f"balcli: stopped after {interrupt.done} of {job.variants} variants{place}")
         raise typer.Exit(Exit.INTERRUPTED)
-    if plot:
-        write_file(draw(job, studies.grid(job)), plot)
+    if plot is not None and drawn is not None:
+        write_file(draw(job, studies.grid(job, kept), drawn), plot)

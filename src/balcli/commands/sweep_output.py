@@ -23,8 +23,22 @@ from .output import replacing, standard_output
 ROWS_A_GROUP = 1 << 20  # of a Parquet file
 
 
-def write_sweep(sweep: Sweep, chunks: Iterable[Chunk], kind: str, output: Path | None) -> None:
-    """Write all chunks as csv, json or parquet; a file takes its place when it is whole.
+@dataclass
+class Interrupt:
+    """Whether Ctrl-C has been pressed, and how many variants were done by then."""
+
+    noted: bool = False
+    done: int = 0
+
+
+def write_sweep(
+    sweep: Sweep, chunks: Iterable[Chunk], kind: str, output: Path | None, interrupt: Interrupt
+) -> Path | None:
+    """Write all chunks as csv, json or parquet. A file takes its place when it is whole; what there
+    is of an interrupted one, a whole document of fewer rows, goes to `name.part` beside it.
+
+    Returns:
+        that part, if there is one.
 
     Raises:
         BalcliError: the file cannot be written, or pyarrow is missing.
@@ -32,13 +46,17 @@ def write_sweep(sweep: Sweep, chunks: Iterable[Chunk], kind: str, output: Path |
     if output is None:
         with standard_output() as stream:
             _write_text(sweep, chunks, kind, stream)
-        return
+        return None
+    part = None
     with replacing(output) as place:
         if kind == "parquet":
             _write_parquet(sweep, chunks, place)
         else:
             with place.open("w", encoding="utf-8") as stream:
                 _write_text(sweep, chunks, kind, stream)
+        if interrupt.noted and place != output:  # a device has what it has
+            part = place.replace(output.with_name(f"{output.name}.part"))
+    return part
 
 
 def _write_text(sweep: Sweep, chunks: Iterable[Chunk], kind: str, stream: TextIO) -> None:
@@ -78,14 +96,6 @@ def _row_groups(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[list[Array]]:
         yield [np.concatenate(parts) for parts in zip(*waiting, strict=True)]
 
 
-@dataclass
-class Interrupt:
-    """Whether Ctrl-C has been pressed, and how many variants were done by then."""
-
-    noted: bool = False
-    done: int = 0
-
-
 @contextmanager
 def noting_interrupt() -> Iterator[Interrupt]:
     """Ctrl-C is only noted here, for a loop to end between two chunks, so that what is written is
@@ -111,6 +121,13 @@ def until_interrupted(chunks: Iterable[Chunk], interrupt: Interrupt) -> Iterator
         interrupt.done += len(chunk.values[0])
         if interrupt.noted:
             return
+
+
+def keeping(chunks: Iterable[Chunk], kept: list[Chunk]) -> Iterator[Chunk]:
+    """The chunks, each of which is kept, too."""
+    for chunk in chunks:
+        kept.append(chunk)
+        yield chunk
 
 
 def showing_progress(chunks: Iterable[Chunk], total: int, wanted: bool) -> Iterator[Chunk]:

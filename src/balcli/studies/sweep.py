@@ -10,7 +10,7 @@ parameter fastest.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -23,7 +23,6 @@ from ..enginefile.model import EngineFile
 from ..errors import BalcliError, InputError
 from ..forces import quantity
 from ..forces.quantity import Quantity, evaluate
-from ..limits import MOST_PICTURE_VARIANTS
 from .parameters import Parameter, parse, varied
 
 Array = NDArray[np.float64]
@@ -149,16 +148,9 @@ def columns(sweep: Sweep, chunk: Chunk) -> list[Array]:
     return [*(axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")), *chunk.values]
 
 
-def grid(sweep: Sweep) -> list[Array]:
-    """Each quantity on the whole grid, shape (values of the first parameter, of the second ...).
-
-    Raises:
-        BalcliError: too many variants to be kept in memory.
+def grid(sweep: Sweep, every: Iterable[Chunk]) -> list[Array]:
+    """Each quantity on the whole grid, from all its chunks in the order of rows: shape (values of
+    the first parameter, of the second ...).
     """
-    if sweep.variants > MOST_PICTURE_VARIANTS:
-        raise BalcliError(
-            f"{sweep.variants} variants are too many for one picture; "
-            f"{MOST_PICTURE_VARIANTS} are allowed"
-        )
-    found = zip(*(chunk.values for chunk in chunks(sweep)), strict=True)
+    found = zip(*(chunk.values for chunk in every), strict=True)
     return [np.concatenate(parts).reshape(sweep.shape) for parts in found]
