@@ -73,10 +73,7 @@ def analyze(
     if found and not (errors and output):  # a file gets all of them or is left as it was
         good, results = zip(*found, strict=True)
         names = distinct_names([result.engine.name for result in results], good)
-        pictures = plot and form is Format.TABLE and is_seen(output)
-        named = [
-            analyses.NamedAnalysis(name, result, pictures)
-            for name, result in zip(names, results, strict=True)
-        ]
+        drawn = [plot and form is Format.TABLE and is_seen(output)] * len(results)
+        named = list(map(analyses.NamedAnalysis, names, results, drawn))
         show(named, analyses, form, output, units)
     exit_on_errors(errors)

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from ..errors import BalcliError, Exit, say
+from ..forces.kinds import DEFAULT_QUANTITIES
 from .file_names import VARIANTS, VariantsFormat, format_of, picture_form
 from .options import EnginePath, Output
 from .output import write_file
@@ -42,7 +42,7 @@ def sweep(
                 "torque..., roll...; peak.force, peak.moment."
             ),
         ),
-    ] = "force.1.major,force.2.major,moment.1.major,moment.2.major",
+    ] = DEFAULT_QUANTITIES,
     form: Annotated[
         VariantsFormat | None,
         typer.Option(
@@ -80,34 +80,23 @@ def sweep(
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     kind = format_of(output, form, VARIANTS, VariantsFormat.CSV)
-    if kind is VariantsFormat.PARQUET and output is None:
-        raise BalcliError("parquet is written into a file: name one with -o")
     drawn = picture_form(plot, "--plot") if plot is not None else None
     from ..render.sweep_plot import check_drawable, draw
     from ..studies import dask_cluster
     from ..studies import sweep as studies
-    from .sweep_output import (
-        keeping,
-        noting_interrupt,
-        showing_progress,
-        until_interrupted,
-        write_sweep,
-    )
+    from . import sweep_output as out
 
     job = studies.ask(path, vary, quantity)
-    if plot is not None:
+    if drawn is not None:
         check_drawable(job)
     kept: list[studies.Chunk] = []
     cluster = dask_cluster.client(dask) if dask else nullcontext()
-    with noting_interrupt() as interrupt, cluster as workers:
+    with out.noting_interrupt() as interrupt, cluster as workers:
         chunks = dask_cluster.chunks(job, workers) if dask else studies.chunks(job)
-        if plot is not None:
-            chunks = keeping(chunks, kept)
-        shown = showing_progress(until_interrupted(chunks, interrupt), job.variants, progress)
-        part = write_sweep(job, shown, kind, output, interrupt)
-    if interrupt.noted:
-        place = f"; they are in {part}" if part is not None else ""
-        say(f"balcli: stopped after {interrupt.done} of {job.variants} variants{place}")
-        raise typer.Exit(Exit.INTERRUPTED)
+        counted = out.until_interrupted(chunks, interrupt)
+        shown = out.showing_progress(counted, job.variants, progress)
+        all_of_them = shown if drawn is None else out.keeping(shown, kept)
+        out.write_sweep(job, all_of_them, kind, output, interrupt)
+    out.exit_if_interrupted(interrupt, job.variants)
     if plot is not None and drawn is not None:
         write_file(draw(job, studies.grid(job, kept), drawn), plot)

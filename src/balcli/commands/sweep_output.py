@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import TextIO
 
 import numpy as np
+import typer
 
-from ..errors import BalcliError
+from ..errors import BalcliError, Exit, say
 from ..render.sweep import csv_text, json_text
 from ..studies.sweep import Array, Chunk, Sweep, columns
 from .output import replacing, standard_output
@@ -25,29 +26,30 @@ ROWS_A_GROUP = 1 << 20  # of a Parquet file
 
 @dataclass
 class Interrupt:
-    """Whether Ctrl-C has been pressed, and how many variants were done by then."""
+    """Whether Ctrl-C has been pressed, how many variants were done by then, and the file that holds
+    them.
+    """
 
     noted: bool = False
     done: int = 0
+    part: Path | None = None
 
 
 def write_sweep(
     sweep: Sweep, chunks: Iterable[Chunk], kind: str, output: Path | None, interrupt: Interrupt
-) -> Path | None:
+) -> None:
     """Write all chunks as csv, json or parquet. A file takes its place when it is whole; what there
     is of an interrupted one, a whole document of fewer rows, goes to `name.part` beside it.
 
-    Returns:
-        that part, if there is one.
-
     Raises:
-        BalcliError: the file cannot be written, or pyarrow is missing.
+        BalcliError: parquet without a file, the file cannot be written, or pyarrow is missing.
     """
+    if output is None and kind == "parquet":
+        raise BalcliError("parquet is written into a file: name one with -o")
     if output is None:
         with standard_output() as stream:
             _write_text(sweep, chunks, kind, stream)
-        return None
-    part = None
+        return
     with replacing(output) as place:
         if kind == "parquet":
             _write_parquet(sweep, chunks, place)
@@ -55,8 +57,7 @@ def write_sweep(
             with place.open("w", encoding="utf-8") as stream:
                 _write_text(sweep, chunks, kind, stream)
         if interrupt.noted and place != output:  # a device has what it has
-            part = place.replace(output.with_name(f"{output.name}.part"))
-    return part
+            interrupt.part = place.replace(output.with_name(f"{output.name}.part"))
 
 
 def _write_text(sweep: Sweep, chunks: Iterable[Chunk], kind: str, stream: TextIO) -> None:
@@ -121,6 +122,14 @@ def until_interrupted(chunks: Iterable[Chunk], interrupt: Interrupt) -> Iterator
         interrupt.done += len(chunk.values[0])
         if interrupt.noted:
             return
+
+
+def exit_if_interrupted(interrupt: Interrupt, variants: int) -> None:
+    """End with the status of an interruption, and say how far it has come, if there was one."""
+    if interrupt.noted:
+        place = f"; they are in {interrupt.part}" if interrupt.part is not None else ""
+        say(f"balcli: stopped after {interrupt.done} of {variants} variants{place}")
+        raise typer.Exit(Exit.INTERRUPTED)
 
 
 def keeping(chunks: Iterable[Chunk], kept: list[Chunk]) -> Iterator[Chunk]:
