@@ -14,6 +14,7 @@ import pytest
 from support.commands import refusal, run_command, run_here
 from support.engines import GOOD, changed
 
+from balcli import __version__
 from balcli.studies import sweep as studies
 
 unix = pytest.mark.skipif(sys.platform == "win32", reason="needs /dev/stdout")
@@ -184,7 +185,7 @@ def test_a_picture_that_cannot_be_is_refused_before_the_sweep(monkeypatch):
     def computed(*_: object) -> None:
         raise AssertionError
 
-    monkeypatch.setattr(studies, "values", computed)
+    monkeypatch.setattr(studies, "evaluate_box", computed)
     large = ("--vary", "piston.mass=0:2:0.001", "--vary", "crank.stroke=80:100:0.01")
     options = ("-o", "x.csv", "--plot", "x.svg")
     message = refusal("sweep", "good.toml", *large, *options)
@@ -195,13 +196,13 @@ def test_a_picture_that_cannot_be_is_refused_before_the_sweep(monkeypatch):
 
 
 def test_a_picture_takes_the_figures_that_are_written(monkeypatch):
-    boxes, compute = [], studies.values
+    boxes, compute = [], studies.evaluate_box
 
     def counted(sweep, box):
         boxes.append(box)
         return compute(sweep, box)
 
-    monkeypatch.setattr(studies, "values", counted)
+    monkeypatch.setattr(studies, "evaluate_box", counted)
     assert run_here("sweep", "good.toml", *VARY, "-o", "x.csv", "--plot", "x.svg")[0] == 0
     assert len(boxes) == 1
 
@@ -237,3 +238,16 @@ def test_no_variable_puts_escapes_into_a_pipe(args, variable):
     done = run_command(*args, env={variable: "1"})
     assert done.stdout == run_command(*args).stdout
     assert not {"\x1b", "?[1m"} & {done.stdout[k : k + n] for n in (1, 4) for k in range(4000)}
+
+
+# ------------------------------------------------------------------ Parquet
+def test_parquet_says_nothing_where_there_is_nothing_and_what_it_is():
+    parquet = pytest.importorskip("pyarrow.parquet")
+    asked = ("-q", "force.1.major,force.1.axis", "-o", "x.parquet")
+    assert run_here("sweep", "good.toml", *VARY, *asked) == (0, "", "")
+    table = parquet.read_table("x.parquet")
+    assert table["force.1.axis"].null_count == 2  # order 1 is balanced and has none
+    assert table["crank.stroke"].to_pylist() == [80, 90]
+    assert table.schema.field("force.1.major").metadata == {b"unit": b"N"}
+    assert table.schema.metadata[b"balcli.engine"] == b"in-line four"
+    assert table.schema.metadata[b"balcli.version"] == __version__.encode()

@@ -82,21 +82,21 @@ def sweep(
     kind = format_of(output, form, VARIANTS, VariantsFormat.CSV)
     drawn = picture_form(plot, "--plot") if plot is not None else None
     from ..render.sweep_plot import check_drawable, draw
-    from ..studies import dask_cluster
-    from ..studies import sweep as studies
+    from ..studies.dask_cluster import connect_cluster, evaluate_on_cluster
+    from ..studies.sweep import Chunk, evaluate_chunks, join_chunks, read_sweep
     from . import sweep_output as out
 
-    job = studies.ask(path, vary, quantity)
+    job = read_sweep(path, vary, quantity)
     if drawn is not None:
         check_drawable(job)
-    kept: list[studies.Chunk] = []
-    cluster = dask_cluster.client(dask) if dask else nullcontext()
+    kept: list[Chunk] = []
+    cluster = connect_cluster(dask) if dask else nullcontext()
     with out.noting_interrupt() as interrupt, cluster as workers:
-        chunks = dask_cluster.chunks(job, workers) if dask else studies.chunks(job)
+        chunks = evaluate_on_cluster(job, workers) if dask else evaluate_chunks(job)
         counted = out.until_interrupted(chunks, interrupt)
         shown = out.showing_progress(counted, job.variants, progress)
         all_of_them = shown if drawn is None else out.keeping(shown, kept)
         out.write_sweep(job, all_of_them, kind, output, interrupt)
     out.exit_if_interrupted(interrupt, job.variants)
     if plot is not None and drawn is not None:
-        write_file(draw(job, studies.grid(job, kept), drawn), plot)
+        write_file(draw(job, join_chunks(job, kept), drawn), plot)

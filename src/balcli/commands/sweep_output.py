@@ -16,9 +16,10 @@ from typing import TextIO
 import numpy as np
 import typer
 
+from .. import __version__
 from ..errors import BalcliError, Exit, say
 from ..render.sweep import csv_text, json_text
-from ..studies.sweep import Array, Chunk, Sweep, columns
+from ..studies.sweep import Array, Chunk, Sweep, list_columns
 from .output import replacing, standard_output
 
 ROWS_A_GROUP = 1 << 20  # of a Parquet file
@@ -79,17 +80,29 @@ def _write_parquet(sweep: Sweep, chunks: Iterable[Chunk], place: Path) -> None:
         from pyarrow import parquet
     except ImportError:
         raise BalcliError("a .parquet file needs pyarrow: install balcli[scale]") from None
-    schema = pyarrow.schema([(name, pyarrow.float64()) for name in sweep.columns])
+    units = {quantity.name: {"unit": quantity.unit} for quantity in sweep.quantities}
+    schema = pyarrow.schema(
+        [
+            pyarrow.field(name, pyarrow.float64(), metadata=units.get(name))
+            for name in sweep.columns
+        ],
+        metadata={
+            "balcli.format": "balcli.sweep/1",
+            "balcli.version": __version__,
+            "balcli.engine": sweep.file.name,
+        },
+    )
     with parquet.ParquetWriter(place, schema) as writer:
         for columns in _row_groups(sweep, chunks):
-            writer.write_table(pyarrow.table(columns, schema=schema))
+            nulls = [pyarrow.array(column, from_pandas=True) for column in columns]  # for nan
+            writer.write_table(pyarrow.table(nulls, schema=schema))
 
 
 def _row_groups(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[list[Array]]:
     """Columns of many chunks together: ROWS_A_GROUP rows or a few more, fewer in the last."""
     waiting: list[list[Array]] = []
     for chunk in chunks:
-        waiting.append(columns(sweep, chunk))
+        waiting.append(list_columns(sweep, chunk))
         if sum(len(c[0]) for c in waiting) >= ROWS_A_GROUP:
             yield [np.concatenate(parts) for parts in zip(*waiting, strict=True)]
             waiting = []

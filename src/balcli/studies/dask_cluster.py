@@ -6,21 +6,23 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator
-from contextlib import contextmanager
+from concurrent.futures import CancelledError
+from contextlib import ExitStack, contextmanager
 from itertools import islice
 from typing import Any
 
 from ..errors import BalcliError
-from .sweep import Box, Chunk, Sweep, boxes, values
+from .sweep import Box, Chunk, Sweep, divide_grid, evaluate_box
 
 BATCH = 16  # boxes that a worker computes at a time
+RETRIES = 3  # of a batch that a worker has not finished
 AHEAD = 4  # batches for each thread that may wait to be fetched
 
 
 @contextmanager
-def client(address: str) -> Iterator[Any]:
-    """A client of the scheduler at an address such as tcp://host:8786, or of a cluster of our own
-    (`local`).
+def connect_cluster(address: str) -> Iterator[Any]:
+    """A client of the scheduler at an address such as tcp://host:8786, or of a cluster on this
+    machine (`local`) that ends with it.
 
     Raises:
         BalcliError: dask is not installed, or nobody answers.
@@ -30,41 +32,53 @@ def client(address: str) -> Iterator[Any]:
     except ImportError:
         raise BalcliError("--dask needs dask: install balcli[scale]") from None
     dask: Any = distributed
-    try:
-        if address == "local":
-            with (
-                dask.LocalCluster(threads_per_worker=1, dashboard_address=None) as cluster,
-                dask.Client(cluster) as found,
-            ):
-                yield found
-        else:
-            with dask.Client(address, timeout=10) as found:
-                yield found
-    except (OSError, ValueError) as error:
-        raise BalcliError(f"--dask {address}: no cluster answers there ({error})") from None
+    with ExitStack() as ends:
+        try:
+            if address == "local":
+                own = dask.LocalCluster(threads_per_worker=1, dashboard_address=None)
+                client = ends.enter_context(dask.Client(ends.enter_context(own)))
+            else:
+                client = ends.enter_context(dask.Client(address, timeout=10))
+        except (OSError, ValueError) as error:
+            raise BalcliError(f"--dask {address}: no cluster answers there ({error})") from None
+        yield client
 
 
-def chunks(sweep: Sweep, found: Any) -> Iterator[Chunk]:
-    """All variants, computed by the cluster, in the order of rows; a bounded number of batches is
-    under way at a time.
+def evaluate_on_cluster(sweep: Sweep, client: Any) -> Iterator[Chunk]:
+    """All variants, computed by the workers of a client's cluster, in the order of rows; a bounded
+    number of batches is under way at a time. The sweep goes with each of them, so that one whose
+    worker is lost can be given to another.
+
+    Raises:
+        BalcliError: all workers are lost, again and again.
     """
-    batches = _batches(boxes(sweep.shape))
-    most = AHEAD * max(sum(found.nthreads().values()), 1)
-    job = found.scatter(sweep, broadcast=True)
-    waiting = deque(
-        found.submit(_compute, job, batch, pure=False) for batch in islice(batches, most)
-    )
+    from distributed import KilledWorker  # an extra
+
+    batches = _group(divide_grid(sweep.shape))
+    most = AHEAD * max(sum(client.nthreads().values()), 1)
+
+    def submit(count: int) -> Iterator[Any]:
+        for batch in islice(batches, count):
+            yield client.submit(_evaluate_batch, sweep, batch, pure=False, retries=RETRIES)
+
+    waiting = deque(submit(most))
     while waiting:
-        yield from waiting.popleft().result()
-        waiting.extend(
-            found.submit(_compute, job, batch, pure=False) for batch in islice(batches, 1)
-        )
+        try:
+            found = waiting.popleft().result()
+        except (KilledWorker, CancelledError) as error:
+            raise BalcliError(
+                f"--dask: the cluster has lost its workers ({type(error).__name__}), and what they "
+                "computed; start it again, or leave --dask out"
+            ) from None
+        yield from found
+        waiting.extend(submit(1))
 
 
-def _compute(sweep: Sweep, batch: list[Box]) -> list[Chunk]:
-    return [Chunk(box, values(sweep, box)) for box in batch]
+def _evaluate_batch(sweep: Sweep, batch: list[Box]) -> list[Chunk]:
+    return [Chunk(box, evaluate_box(sweep, box)) for box in batch]
 
 
-def _batches(every: Iterator[Box]) -> Iterator[list[Box]]:
-    while batch := list(islice(every, BATCH)):
+def _group(boxes: Iterator[Box]) -> Iterator[list[Box]]:
+    """So many boxes at a time as a worker computes."""
+    while batch := list(islice(boxes, BATCH)):
         yield batch
