@@ -258,7 +258,9 @@ def test_workers_that_are_all_killed_are_a_message(monkeypatch, four):
 
     monkeypatch.setitem(sys.modules, "distributed", dask(KilledWorker=KilledError))
     sweep, client = read_sweep(str(four), ["crank.stroke=80,90"], "force.2.major"), Lost()
-    with pytest.raises(BalcliError, match=r"--dask: the cluster has lost its workers \(KilledError\)"):
+    with pytest.raises(
+        BalcliError, match=r"--dask: the cluster has lost its workers \(KilledError\)"
+    ):
         list(cluster.evaluate_on_cluster(sweep, client))
     assert client.given == [(sweep, True)]
 
