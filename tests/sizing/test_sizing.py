@@ -816,7 +816,7 @@ def test_minimax_knows_its_error(name):
 def test_minimax_puts_its_angles_in_order_after_they_are_wrapped(monkeypatch):
     """A hair before a whole turn is 0, and stands first."""
     found = circle.Circle(3 + 4j, 1e3, np.array([1.0, 4.0, 2 * np.pi - 1e-14]), 0.0)
-    monkeypatch.setattr(circle, "enclosing", lambda curve: found)
+    monkeypatch.setattr(circle, "enclose_curve", lambda curve: found)
     told = remedy_for(build(parse(ENGINES["one"])), "minimax").details
     assert told["reached_deg"] == [0, round(math.degrees(1), 9), round(math.degrees(4), 9)]
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..core.mechanisms import slidercrank as sc
 from ..core.phasors import EPS, Array, Complex, unit
-from ..core.strokes import travel as dead_centres
+from ..core.strokes import find_travel as dead_centres
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import FINEST_STEP_DEG

@@ -208,9 +208,9 @@ def _extras(engine: Engine, asked: Array | None, wanted: Collection[str]) -> dic
 
         found["guide"] = guide(engine, asked)
     if engine.cylinders.linkage is not None:
-        from ..core.strokes import travel
+        from ..core.strokes import find_travel
 
-        found["travel"] = travel(engine.cylinders)
+        found["travel"] = find_travel(engine.cylinders)
     return found
 
 
