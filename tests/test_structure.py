@@ -152,7 +152,6 @@ def test_core_knows_numpy_and_the_standard_library_alone(file):
 # Types and constants of a room may be named by what shows them, functions not: these shape figures
 # for the eye.
 SHAPING = {
-    ("balcli.results.analysis", "textbook"),
     ("balcli.tables.recomputed", "deviates"),
     ("balcli.tables.recomputed", "parse_decimal"),
     ("balcli.tables.recomputed", "parse_fraction"),
@@ -167,6 +166,7 @@ COMPUTING = (
     "balcli.engine.build",
     "balcli.engine.load",
     "balcli.studies.sweep",
+    "balcli.studies.deviations",
     "balcli.studies.tolerances",
     "balcli.studies.search.search",
     "balcli.results.comparison",

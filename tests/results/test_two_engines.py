@@ -15,7 +15,7 @@ from support.commands import refusal, run_here
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
 from balcli.forces import spectrum
-from balcli.results.two_engines import Arrangement, combine
+from balcli.results.two_engines import Arrangement, combine_engines
 
 ORDERS = np.arange(1.0, 9.0)
 RELATIVE = 1e-12
@@ -61,8 +61,8 @@ def test_two_singles_behind_one_another_are_a_twin(operation):
     )
     single, plain = built(more="[frame]\nreference = [10, -20, 30]\n", operation=operation), built()
     agree(
-        combine(single, plain, Arrangement(110, (0, 0, 0.13)), orders).spectra,
-        spectrum.spectra(twin, orders),
+        combine_engines(single, plain, Arrangement(110, (0, 0, 0.13)), orders).spectra,
+        spectrum.compute_spectra(twin, orders),
     )
 
 
@@ -71,8 +71,8 @@ def test_two_singles_on_one_pin_are_a_vee():
     single = engine.build(
         enginefile.parse("[crank]\nstroke = 90\nthrow_mass = 0.4\n" + PARTS.format(operation=""))
     )
-    found = combine(single, single, Arrangement(-70, turn_deg=70), ORDERS).spectra
-    agree(found, spectrum.spectra(built(more="[layout]\nbanks = [0, 70]\n"), ORDERS))
+    found = combine_engines(single, single, Arrangement(-70, turn_deg=70), ORDERS).spectra
+    agree(found, spectrum.compute_spectra(built(more="[layout]\nbanks = [0, 70]\n"), ORDERS))
 
 
 def test_counter_rotating_cranks_side_by_side():
@@ -80,9 +80,9 @@ def test_counter_rotating_cranks_side_by_side():
     along them add up.
     """
     one = built(more="[[counterweight]]\nunbalance = 70000\nangle = 180\n")
-    both = combine(one, one, Arrangement(at_m=(0, 0.2, 0), reverse=True), ORDERS)
+    both = combine_engines(one, one, Arrangement(at_m=(0, 0.2, 0), reverse=True), ORDERS)
     assert np.allclose(both.spectra.force.y, 0, atol=1e-9)
-    alone = spectrum.spectra(one, ORDERS).force
+    alone = spectrum.compute_spectra(one, ORDERS).force
     assert np.allclose(both.spectra.force.x, 2 * alone.x, rtol=1e-12)
 
 
@@ -96,9 +96,9 @@ def test_mirrored_turned_and_placed_against_curves():
     )
     how = Arrangement(75, (0.2, -0.3, 0.4), 35, True)
     orders = np.arange(1.0, 40.0)
-    both = combine(first, second, how, orders).spectra
-    origin = spectrum.spectra(replace(second, reference_m=(0.0, 0.0, 0.0)), orders)
-    own = spectrum.spectra(first, orders)
+    both = combine_engines(first, second, how, orders).spectra
+    origin = spectrum.compute_spectra(replace(second, reference_m=(0.0, 0.0, 0.0)), orders)
+    own = spectrum.compute_spectra(first, orders)
     theta = np.linspace(0, 2 * np.pi, 50)
     ahead, turn = theta + np.radians(75), np.exp(1j * np.radians(35))
     force = np.conj(origin.force.values(ahead)) * turn

@@ -18,7 +18,7 @@ import pytest
 from support.paths import SOURCE
 
 from balcli.core.phasors import Phasors
-from balcli.studies.search.angles import valleys
+from balcli.studies.search.angles import find_valleys
 
 SEED = 20
 
@@ -277,7 +277,7 @@ def test_a_search_that_cannot_end_is_refused(place, data, over, message):
 
 
 def test_a_search_in_which_nothing_fires_evenly_has_no_valley():
-    assert len(valleys(lambda x: np.full_like(x, np.inf), 0.0, 180.0, 3)) == 0
+    assert len(find_valleys(lambda x: np.full_like(x, np.inf), 0.0, 180.0, 3)) == 0
 
 
 @pytest.mark.slow

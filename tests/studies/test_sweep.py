@@ -12,8 +12,7 @@ from support.engines import GOOD, changed
 from balcli.engine.build import build
 from balcli.engine.load import parse as load
 from balcli.errors import BalcliError, InputError
-from balcli.forces.quantity import evaluate
-from balcli.forces.quantity import parse as quantities
+from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
 from balcli.render.sweep import csv_text, json_text
 from balcli.studies.parameters import parse, varied
 from balcli.studies.sweep import Sweep, boxes, check, chunks, columns, grid
@@ -23,7 +22,7 @@ VEE = changed(
     ("[0, 180, 180, 0]", "[0, 100, 250, 190]"),
     ("firing_order = [1, 3, 4, 2]", "bank_angle = 70\nstagger = 20"),
 )
-EVERYTHING = quantities(
+EVERYTHING = parse_quantity_list(
     "force.1.major,force.2.minor,moment.1.backward,moment.4.x,"
     "couple.3.amplitude,torque.2.amplitude,roll.4.amplitude,peak.force"
 )
@@ -47,7 +46,9 @@ UNSTEADY = "[[operation.speed_ripple]]\norder = 4\namplitude = 0.01\n"
 
 def asked(engine: str, *vary: str, of: str = "") -> Sweep:
     file = load(engine)
-    return Sweep(file, tuple(parse(v, file) for v in vary), quantities(of) if of else EVERYTHING)
+    return Sweep(
+        file, tuple(parse(v, file) for v in vary), parse_quantity_list(of) if of else EVERYTHING
+    )
 
 
 @pytest.mark.parametrize(
@@ -87,7 +88,8 @@ def test_every_variant_is_the_engine_alone(engine: str, vary: tuple[str, ...]) -
         for values in product(*(p.values.tolist() for p in sweep.parameters))
     ]
     alone = [
-        [float(v) for v in evaluate(build(varied(sweep.file, one)), EVERYTHING)] for one in variants
+        [float(v) for v in evaluate_quantities(build(varied(sweep.file, one)), EVERYTHING)]
+        for one in variants
     ]
     for quantity, values, expected in zip(EVERYTHING, found, np.array(alone).T, strict=True):
         assert values.ravel() == pytest.approx(
@@ -101,7 +103,7 @@ def test_an_unbalance_of_mass_and_radius_varies_by_either(vary: str) -> None:
     U omega^2.
     """
     sweep = asked(GOOD + "[[counterweight]]\nmass = 0.3\nradius = 40\n", vary, of="force.1.forward")
-    (found,) = evaluate(sweep.engine((slice(None),)), sweep.quantities)
+    (found,) = evaluate_quantities(sweep.engine((slice(None),)), sweep.quantities)
     assert found == pytest.approx([0, 0.3 * 0.040 * (3000 * math.pi / 30) ** 2], rel=1e-14)
 
 

@@ -15,7 +15,7 @@ from balcli.core.mechanisms import closed_form
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.forces.spectrum import spectra
+from balcli.forces.spectrum import compute_spectra
 from balcli.results.analysis import analyze
 from balcli.sizing.auto import auto
 from balcli.sizing.sizing import Wish, fitted, remedy_for
@@ -37,7 +37,7 @@ CROSS_V8 = engine([0, 90, 270, 180], layout="bank_angle = 90")
 
 
 def left(e: Engine, orders=(1, 2), quantities=("force", "moment", "roll")):
-    return spectra(e, list(orders), quantities)
+    return compute_spectra(e, list(orders), quantities)
 
 
 def sizes(tables) -> list[float]:

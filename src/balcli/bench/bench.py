@@ -14,9 +14,9 @@ from ..core.phasors import Array, Complex
 from ..engine.build import Engine, build
 from ..engine.load import parse
 from ..enginefile.model import EngineFile
-from ..forces.kinds import KINDS
-from ..forces.quantity import parse as parse_quantities
-from ..forces.spectrum import spectra
+from ..forces.kinds import DEFAULT_QUANTITIES, KINDS
+from ..forces.quantity import parse_quantity_list
+from ..forces.spectrum import compute_spectra
 from ..results.analysis import analyze
 from ..studies.parameters import Parameter, ladder
 from ..studies.sweep import CHUNK, Sweep, chunks
@@ -176,8 +176,7 @@ def _grid(banks: int, ratios: int) -> Sweep:
 
 
 def _sweep(*parameters: Parameter) -> Sweep:
-    wanted = "force.1.major,force.2.major,moment.1.major,moment.2.major"
-    return Sweep(parse(V8), parameters, parse_quantities(wanted))
+    return Sweep(parse(V8), parameters, parse_quantity_list(DEFAULT_QUANTITIES))
 
 
 def _run_sweep(sweep: Sweep) -> None:
@@ -240,7 +239,7 @@ def _engine_ratios() -> Iterator[Ratio]:
         orders: NDArray[np.float64] = eight,
         kinds: tuple[str, ...] = ("force", "moment"),
     ) -> Callable[[], object]:
-        return lambda: spectra(subject, orders, kinds)
+        return lambda: compute_spectra(subject, orders, kinds)
 
     plain = partial(methods.sampled(64), engine, list(range(1, 9)))
     what = "force and moment of a V8, orders 1-8, to plain numpy (64 angles, FFT)"

@@ -16,7 +16,7 @@ import numpy as np
 from ..core.mechanisms import closed_form, power_series
 from ..core.phasors import Array, Complex
 from ..engine.build import Engine
-from ..forces.spectrum import spectra
+from ..forces.spectrum import compute_spectra
 
 POWERS = (3, 5, 7)  # of lambda, up to which books print the series
 POINTS = (8, 16, 32, 64)
@@ -127,7 +127,7 @@ def from_coefficients(find: Coefficients) -> Vectors:
 
 def of_engine(engine: Engine, orders: list[int]) -> Complex:
     """balcli itself."""
-    found = spectra(engine, orders, ("force", "moment"))
+    found = compute_spectra(engine, orders, ("force", "moment"))
     return np.array([(p.forward, p.backward) for _, p in found.items()]).transpose(0, 2, 1)
 
 

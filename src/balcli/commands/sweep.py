@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from ..errors import Exit
+from ..forces.kinds import DEFAULT_QUANTITIES
 from .options import EnginePath, Output, SeriesFormat
 from .output import write_file
 from .overwrite_guard import refuse_overwriting
@@ -41,7 +42,7 @@ def sweep(
                 "torque..., roll...; peak.force, peak.moment."
             ),
         ),
-    ] = "force.1.major,force.2.major,moment.1.major,moment.2.major",
+    ] = DEFAULT_QUANTITIES,
     form: Annotated[
         SeriesFormat, typer.Option("--format", "-f", help="How to write the variants.")
     ] = SeriesFormat.CSV,

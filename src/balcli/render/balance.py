@@ -17,7 +17,7 @@ from .analysis import brief_document
 from .csv import Rows
 from .devices import device_entries, device_grid, device_rows, practical_entry
 from .figures import clean, order_number
-from .sheet import Facts, Grid, Sheet, Text, degrees, number
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number
 from .units import System, Unit
 
 _UNITS = {"N": "force", "Nm": "moment", "kg_m": "unbalance", "mm": "length"}
@@ -55,7 +55,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     parts += _details(remedy.details, system)
     parts += [_orders(result, system), _peaks(result, system)]
     return Sheet(
-        f"{result.before.engine.name or 'engine without a name'}: {remedy.scheme}{order}",
+        f"{result.before.engine.name or NAMELESS}: {remedy.scheme}{order}",
         tuple(parts),
     )
 

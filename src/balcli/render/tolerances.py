@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .csv import Rows
-from .sheet import Grid, Sheet, number
+from .sheet import NAMELESS, Grid, Sheet, number
 
 if TYPE_CHECKING:
     from ..studies.tolerances import Scatter, Spread
@@ -18,7 +18,7 @@ def document(result: Scatter) -> dict[str, Any]:
     """`balcli.scatter/1`."""
     return {
         "format": "balcli.scatter/1",
-        "engine": {"name": result.file.name},
+        "engine": {"name": result.model.name},
         "samples": result.samples,
         "quantities": {
             s.quantity.name: _statistics(s)
@@ -66,7 +66,7 @@ def sheet(result: Scatter, _system: System) -> Sheet:
         ),
         words=tuple(range(SHOWN + 1)),
     )
-    return Sheet(result.file.name or "engine without a name", (spread, shares))
+    return Sheet(result.model.name or NAMELESS, (spread, shares))
 
 
 def _largest_shares(s: Spread) -> list[str]:

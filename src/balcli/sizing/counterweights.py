@@ -17,7 +17,8 @@ from ..core.peaks import peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..engine.build import Engine, Weighed
 from ..errors import BalcliError
-from ..forces.spectrum import relevant_orders, spectra
+from ..forces.orders import find_relevant_orders
+from ..forces.spectrum import compute_spectra
 from . import planes
 from .auto import why_weights
 from .effects import Part, Slot, solve, steady
@@ -219,7 +220,9 @@ def _component(curve: Phasors, direction: complex) -> float:
 
 def _curve(engine: Engine, quantity: str) -> Phasors:
     """Force or moment, all orders."""
-    found: Phasors = getattr(spectra(engine, relevant_orders(engine), (quantity,)), quantity)
+    found: Phasors = getattr(
+        compute_spectra(engine, find_relevant_orders(engine), (quantity,)), quantity
+    )
     return found
 
 

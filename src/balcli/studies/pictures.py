@@ -13,9 +13,9 @@ import numpy as np
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..forces.crankshaft import Inner, inner
+from ..forces.crankshaft import InnerLoads, compute_inner_loads
 from ..forces.kinds import KINDS
-from ..forces.spectrum import spectra
+from ..forces.spectrum import compute_spectra
 from ..results.analysis import Analysis, analyze
 from ..results.balance import balance
 from ..sizing.sizing import Wish, remedy_for
@@ -44,7 +44,7 @@ class Study(NamedTuple):
     before: Analysis | None = None
     factors: Sequence[dict[str, float]] = ()
     banks: Banks | None = None
-    bent: tuple[Inner, ...] = ()
+    bent: tuple[InnerLoads, ...] = ()
 
 
 def study(
@@ -66,11 +66,15 @@ def study(
         raise BalcliError(f"--what {what} shows the engine as it is: leave --scheme {scheme} out")
     if scheme is not None:
         found = balance(engine, scheme, orders=orders)
-        bent = (inner(found.after.engine), inner(engine)) if what == "inner" else ()
+        bent = (
+            (compute_inner_loads(found.after.engine), compute_inner_loads(engine))
+            if what == "inner"
+            else ()
+        )
         return Study(found.after, found.before, bent=bent)
     now = analyze(engine, orders, KINDS)
     if what == "inner":
-        return Study(now, bent=(inner(engine),))
+        return Study(now, bent=(compute_inner_loads(engine),))
     if what == "factor":
         details: Any = remedy_for(engine, "factor", Wish(factor=FACTORS)).details
         return Study(now, factors=details["sweep"])
@@ -112,7 +116,7 @@ def over_bank_angle(engine: Engine, order: int) -> Banks:
 
 
 def _force(engine: Engine, order: int) -> Phasors:
-    return spectra(replace(engine, ripple=()), [order], ["force"])["force"]
+    return compute_spectra(replace(engine, ripple=()), [order], ["force"])["force"]
 
 
 def _lowest(now: Analysis) -> int:

@@ -21,8 +21,7 @@ from ..engine import load as enginefile
 from ..engine.build import Engine, build
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError, InputError
-from ..forces import quantity
-from ..forces.quantity import Quantity, evaluate
+from ..forces.quantity import Quantity, evaluate_quantities, parse_quantity_list
 from ..limits import MOST_PICTURE_VARIANTS
 from .parameters import Parameter, parse, varied
 
@@ -92,7 +91,7 @@ def ask(file: str, vary: Sequence[str], quantities: str) -> Sweep:
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
-    sweep = Sweep(model, parameters, quantity.parse(quantities), enginefile.name_of(file))
+    sweep = Sweep(model, parameters, parse_quantity_list(quantities), enginefile.name_of(file))
     check(sweep)
     return sweep
 
@@ -116,7 +115,7 @@ def values(sweep: Sweep, box: Box) -> list[Array]:
     shape = tuple(len(range(*cut.indices(n))) for cut, n in zip(box, sweep.shape, strict=True))
     return [
         np.broadcast_to(found, shape).ravel()
-        for found in evaluate(sweep.engine(box), sweep.quantities)
+        for found in evaluate_quantities(sweep.engine(box), sweep.quantities)
     ]
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from .objective import Array
+from ...core.phasors import Array
 
 STEP = 0.5  # deg
 FINER = 20  # times, from one grid to the next
@@ -14,9 +14,12 @@ ROUNDS = 6
 ROUND = (1.0, 0.1, 0.01, 0.001, 1e-4)  # deg: the roundest angle that is as good is taken
 
 
-def valleys(value: Callable[[Array], Array], low: float, high: float, count: int) -> Array:
-    """The lowest places of a function of an angle in [low, high], at most `count`, lowest first;
-    inf is no value.
+def find_valleys(value: Callable[[Array], Array], low: float, high: float, count: int) -> Array:
+    """The lowest places of a function of an angle in [low, high], at most `count`, lowest first,
+    deg.
+
+    Args:
+        value: of angles in deg, shape (angles,); inf is no value.
     """
     x = np.linspace(low, high, round((high - low) / STEP) + 1)
     y = value(x)
@@ -26,21 +29,22 @@ def valleys(value: Callable[[Array], Array], low: float, high: float, count: int
     best = np.flatnonzero(deep)[np.argsort(y[deep], kind="stable")][:count]
     if not len(best):
         return x[best]
-    found = _deepened(value, x[best], low, high)
-    return np.unique(found)[np.argsort(value(np.unique(found)), kind="stable")]
+    found = np.unique(_refine(value, x[best], low, high))
+    return found[np.argsort(value(found), kind="stable")]
 
 
-def _deepened(value: Callable[[Array], Array], x: Array, low: float, high: float) -> Array:
+def _refine(value: Callable[[Array], Array], x: Array, low: float, high: float) -> Array:
+    """The lowest place within a step beside each of these angles."""
     width = STEP
     for _ in range(ROUNDS):
         around = np.clip(x[:, None] + np.linspace(-width, width, 2 * FINER + 1), low, high)
         y = value(around.ravel()).reshape(around.shape)
         x = around[np.arange(len(x)), y.argmin(axis=1)]
         width /= FINER
-    return _rounded(value, x)
+    return _round_off(value, x)
 
 
-def _rounded(value: Callable[[Array], Array], x: Array) -> Array:
+def _round_off(value: Callable[[Array], Array], x: Array) -> Array:
     """The same angles, or rounder ones that are as good but for rounding errors."""
     y = value(x)
     slack = 1e-9 * np.abs(y) + 1e-9 * value(np.clip(x + STEP, None, x.max(initial=0) + STEP))
