@@ -226,7 +226,7 @@ def test_a_cluster_that_does_not_answer(monkeypatch):
             BalcliError,
             match=r"--dask tcp://host:1: no cluster answers there \(nobody at tcp://host:1\)",
         ),
-        cluster.client("tcp://host:1"),
+        cluster.connect_cluster("tcp://host:1"),
     ):
         pass
 
@@ -243,7 +243,7 @@ def test_a_cluster_of_our_own_and_one_by_address(monkeypatch):
         ),
     )
     for address, found in (("local", "client of own"), ("tcp://host:1", "client of tcp://host:1")):
-        with cluster.client(address) as client:
+        with cluster.connect_cluster(address) as client:
             assert client == found
 
 

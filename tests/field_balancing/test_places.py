@@ -66,3 +66,13 @@ def test_reach():
     assert find_reach(3 + 3j, square, 2) == pytest.approx(2 * np.sqrt(2), rel=1e-8)
     assert find_reach(-1 + 0j, np.array([-60.0, 0, 60]), np.inf) == 0
     assert split_weight(0j, square, 1) == ()
+
+
+def test_many_places_of_small_weights():
+    """720 of them, of which an arc is full: quick, and right."""
+    angles = np.arange(720) / 2
+    placed = split_weight(100j, angles, 0.6)
+    assert total(placed) == pytest.approx(100j, rel=1e-9)
+    assert len(placed) > 150
+    polygon = 0.6 / np.sin(np.radians(0.25))  # all places of half a turn: a chord of the polygon
+    assert find_reach(1j, angles, 0.6) == pytest.approx(polygon, rel=1e-5)

@@ -13,12 +13,10 @@ from itertools import islice
 from pathlib import Path
 
 import fuzz
-import numpy as np
 import pytest
 from support.paths import SOURCE
 
 from balcli.core.phasors import Phasors
-from balcli.studies.search.angles import find_valleys
 
 SEED = 20
 
@@ -274,10 +272,6 @@ def test_a_search_that_cannot_end_is_refused(place, data, over, message):
     )
     assert (done.status, done.err) == (2, f"balcli: {message}\n")
     assert done.calls < fuzz.MOST_CALLS / 3
-
-
-def test_a_search_in_which_nothing_fires_evenly_has_no_valley():
-    assert len(find_valleys(lambda x: np.full_like(x, np.inf), 0.0, 180.0, 3)) == 0
 
 
 @pytest.mark.slow

@@ -19,7 +19,7 @@ from ..forces.quantity import parse_quantity_list
 from ..forces.spectrum import compute_spectra
 from ..results.analysis import analyze
 from ..studies.parameters import Parameter, ladder
-from ..studies.sweep import CHUNK, Sweep, chunks
+from ..studies.sweep import CHUNK, Sweep, evaluate_chunks
 from . import methods
 from .cold_start import start_balcli, start_libraries
 from .stopwatch import compare_times, time_run
@@ -180,7 +180,7 @@ def _sweep(*parameters: Parameter) -> Sweep:
 
 
 def _run_sweep(sweep: Sweep) -> None:
-    for _ in chunks(sweep):
+    for _ in evaluate_chunks(sweep):
         pass
 
 

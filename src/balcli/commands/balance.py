@@ -33,6 +33,8 @@ def balance(
     disc: wishes.Disc = None,
     drill: wishes.Drill = None,
     even: wishes.Even = None,
+    grade: wishes.Grade = None,
+    mass: wishes.Mass = None,
     write: wishes.Write = None,
     speed: Speed = None,
     orders: Orders = None,
@@ -44,6 +46,7 @@ def balance(
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     from ..render import balance as renderer
     from ..results.balance import balance as balance_engine
+    from ..results.permitted_unbalance import permit_unbalance
     from .fitted_engine import write_fitted
     from .inputs import read_engine
 
@@ -55,6 +58,7 @@ def balance(
         result = wishes.knuckles(scheme, wish, even, model, engine, asked)
     else:
         result = balance_engine(engine, scheme, wish, asked, tools)
+    result = permit_unbalance(result, grade, mass)
     if write is not None:
         write_fitted(path, text, result.remedy, write, rpm)
     show([result], renderer, form, output, units)

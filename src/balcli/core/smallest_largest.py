@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .least_squares import solve
+from .least_squares import Solution, solve
 
 Complex = NDArray[np.complex128]
 Array = NDArray[np.float64]
@@ -61,7 +61,7 @@ def minimise_largest(
         target: shape (readings,). weights: positive factors of the readings.
         most: upper limits of `|x|`, infinite where there is none, shape (unknowns,).
     """
-    start = solve(matrix, target, weights)
+    start = _solve_scaled(matrix, target, weights)
     limits = np.full(matrix.shape[1], np.inf) if most is None else most
     largest = float(np.abs(weights * start.residual).max())
     if largest <= _VANISHES * np.abs(weights * target).max(initial=0) and _fits(start.x, limits):
@@ -82,7 +82,7 @@ def minimise_squares_within(
         target: shape (readings,). weights: positive factors of the readings.
         most: upper limits, infinite where there is none, shape (unknowns,).
     """
-    x = solve(matrix, target, weights).x
+    x = _solve_scaled(matrix, target, weights).x
     if not _fits(x, most):
         problem = _Problem(weights[:, None] * matrix, weights * target, most, largest_only=False)
         x, _ = problem.minimise()
@@ -93,6 +93,13 @@ def minimise_squares_within(
 def find_limited(x: Complex, most: Array) -> list[int]:
     """Which unknowns are at their limit."""
     return [int(k) for k in np.flatnonzero(np.abs(x) >= _BINDS * most)]
+
+
+def _solve_scaled(matrix: Complex, target: Complex, weights: Array) -> Solution[np.complex128]:
+    """Least squares, whatever the sizes of the columns."""
+    sizes = np.linalg.norm(weights[:, None] * matrix, axis=0)
+    found = solve(matrix / sizes, target, weights)
+    return found._replace(x=found.x / sizes)
 
 
 def _fits(x: Complex, most: Array) -> bool:
@@ -240,7 +247,9 @@ class _Problem:
         value = self._value(point, steepness)
         for _ in range(_CENTRING_STEPS):
             gradient, second = self._derivatives(point, steepness)
-            step = -np.linalg.solve(second, gradient)
+            scale = 1 / np.sqrt(np.diagonal(second))
+            scaled = second * np.outer(scale, scale)
+            step = -scale * np.linalg.lstsq(scaled, scale * gradient, rcond=None)[0]
             decrement = -float(gradient @ step)
             if decrement / 2 <= _SETTLED:
                 break

@@ -247,9 +247,9 @@ def _drop_rounding(after: Complex, before: Complex, matrix: Complex, x: Complex)
 
 
 def _find_own_shares(matrix: Complex) -> Array:
-    """Of every column: its distance from what the others span, over its length."""
-    reciprocal = np.linalg.norm(np.linalg.pinv(matrix, rcond=0.0), axis=1)
-    return np.asarray(1 / (np.linalg.norm(matrix, axis=0) * reciprocal))
+    """Of every column: its distance from what the others span, over its length (sine)."""
+    directions = matrix / np.linalg.norm(matrix, axis=0)
+    return np.asarray(1 / np.linalg.norm(np.linalg.pinv(directions, rcond=0.0), axis=1))
 
 
 def _describe_plane(

@@ -25,7 +25,7 @@ from ..limits import (
 
 _FIGURE = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _POLAR = re.compile(rf"\s*({_FIGURE})\s*@\s*({_FIGURE})\s*(?:deg|°)?\s*", re.ASCII)
-_LARGEST = 1e30
+_LARGEST, _SMALLEST = 1e12, 1e-12
 _FARTHEST_DEG = 1e6
 _AMOUNTS = Dimension("g", "a unit of mass or of unbalance", MASS.powers, ("g", "oz", "g mm"))
 
@@ -60,10 +60,14 @@ class Polar(Number):
                 f"{shorten(value)} is a weight of 0, which tells nothing; give the weight that was "
                 "on, or leave the plane out"
             )
-        if not math.isfinite(amplitude) or amplitude > _LARGEST or abs(angle) > _FARTHEST_DEG:
+        if amplitude > _LARGEST or abs(angle) > _FARTHEST_DEG:
             raise ValueError(
                 f"{shorten(value)} is too large; amplitudes go up to {_LARGEST:g}, angles to "
                 f"{_FARTHEST_DEG:g} degrees"
+            )
+        if 0 < amplitude < _SMALLEST:
+            raise ValueError(
+                f"{shorten(value)} is too small; amplitudes are 0, or {_SMALLEST:g} and more"
             )
         return make_polar(amplitude, angle)
 
@@ -145,8 +149,8 @@ Name = Annotated[str, Label()]
 Reading = Annotated[complex, Polar("170 @ 112", zero=True)]
 Weight = Annotated[complex, Polar("1.15 @ 0", zero=False)]
 Coefficient = Annotated[complex, Polar("0.0155 @ 113", zero=True)]
-Amount = Annotated[float, Number(PLAIN, above=0, most=1e12)]
-Factor = Annotated[float, Number(PLAIN, above=0, most=1e6)]
+Amount = Annotated[float, Number(PLAIN, above=0, most=1e9)]
+Factor = Annotated[float, Number(PLAIN, least=1e-6, most=1e6)]
 Readings = Annotated[tuple[Reading, ...], Field(min_length=1, max_length=MOST_SENSORS)]
 Coefficients = Annotated[
     tuple[Coefficient, ...], Field(min_length=1, max_length=MOST_BALANCING_PLANES)

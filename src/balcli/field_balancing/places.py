@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
@@ -11,7 +10,6 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 _ROUNDING = 1e-9  # share of a weight that is rounding
-_PARALLEL = 1e-9  # sine of an angle between two places below which they are on one line
 
 
 class Placed(NamedTuple):
@@ -24,9 +22,10 @@ class Placed(NamedTuple):
 def split_weight(wanted: complex, angles_deg: Array, most: float) -> tuple[Placed, ...] | None:
     """The least weight in all, spread over the angles, that does what one weight would do.
 
-    The optimum of a linear program: two places take what is left, every other is empty or full.
-    Give the two components of the wanted weight such prices that these two places are worth just
-    what they weigh: places worth more are full, places worth less are empty, which proves it.
+    The optimum of a linear program: all places of an arc of less than half a turn are full, its two
+    neighbours take what is left, all others are empty. Give the two components of the wanted weight
+    such prices that the two neighbours are worth just what they weigh: places between them are
+    worth more, all others less, which proves it.
 
     Args:
         wanted: weight as a complex number. angles_deg: of the places.
@@ -37,55 +36,65 @@ def split_weight(wanted: complex, angles_deg: Array, most: float) -> tuple[Place
     """
     if wanted == 0:
         return ()
-    angles = np.unique(np.round(np.asarray(angles_deg) % 360, 9) % 360)
-    unit = np.exp(1j * np.radians(angles))
-    target = wanted / abs(wanted)
-    limit = most / abs(wanted)
-    best = None
-    for k in range(len(unit)):  # one place alone, where it is just right
-        if abs(unit[k] - target) < _ROUNDING and limit >= 1:
-            return (Placed(abs(wanted), float(angles[k])),)
-    near = np.argsort(-(unit * np.conj(target)).real)
-    for i, j in combinations(near, 2):
-        across = (np.conj(unit[i]) * unit[j]).imag
-        if abs(across) < _PARALLEL:
-            continue
-        price = 1j * (unit[i] - unit[j]) / across  # worth of a place: real part of conj(price) unit
-        worth = (np.conj(price) * unit).real
-        full = worth > 1 + _ROUNDING
-        full[[i, j]] = False
-        if np.any(full) and not np.isfinite(limit):
-            continue
-        rest = target - (limit if np.any(full) else 0.0) * unit[full].sum()
-        at_i = -(np.conj(unit[j]) * rest).imag / across
-        at_j = (np.conj(unit[i]) * rest).imag / across
-        if min(at_i, at_j) >= -_ROUNDING and max(at_i, at_j) <= limit * (1 + _ROUNDING):
-            best = np.where(full, limit if np.any(full) else 0.0, 0.0)
-            best[i], best[j] = at_i, at_j
-            break
-    if best is None:
-        return None
-    return tuple(
-        Placed(float(weight) * abs(wanted), float(angle))
-        for weight, angle in zip(best, angles, strict=True)
-        if weight > _ROUNDING
-    )
+    angles, unit = _sort_places(angles_deg)
+    target, limit = wanted / abs(wanted), most / abs(wanted)
+    count = len(angles)
+    alone = np.flatnonzero(np.abs(unit - target) < _ROUNDING)
+    if len(alone) and limit >= 1:
+        return (Placed(abs(wanted), float(angles[alone[0]])),)
+    sums = np.concatenate([[0], np.cumsum(np.tile(unit, 2))])
+    first = np.arange(count)
+    for between in range(count - 1 if np.isfinite(limit) else min(1, count - 1)):
+        last = first + between + 1
+        full = (limit if between else 0.0) * (sums[last] - sums[first + 1])
+        at_first, at_last = _resolve(target - full, unit, unit[last % count])
+        low, high = np.minimum(at_first, at_last), np.maximum(at_first, at_last)
+        right = np.flatnonzero((low >= -_ROUNDING) & (high <= limit * (1 + _ROUNDING)))
+        if len(right):
+            i = int(right[0])
+            parts = [at_first[i], *[limit] * between, at_last[i]]
+            places = [(i + k) % count for k in range(between + 2)]
+            return tuple(
+                Placed(float(part) * abs(wanted), float(angles[k]))
+                for part, k in zip(parts, places, strict=True)
+                if part > _ROUNDING
+            )
+    return None
 
 
 def find_reach(direction: complex, angles_deg: Array, most: float) -> float:
     """The largest weight in this direction that the places can stand for together; 0 if they cannot
     point there at all, infinite without a limit.
+
+    What the places reach is a polygon; its edges are parallel to the directions of places, and the
+    nearest edge in the direction counts.
     """
-    low, high = 0.0, most * len(angles_deg)
+    _, unit = _sort_places(angles_deg)
     toward = direction / abs(direction)
-    if split_weight(toward, angles_deg, np.inf) is None:
-        return 0.0
-    if not np.isfinite(high):
-        return float("inf")
-    for _ in range(50):
-        middle = (low + high) / 2
-        if split_weight(middle * toward, angles_deg, most) is None:
-            high = middle
-        else:
-            low = middle
-    return low
+    normals = np.concatenate([1j * unit, -1j * unit, unit])
+    ahead = (np.conj(normals) * toward).real
+    normals, ahead = normals[ahead > _ROUNDING], ahead[ahead > _ROUNDING]
+    parts = (np.conj(normals)[:, None] * unit).real
+    support = np.where(parts > _ROUNDING, parts, 0).sum(axis=1)
+    reach = np.where(support > 0, most * np.where(support > 0, support, 1.0), 0.0) / ahead
+    return float(reach.min(initial=np.inf))
+
+
+def _sort_places(angles_deg: Array) -> tuple[Array, NDArray[np.complex128]]:
+    """Angles in [0, 360), each once, and as complex numbers."""
+    angles = np.unique(np.round(np.asarray(angles_deg) % 360, 9) % 360)
+    return angles, np.exp(1j * np.radians(angles))
+
+
+def _resolve(
+    wanted: NDArray[np.complex128], one: NDArray[np.complex128], other: NDArray[np.complex128]
+) -> tuple[Array, Array]:
+    """Weights at two places, the other less than half a turn on from the one, that add up to what
+    is wanted; negative where the other is farther on.
+    """
+    across = (np.conj(one) * other).imag
+    usable = across > _ROUNDING
+    divisor = np.where(usable, across, 1.0)
+    at_one = np.where(usable, -(np.conj(other) * wanted).imag / divisor, -1.0)
+    at_other = np.where(usable, (np.conj(one) * wanted).imag / divisor, -1.0)
+    return at_one, at_other

@@ -3,8 +3,10 @@ fractions of a turn.
 
 Cylinders with one mechanism share their Fourier coefficients, so an order vanishes if its sum over
 each such family does (docs/theory.md): for the force `sum m e^{i(n phi +- g)}`, for the moment the
-same with z, for couple, torque and roll `sum e^{i n phi}`. Families of different mechanisms may
-still cancel each other by their figures; that is no symmetry.
+same with z, for couple, torque and roll `sum m e^{i n phi}`. In each sum the terms fall into sets
+whose angles differ by fractions of a turn and whose weights are fractions of each other, and every
+set has to vanish: no unit of mass or length, and no factor common to all, matters. Families and
+sets may still cancel each other by their figures; that is no symmetry.
 """
 
 from __future__ import annotations
@@ -19,7 +21,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.phasors import Array, Complex
+from ..core.phasors import Array
 from ..core.roots_of_unity import even, rational, turns, vanishes
 from ..engine.build import Engine
 from .spectrum import compute_each_cylinder, compute_spectra
@@ -39,8 +41,8 @@ _PARTS: dict[Quantity, tuple[str, ...]] = {
     "turning": ("couple", "torque"),
 }
 NEARLY = 1e-2  # of one cylinder
-_DECIMALS = 10_000  # largest denominator of a place in mm or a mass in g
-_ULPS = 4  # by which such a figure may differ from its fraction
+_LARGEST_DENOMINATOR = 1_000_000  # of the ratio of two weights
+_ULPS = 16  # of the largest weight, by which such a ratio may be off
 
 
 @dataclass(frozen=True)
@@ -120,8 +122,11 @@ def describe_firing(engine: Engine) -> str:
     exact = [turns(t * 360 / cycle) for t in instants]
     if None not in exact and even([x for x in exact if x is not None], Fraction(1)):
         return f"firing: even, every {cycle / len(gaps):.6g} deg"
+    least, most = f"{min(gaps):.6g}", f"{max(gaps):.6g}"
+    if least == most:
+        return f"firing: even to {max(gaps) - min(gaps):.1g} deg, every {least} deg"
     if max(gaps) - min(gaps) < NEARLY * cycle / len(gaps):
-        return f"firing: nearly even, every {min(gaps):.6g} to {max(gaps):.6g} deg"
+        return f"firing: nearly even, every {least} to {most} deg"
     return f"firing: uneven, at intervals of {', '.join(f'{gap:.6g}' for gap in gaps)} deg"
 
 
@@ -141,6 +146,13 @@ class _Sum(NamedTuple):
     side: int
 
 
+class _Term(NamedTuple):
+    """One term of a sum, as a share of the largest of its set and in turns ahead of that."""
+
+    share: Fraction
+    angle: Fraction
+
+
 class _Layout:
     """Angles and weights of an engine's cylinders, as fractions where they are some; what the whole
     engine and each cylinder make of some orders.
@@ -150,7 +162,8 @@ class _Layout:
         self._c = engine.cylinders
         self._orders = orders
         self._axis_deg = self._c.axis_of_each_deg
-        self._arms = (self._c.z - engine.reference_m[2]) * 1e3
+        self._largest_deg = float(max(np.abs(self._axis_deg).max(), np.abs(self._c.pin_deg).max()))
+        self._arms = self._c.z - engine.reference_m[2]
         kinds = [name for parts in _PARTS.values() for name in parts]
         self._whole = compute_spectra(engine, orders, kinds)
         self._single = compute_each_cylinder(engine, orders, kinds)
@@ -171,90 +184,71 @@ class _Layout:
 
     def _sums(self, order: int, quantity: Quantity, there: NDArray[np.bool_]) -> Iterator[_Sum]:
         """All that must vanish; `there`: which cylinders have this order at all."""
-        ones = np.ones(self._c.count)
-        if quantity == "turning":
-            for rows in self._families(there, self._c.reciprocating, self._c.couple):
-                yield _Sum(rows, ones, order, 0)
-            return
-        arms = self._arms if quantity == "moment" else ones
-        for rows in self._families(there):
-            for side in (1, -1):
-                yield _Sum(rows, self._moving_grams() * arms, order, side)
-        if order == 1:
-            yield _Sum(list(range(self._c.count)), self._c.rotating * 1e3 * arms, 1, 1)
+        turning = quantity == "turning"
+        arms = self._arms if quantity == "moment" else np.ones(self._c.count)
+        masses = [self._c.reciprocating]
+        if self._c.linkage is not None:
+            masses.append(self._c.linkage.mass)
+        if turning:
+            masses.append(self._c.couple)
+        for mass in masses:
+            for rows in self._families(there):
+                for side in (0,) if turning else (1, -1):
+                    yield _Sum(rows, mass * arms, order, side)
+        if order == 1 and not turning:
+            yield _Sum(list(range(self._c.count)), self._c.rotating * arms, 1, 1)
 
     # -------------------------------------------------------------- one sum
     def _exactly_zero(self, s: _Sum) -> bool:
-        """Whether the sum vanishes, each set of cylinders that stand fractions of a turn apart for
-        itself.
-        """
-        weights = _find_decimals(s.weights)
-        for angles in self._commensurable(s):
-            terms = [(w, angle) for row, angle in angles.items() if (w := weights[row]) is not None]
-            if len(terms) < len(angles) or not vanishes(*zip(*terms, strict=True)):
-                return False
-        return True
+        """Whether the sum vanishes, each set of commensurable terms for itself."""
+        sets = self._commensurable(s)
+        return all(vanishes([t.share for t in one], [t.angle for t in one]) for one in sets)
 
-    def _commensurable(self, s: _Sum) -> list[dict[int, Fraction]]:
-        """Sets of rows whose angles differ by fractions of a turn, with these differences from the
-        first of each.
+    def _commensurable(self, s: _Sum) -> list[list[_Term]]:
+        """The terms that are not 0 in sets within which angles differ by fractions of a turn and
+        weights are fractions of each other.
         """
-        sets: list[dict[int, Fraction]] = []
-        for row in s.rows:
-            for known in sets:
-                angle = self._angle_between(next(iter(known)), row, s)
-                if angle is not None:
-                    known[row] = angle
+        largest = float(np.abs(s.weights).max())
+        rounding = _ULPS * float(np.spacing(largest))
+        sets: dict[int, list[_Term]] = {}  # by the row of their largest weight
+        for row in sorted(s.rows, key=lambda row: -abs(s.weights[row])):
+            weight = float(s.weights[row])
+            if abs(weight) <= rounding:
+                continue
+            for first, terms in sets.items():
+                most = float(s.weights[first])
+                share = rational(weight / most, _LARGEST_DENOMINATOR, rounding / abs(most))
+                angle = None if share is None else self._angle_between(first, row, s)
+                if share is not None and angle is not None:
+                    terms.append(_Term(share, angle))
                     break
             else:
-                sets.append({row: Fraction(0)})
-        return sets
+                sets[row] = [_Term(Fraction(1), Fraction(0))]
+        return list(sets.values())
 
     def _angle_between(self, first: int, row: int, s: _Sum) -> Fraction | None:
         """By how many turns the angle of a row's term is ahead of that of the first; None if that
         is no fraction.
         """
         pin, axis, lean = self._c.pin_deg, self._axis_deg, s.side - s.order
-        turned = turns(float(pin[row] - pin[first]))
-        leaned = turns(float(axis[row] - axis[first])) if lean else Fraction(0)
+        turned = turns(float(pin[row] - pin[first]), self._largest_deg)
+        leaned = turns(float(axis[row] - axis[first]), self._largest_deg) if lean else Fraction(0)
         if turned is None or leaned is None:
             return None
         return (s.order * turned + lean * leaned) % 1
 
-    # -------------------------------------------------------------- which cylinders are alike
-    def _families(self, there: NDArray[np.bool_], *more: Array) -> list[list[int]]:
-        """Rows of the cylinders that are there, those with equal mechanisms (and equal `more`, of
-        shape (cylinders or 1,)) together.
-        """
-        columns: list[Array | Complex] = [self._c.lam, self._c.eps, *more]
-        if self._c.linkage is not None:
-            columns += [*self._c.linkage.figures, self._c.reciprocating]
+    def _families(self, there: NDArray[np.bool_]) -> list[list[int]]:
+        """Rows of the cylinders that are there, those with equal mechanisms together."""
+        lam, eps, linkage = self._c.lam, self._c.eps, self._c.linkage
+        columns = (lam, eps) if linkage is None else linkage.figures(lam, eps)
         found: dict[tuple[complex, ...], list[int]] = defaultdict(list)
         for row in map(int, np.flatnonzero(there)):
             figures = tuple(column[row if len(column) > 1 else 0].item() for column in columns)
             found[figures].append(row)
         return list(found.values())
 
-    def _moving_grams(self) -> Array:
-        """What moves with each piston, g: on its axis, or on the curve of a linkage (whose
-        cylinders count as equal or not).
-        """
-        linkage = self._c.linkage
-        own = np.broadcast_to(self._c.reciprocating * 1e3, (self._c.count,))
-        return own + (0 if linkage is None else linkage.mass * 1e3)
-
 
 def _judge(size: float) -> Verdict:
     if size == 0:
         return "rounding"
     return "nearly" if size < NEARLY else "free"
-
-
-def _find_decimals(values: Array) -> list[Fraction | None]:
-    """Places or masses as the short fractions that they were written as; a factor common to all
-    does not matter.
-    """
-    largest = float(np.abs(values).max())
-    if np.all(np.isin(values, (0, largest, -largest))):
-        return [Fraction(int(np.sign(v))) for v in values]
-    return [rational(float(v), _DECIMALS, _ULPS * float(np.spacing(largest))) for v in values]

@@ -11,7 +11,7 @@ import numpy as np
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
-from ..forces.kinds import FORCE, MOMENT, Kind
+from ..forces.kinds import FORCE, MOMENT, ROLL, Kind
 from ..forces.spectrum import Spectra
 from ..forces.textbook import TextbookUnits
 from ..limits import HIGHEST_ORDER_UNASKED
@@ -221,12 +221,16 @@ def _rows(
     )
 
 
-def order_by_order(spectra: Spectra, system: System) -> Iterator[Grid]:
-    """Phasors and scalars, and vectors along x and y."""
+def order_by_order(spectra: Spectra, system: System, roll: str = "") -> Iterator[Grid]:
+    """Phasors and scalars, and vectors along x and y.
+
+    Args:
+        roll: a sentence on what the roll is, if it is more than the couple C less the torque T.
+    """
     for kind, phasors in spectra.vectors():
         yield _vectors(kind, phasors, system.unit(kind))
     if spectra.scalars():
-        yield _scalars(spectra, system.moment)
+        yield _scalars(spectra, system.moment, roll)
     if spectra.vectors():
         yield _directions(spectra, system)
 
@@ -252,7 +256,7 @@ def _vectors(kind: Kind, phasors: Phasors, unit: Unit) -> Grid:
     )
 
 
-def _scalars(spectra: Spectra, unit: Unit) -> Grid:
+def _scalars(spectra: Spectra, unit: Unit, roll: str) -> Grid:
     scalars = spectra.scalars()
 
     def row(k: int) -> tuple[str, ...]:
@@ -267,11 +271,13 @@ def _scalars(spectra: Spectra, unit: Unit) -> Grid:
             )
         return tuple(cells)
 
-    heads = [head for kind, _ in scalars for head in (kind.label, "peak, deg")]
+    labels = [ROLL.name if roll and kind == ROLL else kind.label for kind, _ in scalars]
+    heads = [head for label in labels for head in (label, "peak, deg")]
     return Grid(
         f"About the crank axis, {unit.name}",
         ("order", *heads),
         _rows(spectra.orders, [phasors for _, phasors in scalars], row),
+        note=roll,
     )
 
 

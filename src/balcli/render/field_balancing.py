@@ -225,7 +225,7 @@ def document(result: FieldBalance) -> dict[str, Any]:
         "residual": [_figures(complex(value)) for value in result.after],
         "largest": clean(result.largest),
         "rms": clean(result.rms),
-        "condition": clean(result.condition),
+        "condition": _finite(result.condition),
     }
     if result.minimise == "max":
         found["bound"] = clean(result.bound)
@@ -249,6 +249,10 @@ def document(result: FieldBalance) -> dict[str, Any]:
             "reached": result.reached,
         }
     return found
+
+
+def _finite(value: float) -> float | None:
+    return clean(value) if math.isfinite(value) else None
 
 
 def _reading(result: FieldBalance, k: int) -> dict[str, Any]:
@@ -279,7 +283,7 @@ def _correction(p: PlaneCorrection, trimmed: bool) -> dict[str, Any]:
         found["unbalance_g_mm"] = clean(p.unbalance)
     found |= {"own_effect": clean(p.own), "at_limit": p.limited}
     if p.work.pieces is None:
-        found["reach"] = clean(p.work.reach)
+        found["reach"] = _finite(p.work.reach)
     found["pieces"] = [_piece(piece) for piece in p.work.pieces or ()]
     return found
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -17,10 +18,12 @@ from ..forces.orders import check_orders, choose_orders, find_relevant_orders, m
 from ..forces.spectrum import Spectra, add_parts, compute_spectra
 from .analysis import DEFAULT_ORDERS
 
+Load = Literal["first", "second", "both"]
+
 
 @dataclass(frozen=True)
 class Arrangement:
-    """How the second engine stands to the first.
+    """How the second engine stands to the first, and what they drive.
 
     Attributes:
         phase_deg: crank angle by which it leads, in its own sense of rotation.
@@ -29,20 +32,26 @@ class Arrangement:
         reverse: whether its crank turns against the first: it is then built as its own mirror image
             (y changed in sign), so that its file still counts everything in its own sense of
             rotation.
+        load: which crank has the flywheel and the load, and so bears the whole inertia torque;
+            "both": each bears its own, and the gears carry none of it. Where the cranks turn alike
+            it makes no difference.
     """
 
     phase_deg: float = 0.0
     at_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
     turn_deg: float = 0.0
     reverse: bool = False
+    load: Load = "first"
 
 
 @dataclass(frozen=True)
 class Combined:
     """What two engines do to their common frame, about the first one's point of reference.
 
-    The inertia torque is the sum of both about z, in the first one's sense: what a common gear
-    train would feel.
+    Geared one to one the kinetic energies add, so that the inertia torque, as the first crank feels
+    it, is T1 + T2, each in its own crank's sense, whichever way they turn. What the load takes does
+    not act on the frame: the roll is C - (T1 + T2) with the load on the first crank,
+    C + (T1 + T2) on a second one that turns against it, C - T1 + T2 if each has a load of its own.
 
     Attributes:
         engines: as they were given.
@@ -85,7 +94,7 @@ def combine_engines(
     )
     own = compute_spectra(replace(second, reference_m=(0.0, 0.0, 0.0)), computed)
     moved = place_spectra(own, arrangement, first.reference_m)
-    everything = _add_spectra(compute_spectra(first, computed), moved)
+    everything = _add_spectra(compute_spectra(first, computed), moved, arrangement)
     return Combined(
         (first, second),
         arrangement,
@@ -112,7 +121,8 @@ def place_spectra(
     """Phasors of an engine where it stands, by the crank angle of the engine that it is geared to.
 
     Args:
-        own: all kinds, about its own origin, by its own crank angle.
+        own: all kinds, about its own origin, by its own crank angle; the inertia torque comes out
+            about z, too.
         reference_m: point of reference of the result, in the other engine's axes.
     """
     n = own.orders
@@ -148,5 +158,15 @@ def _mirror(phasors: Phasors, kind: Kind) -> Phasors:
     return Phasors(phasors.orders, sign * forward, sign * backward, phasors.noise)
 
 
-def _add_spectra(one: Spectra, other: Spectra) -> Spectra:
-    return Spectra(one.orders, **{name: (one[name] + other[name]).settled() for name in KINDS})
+def _add_spectra(one: Spectra, other: Spectra, arrangement: Arrangement) -> Spectra:
+    """Both engines geared together; torque and roll as in `Combined`."""
+    parts = {name: one[name] + other[name] for name in ("force", "moment", "couple")}
+    sense = -1.0 if arrangement.reverse else 1.0  # of the second crank
+    parts["torque"] = one["torque"] + sense * other["torque"]
+    taken = {  # by the load, about z
+        "first": parts["torque"],
+        "second": sense * parts["torque"],
+        "both": one["torque"] + other["torque"],
+    }
+    parts["roll"] = parts["couple"] - taken[arrangement.load]
+    return Spectra(one.orders, **{name: parts[name].settled() for name in KINDS})

@@ -61,8 +61,9 @@ class Spread:
     Attributes:
         nominal: without deviations.
         mean, percentiles, largest: of the samples.
-        bound: what no combination of deviations exceeds: the nominal vectors and the sizes of all
-            changes added up (exact for masses, to first order for lengths and angles).
+        bound: what no combination of deviations within the tolerances exceeds: the nominal vectors
+            and the sizes of all changes added up (exact for masses, to first order for lengths and
+            angles). Normal deviations may be larger than their tolerances.
         shares: by source, the change that its tolerance alone makes, to first order; largest first.
     """
 
@@ -77,10 +78,15 @@ class Spread:
 
 @dataclass(frozen=True)
 class Scatter:
-    """Spreads of some quantities of an engine file, over so many random engines."""
+    """Spreads of some quantities of an engine file, over so many random engines.
+
+    Attributes:
+        shape: of the distribution of each deviation.
+    """
 
     model: EngineFile
     samples: int
+    shape: Shape
     spreads: tuple[Spread, ...]
 
 
@@ -122,7 +128,7 @@ def scatter_engine(
         for row, value in zip(values, found, strict=True):
             row[chunk] = value
     spreads = [_spread(engines, q, row) for q, row in zip(quantities, values, strict=True)]
-    return Scatter(model, samples, tuple(spreads))
+    return Scatter(model, samples, shape, tuple(spreads))
 
 
 def _draw(

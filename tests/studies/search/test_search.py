@@ -15,7 +15,8 @@ from balcli.enginefile.model import EngineFile
 from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
 from balcli.studies.parameters import varied
-from balcli.studies.search.designs import Design, fires_evenly
+from balcli.studies.search.designs import Design
+from balcli.studies.search.even_firing import fires_evenly
 from balcli.studies.search.objective import parse_objective
 from balcli.studies.search.search import search_arrangements
 from balcli.studies.search.throw_contributions import tabulate_contributions

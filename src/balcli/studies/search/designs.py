@@ -6,13 +6,11 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.phasors import Array
 from ...engine.arrays import ranked
 from ...engine.build import Engine, build
-from ...engine.firing import TOLERANCE
-from ...engine.layout import cycle, plan
+from ...engine.layout import plan
 from ...enginefile.model import EngineFile
 from ...forces.quantity import Quantity, evaluate_quantities
 from ..parameters import varied
@@ -107,20 +105,3 @@ def _design(candidates: Candidates, row: int) -> Design:
     if "bank_angle" in candidates:
         return Design(bank_angle=float(candidates["bank_angle"][row]))
     return Design(splay=float(candidates["splay"][row]))
-
-
-def fires_evenly(
-    engine: Engine, model: EngineFile, tolerance: float = TOLERANCE
-) -> NDArray[np.bool_]:
-    """Whether the cylinders reach top dead centre in turn at even distances (within a tolerance,
-    deg), shape (candidates,).
-    """
-    c = engine.cylinders
-    # of plain slider-cranks, see engine.tops; the pins of articulated ones are set for their lead
-    late = 0.0 if model.articulation else np.degrees(np.arcsin(c.eps / (1 + c.lam)))
-    ready = c.axis_of_each_deg + late - c.pin_deg
-    ready = np.sort(np.mod(ready - ready[engine.numbers.index(1)] + tolerance, 360.0), axis=0)
-    even = np.sort(np.mod(np.arange(c.count) * cycle(model.layout) / c.count, 360.0))
-    even = even.reshape(-1, *(1,) * (ready.ndim - 1))
-    fits: NDArray[np.bool_] = (np.abs(ready - tolerance - even) <= tolerance).all(axis=0)
-    return fits

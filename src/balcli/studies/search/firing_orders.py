@@ -8,7 +8,6 @@ cranks nor orders have to be tried in vain.
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -64,7 +63,7 @@ class Slots:
         return found
 
     def _place_throws(
-        self, throws: dict[int, float], free: Sequence[int], left: Counter[float]
+        self, throws: dict[int, float], free: Sequence[int], left: Counter[int]
     ) -> Iterator[tuple[float, ...]]:
         """All cranks with some throws at these angles, the free ones at every angle at which there
         are slots left for all their cylinders.
@@ -74,7 +73,8 @@ class Slots:
             return
         cells = [c for c in self.cells if c.throw == free[0]]
         lead = self.top[cells[0].number] - self.top[1]
-        angles = [(lead - self.sense * slot) % 360.0 for slot in sorted(left)]
+        turns = [self.sense * 180.0 * slot / len(self.cells) for slot in sorted(left)]
+        angles = [(lead - turn) % 360.0 for turn in turns]
         for angle in angles if throws else [0.0]:
             taken = Counter(self._find_slot(c, angle) for c in cells)
             if all(left[slot] >= count for slot, count in taken.items()):
@@ -88,7 +88,7 @@ class Slots:
             yield from self._continue_order((1,), slots)
 
     def _continue_order(
-        self, order: tuple[int, ...], slots: Mapping[int, float]
+        self, order: tuple[int, ...], slots: Mapping[int, int]
     ) -> Iterator[tuple[int, ...]]:
         """All firing orders that begin so; `slots` says where the crank stands when each cylinder
         is at top dead centre.
@@ -101,16 +101,20 @@ class Slots:
                 yield from self._continue_order((*order, number), slots)
 
     @cached_property
-    def _slots(self) -> list[float]:
-        """Where the crank stands at each firing, after cylinder 1's, deg; alike ones are equal."""
-        return [round(self.cycle * k / len(self.cells), 9) % 360.0 for k in range(len(self.cells))]
+    def _slots(self) -> list[int]:
+        """Where the crank stands at each firing, after cylinder 1's: half turns shared out among
+        all cylinders, modulo a turn; whole numbers, so that alike ones are equal.
+        """
+        half_turns = round(self.cycle / 180.0)
+        return [half_turns * k % (2 * len(self.cells)) for k in range(len(self.cells))]
 
-    def _find_slot(self, cell: Cell, throw: float) -> float:
-        """Where the crank stands when this cylinder is at top dead centre; nan if nothing fires
+    def _find_slot(self, cell: Cell, throw: float) -> int:
+        """Where the crank stands when this cylinder is at top dead centre; -1 if nothing fires
         there.
         """
+        grain = 180.0 / len(self.cells)
         ready = self.sense * (self.top[cell.number] - self.top[1] - throw)
-        for slot in self._slots:
-            if abs((ready - slot + 180.0) % 360.0 - 180.0) <= TOLERANCE:
-                return slot
-        return math.nan
+        nearest = round(ready / grain)
+        slot = nearest % (2 * len(self.cells))
+        fires = abs(ready - nearest * grain) <= TOLERANCE and slot in self._slots
+        return slot if fires else -1

@@ -46,4 +46,5 @@ def _find_images(design: Design, other_end: Mapping[int, int]) -> Iterator[Image
                 turned_deg = ((sign * (angle - angles[0])) % 360.0 for angle in angles)
                 yield tuple(round(angle, 6) % 360.0 for angle in turned_deg)
     else:
-        yield tuple(angle for angle in (design.bank_angle, design.splay) if angle is not None)
+        angle = design.splay if design.bank_angle is None else design.bank_angle
+        yield (round(angle or 0.0, 6),)

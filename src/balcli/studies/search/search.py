@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from itertools import islice
@@ -16,17 +16,19 @@ from ...engine.layout import cycle, plan
 from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
+from ...forces.quantity import Quantity
 from ...forces.textbook import TextbookUnits, find_textbook_units
-from .angles import find_valleys
-from .designs import Found, build_candidates, evaluate_engine, fires_evenly, rank_candidates
+from .angles import Curve, Span, find_minima
+from .designs import Found, build_candidates, evaluate_engine, rank_candidates
+from .even_firing import find_even_angles, fires_evenly
 from .firing_orders import Slots
 from .mirror_images import drop_mirror_images
 from .objective import Objective
-from .throws import find_best_throws
+from .throws import count_from, find_best_throws
 
+Angle = Literal["bank_angle", "splay"]
 What = Literal["throws", "firing_order", "bank_angle", "splay"]
 IMAGES = 8  # candidates kept for each that is asked for, as many are mirror images
-EXACTLY = 1e-6  # deg, of firings, where an angle is free to make them even
 
 
 @dataclass(frozen=True)
@@ -108,7 +110,7 @@ def _search_throws(task: _Task) -> Iterator[Found]:
     allowed = can_fire if task.even_firing else None
     throws = find_best_throws(model, objective, IMAGES * task.wanted, allowed)
     if len(throws):
-        throws = np.mod(throws - throws[:, :1], 360.0)
+        throws = count_from(throws[:, :1], throws)
     return rank_candidates(model, {"throws": throws}, objective)
 
 
@@ -130,7 +132,7 @@ def _search_firing_order(task: _Task) -> Iterator[Found]:
     if not possible or next(slots.find_orders(possible[0]), None) is None:
         raise BalcliError("these throws allow no even firing order")
     throws = np.array(possible)
-    from_first = np.round(np.mod(throws - throws[:, :1], 360.0), 9) % 360.0
+    from_first = count_from(throws[:, :1], throws)
     return (
         one._replace(design=one.design._replace(firing_order=order))
         for one in rank_candidates(model, {"throws": from_first}, task.objective)
@@ -138,10 +140,8 @@ def _search_firing_order(task: _Task) -> Iterator[Found]:
     )
 
 
-def _search_angle(
-    key: Literal["bank_angle", "splay"], least: float, task: _Task
-) -> Iterator[Found]:
-    """Over an angle of the engine file from `least` to 180 degrees."""
+def _search_angle(key: Angle, span: Span, task: _Task) -> Iterator[Found]:
+    """Over an angle of the engine file."""
     model, objective, name = task.model, task.objective, key.replace("_", " ")
     one_bank = len(plan(model.crank, model.layout).banks) < 2
     if one_bank or (key == "bank_angle" and model.layout.bank_angle is None):
@@ -154,20 +154,32 @@ def _search_angle(
             "crank.throws, so that the crank stays as it is"
         )
 
-    def evaluate(angles: Array) -> Array:
-        engine = build_candidates(model, {key: angles})
-        _, totals = evaluate_engine(engine, objective, len(angles))
-        if task.even_firing:
-            return np.where(fires_evenly(engine, model, EXACTLY), totals, np.inf)
-        return totals
-
-    angles = find_valleys(evaluate, least, 180.0, IMAGES * task.wanted)
+    isolated = find_even_angles(model, key, span) if task.even_firing else None
+    angles = _find_best_angles(model, key, span, objective) if isolated is None else isolated
     return rank_candidates(model, {key: angles}, objective)
+
+
+def _find_best_angles(model: EngineFile, key: Angle, span: Span, objective: Objective) -> Array:
+    """All local minima of the objective where the limits are kept, deg."""
+
+    def draw(weights: Mapping[Quantity, float]) -> Curve:
+        """A weighted sum over the angle."""
+        alone = Objective(dict(weights), {})
+
+        def evaluate(angles: Array) -> Array:
+            engine = build_candidates(model, {key: angles})
+            return evaluate_engine(engine, alone, len(angles))[1]
+
+        return evaluate
+
+    limits = [(draw({q: 1.0}), limit) for q, limit in objective.limits.items()]
+    highest = max(q.order for q in objective.quantities)
+    return find_minima(draw(objective.weights), limits, span, highest)
 
 
 _SEARCHES: dict[What, Callable[[_Task], Iterator[Found]]] = {
     "throws": _search_throws,
     "firing_order": _search_firing_order,
-    "bank_angle": partial(_search_angle, "bank_angle", 0.0),
-    "splay": partial(_search_angle, "splay", -180.0),
+    "bank_angle": partial(_search_angle, "bank_angle", Span(0.0, 180.0)),
+    "splay": partial(_search_angle, "splay", Span(-180.0, 180.0)),
 }

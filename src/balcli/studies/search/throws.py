@@ -17,17 +17,19 @@ from numpy.typing import NDArray
 
 from ...core.phasors import Array, Complex
 from ...engine.arrays import ranked
-from ...engine.layout import plan
+from ...engine.layout import TURN, plan
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
 from ...forces.quantity import Quantity
 from ...limits import MOST_ARRANGEMENTS
+from .angles import neaten
 from .objective import Objective
 from .throw_contributions import Key, tabulate_contributions
 
 Indices = NDArray[np.int8]
 Allowed = Callable[[Array], NDArray[np.bool_]]
 Left = tuple[int, ...]  # how often each angle is still to be given
+_DECIMALS = 9  # of angles that are equal, deg
 BLOCK = 7  # throws of which all arrangements are tried at a time (7! = 5040)
 
 
@@ -70,11 +72,16 @@ def _turn_to_cylinder_1(given: Array) -> Iterator[Array]:
     angles once.
     """
     seen = set()
-    for first in given:
-        turned = np.sort(np.round(np.mod(given - first, 360.0), 9) % 360.0)
-        if turned.tobytes() not in seen:
-            seen.add(turned.tobytes())
-            yield turned
+    for turned in count_from(given[:, None], given):
+        rounded = np.round(np.sort(turned), _DECIMALS).tobytes()
+        if rounded not in seen:
+            seen.add(rounded)
+            yield np.sort(turned)
+
+
+def count_from(first: Array, throws: Array) -> Array:
+    """Angles of throws counted from others, deg in [0, 360), as a file would have them."""
+    return neaten(np.mod(throws - first, TURN)) % TURN
 
 
 class _Places(NamedTuple):
