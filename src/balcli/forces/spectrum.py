@@ -188,13 +188,14 @@ def _compute_steady(
     about_crank = any(not KINDS[name].vector for name in parts)
     rod = about_crank and bool(np.count_nonzero(c.couple))
     few, which = find(orders, c.lam, c.eps, rod=rod, energy="torque" in parts)
+    most = max(_AT_ONCE // c.count, 1)
 
     def make_loads(block: slice) -> Loads:
-        own = few.select_orders(block).select_cylinders(which)
+        own = few if len(orders) <= most else few.select_orders(block)
+        own = own.select_cylinders(which)
         phases = (SeparatePhases if apart else Phases)(c, orders[block])
         return Loads(c, engine.devices, x + 1j * y, z, phases, own, engine.omega**2)
 
-    most = max(_AT_ONCE // c.count, 1)
     lowest = make_loads(slice(most))
     found = {name: [getattr(lowest, name)] for name in names}
     for start in range(most, len(orders), most):
