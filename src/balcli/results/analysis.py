@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core.peaks import Peak, peak
 from ..core.phasors import Array
-from ..core.strokes import Travel, travel
+from ..core.strokes import Travel, find_travel
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..forces.crankshaft import InnerLoads, compute_inner_loads
@@ -149,7 +149,7 @@ def analyze(
         why=explain_symmetry(engine, above_0, shown) if reasons else None,
         inner=compute_inner_loads(engine, asked) if "inner" in wanted else None,
         guide=compute_guide_moments(engine, asked, guide_height_m) if "guide" in wanted else None,
-        travel=None if engine.cylinders.linkage is None else travel(engine.cylinders),
+        travel=None if engine.cylinders.linkage is None else find_travel(engine.cylinders),
     )
 
 

@@ -235,7 +235,7 @@ def minimax(engine: Engine, wish: Wish) -> Remedy:
     with the crank vanishes too.
     """
     fitting = Fitting.of(engine, "minimax", 1)
-    found = circle.enclosing(_curve(fitting.engine, "force"))
+    found = circle.enclose_curve(_curve(fitting.engine, "force"))
     newton = float(engine.omega) ** 2
     reason = (
         f"The largest force over a revolution, all orders, becomes {found.radius:.5g} N: no "
