@@ -123,6 +123,8 @@ def test_core_knows_numpy_and_the_standard_library_alone(file):
 # for the eye.
 SHAPING = {
     ("balcli.results.analysis", "textbook"),
+    ("balcli.sizing.device_tables", "find_unbalance"),
+    ("balcli.sizing.device_tables", "name_kind"),
     ("balcli.tables.table", "deviates"),
     ("balcli.tables.table", "figure"),
     ("balcli.tables.table", "rational"),
@@ -132,7 +134,7 @@ COMPUTING = (
     "balcli.results.analysis",
     "balcli.results.balance",
     "balcli.forces.spectrum",
-    "balcli.sizing.sizing",
+    "balcli.sizing",
     "balcli.core",
     "balcli.engine.build",
     "balcli.engine.load",

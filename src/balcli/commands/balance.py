@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..sizing.schemes import KNUCKLES
-from . import balance_options as wishes
+from . import balance_options as asked
 from .options import (
     EngineFile,
     Format,
@@ -20,19 +20,19 @@ from .options import (
 
 def balance(
     file: EngineFile,
-    scheme: wishes.Scheme = "auto",
-    order: wishes.Order = None,
-    at: wishes.At = None,
-    position: wishes.Position = None,
-    planes: wishes.Planes = None,
-    factor: wishes.Factor = None,
-    roll: wishes.Roll = None,
-    radius: wishes.Radius = None,
-    thickness: wishes.Thickness = None,
-    disc: wishes.Disc = None,
-    drill: wishes.Drill = None,
-    even: wishes.Even = None,
-    write: wishes.Write = None,
+    scheme: asked.Scheme = "auto",
+    order: asked.Order = None,
+    at: asked.At = None,
+    position: asked.Position = None,
+    planes: asked.Planes = None,
+    factor: asked.Factor = None,
+    roll: asked.Roll = None,
+    radius: asked.Radius = None,
+    thickness: asked.Thickness = None,
+    disc: asked.Disc = None,
+    drill: asked.Drill = None,
+    even: asked.Even = None,
+    write: asked.Write = None,
     speed: Speed = None,
     orders: Orders = None,
     format: FormatOption = Format.TABLE,  # noqa: A002 (the option's name)
@@ -42,21 +42,20 @@ def balance(
     """Size counterweights, balancer shafts or sliders, and show what is left with them."""
     from ..engine.load import name_of, parse
     from ..render.formats import balances
-    from ..results.balance import balance as balanced
+    from ..results.balance import balance as balance_engine
     from .fitted_engine import write_fitted
     from .inputs import engine_and_text
     from .output import emit
 
-    wish, tools = (
-        wishes.wish_of(order, at, position, planes, factor, roll),
-        wishes.shop_tools(radius, thickness, disc, drill),
-    )
-    asked = order_list(orders)
+    options = asked.parse_scheme_options(order, at, position, planes, factor, roll)
+    tools = asked.parse_tools(radius, thickness, disc, drill)
+    wanted = order_list(orders)
     text, engine = engine_and_text(file, rpm := checked_speed(speed))
     if scheme == KNUCKLES or even is not None:
-        result = wishes.knuckles(scheme, wish, even, parse(text, name_of(file)), engine, asked)
+        model = parse(text, name_of(file))
+        result = asked.balance_knuckles(scheme, options, even, model, engine, wanted)
     else:
-        result = balanced(engine, scheme, wish, asked, tools)
+        result = balance_engine(engine, scheme, options, wanted, tools)
     shown = balances(result, format, units, into_file=output is not None)
     if write is not None:
         write_fitted(file, text, result.remedy, write, rpm)

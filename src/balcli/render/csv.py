@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from ..results.analysis import Analysis
     from ..results.balance import Balance
     from ..results.two_engines import Combined
-    from .units import System, Unit
+    from .units import System
 
 
 def write(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
@@ -59,10 +59,11 @@ def balances(result: Balance, system: System) -> str:
     """One figure a row: those of the devices, the scheme's other figures (SI, as in JSON: their
     names say the unit), and those of the engine without and with the devices.
     """
+    from .devices import device_rows, practical_entry
     from .figures import rows
-    from .json import details, practical
+    from .scheme_details import details_document
 
-    parts = [
+    parts: list[tuple[str, Any]] = [
         (f"{kind} {number}", device)
         for kind, devices in (
             ("counterweight", result.remedy.counterweights),
@@ -73,10 +74,12 @@ def balances(result: Balance, system: System) -> str:
     ]
     figures: list[Sequence[Any]] = []
     for (part, device), shop in zip(parts, result.practical, strict=True):
-        figures += [(part, "", "", *figure) for figure in _device(device, system)]
-        figures += [(part, "", "", name, value, "") for name, value in _named(practical(shop))]
+        figures += [(part, "", "", *figure) for figure in device_rows(device, system)]
+        figures += [
+            (part, "", "", name, value, "") for name, value in _named(practical_entry(shop))
+        ]
     figures += [
-        ("details", "", "", name, value, "") for name, value in _named(details(result.remedy))
+        ("details", "", "", name, value, "") for name, value in _named(details_document(result))
     ]
     for state, analysis in (("before", result.before), ("after", result.after)):
         figures += [
@@ -84,31 +87,6 @@ def balances(result: Balance, system: System) -> str:
             for row in rows(analysis, system)
         ]
     return write(("part", "quantity", "order", "figure", "value", "unit"), figures)
-
-
-def _device(device: Any, system: System) -> Iterator[tuple[str, Any, str]]:
-    """What an engine file would say of it."""
-
-    def length(millimetres: float) -> float:
-        return _in(system.length, millimetres, 1e-3)
-
-    for name in ("ratio", "order"):
-        if hasattr(device, name):
-            yield name, getattr(device, name), ""
-    yield "unbalance", _in(system.unbalance, device.unbalance or 0.0, 1e-6), system.unbalance.name
-    for name in ("angle", "direction"):
-        if hasattr(device, name):
-            yield name, getattr(device, name), "deg"
-    yield "position", length(device.position), system.length.name
-    for axis, place in zip("xy", getattr(device, "at", ()), strict=False):
-        yield f"at_{axis}", length(place), system.length.name
-
-
-def _in(unit: Unit, value: float, size: float) -> float:
-    """A value in units of this size (of the SI unit) in another unit; as it is where that is the
-    same.
-    """
-    return value if unit.size == size else unit.of(value * size)
 
 
 def _named(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:

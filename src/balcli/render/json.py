@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
+from .devices import device_entries, practical_entry
 from .figures import clean, entries, order_number, peaks
+from .scheme_details import details_document
 
 if TYPE_CHECKING:
     from ..forces.spectrum import Spectra
     from ..results.analysis import Analysis
     from ..results.balance import Balance
-    from ..sizing.sizing import Practical, Remedy
 
 
 def dumps(document: Any) -> str:
@@ -42,7 +42,7 @@ def analysis(result: Analysis) -> dict[str, Any]:
     if result.sizing is not None:
         document["sizing"] = {
             "scheme": result.sizing.remedy.scheme,
-            **devices(result.sizing.remedy),
+            **device_entries(result.sizing.remedy),
             "after": after(result.sizing.after),
         }
     if result.cylinders:
@@ -74,41 +74,6 @@ def after(result: Analysis) -> dict[str, Any]:
     return {"peak": peaks(result), "orders": orders(result.spectra)}
 
 
-def devices(remedy: Remedy) -> dict[str, list[dict[str, Any]]]:
-    """New devices, as an engine file would describe them."""
-    return {
-        "counterweights": [
-            {
-                "unbalance_kg_m": (d.unbalance or 0.0) / 1e6,
-                "angle_deg": d.angle,
-                "position_mm": d.position,
-            }
-            for d in remedy.counterweights
-        ],
-        "shafts": [
-            {
-                "ratio": d.ratio,
-                "unbalance_kg_m": (d.unbalance or 0.0) / 1e6,
-                "angle_deg": d.angle,
-                "at_mm": list(d.at),
-                "position_mm": d.position,
-            }
-            for d in remedy.shafts
-        ],
-        "sliders": [
-            {
-                "order": d.order,
-                "unbalance_kg_m": (d.unbalance or 0.0) / 1e6,
-                "direction_deg": d.direction,
-                "angle_deg": d.angle,
-                "at_mm": list(d.at),
-                "position_mm": d.position,
-            }
-            for d in remedy.sliders
-        ],
-    }
-
-
 def balance(result: Balance) -> dict[str, Any]:
     """`balcli.balance/1`."""
     remedy = result.remedy
@@ -116,40 +81,10 @@ def balance(result: Balance) -> dict[str, Any]:
         "format": "balcli.balance/1",
         "scheme": remedy.scheme,
         "order": remedy.order,
-        **devices(remedy),
+        **device_entries(remedy),
         "reasons": list(remedy.reasons),
-        "practical": [practical(p) for p in result.practical],
-        "details": details(remedy),
+        "practical": [practical_entry(p) for p in result.practical],
+        "details": details_document(result),
         "before": after(result.before),
         "after": after(result.after),
     }
-
-
-def practical(p: Practical) -> dict[str, float | None]:
-    """The workshop's figures of a device."""
-    figures = {
-        "unbalance_kg_m": p.unbalance,
-        "mass_kg": p.mass,
-        "radius_mm": p.radius * 1e3,
-        "force_N": p.force,
-        "speed_rpm": p.speed_rpm,
-        "disc_radius_mm": p.disc_radius * 1e3,
-        "disc_thickness_mm": p.disc_thickness * 1e3,
-    }
-    return {key: clean(value) for key, value in figures.items()} | (
-        {} if p.depth is None else {"drill_depth_mm": clean(p.depth * 1e3)}
-    )
-
-
-def details(remedy: Remedy) -> dict[str, Any]:
-    """Figures of a scheme that are no device."""
-    return {key: _plain(value) for key, value in remedy.details.items()}
-
-
-def _plain(value: Any) -> Any:
-    """The same with clean numbers."""
-    if isinstance(value, Mapping):
-        return {key: _plain(part) for key, part in value.items()}
-    if isinstance(value, list):
-        return [_plain(part) for part in value]
-    return clean(value) if isinstance(value, float) else value

@@ -24,8 +24,8 @@ from ..forces.spectrum import (
     relevant_orders,
     spectra,
 )
-from ..sizing.auto import auto
-from ..sizing.sizing import Remedy, fitted
+from ..sizing.auto import size_auto
+from ..sizing.remedy import Remedy, fit_devices
 
 if TYPE_CHECKING:
     from ..core.strokes import Travel
@@ -226,10 +226,12 @@ def _explained(engine: Engine, orders: Array, quantities: Collection[str]) -> Wh
 
 
 def _sized(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizing:
-    remedy = auto(engine)
+    remedy = size_auto(engine)
     return Sizing(
         remedy,
-        analyze(fitted(engine, remedy), asked, {*wanted, "force", "moment", "peak"} - {"sizing"}),
+        analyze(
+            fit_devices(engine, remedy), asked, {*wanted, "force", "moment", "peak"} - {"sizing"}
+        ),
     )
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,7 +18,9 @@ from ..forces.kinds import KINDS
 from ..forces.spectrum import spectra
 from ..results.analysis import Analysis, analyze
 from ..results.balance import balance
-from ..sizing.sizing import Wish, remedy_for
+from ..sizing.details import FactorPeaks
+from ..sizing.options import SchemeOptions
+from ..sizing.sizing import size
 
 FACTORS = tuple(k / 20 for k in range(21))
 _ALONE = ("factor", "bank")  # studies of the engine as it is
@@ -42,7 +44,7 @@ class Study(NamedTuple):
 
     now: Analysis
     before: Analysis | None = None
-    factors: Sequence[dict[str, float]] = ()
+    factors: Sequence[FactorPeaks] = ()
     banks: Banks | None = None
     bent: tuple[Inner, ...] = ()
 
@@ -72,8 +74,7 @@ def study(
     if what == "inner":
         return Study(now, bent=(inner(engine),))
     if what == "factor":
-        details: Any = remedy_for(engine, "factor", Wish(factor=FACTORS)).details
-        return Study(now, factors=details["sweep"])
+        return Study(now, factors=size(engine, "factor", SchemeOptions(factor=FACTORS)).sweep)
     return (
         Study(now, banks=over_bank_angle(engine, _lowest(now) if orders is None else orders[0]))
         if what == "bank"

@@ -12,6 +12,7 @@ from ...errors import BalcliError
 from ...forces.crankshaft import Inner
 from ...forces.kinds import KINDS, VECTORS
 from ...results.analysis import Analysis
+from ...sizing.details import FactorPeaks
 from ...studies.pictures import Banks
 from ..units import SI, System, Unit
 from . import draw, studied
@@ -34,7 +35,7 @@ class Subject:
     now: Analysis
     before: Analysis | None = None
     system: System = SI
-    factors: Sequence[dict[str, float]] = ()
+    factors: Sequence[FactorPeaks] = ()
     banks: Banks | None = None
     bent: tuple[Inner, ...] = ()
 
