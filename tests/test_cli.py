@@ -325,7 +325,7 @@ def test_imperial_units(balcli, good):
     assert metric.keys() == imperial.keys()
     for key, (value, unit) in metric.items():
         size, name = {"N": (POUND_FORCE, "lbf"), "N·m": (POUND_FORCE * FOOT, "lbf·ft")}[unit]
-        assert imperial[key] == (pytest.approx(value / size, rel=1e-15), name)
+        assert imperial[key] == (pytest.approx(value / size, rel=1e-14), name)
     for form in ("table", "markdown"):
         text = balcli("analyze", V8, "--format", form, "--units", "imperial")[1]
         assert all(unit in text for unit in ("lbf", "lbf·ft", "oz·in"))

@@ -41,6 +41,16 @@ def test_comparison_sees_a_changed_figure_and_passes_over_what_is_left_out() -> 
     assert not guide.agrees(["1  2.5", "…"], found)
     assert guide.agrees(["0.12345678901,0.0"], ["0.12345678902,-1.23456789012e-16"])
     assert not guide.agrees(["0.12345678901"], ["0.12345679901"])
+    assert guide.agrees(["bound  0"], ["bound  4.5424e-16"])
+    assert not guide.agrees(["bound  0"], ["bound  4.5424e-12"])
+
+
+@pytest.mark.parametrize("document", guide.DOCUMENTS, ids=lambda path: path.name)
+def test_nothing_shown_is_rounding(document: Path) -> None:
+    lines = [
+        line for one in guide.shown(document.read_text(encoding="utf-8")) for line in one.expected
+    ]
+    assert [line for line in lines if re.search(r"\de-(1[3-9]|[2-9]\d)\b", line)] == []
 
 
 @pytest.mark.parametrize("command", COMMANDS)

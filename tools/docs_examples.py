@@ -144,7 +144,7 @@ def _outside(one: Shown, folder: Path) -> tuple[object, str]:
         env=ENVIRONMENT,
         text=True,
         encoding="utf-8",
-        timeout=120,
+        timeout=300,
     )
     return done.returncode, done.stdout
 
@@ -174,7 +174,11 @@ def _rounded(line: str) -> str:
         value = float(number[0])
         return f"{value if abs(value) > 1e-12 else 0:.9g}"
 
-    return re.sub(r"-?\b\d+\.\d{9,}(?:e[-+]\d+)?|-?\b0\.0\b", nine, line)
+    return re.sub(
+        r"-?\b\d+\.\d{9,}(?:e[-+]\d+)?|-?\b0\.0\b|-?\b\d+(?:\.\d+)?e-(?:1[3-9]|[2-9]\d)\b",
+        nine,
+        line,
+    )
 
 
 def _trimmed(lines: list[str]) -> list[str]:

@@ -9,36 +9,33 @@ tests.stress.fuzz --cases 20000 --seed 1` runs many.
 from __future__ import annotations
 
 import argparse
+import cProfile
 import gc
 import io
 import json
 import os
 import random
 import re
-import resource
 import shutil
 import signal
 import sys
 import tempfile
-import time
 import tomllib
 import traceback
+import tracemalloc
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import tomli_w
 
 ROOT = Path(__file__).parents[1]
-TRACED = (
-    "coverage" in sys.modules and sys.modules["coverage"].Coverage.current() is not None
-)  # which takes its own time
-SLOWEST = 10.0 if TRACED else 2.0  # seconds of the processor for one case
-PER_MB = 0.1  # further seconds for each MB of results that a case asks for
-ALARM = 20.0  # seconds after which a case is taken for hung
-MOST_MEMORY = 300  # MB of the process
+MOST_CALLS = 15_000_000  # of functions, Python's and C's, for one case
+CALLS_A_MB = 1_000_000  # further ones for each MB of results that a case asks for
+MOST_MEMORY = 250  # MB that a case may ask for at a time
+ALARM = 300.0  # seconds after which a case is taken for hung, however busy the machine
 Tree = Any  # what TOML can hold
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 
@@ -683,8 +680,9 @@ class Outcome:
     out: str
     err: str
     failure: str
-    seconds: float
     left: tuple[str, ...]
+    calls: int = 0
+    memory: float = 0.0  # MB, of Python's objects and of arrays, at a time
 
 
 @contextmanager
@@ -735,7 +733,6 @@ def run(case: Case, place: Path) -> Outcome:
     out, err, failure, status = sys.stdout, sys.stderr, "", -1
     signal.signal(signal.SIGALRM, hung)
     signal.setitimer(signal.ITIMER_REAL, ALARM)
-    start = time.process_time()
     try:
         main()
     except SystemExit as done:
@@ -744,13 +741,33 @@ def run(case: Case, place: Path) -> Outcome:
         failure = traceback.format_exc()
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
-        seconds = time.process_time() - start
         sys.argv, sys.stdout, sys.stderr = kept
         gc.unfreeze()  # main() takes the process for ended
     shown = [_all(stream) for stream in (out, err)]
-    return Outcome(
-        status, *shown, failure, seconds, tuple(sorted(path.name for path in place.iterdir()))
-    )
+    return Outcome(status, *shown, failure, tuple(sorted(path.name for path in place.iterdir())))
+
+
+def counted(case: Case, place: Path) -> Outcome:
+    """The same with its calls of functions: as many on any machine, however busy."""
+    profile = cProfile.Profile()
+    profile.enable()
+    try:
+        done = run(case, place)
+    finally:
+        profile.disable()
+    return replace(done, calls=sum(entry.callcount for entry in profile.getstats()))
+
+
+def weighed(case: Case, place: Path, way: Callable[[Case, Path], Outcome] = run) -> Outcome:
+    """The same with the memory it asks for: as much on any machine, and on any number of
+    threads.
+    """
+    tracemalloc.start()
+    try:
+        done = way(case, place)
+        return replace(done, memory=tracemalloc.get_traced_memory()[1] / 1e6)
+    finally:
+        tracemalloc.stop()
 
 
 def _all(stream: io.TextIOWrapper) -> str:
@@ -758,7 +775,7 @@ def _all(stream: io.TextIOWrapper) -> str:
     return stream.buffer.getvalue().decode("utf-8", "replace")  # type: ignore[attr-defined]
 
 
-def fault(case: Case, done: Outcome, slowest: float = SLOWEST) -> str:
+def fault(case: Case, done: Outcome) -> str:
     """What is wrong with an outcome; empty if nothing is."""
     if done.failure:
         return done.failure
@@ -766,8 +783,10 @@ def fault(case: Case, done: Outcome, slowest: float = SLOWEST) -> str:
         return f"status {done.status}: {done.err[-500:]}"
     if "Traceback" in done.err + done.out or "Warning:" in done.err:
         return done.err
-    if done.seconds > slowest + PER_MB * len(done.out) / 1e6:
-        return f"took {done.seconds:.1f} s"
+    if done.calls > MOST_CALLS + CALLS_A_MB * len(done.out) / 1e6:
+        return f"took {done.calls} calls"
+    if done.memory > MOST_MEMORY:
+        return f"took {done.memory:.0f} MB"
     if found := _CONTROL.search(done.out + done.err):
         return (
             f"control character {found[0]!r}: "
@@ -797,13 +816,6 @@ def _strays(case: Case, done: Outcome) -> str:
     )
 
 
-def memory() -> int:
-    """The most that this process has used so far, MB."""
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // (
-        1024 * 1024 if sys.platform == "darwin" else 1024
-    )
-
-
 def main() -> None:
     """Run many cases and report."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -812,27 +824,24 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=0, help="begin with this case")
     parser.add_argument("--only", default="", choices=("", "force", "drawn"))
     asked = parser.parse_args()
-    slowest, faults, accepted, most = (0.0, -1), 0, 0, memory()
+    costliest, largest, faults, accepted = (0, -1), (0.0, -1), 0, 0
     with folder() as place:
         for case in cases(asked.seed, asked.cases, asked.only):
             if case.number < asked.first:
                 continue
-            done = run(case, place)
+            done = weighed(case, place, counted)
             accepted += done.status == 0
-            slowest = max(slowest, (done.seconds, case.number))
-            if memory() > most + 8:
-                faults += memory() > MOST_MEMORY >= most
-                most = memory()
-                print(
-                    f"{case.number}: memory {most} MB, {done.seconds:.2f} s, {' '.join(case.args)}",
-                    flush=True,
-                )
+            costliest, largest = (
+                max(costliest, (done.calls, case.number)),
+                max(largest, (done.memory, case.number)),
+            )
             if wrong := fault(case, done):
                 faults += 1
                 print(f"{case.number}: {case.args}\n{wrong}\n", flush=True)
     print(
         f"{asked.cases - asked.first} cases, {accepted} accepted, {faults} faults; "
-        f"slowest {slowest[0]:.2f} s (case {slowest[1]}); {memory()} MB"
+        f"most calls {costliest[0]} (case {costliest[1]}), most memory {largest[0]:.0f} MB (case "
+        f"{largest[1]})"
     )
 
 

@@ -146,6 +146,8 @@ def test_bench_in_every_format(balcli, tmp_path):
     _, table, _ = balcli("bench")
     assert "two-term formula" in table
     assert "3.2e-02" in table
+    assert table.count("rounding") == 3
+    assert "e-1" not in table
     _, text, _ = balcli("bench", "--format", "csv")
     lines = list(csv.DictReader(io.StringIO(text)))
     assert lines[1] == {
@@ -167,22 +169,44 @@ def test_bench_times_each_case_by_the_variant_and_its_own_pairs(monkeypatch):
     case = Case("task", "way", lambda: sum(range(1000)), 0.5, times=1000)
     monkeypatch.setattr(bench, "cases", lambda: [case])
     monkeypatch.setattr(bench, "_imports", lambda: iter([Ratio("cold", 2.0)]))
+    monkeypatch.setattr(bench, "_seconds", lambda run: 8.0)
     found = bench.bench()
     assert found.rows[0].error == 0.5
-    assert (
-        0 < found.rows[0].seconds < 1e-6
-    )  # of one variant of a thousand; a thousand sums take some 10 us
+    assert found.rows[0].seconds == 0.008  # of one variant of a thousand
     assert Ratio("cold", 2.0) in found.ratios
     assert all(math.isfinite(r.value) and r.value > 0 for r in found.ratios)
 
 
-def test_a_thing_takes_as_long_as_itself():
-    """The best of three: a busy machine may disturb one."""
-    ratios = [
-        bench._ratio("same", lambda: sum(range(2000)), lambda: sum(range(2000))).value
-        for _ in range(3)
-    ]
-    assert min(abs(math.log(ratio)) for ratio in ratios) < math.log(1.5)
+def test_two_times_are_taken_in_turn_and_compared_by_their_medians(monkeypatch):
+    """By a clock of ours: a busy machine disturbs some of the nine pairs, not their medians."""
+    taken = []
+
+    def timed(run, number):
+        taken.append(run())
+        return (
+            {"one": 0.6, "other": 0.2}[taken[-1]]
+            * number
+            * (50 if len(taken) in (4, 9, 12, 15) else 1)
+        )
+
+    monkeypatch.setattr(bench.timeit, "timeit", timed)
+    assert bench._ratio("three", lambda: "one", lambda: "other").value == pytest.approx(3)
+    assert taken == ["other", *["one", "other"] * 9]
+
+
+def test_the_quickest_of_several_runs_counts(monkeypatch):
+    class Timer:
+        def __init__(self, run):
+            pass
+
+        def timeit(self, number):
+            return 0.004
+
+        def repeat(self, times, number):
+            return [number * seconds for seconds in (0.007, 0.003, 0.9, 0.005, 0.004)][:times]
+
+    monkeypatch.setattr(bench.timeit, "Timer", Timer)
+    assert bench._seconds(lambda: None) == pytest.approx(0.003)
 
 
 # ------------------------------------------------------------------ sweeps: cluster, files,
@@ -421,7 +445,7 @@ def test_mistakes_of_a_built_model_name_its_file():
 def test_more_devices_than_any_engine_has():
     from support.engines import refused
 
-    from balcli.enginefile.model import MOST_PARTS
+    from balcli.limits import MOST_PARTS
 
     assert (
         f"counterweight: stands {MOST_PARTS + 1} times; no engine has more than {MOST_PARTS}"

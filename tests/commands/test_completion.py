@@ -39,6 +39,6 @@ def test_tab_offers(typed: str, offered: set[str]) -> None:
         env=os.environ | asking | {"PYTHONPATH": SOURCE},
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=300,
     )
     assert (set(done.stdout.split()), done.stderr) == (offered, "")

@@ -7,10 +7,13 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from support.engines import GOOD
+
+HANGS = 300  # seconds: what takes longer has hung, however busy the machine
 
 
 @pytest.fixture
@@ -25,7 +28,7 @@ def run(*argv: str) -> subprocess.CompletedProcess[str]:
         [sys.executable, "-m", "balcli", *argv],
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=HANGS,
         check=False,
     )
 
@@ -90,6 +93,17 @@ def test_a_variant_that_cannot_be_is_told_before_anything_is_written(tmp_path: P
     )
 
 
+HEAD = 100_000  # bytes: more than what is written before the first rows
+
+
+def until(happened: Callable[[], bool]) -> None:
+    """Wait for it."""
+    end = time.monotonic() + HANGS
+    while not happened():
+        assert time.monotonic() < end, "nothing happens"
+        time.sleep(0.02)
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_ctrl_c_leaves_a_valid_part(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "x.json"
@@ -114,9 +128,14 @@ def test_ctrl_c_leaves_a_valid_part(engine: str, tmp_path: Path) -> None:
         stderr=subprocess.PIPE,
         text=True,
     )
-    time.sleep(2)
+    until(
+        lambda: (
+            process.poll() is not None
+            or any(p.stat().st_size > HEAD for p in tmp_path.glob(".x.json*"))
+        )
+    )
     process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=HANGS)
     assert process.returncode == 130
     rows = json.loads(target.read_text())["rows"]
     assert errors == f"balcli: stopped after {len(rows)} of 100020001 variants\n"

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import threading
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -252,7 +253,7 @@ def test_standard_output_that_is_full(good, command):
     name, *rest = command
     with Path("/dev/full").open("wb") as full:
         running = started(name, str(good), *rest, stdout=full)
-        err = running.communicate(timeout=30)[1].decode()
+        err = running.communicate(timeout=300)[1].decode()
     assert (running.returncode, err) == (
         2,
         "balcli: standard output: cannot be written (No space left on device)\n",
@@ -265,16 +266,21 @@ def test_a_reader_who_leaves_early_ends_a_sweep_quietly(good):
     os.close(reading)
     running = started("sweep", str(good), "--vary", "crank.stroke=1:90:0.001", stdout=writing)
     os.close(writing)
-    assert (running.communicate(timeout=60)[1], running.returncode) == (b"", 0)
+    assert (running.communicate(timeout=300)[1], running.returncode) == (b"", 0)
 
 
 @unix
 def test_an_interrupt_is_no_traceback():
     """It waits for the rest of its standard input: more than a pipe holds has been read."""
-    running = started("analyze", "-", stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    heeded = partial(
+        signal.signal, signal.SIGINT, signal.SIG_DFL
+    )  # jobs in the background of a script ignore it
+    running = started(
+        "analyze", "-", stdin=subprocess.PIPE, stdout=subprocess.PIPE, preexec_fn=heeded
+    )
     assert running.stdin is not None
     running.stdin.write(b"#\n" * 200_000)
     running.stdin.flush()
     running.send_signal(signal.SIGINT)
-    out, err = running.communicate(timeout=30)
+    out, err = running.communicate(timeout=300)
     assert (running.returncode, out, err.strip()) == (130, b"", b"")

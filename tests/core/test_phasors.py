@@ -133,7 +133,7 @@ def test_a_scalar_is_a_real_curve():
     phasors = Phasors.real(orders, c, np.zeros(3))
     curve = sum((c[k] * np.exp(1j * n * THETA)).real for k, n in enumerate(orders))
     assert phasors.values(THETA).real == pytest.approx(curve, abs=1e-14)
-    assert np.abs(phasors.values(THETA).imag).max() < 1e-15
+    assert np.abs(phasors.values(THETA).imag).max() < 1e-14
     assert np.array_equal(phasors.x, c)
     assert phasors.major == pytest.approx(np.abs(c), rel=RELATIVE)
     assert np.abs(phasors.y).max() == 0

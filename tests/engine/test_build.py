@@ -9,7 +9,7 @@ import pytest
 from support.engines import engine, refused
 
 from balcli.core.phasors import unit
-from balcli.engine.rods import STANDARD_GRAVITY
+from balcli.enginefile.units import STANDARD_GRAVITY
 
 TIGHT = 1e-14
 

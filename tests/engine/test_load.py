@@ -15,8 +15,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.engines import GOOD, changed
 
-from balcli.engine.load import LARGEST, parse, read
+from balcli.engine.load import parse, read
 from balcli.errors import BalcliError, InputError
+from balcli.limits import LARGEST_FILE_BYTES
 
 LENGTH = 'a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"'
 ANGLE = 'an angle is wanted: a bare number in deg, or "30 deg" or "1.2 rad" or "1/7 turn"'
@@ -285,7 +286,7 @@ def test_missing_tables_come_with_an_example():
                 "conversion: value has 5000 digits"
             ),
         ),
-        ("#" * (LARGEST + 1), "has more than 6 MB; no engine file needs that"),
+        ("#" * (LARGEST_FILE_BYTES + 1), "has more than 6 MB; no engine file needs that"),
     ],
     ids=[
         "syntax",

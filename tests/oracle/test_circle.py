@@ -217,3 +217,18 @@ def test_a_curve_of_any_size_is_treated_alike(scale):
     centre, radius, fixing = circle.around(points)
     assert (abs(centre) / scale, radius / scale) == pytest.approx((0, 1), abs=1e-12)
     assert len(fixing) >= 2
+
+
+def test_a_small_circle_beside_a_large_first_order_is_touched_wherever_it_is_but_for_rounding():
+    """Equal peaks 18 times a revolution, of a millionth of what a weight takes away."""
+    eight, ten = 1e-6, 2e-8
+    curve = Phasors(
+        np.array([1.0, 8.0, 10.0]),
+        np.array([1.0, 0, ten]) + 0j,
+        np.array([0, eight, 0]) + 0j,
+        np.zeros(1),
+    )
+    found = circle.enclosing(curve)
+    assert found.radius == pytest.approx(eight + ten, rel=1e-9)
+    assert len(found.theta) == 18
+    assert found.excess == 0

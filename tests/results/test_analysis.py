@@ -18,7 +18,8 @@ from balcli.engine.load import read
 from balcli.errors import BalcliError
 from balcli.forces.kinds import KINDS
 from balcli.forces.spectrum import SHOWN, relevant_orders, spectra
-from balcli.results.analysis import HIGHEST, QUANTITIES, Analysis, analyze, textbook
+from balcli.limits import HIGHEST_ORDER
+from balcli.results.analysis import QUANTITIES, Analysis, analyze, textbook
 
 FOLDER = Path(__file__).parents[2] / "engines"
 NAMES = sorted(file.stem for file in FOLDER.glob("*.toml"))
@@ -87,7 +88,7 @@ def test_exactly_the_orders_asked_for_are_shown(orders):
 
 
 @pytest.mark.parametrize(
-    ("orders", "told"), [([-1], "-1"), ([HIGHEST + 1], "4097"), ([], "none"), ([1.5], "1.5")]
+    ("orders", "told"), [([-1], "-1"), ([HIGHEST_ORDER + 1], "4097"), ([], "none"), ([1.5], "1.5")]
 )
 def test_orders_that_cannot_be(orders, told):
     with pytest.raises(BalcliError) as caught:

@@ -133,7 +133,7 @@ class Browser:
             self.call("Browser.close")
         except (OSError, EOFError):
             self._process.terminate()
-        self._process.wait(10)
+        self._process.wait(300)
         self._in.close()
         self._out.close()
 

@@ -215,7 +215,7 @@ def test_inline_three_needs_couples():
     assert sizes(at[-1]) == pytest.approx([math.sqrt(3) / 4 * M * R] * 2, rel=1e-13)
     assert sizes(at[2]) == pytest.approx([math.sqrt(3) / 4 * A2 * M * R / 4] * 2, rel=1e-13)
     a, b = (cmath.rect(s.unbalance, math.radians(s.angle)) for s in at[-1])
-    assert abs(a + b) <= 1e-15 * abs(a)
+    assert abs(a + b) <= 1e-14 * abs(a)
     after = left(fit_devices(INLINE_3, remedy))
     assert after.force.balanced.all()
     assert after.moment.balanced.all()

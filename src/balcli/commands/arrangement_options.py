@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..errors import BalcliError
+from ..limits import FARTHEST_DEG, FARTHEST_M
 from .options import numbers
 
 if TYPE_CHECKING:
     from ..results.two_engines import Arrangement
-
-MOST = 1e6  # degrees; metres
 
 
 def arrangement(phase: float, at: str, turn: float, reverse: bool) -> Arrangement:
@@ -22,8 +21,10 @@ def arrangement(phase: float, at: str, turn: float, reverse: bool) -> Arrangemen
     from ..results.two_engines import Arrangement
 
     for option, value in (("--phase", phase), ("--turn", turn)):
-        if not abs(value) <= MOST:
-            raise BalcliError(f"{option} {value:g}: give an angle in degrees, up to {MOST:g}")
+        if not abs(value) <= FARTHEST_DEG:
+            raise BalcliError(
+                f"{option} {value:g}: give an angle in degrees, up to {FARTHEST_DEG:g}"
+            )
     return Arrangement(phase, _place(at), turn, reverse)
 
 
@@ -31,6 +32,6 @@ def _place(text: str) -> tuple[float, float, float]:
     x, y, z = (
         v / 1e3 for v in numbers("--at", text, "three numbers, X,Y,Z in mm, such as 0,300,0", 3)
     )
-    if max(map(abs, (x, y, z))) > MOST:
-        raise BalcliError(f'--at "{text[:60]}": the places may be up to {MOST:g} m')
+    if max(map(abs, (x, y, z))) > FARTHEST_M:
+        raise BalcliError(f'--at "{text[:60]}": the places may be up to {FARTHEST_M:g} m')
     return x, y, z

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import BalcliError
+from ..limits import MOST_FACTORS
 from ..sizing.options import SchemeOptions
 from ..sizing.schemes import KNUCKLES, NAMES
 from . import completion
@@ -19,8 +20,6 @@ if TYPE_CHECKING:
     from ..enginefile.model import EngineFile
     from ..results.balance import Balance
     from ..sizing.workshop import Tools
-
-MOST_FACTORS = 1000
 
 Scheme = Annotated[
     str,

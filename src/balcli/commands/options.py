@@ -10,6 +10,7 @@ import typer
 
 from ..errors import BalcliError
 from ..forces.kinds import KINDS
+from ..limits import HIGHEST_ORDER
 from ..render.formats import Format as Format
 from ..render.formats import Units as Units
 from . import completion
@@ -94,9 +95,9 @@ def order_list(text: str | None) -> list[int] | None:
         ):
             raise BalcliError(f'--orders "{text}": give whole numbers such as 1-8 or 1,2,4')
         low, high = int(first), int(last or first)
-        if low > high or high > 4096:
+        if low > high or high > HIGHEST_ORDER:
             raise BalcliError(
-                f'--orders "{text}": {part.strip()} must rise and end at 4096 at most'
+                f'--orders "{text}": {part.strip()} must rise and end at {HIGHEST_ORDER} at most'
             )
         orders += range(low, high + 1)
     return orders

@@ -24,14 +24,19 @@ _ROUNDS = 60
 
 
 class Circle(NamedTuple):
-    """Centre, radius, the angles (rad, ascending) at which the curve touches it, and a bound of the
-    excess of the radius.
+    """Smallest circle around a curve.
+
+    Attributes:
+        theta: angles (rad, ascending) at which the curve touches it.
+        excess: bound by which the radius may be too large; 0 where that is no more than `noise`.
+        noise: rounding error of the radius.
     """
 
     centre: complex
     radius: float
     theta: Array
     excess: float
+    noise: float = 0.0
 
 
 def enclosing(curve: Phasors) -> Circle:
@@ -56,8 +61,12 @@ def enclosing(curve: Phasors) -> Circle:
         theta = _distinct(np.concatenate([theta, *(circle.theta for circle in trials)]), _SAME)
     fine = _around(curve, _newton(curve, theta, best.centre), theta)
     best = fine if fine.radius <= best.radius * (1 + _SAME) else best
-    on = np.abs(_seen(curve, best.theta) - best.centre) >= best.radius * (1 - _TOUCHING)
-    return best._replace(theta=best.theta[on], excess=max(best.radius - lower, 0.0))
+    noise = _SAME * float(curve.major.sum())
+    on = np.abs(_seen(curve, best.theta) - best.centre) >= best.radius * (1 - _TOUCHING) - noise
+    excess = best.radius - lower
+    return best._replace(
+        theta=best.theta[on], excess=excess if excess > noise else 0.0, noise=noise
+    )
 
 
 def around(points: Complex) -> tuple[complex, float, list[int]]:

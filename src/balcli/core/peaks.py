@@ -37,7 +37,9 @@ def peak(curve: Phasors) -> Peak:
     curve = Phasors(curve.orders[there], curve.forward[there], curve.backward[there], np.zeros(1))
     theta = candidates(curve)
     step = np.pi / (8 * max(curve.orders[-1], 1))
-    theta = climb(curve, theta, step)
+    theta = np.concatenate(
+        [[0.0], climb(curve, theta, step)]
+    )  # 0 is the first place of a peak beside it, and of a level curve
     values, turned = np.abs(curve.values(theta)), theta % (2 * np.pi)
     equal = np.flatnonzero(
         values >= values.max() * (1 - _EQUAL)

@@ -18,7 +18,7 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
 TURN = 360
-LARGEST = 5040  # denominator of a fraction of a turn: 7!, so that all common divisions are in it
+LARGEST_DENOMINATOR = 5040  # of a fraction of a turn: 7!, so that all common divisions are in it
 _ULPS = 2 * math.ulp(float(TURN))
 
 
@@ -26,7 +26,7 @@ def turns(degrees: float) -> Fraction | None:
     """The fraction of a turn that an angle is, to within 2 ulp of 360 degrees; None if no
     denominator to 5040 gives it.
     """
-    found = rational(degrees / TURN, LARGEST, _ULPS / TURN)
+    found = rational(degrees / TURN, LARGEST_DENOMINATOR, _ULPS / TURN)
     return None if found is None else found % 1
 
 

@@ -13,13 +13,12 @@ from ..core.loads import Cylinders
 from ..enginefile.fields import counted
 from ..enginefile.model import Articulation, EngineFile
 from ..errors import Problem
+from ..limits import NEAREST_TO_LOCK
 from .arrays import column
 from .layout import Plan
 
 if TYPE_CHECKING:
     from ..core.mechanisms.articulated import Articulated
-
-NEAREST_TO_LOCK = 1e-6  # how far the sine of an articulated rod's angle must stay below 1
 
 
 def masters(file: EngineFile, layout: Plan) -> dict[int, int]:

@@ -18,6 +18,7 @@ from ..core.loads import Cylinders, Device
 from ..core.mechanisms import harmonics
 from ..enginefile.model import Bobweight, EngineFile
 from ..errors import InputError, Problem
+from ..limits import MOST_SAMPLES
 from . import articulation
 from .arrays import column, shared
 from .devices import devices
@@ -29,9 +30,6 @@ if TYPE_CHECKING:
     from ..core.mechanisms.articulated import Articulated
     from ..core.mechanisms.rotary import Rotary
 
-MOST_SAMPLES = (
-    1 << 19
-)  # of a revolution, of all mechanisms that differ; far from their lock they take 64 to 256 each
 STANDSTILL = 1e-12  # of the mean speed: rounding
 
 

@@ -10,8 +10,9 @@ from itertools import count
 from typing import Any, NamedTuple
 
 from ..enginefile.fields import counted
-from ..enginefile.model import MOST_PARTS, Crank, Layout
+from ..enginefile.model import Crank, Layout
 from ..errors import InputError, Problem
+from ..limits import MOST_PARTS
 
 TURN = 360.0
 

@@ -26,8 +26,6 @@ from ..enginefile.messages import (
     unknown_key,
 )
 from ..enginefile.model import (
-    MOST,
-    MOST_PARTS,
     Crank,
     EngineFile,
     Override,
@@ -37,18 +35,17 @@ from ..enginefile.model import (
     mistakes_of_choice,
 )
 from ..errors import BalcliError, InputError, Problem
+from ..limits import (
+    DEEPEST_KEY,
+    LARGEST_FILE_BYTES,
+    LONGEST_NAME,
+    MOST_KEY_VALUES,
+    MOST_MISTAKES_SHOWN,
+    MOST_PARTS,
+    MOST_TOML_MARKS,
+)
 from .build import Engine, build
 
-LARGEST = 6_000_000  # bytes of an engine file
-MOST_MARKS = (
-    180_000  # of "[", "{", ".", ",", "=": what each stands for takes tomllib up to a kilobyte
-)
-LONGEST_NAME = 200  # characters
-MOST_SHOWN = 20  # mistakes of one file
-DEEPEST = 32  # parts of a dotted key; tomllib's memory grows with their square
-MOST_VALUES = (
-    2 * MOST
-)  # of one key, inner lists included; to refuse millions one by one takes gigabytes
 CONTROL = {
     "name": re.compile(r"[\x00-\x1f\x7f-\x9f]"),
     "source": re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]"),
@@ -57,7 +54,7 @@ REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5
 
 T = TypeVar("T", bound=Table)
 _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
-_DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST}}}""")
+_DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
 
 
 def load(source: str | Path) -> Engine:
@@ -89,10 +86,10 @@ def read(source: str | Path) -> EngineFile:
 def text_of(source: str | Path) -> bytes:
     """The text of a file (or of standard input) as it is; BalcliError if it cannot be read."""
     if str(source) == "-":
-        return sys.stdin.buffer.read(LARGEST + 1)
+        return sys.stdin.buffer.read(LARGEST_FILE_BYTES + 1)
     try:
         with Path(source).open("rb") as stream:
-            return stream.read(LARGEST + 1)
+            return stream.read(LARGEST_FILE_BYTES + 1)
     except IsADirectoryError:
         raise BalcliError(f"{source}: is a folder; name an engine file in it") from None
     except FileNotFoundError:
@@ -120,11 +117,10 @@ def parse(text: str | bytes, file: str = "") -> EngineFile:
 
 def _tables(text: str | bytes, file: str) -> dict[str, Any]:
     """TOML -> nested dicts; whatever tomllib raises becomes an InputError."""
-    if len(text) > LARGEST:
-        raise InputError(
-            [Problem("", f"has more than {LARGEST // 1_000_000} MB; no engine file needs that")],
-            file,
-        )
+    if len(text) > LARGEST_FILE_BYTES:
+        megabytes = LARGEST_FILE_BYTES // 1_000_000
+        message = f"has more than {megabytes} MB; no engine file needs that"
+        raise InputError([Problem("", message)], file)
     try:
         return _decode(text)
     except tomllib.TOMLDecodeError as error:
@@ -148,9 +144,9 @@ def _decode(text: str | bytes) -> dict[str, Any]:
         text = text.decode("utf-8-sig")
     if _DEEP_KEY.search(text):
         raise RecursionError
-    if sum(map(text.count, "[{.,=")) > MOST_MARKS:
+    if sum(map(text.count, "[{.,=")) > MOST_TOML_MARKS:
         raise OverflowError(
-            f"has more than {MOST_MARKS} keys, lists and values; no engine file needs that"
+            f"has more than {MOST_TOML_MARKS} keys, lists and values; no engine file needs that"
         )
     return tomllib.loads(text)
 
@@ -256,14 +252,14 @@ class _Reader:
 
     def error(self, file: str) -> InputError:
         """The first mistakes, misspelt keys before the others, and how many more there are."""
-        shown = [unknown_key(*unknown) for unknown in self._unknown[:MOST_SHOWN]]
+        shown = [unknown_key(*unknown) for unknown in self._unknown[:MOST_MISTAKES_SHOWN]]
         meant = {path for _, path in shown if path}
         rest = [
             p for p in self._found if not (p.path in meant and p.message.startswith("is missing"))
         ]
         problems = [problem for problem, _ in shown] + rest
-        more = len(self._unknown) + len(rest) - MOST_SHOWN
-        return InputError(problems[:MOST_SHOWN], file, max(more, 0))
+        more = len(self._unknown) + len(rest) - MOST_MISTAKES_SHOWN
+        return InputError(problems[:MOST_MISTAKES_SHOWN], file, max(more, 0))
 
     def _add(self, path: str, message: str) -> None:
         self._found.append(Problem(path, message))
@@ -295,10 +291,13 @@ class _Reader:
             return None
         self._unknown += [(path, key, table) for key in value if key not in table.model_fields]
         known = {key: part for key, part in value.items() if key in table.model_fields}
-        huge = {key: count for key, part in known.items() if (count := _count(part)) > MOST_VALUES}
+        huge = {
+            key: count for key, part in known.items() if (count := _count(part)) > MOST_KEY_VALUES
+        }
         for key, count in huge.items():
             self._add(
-                f"{path}.{key}", f"holds {count} values; no engine needs more than {MOST_VALUES}"
+                f"{path}.{key}",
+                f"holds {count} values; no engine needs more than {MOST_KEY_VALUES}",
             )
         if huge:
             return None

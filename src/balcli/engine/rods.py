@@ -10,11 +10,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..enginefile.model import ArticulatedRod, EngineFile, Rod
+from ..enginefile.units import STANDARD_GRAVITY
 from ..errors import Problem
+from ..limits import NEAREST_TO_LOCK
 
-STANDARD_GRAVITY = 9.80665  # m/s2, by definition (CGPM 1901)
 ENDS = ("small_end", "big_end")
-NEAREST_TO_LOCK = 1e-6  # how far lambda + |offset| / rod length must stay below 1
 _GROUPS = (
     ({"length"}, {"ratio"}),
     ({"mass", "cg"}, {"small_end", "big_end"}),

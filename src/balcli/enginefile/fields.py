@@ -8,23 +8,20 @@ import math
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
+from ..limits import LONGEST_SHOWN, SMALLEST_POSITIVE
 from .units import PLAIN, Dimension, convert, wanted
 
 if TYPE_CHECKING:
     from pydantic_core import CoreSchema
 
-TINY = (
-    1e-12  # below this, what must be above 0 is no figure of an engine in any of the file's units
-)
 STRING_PATTERN = r"^\s*[+-]?[0-9.].*[A-Za-z°µμ²³0-9]\s*$"
-SHOWN = 60  # characters of a value shown in a message
 
 
 def printable(text: str) -> str:
     """The first 60 characters; what would move the cursor or colour a terminal becomes a question
     mark.
     """
-    cut = text[:SHOWN] + ("..." if len(text) > SHOWN else "")
+    cut = text[:LONGEST_SHOWN] + ("..." if len(text) > LONGEST_SHOWN else "")
     return "".join(letter if letter.isprintable() else "?" for letter in cut)
 
 
@@ -43,8 +40,8 @@ def shorten(value: object) -> str:
     if isinstance(value, (list, tuple)):
         items = ", ".join(shorten(v) for v in value[:8])
         text = f"[{items}{', ...' if len(value) > 8 else ''}]"
-        return text if len(text) <= SHOWN else f"a list of {len(value)}"
-    return f"{value:.15g}" if isinstance(value, float) else str(value)[:SHOWN]
+        return text if len(text) <= LONGEST_SHOWN else f"a list of {len(value)}"
+    return f"{value:.15g}" if isinstance(value, float) else str(value)[:LONGEST_SHOWN]
 
 
 def counted(count: int, what: str) -> str:
@@ -115,8 +112,8 @@ class Number(_Field):
         least = -self.most if self.least is None else self.least
         if self.above is not None and number <= self.above:
             return f"not above {self.above:g}", f"above {self.above:g}"
-        if self.above == 0 and number < TINY:
-            return "too small", f"at least {TINY:g}"
+        if self.above == 0 and number < SMALLEST_POSITIVE:
+            return "too small", f"at least {SMALLEST_POSITIVE:g}"
         if number < least:
             return f"less than {least:g}", f"{least:g} or more"
         if self.below is not None and number >= self.below:

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from ..errors import Problem
+from ..limits import MOST_LIST_VALUES
 from . import model
 from .fields import nearest, printable, shorten
 
@@ -96,8 +97,8 @@ def _wrong_length(value: list[Any], context: Mapping[str, Any]) -> str:
     wanted = context.get("min_length") or context.get("max_length")
     if not value:
         return "is an empty list; give at least one value, or leave the key out"
-    if len(value) > model.MOST:
-        return f"has more than {model.MOST} values"
+    if len(value) > MOST_LIST_VALUES:
+        return f"has more than {MOST_LIST_VALUES} values"
     return (
         f"{shorten(value)} has {len(value)} value{'s' * (len(value) != 1)} where {wanted} are "
         "wanted"

@@ -13,16 +13,11 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
 from .exclusive import Choice, repeated
 from .fields import Flag, Number, OneOf, Whole, counted
-from .units import ANGLE, INERTIA, LENGTH, MASS, PLAIN, SPEED, TIME, UNBALANCE
+from .units import ANGLE, INERTIA, LENGTH, MASS, PLAIN, SPEED, STANDARD_GRAVITY, TIME, UNBALANCE
 
-GRAVITY = 9.80665  # m/s^2, standard
-MOST = 10_000  # values of a list, orders: above every engine, and still quick to refuse
-MOST_RIPPLE = (
-    256  # order of the uneven speed, which lets every order of the engine reach that much further
-)
-MOST_PARTS = 1000  # cylinders, devices of a kind: above every engine, and still quick to analyse
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
 
 Length = Annotated[float, Number(LENGTH, most=1e9)]
@@ -37,13 +32,14 @@ Speed = Annotated[float, Number(SPEED, above=0, most=1e9)]
 Period = Annotated[float, Number(TIME, above=0, most=1e6)]
 RodRatio = Annotated[float, Number(PLAIN, above=0, below=1)]
 Share = Annotated[float, Number(PLAIN, least=-1, most=1)]
-Count = Annotated[int, Whole(least=1, most=MOST)]
-RippleOrder = Annotated[int, Whole(least=1, most=MOST_RIPPLE)]
-ShaftRatio = Annotated[int, Whole(least=-1000, most=1000, zero=False)]
-Angles = Annotated[tuple[Angle, ...], Field(min_length=1, max_length=MOST)]
-Lengths = Annotated[tuple[Length, ...], Field(min_length=1, max_length=MOST)]
-Intervals = Annotated[tuple[Interval, ...], Field(min_length=1, max_length=MOST)]
-Numbers = Annotated[tuple[Count, ...], Field(min_length=1, max_length=MOST)]
+Count = Annotated[int, Whole(least=1, most=MOST_LIST_VALUES)]
+RippleOrder = Annotated[int, Whole(least=1, most=HIGHEST_RIPPLE_ORDER)]
+ShaftRatio = Annotated[int, Whole(least=-HIGHEST_SHAFT_ORDER, most=HIGHEST_SHAFT_ORDER, zero=False)]
+Angles = Annotated[tuple[Angle, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
+Lengths = Annotated[tuple[Length, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
+Intervals = Annotated[tuple[Interval, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
+Numbers = Annotated[tuple[Count, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
+NumbersOfBanks = Annotated[tuple[Numbers, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
 Place = Annotated[tuple[Length, ...], Field(min_length=2, max_length=2)]
 Point = Annotated[tuple[Length, ...], Field(min_length=3, max_length=3)]
 
@@ -172,7 +168,7 @@ def too_quick(pendulum: Pendulum, length: float, cg: float) -> Iterator[str]:
     inertia would be left.
     """
     arm = cg if pendulum.pivot == "big_end" else length - cg
-    shortest = 2 * math.pi * math.sqrt(max(arm, 0.0) * 1e-3 / GRAVITY)
+    shortest = 2 * math.pi * math.sqrt(max(arm, 0.0) * 1e-3 / STANDARD_GRAVITY)
     if pendulum.period <= shortest:
         yield (
             f"pendulum.period {pendulum.period:g} s is too quick: with the centre of mass {arm:g} "
@@ -231,7 +227,7 @@ class Layout(Table):
     strokes: Annotated[Literal[2, 4], OneOf(2, 4)] = Field(
         4, description="two-stroke or four-stroke", examples=[4]
     )
-    numbering: Annotated[tuple[Numbers, ...], Field(min_length=1, max_length=MOST)] | None = Field(
+    numbering: NumbersOfBanks | None = Field(
         None,
         description="cylinder numbers of each bank, free end to flywheel end",
         examples=[[[1, 3], [2, 4]]],
@@ -290,9 +286,9 @@ class Operation(Table):
     speed_ripple: tuple[Ripple, ...] = Field((), description="uneven crank speed, by whole orders")
 
     def contradictions(self) -> Iterator[str]:
-        if len(self.speed_ripple) > MOST_RIPPLE:
+        if len(self.speed_ripple) > MOST_RIPPLES:
             yield (
-                f"speed_ripple has {len(self.speed_ripple)} orders; no more than {MOST_RIPPLE} "
+                f"speed_ripple has {len(self.speed_ripple)} orders; no more than {MOST_RIPPLES} "
                 "can be given"
             )
 

@@ -12,8 +12,9 @@ from fractions import Fraction
 from functools import cache
 from typing import Any, NamedTuple
 
+from ..limits import LONGEST_FIGURE
+
 PI = Fraction("3.14159265358979323846264338327950288419716939937510")
-LONGEST = 100  # characters; no figure needs more
 
 
 class Powers(NamedTuple):
@@ -47,21 +48,21 @@ class Dimension(NamedTuple):
 
 _FOREIGN = Powers(99)  # ampere, kelvin: known, but no field has such a dimension
 _LENGTH, _MASS, _TIME, _ANGLE = Powers(length=1), Powers(mass=1), Powers(time=1), Powers(angle=1)
-_INCH, _POUND = (
-    Fraction(254, 10_000),
-    Fraction(45_359_237, 100_000_000),
-)  # international inch and pound, 1959
+# By definition: the international inch and pound (1959), standard gravity (CGPM 1901).
+INCH = Fraction(254, 10_000)  # m
+POUND = Fraction(45_359_237, 100_000_000)  # kg
+STANDARD_GRAVITY = 9.80665  # m/s2
 
 COMMON = {
     "mm": Unit(Fraction(1, 1000), _LENGTH),
     "cm": Unit(Fraction(1, 100), _LENGTH),
     "m": Unit(Fraction(1), _LENGTH),
-    "in": Unit(_INCH, _LENGTH),
-    "ft": Unit(12 * _INCH, _LENGTH),
+    "in": Unit(INCH, _LENGTH),
+    "ft": Unit(12 * INCH, _LENGTH),
     "kg": Unit(Fraction(1), _MASS),
     "g": Unit(Fraction(1, 1000), _MASS),
-    "lb": Unit(_POUND, _MASS),
-    "oz": Unit(_POUND / 16, _MASS),
+    "lb": Unit(POUND, _MASS),
+    "oz": Unit(POUND / 16, _MASS),
     "s": Unit(Fraction(1), _TIME),
     "ms": Unit(Fraction(1, 1000), _TIME),
     "min": Unit(Fraction(60), _TIME),
@@ -103,7 +104,7 @@ def convert(text: str, dimension: Dimension) -> float:
     """The figure in the bare unit of `dimension`, correctly rounded. ValueError: what is wrong,
     what would be right.
     """
-    match = re.fullmatch(FIGURE, text, re.ASCII) if len(text) <= LONGEST else None
+    match = re.fullmatch(FIGURE, text, re.ASCII) if len(text) <= LONGEST_FIGURE else None
     if match is None:
         raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
     above, below, names = match.groups()

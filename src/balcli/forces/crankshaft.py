@@ -16,11 +16,11 @@ import numpy as np
 from ..core.loads import Device
 from ..core.peaks import Peak, peak
 from ..core.phasors import Array, Phasors
+from ..engine.arrays import ranked
 from ..engine.build import Engine
 from ..errors import BalcliError
+from ..limits import MOST_RESULTS_ALONG_CRANK
 from .spectrum import considerable, each, few_enough, relevant_orders, weight
-
-MOST_TOLD = 1 << 15  # orders x loads
 
 
 @dataclass(frozen=True)
@@ -43,8 +43,8 @@ class Along:
 
     @property
     def largest(self) -> int:
-        """Which place has the highest peak."""
-        return int(np.argmax([found.value for found in self.peaks]))
+        """Which place has the highest peak; of equal ones the first."""
+        return int(np.argmax(ranked([found.value for found in self.peaks])))
 
 
 @dataclass(frozen=True)
@@ -78,11 +78,11 @@ def inner(engine: Engine, orders: Array | None = None) -> Inner:
     span, moments = bearings(engine.throws_m), 1j * _weighted(loads, arms, size)
     if orders is None:
         orders = every[considerable(moments) | (every <= 2)]
-    if (told := len(orders) * len(z)) > MOST_TOLD:
+    if (told := len(orders) * len(z)) > MOST_RESULTS_ALONG_CRANK:
         raise BalcliError(
             f"along the crankshaft, {len(orders)} orders of {len(z)} cylinders and counterweights "
             f"are {told} results, and at "
-            f"most {MOST_TOLD} are told: ask for fewer orders"
+            f"most {MOST_RESULTS_ALONG_CRANK} are told: ask for fewer orders"
         )
     return Inner(
         shear=_along(sections, _weighted(loads, ahead, ahead), orders),

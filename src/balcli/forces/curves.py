@@ -20,9 +20,9 @@ from ..core.phasors import EPS, Array, Complex, unit
 from ..core.strokes import travel as dead_centres
 from ..engine.build import Engine
 from ..errors import BalcliError
+from ..limits import FINEST_STEP_DEG
 from .kinds import COUPLE, FORCE, MOMENT, ROLL, TORQUE
 
-FINEST = 1e-3  # degrees
 AT_ONCE = 200_000  # cylinders x angles, which bounds the memory
 _EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
 
@@ -45,9 +45,10 @@ def crank_angles(step: float = 1.0) -> Array:
     Raises:
         BalcliError: the step is not from 0.001 to 360.
     """
-    if not FINEST <= step <= 360:
+    if not FINEST_STEP_DEG <= step <= 360:
         raise BalcliError(
-            f"--step {step:g}: give a step of the crank angle from {FINEST:g} to 360 degrees"
+            f"--step {step:g}: give a step of the crank angle from {FINEST_STEP_DEG:g} to 360 "
+            "degrees"
         )
     return np.arange(0.0, np.ceil(360 / step - 1e-9)) * step
 

@@ -16,6 +16,7 @@ from ..core.phasors import Phasors
 from ..engine.build import Engine
 from ..enginefile.fields import nearest
 from ..errors import BalcliError
+from ..limits import HIGHEST_ORDER
 from .kinds import KINDS, VECTORS
 from .spectrum import relevant_orders, spectra
 
@@ -33,7 +34,6 @@ PARTS = (
     "y_sin",
 )
 SCALAR_PARTS = ("amplitude", "major", "cos", "sin")
-HIGHEST = 4096
 Array = NDArray[np.float64]
 
 
@@ -110,9 +110,9 @@ def _parse(text: str) -> Quantity:
             f"{'' if near else ', '.join(KINDS) + ' or peak'}".rstrip()
         )
     allowed = PARTS if KINDS[kind].vector else SCALAR_PARTS
-    if not (order.isascii() and order.isdigit() and len(order) < 6 and int(order) <= HIGHEST):
+    if not (order.isascii() and order.isdigit() and len(order) < 6 and int(order) <= HIGHEST_ORDER):
         raise BalcliError(
-            f"{text} is no quantity: after {kind} comes a whole order up to {HIGHEST}, as in "
+            f"{text} is no quantity: after {kind} comes a whole order up to {HIGHEST_ORDER}, as in "
             f"{kind}.2.{allowed[0]}"
         )
     if part not in allowed:

@@ -16,13 +16,10 @@ from ..core.mechanisms import harmonics
 from ..core.phasors import Array, Complex, Phasors, joined
 from ..engine.build import Engine
 from ..errors import BalcliError
+from ..limits import HIGHEST_ORDER_UNASKED, MOST_LOADS_APART
 from .kinds import KINDS, Kind
 
 SHOWN = 1e-6  # share of a quantity's largest order below which an order is not worth showing
-# highest order that is shown unless it is asked for: only a mechanism near its lock has more
-UNASKED = 512
-# orders x loads that are kept one by one at a steady speed; half as many at an uneven one
-MOST_APART = 1_100_000
 _ALL = slice(None)
 _AT_ONCE = (
     1 << 18
@@ -102,7 +99,7 @@ def each(engine: Engine, orders: ArrayLike, kinds: Collection[str] = tuple(KINDS
     has no trailing axes.
 
     Raises:
-        BalcliError: more than MOST_APART of them.
+        BalcliError: more than MOST_LOADS_APART of them.
     """
     few_enough(engine, np.size(orders), engine.cylinders.count)
     return _spectra(replace(engine, devices=()), orders, kinds, apart=True)
@@ -112,7 +109,7 @@ def few_enough(engine: Engine, orders: int, loads: int) -> None:
     """BalcliError for so many orders of so many loads one by one that they would fill the
     memory.
     """
-    most = MOST_APART // 2 if engine.ripple else MOST_APART
+    most = MOST_LOADS_APART // 2 if engine.ripple else MOST_LOADS_APART
     if orders * loads > most:
         raise BalcliError(
             f"{orders} orders of {loads} cylinders and counterweights one by one are "
@@ -165,11 +162,13 @@ def relevant_orders(engine: Engine) -> Array:
 
 
 def considerable(phasors: Phasors) -> NDArray[np.bool_]:
-    """Orders up to UNASKED in which something exceeds SHOWN of its own largest order, shape
-    (orders,).
+    """Orders up to HIGHEST_ORDER_UNASKED in which something exceeds SHOWN of its own largest order,
+    shape (orders,).
     """
     sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1, initial=0)
-    return np.asarray((sizes > SHOWN * sizes.max(initial=0)) & (phasors.orders <= UNASKED))
+    return np.asarray(
+        (sizes > SHOWN * sizes.max(initial=0)) & (phasors.orders <= HIGHEST_ORDER_UNASKED)
+    )
 
 
 def with_only(engine: Engine, moving: ArrayLike) -> Engine:

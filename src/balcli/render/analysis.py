@@ -11,7 +11,8 @@ from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..forces.kinds import Kind
-from ..forces.spectrum import UNASKED, Spectra
+from ..forces.spectrum import Spectra
+from ..limits import HIGHEST_ORDER_UNASKED
 from ..results.analysis import Analysis, Sizing, Textbook, textbook
 from .devices import device_grid
 from .figures import Result, order_number, peak_deg, phase_deg
@@ -90,7 +91,10 @@ def facts(result: Analysis, system: System) -> Facts:
             ),
         ),
         ("masses", masses + unequal),
-        ("orders", f"to {UNASKED}; --orders asks for higher ones" if result.beyond else ""),
+        (
+            "orders",
+            f"to {HIGHEST_ORDER_UNASKED}; --orders asks for higher ones" if result.beyond else "",
+        ),
         ("reference", f"moments about x, y, z = {about} {length.name}"),
         ("devices", _counted(engine)),
         ("source", engine.source),
@@ -172,7 +176,7 @@ def _vectors(kind: Kind, phasors: Phasors, unit: Unit) -> Grid:
             abs(phasors.backward[k]),
         )
         largest, smallest, ahead, against = (number(unit.of(float(v))) for v in sizes)
-        return name, largest, smallest, degrees(float(phasors.axis_deg[k])), ahead, against
+        return name, largest, smallest, degrees(float(phasors.axis_deg[k]), 180), ahead, against
 
     return Grid(
         f"{capitalized(kind.label)} by order, {unit.name}",

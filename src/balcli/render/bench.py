@@ -10,7 +10,7 @@ from .sheet import Grid, Sheet, number
 if TYPE_CHECKING:
     from ..bench.bench import Bench, Row
 
-LEAST = 1e-17  # where a picture shows an error of 0
+ROUNDING = 1e-13  # errors below it are rounding, which a picture shows here
 
 
 def document(result: Bench) -> dict[str, Any]:
@@ -61,8 +61,8 @@ def sheet(result: Bench) -> Sheet:
 
 
 def error(row: Row) -> str:
-    """Two digits: more of a rounding error means nothing."""
-    return "–" if row.error is None else "0" if row.error == 0 else f"{row.error:.1e}"
+    """Two digits, where it is more than rounding."""
+    return "–" if row.error is None else "rounding" if row.error < ROUNDING else f"{row.error:.1e}"
 
 
 def draw(result: Bench) -> bytes:
@@ -74,7 +74,7 @@ def draw(result: Bench) -> bytes:
         for axes, task in zip(page.subplots(1, len(tasks), squeeze=False)[0], tasks, strict=True):
             points = [r for r in result.rows if r.task == task and r.error is not None]
             for r in points:
-                spot = r.seconds * 1e6, max(r.error or 0.0, LEAST)
+                spot = r.seconds * 1e6, max(r.error or 0.0, ROUNDING)
                 axes.plot(
                     *spot,
                     "o",

@@ -58,6 +58,9 @@ def number(value: float, digits: int = 5) -> str:
         return "–"
     if value == 0:
         return "0"
+    value = float(
+        f"{value:.12g}"
+    )  # the last digits, which are the machine's, decide to which side no half is rounded
     text = f"{value:.{digits}g}"
     if "e" not in text:
         return text
@@ -67,6 +70,13 @@ def number(value: float, digits: int = 5) -> str:
     return f"{mantissa}e{int(exponent)}"
 
 
-def degrees(value: float) -> str:
-    """An angle to a tenth of a degree, or a dash where there is none."""
-    return "–" if value != value else f"{value + 0.0:.1f}".replace("-0.0", "0.0")
+def degrees(value: float, turn: float = 360) -> str:
+    """An angle to a tenth of a degree, or a dash where there is none; of lines `turn` is 180.
+
+    Half a turn backwards is half a turn, and a whole turn none: which of both an angle is, and to
+    which side a half is rounded, would else be for its last digits to say.
+    """
+    if value != value:
+        return "–"
+    tenths = round(round(value, 6), 1) + 0.0
+    return f"{abs(tenths) if tenths == -turn / 2 else 0.0 if tenths == 360 else tenths:.1f}"

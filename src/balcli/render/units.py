@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from ..enginefile import units
 from ..forces.kinds import Kind
 
-POUND = 0.45359237  # kg, by definition (1959)
-INCH = 0.0254  # m, by definition (1959)
-POUND_FORCE = POUND * 9.80665  # N
+POUND, INCH = float(units.POUND), float(units.INCH)  # kg, m
+POUND_FORCE = POUND * units.STANDARD_GRAVITY  # N
 
 
 class Unit(NamedTuple):

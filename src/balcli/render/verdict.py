@@ -134,7 +134,7 @@ def _vector(k: int, order: int, found: _Found) -> str:
 
 def _direction(what: str, axis_deg: float) -> str:
     """A force acts along an axis, a moment about it."""
-    angle = degrees(axis_deg)
+    angle = degrees(axis_deg, 180)
     return (
         f"{'about' if what == 'moment' else 'along'} "
         f"{_AXES.get(angle) or f'an axis at {angle} deg'}"

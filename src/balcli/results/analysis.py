@@ -17,13 +17,13 @@ from ..engine.build import Engine
 from ..errors import BalcliError
 from ..forces.kinds import KINDS, SCALARS, VECTORS, Kind
 from ..forces.spectrum import (
-    UNASKED,
     Spectra,
     considerable,
     each,
     relevant_orders,
     spectra,
 )
+from ..limits import HIGHEST_ORDER, HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
 from ..sizing.auto import size_auto
 from ..sizing.remedy import Remedy, fit_devices
 
@@ -35,8 +35,6 @@ if TYPE_CHECKING:
 
 QUANTITIES = (*KINDS, "peak", "sizing")
 EXTRAS = ("inner", "guide")  # computed only when they are named
-HIGHEST = 4096  # order that may be asked for
-MOST_TOLD = 1 << 14  # cylinders x orders that are told one by one
 
 
 class Sizing(NamedTuple):
@@ -87,7 +85,7 @@ class Analysis:
     @property
     def beyond(self) -> bool:
         """Whether there may be orders above those that are shown unless they are asked for."""
-        return bool(relevant_orders(self.engine)[-1] > UNASKED)
+        return bool(relevant_orders(self.engine)[-1] > HIGHEST_ORDER_UNASKED)
 
     @property
     def of_one_cylinder(self) -> dict[str, float]:
@@ -121,7 +119,7 @@ def analyze(
         reasons: also why each order is balanced, or is not.
 
     Raises:
-        BalcliError: an unknown quantity, an order that is negative or above HIGHEST, too many
+        BalcliError: an unknown quantity, an order that is negative or above HIGHEST_ORDER, too many
         orders of too many cylinders.
     """
     wanted = set(QUANTITIES if only is None else only)
@@ -142,11 +140,12 @@ def analyze(
     everything = spectra(engine, whole, shown | curves)
     visible = everything.only(shown)
     visible = visible.at(shown_orders(visible) if asked is None else asked)
-    if by_cylinder and (apart := len(visible.orders) * len(engine.numbers)) > MOST_TOLD:
+    apart = len(visible.orders) * len(engine.numbers)
+    if by_cylinder and apart > MOST_RESULTS_BY_CYLINDER:
         raise BalcliError(
             f"by cylinder, {len(visible.orders)} orders of {len(engine.numbers)} cylinders are "
             f"{apart} results, and at most "
-            f"{MOST_TOLD} are told: ask for fewer orders"
+            f"{MOST_RESULTS_BY_CYLINDER} are told: ask for fewer orders"
         )
     peaks = {q: peak(everything[q]) for q in curves}
     return Analysis(
@@ -237,20 +236,20 @@ def _sized(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizi
 
 def checked_orders(orders: Iterable[float]) -> Array:
     """Orders that were asked for, ascending; BalcliError unless they are whole numbers up to
-    HIGHEST.
+    HIGHEST_ORDER.
     """
     asked = np.array(sorted(set(orders)), float)
-    if not len(asked) or asked[0] < 0 or asked[-1] > HIGHEST or (asked % 1).any():
+    if not len(asked) or asked[0] < 0 or asked[-1] > HIGHEST_ORDER or (asked % 1).any():
         raise BalcliError(
-            f"orders must be whole numbers from 0 to {HIGHEST}, not "
+            f"orders must be whole numbers from 0 to {HIGHEST_ORDER}, not "
             f"{', '.join(f'{n:g}' for n in asked[:8]) or 'none'}"
         )
     return asked
 
 
 def shown_orders(found: Spectra) -> Array:
-    """Orders to 2, and those up to UNASKED in which a quantity exceeds SHOWN of its own largest
-    order.
+    """Orders to 2, and those up to HIGHEST_ORDER_UNASKED in which a quantity exceeds SHOWN of its
+    own largest order.
     """
     due = found.orders <= 2
     for _, phasors in found.items():

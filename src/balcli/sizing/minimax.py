@@ -37,13 +37,16 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
     fitting = Fitting.start(engine, "minimax", 1)
     circle = enclosing_circle.enclosing(find_curve(fitting.engine, "force"))
     newtons_per_kg_m = float(engine.omega) ** 2
-    centred = abs(circle.centre) <= fitting.find_residual(1).noise[FORWARD_FORCE] * newtons_per_kg_m
+    noise = fitting.find_residual(1).noise[FORWARD_FORCE] * newtons_per_kg_m
+    centred = abs(circle.centre) <= max(noise, circle.noise)
+    nothing_gained = (
+        "no counterweight makes the largest force smaller than it is: "
+        f"{circle.radius:.5g} N, which has no part of order 1 turning with the crank"
+    )
     if centred and options.planes is None:
-        raise NothingToBalanceError(
-            "no counterweight makes the largest force smaller than it is: "
-            f"{circle.radius:.5g} N, which has no part of order 1 turning with the crank"
-        )
-    slots, unbalances = _split(engine, options, fitting, -circle.centre / newtons_per_kg_m)
+        raise NothingToBalanceError(nothing_gained)
+    unbalance = 0j if centred else -circle.centre / newtons_per_kg_m
+    slots, unbalances = _split(engine, options, fitting, unbalance)
     reason = (
         f"The largest force over a revolution, all orders, becomes {circle.radius:.5g} N: no "
         "weight on the crankshaft can make it smaller (smallest circle around the force as seen "
@@ -51,13 +54,14 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
     )
     fitting = fitting.add(slots, unbalances, reason)
     half = _find_peak_of_half(fitting.engine)
-    return fitting.note(
+    remedy = fitting.remedy.add_details(
         Detail("peak force", "force", circle.radius),
         Detail("reached", "angle", _as_degrees(circle.theta)),
-        Detail("relative error bound", "", _divide(circle.excess, circle.radius)),
+        Detail("relative error bound", "", circle.excess / circle.radius if circle.radius else 0.0),
         Detail("factor half peak", "force", half),
-        Detail("improvement", "", 1 - circle.radius / half if half else 0.0),
-    ).remedy
+        Detail("improvement", "", _find_gain(circle, half)),
+    )
+    return remedy if remedy.devices else remedy._replace(note=nothing_gained)
 
 
 def _split(
@@ -85,9 +89,12 @@ def _find_peak_of_half(engine: Engine) -> float:
 
 
 def _as_degrees(theta: ArrayLike) -> tuple[float, ...]:
-    """Crank angles in [0, 360)."""
-    return tuple(round(float(degrees), 9) % 360 for degrees in np.degrees(theta))
+    """Crank angles in [0, 360), ascending."""
+    return tuple(sorted(round(float(degrees), 9) % 360 for degrees in np.degrees(theta)))
 
 
-def _divide(value: float, by: float) -> float:
-    return value / by if by else 0.0
+def _find_gain(circle: enclosing_circle.Circle, half: float) -> float:
+    """The share by which the circle is smaller than the force `half`; 0 where they differ by
+    rounding.
+    """
+    return 1 - circle.radius / half if abs(half - circle.radius) > circle.noise else 0.0

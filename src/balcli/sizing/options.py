@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ..errors import BalcliError
+from ..limits import HIGHEST_SHAFT_ORDER
 from .schemes import KNUCKLES, NAMES, SCHEMES
-
-HIGHEST_ORDER = 1000  # that devices may be asked for
 
 
 class SchemeOptions(NamedTuple):
@@ -42,9 +41,10 @@ class SchemeOptions(NamedTuple):
             names = ", ".join(f"--{name}" for name in taken)
             has = f"it takes {names}" if taken else "it takes no options"
             raise BalcliError(f"scheme {scheme} has no --{strangers[0]}; {has}")
-        if self.order is not None and not 1 <= self.order <= HIGHEST_ORDER:
+        if self.order is not None and not 1 <= self.order <= HIGHEST_SHAFT_ORDER:
             raise BalcliError(
-                f"--order {self.order}: the order must be a whole number from 1 to {HIGHEST_ORDER}"
+                f"--order {self.order}: the order must be a whole number from 1 to "
+                f"{HIGHEST_SHAFT_ORDER}"
             )
         if self.roll not in (None, "zero"):
             raise BalcliError(f'--roll "{self.roll}": only "zero" can be asked for')

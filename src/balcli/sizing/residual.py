@@ -11,11 +11,10 @@ import numpy as np
 from ..core.phasors import Phasors
 from ..engine.build import Engine
 from ..forces.spectrum import spectra
+from ..limits import HIGHEST_ORDER_SOUGHT
 from .options import SchemeOptions
 
 Quantity = Literal["force", "moment", "roll"]
-
-HIGHEST_SEARCHED = 8  # order up to which a scheme looks for one that is not balanced
 
 
 class Part(NamedTuple):
@@ -139,13 +138,13 @@ def choose_residual(
 
 def _find_lowest(engine: Engine, quantity: Quantity, senses: Sequence[int]) -> Residual:
     """That of the lowest order at which something of this quantity is left."""
-    for order in range(1, HIGHEST_SEARCHED + 1):
+    for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
         residual = find_residual(engine, order)
         if residual.has(quantity, senses):
             return residual
     raise NothingToBalanceError(
-        f"there is no free {quantity}{_turning(senses)} of orders 1 to {HIGHEST_SEARCHED}: nothing "
-        "to balance; --order names a higher one"
+        f"there is no free {quantity}{_turning(senses)} of orders 1 to {HIGHEST_ORDER_SOUGHT}: "
+        "nothing to balance; --order names a higher one"
     )
 
 

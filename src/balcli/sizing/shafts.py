@@ -45,7 +45,7 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     left = fitting.find_residual(residual.order)
     fitting = fitting.note(
         Detail("couple left", "moment", left.size(BACKWARD_MOMENT)),
-        Detail("axial distance", "length", z - locate_force(residual, -1)),
+        Detail("axial distance", "length", _round_off(z - locate_force(residual, -1))),
         Detail("roll left", "moment", left.size(ROLL)),
     )
     if residual.order > 1:
@@ -70,3 +70,8 @@ def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
         Detail("moment left", "moment", left.size(FORWARD_MOMENT, BACKWARD_MOMENT)),
         Detail("force left", "force", left.size(FORWARD_FORCE, BACKWARD_FORCE)),
     ).remedy
+
+
+def _round_off(length: float) -> float:
+    """A length in m; less than a nanometre is rounding."""
+    return length if abs(length) > 1e-9 else 0.0

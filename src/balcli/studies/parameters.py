@@ -23,11 +23,11 @@ from ..enginefile.messages import DEVICES, TABLES
 from ..enginefile.model import EngineFile, Override, Table
 from ..enginefile.units import convert
 from ..errors import BalcliError
+from ..limits import MOST_PARAMETER_VALUES
 
 if TYPE_CHECKING:
     from ..engine.layout import Plan
 
-MOST = 1_000_000_000  # values of one parameter
 _EXACT = 2**53  # whole numbers below it are exact as floating-point numbers
 _FIGURE = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?")
 
@@ -166,10 +166,10 @@ def _values(text: str, number: Number) -> NDArray[np.float64]:
     if step == 0:
         raise ValueError("the step is 0; give the distance of neighbouring values")
     count = math.floor((last - first) / step) + 1
-    if not 0 < count <= MOST:
+    if not 0 < count <= MOST_PARAMETER_VALUES:
         raise ValueError(
             f"has {max(count, 0)} values; give a step that leads from the first to the last in at "
-            f"most {MOST:g} steps"
+            f"most {MOST_PARAMETER_VALUES:g} steps"
         )
     return ladder(first, step, count)
 

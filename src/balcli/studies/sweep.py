@@ -23,11 +23,11 @@ from ..enginefile.model import EngineFile
 from ..errors import BalcliError, InputError
 from ..forces import quantity
 from ..forces.quantity import Quantity, evaluate
+from ..limits import MOST_PICTURE_VARIANTS
 from .parameters import Parameter, parse, varied
 
 Array = NDArray[np.float64]
 Box = tuple[slice, ...]
-MOST_KEPT = 4_000_000
 CHUNK = 32_768  # variants at a time: few enough for the cache, enough for what they share
 
 
@@ -155,9 +155,10 @@ def grid(sweep: Sweep) -> list[Array]:
     Raises:
         BalcliError: too many variants to be kept in memory.
     """
-    if sweep.variants > MOST_KEPT:
+    if sweep.variants > MOST_PICTURE_VARIANTS:
         raise BalcliError(
-            f"{sweep.variants} variants are too many for one picture; {MOST_KEPT} are allowed"
+            f"{sweep.variants} variants are too many for one picture; "
+            f"{MOST_PICTURE_VARIANTS} are allowed"
         )
     found = zip(*(chunk.values for chunk in chunks(sweep)), strict=True)
     return [np.concatenate(parts).reshape(sweep.shape) for parts in found]

@@ -24,11 +24,12 @@ from ..enginefile.units import ANGLE
 from ..errors import BalcliError
 from ..forces.quantity import Quantity, evaluate
 from ..forces.spectrum import spectra
+from ..limits import MOST_TOLERANCE_SAMPLES
 
 Array = NDArray[np.float64]
 CHUNK = 8_192  # samples at a time
 AT_ONCE = 400_000  # deviations at a time, where there are many sources
-MOST = 20_000_000
+TOLD = 1e-8  # of the largest share: those that differ by less are equal
 STEP = 1e-3  # of a tolerance, for derivatives; masses act linearly, so that theirs are exact
 PERCENTILES = {"p05": 5.0, "p50": 50.0, "p95": 95.0}
 SPREADS = ("major", "forward", "backward", "amplitude")
@@ -141,8 +142,8 @@ def scatter(
             f"{strange[0]} has no scatter of its own; choose one of {', '.join(SPREADS)} of an "
             "order, such as force.1.major"
         )
-    if not 1 <= samples <= MOST:
-        raise BalcliError(f"{samples} samples: from 1 to {MOST} are allowed")
+    if not 1 <= samples <= MOST_TOLERANCE_SAMPLES:
+        raise BalcliError(f"{samples} samples: from 1 to {MOST_TOLERANCE_SAMPLES} are allowed")
     if file.layout.rotary:
         raise BalcliError(
             "there is no scatter of rotary engines, whose masses move on curves: vary single "
@@ -282,7 +283,10 @@ def _spread(crowd: _Crowd, q: Quantity, values: Array) -> Spread:
         for side in ("forward", "backward")
         if q.part in ("major", "amplitude", side)
     ]
-    slope = sum(_grown(v[0], d[0]) for v, d in sides)
+    noise = len(sides) * np.broadcast_to(change.noise, change.forward.shape)[0]
+    slope = np.asarray(sum(_grown(v[0], d[0]) for v, d in sides))
+    slope = np.where(np.abs(slope) <= noise, 0.0, slope)
+    unit = np.abs(slope).max(initial=0) * TOLD or 1.0
     bound = sum(float(np.abs(v).sum() + np.abs(d).sum()) for v, d in sides)
     shares = sorted(
         zip(
@@ -290,7 +294,7 @@ def _spread(crowd: _Crowd, q: Quantity, values: Array) -> Spread:
             (float(s) for s in np.broadcast_to(slope, len(crowd.sources))),
             strict=True,
         ),
-        key=lambda pair: -abs(pair[1]),
+        key=lambda pair: -round(abs(pair[1]) / unit),
     )
     percentiles = dict(
         zip(PERCENTILES, np.percentile(values, list(PERCENTILES.values())).tolist(), strict=True)

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..enginefile import units
+from ..enginefile.units import STANDARD_GRAVITY
 from .options import Options
 from .printed import Print
 from .table import Cell, Explanation, Row, Table
@@ -14,8 +16,8 @@ from .table import Cell, Explanation, Row, Table
 if TYPE_CHECKING:
     from ..engine.build import Engine
 
-POUND, FOOT, GRAVITY = 0.45359237, 0.3048, 9.80665  # kg, m (international, 1959), m/s^2 (standard)
-POUND_FORCE = POUND * GRAVITY
+POUND, FOOT = float(units.POUND), float(12 * units.INCH)  # kg, m
+POUND_FORCE = POUND * STANDARD_GRAVITY
 
 FIRST = """
 crank = { stroke = "4 in" }
@@ -86,7 +88,7 @@ def _acceleration(omega: float | None = None) -> float:
     return greatest if omega is None else greatest * (omega / engine.omega) ** 2
 
 
-def _second(gravity: float = GRAVITY) -> Row:
+def _second(gravity: float = STANDARD_GRAVITY) -> Row:
     """Section 1-4: hk, q^2, their difference, peak of beta''/p, residual couple in ft lb (all at 90
     degrees).
     """

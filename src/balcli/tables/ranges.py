@@ -7,9 +7,9 @@ from decimal import Decimal
 from fractions import Fraction
 
 from ..errors import BalcliError
+from ..limits import LARGEST_TABLE_VALUE, MOST_TABLE_VALUES
 from .printed import number
 
-MOST, LARGEST = 100_000, 10**9
 _PLAIN = re.compile(r"[-+.\d/]{1,30}(e-?\d{1,2})?", re.IGNORECASE)
 
 
@@ -53,7 +53,7 @@ def _exact(text: str) -> tuple[str, Fraction]:
     if not _PLAIN.fullmatch(text.strip()):
         raise ValueError(text)
     value = number(text)
-    if abs(value) > LARGEST:
+    if abs(value) > LARGEST_TABLE_VALUE:
         raise ValueError(text)
     return text.strip(), value
 
@@ -67,7 +67,7 @@ def _run(
         return [start[0]]
     stride = step[1] if step else Fraction(1)
     count = (stop[1] - start[1]) / stride
-    if not 0 <= count < MOST:
+    if not 0 <= count < MOST_TABLE_VALUES:
         raise ValueError(count)
     return [_heading(start[1] + i * stride) for i in range(int(count) + 1)]
 

@@ -32,7 +32,7 @@ from .harmonics import (
 )
 
 STEPS = 1440  # crank angles that do not miss a lock
-FEWEST, MOST = 64, 1 << 18  # samples
+FEWEST_SAMPLES, MOST_SAMPLES = 64, 1 << 18
 _AT_ONCE = 1 << 16  # cylinders x angles of figures by themselves
 
 
@@ -181,14 +181,14 @@ class Linkage(ABC):
         """A revolution on as many points (a power of two) as leave neither alias nor tail above
         rounding.
         """
-        count = FEWEST
+        count = FEWEST_SAMPLES
         while True:
             motion = self.motion(circle(count), lam, eps)
             rod = (
                 _resolved(samples, motion.condition)
                 for samples in (motion.acceleration, motion.spin_rate)
             )
-            if count >= MOST or (all(rod) and _resolved(motion.acceleration_of_mass)):
+            if count >= MOST_SAMPLES or (all(rod) and _resolved(motion.acceleration_of_mass)):
                 return motion
             count *= 2
 

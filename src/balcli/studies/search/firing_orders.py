@@ -18,9 +18,7 @@ from itertools import islice
 from ...engine.firing import TOLERANCE
 from ...engine.layout import Cell
 from ...errors import BalcliError
-
-MOST = 200_000
-MOST_CYLINDERS = 64
+from ...limits import MOST_CYLINDERS_FIRED, MOST_EVEN_CRANKS
 
 
 @dataclass(frozen=True)
@@ -41,10 +39,10 @@ class Slots:
     sense: int = 1
 
     def __post_init__(self) -> None:
-        if len(self.cells) > MOST_CYLINDERS:
+        if len(self.cells) > MOST_CYLINDERS_FIRED:
             raise BalcliError(
                 f"{len(self.cells)} cylinders are too many to look for firing orders; up to "
-                f"{MOST_CYLINDERS} are allowed"
+                f"{MOST_CYLINDERS_FIRED} are allowed"
             )
 
     def cranks(self) -> list[tuple[float, ...]]:
@@ -52,7 +50,7 @@ class Slots:
         throw at 0.
 
         Raises:
-            BalcliError: more than MOST.
+            BalcliError: more than MOST_EVEN_CRANKS.
         """
         fixed = next(c.throw for c in self.cells if c.number == 1)
         found = list(
@@ -60,13 +58,13 @@ class Slots:
                 self._cranks(
                     {}, [fixed, *({c.throw for c in self.cells} - {fixed})], Counter(self._slots)
                 ),
-                MOST + 1,
+                MOST_EVEN_CRANKS + 1,
             )
         )
-        if len(found) > MOST:
+        if len(found) > MOST_EVEN_CRANKS:
             raise BalcliError(
-                f"more than {MOST} cranks of {len(self.cells)} cylinders have even firing orders; "
-                "give crank.throws, or search over throws"
+                f"more than {MOST_EVEN_CRANKS} cranks of {len(self.cells)} cylinders have even "
+                "firing orders; give crank.throws, or search over throws"
             )
         return found
 

@@ -11,6 +11,7 @@ from typing import Literal as OneOf
 import numpy as np
 from numpy.typing import NDArray
 
+from ...engine.arrays import ranked
 from ...engine.build import Engine, build, tops
 from ...engine.firing import TOLERANCE
 from ...engine.layout import cycle, plan
@@ -242,7 +243,7 @@ def _figures(file: EngineFile, candidates: Candidates, objective: Objective) -> 
     )
     values = {q: np.broadcast_to(v, count) for q, v in values.items()}
     total = np.broadcast_to(objective.of(values.__getitem__), count)
-    for k in np.argsort(total, kind="stable"):
+    for k in np.argsort(ranked(total), kind="stable"):
         if np.isfinite(total[k]):
             arrangement = {key: column[k].tolist() for key, column in candidates.items()}
             yield Found(

@@ -14,17 +14,18 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from ...engine.arrays import ranked
 from ...engine.layout import plan
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
 from ...forces.quantity import Quantity
+from ...limits import MOST_ARRANGEMENTS
 from .objective import Objective
 from .throw_contributions import Array, Complex, Key, Share, shares
 
 Indices = NDArray[np.int8]
 Allowed = Callable[[Array], NDArray[np.bool_]]
 Left = tuple[int, ...]  # how often each angle is still to be given
-MOST = 10**10  # arrangements; branch and bound tries few of them
 BLOCK = 7  # throws of which all arrangements are tried at a time (7! = 5040)
 
 
@@ -38,13 +39,13 @@ def best(
         allowed: which of some arrangements (shape (candidates, throws)) may be; None: all.
 
     Raises:
-        BalcliError: more than MOST.
+        BalcliError: more than MOST_ARRANGEMENTS.
     """
     given = np.mod(np.asarray(file.crank.throws, float), 360.0)
-    if _count(given) > MOST:
+    if _count(given) > MOST_ARRANGEMENTS:
         raise BalcliError(
-            f"crank.throws: {len(given)} throws can be arranged in more than {MOST:g} ways, too "
-            "many to search"
+            f"crank.throws: {len(given)} throws can be arranged in more than "
+            f"{MOST_ARRANGEMENTS:g} ways, too many to search"
         )
     fixed = next(c.throw for c in plan(file.crank, file.layout).cells if c.number == 1)
     free = [t for t in range(len(given)) if t != fixed]
@@ -169,6 +170,7 @@ class _Tree:
         values = self._objective.of(
             lambda q: self._table[q.kind, q.order].value(q, *sums[q.kind, q.order])
         )
+        values = ranked(values)  # of equal arrangements the first are kept
         good = np.flatnonzero(values < self._found.worst)
         if self._allowed is not None and len(good):
             good = good[self._allowed(self._whole(rows[good]))]

@@ -1,0 +1,297 @@
+"""A rigid body on mounts: its stiffness, statics, natural modes and forced vibration.
+
+Motion is six numbers about the centre of gravity along the engine's axes: displacement x, y, z (m)
+and rotation about x, y, z (rad). Loads match: forces (N) and moments about the centre of gravity
+(N m). By order both are complex, frequencies in rad/s of any shape; see `vibration`.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .singular_values import Complex, Real
+from .vibration import Modes, find_modes, solve_response
+
+_FREE = 1e-9  # singular values below this share of the largest mean a motion that nothing holds
+
+
+class Body(NamedTuple):
+    """A rigid body.
+
+    Attributes:
+        mass: kg.
+        centre: (3,) centre of gravity, m.
+        inertia: (3, 3) tensor about it, kg m2, as a matrix: products of inertia stand with minus.
+    """
+
+    mass: float
+    centre: Real
+    inertia: Real
+
+
+class Mounts(NamedTuple):
+    """Springs along three axes each, that hold a body to the ground.
+
+    Attributes:
+        at: (mounts, 3) m, in the axes and from the origin of the body's centre.
+        axes: (mounts, 3, 3), columns: the mount's own axes.
+        stiffness: (mounts, 3) N/m along these, static or dynamic, as what is computed wants it.
+        loss: (mounts, 3) loss factors.
+        damping: (mounts, 3) N s/m.
+    """
+
+    at: Real
+    axes: Real
+    stiffness: Real
+    loss: Real
+    damping: Real
+
+
+class Screw(NamedTuple):
+    """A small motion of a rigid body as a turn about a line, with a slide along it.
+
+    Attributes:
+        direction: (3,) unit vector of the line, or of the displacement where nothing turns.
+        point: (3,) of the line, the one closest to the centre of gravity, m; None: nothing turns.
+        pitch: slide for each rad, m.
+    """
+
+    direction: Real
+    point: Real | None
+    pitch: float
+
+
+class ElasticCentre(NamedTuple):
+    """Where forces move a body with the least turning.
+
+    Attributes:
+        point: (3,) m.
+        offset: largest moment about this point, for each N of the spring force of any displacement,
+            N m/N; 0: displacements and turns about it are independent.
+    """
+
+    point: Real
+    offset: float
+
+
+class Settled(NamedTuple):
+    """A body at rest under a load.
+
+    Attributes:
+        motion: (6,) of its centre of gravity.
+        forces: (mounts, 3) of the body on its mounts, N, along the engine's axes.
+        travel: (mounts, 3) of its mounting points, m.
+    """
+
+    motion: Real
+    forces: Real
+    travel: Real
+
+
+class BodyResponse(NamedTuple):
+    """Forced vibration.
+
+    Attributes:
+        motion: (*frequency, 6) of the centre of gravity.
+        forces: (*frequency, mounts, 3) of the body on its mounts, N, along the engine's axes.
+    """
+
+    motion: Complex
+    forces: Complex
+
+
+# ------------------------------------------------------------------ geometry
+def cross_matrix(vectors: ArrayLike) -> Real:
+    """(..., 3, 3) with `cross_matrix(a) @ b = a x b`, of vectors (..., 3)."""
+    return np.cross(np.eye(3), np.asarray(vectors, float)[..., None, :])
+
+
+def complete_axes(first: ArrayLike, second: ArrayLike) -> Real:
+    """(3, 3), columns: unit vectors along two perpendicular axes of any length and the third by the
+    right-hand rule.
+    """
+    one, two = (np.asarray(axis) / np.linalg.norm(axis) for axis in (first, second))
+    return np.stack([one, two, np.cross(one, two)], axis=1)
+
+
+def turn_axes(about_x: float, about_y: float, about_z: float) -> Real:
+    """(3, 3), columns: axes turned by these angles (rad) about x, then y, then z: `Rz Ry Rx`."""
+
+    def turn(angle: float, axis: int) -> Real:
+        one, two = (axis + 1) % 3, (axis + 2) % 3
+        result = np.eye(3)
+        result[one, one] = result[two, two] = np.cos(angle)
+        result[two, one] = np.sin(angle)
+        result[one, two] = -np.sin(angle)
+        return result
+
+    return turn(about_z, 2) @ turn(about_y, 1) @ turn(about_x, 0)
+
+
+def carry_points(points: ArrayLike, centre: ArrayLike) -> Real:
+    """(points, 3, 6): displacement of points of the body for a unit of each of its motions,
+    `[1, -(p - c) x]`. Transposed, it makes a load of forces at the points.
+    """
+    arms = np.atleast_2d(np.asarray(points, float)) - np.asarray(centre, float)
+    still = np.broadcast_to(np.eye(3), (len(arms), 3, 3))
+    return np.concatenate([still, -cross_matrix(arms)], axis=-1)
+
+
+def move_points(points: ArrayLike, centre: ArrayLike, motion: Complex) -> Complex:
+    """Displacement (..., points, 3) of points (points, 3) of a body that moves by (..., 6)."""
+    return np.einsum("pij,...j->...pi", carry_points(points, centre), motion)
+
+
+def load_at_centre(
+    force: Complex, moment: Complex, reference: ArrayLike, centre: ArrayLike
+) -> Complex:
+    """The load (..., 6) of a force (..., 3) through a reference point and a moment (..., 3) about
+    it: about the centre of gravity the moment is `M + (reference - centre) x F`.
+    """
+    arm = np.asarray(reference, float) - np.asarray(centre, float)
+    return np.concatenate([force, moment + np.cross(arm, force)], axis=-1)
+
+
+def real_axes(forward: Complex, backward: Complex) -> tuple[Complex, Complex]:
+    """Components along x and along y, of which the real parts of `c e^{i n t}` count, of a vector x
+    + iy that is `forward e^{i n t} + backward e^{-i n t}`.
+    """
+    return forward + backward.conj(), -1j * (forward - backward.conj())
+
+
+def find_screw(motion: Real, centre: ArrayLike) -> Screw:
+    """The line about which a small motion (6,) of a body turns it."""
+    shift, turn = motion[:3], motion[3:]
+    if np.linalg.norm(turn) <= _FREE * np.linalg.norm(shift):
+        return Screw(_direction(shift), None, 0.0)
+    square = float(turn @ turn)
+    point = np.asarray(centre, float) + np.cross(turn, shift) / square
+    return Screw(_direction(turn), point, float(turn @ shift) / square)
+
+
+def _direction(vector: Real) -> Real:
+    """The unit vector whose largest component is positive."""
+    largest = vector[np.argmax(np.abs(vector))]
+    return vector / np.copysign(np.linalg.norm(vector), largest)
+
+
+# ------------------------------------------------------------------ matrices
+def mass_matrix(body: Body) -> Real:
+    """(6, 6) about the centre of gravity: kg, kg m2."""
+    result = np.zeros((6, 6))
+    result[:3, :3] = body.mass * np.eye(3)
+    result[3:, 3:] = body.inertia
+    return result
+
+
+def stretch_mounts(body: Body, mounts: Mounts) -> Real:
+    """(mounts, 3, 6): travel of every mount along its own axes for a unit of each motion."""
+    return np.swapaxes(mounts.axes, 1, 2) @ carry_points(mounts.at, body.centre)
+
+
+def stiffness_matrix(body: Body, mounts: Mounts) -> Complex:
+    """(6, 6) about the centre of gravity, complex where mounts have loss."""
+    travel = stretch_mounts(body, mounts).reshape(-1, 6)
+    complex_stiffness = (mounts.stiffness * (1 + 1j * mounts.loss)).reshape(-1)
+    return np.asarray((travel.T * complex_stiffness) @ travel, complex)
+
+
+def damping_matrix(body: Body, mounts: Mounts) -> Real:
+    """(6, 6) about the centre of gravity, of the dashpots."""
+    travel = stretch_mounts(body, mounts).reshape(-1, 6)
+    return (travel.T * mounts.damping.reshape(-1)) @ travel
+
+
+# ------------------------------------------------------------------ properties
+def find_free_motions(body: Body, mounts: Mounts) -> Real:
+    """(count, 6): independent motions that no mount holds, each as simple as can be: displacements
+    first, then turns. Empty for a body that is held.
+    """
+    springs = np.sqrt(mounts.stiffness)[..., None] * stretch_mounts(body, mounts)
+    root = np.linalg.cholesky(mass_matrix(body))
+    held = np.linalg.solve(root, springs.reshape(-1, 6).T).T
+    _, values, rows = np.linalg.svd(np.concatenate([held, np.zeros((6, 6))]))
+    free = rows[values <= _FREE * max(values[0], np.finfo(float).tiny)]
+    motions = np.linalg.solve(root.T, free.T).T
+    turns, sizes, _ = np.linalg.svd(motions[:, 3:])
+    sizes = np.append(sizes, np.zeros(len(motions)))[: len(motions)]
+    return (turns.T @ motions)[np.argsort(sizes, kind="stable")]
+
+
+def find_body_modes(body: Body, mounts: Mounts) -> Modes:
+    """Six natural modes without damping, of a body that is held in every way; shapes (6, 6) about
+    the centre of gravity.
+    """
+    travel = stretch_mounts(body, mounts).reshape(-1, 6)
+    stiff = mounts.stiffness.reshape(-1) > 0
+    return find_modes(travel[stiff], mounts.stiffness.reshape(-1)[stiff], mass_matrix(body))
+
+
+def share_energy(modes: Modes, body: Body) -> Real:
+    """(modes, 6): share of each mode's kinetic energy in each motion, `x_i (M x)_i`; sums are 1.
+    Products of inertia may make some of them negative.
+    """
+    return modes.shapes * (modes.shapes @ mass_matrix(body))
+
+
+def roll_axis(body: Body, crank: ArrayLike = (0.0, 0.0, 1.0)) -> Real:
+    """(3,) unit vector of the axis through the centre of gravity about which a torque about the
+    crankshaft turns a body that nothing holds.
+    """
+    axis = np.linalg.solve(body.inertia, np.asarray(crank, float))
+    return axis / np.linalg.norm(axis)
+
+
+def elastic_centre(stiffness: Real, centre: ArrayLike) -> ElasticCentre:
+    """Of a stiffness (6, 6) about the centre of gravity: the point about which the spring forces of
+    pure displacements have the least moments, in mean square over the directions of a unit force.
+
+    A displacement u takes the force `K_uu u` and the moment `K_ru u` = `N F`; a force at p has the
+    moment `p x F`, so that p is the antisymmetric part of N, and the rest is what no point mends.
+    """
+    moments = np.linalg.solve(stiffness[:3, :3].T, stiffness[3:, :3].T).T
+    skew, rest = (moments - moments.T) / 2, (moments + moments.T) / 2
+    arm = np.array([skew[2, 1], skew[0, 2], skew[1, 0]])
+    offset = float(np.abs(np.linalg.eigvalsh(rest)).max())
+    return ElasticCentre(np.asarray(centre, float) + arm, offset)
+
+
+# ------------------------------------------------------------------ loads
+def settle_body(body: Body, mounts: Mounts, load: Real) -> Settled:
+    """Statics of a body that is held in every way, under a steady load (6,), without loss."""
+    travel = stretch_mounts(body, mounts)
+    springs = np.sqrt(mounts.stiffness)[..., None] * travel
+    stiffness = springs.reshape(-1, 6).T @ springs.reshape(-1, 6)
+    motion = np.linalg.solve(stiffness, load)
+    own = mounts.stiffness * (travel @ motion)
+    forces = (mounts.axes @ own[..., None])[..., 0]
+    return Settled(motion, forces, carry_points(mounts.at, body.centre) @ motion)
+
+
+def respond_body(body: Body, mounts: Mounts, frequency: ArrayLike, load: Complex) -> BodyResponse:
+    """Steady vibration of a body under harmonic loads.
+
+    Args:
+        frequency: w (rad/s), any shape, commonly (orders, speeds).
+        load: that broadcasts to (*frequency, 6).
+
+    Raises:
+        UndampedResonanceError: a load drives an undamped mode at its own frequency.
+    """
+    w = np.asarray(frequency, float)
+    stiffness, damping = stiffness_matrix(body, mounts), damping_matrix(body, mounts)
+    motion = solve_response(stiffness, damping, mass_matrix(body), w, load)
+    return BodyResponse(motion, press_mounts(body, mounts, w, motion))
+
+
+def press_mounts(body: Body, mounts: Mounts, frequency: ArrayLike, motion: Complex) -> Complex:
+    """Forces (*frequency, mounts, 3) of a body that moves by (*frequency, 6) on its mounts, along
+    the engine's axes.
+    """
+    w = np.asarray(frequency, float)[..., None, None]
+    own = (motion @ stretch_mounts(body, mounts).reshape(-1, 6).T).reshape(*w.shape[:-2], -1, 3)
+    own = (mounts.stiffness * (1 + 1j * mounts.loss) + 1j * w * mounts.damping) * own
+    return (mounts.axes @ own[..., None])[..., 0]

@@ -1,0 +1,212 @@
+"""Inertias on shafts and gears: what a torsional chain is, and how its nodes hang together.
+
+A chain is a tree of nodes joined by shafts. A shaft from one node to another twists by `ratio
+x_start - x_end`: its stiffness counts in the speed of its end, and a gear ratio other than 1 means
+a mesh at its start. A mesh alone is a shaft that is rigid (stiffness inf). Loops are allowed, where
+power is split.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .singular_values import Complex, Real
+
+Indices = NDArray[np.intp]
+
+_SAME_RATIO = 1e-9  # two ways round a loop of gears that differ by less turn alike
+
+
+class Shaft(NamedTuple):
+    """A shaft between two nodes (their indices), N m/rad in the speed of its end; inf: rigid."""
+
+    start: int
+    end: int
+    stiffness: float
+    ratio: float = 1.0
+
+
+class Pieces(NamedTuple):
+    """Nodes that turn together, piece by piece.
+
+    Attributes:
+        first: (nodes,) the first node of the piece that each belongs to.
+        pace: (nodes,) speed of each over that of this first node.
+        locked: (nodes,) whether a loop of the piece has ratios that contradict each other.
+    """
+
+    first: Indices
+    pace: Real
+    locked: NDArray[np.bool_]
+
+
+class Chain(NamedTuple):
+    """Nodes and shafts as arrays.
+
+    Attributes:
+        inertia: (nodes,) kg m2; 0: massless.
+        start, end: (shafts,) nodes that each shaft joins.
+        ratio: (shafts,) speed of the end over that of the start.
+        stiffness: (shafts,) N m/rad in the speed of the end; inf: a mesh of gears.
+        clamped: (nodes,) which are held.
+    """
+
+    inertia: Real
+    start: Indices
+    end: Indices
+    ratio: Real
+    stiffness: Real
+    clamped: NDArray[np.bool_]
+
+
+class Damping(NamedTuple):
+    """Where a chain loses energy, beside the dampers that are given as complex inertias.
+
+    Attributes:
+        loss: (shafts,) loss factors: stiffness k (1 + i loss).
+        dashpots: (shafts,) N m s/rad, parallel to each shaft.
+        nodes: (nodes,) N m s/rad, against ground.
+    """
+
+    loss: Real
+    dashpots: Real
+    nodes: Real
+
+
+class ChainMatrices(NamedTuple):
+    """Equations of motion of the independent angles.
+
+    Attributes:
+        stiffness, damping, mass: (dof, dof), stiffness complex where shafts have loss.
+        follow: (nodes, dof), every node's angle for a unit of each independent one.
+    """
+
+    stiffness: Complex
+    damping: Real
+    mass: Real
+    follow: Real
+
+
+class Branch(NamedTuple):
+    """A node that hangs on another by a shaft, which twists by `near x_child + far x_parent`."""
+
+    child: int
+    parent: int
+    shaft: int
+    near: float
+    far: float
+
+
+def join_chain(inertia: ArrayLike, shafts: Iterable[Shaft], clamped: Sequence[int] = ()) -> Chain:
+    """The chain of nodes with these moments of inertia (kg m2, 0: massless), joined by shafts. What
+    meshes with a clamped node is clamped, too.
+
+    Raises:
+        ValueError: meshes of gears that form a loop and cannot turn; massless nodes that turn
+            freely. Whether all nodes hang together, `find_pieces` tells.
+    """
+    table = np.array(list(shafts), float).reshape(-1, len(Shaft._fields))
+    start, end = table[:, 0].astype(np.intp), table[:, 1].astype(np.intp)
+    j = np.asarray(inertia, float)
+    held = np.isin(np.arange(len(j)), clamped)
+    chain = Chain(j, start, end, table[:, 3], table[:, 2], held)
+    meshes = find_pieces(chain, np.isinf(chain.stiffness))
+    chain = chain._replace(clamped=np.isin(meshes.first, meshes.first[held]))
+    if np.any(meshes.locked):
+        raise ValueError(f"the gears at node {int(np.argmax(meshes.locked))} lock each other")
+    for motion in rigid_motions(chain):
+        if not np.any(j[motion != 0]):
+            raise ValueError(f"massless node {int(np.argmax(motion != 0))} turns freely")
+    return chain
+
+
+def find_pieces(chain: Chain, shafts: NDArray[np.bool_] | None = None) -> Pieces:
+    """Which nodes hang together by some of the shafts (shafts,), or by all."""
+    count = len(chain.inertia)
+    first, pace, locked = np.full(count, -1), np.ones(count), np.zeros(count, bool)
+    joined = _neighbours(chain, np.ones(len(chain.start), bool) if shafts is None else shafts)
+    for node in range(count):
+        if first[node] >= 0:
+            continue
+        first[node], reached = node, [node]
+        for here in reached:
+            for there, shaft in joined[here]:
+                ratio = chain.ratio[shaft] if chain.end[shaft] == there else 1 / chain.ratio[shaft]
+                if first[there] < 0:
+                    first[there], pace[there] = node, pace[here] * ratio
+                    reached.append(there)
+                elif abs(pace[there] - pace[here] * ratio) > _SAME_RATIO * abs(pace[there]):
+                    locked[node] = True
+    return Pieces(first, pace, locked[first])
+
+
+def _neighbours(chain: Chain, shafts: NDArray[np.bool_]) -> list[list[tuple[int, int]]]:
+    """For every node the (node, shaft) it is joined to by some of the shafts."""
+    joined: list[list[tuple[int, int]]] = [[] for _ in chain.inertia]
+    for shaft in np.flatnonzero(shafts).tolist():
+        start, end = int(chain.start[shaft]), int(chain.end[shaft])
+        joined[start].append((end, shaft))
+        joined[end].append((start, shaft))
+    return joined
+
+
+def rigid_motions(chain: Chain) -> Real:
+    """(count, nodes): the angles of nodes that turn together without twisting a shaft, 1 at the
+    first of them; one row for each piece that can.
+    """
+    pieces = find_pieces(chain, chain.stiffness > 0)
+    stopped = np.unique(pieces.first[chain.clamped | pieces.locked])
+    free = np.setdiff1d(pieces.first, stopped)
+    return np.where(pieces.first == free[:, None], pieces.pace, 0)
+
+
+def incidence(chain: Chain) -> Real:
+    """(shafts, nodes): twist of every shaft for a unit angle of each node."""
+    rows = np.zeros((len(chain.start), len(chain.inertia)))
+    each = np.arange(len(chain.start))
+    rows[each, chain.start] = chain.ratio
+    rows[each, chain.end] -= 1
+    return rows
+
+
+def follow_gears(chain: Chain) -> tuple[Real, Indices]:
+    """Every node's angle for a unit of each independent one (nodes, dof), and the nodes (dof,)
+    whose angles these are: of nodes joined by meshes the first; none of clamped ones.
+    """
+    meshes = find_pieces(chain, np.isinf(chain.stiffness))
+    independent = np.unique(meshes.first[~chain.clamped])
+    return np.where(meshes.first[:, None] == independent, meshes.pace[:, None], 0), independent
+
+
+def chain_matrices(chain: Chain, damping: Damping) -> ChainMatrices:
+    """Stiffness, damping and mass of the independent angles."""
+    follow, _ = follow_gears(chain)
+    elastic = np.isfinite(chain.stiffness)
+    twist = (incidence(chain) @ follow)[elastic]
+    stiffness = chain.stiffness[elastic] * (1 + 1j * damping.loss[elastic])
+    return ChainMatrices(
+        np.asarray((twist.T * stiffness) @ twist, complex),
+        twist.T @ (damping.dashpots[elastic, None] * twist) + (follow.T * damping.nodes) @ follow,
+        (follow.T * chain.inertia) @ follow,
+        follow,
+    )
+
+
+def grow_branches(chain: Chain, roots: Sequence[int], shafts: NDArray[np.bool_]) -> list[Branch]:
+    """The branches from these roots outward, along some of the shafts."""
+    joined = _neighbours(chain, shafts)
+    reached, branches, grown = list(roots), [], set(roots)
+    for parent in reached:
+        for child, shaft in joined[parent]:
+            if child in grown:
+                continue
+            ratio = float(chain.ratio[shaft])
+            near, far = (-1.0, ratio) if chain.end[shaft] == child else (ratio, -1.0)
+            branches.append(Branch(child, parent, shaft, near, far))
+            reached.append(child)
+            grown.add(child)
+    return branches

@@ -1,0 +1,106 @@
+"""Natural modes of torsional chains, and what they say about excitation and loss."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .singular_values import Complex, Real
+from .torsional_chain import (
+    Chain,
+    Damping,
+    Indices,
+    follow_gears,
+    grow_branches,
+    incidence,
+    rigid_motions,
+)
+from .vibration import Modes, find_modes
+
+_AT_REST = 1e-9  # a node that moves less than this share of the largest counts as at rest
+
+
+def find_chain_modes(chain: Chain) -> Modes:
+    """Natural modes with shapes (modes, nodes), of unit modal mass; each frequency is good to about
+    1e-15 of itself, a rigid motion has exactly 0. Massless nodes add no mode.
+    """
+    follow, independent = follow_gears(chain)
+    mass = chain.inertia @ follow**2
+    elastic = np.isfinite(chain.stiffness) & (chain.stiffness > 0)
+    heavy = mass > 0
+    springs, stiffness, carried = _condense(
+        (incidence(chain) @ follow)[elastic], chain.stiffness[elastic], np.flatnonzero(~heavy)
+    )
+    rigid = rigid_motions(chain)[:, independent][:, heavy]
+    modes = find_modes(springs[:, heavy], stiffness, mass[heavy], rigid)
+    shapes = np.zeros((len(modes.omega), len(mass)))
+    shapes[:, heavy] = modes.shapes
+    for dof, by_others in reversed(carried):
+        shapes[:, dof] = shapes @ by_others
+    return Modes(modes.omega, shapes @ follow.T, modes.rigid)
+
+
+def _condense(
+    springs: Real, stiffness: Real, massless: Indices
+) -> tuple[Real, Real, list[tuple[int, Real]]]:
+    """Springs (springs, dof) and stiffness (springs,) without the massless degrees of freedom, and
+    how each of those follows the ones that are left after it: (dof, (dof,)).
+
+    A star of springs k_i that meet becomes a spring `k_i k_j/sum k` between any two of its ends
+    (Lagrange's identity): sums of positive terms alone, so that nothing cancels.
+    """
+    carried = []
+    for dof in massless.tolist():
+        meet = springs[:, dof] != 0
+        a, k, ends = springs[meet, dof], stiffness[meet], springs[meet].copy()
+        ends[:, dof] = 0
+        total = (k * a) @ a
+        carried.append((dof, -(k * a) @ ends / total))
+        i, j = np.triu_indices(len(a), 1)
+        between = a[j, None] * ends[i] - a[i, None] * ends[j]
+        springs = np.concatenate([springs[~meet], between])
+        stiffness = np.concatenate([stiffness[~meet], k[i] * k[j] / total])
+    return springs, stiffness, carried
+
+
+def chain_loss(
+    chain: Chain, damping: Damping, modes: Modes, attached: Complex | float = 0.0
+) -> Real:
+    """Loss factor (modes,) of every mode, energy lost in a cycle over 2 pi times the energy that
+    swings; rigid modes have 0.
+
+    Args:
+        attached: complex inertias (modes, nodes) of dampers at the modes' own frequencies, or one
+            that broadcasts.
+    """
+    elastic = np.isfinite(chain.stiffness)
+    twist = (modes.shapes @ incidence(chain)[elastic].T) ** 2
+    moved = modes.shapes**2
+    loss = chain.stiffness[elastic] * damping.loss[elastic]
+    lost = twist @ loss - modes.omega**2 * np.sum(
+        np.asarray(attached, complex).imag * moved, axis=1
+    )
+    lost += modes.omega * (twist @ damping.dashpots[elastic] + moved @ damping.nodes)
+    return np.where(modes.omega > 0, lost / np.where(modes.omega > 0, modes.omega, 1) ** 2, 0)
+
+
+def count_nodes(chain: Chain, shape: Real) -> int:
+    """Shafts whose ends move oppositely in a mode (nodes,). A node at rest counts as moving like
+    the one before it.
+    """
+    sign = np.where(np.abs(shape) > _AT_REST * np.abs(shape).max(), np.sign(shape), 0)
+    moving = sign != 0
+    for branch in grow_branches(chain, [int(np.argmax(moving))], chain.stiffness > 0):
+        if not moving[branch.child]:
+            sign[branch.child] = -sign[branch.parent] * np.sign(branch.far * branch.near)
+    opposite = sign[chain.end] * sign[chain.start] * np.sign(chain.ratio) < 0
+    return int(np.count_nonzero(opposite & np.isfinite(chain.stiffness) & (chain.stiffness > 0)))
+
+
+def sum_phases(shapes: Real, orders: ArrayLike, firing: ArrayLike) -> Complex:
+    """Phase vectors (orders, modes): `sum over cylinders of shape e^{-i n f}`, of mode shapes
+    (modes, cylinders) and firing angles f (cylinders,) in rad. Equal torques t_n do the work `pi
+    |t_n S|` in a cycle of vibration of unit amplitude.
+    """
+    turned = np.exp(-1j * np.multiply.outer(np.asarray(orders, float), np.asarray(firing, float)))
+    return turned @ shapes.T

@@ -1,0 +1,55 @@
+"""Every "at most" that a user can run into, with its reason.
+
+All are far beyond any engine. They are there so that whatever is fed to balcli ends soon, in little
+memory, as a result or as a message that names the limit. What only steers a method (samples of a
+search, results computed at a time) stands beside the method.
+"""
+
+# Text of an engine file ----------------------------------------------------------------------
+LARGEST_FILE_BYTES = 6_000_000  # no more is ever read, from a device without end either
+MOST_TOML_MARKS = 180_000  # of "[", "{", ".", ",", "=": each stands for up to 1 kB in tomllib
+DEEPEST_KEY = 32  # parts of a dotted key: the memory of tomllib grows with their square
+LONGEST_NAME = 200  # characters; the name stands in every line of a CSV
+LONGEST_FIGURE = 100  # characters of a number with its unit: no regular expression sees more
+LONGEST_SHOWN = 60  # characters of a value that a message repeats: it stays one line
+MOST_MISTAKES_SHOWN = 20  # of one file: they stay on the screen
+
+# What an engine may have ---------------------------------------------------------------------
+MOST_PARTS = 1000  # cylinders, devices of a kind: still quick to analyse
+MOST_LIST_VALUES = 10_000  # of a list, and the largest number of a bank, a cylinder, an order
+MOST_KEY_VALUES = 2 * MOST_LIST_VALUES  # inner lists included: millions would be refused one by one
+HIGHEST_RIPPLE_ORDER = 256  # every order of the engine reaches that much further
+MOST_RIPPLES = 256  # orders of the uneven speed: as many as there are
+HIGHEST_SHAFT_ORDER = 1000  # of a balancer shaft: the orders computed reach up to it
+SMALLEST_POSITIVE = 1e-12  # where a figure must be above 0: its square and cube are no underflow
+# How far lambda + |offset| / rod length, and the sine of an articulated rod's angle, must stay
+# below 1: nearer to its lock a mechanism has orders beyond number.
+NEAREST_TO_LOCK = 1e-6
+# Samples of a revolution, of all mechanisms that differ: seconds. Far from their lock mechanisms
+# take 64 to 256 each.
+MOST_SAMPLES = 1 << 19
+
+# Orders --------------------------------------------------------------------------------------
+HIGHEST_ORDER = 4096  # that may be asked for: closed forms are good to here
+HIGHEST_ORDER_UNASKED = 512  # that is shown otherwise: only a mechanism near its lock has more
+HIGHEST_ORDER_SOUGHT = 8  # where a scheme looks for something to balance: engines have it below
+MOST_RESULTS_BY_CYLINDER = 1 << 14  # cylinders x orders that are told one by one
+MOST_RESULTS_ALONG_CRANK = 1 << 15  # loads x orders, whose peaks are looked for place by place
+MOST_LOADS_APART = 1_100_000  # loads x orders kept one by one, and half as many at uneven speed
+
+# Figures asked for on the command line -------------------------------------------------------
+FINEST_STEP_DEG = 1e-3  # of the crank angle: 360 000 angles
+FARTHEST_DEG = 1e6  # phase and turn of a second engine: angles keep 10 digits
+FARTHEST_M = 1e6  # place of a second engine
+LARGEST_FACTOR = 10  # share of the reciprocating mass, either way: shops take 0 to 1
+MOST_FACTORS = 1000  # steps of a range of balance factors
+MOST_TABLE_VALUES = 100_000  # steps of a range of a printed table
+LARGEST_TABLE_VALUE = 10**9  # in such a range
+
+# Variants ------------------------------------------------------------------------------------
+MOST_PARAMETER_VALUES = 1_000_000_000  # of one parameter: all are kept, 8 bytes each
+MOST_PICTURE_VARIANTS = 4_000_000  # of a sweep: a picture keeps all of them in memory
+MOST_TOLERANCE_SAMPLES = 20_000_000  # percentiles keep all of them in memory
+MOST_ARRANGEMENTS = 10**10  # of given throws: branch and bound tries few of them
+MOST_EVEN_CRANKS = 200_000  # with an even firing order: each of them is tried
+MOST_CYLINDERS_FIRED = 64  # whose firing orders are looked for

@@ -1,0 +1,154 @@
+"""Harmonics added up in time, against the curve itself on a fine grid and in closed form."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from balcli.core.cycle_peaks import (
+    find_longest,
+    find_swing,
+    largest_of_ellipse,
+    sum_amplitudes,
+)
+
+RELATIVE = 1e-13
+FINE = np.linspace(0, 4 * np.pi, 1 << 16, endpoint=False)
+
+
+def values(orders, phasors, angle=FINE):
+    """Curves (angles, *curves), term by term."""
+    return np.tensordot(np.exp(1j * np.outer(angle, orders)), phasors, 1).real
+
+
+def random_phasors(seed, *shape):
+    rng = np.random.default_rng(seed)
+    return rng.normal(size=shape) + 1j * rng.normal(size=shape)
+
+
+@pytest.mark.parametrize(
+    "orders",
+    [
+        [0.5],
+        [1, 2],
+        [0, 0.5, 1.5],
+        [3, 6, 9, 12],
+        np.arange(1, 25) / 2,
+        [7.5, 40],
+        [12, 0.5, 3],
+    ],
+)
+def test_highest_and_lowest_of_many_curves(orders):
+    phasors = random_phasors(3, len(orders), 5, 4)
+    swing = find_swing(orders, phasors)
+    curve = values(orders, phasors)
+    step = max(orders) * FINE[1]
+    slack = sum_amplitudes(phasors) * step**2
+    assert np.all(swing.highest.value >= curve.max(axis=0) - RELATIVE * slack / step**2)
+    assert np.all(swing.highest.value <= curve.max(axis=0) + slack)
+    assert np.all(swing.lowest.value <= curve.min(axis=0) + RELATIVE * slack / step**2)
+    assert np.all(swing.lowest.value >= curve.min(axis=0) - slack)
+    assert swing.half == pytest.approx((swing.highest.value - swing.lowest.value) / 2)
+    for peak in swing:
+        there = [
+            values(orders, phasors[:, i, j], peak.angle[i, j : j + 1])[0]
+            for i, j in np.ndindex(5, 4)
+        ]
+        assert peak.value.ravel() == pytest.approx(there, rel=1e-12)
+        assert np.all((peak.angle >= 0) & (peak.angle < 4 * np.pi))
+
+
+@pytest.mark.parametrize("order", [0.5, 1, 12, 60.5])
+def test_of_one_order_it_is_the_amplitude(order):
+    swing = find_swing([order], np.array([[3 - 4j, 0.0, 2.0]]))
+    assert swing.half == pytest.approx([5, 0, 2], rel=RELATIVE, abs=0)
+    assert swing.highest.angle[0] == pytest.approx(np.arctan2(4, 3) / order)
+    assert swing.highest.angle[1:] == pytest.approx([0, 0])
+
+
+def test_two_orders_in_closed_form():
+    """cos t + a cos 2t: highest 1 + a at 0; lowest where cos t = -1/(4a), -a - 1/(8a), if a >
+    1/4.
+    """
+    a = np.array([0.26, 0.5, 3.0])
+    swing = find_swing([1, 2], np.stack([np.ones(3), a]).astype(complex))
+    assert swing.highest.value == pytest.approx(1 + a, rel=RELATIVE)
+    assert swing.lowest.value == pytest.approx(-a - 1 / (8 * a), rel=RELATIVE)
+    assert swing.lowest.angle == pytest.approx(np.arccos(-1 / (4 * a)))
+
+
+def test_a_flat_top():
+    """cos t - cos(2t)/4 has neither slope nor curvature nor a third derivative at 0: 3/4."""
+    swing = find_swing([1, 2], np.array([1, -0.25], complex))
+    assert swing.highest.value == pytest.approx(0.75, rel=RELATIVE)
+    assert swing.lowest.value == pytest.approx(-1.25, rel=RELATIVE)
+
+
+def test_a_peak_that_no_sample_shows_as_highest():
+    """Two tops of nearly equal height, the higher one farther from a sample."""
+    orders = [1, 7, 8]
+    for shift in np.linspace(0, 0.2, 41):
+        phasors = np.array([0.003, 1, 1]) * np.exp(-1j * shift * np.array(orders))
+        top = find_swing(orders, phasors[:, None]).highest
+        assert top.value == pytest.approx([2.003], rel=RELATIVE)
+        assert top.angle == pytest.approx([shift], abs=1e-6)
+
+
+def test_of_equal_peaks_the_first():
+    assert find_swing([3], np.array([np.exp(-0.3j)])).highest.angle == pytest.approx(0.1)
+
+
+def test_a_mean_counts_with_its_real_part():
+    swing = find_swing([0, 1], np.array([2 + 9j, 1]))
+    assert (swing.highest.value, swing.lowest.value) == pytest.approx((3, 1))
+    assert find_longest([0, 1], np.array([[2 + 9j], [1]])).value == pytest.approx(3)
+
+
+def test_nothing_is_nothing():
+    swing = find_swing([0.5, 1], np.zeros((2, 3), complex))
+    assert not swing.half.any()
+    assert not find_longest([0.5, 1], np.zeros((2, 4, 3), complex)).value.any()
+
+
+@pytest.mark.parametrize("components", [1, 2, 3])
+def test_longest_vector(components):
+    orders = np.arange(1, 17) / 2
+    phasors = random_phasors(5, len(orders), 6, components)
+    found = find_longest(orders, phasors)
+    length = np.linalg.norm(values(orders, phasors), axis=-1).max(axis=0)
+    assert np.all(found.value >= length * (1 - RELATIVE))
+    assert np.all(found.value <= length * (1 + (8 * FINE[1]) ** 2))
+    if components == 1:
+        swing = find_swing(orders, phasors[..., 0])
+        both = np.maximum(swing.highest.value, -swing.lowest.value)
+        assert found.value == pytest.approx(both, rel=RELATIVE)
+
+
+def test_longest_of_one_order_is_the_semi_axis():
+    phasors = random_phasors(7, 1, 20, 3)
+    assert find_longest([2.5], phasors).value == pytest.approx(
+        largest_of_ellipse(phasors[0]), rel=RELATIVE
+    )
+
+
+def test_ellipse_of_a_circle_and_of_a_line():
+    circle, line = np.array([3, 3j, 0]), np.array([3, 0, 4]) * np.exp(1.2j)
+    assert largest_of_ellipse(circle) == pytest.approx(3)
+    assert largest_of_ellipse(line) == pytest.approx(5)
+    assert largest_of_ellipse(np.array([circle, line])) == pytest.approx([3, 5])
+
+
+def test_sum_of_amplitudes_is_a_bound():
+    orders = np.arange(1, 9) / 2
+    phasors = random_phasors(11, 8, 30)
+    assert np.all(find_swing(orders, phasors).half <= sum_amplitudes(phasors))
+    assert sum_amplitudes(np.abs(phasors)) == pytest.approx(
+        find_swing(orders, np.abs(phasors) + 0j).highest.value
+    )
+
+
+@pytest.mark.parametrize("orders", [[0.25, 1], [-1, 1], [1, 1]])
+def test_other_orders_are_refused(orders):
+    message = "orders have to be different multiples of 1/2, none below 0"
+    with pytest.raises(ValueError, match=message):
+        find_swing(orders, np.ones((2, 1), complex))

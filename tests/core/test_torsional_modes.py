@@ -1,0 +1,164 @@
+"""Natural modes of torsional chains against 50 digits and the laws that hold for every chain."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from support.chains import (
+    KINDS,
+    chain_of,
+    exact_frequencies,
+    no_damping,
+    random_chain,
+    random_damping,
+)
+
+from balcli.core.torsional_chain import (
+    Shaft,
+    chain_matrices,
+    follow_gears,
+    incidence,
+    join_chain,
+    rigid_motions,
+)
+from balcli.core.torsional_modes import chain_loss, count_nodes, find_chain_modes, sum_phases
+from balcli.core.vibration import (
+    modal_loss,
+    scale_shapes,
+)
+
+MODES = 1e-13  # relative error of every frequency; the contract says 1e-12
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("spread", [1, 5])
+def test_frequencies_against_50_digits(kind, seed, spread):
+    chain = random_chain(kind, seed, spread)
+    found, exact = find_chain_modes(chain), exact_frequencies(chain)
+    assert found.omega[found.rigid :] == pytest.approx(exact[found.rigid :], rel=MODES, abs=0)
+    assert found.omega[: found.rigid].tolist() == [0] * (0 if "clamped" in kind else 1)
+
+
+def test_frequencies_that_spread_over_5e5():
+    """Light inertias on stiff shafts and heavy ones on soft shafts, in one chain with a branch."""
+    shafts = [Shaft(0, 1, 1e9), Shaft(1, 2, 1e2), Shaft(2, 3, 1e7, 4.0), Shaft(1, 4, 3e3)]
+    chain = join_chain([1e-4, 3e-3, 70, 2000, 5e2], shafts)
+    found, exact = find_chain_modes(chain).omega, exact_frequencies(chain)
+    assert exact[-1] > 5e5 * exact[1]
+    assert found[1:] == pytest.approx(exact[1:], rel=1e-14, abs=0)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("seed", range(4))
+def test_modes_are_orthogonal_and_keep_momentum(kind, seed):
+    chain = random_chain(kind, seed)
+    modes = find_chain_modes(chain)
+    weighted = modes.shapes * chain.inertia
+    assert weighted @ modes.shapes.T == pytest.approx(np.eye(len(modes.omega)), abs=1e-12)
+    twist = incidence(chain) @ modes.shapes.T
+    assert twist[:, : modes.rigid] == pytest.approx(np.zeros((len(twist), modes.rigid)), abs=1e-13)
+    for motion in rigid_motions(chain):
+        momenta = weighted[modes.rigid :] * motion
+        share = np.abs(momenta.sum(axis=1)) / np.abs(momenta).sum(axis=1)
+        assert np.all(share < 1e-12)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_modes_fit_the_matrices(kind):
+    chain = random_chain(kind, 8)
+    matrices, modes = chain_matrices(chain, no_damping(chain)), find_chain_modes(chain)
+    _, independent = follow_gears(chain)
+    shapes = modes.shapes[:, independent].T
+    assert pytest.approx(matrices.follow @ shapes, abs=1e-13) == modes.shapes.T
+    forces, inertia = matrices.stiffness.real @ shapes, matrices.mass @ shapes * modes.omega**2
+    assert forces == pytest.approx(inertia, abs=1e-11 * np.abs(forces).max())
+
+
+@pytest.mark.parametrize("ratio", [1, -1, 0.4, -2.5])
+def test_rigid_gears_are_one_inertia(ratio):
+    """A wheel on another is an inertia ratio^2 times its own."""
+    geared = join_chain(
+        [0.2, 0.1, 0.3, 0.5],
+        [Shaft(0, 1, 1e5), Shaft(1, 2, np.inf, ratio), Shaft(2, 3, 2e5)],
+    )
+    single = chain_of([0.2, 0.1 + 0.3 * ratio**2, 0.5 * ratio**2], [1e5, 2e5 * ratio**2])
+    found, expected = find_chain_modes(geared), find_chain_modes(single)
+    assert found.omega == pytest.approx(expected.omega, rel=1e-14)
+    shapes = expected.shapes[:, [0, 1, 1, 2]] * [1, 1, ratio, ratio]
+    assert np.abs(found.shapes) == pytest.approx(np.abs(shapes), abs=1e-12)
+
+
+def test_a_clamp_holds_all_that_meshes_with_it():
+    chain = join_chain([1, 2, 3], [Shaft(0, 1, np.inf, 2), Shaft(1, 2, 12)], clamped=[0])
+    assert find_chain_modes(chain).omega == pytest.approx([2])
+    assert find_chain_modes(chain).shapes[0].tolist()[:2] == [0, 0]
+
+
+def test_all_clamped_has_no_modes():
+    assert find_chain_modes(chain_of([1, 2], [5], clamped=[0, 1])).omega.size == 0
+
+
+def test_a_massless_node_moves_with_its_shafts():
+    """Of two shafts in line the twist divides as their flexibilities; a dangling one does not
+    count.
+    """
+    chain = join_chain([2, 0, 3, 0], [Shaft(0, 1, 30), Shaft(1, 2, 60), Shaft(2, 3, 5)])
+    modes = find_chain_modes(chain)
+    assert modes.omega == pytest.approx([0, np.sqrt(20 * (1 / 2 + 1 / 3))])
+    left, middle, right, end = modes.shapes[1]
+    assert middle == pytest.approx((left + 2 * right) / 3)
+    assert end == pytest.approx(right)
+
+
+def test_shafts_without_stiffness_join_nothing():
+    """A ring that a fluid drags along turns freely: two rigid modes."""
+    chain = chain_of([1, 2, 3], [8, 0])
+    modes = find_chain_modes(chain)
+    assert modes.rigid == 2
+    assert modes.omega == pytest.approx([0, 0, np.sqrt(12)])
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_rth_mode_of_a_chain_has_r_nodes(seed):
+    chain = random_chain("plain", seed, 0.5)
+    shapes = find_chain_modes(chain).shapes
+    assert [count_nodes(chain, shape) for shape in shapes] == list(range(len(shapes)))
+
+
+def test_a_node_at_rest_hides_no_node_of_vibration():
+    chain = chain_of([1, 2, 1], [5, 5])
+    assert [count_nodes(chain, shape) for shape in find_chain_modes(chain).shapes] == [0, 1, 2]
+
+
+def test_gears_that_reverse_are_no_nodes():
+    chain = join_chain([1, 2], [Shaft(0, 1, 5, -1.5)])
+    shapes = scale_shapes(find_chain_modes(chain).shapes)
+    assert shapes[0] == pytest.approx([-1 / 1.5, 1])
+    assert [count_nodes(chain, shape) for shape in shapes] == [0, 1]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_loss_of_modes(kind):
+    """From the matrices; of a damper, from its complex inertia."""
+    chain = random_chain(kind, 6)
+    damping, modes = random_damping(chain, 6), find_chain_modes(chain)
+    matrices = chain_matrices(chain, damping)
+    _, independent = follow_gears(chain)
+    expected = modal_loss(
+        modes._replace(shapes=modes.shapes[:, independent]), matrices.stiffness, matrices.damping
+    )
+    assert chain_loss(chain, damping, modes) == pytest.approx(expected, rel=1e-10)
+    assert np.all(expected[modes.rigid :] > 0)
+    ring = np.zeros(len(chain.inertia), complex)
+    ring[0] = 0.3 - 0.2j
+    added = chain_loss(chain, damping, modes, ring) - chain_loss(chain, damping, modes)
+    assert added[modes.rigid :] == pytest.approx(0.2 * modes.shapes[modes.rigid :, 0] ** 2)
+
+
+def test_phase_vectors():
+    """Evenly fired throws that move alike add up in multiples of half their number."""
+    firing = np.radians([0, 180, 360, 540])
+    sums = sum_phases(np.array([[1.0, 1, 1, 1], [1, 0, 0, -1]]), [0.5, 1, 2, 4], firing)
+    assert sums[:, 0] == pytest.approx([0, 0, 4, 4], abs=1e-13)
+    assert sums[:, 1] == pytest.approx([1 - 1j, 2, 0, 0], abs=1e-13)

@@ -1,0 +1,61 @@
+"""Equal figures stand in the order of the file, or of the search, whatever the last digits of the
+machine.
+"""
+
+from __future__ import annotations
+
+from itertools import groupby
+
+import numpy as np
+import pytest
+from docs_examples import ROOT
+
+from balcli.engine.load import load, read
+from balcli.forces.crankshaft import inner
+from balcli.forces.quantity import parse
+from balcli.studies.search.objective import Objective
+from balcli.studies.search.search import objective, search
+from balcli.studies.tolerances import Tolerances, scatter
+
+ENGINES = ROOT / "engines"
+
+
+@pytest.mark.parametrize("name", ["tsinghua_6120q", "tsinghua_eq6100", "v10_split", "vr6"])
+def test_equal_shares_of_a_scatter(name: str) -> None:
+    """Parts of one kind stand by their numbers."""
+    quantities = parse("force.1.major,force.2.major,moment.1.major,moment.2.major")
+    for spread in scatter(
+        read(ENGINES / f"{name}.toml"), Tolerances(mass=0.01), quantities, 10, seed=1
+    ).spreads:
+        for _, equal in groupby(
+            spread.shares, key=lambda pair: (f"{abs(pair[1]):.6g}", pair[0].what)
+        ):
+            numbers = [source.number for source, _ in equal]
+            assert numbers == sorted(numbers), spread.quantity.name
+
+
+def test_equal_inner_moments() -> None:
+    bending = inner(load(ENGINES / "flat12.toml")).bending
+    values = np.array([peak.value for peak in bending.peaks])
+    assert bending.largest == np.flatnonzero(values >= values.max() * (1 - 1e-12))[0]
+
+
+@pytest.mark.parametrize("name", ["i5", "flat12", "tsinghua_6120q"])
+def test_equal_arrangements_of_a_search(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With other last digits the same cranks are found, in the same order."""
+
+    def found() -> list[object]:
+        return [
+            one.arrangement
+            for one in search(
+                read(ENGINES / f"{name}.toml"), "throws", objective("moment.1.major"), 10
+            ).results
+        ]
+
+    before, random, exact = found(), np.random.default_rng(5), Objective.of
+    monkeypatch.setattr(
+        Objective,
+        "of",
+        lambda *args: (values := exact(*args)) * (1 + 1e-15 * random.uniform(-1, 1, values.shape)),
+    )
+    assert found() == before

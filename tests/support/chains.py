@@ -1,0 +1,116 @@
+"""Random torsional chains, and what they do at 50 digits, from equations of every node."""
+
+from __future__ import annotations
+
+import mpmath
+import numpy as np
+from support import high_precision
+
+from balcli.core.torsional_chain import Chain, Damping, Shaft, join_chain
+
+KINDS = ("plain", "geared", "branched", "clamped", "clamped at both ends", "massless", "looped")
+
+
+def chain_of(inertia, stiffness, clamped=()) -> Chain:
+    """Nodes in a row."""
+    shafts = [Shaft(i, i + 1, k) for i, k in enumerate(stiffness)]
+    return join_chain(inertia, shafts, clamped)
+
+
+def random_chain(kind: str, seed: int, spread: float = 1.0) -> Chain:
+    """A chain of 3 to 9 nodes with inertias and stiffnesses over `spread` powers of ten either
+    way.
+    """
+    rng = np.random.default_rng([KINDS.index(kind), seed])
+    count = int(rng.integers(3, 10))
+    inertia = 10 ** rng.uniform(-spread, spread, count)
+    stiffness = 1e6 * 10 ** rng.uniform(-spread, spread, count - 1)
+    branched = kind in ("branched", "massless", "looped")
+    parents = [int(rng.integers(0, i)) if branched else i - 1 for i in range(1, count)]
+    ratios = np.ones(count - 1)
+    if kind in ("geared", "massless", "looped"):
+        ratios = rng.choice([1, 1, -2.5, 0.4, 3], count - 1)
+    if kind == "geared":
+        stiffness[count // 2] = np.inf
+    if kind == "massless":
+        inertia[1 : count - 1 : 2] = 0
+    shafts = [
+        Shaft(*ends, float(k), float(ratio)) if rng.random() < 0.7 else turned(*ends, k, ratio)
+        for *ends, k, ratio in zip(parents, range(1, count), stiffness, ratios, strict=True)
+    ]
+    if kind == "looped":
+        pace = np.ones(count)
+        for i, parent, ratio in zip(range(1, count), parents, ratios, strict=True):
+            pace[i] = pace[parent] * ratio
+        shafts.append(Shaft(0, count - 1, 1e6, float(pace[-1])))
+    held = {"clamped": [0], "clamped at both ends": [0, count - 1]}.get(kind, [])
+    return join_chain(inertia, shafts, held)
+
+
+def turned(start, end, stiffness, ratio):
+    """The same shaft named from its other end: its stiffness then counts in the other speed."""
+    return Shaft(end, start, float(stiffness * ratio**2), 1 / float(ratio))
+
+
+def random_damping(chain: Chain, seed: int) -> Damping:
+    rng = np.random.default_rng(seed)
+    shafts = len(chain.start)
+    return Damping(
+        rng.uniform(0.005, 0.05, shafts),
+        rng.choice([0, 2.0], shafts),
+        rng.choice([0, 3.0], len(chain.inertia)),
+    )
+
+
+def no_damping(chain: Chain) -> Damping:
+    shafts = len(chain.start)
+    return Damping(np.zeros(shafts), np.zeros(shafts), np.zeros(len(chain.inertia)))
+
+
+def exact_frequencies(chain: Chain):
+    """All natural frequencies, rising (rad/s); meshes lead from nodes to later ones."""
+    rows = np.zeros((len(chain.start), len(chain.inertia)))
+    for row, start, end, ratio in zip(rows, chain.start, chain.end, chain.ratio, strict=True):
+        row[start], row[end] = ratio, -1
+    mass, free, elastic = chain.inertia.copy(), ~chain.clamped, np.isfinite(chain.stiffness)
+    for shaft in reversed(np.flatnonzero(~elastic)):
+        start, end, ratio = chain.start[shaft], chain.end[shaft], chain.ratio[shaft]
+        if chain.start[shaft] > chain.end[shaft]:
+            start, end, ratio = end, start, 1 / ratio
+        rows[:, start] += ratio * rows[:, end]
+        mass[start] += ratio**2 * mass[end]
+        free[end] = False
+    return high_precision.angular_frequencies(
+        rows[np.ix_(elastic, free)], chain.stiffness[elastic], mass[free]
+    )
+
+
+def exact_response(chain: Chain, damping: Damping, w, load, attached=0.0):
+    """Angles (nodes,) and torques of shafts (shafts,) at one frequency, from equations of both,
+    solved at 50 digits.
+    """
+    nodes, shafts = len(chain.inertia), len(chain.start)
+    with mpmath.workdps(high_precision.DIGITS):
+        matrix = mpmath.zeros(nodes + shafts)
+        right = mpmath.zeros(nodes + shafts, 1)
+        w, i = mpmath.mpf(float(w)), mpmath.mpc(0, 1)
+        inertia = np.broadcast_to(chain.inertia + attached, nodes)
+        for node in range(nodes):
+            own = mpmath.mpmathify(complex(inertia[node]))
+            matrix[node, node] = -w * w * own + i * w * mpmath.mpf(float(damping.nodes[node]))
+            right[node] = mpmath.mpmathify(complex(load[node]))
+        for shaft in range(shafts):
+            row, ratio = nodes + shaft, mpmath.mpf(float(chain.ratio[shaft]))
+            for node, far in ((int(chain.end[shaft]), -1), (int(chain.start[shaft]), ratio)):
+                matrix[node, row] += far
+                matrix[row, node] += far
+            if np.isfinite(chain.stiffness[shaft]):
+                k = mpmath.mpf(float(chain.stiffness[shaft]))
+                k *= 1 + i * mpmath.mpf(float(damping.loss[shaft]))
+                matrix[row, row] = -1 / (k + i * w * mpmath.mpf(float(damping.dashpots[shaft])))
+        for node in np.flatnonzero(chain.clamped):
+            for other in range(nodes + shafts):
+                matrix[int(node), other] = matrix[other, int(node)] = 0
+            matrix[int(node), int(node)], right[int(node)] = 1, 0
+        solution = high_precision.to_complex(mpmath.lu_solve(matrix, right))
+    return solution[:nodes], solution[nodes:]

@@ -1,0 +1,61 @@
+"""Friswell, Penny, Garvey and Lees, Dynamics of Rotating Machines, chapter 9, as set in the tests of
+openTorsion (Aalto-Arotor/openTorsion, opentorsion/tests/tests.py): natural frequencies in Hz as
+printed, beside those recomputed to ten figures.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from balcli.core.torsional_chain import Shaft, join_chain
+from balcli.core.torsional_modes import find_chain_modes
+
+INF = np.inf
+
+
+def shaft_stiffness(length, diameter, shear_modulus=68e9):
+    return shear_modulus * np.pi * diameter**4 / 32 / length
+
+
+TWO_DISCS = join_chain([211.4, 8.3], [Shaft(0, 1, 9.775e6)])
+THREE_CYLINDERS = join_chain(
+    [0.0035, 0.0035, 0.0035, 0.15, 0.05],
+    [Shaft(0, 1, 12e3), Shaft(1, 2, 12e3), Shaft(2, 3, 14e3), Shaft(3, 4, 10e3)],
+)
+PAIR_OF_GEARS = join_chain(
+    [0.0004, 2.5e-5, 2.5e-5, 0.0007, 0.0007],
+    [Shaft(0, 1, 10e3), Shaft(1, 2, INF, -1), Shaft(2, 3, 5e3), Shaft(1, 4, 5e3)],
+)
+BRANCHES = join_chain(
+    [3200, 200, 200, 800, 800, 450, 450],
+    [
+        Shaft(0, 1, shaft_stiffness(2.5, 0.2)),
+        Shaft(1, 2, INF, -1),
+        Shaft(1, 3, INF, -0.5 / 0.8),
+        Shaft(2, 4, INF, -0.5 / 0.8),
+        Shaft(3, 5, shaft_stiffness(3.5, 0.25)),
+        Shaft(4, 6, shaft_stiffness(3.5, 0.25)),
+    ],
+)
+
+
+@pytest.mark.parametrize(
+    ("chain", "printed", "places", "recomputed"),
+    [
+        (TWO_DISCS, [0, 176.1], 1, [176.0767468]),
+        (
+            THREE_CYLINDERS,
+            [0, 81.21, 141.21, 378.95, 536.36],
+            2,
+            [81.20762902, 141.2140714, 378.9529539, 536.3632829],
+        ),
+        (PAIR_OF_GEARS, [0, 425.4, 634.1, 3247.2], 1, [425.3594775, 634.07276, 3247.192354]),
+        (BRANCHES, [0, 10.304, 20.479, 24.423], 3, [10.30419334, 20.47926065, 24.42291926]),
+    ],
+)
+def test_natural_frequencies(chain, printed, places, recomputed):
+    hertz = find_chain_modes(chain).omega / (2 * np.pi)
+    assert hertz[0] == 0
+    assert np.round(hertz, places).tolist() == printed
+    assert hertz[1:] == pytest.approx(recomputed, rel=1e-9)
