@@ -15,27 +15,17 @@ from pathlib import Path
 
 import pytest
 import typer
+from support.commands import run_command, run_in_terminal, run_python
 from support.engines import GOOD, changed
+from support.paths import ENGINES, ROOT
 
 from balcli import __version__
 from balcli.cli import COMMANDS
 from balcli.render.formats import Format
 
-ROOT = Path(__file__).parents[1]
-V8 = str(ROOT / "engines" / "v8_crossplane.toml")
+V8 = str(ENGINES / "v8_crossplane.toml")
 POUND_FORCE, FOOT = 0.45359237 * 9.80665, 0.3048  # N, m by definition
 ESCAPE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
-
-
-def process(*args: str, **more) -> subprocess.CompletedProcess:
-    """Runs a command as users do."""
-    environment = {**os.environ, "PYTHONPATH": str(ROOT / "src"), **more.pop("env", {})}
-    return subprocess.run(
-        [sys.executable, "-m", "balcli", *args],
-        env=environment,
-        check=False,
-        **{"capture_output": True, **more},
-    )
 
 
 @pytest.fixture
@@ -127,8 +117,8 @@ def test_bad_usage_that_the_parser_words(balcli, args):
     [
         (["analyze", "no.toml"], "no.toml: no such file"),
         (
-            ["analyze", str(ROOT / "engines")],
-            f"{ROOT / 'engines'}: is a folder; name an engine file in it",
+            ["analyze", str(ENGINES)],
+            f"{ENGINES}: is a folder; name an engine file in it",
         ),
         (
             ["analyze", V8, "--orders", "0x"],
@@ -480,12 +470,12 @@ def test_a_pipe_gets_no_escape_codes_and_no_width(balcli, monkeypatch):
 
 def test_headings_of_rows_stay_whole_in_a_narrow_terminal(balcli, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
-    monkeypatch.setattr("balcli.render.table.seen", lambda into_file: True)
     out = balcli(
         "compare",
-        *(ROOT / "engines" / f"{name}.toml" for name in ("i3", "i4", "i5", "i6")),
+        *(ENGINES / f"{name}.toml" for name in ("i3", "i4", "i5", "i6")),
         "--orders",
         "1,2",
+        terminal=True,
     )[1]
     assert re.findall(r"(?m)^order \d", ESCAPE.sub("", out)) == ["order 1", "order 2"] * 5
 
@@ -500,45 +490,20 @@ def test_a_terminal_gets_lines_of_its_width(balcli, monkeypatch, name, columns):
 
     monkeypatch.setenv("COLUMNS", str(columns))
     monkeypatch.setenv("TERM", "xterm-256color")
-    monkeypatch.setattr("balcli.render.table.seen", lambda into_file: True)
-    out = balcli("analyze", ROOT / "engines" / f"{name}.toml", "--by", "cylinder")[1]
+    out = balcli("analyze", ENGINES / f"{name}.toml", "--by", "cylinder", terminal=True)[1]
     assert "\x1b[1m" in out
     lines = ESCAPE.sub("", out).splitlines()
     assert max(map(cell_len, lines)) <= columns
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a pseudo-terminal")
-def test_a_real_terminal():
-    """Colours and the terminal's width in a pseudo-terminal of 80 columns."""
-    import fcntl
-    import pty
-    import struct
-    import termios
-
-    ours, theirs = pty.openpty()
-    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 50, 80, 0, 0))
-    environment = {k: v for k, v in os.environ.items() if k not in ("COLUMNS", "NO_COLOR")} | {
-        "TERM": "xterm-256color",
-        "PYTHONPATH": str(ROOT / "src"),
-    }
-    with subprocess.Popen(
-        [sys.executable, "-m", "balcli", "analyze", V8], stdout=theirs, env=environment
-    ) as running:
-        os.close(theirs)
-        text = b""
-        while chunk := _read(ours):
-            text += chunk
-    os.close(ours)
-    assert running.returncode == 0
-    assert b"\x1b[1m" in text
-    assert max(len(line) for line in ESCAPE.sub("", text.decode()).splitlines()) <= 80
-
-
-def _read(descriptor: int) -> bytes:
-    try:
-        return os.read(descriptor, 65536)
-    except OSError:  # Linux: the other end is closed
-        return b""
+def test_a_real_terminal_gets_colours_and_lines_of_its_width(monkeypatch):
+    monkeypatch.delenv("COLUMNS", raising=False)
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    status, text, _ = run_in_terminal("analyze", V8, columns=80, env={"TERM": "xterm-256color"})
+    assert status == 0
+    assert "\x1b[1m" in text
+    assert max(len(line) for line in ESCAPE.sub("", text).splitlines()) <= 80
 
 
 @pytest.mark.parametrize(
@@ -547,7 +512,7 @@ def _read(descriptor: int) -> bytes:
         ["analyze", V8],
         ["schema"],
         ["new", "single"],
-        ["check", str(ROOT / "engines" / "i4.toml")],
+        ["check", str(ENGINES / "i4.toml")],
         ["--help"],
         ["--version"],
         ["balance", "--help"],
@@ -556,9 +521,9 @@ def _read(descriptor: int) -> bytes:
 def test_a_closed_pipe_ends_quietly(args):
     reading, writing = os.pipe()
     os.close(reading)
-    done = process(*args, capture_output=False, stdout=writing, stderr=subprocess.PIPE)
+    done = run_command(*args, stdout=writing, stderr=subprocess.PIPE)
     os.close(writing)
-    assert (done.returncode, done.stderr) == (0, b"")
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 @pytest.mark.parametrize(
@@ -567,13 +532,13 @@ def test_a_closed_pipe_ends_quietly(args):
 def test_mistakes_that_nobody_reads_have_their_status(args):
     reading, writing = os.pipe()
     os.close(reading)
-    done = process(*args, capture_output=False, stdout=writing, stderr=writing)
+    done = run_command(*args, stdout=writing, stderr=writing)
     os.close(writing)
     assert done.returncode == 2
 
 
 def test_any_locale_gets_utf_8():
-    done = process(
+    done = run_command(
         "analyze",
         V8,
         env={
@@ -583,30 +548,18 @@ def test_any_locale_gets_utf_8():
             "PYTHONIOENCODING": "ascii",
         },
     )
-    assert (done.returncode, done.stderr) == (0, b"")
-    assert "F1 = m r ω² = " in done.stdout.decode("utf-8")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "F1 = m r ω² = " in done.stdout
 
 
 # ------------------------------------------------------------------ what is imported
-HEAVY = {
-    "numpy",
-    "pydantic",
-    "rich",
-    "matplotlib",
-    "pint",
-    "tomli_w",
-    "jinja2",
-    "scipy",
-    "email",
-    "zipfile",
-}
+HEAVY = {"numpy", "pydantic", "rich", "matplotlib", "pint", "tomli_w", "jinja2", "scipy"}
 PROBE = """
-import sys
+import atexit, sys
 from balcli.__main__ import main
-try:
-    main()
-finally:
-    sys.stderr.write(" ".join(sorted({name.partition(".")[0] for name in sys.modules})))
+names = lambda: " ".join(sorted({name.partition(".")[0] for name in sys.modules}))
+atexit.register(lambda: sys.stderr.write(names()))
+main()
 """
 
 
@@ -615,64 +568,42 @@ finally:
     [
         (["--help"], {"rich"}),
         (["--version"], set()),
-        (["new", "single"], {"pydantic"}),  # typer itself may check arguments with it
+        (["new", "single"], {"pydantic"}),  # typer itself checks arguments with it
         (["schema"], {"pydantic"}),
         (["analyze", V8, "--format", "json"], {"numpy", "pydantic"}),
         (["analyze", V8, "--format", "csv"], {"numpy", "pydantic"}),
         (["analyze", V8, "--format", "markdown"], {"numpy", "pydantic"}),
         (["analyze", V8], {"numpy", "pydantic", "rich"}),
-        (["check", str(ROOT / "engines" / "i4.toml")], {"numpy", "pydantic"}),
+        (["check", str(ENGINES / "i4.toml")], {"numpy", "pydantic"}),
+        *(([command, "--help"], {"rich", "pydantic"}) for command in COMMANDS),
     ],
+    ids=lambda value: " ".join(Path(word).name for word in value) if type(value) is list else "",
 )
 def test_only_what_is_needed_is_imported(args, allowed):
-    done = subprocess.run(
-        [sys.executable, "-c", PROBE, *args],
-        capture_output=True,
-        text=True,
-        check=False,
-        env={**os.environ, "PYTHONPATH": str(ROOT / "src")},
-    )
-    assert set(done.stderr.split()) & HEAVY <= allowed
-    assert "balcli" in done.stderr.split()
+    loaded = set(run_python("-c", PROBE, *args).stderr.split())
+    assert loaded & HEAVY <= allowed
+    assert "balcli" in loaded
 
 
-@pytest.mark.parametrize(
-    "use",
-    [
-        "import importlib.metadata; print(importlib.metadata.version('numpy'))",
-        "from importlib.metadata import version; print(version('numpy'))",
-        "from importlib.metadata import entry_points; "
-        "print(len(entry_points(group='console_scripts')) > 0)",
-        "import importlib.metadata._meta as m; print(m.__name__)",
-        "import secrets; from secrets import token_hex; print(secrets.compare_digest('a', 'a'), "
-        "len(token_hex(3)))",
-        "import secrets; print(hasattr(secrets, 'no_such_thing'), hasattr(secrets, '__path__'))",
-        "import importlib.util as u; s = u.find_spec('importlib.metadata'); print(s.name, "
-        "s.origin)",
-        "import importlib.metadata as m; m.version; import sys; "
-        "print(type(sys.modules[m.__name__]) is type(sys))",
-    ],
-)
-def test_what_is_deferred_is_there_when_it_is_asked_for(use):
-    def run(first: str) -> str:
-        done = subprocess.run(
-            [sys.executable, "-c", first + use],
-            capture_output=True,
-            text=True,
-            check=True,
-            env={**os.environ, "PYTHONPATH": str(ROOT / "src")},
-        )
-        return done.stdout
-
-    assert run(
-        "from balcli.__main__ import _Later as L; [L.defer(n) for n in 2 * ('importlib.metadata', "
-        "'secrets')]\n"
-    ) == run("")
-
-
+# ------------------------------------------------------------------ the end of the process
 def test_an_interruption_has_its_own_status(balcli, monkeypatch, good):
     def interrupted(**_):
         raise typer.Abort
 
     monkeypatch.setattr("balcli.cli.app", interrupted)
     assert balcli("analyze", good) == (130, "", "")
+
+
+def test_what_is_registered_for_the_end_is_done():
+    """As coverage, matplotlib and dask have it: the process ends by itself, but not before."""
+    code = "import atexit; from balcli.__main__ import main; atexit.register(print, 'last'); main()"
+    done = run_python("-c", code, "--version")
+    assert (done.returncode, done.stdout) == (0, f"balcli {__version__}\nlast\n")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_help_that_cannot_be_written_is_no_success():
+    with Path("/dev/full").open("wb") as full:
+        done = run_command("--version", stdout=full, stderr=subprocess.PIPE)
+    assert done.returncode != 0
+    assert "No space left on device" in done.stderr

@@ -9,13 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.engines import GOOD, changed
+from support.paths import ENGINES
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.regression import TOLERANCE, differences, record, recorded_at
 from balcli.results.analysis import analyze
-
-ENGINES = Path(__file__).parents[1] / "engines"
 
 
 @pytest.fixture

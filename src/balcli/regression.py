@@ -14,7 +14,7 @@ from .engine.build import Engine
 from .errors import BalcliError
 from .forces.kinds import KINDS, VECTORS
 from .forces.spectrum import Spectra
-from .render import json as documents
+from .render import analysis as documents
 from .results.analysis import analyze
 
 TOLERANCE = 1e-9  # of a quantity's largest order, beyond what rounding may do
@@ -49,7 +49,7 @@ def recorded_at(engine_file: Path) -> Path:
 def record(engine: Engine) -> str:
     """What `check --update` writes."""
     return (
-        json.dumps(documents.analysis(analyze(engine, only=RECORDED)), indent=1, ensure_ascii=False)
+        json.dumps(documents.document(analyze(engine, only=RECORDED)), indent=1, ensure_ascii=False)
         + "\n"
     )
 
@@ -71,7 +71,7 @@ def differences(name: str, engine: Engine, file: Path) -> list[Difference]:
         found = analyze(
             engine, {*(entry["order"] for entry in recorded["orders"]), *shown.orders}, RECORDED
         )
-        now = documents.analysis(found)
+        now = documents.document(found)
     except (
         OSError,
         ValueError,

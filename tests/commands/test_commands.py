@@ -10,18 +10,16 @@ import json
 import math
 import sys
 from contextlib import nullcontext
-from pathlib import Path
 from types import ModuleType
 
 import pytest
 from support.engines import GOOD, tables
+from support.paths import ENGINES
 
 from balcli.bench import bench
 from balcli.bench.bench import Bench, Case, Ratio, Row
-from balcli.cli import main
 from balcli.errors import BalcliError, InputError
 
-ENGINES = Path(__file__).parents[2] / "engines"
 MEASURED = Bench(
     (
         Row("A_2", "closed form", 2e-6, 0.0),
@@ -32,19 +30,6 @@ MEASURED = Bench(
     ),
     (Ratio("one to other", 1.25),),
 )
-
-
-@pytest.fixture
-def balcli(capsys, monkeypatch):
-    """Runs a command: (exit status, standard output, standard error)."""
-
-    def run(*args: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["balcli", *map(str, args)])
-        with pytest.raises(SystemExit) as done:
-            main()
-        return int(done.value.code or 0), *capsys.readouterr()
-
-    return run
 
 
 @pytest.fixture
@@ -277,13 +262,13 @@ def test_row_groups_of_a_parquet_file_hold_all_rows(balcli, four, tmp_path, monk
 
 
 def test_progress_changes_no_chunk(monkeypatch, capsys):
-    from balcli.commands.sweep_output import with_progress
+    from balcli.commands.sweep_output import showing_progress
     from balcli.core.phasors import np
     from balcli.studies.sweep import Chunk
 
     chunks = [Chunk(((0, 2),), [np.zeros(2)]), Chunk(((2, 3),), [np.zeros(1)])]
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    assert list(with_progress(chunks, 3, True)) == chunks
+    assert list(showing_progress(chunks, 3, True)) == chunks
     assert "3/3" in capsys.readouterr().err
 
 

@@ -9,7 +9,8 @@ import pytest
 from support.engines import alone, engine, engine_text
 
 from balcli.core.loads import Loads
-from balcli.core.mechanisms.harmonics import Series
+from balcli.core.mechanisms.fourier import Series
+from balcli.core.phases import Phases
 from balcli.core.phasors import EPS
 from balcli.engine.build import build
 from balcli.engine.load import parse
@@ -174,8 +175,10 @@ def test_errors_of_a_curve_stay_within_the_bounds_of_the_forces(name, size):
     """
     built = engine(**ENGINES[name])
     c = built.cylinders
-    few, which = c.linkage.harmonics(LOW, c.lam, c.eps, rod=False, energy=False)
-    exact = few.of_rows(which)._replace(piston=Series(0 * few.of_rows(which).piston.c))
+    few, which = c.linkage.find_distinct_harmonics(LOW, c.lam, c.eps, rod=False, energy=False)
+    exact = few.select_cylinders(which)._replace(
+        piston=Series(0 * few.select_cylinders(which).piston.c)
+    )
     for turn in (1, -1, 1j, -1j):
         curve = exact.curve._replace(
             along=Series(exact.curve.along.c, size * np.ones(1)),
@@ -185,7 +188,8 @@ def test_errors_of_a_curve_stay_within_the_bounds_of_the_forces(name, size):
             along=Series(curve.along.c + size), across=Series(curve.across.c + 3 * turn * size)
         )
         here, there = (
-            Loads(c, (), (0j, 0.0), LOW, exact._replace(curve=it), 1.0).force for it in (curve, off)
+            Loads(c, (), 0j, 0.0, Phases(c, LOW), exact._replace(curve=it), 1.0).force
+            for it in (curve, off)
         )
         assert np.all(here.noise >= EPS * here.major)
         assert np.all(np.abs(there.forward - here.forward) <= here.noise)

@@ -228,7 +228,7 @@ def test_knuckle_pins_on_the_crank_pin_are_equal_rods():
 
 
 def highest(c):
-    return c.linkage.highest(c.lam, c.eps)
+    return c.linkage.find_highest_order(c.lam, c.eps)
 
 
 @pytest.mark.parametrize("angle", [60, 89.999, 90, 90.001, 120, 180])
@@ -289,4 +289,6 @@ def test_many_variants_are_taken_some_angles_at_a_time():
         np.zeros((1, 1)),
         np.linspace(0, 7, 1440),
     )
-    assert np.array_equal(linkage.each("lean", psi, lam, eps), linkage.motion(psi, lam, eps).lean)
+    assert np.array_equal(
+        linkage.sample(lambda m: m.lean, psi, lam, eps), linkage.motion(psi, lam, eps).lean
+    )

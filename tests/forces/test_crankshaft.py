@@ -4,11 +4,10 @@ engines.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-from support.engines import alone
+from support.engines import INLINE, alone, inline_engine
+from support.paths import ENGINES
 
 from balcli.core.peaks import peak
 from balcli.engine import build as engine
@@ -18,40 +17,17 @@ from balcli.forces import spectrum
 from balcli.forces.crankshaft import bearings, inner
 from balcli.forces.guide_moments import guide
 
-ENGINES = Path(__file__).parents[2] / "engines"
 ORDERS = np.arange(1.0, 5.0)
-FILE = """\
-[crank]
-stroke = 90
-throws = {throws}
-spacing = 100
-throw_mass = 1.0
-[rod]
-length = 160
-mass = 0.6
-cg = 45
-inertia = 2000
-[piston]
-mass = 0.5
-[layout]
-{layout}
-[operation]
-speed = 3000
-"""
 OMEGA = 3000 * np.pi / 30
 ROTATING = (1.0 + 0.6 * (160 - 45) / 160) * 0.045 * OMEGA**2  # N, of one throw
 RECIPROCATING = (0.5 + 0.6 * 45 / 160) * 0.045 * OMEGA**2
-
-
-def built(throws, layout="", more=""):
-    return engine.build(enginefile.parse(FILE.format(throws=throws, layout=layout) + more))
 
 
 def test_the_first_order_along_an_inline_four():
     """Loads +1 -1 -1 +1, 100 mm apart: shear 1 0 -1 0, moment about the section 0 -100 -100 0
     (times i).
     """
-    found = inner(built([0, 180, 180, 0]), ORDERS)
+    found = inner(inline_engine([0, 180, 180, 0]), ORDERS)
     assert found.shear.z_m == pytest.approx([-0.15, -0.05, 0.05, 0.15])
     ahead, against = ROTATING + RECIPROCATING / 2, RECIPROCATING / 2
     for got, pattern, factor in (
@@ -70,14 +46,14 @@ def test_an_inline_six_has_a_large_inner_moment_and_counterweights_take_most_of_
     """0-120-240-240-120-0: nothing is free, but the middle carries what three throws on one side
     make.
     """
-    plain = built([0, 120, 240, 240, 120, 0])
+    plain = inline_engine([0, 120, 240, 240, 120, 0])
     weights = "".join(
         f"[[counterweight]]\nunbalance = {(ROTATING + RECIPROCATING / 2) / OMEGA**2 * 1e6}\nangle "
         f"= {angle + 180}\n"
         f"position = {place}\n"
         for angle, place in zip([0, 120, 240, 240, 120, 0], range(-250, 251, 100), strict=True)
     )
-    fitted = built([0, 120, 240, 240, 120, 0], more=weights)
+    fitted = inline_engine([0, 120, 240, 240, 120, 0], more=weights)
     assert all(spectrum.spectra(e, [1.0], ["moment"]).moment.balanced[0] for e in (plain, fitted))
     before, after = (inner(e, ORDERS).bending for e in (plain, fitted))
     middle = abs(before.phasors.forward[0, 2])
@@ -99,7 +75,9 @@ def test_an_inline_six_has_a_large_inner_moment_and_counterweights_take_most_of_
 def test_beyond_the_last_load_stand_free_force_and_moment(layout):
     last = 0.1 + (0.01 if layout else 0)
     weight = "[[counterweight]]\nunbalance = 30000\nangle = 99\nposition = -20\n"
-    subject = built([0, 90, 200], layout, f"[frame]\nreference = [0, 0, {last * 1e3}]\n{weight}")
+    subject = inline_engine(
+        [0, 90, 200], layout, f"[frame]\nreference = [0, 0, {last * 1e3}]\n{weight}"
+    )
     found, free = inner(subject, ORDERS), spectrum.spectra(subject, ORDERS)
     assert found.shear.z_m[-1] == pytest.approx(last)
     for along, whole in ((found.shear, free.force), (found.bending, free.moment)):
@@ -108,7 +86,7 @@ def test_beyond_the_last_load_stand_free_force_and_moment(layout):
 
 
 def test_bearings_carry_all_force_and_moment():
-    subject = built(
+    subject = inline_engine(
         [0, 90, 200], more="[[counterweight]]\nunbalance = 30000\nangle = 99\nposition = -20\n"
     )
     found, free = inner(subject, ORDERS).bearings, spectrum.spectra(subject, ORDERS)
@@ -124,7 +102,7 @@ def test_bearings_carry_all_force_and_moment():
 
 def test_one_throw_in_the_middle_of_its_bearings_would_be_a_guess():
     assert bearings(np.array([0.0])) is None
-    assert inner(built([0]), ORDERS).bearings is None
+    assert inner(inline_engine([0]), ORDERS).bearings is None
 
 
 def test_shafts_and_sliders_act_on_the_block_not_on_the_crank():
@@ -132,7 +110,7 @@ def test_shafts_and_sliders_act_on_the_block_not_on_the_crank():
         "[[shaft]]\nratio = -1\nunbalance = 9000\n[[slider]]\norder = 1\nunbalance = "
         "9000\ndirection = 0\n"
     )
-    plain, with_devices = (inner(built([0, 180], more=text), ORDERS) for text in ("", more))
+    plain, with_devices = (inner(inline_engine([0, 180], more=text), ORDERS) for text in ("", more))
     assert np.array_equal(plain.bending.phasors.forward, with_devices.bending.phasors.forward)
 
 
@@ -140,7 +118,7 @@ def test_guide_force_moments():
     """H is the roll moment of the engine; X of two cylinders at +-L/2 is half the difference of
     their rolls.
     """
-    subject = built([0, 180])
+    subject = inline_engine([0, 180])
     found, roll = guide(subject, ORDERS), spectrum.spectra(subject, ORDERS).roll
     assert found.h.forward == pytest.approx(roll.forward, rel=1e-11, abs=1e-9)
     first, second = (spectrum.spectra(alone(subject, n), ORDERS).roll for n in (1, 2))
@@ -152,7 +130,7 @@ def test_guide_force_moments():
 
 
 def test_one_throw_has_no_x_type():
-    assert guide(built([0]), ORDERS).x is None
+    assert guide(inline_engine([0]), ORDERS).x is None
 
 
 # ------------------------------------------------------------------ cylinder by cylinder, and near
@@ -162,7 +140,7 @@ def test_each_cylinder_is_what_it_is_alone(name):
     layout = "firing_order = [1, 3, 4, 2]" if name == "ripple" else ""
     ripple = "speed_ripple = [{order = 2, amplitude = 0.02, angle = 30}]\n"
     subject = (
-        built([0, 180, 180, 0], layout, ripple)
+        inline_engine([0, 180, 180, 0], layout, ripple)
         if name == "ripple"
         else enginefile.load(ENGINES / f"{name}.toml")
     )
@@ -179,7 +157,7 @@ def test_each_cylinder_is_what_it_is_alone(name):
 
 def near_the_lock(throws, more=""):
     text = (
-        FILE.format(throws=throws, layout="")
+        INLINE.format(throws=throws, layout="")
         .replace("length = 160", "ratio = 0.999999")
         .replace("cg = 45\n", "cg = 20\n")
     )
@@ -221,4 +199,4 @@ def test_more_results_along_the_crank_than_anybody_reads_are_refused():
         r"results, "
         r"and at most 32768 are told: ask for fewer orders$",
     ):
-        inner(built([0] * 9), np.arange(1.0, 4097))
+        inner(inline_engine([0] * 9), np.arange(1.0, 4097))

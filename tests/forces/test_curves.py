@@ -4,19 +4,17 @@ do.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from support.paths import ENGINES
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.forces.curves import crank_angles, cylinder_curves, engine_curves
 from balcli.forces.spectrum import relevant_orders, spectra
-from balcli.render.json import orders
+from balcli.render.figures import order_entries
 
-ENGINES = Path(__file__).parents[2] / "engines"
 RELATIVE = 1e-12  # of the largest parts that are added up
 
 UNEVEN = """
@@ -143,7 +141,7 @@ def test_a_mean_under_uneven_speed_keeps_its_sign_where_the_documents_say():
     y without them.
     """
     subject, angles = engine("uneven"), crank_angles(0.5)
-    (order,) = orders(spectra(subject, [0]))
+    (order,) = order_entries(spectra(subject, [0]))
     mean = {
         name: float(curve.mean()) for name, curve in engine_curves(subject, angles).values.items()
     }

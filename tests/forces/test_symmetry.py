@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from support.paths import ENGINES
 
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
 from balcli.forces import spectrum
 from balcli.forces.symmetry import why
-from balcli.render import json as as_json
+from balcli.render.analysis import document as analysis_document
+from balcli.render.json import json_text
 from balcli.results import analysis
 
-ENGINES = sorted((Path(__file__).parents[2] / "engines").glob("*.toml"))
+FILES = sorted(ENGINES.glob("*.toml"))
 
 BASE = """\
 [crank]
@@ -94,7 +95,7 @@ def test_two_banks_of_different_mechanisms_that_are_each_balanced():
     """A VR6: neighbouring pins stand at no fraction of a turn, but each bank is a balanced
     three.
     """
-    vr6 = engine.build(enginefile.read(next(p for p in ENGINES if p.stem == "vr6")))
+    vr6 = engine.build(enginefile.read(next(p for p in FILES if p.stem == "vr6")))
     assert why(vr6, [1]).reasons[0].verdict == "exact"
 
 
@@ -138,7 +139,7 @@ def test_firing(layout, text):
     assert why(engine.build(enginefile.parse(base + layout)), [1]).firing == text
 
 
-@pytest.mark.parametrize("path", ENGINES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_exact_and_numeric_decisions_agree(path):
     """What is balanced exactly has no force left but rounding, and what is free is not reported as
     balanced.
@@ -157,7 +158,7 @@ def test_exact_and_numeric_decisions_agree(path):
 def test_only_what_is_asked_and_as_json():
     built = engine.build(enginefile.parse(BASE.format(throws=[0, 180], spacing=100)))
     result = analysis.analyze(built, [1, 2], ["force"], reasons=True)
-    document = json.loads(as_json.dumps(as_json.analysis(result)))
+    document = json.loads(json_text(analysis_document(result)))
     assert document["why"] == {
         "reasons": [
             {"order": 1, "quantity": "force", "verdict": "exact", "size": 0.0},

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from oracle import momentum
 from support.engines import alone
+from support.paths import ENGINES
 
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
@@ -15,7 +14,7 @@ from balcli.forces import spectrum
 
 TOLERANCE = 1e-11  # of the largest first-order amplitude of one cylinder
 ORDERS = np.arange(0.0, 11.0)
-ENGINES = sorted((Path(__file__).parents[2] / "engines").glob("*.toml"))
+FILES = sorted(ENGINES.glob("*.toml"))
 
 BASE = """\
 [crank]
@@ -162,7 +161,7 @@ def test_mechanisms(name):
     compare(BASE.format(**parts))
 
 
-@pytest.mark.parametrize("path", ENGINES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_every_engine_that_comes_with_balcli(path):
     compare(path.read_text(encoding="utf-8"))
 

@@ -6,13 +6,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 from support.engines import alone, engine
+from support.paths import ENGINES
 
-from balcli.core.mechanisms import harmonics
+from balcli.core.mechanisms import closed_form, harmonics
 from balcli.engine.build import Engine, build
 from balcli.engine.load import read
 from balcli.errors import BalcliError
@@ -21,14 +21,13 @@ from balcli.forces.spectrum import SHOWN, relevant_orders, spectra
 from balcli.limits import HIGHEST_ORDER
 from balcli.results.analysis import QUANTITIES, Analysis, analyze, textbook
 
-FOLDER = Path(__file__).parents[2] / "engines"
-NAMES = sorted(file.stem for file in FOLDER.glob("*.toml"))
+NAMES = sorted(file.stem for file in ENGINES.glob("*.toml"))
 STEADY = ("force", "moment", "couple", "torque", "roll", "peak")
 
 
 @lru_cache
 def example(name: str) -> Engine:
-    return build(read(FOLDER / f"{name}.toml"))
+    return build(read(ENGINES / f"{name}.toml"))
 
 
 @lru_cache
@@ -60,9 +59,9 @@ def test_orders_asked_for_are_the_same_to_the_last_bit(name):
         again, alone_ = asked.spectra[q], single.spectra[q]
         assert np.array_equal(phasors.forward, again.forward), q
         assert np.array_equal(phasors.backward, again.backward), q
-        assert np.array_equal(phasors.at([2]).forward, alone_.forward), q
+        assert np.array_equal(phasors.select_orders([2]).forward, alone_.forward), q
         assert np.array_equal(
-            phasors.forward, getattr(many.spectra, q).at(default.orders).forward
+            phasors.forward, getattr(many.spectra, q).select_orders(default.orders).forward
         ), q
     assert (asked.force, asked.moment) == (default.force, default.moment)
 
@@ -183,13 +182,13 @@ def test_what_is_not_asked_for_is_not_computed(monkeypatch):
     peak, no others.
     """
     asked = []
-    original = harmonics.of_distinct
+    original = harmonics.find_distinct_harmonics
 
     def spy(orders, *rest, rod=True, energy=True):
         asked.append((list(orders), rod, energy))
         return original(orders, *rest, rod=rod, energy=energy)
 
-    monkeypatch.setattr(harmonics, "of_distinct", spy)
+    monkeypatch.setattr(harmonics, "find_distinct_harmonics", spy)
     analyze(example("i4"), [1, 2], only=["force"])
     assert [(orders, energy) for orders, _, energy in asked] == [([1, 2], False)]
 
@@ -277,7 +276,7 @@ def test_textbook_units():
         pytest.approx(0.1),
         True,
     )
-    assert list(units.ratios) == list(harmonics.piston([1, 2, 3], 0.25))
+    assert list(units.ratios) == list(closed_form.piston([1, 2, 3], 0.25))
     assert np.isnan(textbook(engine(), np.array([1.0])).arm)
 
 

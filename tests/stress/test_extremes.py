@@ -6,18 +6,17 @@ Each test holds a bound of `BOUNDS`, as `docs/accuracy.md` prints them.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from support.engines import engine
+from support.paths import DOCS
 
-from balcli.core.mechanisms import harmonics
-from balcli.core.mechanisms.harmonics import EPS
+from balcli.core.mechanisms import closed_form, fourier, harmonics
 from balcli.core.peaks import peak
+from balcli.core.phasors import EPS
 from balcli.engine.build import Engine
 from balcli.errors import InputError
 from balcli.forces.spectrum import Spectra, relevant_orders, spectra
@@ -39,7 +38,7 @@ LAMBDAS = [1e-12, 1e-9, 1e-6, 1e-3, 0.1, 0.28, 0.5, 0.75, 0.9, 0.99, 1 - 1e-5, 1
 HIGH = [255, 256, 4095, 4096]
 SMALLEST = 1e-290  # below which a float has not all its digits
 NEAREST = 1 - 1e-6  # of lambda + |eps|
-PAGE = Path(__file__).parents[2] / "docs" / "accuracy.md"
+PAGE = DOCS / "accuracy.md"
 REVOLVING = 0.05 * (2 * np.pi) ** 2  # m r omega^2 of `kit.engine`: 1 kg, 50 mm, 60 rpm
 
 
@@ -76,7 +75,7 @@ def exact(name: str, n: int, lam: float) -> mp.mpf:
 
 def error(name: str, orders: list[int], lam: float) -> float:
     """Largest relative error; what has to vanish must be 0."""
-    got, worst = getattr(harmonics, name)(orders, lam), 0.0
+    got, worst = getattr(closed_form, name)(orders, lam), 0.0
     for n, value in zip(orders, got, strict=True):
         want = exact(name, n, lam)
         if want == 0:
@@ -124,9 +123,9 @@ def revolution(motion, count: int, orders: list[int]) -> list[list[mp.mpc]]:
     ]
 
 
-def share_of_bound(series: harmonics.Series, row: int, want: list[mp.mpc]) -> float:
+def share_of_bound(series: fourier.Series, row: int, want: list[mp.mpc]) -> float:
     """Largest error as a share of the bound that the product states, which is 16 roundings."""
-    assert harmonics.SAMPLING == BOUNDS["offset pistons"] * EPS == BOUNDS["articulated rods"] * EPS
+    assert fourier.SAMPLING == BOUNDS["offset pistons"] * EPS == BOUNDS["articulated rods"] * EPS
     errors = [
         float(abs(mp.mpmathify(complex(got)) - exact))
         for got, exact in zip(series.c[:, row], want, strict=True)
@@ -166,11 +165,11 @@ def test_offset_mechanisms_keep_the_bound_they_state(lam, eps):
         )
 
     ratio, offset = mp.mpf(lam), mp.mpf(eps)
-    count = harmonics.points(lam, eps)
+    count = harmonics.count_samples(lam, eps)
     orders = [n for n in (0, 1, 2, 3, 7, 24) if n < count // 4]
     with mp.workdps(30):
         want = revolution(motion, count, orders)
-    found = harmonics.sampled(orders, np.array([lam]), np.array([eps]))
+    found = harmonics.sample_harmonics(orders, np.array([lam]), np.array([eps]))
     for name, values in zip(("piston", "rod", "kinetic", "rod_kinetic"), want, strict=True):
         assert share_of_bound(getattr(found, name), 0, values) < 0.6, name
 
@@ -231,9 +230,9 @@ def test_articulated_rods_near_dead_lock_keep_the_bound_they_state(short, master
 
     orders = [0, 1, 2, 3, 7]
     with mp.workdps(30):
-        want = revolution(motion, 2 * c.linkage.highest(c.lam, c.eps), orders)
-    few, which = c.linkage.harmonics(orders, c.lam, c.eps, rod=True, energy=True)
-    found = few.of_rows(which)
+        want = revolution(motion, 2 * c.linkage.find_highest_order(c.lam, c.eps), orders)
+    few, which = c.linkage.find_distinct_harmonics(orders, c.lam, c.eps, rod=True, energy=True)
+    found = few.select_cylinders(which)
     assert share_of_bound(found.piston, row, want[0]) < 0.5
     assert share_of_bound(found.rod, row, want[1]) < 0.5
 
@@ -243,8 +242,8 @@ def test_the_mirror_image_of_an_articulated_rod_has_the_same_bound():
     bounds = []
     for master in (1, 2):
         c = vee(1e-2, master).cylinders
-        few, which = c.linkage.harmonics([1, 2], c.lam, c.eps, rod=True, energy=False)
-        found, row = few.of_rows(which), 2 - master
+        few, which = c.linkage.find_distinct_harmonics([1, 2], c.lam, c.eps, rod=True, energy=False)
+        found, row = few.select_cylinders(which), 2 - master
         bounds.append((found.piston.noise[row], found.rod.noise[row], found.piston.noise[1 - row]))
     assert bounds[0] == pytest.approx(bounds[1], rel=1e-6, abs=0)
 
@@ -342,7 +341,7 @@ def test_throws_that_almost_cancel(off):
     """
     found = three(crank={"throws": [0, 120 + off, 240]})
     true = np.radians((120 + off) - 120)  # exact, of the number that is in the file
-    a = harmonics.piston([1, 2, 4], 0.25)
+    a = closed_form.piston([1, 2, 4], 0.25)
     for n, share in zip((1, 2, 4), a, strict=True):
         want = REVOLVING * abs(share) * 2 * abs(np.sin(n * true / 2))
         assert abs(found.force.major[n - 1] - want) <= BOUNDS[
@@ -455,7 +454,7 @@ def test_a_microgram_beside_a_million_tonnes():
         cylinder={"1": {"piston_mass": 1e-9}, "2": {"piston_mass": 1e9}},
     )
     found = spectra(both, [1, 2, 4])
-    a = harmonics.piston([1, 2, 4], 0.25)
+    a = closed_form.piston([1, 2, 4], 0.25)
     assert found.force.major == pytest.approx(1e9 * REVOLVING * np.abs(a), rel=1e-14)
     own = dict(analyze(both, [1, 2, 4], by_cylinder=True, only=["force"]).cylinders)
     assert own[1].force.major == pytest.approx(1e-9 * REVOLVING * np.abs(a), rel=1e-14)
@@ -472,7 +471,7 @@ def test_many_cylinders(count):
     )
     left = found.orders % count == 0
     assert found.force.balanced[~left].all()
-    want = REVOLVING * np.abs(harmonics.piston(found.orders[left], 0.999)) * count
+    want = REVOLVING * np.abs(closed_form.piston(found.orders[left], 0.999)) * count
     assert np.all(
         np.abs(found.force.major[left] - want) <= BOUNDS["many cylinders"] * count * EPS * want
     )
@@ -487,7 +486,7 @@ def test_512_cylinders_at_odd_angles():
     found = spectra(
         engine(crank={"stroke": 100, "throws": throws}, rod={"ratio": 0.999}), orders
     ).force
-    for row, (n, a) in enumerate(zip(orders, harmonics.piston(orders, 0.999), strict=True)):
+    for row, (n, a) in enumerate(zip(orders, closed_form.piston(orders, 0.999), strict=True)):
         want = (
             abs(mp.fsum(mp.expjpi(n * mp.mpf(throw) / 180) for throw in throws))
             * REVOLVING

@@ -15,11 +15,11 @@ from pathlib import Path
 import fuzz
 import numpy as np
 import pytest
+from support.paths import SOURCE
 
 from balcli.core.phasors import Phasors
 from balcli.studies.search.angles import valleys
 
-ROOT = Path(__file__).parents[2]
 SEED = 20
 
 
@@ -52,7 +52,7 @@ def process(args: list[str], place: Path) -> fuzz.Outcome:
             stdout=out,
             stderr=err,
             stdin=subprocess.DEVNULL,
-            env={**os.environ, "PYTHONPATH": str(ROOT / "src"), "OMP_NUM_THREADS": "1"},
+            env={**os.environ, "PYTHONPATH": str(SOURCE), "OMP_NUM_THREADS": "1"},
         )
         running.wait(fuzz.ALARM)
         texts = []

@@ -7,41 +7,26 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from support.commands import run_command
 from support.engines import alone, engine
+from support.paths import ENGINES
 
-from balcli.core.mechanisms.harmonics import EPS
+from balcli.core.phasors import EPS
 from balcli.engine.build import Engine
 from balcli.forces.kinds import KINDS
 from balcli.forces.spectrum import spectra
 
-ENGINES = Path(__file__).parents[2] / "engines"
 ORDERS = np.arange(1.0, 17.0)
 
 
 def output(threads: int) -> bytes:
     names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-    command = [
-        sys.executable,
-        "-m",
-        "balcli",
-        "analyze",
-        str(ENGINES / "vr6.toml"),
-        str(ENGINES / "radial9.toml"),
-        "--format",
-        "json",
-    ]
-    return subprocess.run(
-        command,
-        env=os.environ
-        | dict.fromkeys(names, str(threads))
-        | {"PYTHONPATH": os.pathsep.join(sys.path)},
-        capture_output=True,
-        check=True,
-    ).stdout
+    engines = ENGINES / "vr6.toml", ENGINES / "radial9.toml"
+    limits = dict.fromkeys(names, str(threads))
+    return run_command("analyze", *engines, "--format", "json", env=limits, encoding=None).stdout
 
 
 def test_runs_and_threads_do_not_matter():

@@ -34,7 +34,7 @@ def test_flat_plane_vee_eight_over_its_bank_angle():
     vee = engine(VEE)
     banks = over_bank_angle(vee, 2)
     c = vee.cylinders
-    ratio = float(harmonics.of([2.0], c.lam, c.eps).piston.c[0, 0].real)
+    ratio = float(harmonics.find_harmonics([2.0], c.lam, c.eps).piston.c[0, 0].real)
     K = 4 * ratio * float(c.reciprocating[0] * c.radius) * vee.omega**2
     gamma = np.radians(banks.angles_deg)
     assert np.abs(banks.force.forward[0]) == pytest.approx(
@@ -49,7 +49,7 @@ def test_flat_plane_vee_eight_over_its_bank_angle():
 def test_its_own_bank_angle_is_the_engine_as_it_is():
     vee, found = engine(VEE), study(engine(VEE), "bank")
     at = int(np.flatnonzero(found.banks.angles_deg == 75)[0])
-    force = study(vee, "all").now.spectra.force.at([2])
+    force = study(vee, "all").now.spectra.force.select_orders([2])
     assert found.banks.force.major[0, at] == pytest.approx(float(force.major[0]), rel=1e-12)
     assert found.banks.order == 2
 
@@ -128,8 +128,8 @@ def test_counterweights_unload_the_crankshaft_of_an_in_line_four():
 
 def test_a_scheme_compares_before_and_after():
     found = study(engine(GOOD), "all", scheme="two-shaft")
-    assert found.before.spectra.force.at([2]).major[0] > 100
-    assert found.now.spectra.force.at([2]).balanced[0]
+    assert found.before.spectra.force.select_orders([2]).major[0] > 100
+    assert found.now.spectra.force.select_orders([2]).balanced[0]
     with pytest.raises(BalcliError, match="there is no scheme 'tow-shaft'"):
         study(engine(GOOD), "all", scheme="tow-shaft")
 

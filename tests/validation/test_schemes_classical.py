@@ -12,7 +12,7 @@ import pytest
 from support.engines import engine_text
 from support.remedies import figures
 
-from balcli.core.mechanisms import harmonics
+from balcli.core.mechanisms import closed_form
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
@@ -24,7 +24,7 @@ from balcli.sizing.remedy import fit_devices
 from balcli.sizing.sizing import size
 
 M, R, LAM = 1.0, 0.05, 0.25
-A2 = float(harmonics.piston([2], LAM)[0])
+A2 = float(closed_form.piston([2], LAM)[0])
 
 
 def engine(
@@ -182,7 +182,7 @@ def test_shafts_at_different_heights_take_the_roll():
     Inertia torque of order 2 of one cylinder: `1/2 m r^2 K_2 2 sin 2 theta` with K_2 the
     coefficient of (s'/r)^2; four of them.
     """
-    inertia_torque = 4 * M * R**2 * abs(float(harmonics.kinetic([2], LAM)[0]))  # per omega^2
+    inertia_torque = 4 * M * R**2 * abs(float(closed_form.kinetic([2], LAM)[0]))  # per omega^2
     height = inertia_torque / (4 * A2 * M * R / 2)  # force of one shaft
     remedy = size(INLINE_4, "two-shaft", SchemeOptions(roll="zero"))
     place = {s.ratio: complex(*s.at) / 1e3 for s in remedy.shafts}

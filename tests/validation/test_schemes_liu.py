@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from support.engines import engine_text
 
-from balcli.core.mechanisms import harmonics
+from balcli.core.mechanisms import closed_form
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
 from balcli.forces.spectrum import spectra
@@ -24,7 +24,7 @@ from balcli.sizing.remedy import fit_devices
 from balcli.sizing.sizing import size
 
 K = (
-    4 * float(harmonics.piston([2], 0.25)[0]) * 1.0 * 0.05
+    4 * float(closed_form.piston([2], 0.25)[0]) * 1.0 * 0.05
 )  # per omega^2 (kg m): A2 m r, four cylinders in a row
 EVERY_ANGLE = [0, 15, 30, 45, 59, 60, 61, 75, 90, 105, 120, 135, 150, 165, 179, 180]
 

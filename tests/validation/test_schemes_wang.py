@@ -14,7 +14,7 @@ import pytest
 from support.engines import engine_text
 from support.remedies import figures
 
-from balcli.core.mechanisms import harmonics, slidercrank
+from balcli.core.mechanisms import closed_form, slidercrank
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
@@ -161,7 +161,7 @@ def test_eccentric_slider_leaves_its_residual():
     left = spectra(fit_devices(engine, remedy), np.arange(1.0, 12), ("force",)).force
     theta = np.linspace(0, 2 * np.pi, 3601)
     force = left.values(theta).real / (M * R * engine.omega**2)
-    exact = harmonics.piston(np.arange(1.0, 12), 0.25)
+    exact = closed_form.piston(np.arange(1.0, 12), 0.25)
     two_terms = sum(
         (a - (1 if n == 1 else 0.25 if n == 2 else 0)) * np.cos(n * theta)
         for n, a in enumerate(exact, 1)
@@ -240,7 +240,7 @@ def test_oldham_couplings_cancel_orders_1_and_2(bank):
     assert weight.unbalance / 1e6 == pytest.approx(0.7 * R, rel=1e-13)
     assert figures(remedy)["first order"] == pytest.approx(M * R / 2, rel=1e-14)
     assert figures(remedy)["block"] == pytest.approx(
-        float(harmonics.piston([2], 0.3)[0]) * M * R / 8, rel=1e-14
+        float(closed_form.piston([2], 0.3)[0]) * M * R / 8, rel=1e-14
     )
     assert all(device.place == 0 for device in remedy.beyond)
 
@@ -258,7 +258,7 @@ def test_two_and_four_shafts():
     crank); (2.2) A2 m r / 8.
     """
     shafts = {s.ratio: s.unbalance / 1e6 for s in size(single(), "four-shaft").shafts}
-    second = float(harmonics.piston([2], 0.25)[0]) * M * R / 8
+    second = float(closed_form.piston([2], 0.25)[0]) * M * R / 8
     assert shafts == pytest.approx(
         {-1: M * R / 2, 1: M * R / 2 + 0.7 * R, -2: second, 2: second}, rel=1e-14
     )
@@ -301,8 +301,8 @@ def test_overbalance_optimum_of_both_orders(lam, peak, k):
     engine = single(lam)
     (weight,) = size(engine, "minimax").counterweights
     found = analyze(after(engine, "minimax"), only=["peak"]).force.value / (M * R * engine.omega**2)
-    rest = sum(abs(float(a)) for a in harmonics.piston([4, 6, 8], lam)) + abs(
-        float(harmonics.piston([2], lam)[0]) - lam
+    rest = sum(abs(float(a)) for a in closed_form.piston([4, 6, 8], lam)) + abs(
+        float(closed_form.piston([2], lam)[0]) - lam
     )
     assert found == pytest.approx(peak, abs=rest)
     assert weight.unbalance / 1e6 / (M * R) - 0.7 == pytest.approx(k, abs=2 * rest)

@@ -16,13 +16,13 @@ from typing import Any
 import pytest
 from support.engines import engine
 
-from balcli.core.mechanisms import harmonics
+from balcli.core.mechanisms import closed_form
 from balcli.forces.spectrum import Spectra, spectra
 
 RELATIVE = 1e-13
 LAM = 0.25
 ORDERS = range(1, 13)
-A = dict(zip(ORDERS, harmonics.piston(list(ORDERS), LAM), strict=True))
+A = dict(zip(ORDERS, closed_form.piston(list(ORDERS), LAM), strict=True))
 F1 = 1.0 * 0.05 * (2 * pi) ** 2  # N, at 60 rpm
 ARM = 0.1  # m
 

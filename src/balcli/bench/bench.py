@@ -107,7 +107,7 @@ def _coefficient() -> Iterator[Case]:
     ways: list[tuple[str, methods.Coefficients]] = [
         ("two-term formula", methods.two_term),
         *((f"series to λ^{p}", methods.printed(p)) for p in methods.POWERS),
-        ("closed form", methods.closed_form),
+        ("closed form", methods.find_closed_form),
         *((f"FFT, {n} points", methods.transformed(n)) for n in methods.POINTS),
         *((f"time stepping, {n} steps", methods.stepped(n)) for n in methods.SAMPLES),
     ]

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.mechanisms import harmonics
+from ..core.mechanisms import closed_form
 from ..core.mechanisms import power_series as series
 from ..engine.build import Engine
 from ..forces.spectrum import spectra
@@ -56,8 +56,8 @@ def printed(power: int) -> Coefficients:
     return evaluate
 
 
-def closed_form(orders: list[int], lam: float) -> NDArray[np.float64]:
-    return harmonics.piston(orders, lam)
+def find_closed_form(orders: list[int], lam: float) -> NDArray[np.float64]:
+    return closed_form.piston(orders, lam)
 
 
 def transformed(points: int) -> Coefficients:

@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
+from ..render.formats import Format, Units
 from ..sizing.schemes import KNUCKLES
 from . import balance_options as asked
 from .options import (
-    EngineFile,
-    Format,
+    EnginePath,
     FormatOption,
     Orders,
     Output,
     Speed,
-    Units,
     UnitsOption,
-    checked_speed,
-    order_list,
+    check_speed,
+    parse_orders,
 )
+from .output import show
+from .overwrite_guard import refuse_overwriting
 
 
 def balance(
-    file: EngineFile,
+    path: EnginePath,
     scheme: asked.Scheme = "auto",
     order: asked.Order = None,
     at: asked.At = None,
@@ -35,28 +36,25 @@ def balance(
     write: asked.Write = None,
     speed: Speed = None,
     orders: Orders = None,
-    format: FormatOption = Format.TABLE,  # noqa: A002 (the option's name)
+    form: FormatOption = Format.TABLE,
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
     """Size counterweights, balancer shafts or sliders, and show what is left with them."""
-    from ..engine.load import name_of, parse
-    from ..render.formats import balances
+    refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
+    from ..render import balance as renderer
     from ..results.balance import balance as balance_engine
     from .fitted_engine import write_fitted
-    from .inputs import engine_and_text
-    from .output import emit
+    from .inputs import read_engine
 
     options = asked.parse_scheme_options(order, at, position, planes, factor, roll)
     tools = asked.parse_tools(radius, thickness, disc, drill)
-    wanted = order_list(orders)
-    text, engine = engine_and_text(file, rpm := checked_speed(speed))
+    shown, rpm = parse_orders(orders), check_speed(speed)
+    text, model, engine = read_engine(path, rpm)
     if scheme == KNUCKLES or even is not None:
-        model = parse(text, name_of(file))
-        result = asked.balance_knuckles(scheme, options, even, model, engine, wanted)
+        result = asked.balance_knuckles(scheme, options, even, model, engine, shown)
     else:
-        result = balance_engine(engine, scheme, options, wanted, tools)
-    shown = balances(result, format, units, into_file=output is not None)
+        result = balance_engine(engine, scheme, options, shown, tools)
     if write is not None:
-        write_fitted(file, text, result.remedy, write, rpm)
-    emit(shown, output)
+        write_fitted(path, text, result.remedy, write, rpm)
+    show([result], renderer, form, output, units)

@@ -12,8 +12,8 @@ from ..errors import BalcliError
 from ..limits import MOST_FACTORS
 from ..sizing.options import SchemeOptions
 from ..sizing.schemes import KNUCKLES, NAMES
-from . import completion
-from .options import numbers
+from .completion import complete_schemes
+from .options import parse_numbers
 
 if TYPE_CHECKING:
     from ..engine.build import Engine
@@ -27,7 +27,7 @@ Scheme = Annotated[
         "--scheme",
         "--with",
         metavar="NAME",
-        autocompletion=completion.schemes,
+        autocompletion=complete_schemes,
         help=f"What to fit: {', '.join(NAMES[:-1])} or {NAMES[-1]}.",
     ),
 ]
@@ -192,12 +192,12 @@ def balance_knuckles(
 
 
 def _parse_place(text: str) -> complex:
-    x, y = numbers("--at", text, "x,y of a shaft in mm, such as -40,60", 2)
+    x, y = parse_numbers("--at", text, "x,y of a shaft in mm, such as -40,60", 2)
     return complex(x / 1e3, y / 1e3)
 
 
 def _parse_position(text: str) -> float:
-    (z,) = numbers("--position", text, "one place along z in mm, such as 40", 1)
+    (z,) = parse_numbers("--position", text, "one place along z in mm, such as 40", 1)
     return z / 1e3
 
 
@@ -205,15 +205,15 @@ def _parse_planes(text: str) -> str | tuple[float, ...]:
     if text in ("ends", "throws"):
         return text
     wanted = "ends, throws, or places along z in mm, such as -200,200"
-    return tuple(z / 1e3 for z in numbers("--planes", text, wanted))
+    return tuple(z / 1e3 for z in parse_numbers("--planes", text, wanted))
 
 
 def _parse_factors(text: str) -> tuple[float, ...]:
     """`0.5`, `0.4,0.5` or `0:1:0.1` (ends included)."""
     wanted = "a share of the reciprocating mass such as 0.5, or a range such as 0:1:0.1"
     if ":" not in text:
-        return numbers("--factor", text, wanted)
-    parts = [numbers("--factor", part, wanted, 1)[0] for part in text.split(":")]
+        return parse_numbers("--factor", text, wanted)
+    parts = [parse_numbers("--factor", part, wanted, 1)[0] for part in text.split(":")]
     if not _is_range(parts):
         raise BalcliError(
             f'--factor "{text}": a range is first:last:step, rising, with at most {MOST_FACTORS} '

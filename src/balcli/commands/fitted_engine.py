@@ -8,7 +8,7 @@ from ..engine.load import name_of
 from ..enginefile.edit import changed
 from ..sizing.remedy import Remedy
 from ..sizing.write import insert_remedy
-from .output import write
+from .output import write_file
 
 
 def write_fitted(
@@ -23,4 +23,4 @@ def write_fitted(
     new = insert_remedy(text, remedy, name_of(source))
     if speed_rpm is not None:
         new = changed(new, "operation", {"speed": speed_rpm}, "as balanced by balcli")
-    write(new, target)
+    write_file(new, target)

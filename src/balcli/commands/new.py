@@ -7,7 +7,9 @@ from typing import Annotated
 
 import typer
 
-from . import completion
+from ..enginefile.templates import template
+from .completion import complete_kinds
+from .output import emit, refuse_existing
 
 
 def new(
@@ -17,10 +19,10 @@ def new(
             metavar="KIND",
             help="single, inline, vee, boxer, radial or w.",
             show_default=False,
-            autocompletion=completion.kinds,
+            autocompletion=complete_kinds,
         ),
     ],
-    file: Annotated[
+    path: Annotated[
         Path | None,
         typer.Argument(
             metavar="FILE", help="Where to write it; default: standard output.", show_default=False
@@ -29,9 +31,6 @@ def new(
     force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
 ) -> None:
     """Write a commented, valid engine file to start from."""
-    from ..enginefile.templates import template
-    from .output import emit, keep
-
     text = template(kind)
-    keep(file, force)
-    emit(text, file)
+    refuse_existing(path, force)
+    emit(text, path)

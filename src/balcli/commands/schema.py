@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import json
+
 from .options import Output
+from .output import emit
 
 
 def schema(output: Output = None) -> None:
     """Print the JSON Schema of the engine file, for editors."""
-    import json
+    from ..enginefile.schema import schema as describe  # pydantic
 
-    from ..enginefile.schema import schema as described
-    from .output import emit
-
-    emit(json.dumps(described(), indent=2, ensure_ascii=False), output)
+    emit(json.dumps(describe(), indent=2, ensure_ascii=False), output)

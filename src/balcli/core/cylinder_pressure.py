@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import strokes
-from .loads import Cylinders
+from .cylinders import Cylinders
 from .mechanisms import slidercrank
 from .mechanisms.articulated import Articulated
 from .mechanisms.linkage import Linkage

@@ -50,8 +50,7 @@ def peak(curve: Phasors) -> Peak:
 
 def candidates(curve: Phasors, most: int = 64) -> Array:
     """Angles of the samples that may lie beside the highest peak."""
-    highest = int(curve.orders[-1])
-    count = 16 * max(highest, 1)
+    count = 16 * max(int(curve.orders[-1]), 1)
     spectrum = np.zeros(count, complex)
     spectrum[curve.orders.astype(int)] += curve.forward
     spectrum[-curve.orders.astype(int)] += curve.backward
@@ -60,7 +59,8 @@ def candidates(curve: Phasors, most: int = 64) -> Array:
         (power >= np.roll(power, 1)) & (power >= np.roll(power, -1)) & (power >= 0.92 * power.max())
     )
     found = np.flatnonzero(top)
-    return found[np.argsort(-power[found], kind="stable")[:most]] * (2 * np.pi / count)
+    highest_first = found[np.argsort(-power[found], kind="stable")]
+    return highest_first[:most].astype(float) * (2 * np.pi / count)
 
 
 def climb(curve: Phasors, theta: Array, step: float, rounds: int = 12) -> Array:

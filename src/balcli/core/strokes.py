@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .loads import Cylinders
-from .mechanisms.harmonics import Array
+from .cylinders import Cylinders
 from .mechanisms.linkage import Linkage, revolution
+from .phasors import Array
 
 _STEPS = 720
 
@@ -46,7 +46,7 @@ def _plain(c: Cylinders) -> tuple[Array, ...]:
 
 def _sampled(c: Cylinders, linkage: Linkage) -> tuple[Array, ...]:
     psi = revolution(_STEPS)
-    place = linkage.each("place", psi, c.lam, c.eps)
+    place = linkage.sample(lambda motion: motion.place, psi, c.lam, c.eps)
     top = _refined(c, linkage, psi[place.argmax(axis=-1)])
     bottom = _refined(c, linkage, psi[place.argmin(axis=-1)])
     high, low = (linkage.motion(at[..., None], c.lam, c.eps).place[..., 0] for at in (top, bottom))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from ..core.loads import Cylinders
+from ..core.cylinders import Cylinders
 from ..enginefile.fields import counted
 from ..enginefile.model import Articulation, EngineFile
 from ..errors import Problem
@@ -144,7 +144,7 @@ def locked(file: EngineFile, c: Cylinders, numbers: Sequence[int]) -> Iterator[P
     hung = cast(Articulated, linkage.hung if isinstance(linkage, Rotary) else linkage)
     with np.errstate(invalid="ignore"):  # beyond 1 there is no angle
         leans = (
-            np.abs(linkage.each("lean", revolution(STEPS), c.lam, c.eps))
+            np.abs(linkage.sample(lambda motion: motion.lean, revolution(STEPS), c.lam, c.eps))
             .reshape(len(numbers), -1, STEPS)
             .max(axis=1)
         )

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core import speed_ripple as ripple
-from ..core.loads import Cylinders, Device
+from ..core.cylinders import Cylinders, Device
 from ..core.mechanisms import harmonics
 from ..enginefile.model import Bobweight, EngineFile
 from ..errors import InputError, Problem
@@ -332,9 +332,8 @@ def _strained(c: Cylinders) -> Iterator[Problem]:
     """So many different mechanisms so near their lock that they would take minutes."""
     if c.count * harmonics.HARDEST <= MOST_SAMPLES:
         return
-    different, samples = (
-        c.linkage.samples(c.lam, c.eps) if c.linkage else harmonics.samples(c.lam, c.eps)
-    )
+    count = c.linkage.count_all_samples if c.linkage else harmonics.count_all_samples
+    different, samples = count(c.lam, c.eps)
     if samples > MOST_SAMPLES:
         yield Problem(
             "cylinder",

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.loads import Device
+from ..core.cylinders import Device
 from ..core.phasors import unit
 from ..enginefile.model import Counterweight, Shaft, Slider
 

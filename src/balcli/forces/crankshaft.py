@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.loads import Device
+from ..core.cylinders import Device
 from ..core.peaks import Peak, peak
 from ..core.phasors import Array, Phasors
 from ..engine.arrays import ranked
@@ -39,7 +39,7 @@ class Along:
 
     def at(self, place: int) -> Phasors:
         """Phasors at one of the places."""
-        return self.phasors.of(place)
+        return self.phasors.select_place(place)
 
     @property
     def largest(self) -> int:
@@ -151,4 +151,6 @@ def _weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
 
 def _along(places: Array, phasors: Phasors, orders: Array) -> Along:
     every = Along(places, phasors, ())
-    return Along(places, phasors.at(orders), tuple(peak(every.at(k)) for k in range(len(places))))
+    return Along(
+        places, phasors.select_orders(orders), tuple(peak(every.at(k)) for k in range(len(places)))
+    )

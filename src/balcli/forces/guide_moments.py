@@ -36,9 +36,9 @@ def guide(engine: Engine, orders: Array | None = None) -> Guide:
     h, x = _sum(rolls, np.ones(engine.cylinders.count)), None if arms is None else _sum(rolls, arms)
     if orders is None:
         orders = every[considerable(h) | (False if x is None else considerable(x))]
-    return Guide(h.at(orders), None if x is None else x.at(orders))
+    return Guide(h.select_orders(orders), None if x is None else x.select_orders(orders))
 
 
 def _sum(rolls: Phasors, weights: Array) -> Phasors:
-    total = [float(w) * rolls.of(k) for k, w in enumerate(weights)]
+    total = [float(w) * rolls.select_place(k) for k, w in enumerate(weights)]
     return sum(total[1:], total[0]).settled()

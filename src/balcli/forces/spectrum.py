@@ -11,9 +11,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..core import speed_ripple as ripple
-from ..core.loads import Device, Loads, turning
+from ..core.cylinders import Device
+from ..core.loads import Loads, find_device_force
 from ..core.mechanisms import harmonics
-from ..core.phasors import Array, Complex, Phasors, joined
+from ..core.phases import Phases, SeparatePhases
+from ..core.phasors import Array, Complex, Phasors, join_orders
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import HIGHEST_ORDER_UNASKED, MOST_LOADS_APART
@@ -73,12 +75,14 @@ class Spectra:
         """The same without all other orders."""
         if orders is self.orders:
             return self
-        rows = {kind.name: phasors.at(orders) for kind, phasors in self.items()}
+        rows = {kind.name: phasors.select_orders(orders) for kind, phasors in self.items()}
         return Spectra(np.asarray(orders, float), **rows)
 
     def of(self, place: int) -> Spectra:
         """Those of one place along the trailing axis."""
-        return Spectra(self.orders, **{kind.name: p.of(place) for kind, p in self.items()})
+        return Spectra(
+            self.orders, **{kind.name: p.select_place(place) for kind, p in self.items()}
+        )
 
 
 def spectra(engine: Engine, orders: ArrayLike, kinds: Collection[str] = tuple(KINDS)) -> Spectra:
@@ -121,9 +125,10 @@ def few_enough(engine: Engine, orders: int, loads: int) -> None:
 def weight(engine: Engine, device: Device, orders: Array) -> Phasors:
     """Force of one device, of an engine without trailing axes, N."""
     if not engine.ripple:
-        return turning(device, orders, engine.omega**2).settled()
+        return find_device_force(device, orders, engine.omega**2).settled()
     w, dense = _uneven_speed(engine, orders)
-    return ripple.force(turning(device, dense, engine.omega**2).settled(), w).at(orders).settled()
+    steady = find_device_force(device, dense, engine.omega**2).settled()
+    return ripple.force(steady, w).select_orders(orders).settled()
 
 
 def _spectra(engine: Engine, orders: ArrayLike, kinds: Collection[str], *, apart: bool) -> Spectra:
@@ -154,8 +159,8 @@ def relevant_orders(engine: Engine) -> Array:
     errors.
     """
     c = engine.cylinders
-    own = c.linkage.highest(c.lam, c.eps) if c.linkage else harmonics.points(c.lam, c.eps) // 2
-    highest = max([own, *(d.order for d in engine.devices)])
+    find_highest = c.linkage.find_highest_order if c.linkage else harmonics.find_highest_order
+    highest = max([find_highest(c.lam, c.eps), *(d.order for d in engine.devices)])
     if not engine.ripple:
         return np.arange(1.0, highest + 1)
     return np.arange(0.0, highest + 2 * max(line.order for line in engine.ripple) + 1)
@@ -195,22 +200,16 @@ def _steady(
     """Phasors at a steady speed, and the loads of the lowest orders."""
     c, (x, y, z) = engine.cylinders, engine.reference_m
     names = [name for name in KINDS if name in parts]
-    find = c.linkage.harmonics if c.linkage else harmonics.of_distinct
+    find = c.linkage.find_distinct_harmonics if c.linkage else harmonics.find_distinct_harmonics
     about_crank = any(not KINDS[name].vector for name in parts)
     rod = about_crank and bool(np.count_nonzero(c.couple))
     few, which = find(orders, c.lam, c.eps, rod=rod, energy="torque" in parts)
 
     def loads(block: slice) -> Loads:
-        own = few if block == _ALL else few.of_orders(block)
-        return Loads(
-            c,
-            engine.devices,
-            (x + 1j * y, z),
-            orders[block],
-            own.of_rows(which),
-            engine.omega**2,
-            apart=apart,
-        )
+        own = few if block == _ALL else few.select_orders(block)
+        phases = (SeparatePhases if apart else Phases)(c, orders[block])
+        square = engine.omega**2
+        return Loads(c, engine.devices, x + 1j * y, z, phases, own.select_cylinders(which), square)
 
     most = max(_AT_ONCE // c.count, 1)
     blocks = (
@@ -223,7 +222,7 @@ def _steady(
         found.append({name: getattr(these, name) for name in names})
     if len(found) == 1:
         return found[0], lowest
-    return {name: joined([block[name] for block in found]) for name in names}, lowest
+    return {name: join_orders([block[name] for block in found]) for name in names}, lowest
 
 
 def _uneven(
@@ -237,7 +236,7 @@ def _uneven(
             uneven = ripple.torque(phasors, w, loads.mean_inertia)
         else:
             uneven = ripple.force(phasors, w, loads.mean_momentum if name == "couple" else 0.0)
-        found[name] = uneven.at(orders)
+        found[name] = uneven.select_orders(orders)
     return found
 
 

@@ -1,9 +1,10 @@
-"""What a person reads of an analysis."""
+"""The analysis of one engine."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -14,9 +15,12 @@ from ..forces.kinds import Kind
 from ..forces.spectrum import Spectra
 from ..limits import HIGHEST_ORDER_UNASKED
 from ..results.analysis import Analysis, Sizing, Textbook, textbook
-from .devices import device_grid
-from .figures import Result, order_number, peak_deg, phase_deg
+from . import crankshaft, figures, guide_moments, strokes, symmetry
+from .csv import Rows
+from .devices import device_entries, device_grid
+from .figures import Result, clean, order_entries, order_number, peak_deg, peaks, phase_deg
 from .sheet import Facts, Grid, Sheet, Text, capitalized, degrees, number
+from .terminal_plot import sketches
 from .units import System, Unit
 from .verdict import verdict
 
@@ -33,21 +37,83 @@ def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
     if result.peaks:
         parts.append(largest(result, system, "Largest over a revolution, all orders"))
     parts += [_share(n, share, system) for n, share in result.cylinders]
-    if result.inner is not None or result.guide is not None or result.travel is not None:
-        from .extras import parts as extras
-
-        parts += extras(result, system)
+    if result.travel is not None:
+        parts += strokes.sheet_parts(result.travel, engine.numbers, system)
+    if result.inner is not None:
+        parts += crankshaft.sheet_parts(result.inner, system)
+    if result.guide is not None:
+        parts += guide_moments.sheet_parts(result.guide, system)
     if found := verdict(spectra, system, result.of_one_cylinder):
         parts.append(Text("Verdict", found))
     if result.why is not None:
-        parts.append(Text("Why", result.why.sentences))
+        parts += symmetry.sheet_parts(result.why)
     if result.sizing is not None:
         parts += _sizing(result.sizing, system)
     if pictures:
-        from .terminal_plot import sketches
-
         parts += sketches(result, system)
     return Sheet(engine.name or "engine without a name", tuple(parts))
+
+
+def document(result: Analysis) -> dict[str, Any]:
+    """`balcli.analysis/1`."""
+    engine = result.engine
+    found: dict[str, Any] = {
+        "format": "balcli.analysis/1",
+        "engine": {
+            "name": engine.name,
+            "cylinders": engine.cylinders.count,
+            "displacement_m3": clean(engine.displacement_m3),
+        },
+        "speed_rpm": clean(engine.speed_rpm),
+        "reference_mm": [clean(v * 1e3) for v in engine.reference_m],
+        "orders": order_entries(result.spectra),
+    }
+    if largest_values := peaks(result):
+        found["peak"] = largest_values
+    if result.sizing is not None:
+        found["sizing"] = {
+            "scheme": result.sizing.remedy.scheme,
+            **device_entries(result.sizing.remedy),
+            "after": brief_document(result.sizing.after),
+        }
+    if result.cylinders:
+        found["cylinders"] = [
+            {"cylinder": number, "orders": order_entries(spectra)}
+            for number, spectra in result.cylinders
+        ]
+    if result.inner is not None:
+        found["inner"] = crankshaft.document(result.inner)
+    if result.guide is not None:
+        found["guide"] = guide_moments.document(result.guide)
+    if result.travel is not None:
+        found["travel"] = strokes.document(result.travel, engine.numbers)
+    if result.why is not None:
+        found["why"] = symmetry.document(result.why)
+    return found
+
+
+def brief_document(result: Analysis) -> dict[str, Any]:
+    """Peaks and orders alone, where the engine is known."""
+    return {"peak": peaks(result), "orders": order_entries(result.spectra)}
+
+
+def rows(result: Analysis, system: System) -> Rows:
+    """CSV: a figure a line; cylinder 0 is the whole engine, an empty order the whole curve."""
+    return Rows(
+        ("cylinder", "quantity", "order", "figure", "value", "unit"), _all_rows(result, system)
+    )
+
+
+def _all_rows(result: Analysis, system: System) -> Iterator[figures.Row]:
+    yield from figures.rows(result, system)
+    if result.travel is not None:
+        yield from strokes.rows(result.travel, result.engine.numbers, system)
+    if result.inner is not None:
+        yield from crankshaft.rows(result.inner, system)
+    if result.guide is not None:
+        yield from guide_moments.rows(result.guide, system)
+    if result.why is not None:
+        yield from symmetry.rows(result.why)
 
 
 # ------------------------------------------------------------------ what it is

@@ -1,17 +1,23 @@
-"""What a person reads of a balance: devices, their practical figures, and what shakes before and
-after.
-"""
+"""A balance: devices, their practical figures, and what shakes before and after."""
 
 from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
 
 import numpy as np
 
 from ..core.peaks import Peak
 from ..forces.kinds import FORCE, MOMENT, ROLL
 from ..results.balance import Balance
-from .devices import device_grid, practical_grid
+from ..sizing.device_tables import name_kind
+from . import figures
+from .analysis import brief_document
+from .csv import Rows
+from .devices import device_entries, device_grid, device_rows, practical_entry, practical_grid
 from .figures import order_number
-from .scheme_details import details_parts
+from .scheme_details import details_document, details_parts
 from .sheet import Facts, Grid, Sheet, Text, degrees, number
 from .units import System, Unit
 
@@ -88,3 +94,58 @@ def _peak(peak: Peak, unit: Unit) -> tuple[str, str]:
     if not peak.value:
         return "none", "–"
     return number(unit.of(peak.value)), degrees(float(np.degrees(peak.theta)))
+
+
+# ------------------------------------------------------------------ JSON and CSV
+def document(result: Balance) -> dict[str, Any]:
+    """`balcli.balance/1`."""
+    remedy = result.remedy
+    return {
+        "format": "balcli.balance/1",
+        "scheme": remedy.scheme,
+        "order": remedy.order,
+        **device_entries(remedy),
+        "reasons": list(remedy.reasons),
+        "practical": [practical_entry(p) for p in result.practical],
+        "details": details_document(result),
+        "before": brief_document(result.before),
+        "after": brief_document(result.after),
+    }
+
+
+def rows(result: Balance, system: System) -> Rows:
+    """CSV: a figure a line: those of the devices, the scheme's other figures (SI, as in JSON: their
+    names say the unit), and those of the engine without and with the devices.
+    """
+    header = ("part", "quantity", "order", "figure", "value", "unit")
+    return Rows(header, _all_rows(result, system))
+
+
+def _all_rows(result: Balance, system: System) -> Iterator[tuple[Any, ...]]:
+    numbers: Counter[str] = Counter()
+    for device, practical in zip(result.remedy.devices, result.practical, strict=True):
+        kind = name_kind(device)
+        numbers[kind] += 1
+        part = f"{kind} {numbers[kind]}"
+        for figure in device_rows(device, system):
+            yield part, "", "", *figure
+        for name, value in _with_paths(practical_entry(practical)):
+            yield part, "", "", name, value, ""
+    for name, value in _with_paths(details_document(result)):
+        yield "details", "", "", name, value, ""
+    for state, analysis in (("before", result.before), ("after", result.after)):
+        for row in figures.rows(analysis, system):
+            yield state, row.quantity, row.order, row.figure, row.value, row.unit
+
+
+def _with_paths(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
+    """Members of tables and lists by their paths: `card.1.bobweight_g`."""
+    if isinstance(value, Mapping):
+        members: Iterable[tuple[Any, Any]] = value.items()
+    elif isinstance(value, list):
+        members = enumerate(value, 1)
+    else:
+        yield path, value
+        return
+    for key, part in members:
+        yield from _with_paths(part, f"{path}.{key}".lstrip("."))

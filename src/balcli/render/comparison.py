@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ..forces.kinds import TORQUE
-from .csv import write
+from .csv import Rows
 from .sheet import Grid, Sheet, capitalized, number
 
 _TITLES = {TORQUE: "inertia torque"}
@@ -36,20 +36,16 @@ def _key(line: Line) -> str:
     return f"peak_{line.kind.key}" if line.order is None else line.kind.key
 
 
-def rows(result: Comparison, system: System) -> str:
-    """CSV, a figure a line."""
-    return write(
-        ("quantity", "order", "unit", *result.names),
-        [
-            (
-                line.kind.name if line.order is not None else f"peak {line.kind.name}",
-                line.order,
-                system.unit(line.kind).name,
-                *map(system.unit(line.kind).of, line.values),
-            )
-            for line in result.lines
-        ],
-    )
+def rows(result: Comparison, system: System) -> Rows:
+    """CSV: a figure a line, a column an engine."""
+    header = ("quantity", "order", "unit", *result.names)
+    return Rows(header, [_csv_line(line, system) for line in result.lines])
+
+
+def _csv_line(line: Line, system: System) -> tuple[Any, ...]:
+    unit = system.unit(line.kind)
+    name = line.kind.name if line.order is not None else f"peak {line.kind.name}"
+    return name, line.order, unit.name, *map(unit.of, line.values)
 
 
 def sheet(result: Comparison, system: System) -> Sheet:

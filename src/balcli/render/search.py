@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .csv import write
+from .csv import Rows
 from .sheet import Grid, Sheet, number
 
 if TYPE_CHECKING:
     from ..studies.search.search import Found, Search
+    from .units import System
 
 
 def document(result: Search) -> dict[str, Any]:
@@ -24,21 +25,21 @@ def document(result: Search) -> dict[str, Any]:
     }
 
 
-def rows(result: Search) -> str:
-    """CSV, an arrangement a line."""
+def rows(result: Search, _system: System) -> Rows:
+    """CSV: an arrangement a line, figures in SI units."""
     first = result.results[0]
-    return write(
+    return Rows(
         (*first.arrangement, "objective", *first.figures),
         [
-            (*map(_plain, one.arrangement.values()), one.objective, *one.figures.values())
+            (*map(_setting, one.arrangement.values()), one.objective, *one.figures.values())
             for one in result.results
         ],
     )
 
 
-def sheet(result: Search) -> Sheet:
-    """The best arrangements, and the unit F1 (F1·a for moments) in which textbooks have forces and
-    moments.
+def sheet(result: Search, _system: System) -> Sheet:
+    """The best arrangements, a row each, in SI units and in the unit F1 (F1·a for moments) in which
+    textbooks have forces and moments.
     """
     first = result.results[0]
     units = {q.name: q.unit for q in result.objective.quantities}
@@ -51,15 +52,15 @@ def sheet(result: Search) -> Sheet:
     grid = Grid(
         f"Best {result.over.replace('_', ' ')}",
         tuple(heads),
-        tuple(_row(result, one) for one in result.results),
+        tuple(_cells(result, one) for one in result.results),
         words=tuple(range(len(first.arrangement))),
     )
     return Sheet(result.file.name or "engine without a name", (grid,))
 
 
-def _row(result: Search, one: Found) -> tuple[str, ...]:
+def _cells(result: Search, one: Found) -> tuple[str, ...]:
     return (
-        *map(_plain, one.arrangement.values()),
+        *map(_setting, one.arrangement.values()),
         number(one.objective),
         *map(number, one.figures.values()),
         *(number(value, 4) for value, _ in _textbook(result, one).values()),
@@ -80,5 +81,6 @@ def _textbook(result: Search, one: Found) -> dict[str, tuple[float, str]]:
     }
 
 
-def _plain(value: Any) -> str:
+def _setting(value: Any) -> str:
+    """A number, or several with hyphens between them."""
     return "-".join(f"{v:.6g}" for v in value) if isinstance(value, list) else f"{value:.9g}"

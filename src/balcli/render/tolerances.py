@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .csv import write
+from .csv import Rows
 from .sheet import Grid, Sheet, number
 
 if TYPE_CHECKING:
     from ..studies.tolerances import Scatter, Spread
+    from .units import System
 
 SHOWN = 6  # sources of each quantity in a table
 
@@ -20,14 +21,14 @@ def document(result: Scatter) -> dict[str, Any]:
         "engine": {"name": result.file.name},
         "samples": result.samples,
         "quantities": {
-            s.quantity.name: _figures(s)
+            s.quantity.name: _statistics(s)
             | {"sensitivity": {source.name: share for source, share in s.shares}}
             for s in result.spreads
         },
     }
 
 
-def _figures(s: Spread) -> dict[str, float]:
+def _statistics(s: Spread) -> dict[str, float]:
     return {
         "nominal": s.nominal,
         "mean": s.mean,
@@ -37,21 +38,21 @@ def _figures(s: Spread) -> dict[str, float]:
     }
 
 
-def rows(result: Scatter) -> str:
-    """CSV, a quantity a line."""
-    return write(
-        ("quantity", *_figures(result.spreads[0])),
-        [(s.quantity.name, *_figures(s).values()) for s in result.spreads],
+def rows(result: Scatter, _system: System) -> Rows:
+    """CSV: a quantity a line, in SI units."""
+    return Rows(
+        ("quantity", *_statistics(result.spreads[0])),
+        [(s.quantity.name, *_statistics(s).values()) for s in result.spreads],
     )
 
 
-def sheet(result: Scatter) -> Sheet:
-    """Percentiles, and which tolerances matter most."""
+def sheet(result: Scatter, _system: System) -> Sheet:
+    """Percentiles in SI units, and which tolerances matter most."""
     spread = Grid(
         f"Spread of {result.samples} engines",
-        ("quantity", *_figures(result.spreads[0])),
+        ("quantity", *_statistics(result.spreads[0])),
         tuple(
-            (f"{s.quantity.name}, {s.quantity.unit}", *map(number, _figures(s).values()))
+            (f"{s.quantity.name}, {s.quantity.unit}", *map(number, _statistics(s).values()))
             for s in result.spreads
         ),
         note="bound: no combination exceeds it (exact for masses, to first order for lengths and "
@@ -60,12 +61,14 @@ def sheet(result: Scatter) -> Sheet:
     shares = Grid(
         "What each tolerance alone changes, most first",
         ("quantity", *(f"{k}." for k in range(1, SHOWN + 1))),
-        tuple((f"{s.quantity.name}, {s.quantity.unit}", *_texts(s)) for s in result.spreads),
+        tuple(
+            (f"{s.quantity.name}, {s.quantity.unit}", *_largest_shares(s)) for s in result.spreads
+        ),
         words=tuple(range(SHOWN + 1)),
     )
     return Sheet(result.file.name or "engine without a name", (spread, shares))
 
 
-def _texts(s: Spread) -> list[str]:
+def _largest_shares(s: Spread) -> list[str]:
     texts = [f"{source.name}: {number(share, 3)}" for source, share in s.shares[:SHOWN]]
     return texts + [""] * (SHOWN - len(texts))

@@ -1,15 +1,17 @@
-"""Two engines on one frame, as a sheet and as JSON."""
+"""Two engines on one frame."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .figures import clean, peaks
-from .json import orders
+from . import figures
+from .analysis import largest, order_by_order
+from .csv import Rows
+from .figures import clean, order_entries, peaks
+from .sheet import Facts, Sheet, number
 
 if TYPE_CHECKING:
     from ..results.two_engines import Combined
-    from .sheet import Sheet
     from .units import System
 
 
@@ -34,16 +36,19 @@ def document(result: Combined) -> dict[str, Any]:
         },
         "speed_rpm": clean(first.speed_rpm),
         "reference_mm": [clean(v * 1e3) for v in first.reference_m],
-        "orders": orders(result.spectra),
+        "orders": order_entries(result.spectra),
         "peak": peaks(result),
     }
 
 
+def rows(result: Combined, system: System) -> Rows:
+    """CSV: a figure a line, of both engines together."""
+    header = ("quantity", "order", "figure", "value", "unit")
+    return Rows(header, [row[1:] for row in figures.rows(result, system)])
+
+
 def sheet(result: Combined, system: System) -> Sheet:
     """The engines, how they stand, and what they do together."""
-    from .analysis import largest, order_by_order
-    from .sheet import Facts, Sheet, number
-
     first, how, length = result.engines[0], result.arrangement, system.length
     names = [engine.name for engine in result.engines]
 

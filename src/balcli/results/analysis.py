@@ -185,7 +185,8 @@ def textbook(engine: Engine, orders: Array) -> Textbook:
     def own(values: Array) -> Array:
         return values[row : row + 1] if len(values) > 1 else values
 
-    series = harmonics.of(orders, own(c.lam), own(c.eps), rod=False, energy=False).piston
+    lam, eps = own(c.lam), own(c.eps)
+    series = harmonics.find_harmonics(orders, lam, eps, rod=False, energy=False).piston
     throws = engine.throws_m
     return Textbook(
         float(own(c.reciprocating)[0] * c.radius * engine.omega**2),

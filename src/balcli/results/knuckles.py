@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.loads import Cylinders
+from ..core.cylinders import Cylinders
 from ..core.mechanisms.articulated import Articulated
 from ..core.phasors import Array, unit
 from ..core.strokes import Travel, travel

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..core.peaks import Peak, peak
-from ..core.phasors import Phasors, unit
+from ..core.phasors import Complex, Phasors, unit
 from ..engine.build import Engine, Ripple
 from ..forces.kinds import KINDS, VECTORS, Kind
 from ..forces.spectrum import Spectra, assembled, relevant_orders, spectra
@@ -132,13 +132,10 @@ def _mirrored(phasors: Phasors, kind: Kind) -> Phasors:
     """
     sign = 1.0 if kind.dimension == "force" else -1.0
     mean = phasors.orders == 0
-    forward = np.where(mean, np.conj(phasors.forward), np.conj(phasors.backward))
-    return Phasors(
-        phasors.orders,
-        sign * forward,
-        sign * np.where(mean, 0, np.conj(phasors.forward)),
-        phasors.noise,
-    )
+    ahead, against = phasors.forward.conj(), phasors.backward.conj()
+    forward: Complex = np.where(mean, ahead, against)
+    backward: Complex = np.where(mean, 0, ahead)
+    return Phasors(phasors.orders, sign * forward, sign * backward, phasors.noise)
 
 
 def _sum(one: Spectra, other: Spectra) -> Spectra:

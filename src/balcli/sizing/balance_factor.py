@@ -117,4 +117,4 @@ def _find_centre(masses: Array, places: Array) -> float:
 def _find_largest_component(curve: Phasors, direction: complex) -> float:
     """Largest component of a force along a direction (a unit vector), N."""
     coefficients = curve.forward * direction.conjugate() + np.conj(curve.backward) * direction
-    return peak(Phasors.real(curve.orders, coefficients, curve.noise).settled()).value
+    return peak(Phasors.from_scalar(curve.orders, coefficients, curve.noise).settled()).value

@@ -20,7 +20,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.mechanisms import harmonics
+from ..core.mechanisms import closed_form
 from ..errors import BalcliError
 from .details import Optimum
 
@@ -112,7 +112,7 @@ def _find_cosines(samples: Floats) -> Floats:
 def _expand_engine_force(engine_force: str, lam: float) -> Floats:
     """Cosine coefficients of the force of the piston in units of m r omega^2."""
     if engine_force == "all orders":
-        return harmonics.piston(_ORDERS, lam)
+        return closed_form.piston(_ORDERS, lam)
     return np.where(_ORDERS == 1, 1.0, np.where(_ORDERS == 2, lam, 0.0))
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core import least_squares
-from ..core.loads import Device
+from ..core.cylinders import Device
 from ..core.phasors import EPS, unit
 from ..errors import BalcliError
 from .device_tables import DeviceTable, make_counterweight, make_shaft, make_slider

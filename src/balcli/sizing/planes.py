@@ -22,7 +22,7 @@ def find_ends(engine: Engine) -> tuple[float, float]:
     """
     throws = _find_reach(engine.throws_m)
     cylinders = _find_reach(engine.cylinders.z)
-    devices = _find_reach([*engine.throws_m, *(device.z for device in engine.devices)])
+    devices = _find_reach([*engine.throws_m, *(float(device.z) for device in engine.devices)])
     wide = [reach for reach in (throws, cylinders, devices) if reach[0] < reach[1]]
     return wide[0] if wide else throws
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import NamedTuple, TypeVar
 
-from ..core.loads import Device
+from ..core.cylinders import Device
 from ..engine.build import Engine
 from ..engine.devices import devices
 from ..enginefile.model import Counterweight, Shaft, Slider

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..core.loads import Device
+from ..core.cylinders import Device
 from ..core.phasors import unit
 from ..engine.build import Engine
 from ..errors import BalcliError

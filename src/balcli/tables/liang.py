@@ -9,9 +9,9 @@ import numpy as np
 
 from ..enginefile import units
 from ..enginefile.units import STANDARD_GRAVITY
-from .options import Options
 from .printed import Print
-from .table import Cell, Explanation, Row, Table
+from .ranges import Ranges
+from .recomputed import Cell, Explanation, Row, Table
 
 if TYPE_CHECKING:
     from ..engine.build import Engine
@@ -38,12 +38,12 @@ piston = { mass = "6 lb" }
 """
 
 
-def examples(printed: Print, options: Options) -> Table:
+def tabulate_examples(printed: Print, ranges: Ranges) -> Table:
     """Exact answers beside the printed ones, in the order of the book."""
     exact = (*_first(), *_second(), *_third())
     margin = [words[:-1] for words in printed.rows]
     rows = [(*words, answer) for words, answer in zip(margin, exact, strict=True)]
-    return printed.table(
+    return printed.compare(
         printed.columns,
         rows,
         stub=4,
