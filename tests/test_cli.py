@@ -9,6 +9,7 @@ import io
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -23,8 +24,10 @@ from balcli import __version__
 from balcli.cli import COMMANDS
 from balcli.render.formats import Format
 
+I4 = str(ENGINES / "i4.toml")
 V8 = str(ENGINES / "v8_crossplane.toml")
 POUND_FORCE, FOOT = 0.45359237 * 9.80665, 0.3048  # N, m by definition
+unix = pytest.mark.skipif(sys.platform == "win32", reason="needs a shell and signals")
 ESCAPE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 
 
@@ -346,6 +349,26 @@ def test_an_engines_name_cannot_colour_the_output(balcli, form):
     assert not {"\x1b", "\x9b"} & set(err)
 
 
+@pytest.mark.parametrize("key", ["name", "source"])
+@pytest.mark.parametrize(
+    "code", [0x061C, 0x200E, 0x200F, 0x2028, 0x2029, *range(0x202A, 0x202F), *range(0x2066, 0x206A)]
+)
+def test_no_text_of_a_file_turns_the_direction_of_what_is_shown(balcli, key, code):
+    engine = f'{key} = "four{chr(code)}enil-ni"\n' + changed(('name = "in-line four"\n', ""))
+    status, out, err = balcli("analyze", "-", stdin=engine)
+    assert (status, out) == (2, "")
+    assert err == (
+        f"balcli: standard input: {key}: has the control character U+{code:04X}, which could "
+        "command a terminal or disguise what it shows; leave it out\n"
+    )
+
+
+@unix
+def test_nor_does_the_name_of_a_file(balcli, tmp_path):
+    _, _, err = balcli("analyze", tmp_path / "a\u202elmot.\u2028")
+    assert err.endswith("a?lmot.?: no such file\n")
+
+
 LOCKED = changed(("length = 160", "length = 40"), ("cg = 45", "cg = 15"))
 
 
@@ -602,8 +625,114 @@ def test_what_is_registered_for_the_end_is_done():
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
-def test_help_that_cannot_be_written_is_no_success():
+@pytest.mark.parametrize("args", [["--version"], ["--help"], ["analyze", "--help"]], ids=" ".join)
+def test_help_that_cannot_be_written_is_no_success(args):
     with Path("/dev/full").open("wb") as full:
-        done = run_command("--version", stdout=full, stderr=subprocess.PIPE)
-    assert done.returncode != 0
-    assert "No space left on device" in done.stderr
+        done = run_command(*args, stdout=full, stderr=subprocess.PIPE)
+    assert (done.returncode, done.stderr) == (
+        2,
+        "balcli: standard output: No space left on device\n",
+    )
+
+
+def run_in_shell(redirected: str, *args: object) -> subprocess.CompletedProcess:
+    """Run `balcli` under redirections that only a shell has."""
+    return run_python("-c", SHELL, redirected, "-m", "balcli", *args)
+
+
+SHELL = """
+import os, sys
+redirected, *args = sys.argv[1:]
+os.execv("/bin/sh", ["sh", "-c", f'"$0" "$@" {redirected}', sys.executable, *args])
+"""
+
+
+@unix
+@pytest.mark.parametrize(
+    "args",
+    [
+        *(["check", I4], ["analyze", I4], ["new", "single"], ["schema"], ["engines"], ["tables"]),
+        *(["curves", I4], ["sweep", I4, "--vary", "crank.stroke=80,90"], ["--version"]),
+    ],
+    ids=lambda args: str(args[0]),
+)
+def test_a_closed_standard_output_is_an_error(args):
+    done = run_in_shell(">&-", *args)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert re.fullmatch(r"balcli: standard output: .*Bad file descriptor\)?\n", done.stderr)
+
+
+@unix
+@pytest.mark.parametrize("redirected", ["<&-", "0>/dev/null"])
+def test_a_standard_input_that_cannot_be_read_is_an_error(redirected):
+    done = run_in_shell(redirected, "analyze", "-")
+    assert (done.returncode, done.stdout, done.stderr) == (
+        2,
+        "",
+        "balcli: standard input: cannot be read (Bad file descriptor)\n",
+    )
+
+
+@unix
+def test_a_closed_standard_error_changes_no_status(tmp_path):
+    for redirected in ("2>&-", "<&- >&- 2>&-"):
+        done = run_in_shell(redirected, "analyze", tmp_path / "none.toml")
+        assert (done.returncode, done.stdout, done.stderr) == (2, "", "")
+    assert run_in_shell("<&- >&- 2>&-", "analyze", I4, "-o", tmp_path / "x").returncode == 0
+    assert (tmp_path / "x").read_text() == run_command("analyze", I4).stdout
+
+
+SIGNALS = [getattr(signal, name, 0) for name in ("SIGINT", "SIGTERM", "SIGHUP")]
+
+
+@unix
+@pytest.mark.parametrize("number", SIGNALS, ids=str)
+def test_signals_end_it_without_a_word_even_while_modules_are_imported(number):
+    """The signal comes while numpy is being imported, from within that import."""
+    code = f"""
+import os, signal, sys
+signal.signal({int(number)}, signal.default_int_handler)
+class Import:
+    def find_spec(self, name, path=None, target=None):
+        if name == "numpy":
+            os.kill(os.getpid(), {int(number)})
+            print("still here")
+sys.meta_path.insert(0, Import())
+from balcli.__main__ import main
+main()
+"""
+    done = run_python("-c", code, "analyze", I4)
+    assert (done.returncode, done.stdout, done.stderr) == (128 + number, "", "")
+
+
+@unix
+def test_a_hangup_that_was_ignored_stays_ignored():
+    code = (
+        "import os, signal; signal.signal(signal.SIGHUP, signal.SIG_IGN);"
+        "from balcli.__main__ import main; import balcli.cli;"
+        "balcli.cli.app = lambda **_: os.kill(os.getpid(), signal.SIGHUP); main()"
+    )
+    assert run_python("-c", code).returncode == 0
+
+
+FAULT = (
+    "balcli: internal error (ZeroDivisionError: by nought); this is a fault of balcli, no figure "
+    "is to be trusted: please report it with the command and its files (BALCLI_TRACEBACK=1 shows "
+    "where it is)\n"
+)
+
+
+@pytest.mark.parametrize("options", [[], ["-X", "dev"]], ids=" ".join)
+def test_an_internal_error_is_told_as_one(options):
+    code = (
+        "import balcli.cli; from balcli.__main__ import main\n"
+        "def fails(**_): raise ZeroDivisionError('by nought')\n"
+        "balcli.cli.app = fails; main()"
+    )
+    plain = run_python(*options, "-c", code)
+    traced = run_python("-c", code, env={"BALCLI_TRACEBACK": "1"})
+    assert (plain.returncode, traced.returncode) == (70, 70)
+    for told, whole in ((plain.stderr, not options), (traced.stderr, False)):
+        assert told.endswith(FAULT)
+        assert (told == FAULT) is whole
+        assert ("Traceback" in told) is not whole

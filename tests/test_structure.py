@@ -152,7 +152,6 @@ def test_core_knows_numpy_and_the_standard_library_alone(file):
 # Types and constants of a room may be named by what shows them, functions not: these shape figures
 # for the eye.
 SHAPING = {
-    ("balcli.results.analysis", "textbook"),
     ("balcli.sizing.device_tables", "find_unbalance"),
     ("balcli.sizing.device_tables", "name_kind"),
     ("balcli.tables.recomputed", "deviates"),
@@ -169,6 +168,7 @@ COMPUTING = (
     "balcli.engine.build",
     "balcli.engine.load",
     "balcli.studies.sweep",
+    "balcli.studies.deviations",
     "balcli.studies.tolerances",
     "balcli.studies.search.search",
     "balcli.results.comparison",
@@ -205,7 +205,9 @@ def test_every_limit_stands_in_limits():
 
 @pytest.mark.parametrize("file", sorted(PACKAGE.rglob("*.py")), ids=name_of)
 def test_files_speak_for_themselves(file):
-    """A docstring, and none of what fails silently: blanket except, assert as a check, eval."""
+    """A docstring, and none of what fails silently: blanket except (but at the process's end, where
+    it is told as our fault), assert as a check, eval.
+    """
     module = tree(file)
     if file.name != "__main__.py":
         assert ast.get_docstring(module)
@@ -216,6 +218,7 @@ def test_files_speak_for_themselves(file):
         )
         assert not (
             isinstance(node, ast.ExceptHandler)
+            and file.name != "__main__.py"
             and ast.unparse(node.type) in ("Exception", "BaseException")
         ), f"line {node.lineno}"
         assert not (isinstance(node, ast.Call) and ast.unparse(node.func) in ("eval", "exec")), (

@@ -8,33 +8,55 @@ import os
 import sys
 from typing import NoReturn
 
+from .errors import Exit, say
+from .process import end_on_signals, open_closed_streams
+
 
 def main() -> NoReturn:
     """Entry point of `balcli` and `python -m balcli`."""
+    end_on_signals()
+    open_closed_streams()
     gc.set_threshold(100_000)  # start-up makes many objects, but no garbage
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")  # looking for them takes 20 ms
-    from .cli import main as run  # after that, for it imports what heeds it
-
+    status: int = Exit.INTERNAL
     try:
+        from .cli import main as run  # after that, for it imports what heeds it
+
         run()
     except SystemExit as end:
-        _end_at_once(end)
+        status = int(end.code or 0)
+    except Exception as error:
+        _tell_fault(error)
+    _end_at_once(status)
 
 
-def _end_at_once(end: SystemExit) -> NoReturn:
+def _tell_fault(error: Exception) -> None:
+    """One sentence about an error that is nobody's but ours; for those who look for it, where it
+    was raised, too.
+    """
+    if sys.flags.dev_mode or os.environ.get("BALCLI_TRACEBACK"):
+        import traceback  # for those alone
+
+        say("".join(traceback.format_exception(error)).rstrip("\n"))
+    what = ": ".join(filter(None, (type(error).__name__, str(error))))
+    say(
+        f"balcli: internal error ({what}); this is a fault of balcli, no figure is to be trusted: "
+        "please report it with the command and its files (BALCLI_TRACEBACK=1 shows where it is)"
+    )
+
+
+def _end_at_once(status: int) -> NoReturn:
     """End the process without taking its thousands of objects to pieces, which takes 10 ms; what is
     registered for its end is done.
-
-    Where something cannot be written any more, the interpreter ends as usual and tells of it.
     """
     atexit._run_exitfuncs()
     try:
-        for stream in (sys.stdout, sys.stderr):
-            if stream is not None:
-                stream.flush()
-    except OSError:
-        raise end from None
-    os._exit(int(end.code or 0))
+        sys.stdout.flush()
+    except OSError as error:
+        if not status:  # else this has been told already
+            status = Exit.BAD_INPUT
+            say(f"balcli: standard output: cannot be written ({error.strerror or error})")
+    os._exit(status)
 
 
 if __name__ == "__main__":

@@ -36,6 +36,7 @@ COMMANDS = (
     "scatter",
     "compare",
     "sum",
+    "field",
     "engines",
     "bench",
 )
@@ -115,7 +116,11 @@ def main() -> NoReturn:
         say(f"balcli: {error}")
     except typer.TyperException as error:
         say(_usage(error))
-    except typer.Abort:  # Ctrl-C
+    except BrokenPipeError:  # the reader of it has what they want
+        sys.exit(Exit.DONE)
+    except OSError as error:  # of what typer prints itself, such as help
+        say(f"balcli: {error.filename or 'standard output'}: {error.strerror or error}")
+    except typer.Abort:  # Ctrl-C, where balcli is no process of its own
         sys.exit(Exit.INTERRUPTED)
     except SystemExit as end:
         if isinstance(end.__context__, BrokenPipeError):  # the reader of help has what they want

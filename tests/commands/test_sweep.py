@@ -11,7 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from support.commands import HANGS, run_command, start_command
+from support.commands import HANGS, run_command, run_here, start_command
 from support.engines import GOOD
 
 
@@ -178,6 +178,24 @@ def test_scatter_as_json_and_table(engine: str) -> None:
     figures = document["quantities"]["force.1.major"]
     assert 0 < figures["p05"] < figures["p50"] < figures["p95"] < figures["max"] < figures["bound"]
     assert "Spread of 1000 engines" in run_command(*options).stdout
+
+
+def test_normal_deviations_may_exceed_the_bound_and_the_note_says_so(tmp_path: Path) -> None:
+    """One piston: 3 standard deviations are its tolerance, and 1 of 370 samples lies beyond."""
+    file = tmp_path / "one.toml"
+    file.write_text("[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 1\n")
+    command = ["scatter", str(file), "--mass-scatter=1%", "--seed=1", "-q", "force.1.major"]
+    texts = {
+        shape: run_here(*command, f"--distribution={shape}").out for shape in ("uniform", "normal")
+    }
+    assert "bound: no combination exceeds it (exact for masses" in texts["uniform"]
+    assert "bound: no combination within the tolerances exceeds it (exact" in texts["normal"]
+    told = " ".join(texts["normal"].split())
+    assert "normal deviations go beyond a tolerance, three times their standard deviation" in told
+    document = json.loads(run_here(*command, "--distribution=normal", "-f", "json").out)
+    figures = document["quantities"]["force.1.major"]
+    assert document["distribution"] == "normal"
+    assert figures["max"] > figures["bound"]
 
 
 def test_compare_in_every_format(engine: str) -> None:

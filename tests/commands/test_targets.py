@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from support.commands import HANGS, run_here, start_command
+from support.commands import HANGS, run_here, run_python, start_command
 from support.engines import GOOD
 
 unix = pytest.mark.skipif(sys.platform == "win32", reason="needs links, pipes and signals")
@@ -220,12 +220,10 @@ def test_a_folder_in_which_nothing_may_be_made(balcli, good, monkeypatch):
 
     Path("out.txt").write_text("old")
     before = contents()
-    monkeypatch.setattr("tempfile.mkstemp", forbidden)
-    assert balcli("analyze", good, "-o", "out.txt") == (
-        2,
-        "",
-        "balcli: out.txt: cannot be written (Permission denied)\n",
-    )
+    with monkeypatch.context() as patched:
+        patched.setattr("os.open", forbidden)
+        outcome = balcli("analyze", good, "-o", "out.txt")
+    assert outcome == (2, "", "balcli: out.txt: cannot be written (Permission denied)\n")
     assert contents() == before
 
 
@@ -282,3 +280,28 @@ def test_an_interrupt_is_no_traceback():
     running.send_signal(signal.SIGINT)
     out, err = running.communicate(timeout=HANGS)
     assert (running.returncode, out, err.strip()) == (130, b"", b"")
+
+
+@unix
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGINT"])
+def test_a_signal_leaves_the_older_file_and_nothing_beside_it(good, name):
+    """It comes while the new file is being written: the sweep's text never ends."""
+    Path("out.csv").write_text("old")
+    before, number = contents(), getattr(signal, name)
+    code = f"""
+import os, signal
+from pathlib import Path
+from balcli.commands import output
+from balcli.process import end_on_signals
+signal.signal({int(number)}, signal.SIG_DFL)
+end_on_signals()
+with output.replacing(Path("out.csv")) as place:
+    place.write_text("half")
+    print(len(list(Path().iterdir())))
+    os.kill(os.getpid(), {int(number)})
+    print("still here")
+"""
+    done = run_python("-u", "-c", code)
+    assert (done.returncode, done.stdout, done.stderr) == (128 + number, f"{len(before) + 1}\n", "")
+    assert contents() == before
+    assert not list(Path().glob(".*"))

@@ -18,6 +18,7 @@ from balcli.engine import build as engine
 from balcli.engine import load as enginefile
 from balcli.errors import InputError
 from balcli.forces import spectrum
+from balcli.forces.orders import find_relevant_orders
 from balcli.studies.parameters import varied
 
 
@@ -179,7 +180,7 @@ def test_a_radial_with_a_master_rod_shakes_forward_in_the_second_order():
     """
     equal = RADIAL[: RADIAL.index("[articulation]")]
     before, after = (
-        spectrum.spectra(e, [2.0], ["force"]).force
+        spectrum.compute_spectra(e, [2.0], ["force"]).force
         for e in (engine.build(enginefile.parse(equal)), built())
     )
     assert before is not None
@@ -197,7 +198,7 @@ def test_knuckles_that_differ_in_one_component_alone(angles):
         "knuckle_radius", f"knuckle_angles = {list(angles)}\nknuckle_radius"
     )
     want = momentum.Engine.read(text).curves()
-    found = spectrum.spectra(
+    found = spectrum.compute_spectra(
         built(
             ("radial = 7", "banks = [0, 60, 60]"),
             ("knuckle_radius", f"knuckle_angles = {list(angles)}\nknuckle_radius"),
@@ -220,7 +221,10 @@ def test_knuckle_pins_on_the_crank_pin_are_equal_rods():
     )
     plain = engine.build(enginefile.parse(RADIAL[: RADIAL.index("[articulation]")]))
     orders = np.arange(1.0, 9.0)
-    one, other = spectrum.spectra(articulated, orders), spectrum.spectra(plain, orders)
+    one, other = (
+        spectrum.compute_spectra(articulated, orders),
+        spectrum.compute_spectra(plain, orders),
+    )
     for (quantity, a), (_, b) in zip(one.items(), other.items(), strict=True):
         assert np.abs(a.forward - b.forward).max() < 1e-8 + 1e-12 * np.abs(b.forward).max(), (
             quantity
@@ -243,7 +247,7 @@ def test_few_orders_far_from_the_lock(angle, rotary):
             ("mass = 1.3", "mass = 1.3\noffset = 2.5"),
             ("[articulation]", f"[articulation]\nmaster = {master}"),
         )
-        assert len(spectrum.relevant_orders(e)) <= 64
+        assert len(find_relevant_orders(e)) <= 64
 
 
 def test_variants_on_a_trailing_axis():
@@ -265,14 +269,14 @@ def test_variants_on_a_trailing_axis():
 
     orders = np.arange(1.0, 7.0)
     many = engine.build(variant(radii, lengths), rank=1)
-    together = spectrum.spectra(many, orders)
+    together = spectrum.compute_spectra(many, orders)
     of_each = [
         engine.build(variant(radius, length)).cylinders
         for radius, length in zip(radii, lengths, strict=True)
     ]
     assert highest(many.cylinders) == max(map(highest, of_each))
     for k in range(3):
-        alone = spectrum.spectra(engine.build(variant(radii[k], lengths[k])), orders)
+        alone = spectrum.compute_spectra(engine.build(variant(radii[k], lengths[k])), orders)
         for (quantity, many), (_, one) in zip(together.items(), alone.items(), strict=True):
             difference = np.abs(np.broadcast_to(many.forward, (6, 3))[:, k] - one.forward).max()
             assert difference <= 1e-12 * np.abs(one.forward).max(initial=1e-9), quantity

@@ -14,8 +14,9 @@ from balcli.engine import build as engine
 from balcli.engine import load as enginefile
 from balcli.errors import BalcliError
 from balcli.forces import spectrum
-from balcli.forces.crankshaft import bearings, inner
-from balcli.forces.guide_moments import guide
+from balcli.forces.crankshaft import compute_inner_loads, place_bearings
+from balcli.forces.guide_moments import compute_guide_moments
+from balcli.forces.orders import find_relevant_orders
 
 ORDERS = np.arange(1.0, 5.0)
 OMEGA = 3000 * np.pi / 30
@@ -27,7 +28,7 @@ def test_the_first_order_along_an_inline_four():
     """Loads +1 -1 -1 +1, 100 mm apart: shear 1 0 -1 0, moment about the section 0 -100 -100 0
     (times i).
     """
-    found = inner(inline_engine([0, 180, 180, 0]), ORDERS)
+    found = compute_inner_loads(inline_engine([0, 180, 180, 0]), ORDERS)
     assert found.shear.z_m == pytest.approx([-0.15, -0.05, 0.05, 0.15])
     ahead, against = ROTATING + RECIPROCATING / 2, RECIPROCATING / 2
     for got, pattern, factor in (
@@ -54,8 +55,10 @@ def test_an_inline_six_has_a_large_inner_moment_and_counterweights_take_most_of_
         for angle, place in zip([0, 120, 240, 240, 120, 0], range(-250, 251, 100), strict=True)
     )
     fitted = inline_engine([0, 120, 240, 240, 120, 0], more=weights)
-    assert all(spectrum.spectra(e, [1.0], ["moment"]).moment.balanced[0] for e in (plain, fitted))
-    before, after = (inner(e, ORDERS).bending for e in (plain, fitted))
+    assert all(
+        spectrum.compute_spectra(e, [1.0], ["moment"]).moment.balanced[0] for e in (plain, fitted)
+    )
+    before, after = (compute_inner_loads(e, ORDERS).bending for e in (plain, fitted))
     middle = abs(before.phasors.forward[0, 2])
     statics = (
         abs(
@@ -78,7 +81,7 @@ def test_beyond_the_last_load_stand_free_force_and_moment(layout):
     subject = inline_engine(
         [0, 90, 200], layout, f"[frame]\nreference = [0, 0, {last * 1e3}]\n{weight}"
     )
-    found, free = inner(subject, ORDERS), spectrum.spectra(subject, ORDERS)
+    found, free = compute_inner_loads(subject, ORDERS), spectrum.compute_spectra(subject, ORDERS)
     assert found.shear.z_m[-1] == pytest.approx(last)
     for along, whole in ((found.shear, free.force), (found.bending, free.moment)):
         assert along.phasors.forward[:, -1] == pytest.approx(whole.forward, rel=1e-11, abs=1e-8)
@@ -89,7 +92,10 @@ def test_bearings_carry_all_force_and_moment():
     subject = inline_engine(
         [0, 90, 200], more="[[counterweight]]\nunbalance = 30000\nangle = 99\nposition = -20\n"
     )
-    found, free = inner(subject, ORDERS).bearings, spectrum.spectra(subject, ORDERS)
+    found, free = (
+        compute_inner_loads(subject, ORDERS).bearings,
+        spectrum.compute_spectra(subject, ORDERS),
+    )
     assert found is not None
     assert found.z_m == pytest.approx([-0.15, -0.05, 0.05, 0.15])
     assert found.phasors.forward.sum(axis=1) == pytest.approx(
@@ -101,8 +107,8 @@ def test_bearings_carry_all_force_and_moment():
 
 
 def test_one_throw_in_the_middle_of_its_bearings_would_be_a_guess():
-    assert bearings(np.array([0.0])) is None
-    assert inner(inline_engine([0]), ORDERS).bearings is None
+    assert place_bearings(np.array([0.0])) is None
+    assert compute_inner_loads(inline_engine([0]), ORDERS).bearings is None
 
 
 def test_shafts_and_sliders_act_on_the_block_not_on_the_crank():
@@ -110,7 +116,9 @@ def test_shafts_and_sliders_act_on_the_block_not_on_the_crank():
         "[[shaft]]\nratio = -1\nunbalance = 9000\n[[slider]]\norder = 1\nunbalance = "
         "9000\ndirection = 0\n"
     )
-    plain, with_devices = (inner(inline_engine([0, 180], more=text), ORDERS) for text in ("", more))
+    plain, with_devices = (
+        compute_inner_loads(inline_engine([0, 180], more=text), ORDERS) for text in ("", more)
+    )
     assert np.array_equal(plain.bending.phasors.forward, with_devices.bending.phasors.forward)
 
 
@@ -119,9 +127,12 @@ def test_guide_force_moments():
     their rolls.
     """
     subject = inline_engine([0, 180])
-    found, roll = guide(subject, ORDERS), spectrum.spectra(subject, ORDERS).roll
+    found, roll = (
+        compute_guide_moments(subject, ORDERS),
+        spectrum.compute_spectra(subject, ORDERS).roll,
+    )
     assert found.h.forward == pytest.approx(roll.forward, rel=1e-11, abs=1e-9)
-    first, second = (spectrum.spectra(alone(subject, n), ORDERS).roll for n in (1, 2))
+    first, second = (spectrum.compute_spectra(alone(subject, n), ORDERS).roll for n in (1, 2))
     assert found.x is not None
     assert found.x.forward == pytest.approx(
         (second.forward - first.forward) / 2, rel=1e-11, abs=1e-9
@@ -130,7 +141,7 @@ def test_guide_force_moments():
 
 
 def test_one_throw_has_no_x_type():
-    assert guide(inline_engine([0]), ORDERS).x is None
+    assert compute_guide_moments(inline_engine([0]), ORDERS).x is None
 
 
 # ------------------------------------------------------------------ cylinder by cylinder, and near
@@ -144,10 +155,10 @@ def test_each_cylinder_is_what_it_is_alone(name):
         if name == "ripple"
         else enginefile.load(ENGINES / f"{name}.toml")
     )
-    together = spectrum.each(subject, ORDERS)
+    together = spectrum.compute_each_cylinder(subject, ORDERS)
     for row, number in enumerate(subject.numbers):
-        for quantity, single in spectrum.spectra(alone(subject, number), ORDERS).items():
-            one = together.of(row)
+        for quantity, single in spectrum.compute_spectra(alone(subject, number), ORDERS).items():
+            one = together.select_place(row)
             np.testing.assert_allclose(one[quantity.name].forward, single.forward, rtol=1e-14)
             np.testing.assert_allclose(one[quantity.name].backward, single.backward, rtol=1e-14)
             np.testing.assert_array_equal(
@@ -166,13 +177,16 @@ def near_the_lock(throws, more=""):
 
 def test_near_the_lock_only_orders_to_512_are_told_unasked_but_the_largest_values_are_of_all():
     subject = near_the_lock([0, 10, 20, 45])
-    found = inner(subject)
+    found = compute_inner_loads(subject)
     assert 100 < len(found.bending.phasors.orders) <= 512
     assert found.bending.phasors.orders[-1] <= 512
-    force = spectrum.spectra(subject, spectrum.relevant_orders(subject), ["force"]).force
+    force = spectrum.compute_spectra(subject, find_relevant_orders(subject), ["force"]).force
     assert force is not None
     assert found.shear.peaks[-1].value == pytest.approx(peak(force).value, rel=1e-12)
-    assert list(inner(subject, np.array([1.0, 4096.0])).shear.phasors.orders) == [1, 4096]
+    assert list(compute_inner_loads(subject, np.array([1.0, 4096.0])).shear.phasors.orders) == [
+        1,
+        4096,
+    ]
 
 
 def test_so_many_loads_that_they_would_fill_the_memory_are_refused():
@@ -181,11 +195,11 @@ def test_so_many_loads_that_they_would_fill_the_memory_are_refused():
         match=r"^32768 orders of 34 cylinders and counterweights one by one are 1114112 forces, "
         r"and at most 1100000 are kept: an engine farther from its lock has fewer orders$",
     ):
-        inner(near_the_lock([10 * k for k in range(34)]))
+        compute_inner_loads(near_the_lock([10 * k for k in range(34)]))
     with pytest.raises(
         BalcliError, match=r"32773 orders of 17 cylinders .* at most 550000 are kept"
     ):
-        guide(
+        compute_guide_moments(
             near_the_lock(
                 [10 * k for k in range(17)], "speed_ripple = [{order = 2, amplitude = 0.01}]\n"
             )
@@ -199,4 +213,4 @@ def test_more_results_along_the_crank_than_anybody_reads_are_refused():
         r"results, "
         r"and at most 32768 are told: ask for fewer orders$",
     ):
-        inner(inline_engine([0] * 9), np.arange(1.0, 4097))
+        compute_inner_loads(inline_engine([0] * 9), np.arange(1.0, 4097))

@@ -12,7 +12,7 @@ from support.paths import ENGINES
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
 from balcli.forces import spectrum
-from balcli.forces.symmetry import why
+from balcli.forces.symmetry import explain_symmetry
 from balcli.render.analysis import document as analysis_document
 from balcli.render.json import json_text
 from balcli.results import analysis
@@ -33,7 +33,7 @@ mass = 0.5
 
 def sentences(throws, *, spacing=100, more="", orders=(1, 2)):
     text = BASE.format(throws=throws, spacing=spacing) + more
-    return why(engine.build(enginefile.parse(text)), orders).sentences
+    return explain_symmetry(engine.build(enginefile.parse(text)), orders).sentences
 
 
 def test_the_inline_four():
@@ -96,7 +96,7 @@ def test_two_banks_of_different_mechanisms_that_are_each_balanced():
     three.
     """
     vr6 = engine.build(enginefile.read(next(p for p in FILES if p.stem == "vr6")))
-    assert why(vr6, [1]).reasons[0].verdict == "exact"
+    assert explain_symmetry(vr6, [1]).reasons[0].verdict == "exact"
 
 
 def test_pairs_that_stand_at_no_fraction_of_a_turn_to_each_other():
@@ -136,7 +136,7 @@ def test_balanced_by_figures_only():
 )
 def test_firing(layout, text):
     base = "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n[layout]\n"
-    assert why(engine.build(enginefile.parse(base + layout)), [1]).firing == text
+    assert explain_symmetry(engine.build(enginefile.parse(base + layout)), [1]).firing == text
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
@@ -146,8 +146,8 @@ def test_exact_and_numeric_decisions_agree(path):
     """
     built = engine.build(enginefile.read(path))
     bare = replace(built, devices=())
-    found = spectrum.spectra(bare, np.arange(1.0, 9.0))
-    for reason in why(built, range(1, 9)).reasons:
+    found = spectrum.compute_spectra(bare, np.arange(1.0, 9.0))
+    for reason in explain_symmetry(built, range(1, 9)).reasons:
         numeric = [
             getattr(found, q).balanced[reason.order - 1]
             for q in (["couple", "torque"] if reason.quantity == "turning" else [reason.quantity])

@@ -19,7 +19,8 @@ from balcli.core import enclosing_circle as circle
 from balcli.core.phasors import Phasors
 from balcli.engine.build import build
 from balcli.engine.load import parse
-from balcli.forces.spectrum import relevant_orders, spectra
+from balcli.forces.orders import find_relevant_orders
+from balcli.forces.spectrum import compute_spectra
 
 TRUE = 1e-10  # relative to the true optimum
 VECTORS = st.complex_numbers(max_magnitude=1e3, allow_nan=False, allow_infinity=False)
@@ -27,7 +28,7 @@ VECTORS = st.complex_numbers(max_magnitude=1e3, allow_nan=False, allow_infinity=
 
 def force(**tables: str) -> Phasors:
     e = build(parse(engine_text(**tables)))
-    return spectra(e, relevant_orders(e), ("force",)).force
+    return compute_spectra(e, find_relevant_orders(e), ("force",)).force
 
 
 def seen(curve: Phasors, theta: np.ndarray) -> np.ndarray:

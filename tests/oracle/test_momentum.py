@@ -143,7 +143,7 @@ def compare(text: str) -> None:
     """Every order of every quantity, in units of what one cylinder does."""
     oracle = momentum.Engine.read(text)
     curves, scales = oracle.curves(), oracle.scales()
-    found = spectrum.spectra(engine.build(enginefile.parse(text)), ORDERS)
+    found = spectrum.compute_spectra(engine.build(enginefile.parse(text)), ORDERS)
     for kind, phasors in found.items():
         quantity = kind.name
         for row, n in enumerate(ORDERS):
@@ -174,7 +174,7 @@ def test_one_cylinder_of_an_articulated_engine_alone():
     oracle, whole = momentum.Engine.read(text), engine.build(enginefile.parse(text))
     for number in (1, 3):
         curves = oracle.curves([number])
-        force = spectrum.spectra(alone(whole, number), ORDERS, ["force"]).force
+        force = spectrum.compute_spectra(alone(whole, number), ORDERS, ["force"]).force
         for row, n in enumerate(ORDERS):
             assert (
                 abs(force.forward[row] - curves.order("force", int(n))[0])

@@ -12,6 +12,7 @@ import pytest
 from support.commands import refusal, run_here
 from support.engines import GOOD, changed
 
+from balcli.core.drilled_hole import STEEL, find_drill_depth
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.enginefile.model import Counterweight, Slider
@@ -20,7 +21,7 @@ from balcli.results.balance import balance
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import Remedy
 from balcli.sizing.schemes import SCHEMES
-from balcli.sizing.workshop import STEEL, Tools, find_drill_depth, find_practical
+from balcli.sizing.workshop import Tools, find_practical
 
 SINGLE = changed(
     ("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4")

@@ -19,7 +19,7 @@ from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.enginefile.model import Counterweight
 from balcli.errors import BalcliError
-from balcli.forces.spectrum import spectra
+from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.auto import size_auto
 from balcli.sizing.device_tables import (
     make_counterweight,
@@ -295,7 +295,9 @@ def test_devices_are_summed_in_the_order_of_the_file():
     )
     ranks = [d.rank for d in fit_devices(engine, size_auto(engine)).devices]
     assert ranks == sorted(ranks)
-    assert spectra(fit_devices(engine, size_auto(engine)), [1], ("force",)).force.balanced.all()
+    assert compute_spectra(
+        fit_devices(engine, size_auto(engine)), [1], ("force",)
+    ).force.balanced.all()
 
 
 # ------------------------------------------------------------------ all schemes
@@ -526,7 +528,7 @@ def test_what_a_single_plane_leaves_is_said(place):
     """Away from the middle, force and moment both."""
     engine = build(parse(ENGINES["vee"]))
     remedy = size(engine, "counterweights", SchemeOptions(planes=(place,)))
-    after = spectra(fit_devices(engine, remedy), [1], ("force", "moment"))
+    after = compute_spectra(fit_devices(engine, remedy), [1], ("force", "moment"))
     assert figures(remedy)["left force"] == pytest.approx(
         abs(after.force.forward[0]), rel=1e-9, abs=1e-9
     )
@@ -558,7 +560,7 @@ def test_a_single_shaft_stands_where_its_couple_is_smallest(name):
     ):  # between the throws
         there = size(engine, "single-shaft", SchemeOptions(position=other))
         assert figures(here)["couple left"] <= figures(there)["couple left"] * (1 + 1e-12) + 1e-12
-        left = spectra(fit_devices(engine, there), [here.order], ("moment", "roll"))
+        left = compute_spectra(fit_devices(engine, there), [here.order], ("moment", "roll"))
         assert figures(there)["couple left"] == pytest.approx(
             abs(left.moment.backward[0]), rel=1e-9, abs=1e-9
         )
@@ -570,7 +572,7 @@ def test_a_single_shaft_stands_where_its_couple_is_smallest(name):
 def test_sliders_stand_where_the_stronger_part_acts(bank, order):
     """Between the throws, so that it leaves the least moment."""
     engine = build(parse(UNEVEN.replace("bank_angle = 50", f"bank_angle = {bank}")))
-    force = spectra(engine, [order], ("force",)).force
+    force = compute_spectra(engine, [order], ("force",)).force
     stronger = "forward" if abs(force.forward[0]) > abs(force.backward[0]) else "backward"
     place = size(engine, "slider", SchemeOptions(order=order)).sliders[0].position / 1e3
 
@@ -578,7 +580,7 @@ def test_sliders_stand_where_the_stronger_part_acts(bank, order):
         after = fit_devices(
             engine, size(engine, "slider", SchemeOptions(order=order, position=position))
         )
-        return abs(getattr(spectra(after, [order], ("moment",)).moment, stronger)[0])
+        return abs(getattr(compute_spectra(after, [order], ("moment",)).moment, stronger)[0])
 
     least = left(place) * (1 - 1e-9) - 1e-9
     assert all(
@@ -608,7 +610,8 @@ def test_no_roll_by_the_nearest_places(order, frame):
     options = SchemeOptions(order=order, roll="zero")
     remedy = size(build(parse(UNEVEN + frame)), "two-shaft", options)
     before, after = (
-        spectra(e, [order], ("force", "roll")) for e in (at_crank, fit_devices(at_crank, remedy))
+        compute_spectra(e, [order], ("force", "roll"))
+        for e in (at_crank, fit_devices(at_crank, remedy))
     )
     assert after.force.balanced.all()
     assert after.roll.major[0] <= 1e-13 * before.roll.major[0]
@@ -631,7 +634,7 @@ def test_a_single_shaft_says_what_force_it_leaves():
     """Of an order that nothing on the crankshaft can take."""
     engine = build(parse(UNEVEN))
     remedy = size(engine, "single-shaft", SchemeOptions(order=2))
-    left = spectra(fit_devices(engine, remedy), [2], ("force",)).force.forward[0]
+    left = compute_spectra(fit_devices(engine, remedy), [2], ("force",)).force.forward[0]
     assert figures(remedy)["force with crank left"] == pytest.approx(abs(left), rel=1e-12)
     assert figures(remedy)["force with crank left"] > 1
 
@@ -654,7 +657,7 @@ def test_the_geometry_of_a_pair_in_the_details():
         (90, math.degrees(math.atan2(4, -3)))
     )
     before, after = (
-        spectra(e, [2], ("moment", "roll")) for e in (engine, fit_devices(engine, remedy))
+        compute_spectra(e, [2], ("moment", "roll")) for e in (engine, fit_devices(engine, remedy))
     )
     assert told["roll before"] == pytest.approx(before.roll.major[0], rel=1e-12)
     assert told["roll left"] == pytest.approx(after.roll.major[0], rel=1e-12)
@@ -704,7 +707,7 @@ def test_couple_shafts_say_what_they_do_and_what_is_left():
         "moment and no force"
         for turning, ratio in (("with", "+1"), ("against", "-1"))
     ]
-    after = spectra(fit_devices(engine, remedy), [1], ("force", "moment"))
+    after = compute_spectra(fit_devices(engine, remedy), [1], ("force", "moment"))
     assert after.moment.balanced.all()
     assert (figures(remedy)["moment left"], figures(remedy)["force left"]) == pytest.approx(
         (0, after.force.major[0]), rel=1e-12
@@ -777,7 +780,7 @@ def test_sliders_lie_along_the_axes_above_minus_90_up_to_90(bank):
 # ------------------------------------------------------------------ the smallest peak
 def forces(engine, quantity="force"):
     """Force of all orders."""
-    return getattr(spectra(engine, np.arange(1, 41), (quantity,)), quantity)
+    return getattr(compute_spectra(engine, np.arange(1, 41), (quantity,)), quantity)
 
 
 @pytest.mark.parametrize("more", ["", "[[counterweight]]\nunbalance = 30000\nangle = 170\n"])
@@ -848,7 +851,7 @@ def test_minimax_in_several_planes_takes_the_moment_too():
     ) == pytest.approx(
         cmath.rect(one.devices[0].unbalance, math.radians(one.devices[0].angle)), rel=1e-12
     )
-    after = spectra(fit_devices(engine, several), [1], ("moment",)).moment
+    after = compute_spectra(fit_devices(engine, several), [1], ("moment",)).moment
     assert abs(after.forward[0]) <= 1e-13 * abs(after.backward[0])
     with pytest.raises(
         BalcliError,

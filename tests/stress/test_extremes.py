@@ -19,7 +19,8 @@ from balcli.core.peaks import peak
 from balcli.core.phasors import EPS
 from balcli.engine.build import Engine
 from balcli.errors import InputError
-from balcli.forces.spectrum import Spectra, relevant_orders, spectra
+from balcli.forces.orders import find_relevant_orders
+from balcli.forces.spectrum import Spectra, compute_spectra
 from balcli.results.analysis import analyze
 
 BOUNDS = {  # by row of docs/accuracy.md; roundings, or relative errors
@@ -249,7 +250,7 @@ def test_the_mirror_image_of_an_articulated_rod_has_the_same_bound():
 
 
 def test_an_articulated_rod_nearer_to_dead_lock_is_refused_with_the_number():
-    assert len(relevant_orders(vee(2e-6))) == 1 << 15
+    assert len(find_relevant_orders(vee(2e-6))) == 1 << 15
     with pytest.raises(
         InputError, match=r"stands 0\.9999995\d* rod lengths beside .*at most 1 - 1e-06 is allowed"
     ):
@@ -331,7 +332,7 @@ def test_nearer_to_the_lock_is_an_error_with_the_number(ratio, offset, number):
 def three(**parts) -> Spectra:
     """Throws at 0, 120, 240 degrees."""
     crank = {"stroke": 100, "throws": [0, 120, 240], "spacing": 100} | parts.pop("crank", {})
-    return spectra(engine(crank=crank, **parts), np.arange(1.0, 65.0))
+    return compute_spectra(engine(crank=crank, **parts), np.arange(1.0, 65.0))
 
 
 @pytest.mark.parametrize("off", [1e-9, -1e-9, 1e-7, 1e-3])
@@ -371,7 +372,7 @@ def test_whole_turns_and_thirds_cancel_exactly(throws, layout):
 def test_banks_and_throws_of_72_degrees_cancel_exactly(count):
     """Five throws at 72 degrees, and two banks of them: orders 5, 10 .. alone."""
     layout = {"bank_angle": 72} if count == 10 else {}
-    found = spectra(
+    found = compute_spectra(
         engine(
             crank={"stroke": 100, "throws": [0, 144, 216, 288, 72], "spacing": 90}, layout=layout
         ),
@@ -386,7 +387,7 @@ def test_planes_that_almost_coincide(apart):
     """Two opposed pistons `apart` mm: a couple of m r omega^2 times that, to 1e-12 of it (positions
     are sums of halves).
     """
-    found = spectra(
+    found = compute_spectra(
         engine(crank={"stroke": 100, "throws": [0, 180], "positions": [0, apart]}), [1, 2]
     )
     assert found.force.balanced[0]
@@ -397,7 +398,7 @@ def test_planes_that_almost_coincide(apart):
 
 def test_planes_that_almost_coincide_far_from_the_point_of_reference():
     """10 m away, 1e-9 mm is below the rounding of the place itself, and nothing is invented."""
-    found = spectra(
+    found = compute_spectra(
         engine(
             crank={"stroke": 100, "throws": [0, 180], "positions": [1e4, 1e4 + 1e-12]},
             frame={"reference": [0, 0, 0]},
@@ -453,7 +454,7 @@ def test_a_microgram_beside_a_million_tonnes():
         crank={"stroke": 100, "throws": [0, 90]},
         cylinder={"1": {"piston_mass": 1e-9}, "2": {"piston_mass": 1e9}},
     )
-    found = spectra(both, [1, 2, 4])
+    found = compute_spectra(both, [1, 2, 4])
     a = closed_form.piston([1, 2, 4], 0.25)
     assert found.force.major == pytest.approx(1e9 * REVOLVING * np.abs(a), rel=1e-14)
     own = dict(analyze(both, [1, 2, 4], by_cylinder=True, only=["force"]).cylinders)
@@ -466,7 +467,7 @@ def test_many_cylinders(count):
     8 n roundings.
     """
     throws = [360 * k / count for k in range(count)]
-    found = spectra(
+    found = compute_spectra(
         engine(crank={"stroke": 100, "throws": throws}, rod={"ratio": 0.999}), np.arange(1.0, 513.0)
     )
     left = found.orders % count == 0
@@ -483,7 +484,7 @@ def test_512_cylinders_at_odd_angles():
     """
     throws = [7.3 * k % 360 for k in range(512)]
     orders = [1, 2, 4, 64, 256]
-    found = spectra(
+    found = compute_spectra(
         engine(crank={"stroke": 100, "throws": throws}, rod={"ratio": 0.999}), orders
     ).force
     for row, (n, a) in enumerate(zip(orders, closed_form.piston(orders, 0.999), strict=True)):
@@ -504,9 +505,9 @@ def test_peaks_of_32768_orders_and_64_cylinders_are_the_sum_of_all():
 
     def highest(count: int) -> float:
         whole = engine(crank={"stroke": 100, "throws": [0] * count}, rod={"ratio": NEAREST})
-        orders = relevant_orders(whole)
+        orders = find_relevant_orders(whole)
         assert len(orders) == 1 << 15
-        return peak(spectra(whole, orders, ("force",)).force).value
+        return peak(compute_spectra(whole, orders, ("force",)).force).value
 
     assert highest(64) == pytest.approx(64 * highest(1), rel=1e-12)
 

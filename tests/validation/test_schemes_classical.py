@@ -16,7 +16,7 @@ from balcli.core.mechanisms import closed_form
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.forces.spectrum import spectra
+from balcli.forces.spectrum import compute_spectra
 from balcli.results.analysis import analyze
 from balcli.sizing.auto import size_auto
 from balcli.sizing.options import SchemeOptions
@@ -40,7 +40,7 @@ CROSS_V8 = engine([0, 90, 270, 180], layout="bank_angle = 90")
 
 
 def left(e: Engine, orders=(1, 2), quantities=("force", "moment", "roll")):
-    return spectra(e, list(orders), quantities)
+    return compute_spectra(e, list(orders), quantities)
 
 
 def sizes(tables) -> list[float]:

@@ -18,7 +18,7 @@ from support.engines import engine_text
 from balcli.core.mechanisms import closed_form
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
-from balcli.forces.spectrum import spectra
+from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import fit_devices
 from balcli.sizing.sizing import size
@@ -58,7 +58,7 @@ def test_shafts_cancel_both_rotating_vectors_at_every_bank_angle(gamma):
         K * abs(math.cos(half)), abs=1e-13 * K
     )  # (2 omega)^2 = 4 omega^2
     assert abs(found.get(-2, 0j)) * 4 == pytest.approx(K * abs(math.cos(3 * half)), abs=1e-13 * K)
-    after = spectra(
+    after = compute_spectra(
         fit_devices(engine, size(engine, "two-shaft", SchemeOptions(order=2))),
         [2],
         ("force", "moment"),
@@ -83,7 +83,8 @@ def test_places_that_add_no_roll(gamma):
         round(between), abs=1e-12
     )  # (4.1); his x is our y: k odd and even swap
     rolls = [
-        spectra(e, [2], ("roll",)).roll.forward[0] for e in (engine, fit_devices(engine, remedy))
+        compute_spectra(e, [2], ("roll",)).roll.forward[0]
+        for e in (engine, fit_devices(engine, remedy))
     ]
     assert abs(rolls[1] - rolls[0]) <= 1e-13 * K * engine.omega**2 * 0.1
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..render.formats import Format, Units
 from ..sizing.schemes import KNUCKLES
-from . import balance_options as asked
+from . import balance_options
 from .options import (
     EnginePath,
     FormatOption,
@@ -21,19 +21,21 @@ from .overwrite_guard import refuse_overwriting
 
 def balance(
     path: EnginePath,
-    scheme: asked.Scheme = "auto",
-    order: asked.Order = None,
-    at: asked.At = None,
-    position: asked.Position = None,
-    planes: asked.Planes = None,
-    factor: asked.Factor = None,
-    roll: asked.Roll = None,
-    radius: asked.Radius = None,
-    thickness: asked.Thickness = None,
-    disc: asked.Disc = None,
-    drill: asked.Drill = None,
-    even: asked.Even = None,
-    write: asked.Write = None,
+    scheme: balance_options.Scheme = "auto",
+    order: balance_options.Order = None,
+    at: balance_options.At = None,
+    position: balance_options.Position = None,
+    planes: balance_options.Planes = None,
+    factor: balance_options.Factor = None,
+    roll: balance_options.Roll = None,
+    radius: balance_options.Radius = None,
+    thickness: balance_options.Thickness = None,
+    disc: balance_options.Disc = None,
+    drill: balance_options.Drill = None,
+    even: balance_options.Even = None,
+    grade: balance_options.Grade = None,
+    mass: balance_options.Mass = None,
+    write: balance_options.Write = None,
     speed: Speed = None,
     orders: Orders = None,
     form: FormatOption = Format.TABLE,
@@ -44,17 +46,19 @@ def balance(
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     from ..render import balance as renderer
     from ..results.balance import balance as balance_engine
+    from ..results.permitted_unbalance import permit_unbalance
     from .fitted_engine import write_fitted
     from .inputs import read_engine
 
-    options = asked.parse_scheme_options(order, at, position, planes, factor, roll)
-    tools = asked.parse_tools(radius, thickness, disc, drill)
-    shown, rpm = parse_orders(orders), check_speed(speed)
+    options = balance_options.parse_scheme_options(order, at, position, planes, factor, roll)
+    tools = balance_options.parse_tools(radius, thickness, disc, drill)
+    asked, rpm = parse_orders(orders), check_speed(speed)
     text, model, engine = read_engine(path, rpm)
     if scheme == KNUCKLES or even is not None:
-        result = asked.balance_knuckles(scheme, options, even, model, engine, shown)
+        result = balance_options.balance_knuckles(scheme, options, even, model, engine, asked)
     else:
-        result = balance_engine(engine, scheme, options, shown, tools)
+        result = balance_engine(engine, scheme, options, asked, tools)
+    result = permit_unbalance(result, grade, mass)
     if write is not None:
         write_fitted(path, text, result.remedy, write, rpm)
     show([result], renderer, form, output, units)

@@ -122,6 +122,23 @@ Even = Annotated[
         help="What --scheme knuckles makes even; default: dead-centres.",
     ),
 ]
+Grade = Annotated[
+    float | None,
+    typer.Option(
+        metavar="G",
+        show_default=False,
+        help="Balance quality grade of ISO 21940-11, mm/s: say what may be left beside each "
+        "counterweight.",
+    ),
+]
+Mass = Annotated[
+    float | None,
+    typer.Option(
+        metavar="KG",
+        show_default=False,
+        help="Mass of the crankshaft as it is balanced, for --grade.",
+    ),
+]
 Write = Annotated[
     Path | None,
     typer.Option(

@@ -28,14 +28,14 @@ def check(
     """Recompute engines and compare with their recorded results; exit status 1 if anything
     moved.
     """
-    from ..regression import Difference, differences, record, recorded_at
+    from ..regression import Difference, find_differences, find_record, record_result
     from .inputs import exit_on_errors, find_engine_files, read_engine, try_each
 
     def compare_or_record(path: Path) -> list[Difference]:
-        engine, target = read_engine(str(path)).engine, recorded_at(path)
+        engine, target = read_engine(str(path)).engine, find_record(path)
         if not update:
-            return differences(path.stem, engine, target)
-        write_file(record(engine), make_folder_of(target))
+            return find_differences(path.stem, engine, target)
+        write_file(record_result(engine), make_folder_of(target))
         return []
 
     results, errors = try_each(find_engine_files(paths), compare_or_record)

@@ -33,7 +33,7 @@ def compare(
     """
     refuse_overwriting(reads=paths, writes={"--output": output})
     from ..render import comparison as renderer
-    from ..results.comparison import compare as compare_engines
+    from ..results.comparison import compare_engines
     from .inputs import distinct_names, read_engine
 
     rpm, asked = check_speed(speed), parse_orders(orders)

@@ -8,12 +8,13 @@ from collections.abc import Iterable
 
 from ..enginefile import examples
 from ..enginefile.templates import KINDS
+from ..field_balancing.starting_file import KIND as FIELD
 from ..sizing.schemes import NAMES
 
 
 def complete_kinds(incomplete: str) -> list[str]:
-    """Kinds of engines, of `balcli new`."""
-    return _beginning_with(incomplete, KINDS)
+    """Kinds of files, of `balcli new`."""
+    return _beginning_with(incomplete, (*KINDS, FIELD))
 
 
 def complete_schemes(incomplete: str) -> list[str]:

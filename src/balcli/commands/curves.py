@@ -35,16 +35,16 @@ def curves(
 ) -> None:
     """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston."""
     refuse_overwriting(reads=[path], writes={"--output": output})
-    from ..forces.curves import crank_angles, cylinder_curves, engine_curves
+    from ..forces.curves import compute_cylinder_curves, compute_engine_curves, divide_revolution
     from ..render import curves as renderer
     from .inputs import read_engine
 
-    angles = crank_angles(step)
+    angles = divide_revolution(step)
     engine = read_engine(path, check_speed(speed)).engine
     if cylinder is None:
-        found = engine_curves(engine, angles)
+        found = compute_engine_curves(engine, angles)
     else:
-        found = cylinder_curves(engine, cylinder, angles)
+        found = compute_cylinder_curves(engine, cylinder, angles)
     match form:
         case SeriesFormat.CSV:
             text = csv_text([renderer.rows(found)])

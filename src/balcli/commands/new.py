@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from ..enginefile.templates import template
+from ..field_balancing.starting_file import KIND, read_starting_file
 from .completion import complete_kinds
 from .output import emit, refuse_existing
 
@@ -17,7 +18,7 @@ def new(
         str,
         typer.Argument(
             metavar="KIND",
-            help="single, inline, vee, boxer, radial or w.",
+            help="single, inline, vee, boxer, radial or w; field: runs of a rotor on a machine.",
             show_default=False,
             autocompletion=complete_kinds,
         ),
@@ -30,7 +31,7 @@ def new(
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
 ) -> None:
-    """Write a commented, valid engine file to start from."""
-    text = template(kind)
+    """Write a commented, valid engine file (or file of runs, for `field`) to start from."""
+    text = read_starting_file() if kind == KIND else template(kind)
     refuse_existing(path, force)
     emit(text, path)

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TextIO, TypeVar
 
 from ..errors import BalcliError
+from ..process import unfinished
 from ..render.formats import Format, Renderer, Units, render
 from ..render.units import SYSTEMS
 
@@ -125,34 +126,35 @@ def replacing(target: Path) -> Iterator[Path]:
     Raises:
         BalcliError: if it cannot be written; an older one is left as it was.
     """
-    import tempfile  # brings random numbers and hashes, for which nobody waits who writes no file
-
-    real, place = Path(os.path.realpath(target)), None
     try:
-        if real.is_dir():
+        if target.is_dir():
             raise BalcliError(f"{target}: is a folder, so no file can be written there")
+        if target.exists() and not target.is_file():
+            yield target
+            return
+        real = Path(os.path.realpath(target))
         if real.is_symlink():
             raise OSError(errno.ELOOP, "a symbolic link that leads to itself")
-        if real.exists() and not real.is_file():
-            yield real
-            return
-        handle, name = tempfile.mkstemp(dir=real.parent, prefix=f".{real.name[:40]}.")
-        os.close(handle)
-        place = Path(name)
-        yield place
-        place.chmod(_permissions(real))
-        place.replace(real)
+        with _beside(real) as place:
+            yield place
+            if real.exists():
+                place.chmod(real.stat().st_mode & 0o777)
+            place.replace(real)
     except OSError as error:
         raise BalcliError(f"{target}: cannot be written ({error.strerror or error})") from None
+
+
+@contextmanager
+def _beside(target: Path) -> Iterator[Path]:
+    """A new, empty file in the target's folder, as secret as the target is; it is gone afterwards
+    unless it has been moved, also where a signal ends the process.
+    """
+    place = target.parent / f".{target.name[:40]}.{os.urandom(6).hex()}"
+    mode = 0o600 if target.exists() else 0o666
+    unfinished.add(str(place))
+    try:
+        os.close(os.open(place, os.O_CREAT | os.O_EXCL | os.O_WRONLY, mode))
+        yield place
     finally:
-        if place is not None:
-            place.unlink(missing_ok=True)
-
-
-def _permissions(target: Path) -> int:
-    """Permissions of the file that is replaced, or those of a new one."""
-    if target.exists():
-        return target.stat().st_mode & 0o777
-    mask = os.umask(0)
-    os.umask(mask)
-    return 0o666 & ~mask
+        place.unlink(missing_ok=True)
+        unfinished.discard(str(place))

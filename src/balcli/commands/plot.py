@@ -60,10 +60,10 @@ def plot(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     from ..render.plot.pages import Subject, form_of, picture
-    from ..studies.pictures import study
+    from ..studies.pictures import compute_study
     from .inputs import read_engine
 
     form, asked = form_of(output), parse_orders(orders)
     engine = read_engine(path, check_speed(speed)).engine
-    subject = Subject(system=SYSTEMS[units], **study(engine, what, asked, scheme)._asdict())
+    subject = Subject(system=SYSTEMS[units], **compute_study(engine, what, asked, scheme)._asdict())
     write_file(picture(subject, what, form), output)

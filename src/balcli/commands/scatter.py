@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from ..forces.kinds import DEFAULT_QUANTITIES
 from ..render.formats import Format
 from .options import EnginePath, FormatOption, Output
 from .output import show
@@ -62,7 +63,7 @@ def scatter(
         typer.Option(
             "--quantity", "-q", metavar="WHAT,...", help="As force.1.major, couple.4.amplitude."
         ),
-    ] = "force.1.major,force.2.major,moment.1.major,moment.2.major",
+    ] = DEFAULT_QUANTITIES,
     form: FormatOption = Format.TABLE,
     output: Output = None,
 ) -> None:
@@ -70,13 +71,13 @@ def scatter(
     tolerance matters most.
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
-    from ..forces import quantity as quantities
+    from ..forces.quantity import parse_quantity_list
     from ..render import tolerances as renderer
-    from ..studies import tolerances as studies
+    from ..studies.tolerances import parse_tolerances, scatter_engine
     from .inputs import read_engine
 
-    tolerances = studies.tolerances(mass, length, angle)
+    tolerances = parse_tolerances(mass, length, angle)
     model = read_engine(path).model
-    asked = quantities.parse(quantity)
-    found = studies.scatter(model, tolerances, asked, samples, seed, distribution.value)
+    asked = parse_quantity_list(quantity)
+    found = scatter_engine(model, tolerances, asked, samples, seed, distribution.value)
     show([found], renderer, form, output)

@@ -72,8 +72,9 @@ def search(
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     from ..engine.load import built, name_of, parse, text_of
     from ..render import search as renderer
-    from ..studies.search import search as searches
-    from ..studies.search.write import arranged
+    from ..studies.search.objective import parse_objective
+    from ..studies.search.search import search_arrangements
+    from ..studies.search.write import write_design
 
     if require not in ("", "even-firing"):
         raise typer.BadParameter(
@@ -82,8 +83,8 @@ def search(
     text, name = text_of(path), name_of(path)
     model = parse(text, name)
     built(model, name)  # what is wrong with the file itself is told with its name
-    goal = searches.objective(minimise, limit or ())
-    found = searches.search(model, over, goal, top, bool(require))
+    goal = parse_objective(minimise, limit or ())
+    found = search_arrangements(model, over, goal, top, bool(require))
     show([found], renderer, form, output)
     if write is not None:
-        write_file(arranged(text, found.results[0].arrangement), write)
+        write_file(write_design(text, found.results[0].design), write)

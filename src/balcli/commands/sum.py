@@ -34,6 +34,17 @@ def sum(  # noqa: A001 (the command's name)
     reverse: Annotated[
         bool, typer.Option("--reverse", help="Its crank turns against the first one's.")
     ] = False,
+    load: Annotated[
+        str,
+        typer.Option(
+            "--load",
+            metavar="first|second|both",
+            help=(
+                "With --reverse: the crank that has flywheel and load, and so bears the inertia "
+                "torque of both engines; both: each bears its own."
+            ),
+        ),
+    ] = "first",
     speed: Speed = None,
     orders: Orders = None,
     form: FormatOption = Format.TABLE,
@@ -43,12 +54,12 @@ def sum(  # noqa: A001 (the command's name)
     """Two engines on one frame, geared one to one: H, U and opposed-piston engines."""
     refuse_overwriting(reads=[first, second], writes={"--output": output})
     from ..render import two_engines as renderer
-    from ..results.two_engines import combine
+    from ..results.two_engines import combine_engines
     from .arrangement_options import parse_arrangement
     from .inputs import named_by_file, read_engine
 
     rpm, asked = check_speed(speed), parse_orders(orders)
-    arrangement = parse_arrangement(phase, at, turn, reverse)
+    arrangement = parse_arrangement(phase, at, turn, reverse, load)
     engines = [named_by_file(read_engine(path, rpm).engine, path) for path in (first, second)]
-    result = combine(engines[0], engines[1], arrangement, asked)
+    result = combine_engines(engines[0], engines[1], arrangement, asked)
     show([result], renderer, form, output, units)

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from ..errors import Exit
+from ..forces.kinds import DEFAULT_QUANTITIES
 from .options import EnginePath, Output, SeriesFormat
 from .output import write_file
 from .overwrite_guard import refuse_overwriting
@@ -41,7 +42,7 @@ def sweep(
                 "torque..., roll...; peak.force, peak.moment."
             ),
         ),
-    ] = "force.1.major,force.2.major,moment.1.major,moment.2.major",
+    ] = DEFAULT_QUANTITIES,
     form: Annotated[
         SeriesFormat, typer.Option("--format", "-f", help="How to write the variants.")
     ] = SeriesFormat.CSV,
@@ -70,19 +71,19 @@ def sweep(
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     from ..render.sweep_plot import draw
-    from ..studies import dask_cluster
-    from ..studies import sweep as studies
+    from ..studies.dask_cluster import connect_cluster, evaluate_on_cluster
+    from ..studies.sweep import evaluate_chunks, evaluate_grid, read_sweep
     from .sweep_output import noting_interrupt, showing_progress, until_interrupted, write_sweep
 
-    job = studies.ask(path, vary, quantity)
+    job = read_sweep(path, vary, quantity)
     kind = "parquet" if output is not None and output.suffix == ".parquet" else form.value
-    cluster = dask_cluster.client(dask) if dask else nullcontext()
+    cluster = connect_cluster(dask) if dask else nullcontext()
     with noting_interrupt() as interrupt, cluster as workers:
-        chunks = dask_cluster.chunks(job, workers) if dask else studies.chunks(job)
+        chunks = evaluate_on_cluster(job, workers) if dask else evaluate_chunks(job)
         shown = showing_progress(until_interrupted(chunks, interrupt), job.variants, progress)
         write_sweep(job, shown, kind, output)
     if interrupt.noted:
         typer.echo(f"balcli: stopped after {interrupt.done} of {job.variants} variants", err=True)
         raise typer.Exit(Exit.INTERRUPTED)
     if plot:
-        write_file(draw(job, studies.grid(job)), plot)
+        write_file(draw(job, evaluate_grid(job)), plot)

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..errors import BalcliError
 from ..render.sweep import csv_text, json_text
-from ..studies.sweep import Array, Chunk, Sweep, columns
+from ..studies.sweep import Array, Chunk, Sweep, list_columns
 from .output import replacing, standard_output
 
 ROWS_A_GROUP = 1 << 20  # of a Parquet file
@@ -70,7 +70,7 @@ def _row_groups(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[list[Array]]:
     """Columns of many chunks together: ROWS_A_GROUP rows or a few more, fewer in the last."""
     waiting: list[list[Array]] = []
     for chunk in chunks:
-        waiting.append(columns(sweep, chunk))
+        waiting.append(list_columns(sweep, chunk))
         if sum(len(c[0]) for c in waiting) >= ROWS_A_GROUP:
             yield [np.concatenate(parts) for parts in zip(*waiting, strict=True)]
             waiting = []

@@ -19,7 +19,8 @@ from typing import ClassVar, NamedTuple, TypeAlias
 import numpy as np
 
 from .cylinder_pressure import GasError, Piston
-from .piecewise import Function, Real, resolved
+from .phasors import Array
+from .piecewise import Function, resolved
 
 _BURNT = 6.908  # -ln 0.001
 
@@ -168,10 +169,10 @@ def _gradual(charge: Charge, burn: Wiebe) -> Combustion:
     growth = _growth(charge, start, end, burn.shape)
     unit = (n - 1) * float(growth(np.array(end)))
 
-    def unburnt(angle: Real) -> Real:
+    def unburnt(angle: Array) -> Array:
         return charge.constant / volume_at(angle) ** n
 
-    def by_heat(angle: Real) -> Real:
+    def by_heat(angle: Array) -> Array:
         return (n - 1) * growth(angle) / volume_at(angle) ** n
 
     def heat_for(max_pressure: float) -> float:
@@ -206,17 +207,17 @@ def _growth(charge: Charge, start: float, end: float, shape: float) -> Function:
     """
     n, volume_at, piston = charge.exponent, charge.volume_at, charge.piston
 
-    def burnt(angle: Real) -> Real:
+    def burnt(angle: Array) -> Array:
         xi = np.clip((angle - start) / (end - start), 0, 1)
         return -np.expm1(-_BURNT * xi ** (shape + 1))
 
-    def widening(angle: Real) -> Real:
+    def widening(angle: Array) -> Array:
         volume, rate = volume_at(angle), piston.area * piston.rate(angle)
         return (n - 1) * burnt(angle) * volume ** (n - 2) * rate
 
     lost = resolved(widening, [start, end]).antiderivative()
 
-    def growth(angle: Real) -> Real:
+    def growth(angle: Array) -> Array:
         at = np.clip(angle, start, end)
         return burnt(at) * volume_at(at) ** (n - 1) - lost.within(at)
 

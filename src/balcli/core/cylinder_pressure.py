@@ -27,15 +27,8 @@ from .mechanisms import slidercrank
 from .mechanisms.articulated import Articulated
 from .mechanisms.linkage import Linkage
 from .mechanisms.rotary import Rotary
-from .piecewise import (
-    Complex,
-    Extreme,
-    Function,
-    PiecewiseCurve,
-    Real,
-    merged_breaks,
-    resolved,
-)
+from .phasors import Array, Complex
+from .piecewise import Extreme, Function, PiecewiseCurve, merged_breaks, resolved
 
 _SAME = 1e-8  # rad; a highest pressure so near to a corner is at the corner
 
@@ -78,7 +71,7 @@ class Piston:
         """Volume at the upper dead centre, m3."""
         return self.swept / (compression_ratio - 1)
 
-    def volume(self, angle: ArrayLike, compression_ratio: float) -> Real:
+    def volume(self, angle: ArrayLike, compression_ratio: float) -> Array:
         """Volume at cycle angles, m3, of their shape."""
         travel = self.travel(np.asarray(angle, float))
         return self.clearance(compression_ratio) + self.area * travel
@@ -151,11 +144,11 @@ def _plain_piston(radius: float, lam: float, eps: float, area: float) -> Piston:
 
 
 def _slung(
-    radius: float, linkage: Articulated, lam: Real, eps: Real, top: float
+    radius: float, linkage: Articulated, lam: Array, eps: Array, top: float
 ) -> tuple[Function, Function]:
     """Travel and its rate of the piston in the first row of a linkage."""
 
-    def first(angle: Real, name: str) -> Real:
+    def first(angle: Array, name: str) -> Array:
         values = getattr(linkage.motion((angle + top).reshape(-1), lam, eps), name)
         return radius * values[0].reshape(angle.shape)
 
@@ -169,11 +162,11 @@ class CylinderPressure(ABC):
 
     @property
     @abstractmethod
-    def breaks(self) -> Real:
+    def breaks(self) -> Array:
         """Cycle angles, rad, rising; the last a period after the first."""
 
     @abstractmethod
-    def at(self, angle: ArrayLike, *, before: bool = False) -> Real:
+    def at(self, angle: ArrayLike, *, before: bool = False) -> Array:
         """Pa at any cycle angles (rad), of their shape; at a jump the value after it, or
         `before`.
         """
@@ -199,13 +192,13 @@ class GasTorque(ABC):
 
     @property
     @abstractmethod
-    def breaks(self) -> Real:
+    def breaks(self) -> Array:
         """Cycle angles, rad, rising, between which the torque is smooth; the last a period after
         the first.
         """
 
     @abstractmethod
-    def at(self, angle: ArrayLike, *, before: bool = False) -> Real:
+    def at(self, angle: ArrayLike, *, before: bool = False) -> Array:
         """N m at any cycle angles (rad), of their shape; at a jump the value after it, or
         `before`.
         """
@@ -241,14 +234,14 @@ class PressureOnPiston(GasTorque):
     crankcase: float = 1e5
 
     @property
-    def breaks(self) -> Real:
+    def breaks(self) -> Array:
         return self.pressure.breaks
 
-    def force(self, angle: ArrayLike, *, before: bool = False) -> Real:
+    def force(self, angle: ArrayLike, *, before: bool = False) -> Array:
         """Gas force on the piston, N, towards the crankshaft, at any cycle angles (rad)."""
         return self.piston.area * (self.pressure.at(angle, before=before) - self.crankcase)
 
-    def at(self, angle: ArrayLike, *, before: bool = False) -> Real:
+    def at(self, angle: ArrayLike, *, before: bool = False) -> Array:
         angles = np.asarray(angle, float)
         return self.force(angles, before=before) * self.piston.rate(angles)
 
@@ -270,7 +263,7 @@ def crank_torque(
     """
     period = cylinders[0][0].curve.period
 
-    def total(angle: Real) -> Real:
+    def total(angle: Array) -> Array:
         rest = np.zeros(angle.shape) if also is None else also(angle)
         return sum((share * gas.curve.at(angle - fires) for gas, fires, share in cylinders), rest)
 

@@ -22,7 +22,8 @@ from numpy.typing import ArrayLike
 
 from .combustion import Burn, Charge, Combustion, Piece, Wiebe, combustion, constant, polytrope
 from .cylinder_pressure import CylinderPressure, GasError, Piston
-from .piecewise import Function, Real, piece_of, wrapped
+from .phasors import Array
+from .piecewise import Function, piece_of, wrapped
 
 
 @dataclass(frozen=True)
@@ -64,16 +65,16 @@ class GasCycle(CylinderPressure):
         imep: indicated mean effective pressure, Pa, pumping included.
     """
 
-    corners: Real
+    corners: Array
     laws: tuple[Function, ...]
     heat: float
     imep: float
 
     @property
-    def breaks(self) -> Real:
+    def breaks(self) -> Array:
         return self.corners
 
-    def at(self, angle: ArrayLike, *, before: bool = False) -> Real:
+    def at(self, angle: ArrayLike, *, before: bool = False) -> Array:
         angles = wrapped(angle, self.corners, before=before)
         piece = piece_of(angles, self.corners, before=before)
         found = np.empty(angles.shape)
@@ -201,7 +202,7 @@ class _Cycle:
         )
         self.fixed_work = self._compression_work(closed) + self._pumping_work(closed)
 
-    def volume_at(self, angle: Real) -> Real:
+    def volume_at(self, angle: Array) -> Array:
         """Volume (m3) at cycle angles."""
         return self.piston.volume(angle, self.process.compression_ratio)
 

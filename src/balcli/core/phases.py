@@ -133,29 +133,26 @@ class Phases:
         Returns: for each side, shape (orders, *trailing).
         """
         found = []
-        equal = None  # the sum without vectors: equal ones are taken out of it
+        equal = None  # the sums without vectors: equal ones are taken out of them
         for k, vectors in enumerate(sides):
             if vectors.shape[1] > 1:
                 factors = vectors if arms is None else arms * vectors
-                found.append(self._add_turned(turns[k : k + 1], factors[None])[0])
+                found += self._add_turned(turns[k : k + 1], factors)
             else:
                 if equal is None:
-                    equal = self._add_turned(
-                        turns, (self._ones if arms is None else arms)[None, None]
-                    )
+                    equal = self._add_turned(turns, (self._ones if arms is None else arms)[None])
                 found.append(vectors[:, 0] * equal[k])
         return found
 
-    def _add_turned(self, turns: Complex, factors: Array | Complex) -> Complex:
-        """The same for factors of shape (1, 1 or orders, cylinders, *trailing), shape (sides,
-        orders, *trailing).
-        """
-        of_banks = np.add.reduceat(factors * self._still, self._starts, axis=2)
-        total: Complex = np.add.reduce(turns * of_banks, axis=2)
+    def _add_turned(self, turns: Complex, factors: Array | Complex) -> list[Complex]:
+        """The same for factors of shape (1 or orders, cylinders, *trailing)."""
+        of_banks = np.add.reduceat(factors * self._still, self._starts, axis=1)
+        totals: list[Complex] = list(np.add.reduce(turns * of_banks, axis=2))
         for bank, rows in groupby(self._moving, self._bank):
-            moving = sum(factors[:, :, k] * self._moving[k] for k in rows)
-            total = total + turns[:, :, bank] * moving
-        return total
+            moving = sum(factors[:, k] * self._moving[k] for k in rows)
+            for k, turn in enumerate(turns):
+                totals[k] = totals[k] + turn[:, bank] * moving
+        return totals
 
     @cached_property
     def _ones(self) -> Array:

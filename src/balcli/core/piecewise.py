@@ -17,9 +17,9 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Real: TypeAlias = NDArray[np.float64]
-Complex: TypeAlias = NDArray[np.complex128]
-Function: TypeAlias = Callable[[Real], Real]  # value at angles (rad), of their shape
+from .phasors import Array, Complex
+
+Function: TypeAlias = Callable[[Array], Array]  # value at angles (rad), of their shape
 
 _WIDEST = 0.5  # rad, of a panel before any is halved
 _MANY = 200  # panels from which on each has few terms
@@ -42,7 +42,7 @@ class Extreme(NamedTuple):
 
 
 # ---------------------------------------------------------------- Legendre polynomials
-def legendre(x: Real, count: int) -> Real:
+def legendre(x: Array, count: int) -> Array:
     """P_0 .. P_(count-1) at x, shape (count, *x.shape)."""
     rows = np.empty((max(count, 2), *x.shape))
     rows[0], rows[1] = 1.0, x
@@ -52,7 +52,7 @@ def legendre(x: Real, count: int) -> Real:
 
 
 @lru_cache
-def gauss(count: int) -> tuple[Real, Real]:
+def gauss(count: int) -> tuple[Array, Array]:
     """Nodes (rising) and weights of the Gauss-Legendre quadrature on [-1, 1], each of shape
     (count,), by Newton's method on P_count.
 
@@ -67,14 +67,14 @@ def gauss(count: int) -> tuple[Real, Real]:
 
 
 @lru_cache
-def _values_to_series(count: int) -> Real:
+def _values_to_series(count: int) -> Array:
     """Matrix from values at the nodes to the coefficients of P_0 .. P_(count-1)."""
     nodes, weights = gauss(count)
     return (np.arange(count)[:, None] + 0.5) * legendre(nodes, count) * weights
 
 
 @lru_cache
-def _derivative(count: int) -> Real:
+def _derivative(count: int) -> Array:
     """Matrix from a series to that of its derivative: P_j' is the sum of (2 l + 1) P_l over
     l = j - 1, j - 3, ...
     """
@@ -83,7 +83,7 @@ def _derivative(count: int) -> Real:
 
 
 @lru_cache
-def _antiderivative(count: int) -> Real:
+def _antiderivative(count: int) -> Array:
     """Matrix from a series to that of its integral from -1, shape (count + 1, count): that of P_l
     is (P_(l+1) - P_(l-1))/(2 l + 1), of P_0 it is P_1 + P_0.
     """
@@ -105,8 +105,8 @@ class PiecewiseCurve:
         series: Legendre coefficients on each panel, shape (terms, panels).
     """
 
-    breaks: Real
-    series: Real
+    breaks: Array
+    series: Array
 
     @property
     def period(self) -> float:
@@ -123,11 +123,11 @@ class PiecewiseCurve:
         """Over one period."""
         return self.integral / self.period
 
-    def at(self, angle: ArrayLike, *, before: bool = False) -> Real:
+    def at(self, angle: ArrayLike, *, before: bool = False) -> Array:
         """Values at any angles (rad), of their shape; at a jump the value after it, or `before`."""
         return self.within(wrapped(angle, self.breaks, before=before), before=before)
 
-    def within(self, angle: Real, *, before: bool = False) -> Real:
+    def within(self, angle: Array, *, before: bool = False) -> Array:
         """The same for angles between the first and the last breakpoint."""
         flat = angle.reshape(-1)
         panel = piece_of(flat, self.breaks, before=before)
@@ -192,7 +192,7 @@ class PiecewiseCurve:
         signs = np.sign(value[np.abs(value) > _NOTHING * np.abs(value).max()])
         return int(np.count_nonzero(signs != np.roll(signs, 1)))
 
-    def _candidates(self) -> tuple[Real, Real]:
+    def _candidates(self) -> tuple[Array, Array]:
         """Angles of both ends of every panel and of its stationary points, rising, with the values
         there.
         """
@@ -247,7 +247,7 @@ def resolved(function: Function, breaks: ArrayLike) -> PiecewiseCurve:
     )
 
 
-def quadrature(breaks: Real) -> tuple[Real, Real]:
+def quadrature(breaks: Array) -> tuple[Array, Array]:
     """Angles within panels and their weights in a mean over the period, each of shape (nodes,
     panels).
     """
@@ -269,7 +269,7 @@ def polyline(angle: ArrayLike, value: ArrayLike) -> PiecewiseCurve:
 
 
 # ---------------------------------------------------------------- angles and breakpoints
-def wrapped(angle: ArrayLike, breaks: Real, *, before: bool = False) -> Real:
+def wrapped(angle: ArrayLike, breaks: Array, *, before: bool = False) -> Array:
     """The same angles within the period that the breakpoints span: in [first, last), or `before` a
     jump in (first, last].
     """
@@ -280,7 +280,7 @@ def wrapped(angle: ArrayLike, breaks: Real, *, before: bool = False) -> Real:
     return start + np.remainder(angles + _SAME - start, period) - _SAME
 
 
-def piece_of(angle: Real, breaks: Real, *, before: bool = False) -> NDArray[np.intp]:
+def piece_of(angle: Array, breaks: Array, *, before: bool = False) -> NDArray[np.intp]:
     """Between which breakpoints wrapped angles lie: 0 for the first two; on a breakpoint after it,
     or `before` it.
     """
@@ -288,7 +288,7 @@ def piece_of(angle: Real, breaks: Real, *, before: bool = False) -> NDArray[np.i
     return np.clip(np.searchsorted(breaks, angle + shift, side="right") - 1, 0, len(breaks) - 2)
 
 
-def merged_breaks(parts: list[tuple[Real, float]], period: float) -> Real:
+def merged_breaks(parts: list[tuple[Array, float]], period: float) -> Array:
     """Breakpoints in [0, period] of a sum of functions, each given by its breakpoints and the angle
     (rad) by which it is shifted to the right.
     """
@@ -299,12 +299,12 @@ def merged_breaks(parts: list[tuple[Real, float]], period: float) -> Real:
     return kept
 
 
-def _panels(breaks: Real) -> tuple[Real, Real]:
+def _panels(breaks: Array) -> tuple[Array, Array]:
     """Middle and half width of every panel."""
     return (breaks[1:] + breaks[:-1]) / 2, np.diff(breaks) / 2
 
 
-def _cut(breaks: Real) -> Real:
+def _cut(breaks: Array) -> Array:
     """Breakpoints with wide pieces cut into equal panels."""
     wide = np.ceil(np.diff(breaks) / _WIDEST).astype(int)
     if wide.max() <= 1:
@@ -328,12 +328,12 @@ def _nodes_for(terms: int, reach: float) -> int:
     return (terms + degree) // 2 + 1
 
 
-def _points(terms: int) -> Real:
+def _points(terms: int) -> Array:
     """Both ends and the nodes of a panel, shape (terms + 2,)."""
     return np.concatenate([[-1.0], gauss(max(terms, 2))[0], [1.0]])
 
 
-def _roots(series: Real) -> tuple[NDArray[np.intp], Real]:
+def _roots(series: Array) -> tuple[NDArray[np.intp], Array]:
     """Panels and x in (-1, 1) at which a series changes its sign, each of shape (roots,): Newton's
     method between two neighbouring points, halving where it would leave them.
     """

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .cylinder_pressure import CylinderPressure
-from .piecewise import PiecewiseCurve, Real, polyline
+from .phasors import Array
+from .piecewise import PiecewiseCurve, polyline
 
 ATMOSPHERE = 101325.0  # Pa, what gauge pressures lack
 WIDEST_GAP = 30.0  # deg between two rows; beyond, straight lines say nothing about an engine
@@ -40,7 +41,7 @@ class PressureDiagram(CylinderPressure):
     closing_step: float = 0.0
 
     @property
-    def breaks(self) -> Real:
+    def breaks(self) -> Array:
         return self.lines.breaks
 
     @property
@@ -48,7 +49,7 @@ class PressureDiagram(CylinderPressure):
         """The polyline itself."""
         return self.lines
 
-    def at(self, angle: ArrayLike, *, before: bool = False) -> Real:
+    def at(self, angle: ArrayLike, *, before: bool = False) -> Array:
         return self.lines.at(angle, before=before)
 
 

@@ -13,7 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .piecewise import Extreme, Function, PiecewiseCurve, Real, quadrature, resolved
+from .phasors import Array
+from .piecewise import Extreme, Function, PiecewiseCurve, quadrature, resolved
 
 _ROUNDS, _REFINEMENTS = 100, 8
 _ENOUGH = 1e-14  # relative, where a secant has arrived
@@ -181,16 +182,16 @@ class _Shaft:
             panels = speed.breaks
         return constant, speed
 
-    def speed(self, constant: float, panels: Real) -> PiecewiseCurve:
+    def speed(self, constant: float, panels: Array) -> PiecewiseCurve:
         """omega with this C."""
 
-        def omega(angle: Real) -> Real:
+        def omega(angle: Array) -> Array:
             square = (constant + 2 * self.energy.at(angle)) / self.inertia(angle)
             return np.sqrt(np.maximum(square, 0))
 
         return resolved(omega, panels)
 
-    def constant_for(self, mean_speed: float, panels: Real) -> float:
+    def constant_for(self, mean_speed: float, panels: Array) -> float:
         """C for the mean speed on these panels, sought in its square, which is nearly linear in
         C.
         """

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .cylinder_pressure import GasError, GasTorque
-from .piecewise import Complex, Real
+from .phasors import Array, Complex
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class TangentialTorque(GasTorque):
     strokes: int = 4
 
     @property
-    def breaks(self) -> Real:
+    def breaks(self) -> Array:
         return np.array([0.0, self.strokes * np.pi])
 
     @property
@@ -34,7 +34,7 @@ class TangentialTorque(GasTorque):
         """Work of one cycle, J."""
         return float(self.harmonics([0])[0].real * self.strokes * np.pi)
 
-    def at(self, angle: ArrayLike, *, before: bool = False) -> Real:
+    def at(self, angle: ArrayLike, *, before: bool = False) -> Array:
         turning = np.exp(0.5j * np.multiply.outer(np.asarray(angle, float), self.halves))
         return (turning @ self.coefficients).real
 

@@ -5,8 +5,6 @@ right.
 from __future__ import annotations
 
 import re
-import sys
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeVar
@@ -34,27 +32,25 @@ from ..enginefile.model import (
     Table,
     mistakes_of_choice,
 )
-from ..errors import BalcliError, InputError, Problem
+from ..enginefile.toml_text import name_of as name_of
+from ..enginefile.toml_text import parse_toml
+from ..enginefile.toml_text import text_of as text_of
+from ..errors import DISGUISES, InputError, Problem
 from ..limits import (
-    DEEPEST_KEY,
-    LARGEST_FILE_BYTES,
     LONGEST_NAME,
     MOST_KEY_VALUES,
     MOST_MISTAKES_SHOWN,
     MOST_PARTS,
-    MOST_TOML_MARKS,
 )
 from .build import Engine, build
 
 CONTROL = {
-    "name": re.compile(r"[\x00-\x1f\x7f-\x9f]"),
-    "source": re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]"),
+    "name": re.compile(rf"[\x00-\x1f\x7f-\x9f{DISGUISES}]"),
+    "source": re.compile(rf"[\x00-\x08\x0b-\x1f\x7f-\x9f{DISGUISES}]"),
 }
 REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5"}
 
 T = TypeVar("T", bound=Table)
-_KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
-_DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
 
 
 def load(source: str | Path) -> Engine:
@@ -83,72 +79,15 @@ def read(source: str | Path) -> EngineFile:
     return parse(text_of(source), name_of(source))
 
 
-def text_of(source: str | Path) -> bytes:
-    """The text of a file (or of standard input) as it is; BalcliError if it cannot be read."""
-    if str(source) == "-":
-        return sys.stdin.buffer.read(LARGEST_FILE_BYTES + 1)
-    try:
-        with Path(source).open("rb") as stream:
-            return stream.read(LARGEST_FILE_BYTES + 1)
-    except IsADirectoryError:
-        raise BalcliError(f"{source}: is a folder; name an engine file in it") from None
-    except FileNotFoundError:
-        raise BalcliError(f"{source}: no such file") from None
-    except (OSError, ValueError) as error:  # ValueError: a zero byte in the name
-        reason = error.strerror if isinstance(error, OSError) else error
-        raise BalcliError(f"{str(source)[:200]!r}: cannot be read ({reason})") from None
-
-
-def name_of(source: str | Path) -> str:
-    """What messages call it."""
-    return "standard input" if str(source) == "-" else str(source)
-
-
 def parse(text: str | bytes, file: str = "") -> EngineFile:
     """The engine that a TOML text describes; `file` is its name in messages. Raises InputError with
     every mistake.
     """
     reader = _Reader()
-    engine = reader.engine(_tables(text, file))
+    engine = reader.engine(parse_toml(text, file))
     if engine is None:
         raise reader.error(file)
     return engine
-
-
-def _tables(text: str | bytes, file: str) -> dict[str, Any]:
-    """TOML -> nested dicts; whatever tomllib raises becomes an InputError."""
-    if len(text) > LARGEST_FILE_BYTES:
-        megabytes = LARGEST_FILE_BYTES // 1_000_000
-        message = f"has more than {megabytes} MB; no engine file needs that"
-        raise InputError([Problem("", message)], file)
-    try:
-        return _decode(text)
-    except tomllib.TOMLDecodeError as error:
-        message = f"is not valid TOML: {str(error)[:300]}"
-    except OverflowError as error:
-        message = str(error)
-    except RecursionError:
-        message = (
-            "lists or tables are nested too deeply; an engine file needs no more than four levels"
-        )
-    except UnicodeDecodeError as error:
-        line = error.object[: error.start].count(b"\n") + 1
-        message = f"is not UTF-8 text (line {line}); save it as UTF-8"
-    except ValueError as error:  # int() of very many digits
-        message = f"a number cannot be read: {str(error).split(';')[0][:300]}"
-    raise InputError([Problem("", message)], file)
-
-
-def _decode(text: str | bytes) -> dict[str, Any]:
-    if isinstance(text, bytes):
-        text = text.decode("utf-8-sig")
-    if _DEEP_KEY.search(text):
-        raise RecursionError
-    if sum(map(text.count, "[{.,=")) > MOST_TOML_MARKS:
-        raise OverflowError(
-            f"has more than {MOST_TOML_MARKS} keys, lists and values; no engine file needs that"
-        )
-    return tomllib.loads(text)
 
 
 def _count(value: object) -> int:
@@ -271,7 +210,7 @@ class _Reader:
             self._add(
                 key,
                 f"has the control character U+{ord(strange[0]):04X}, which could command a "
-                "terminal; leave it out",
+                "terminal or disguise what it shows; leave it out",
             )
         elif key == "name" and len(value) > LONGEST_NAME:
             self._add(

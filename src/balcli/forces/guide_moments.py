@@ -8,37 +8,50 @@ import numpy as np
 
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
-from .spectrum import considerable, each, relevant_orders
+from .orders import find_relevant_orders, mark_considerable
+from .spectrum import compute_each_cylinder
 
 
 @dataclass(frozen=True)
-class Guide:
-    """H-type: sum of the cylinders' roll moments, N m. X-type: `sum roll_i (z_i - z_ref) / L`, L
-    from the first throw to the last; None where there is only one.
+class GuideMoments:
+    """Sums of the cylinders' roll moments, N m, by order.
+
+    Attributes:
+        h: H-type, their sum.
+        x: X-type, `sum roll_i (z_i - z_ref) / L`, L from the first throw to the last; None where
+            there is only one.
     """
 
     h: Phasors
     x: Phasors | None
 
 
-def guide(engine: Engine, orders: Array | None = None) -> Guide:
-    """Guide-force moments of an engine without trailing axes, by order (default: those worth
-    showing); devices have none.
+def compute_guide_moments(engine: Engine, orders: Array | None = None) -> GuideMoments:
+    """Guide-force moments of an engine's cylinders; devices have none.
 
     Each cylinder's roll moment is that about the crank axis, wherever the point of reference stands
     in x and y.
+
+    Args:
+        engine: without trailing axes.
+        orders: shape (orders,), ascending; default: those worth showing.
     """
-    axis = replace(engine, reference_m=(0.0, 0.0, engine.reference_m[2]))
-    every = relevant_orders(engine) if orders is None else orders
-    rolls = each(axis, every, ["roll"])["roll"]
-    length = float(np.ptp(engine.throws_m))
-    arms = (np.ravel(engine.cylinders.z) - engine.reference_m[2]) / length if length else None
-    h, x = _sum(rolls, np.ones(engine.cylinders.count)), None if arms is None else _sum(rolls, arms)
+    z_ref = engine.reference_m[2]
+    about_crank = replace(engine, reference_m=(0.0, 0.0, z_ref))
+    every = find_relevant_orders(engine) if orders is None else orders
+    rolls = compute_each_cylinder(about_crank, every, ["roll"])["roll"]
+    h = _sum_weighted(rolls, np.ones(engine.cylinders.count))
+    due = mark_considerable(h)
+    x = None
+    if length := float(np.ptp(engine.throws_m)):
+        x = _sum_weighted(rolls, (np.ravel(engine.cylinders.z) - z_ref) / length)
+        due |= mark_considerable(x)
     if orders is None:
-        orders = every[considerable(h) | (False if x is None else considerable(x))]
-    return Guide(h.select_orders(orders), None if x is None else x.select_orders(orders))
+        orders = every[due]
+    return GuideMoments(h.select_orders(orders), None if x is None else x.select_orders(orders))
 
 
-def _sum(rolls: Phasors, weights: Array) -> Phasors:
-    total = [float(w) * rolls.select_place(k) for k, w in enumerate(weights)]
+def _sum_weighted(rolls: Phasors, weights: Array) -> Phasors:
+    """Sum over the cylinders of phasors of shape (orders, cylinders), each times its weight."""
+    total = [float(weight) * rolls.select_place(row) for row, weight in enumerate(weights)]
     return sum(total[1:], total[0]).settled()

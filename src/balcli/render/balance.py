@@ -18,7 +18,7 @@ from .csv import Rows
 from .devices import device_entries, device_grid, device_rows, practical_entry, practical_grid
 from .figures import order_number
 from .scheme_details import details_document, details_parts
-from .sheet import Facts, Grid, Sheet, Text, degrees, number
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number
 from .units import System, Unit
 
 
@@ -38,10 +38,34 @@ def sheet(result: Balance, system: System) -> Sheet:
     if remedy.note:
         parts.append(Text("Note", (remedy.note,)))
     parts += details_parts(result, system)
+    parts += _permitted(result, system)
     parts += [_orders(result, system), _peaks(result, system)]
     return Sheet(
-        f"{result.before.engine.name or 'engine without a name'}: {remedy.scheme}{order}",
+        f"{result.before.engine.name or NAMELESS}: {remedy.scheme}{order}",
         tuple(parts),
+    )
+
+
+def _permitted(result: Balance, system: System) -> Iterator[Grid]:
+    """What a grade permits beside each counterweight, if one was asked for."""
+    if result.permitted is None:
+        return
+    unit, each = system.unbalance, result.permitted.each
+    rows = [
+        (
+            str(k),
+            number(unit.of(p.unbalance)),
+            number(unit.of(each), 4),
+            f"{each / p.unbalance:.2%}" if p.unbalance else "–",
+        )
+        for k, p in enumerate(result.practical[: len(result.remedy.counterweights)], 1)
+    ]
+    yield Grid(
+        f"Permitted residual unbalance, ISO 21940-11, G {result.permitted.grade:g}",
+        ("counterweight", f"unbalance, {unit.name}", f"permitted, {unit.name}", "share"),
+        tuple(rows),
+        f"A crankshaft of {result.permitted.mass:g} kg at {result.before.engine.speed_rpm:g} rpm; "
+        "all counterweights share alike.",
     )
 
 
@@ -99,8 +123,8 @@ def _peak(peak: Peak, unit: Unit) -> tuple[str, str]:
 # ------------------------------------------------------------------ JSON and CSV
 def document(result: Balance) -> dict[str, Any]:
     """`balcli.balance/1`."""
-    remedy = result.remedy
-    return {
+    remedy, permitted = result.remedy, result.permitted
+    document = {
         "format": "balcli.balance/1",
         "scheme": remedy.scheme,
         "order": remedy.order,
@@ -111,6 +135,13 @@ def document(result: Balance) -> dict[str, Any]:
         "before": brief_document(result.before),
         "after": brief_document(result.after),
     }
+    if permitted is not None:
+        document["permitted"] = {
+            "grade": permitted.grade,
+            "mass_kg": permitted.mass,
+            "each_g_mm": 1e6 * permitted.each,
+        }
+    return document
 
 
 def rows(result: Balance, system: System) -> Rows:
@@ -133,6 +164,8 @@ def _all_rows(result: Balance, system: System) -> Iterator[tuple[Any, ...]]:
             yield part, "", "", name, value, ""
     for name, value in _with_paths(details_document(result)):
         yield "details", "", "", name, value, ""
+    for name, value in _with_paths(document(result).get("permitted", {})):
+        yield "permitted", "", "", name, value, ""
     for state, analysis in (("before", result.before), ("after", result.after)):
         for row in figures.rows(analysis, system):
             yield state, row.quantity, row.order, row.figure, row.value, row.unit

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..forces.kinds import TORQUE
 from .csv import Rows
+from .figures import order_number
 from .sheet import Grid, Sheet, capitalized, number
 
 _TITLES = {TORQUE: "inertia torque"}
@@ -23,7 +24,7 @@ def document(result: Comparison) -> dict[str, Any]:
         "figures": [
             {
                 "quantity": _key(line),
-                "order": line.order,
+                "order": None if line.order is None else order_number(line.order),
                 "values": list(line.values),
                 "ratios": [r if r == r else None for r in line.ratios],
             }
@@ -45,7 +46,8 @@ def rows(result: Comparison, system: System) -> Rows:
 def _csv_line(line: Line, system: System) -> tuple[Any, ...]:
     unit = system.unit(line.kind)
     name = line.kind.name if line.order is not None else f"peak {line.kind.name}"
-    return name, line.order, unit.name, *map(unit.of, line.values)
+    order = None if line.order is None else order_number(line.order)
+    return name, order, unit.name, *map(unit.of, line.values)
 
 
 def sheet(result: Comparison, system: System) -> Sheet:
@@ -64,7 +66,7 @@ def _row(line: Line, of: Any) -> tuple[str, ...]:
     first, *others = (number(of(value)) for value in line.values)
     ratios = [number(ratio, 4) for ratio in line.ratios[1:]]
     return (
-        "peak" if line.order is None else f"order {line.order}",
+        "peak" if line.order is None else f"order {line.order:g}",
         first,
         *(cell for pair in zip(others, ratios, strict=True) for cell in pair),
     )

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..forces.crankshaft import Along, Inner
+from ..forces.crankshaft import AlongCrank, InnerLoads
 from .figures import Row, clean, order_number, order_rows, peak_rows, vector
 from .sheet import Facts, Grid, degrees, number
 from .units import System, Unit
@@ -17,7 +17,7 @@ from .units import System, Unit
 ORDERS_SHOWN = 6  # in a table, which has a column an order
 
 
-def sheet_parts(inner: Inner, system: System) -> Iterator[Grid | Facts]:
+def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts]:
     """A table of each quantity, a place a row, and the largest bending moment of all."""
     yield _grid(
         inner.shear, "Shear force in the crankshaft behind each load", system.force, system.length
@@ -29,7 +29,7 @@ def sheet_parts(inner: Inner, system: System) -> Iterator[Grid | Facts]:
     yield Facts((("largest inner moment", _largest_bending(inner, system)),))
 
 
-def document(inner: Inner) -> dict[str, Any]:
+def document(inner: InnerLoads) -> dict[str, Any]:
     """`inner` in `balcli.analysis/1`: an entry a section of the shaft, and one a bearing."""
     most = inner.bending.largest
     found = {
@@ -52,7 +52,7 @@ def document(inner: Inner) -> dict[str, Any]:
     return found
 
 
-def rows(inner: Inner, system: System) -> Iterator[Row]:
+def rows(inner: InnerLoads, system: System) -> Iterator[Row]:
     """The figures of every place. Places are numbered along the crank: `shear 1` has its position
     as a figure.
     """
@@ -62,7 +62,7 @@ def rows(inner: Inner, system: System) -> Iterator[Row]:
         yield from _rows_along("bearing", inner.bearings, system.force, system.length)
 
 
-def _grid(along: Along, title: str, unit: Unit, length: Unit) -> Grid:
+def _grid(along: AlongCrank, title: str, unit: Unit, length: Unit) -> Grid:
     """One row a place: the peak over a revolution, and the largest value of each of the first
     orders.
     """
@@ -86,14 +86,14 @@ def _grid(along: Along, title: str, unit: Unit, length: Unit) -> Grid:
     return Grid(f"{title}, {unit.name}", heads, tuple(map(cells, range(len(along.z_m)))))
 
 
-def _largest_bending(inner: Inner, system: System) -> str:
+def _largest_bending(inner: InnerLoads, system: System) -> str:
     most = inner.bending.largest
     moment = number(system.moment.of(inner.bending.peaks[most].value))
     place = number(system.length.of(float(inner.bending.z_m[most])))
     return f"{moment} {system.moment.name} at {place} {system.length.name}"
 
 
-def _entry(along: Along, k: int) -> dict[str, Any]:
+def _entry(along: AlongCrank, k: int) -> dict[str, Any]:
     """What JSON says of the k-th place."""
     peak, here = along.peaks[k], along.at(k)
     return {
@@ -105,7 +105,7 @@ def _entry(along: Along, k: int) -> dict[str, Any]:
     }
 
 
-def _rows_along(name: str, along: Along, unit: Unit, length: Unit) -> Iterator[Row]:
+def _rows_along(name: str, along: AlongCrank, unit: Unit, length: Unit) -> Iterator[Row]:
     for k, z in enumerate(along.z_m):
         here, place = along.at(k), f"{name} {k + 1}"
         yield Row(0, place, None, "position", clean(length.of(z)), length.name)

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from typing import Any
 
 from ..core.phasors import Phasors
-from ..forces.guide_moments import Guide
+from ..forces.guide_moments import GuideMoments
 from .figures import Row, order_number, order_rows, scalar
 from .sheet import Grid, number
 from .units import System, Unit
 
 
-def sheet_parts(guide: Guide, system: System) -> Iterator[Grid]:
+def sheet_parts(guide: GuideMoments, system: System) -> Iterator[Grid]:
     """One table, an order a row."""
     yield Grid(
         f"Guide-force moments of inertia alone, without gas, {system.moment.name}",
@@ -28,7 +28,7 @@ def sheet_parts(guide: Guide, system: System) -> Iterator[Grid]:
     )
 
 
-def document(guide: Guide) -> dict[str, Any]:
+def document(guide: GuideMoments) -> dict[str, Any]:
     """`guide` in `balcli.analysis/1`: an entry an order."""
     orders = [
         {"order": order_number(n), "h_Nm": scalar(guide.h, k)}
@@ -38,7 +38,7 @@ def document(guide: Guide) -> dict[str, Any]:
     return {"includes": "inertia, without gas", "orders": orders}
 
 
-def rows(guide: Guide, system: System) -> Iterator[Row]:
+def rows(guide: GuideMoments, system: System) -> Iterator[Row]:
     """The figures of every order, first of the H-type, then of the X-type."""
     for k, order in enumerate(guide.h.orders):
         yield from order_rows("guide_h", order, scalar(guide.h, k), system.moment)

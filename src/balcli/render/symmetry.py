@@ -6,22 +6,22 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from typing import Any
 
-from ..forces.symmetry import Why
+from ..forces.symmetry import Symmetry
 from .figures import Row, clean
 from .sheet import Text
 
 
-def sheet_parts(why: Why) -> Iterator[Text]:
+def sheet_parts(why: Symmetry) -> Iterator[Text]:
     """One paragraph a reason."""
     yield Text("Why", why.sentences)
 
 
-def document(why: Why) -> dict[str, Any]:
+def document(why: Symmetry) -> dict[str, Any]:
     """`why` in `balcli.analysis/1`."""
     return {"reasons": [asdict(reason) for reason in why.reasons], "firing": why.firing}
 
 
-def rows(why: Why) -> Iterator[Row]:
+def rows(why: Symmetry) -> Iterator[Row]:
     """Two figures a reason: what decides, and what is left in units of one cylinder's."""
     for reason in why.reasons:
         about = 0, reason.quantity, reason.order

@@ -5,21 +5,28 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .csv import Rows
-from .sheet import Grid, Sheet, number
+from .sheet import NAMELESS, Grid, Sheet, number
 
 if TYPE_CHECKING:
-    from ..studies.tolerances import Scatter, Spread
+    from ..studies.tolerances import Scatter, Shape, Spread
     from .units import System
 
 SHOWN = 6  # sources of each quantity in a table
+_ORDER = "(exact for masses, to first order for lengths and angles)"
+_BOUND: dict[Shape, str] = {
+    "uniform": f"bound: no combination exceeds it {_ORDER}",
+    "normal": f"bound: no combination within the tolerances exceeds it {_ORDER}; normal deviations "
+    "go beyond a tolerance, three times their standard deviation, in 1 of 370",
+}
 
 
 def document(result: Scatter) -> dict[str, Any]:
     """`balcli.scatter/1`."""
     return {
         "format": "balcli.scatter/1",
-        "engine": {"name": result.file.name},
+        "engine": {"name": result.model.name},
         "samples": result.samples,
+        "distribution": result.shape,
         "quantities": {
             s.quantity.name: _statistics(s)
             | {"sensitivity": {source.name: share for source, share in s.shares}}
@@ -55,8 +62,7 @@ def sheet(result: Scatter, _system: System) -> Sheet:
             (f"{s.quantity.name}, {s.quantity.unit}", *map(number, _statistics(s).values()))
             for s in result.spreads
         ),
-        note="bound: no combination exceeds it (exact for masses, to first order for lengths and "
-        "angles)",
+        note=_BOUND[result.shape],
     )
     shares = Grid(
         "What each tolerance alone changes, most first",
@@ -66,7 +72,7 @@ def sheet(result: Scatter, _system: System) -> Sheet:
         ),
         words=tuple(range(SHOWN + 1)),
     )
-    return Sheet(result.file.name or "engine without a name", (spread, shares))
+    return Sheet(result.model.name or NAMELESS, (spread, shares))
 
 
 def _largest_shares(s: Spread) -> list[str]:

@@ -11,8 +11,15 @@ from .figures import clean, order_entries, peaks
 from .sheet import Facts, Sheet, number
 
 if TYPE_CHECKING:
-    from ..results.two_engines import Combined
+    from ..results.two_engines import Combined, Load
     from .units import System
+
+_GEARED = "Geared one to one, kinetic energies add: the first crank feels T = T1 + T2."
+_ROLL: dict[Load, str] = {
+    "first": f"{_GEARED} It drives the load, and the roll is C − T.",
+    "second": f"{_GEARED} The second one drives the load, against its sense: the roll is C + T.",
+    "both": f"{_GEARED} Each has its own flywheel and load: the roll is C − T1 + T2.",
+}
 
 
 def document(result: Combined) -> dict[str, Any]:
@@ -33,6 +40,7 @@ def document(result: Combined) -> dict[str, Any]:
             "at_mm": [clean(v * 1e3) for v in how.at_m],
             "turn_deg": how.turn_deg,
             "reverse": how.reverse,
+            "load": how.load,
         },
         "speed_rpm": clean(first.speed_rpm),
         "reference_mm": [clean(v * 1e3) for v in first.reference_m],
@@ -78,7 +86,7 @@ def sheet(result: Combined, system: System) -> Sheet:
         " and ".join(names),
         (
             Facts(pairs),
-            *order_by_order(result.spectra, system),
+            *order_by_order(result.spectra, system, _ROLL[how.load] if how.reverse else ""),
             largest(result, system, "Largest over a revolution, all orders"),
         ),
     )

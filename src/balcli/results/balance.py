@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,6 +19,19 @@ SHOWN = frozenset(QUANTITIES) - {"sizing"}  # of a balance, without and with the
 _UNEVEN = "sized for steady mean speed; before and after are those of the uneven one"
 
 
+class PermittedUnbalance(NamedTuple):
+    """By ISO 21940-11, SI.
+
+    Attributes:
+        grade: permitted speed of the centre of mass, mm/s. mass: of the crankshaft, kg.
+        each: permitted unbalance at each counterweight, kg m; all share alike.
+    """
+
+    grade: float
+    mass: float
+    each: float
+
+
 @dataclass(frozen=True)
 class Balance:
     """A remedy, and what the engine does without and with it.
@@ -26,6 +40,7 @@ class Balance:
         before, after: analyses of the same orders.
         practical: the workshop's figures of each device, in the order of `remedy.devices`.
         speed_note: how remedy and analyses differ in speed; empty if they do not.
+        permitted: what a grade permits, if one was asked for.
     """
 
     remedy: Remedy
@@ -33,6 +48,7 @@ class Balance:
     after: Analysis
     practical: tuple[Practical, ...] = ()
     speed_note: str = ""
+    permitted: PermittedUnbalance | None = None
 
 
 def balance(

@@ -12,7 +12,8 @@ from ..core.peaks import peak
 from ..core.phasors import EPS, Array, Phasors, unit
 from ..engine.build import Engine, Weighed
 from ..errors import BalcliError
-from ..forces.spectrum import relevant_orders, spectra
+from ..forces.orders import find_relevant_orders
+from ..forces.spectrum import compute_spectra
 from ..limits import LARGEST_FACTOR
 from .bobweight_card import DEFINITION, fill_card, group_by_pin
 from .details import Detail, FactorPeaks
@@ -74,7 +75,8 @@ def find_factor_peaks(engine: Engine, factor: float) -> FactorPeaks:
 
 def find_curve(engine: Engine, quantity: str) -> Phasors:
     """Free force or moment of all orders."""
-    curve: Phasors = getattr(spectra(engine, relevant_orders(engine), (quantity,)), quantity)
+    spectra = compute_spectra(engine, find_relevant_orders(engine), (quantity,))
+    curve: Phasors = getattr(spectra, quantity)
     return curve
 
 

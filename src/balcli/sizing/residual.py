@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.phasors import Phasors
 from ..engine.build import Engine
-from ..forces.spectrum import spectra
+from ..forces.spectrum import compute_spectra
 from ..limits import HIGHEST_ORDER_SOUGHT
 from .options import SchemeOptions
 
@@ -92,7 +92,7 @@ def hold_steady(engine: Engine) -> Engine:
 
 def find_residual(engine: Engine, order: int) -> Residual:
     """What the engine, with the devices it has, shakes at one order at its mean speed."""
-    found = spectra(hold_steady(engine), [order], ("force", "moment", "roll"))
+    found = compute_spectra(hold_steady(engine), [order], ("force", "moment", "roll"))
     newtons_per_kg_m = order**2 * float(engine.omega) ** 2
     x, y, z = engine.reference_m
     parts: dict[Part, complex] = {}

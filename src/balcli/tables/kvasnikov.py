@@ -13,12 +13,12 @@ import numpy as np
 
 from ..core.mechanisms import closed_form
 from ..core.mechanisms import power_series as series
-from ..core.mechanisms.slidercrank import Real
+from ..core.phasors import Array
 from .printed import Print, as_cells
 from .ranges import Ranges, as_numbers
 from .recomputed import Explanation, Row, Table
 
-Exact: TypeAlias = Callable[[list[int], Real], Real]
+Exact: TypeAlias = Callable[[list[int], Array], Array]
 Terms: TypeAlias = Callable[[int, int], series.Series]
 
 
@@ -39,7 +39,7 @@ def _tabulate(printed: Print, ranges: Ranges, exact: Exact, terms: Terms) -> Tab
     orders = [int(label.partition("_")[2]) for label in stub]
     columns = (printed.columns[0], *headings)
 
-    def rows(body: Real) -> tuple[Row, ...]:
+    def rows(body: Array) -> tuple[Row, ...]:
         return tuple((label, *as_cells(line)) for label, line in zip(stub, body, strict=True))
 
     def first(count: int) -> tuple[Row, ...]:
@@ -56,5 +56,5 @@ def _tabulate(printed: Print, ranges: Ranges, exact: Exact, terms: Terms) -> Tab
     )
 
 
-def _sum(terms: series.Series, lam: Real, count: int) -> Real:
+def _sum(terms: series.Series, lam: Array, count: int) -> Array:
     return np.asarray(sum(float(terms[p]) * lam**p for p in sorted(terms)[:count]))

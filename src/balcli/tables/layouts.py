@@ -38,11 +38,11 @@ def _row(name: str) -> Row:
     from ..core.mechanisms import closed_form
     from ..engine.build import build
     from ..engine.load import parse
-    from ..forces.spectrum import spectra
+    from ..forces.spectrum import compute_spectra
 
     file = parse((folder() / f"{name}.toml").read_text(encoding="utf-8"), name)
     engine = build(_bare(file))
-    found = spectra(engine, ORDERS, ("force", "moment"))
+    found = compute_spectra(engine, ORDERS, ("force", "moment"))
     c = engine.cylinders
     unit = engine.omega**2 * float(c.reciprocating.ravel()[0] * c.radius.ravel()[0])
     each = unit * closed_form.piston(ORDERS, c.lam.ravel()[:1]).ravel()

@@ -13,21 +13,20 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..core.mechanisms.slidercrank import Real
-from ..core.phasors import unit
+from ..core.phasors import Array, unit
 from .printed import Print, as_cells
 from .ranges import Ranges, as_numbers
 from .recomputed import Explanation, Row, Table, parse_decimal
 
-Cosine: TypeAlias = Callable[[Real], Real]  # of degrees
+Cosine: TypeAlias = Callable[[Array], Array]  # of degrees
 ROUGH = "author's approximation: cos 45° taken as 0.706"
 
 
-def _cos(degrees: Real) -> Real:
+def _cos(degrees: Array) -> Array:
     return unit(degrees).real
 
 
-def _rough(degrees: Real) -> Real:
+def _rough(degrees: Array) -> Array:
     """The cosine with 0.706 for cos 45 degrees and 0.258 for cos 75 degrees, as Tables 1 and 3 were
     computed.
     """
@@ -69,7 +68,7 @@ def tabulate_sliders(printed: Print, ranges: Ranges) -> Table:
     )
 
 
-def _paths(gamma: Real, cosine: Cosine) -> Real:
+def _paths(gamma: Array, cosine: Cosine) -> Array:
     """b''/b, b'''/b, their ratio, their derivatives by gamma, the ratio of these; ratios with the
     zeros divided out.
 
@@ -87,7 +86,7 @@ def _sliders(printed: Print, gammas: Sequence[float | None], cosine: Cosine) -> 
     double, sine = cosine(2 * alpha), cosine(2 * alpha - 90)
     margin = {"2alpha_deg": 2 * alpha, "cos 2alpha": double, "sin 2alpha": sine}
 
-    def line(label: str, gamma: float | None) -> Real:
+    def line(label: str, gamma: float | None) -> Array:
         if gamma is None:
             return margin[label]
         near, far = cosine(np.array(gamma / 2)), cosine(np.array(3 * gamma / 2))
@@ -115,12 +114,12 @@ def _quotients(printed: Print) -> tuple[Row, ...]:
     return (nothing, nothing, quotient(a, b), nothing, nothing, quotient(c, d))
 
 
-def _labelled(printed: Print, body: Real) -> tuple[Row, ...]:
+def _labelled(printed: Print, body: Array) -> tuple[Row, ...]:
     return tuple(
         (label, *as_cells(line))
         for label, line in zip(printed.column(printed.columns[0]), body, strict=True)
     )
 
 
-def _laid_out(printed: Print, body: Real, explanations: Sequence[Explanation] = ()) -> Table:
+def _laid_out(printed: Print, body: Array, explanations: Sequence[Explanation] = ()) -> Table:
     return printed.compare(printed.columns, _labelled(printed, body), explanations=explanations)

@@ -9,11 +9,12 @@ from typing import TypeAlias
 import numpy as np
 
 from ..core.mechanisms import slidercrank as sc
+from ..core.phasors import Array
 from .printed import Print, as_cells
 from .ranges import Ranges, as_numbers
 from .recomputed import Cell, Explanation, Row, Table, parse_decimal
 
-ByAngle: TypeAlias = Callable[[sc.Real, sc.Real], sc.Real]  # degrees, lambda
+ByAngle: TypeAlias = Callable[[Array, Array], Array]  # degrees, lambda
 
 
 def tabulate_engines(printed: Print, ranges: Ranges) -> Table:
@@ -109,7 +110,7 @@ def _margins(angle: float, line: list[Cell], signs: bool) -> Row:
 
 
 def _extreme(
-    lam: sc.Real, psi: sc.Real, value: sc.Real
+    lam: Array, psi: Array, value: Array
 ) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
     """The seven lines of Table 1-4, angles in degrees; the mean piston speed is (2/pi) r omega."""
     alpha = np.degrees(psi)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.mechanisms.slidercrank import Real
+from ..core.phasors import Array
 from .printed import Print, as_cells
 from .ranges import Ranges
 from .recomputed import Explanation, Row, Table
@@ -82,7 +82,7 @@ def _half_cycle(lam: float) -> Row:
     return tuple(as_cells(map(float, (peaks[i, j], k[i], alpha[j], phi, theta[at]))))
 
 
-def _force(lam: float, k: Real, alpha: Real, theta: Real) -> NDArray[np.complex128]:
+def _force(lam: float, k: Array, alpha: Array, theta: Array) -> NDArray[np.complex128]:
     """P/J for angles in degrees."""
     th = np.radians(theta)
     return np.asarray(np.cos(th) + lam * np.cos(2 * th) - k * np.exp(1j * (th + np.radians(alpha))))

@@ -22,7 +22,7 @@ def test_three_or_more_cylinders_have_no_first_order_force(count):
     """Well known: the pistons run round the crank pin almost on a circle. What is left has the
     order of the cylinders.
     """
-    force = spectrum.spectra(
+    force = spectrum.compute_spectra(
         rotary_engine(f"radial = {count}"), np.arange(1.0, 2 * count + 1), ["force"]
     ).force
     assert force is not None
@@ -35,7 +35,7 @@ def test_one_cylinder_has_a_first_order_force_of_its_mean_distance():
     """Forward first order: m omega^2 times the mean distance of the piston pin, here by quadrature
     (lambda = 6/23).
     """
-    force = spectrum.spectra(rotary_engine("banks = [0]"), [1.0], ["force"]).force
+    force = spectrum.compute_spectra(rotary_engine("banks = [0]"), [1.0], ["force"]).force
     assert force is not None
     psi = np.arange(64) * (2 * np.pi / 64)
     distance = (0.06 * np.cos(psi) + np.sqrt(0.23**2 - (0.06 * np.sin(psi)) ** 2)).mean()
@@ -46,7 +46,7 @@ def test_one_cylinder_has_a_first_order_force_of_its_mean_distance():
 def test_the_throw_stands_still():
     text = GNOME.format(layout="banks = [0]", offset=0)
     light, heavy = (
-        spectrum.spectra(
+        spectrum.compute_spectra(
             engine.build(enginefile.parse(text.replace("throw_mass = 3", mass))),
             np.arange(1.0, 4.0),
         )
@@ -117,7 +117,7 @@ ARTICULATED = (
 def test_a_master_rod_with_knuckle_pins_nearly_on_the_crank_pin_is_no_master_rod():
     orders = np.arange(1.0, 15.0)
     equal, hung = (
-        spectrum.spectra(rotary_engine(offset=4, more=more), orders)
+        spectrum.compute_spectra(rotary_engine(offset=4, more=more), orders)
         for more in ("", ARTICULATED.format(radius=1e-9, length=230, cg=70))
     )
     for (quantity, wanted), (_, found) in zip(equal.items(), hung.items(), strict=True):
@@ -128,7 +128,7 @@ def test_a_master_rod_with_knuckle_pins_nearly_on_the_crank_pin_is_no_master_rod
 
 
 def test_articulated_rods_leave_orders_that_equal_rods_do_not():
-    found = spectrum.spectra(
+    found = spectrum.compute_spectra(
         rotary_engine(more=ARTICULATED.format(radius=48, length=184, cg=60)), [1.0, 2, 3], ["force"]
     ).force
     assert found is not None
@@ -184,10 +184,12 @@ def test_variants_along_two_axes():
         )
 
     orders = np.arange(1.0, 7.0)
-    together = spectrum.spectra(engine.build(variant(strokes, lengths), rank=2), orders)
+    together = spectrum.compute_spectra(engine.build(variant(strokes, lengths), rank=2), orders)
     for i in range(3):
         for j in range(2):
-            alone = spectrum.spectra(engine.build(variant(strokes[i, 0], lengths[0, j])), orders)
+            alone = spectrum.compute_spectra(
+                engine.build(variant(strokes[i, 0], lengths[0, j])), orders
+            )
             for (quantity, many), (_, one) in zip(together.items(), alone.items(), strict=True):
                 difference = np.abs(
                     np.broadcast_to(many.forward, (6, 3, 2))[:, i, j] - one.forward

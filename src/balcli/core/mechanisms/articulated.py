@@ -34,9 +34,11 @@ class Articulated(Linkage):
     knuckle: Complex
     lead_deg: Array
 
-    @property
-    def figures(self) -> tuple[Array | Complex, ...]:
-        return self.mass, self.knuckle, self.lead_deg
+    def figures(self, lam: Array, eps: Array) -> tuple[Array | Complex, ...]:
+        of_master = (
+            np.broadcast_to(a, (len(self.master), *a.shape[1:]))[self.master] for a in (lam, eps)
+        )
+        return lam, eps, self.knuckle, self.lead_deg, *of_master
 
     def motion(self, psi: Array | Complex, lam: Array, eps: Array) -> Motion:
         lam, eps = (

@@ -103,10 +103,11 @@ class Linkage(ABC):
     mass: Array
     turning: ClassVar[bool] = False  # whether cylinders, and so rods, turn about a crank at rest
 
-    @property
     @abstractmethod
-    def figures(self) -> tuple[Array | Complex, ...]:
-        """What distinguishes the cylinders, each of shape (cylinders or 1, *trailing)."""
+    def figures(self, lam: Array, eps: Array) -> tuple[Array | Complex, ...]:
+        """What distinguishes the mechanisms of the cylinders, masses left out, each of shape
+        (cylinders or 1, *trailing); lam and eps as in `Cylinders`.
+        """
 
     @abstractmethod
     def motion(self, psi: Array | Complex, lam: Array, eps: Array) -> Motion:

@@ -36,13 +36,10 @@ class Rotary(Linkage):
     on_knuckle: Array | None = None
     turning: ClassVar[bool] = True
 
-    @property
-    def figures(self) -> tuple[Array | Complex, ...]:
-        return (
-            (self.mass,)
-            if self.hung is None or self.on_knuckle is None
-            else (self.mass, *self.hung.figures, self.on_knuckle)
-        )
+    def figures(self, lam: Array, eps: Array) -> tuple[Array | Complex, ...]:
+        if self.hung is None or self.on_knuckle is None:
+            return lam, eps
+        return *self.hung.figures(lam, eps), self.on_knuckle
 
     def motion(self, psi: Array | Complex, lam: Array, eps: Array) -> Motion:
         m = _plain(psi, lam, eps) if self.hung is None else self.hung.motion(psi, lam, eps)

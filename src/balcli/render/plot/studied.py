@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...core.phasors import Phasors
-from ...forces.crankshaft import Along
+from ...forces.crankshaft import AlongCrank
 from ...sizing.details import FactorPeaks
 from ...studies.pictures import Banks
 from ..units import Unit
@@ -63,7 +63,7 @@ def factors(ax: Axes, rows: Sequence[FactorPeaks], force: Unit, moment: Unit) ->
 
 def along(
     ax: Axes,
-    now_and_before: Sequence[Along],
+    now_and_before: Sequence[AlongCrank],
     titles: tuple[str, str],
     unit: Unit,
     steps: str = "default",
