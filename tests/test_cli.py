@@ -165,6 +165,11 @@ def test_bad_usage_that_the_parser_words(balcli, args):
             '"inlin" is no kind of engine; there are single, inline, vee, boxer, radial, w. Did '
             "you mean inline?",
         ),
+        (
+            ["analyze", V8, "--only", "guide", "--guide-height", "0"],
+            "--guide-height 0: the distance from the crankshaft to the middle of the "
+            "guides must be a positive number of mm, below 1e6",
+        ),
     ],
 )
 def test_bad_input(balcli, args, message):

@@ -123,8 +123,8 @@ def test_shafts_and_sliders_act_on_the_block_not_on_the_crank():
 
 
 def test_guide_force_moments():
-    """H is the roll moment of the engine; X of two cylinders at +-L/2 is half the difference of
-    their rolls.
+    """H is the roll moment of the engine; X of two cylinders 50 mm to either side is the moment of
+    the side forces at their guides, 160 mm (the rod's length) above the crankshaft.
     """
     subject = inline_engine([0, 180])
     found, roll = (
@@ -135,13 +135,43 @@ def test_guide_force_moments():
     first, second = (spectrum.compute_spectra(alone(subject, n), ORDERS).roll for n in (1, 2))
     assert found.x is not None
     assert found.x.forward == pytest.approx(
-        (second.forward - first.forward) / 2, rel=1e-11, abs=1e-9
+        (second.forward - first.forward) * 50 / 160, rel=1e-11, abs=1e-9
     )
     assert found.x.balanced.tolist() == [False, True, False, True]
 
 
 def test_one_throw_has_no_x_type():
     assert compute_guide_moments(inline_engine([0]), ORDERS).x is None
+
+
+def test_the_x_type_is_the_moment_of_the_side_forces_on_the_pistons():
+    """Couples from the motion of the pistons, with the rods' masses at their ends, times the places
+    of the cylinders, over the height of the guide: as MAN's project guides define it (17.05).
+    """
+    text = INLINE.format(throws=[0, 120, 240, 240, 120, 0], layout="")
+    theta, r, rod = np.arange(256) * 2 * np.pi / 256, 0.045, 0.160
+    point_masses = 0.6 * 45 * (160 - 45)  # m a b: what the two ends have, in kg mm^2
+    subject = engine.build(
+        enginefile.parse(text.replace("inertia = 2000", f"inertia = {point_masses}"))
+    )
+    mass = 0.5 + 0.6 * 45 / 160
+    couples = []
+    for pin in np.radians([0, 120, 240, 240, 120, 0]):
+        wave = np.fft.fft(_height_of_pin(theta + pin, r, rod)) / 256
+        order = np.fft.fftfreq(256, 1 / 256)
+        acceleration = np.fft.ifft(-(order**2) * OMEGA**2 * wave * 256).real
+        tilt = np.arcsin(r / rod * np.sin(theta + pin))
+        couples.append(mass * acceleration * np.tan(tilt) * _height_of_pin(theta + pin, r, rod))
+    places = np.array([-250, -150, -50, 50, 150, 250]) / 1e3
+    for height_m, length in ((None, rod), (0.2, 0.2)):
+        found = compute_guide_moments(subject, ORDERS, height_m).x
+        wanted = np.fft.fft(places @ np.array(couples) / length) / 128
+        assert found is not None
+        assert found.major == pytest.approx(abs(wanted[1:5]), rel=1e-9, abs=1e-6)
+
+
+def _height_of_pin(angle, r, rod):
+    return r * np.cos(angle) + np.sqrt(rod**2 - (r * np.sin(angle)) ** 2)
 
 
 # ------------------------------------------------------------------ cylinder by cylinder, and near

@@ -194,7 +194,7 @@ def test_cylinders_follow_their_cranks():
     assert lowest[4] == 180
 
 
-def test_crank_angles():
+def test_a_revolution_is_divided_from_0_without_360():
     assert divide_revolution().tolist() == list(range(360))
     assert divide_revolution(0.1).size == 3600
     assert divide_revolution(7)[-1] == 357

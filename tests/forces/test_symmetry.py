@@ -134,7 +134,7 @@ def test_balanced_by_figures_only():
         ),
     ],
 )
-def test_firing(layout, text):
+def test_even_and_uneven_fire_in_words(layout, text):
     base = "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n[layout]\n"
     assert explain_symmetry(engine.build(enginefile.parse(base + layout)), [1]).firing == text
 

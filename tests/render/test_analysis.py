@@ -47,6 +47,7 @@ def test_inner_as_json():
 def test_guide_as_json():
     found = document(inline_engine([0, 180]), only=["guide"], orders=[1, 2])["guide"]
     assert found["includes"] == "inertia, without gas"
+    assert found["height_m"] == pytest.approx([0.16, 0.16])
     assert [entry["order"] for entry in found["orders"]] == [1, 2]
     assert not found["orders"][0]["x_Nm"]["balanced"]
     assert (
@@ -124,6 +125,7 @@ def test_a_sheet_has_inner_moments_guide_forces_and_strokes():
         "Guide-force moments of inertia alone, without gas, N·m",
     ):
         assert title in text
+    assert "divided by L = 160 mm (crankshaft to the middle of the guide" in " ".join(text.split())
     assert "Strokes and dead centres" in shown(build_text(RADIAL), only=["force"])
 
 

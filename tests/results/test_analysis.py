@@ -12,7 +12,7 @@ import pytest
 from support.engines import alone, engine
 from support.paths import ENGINES
 
-from balcli.core.mechanisms import closed_form, harmonics
+from balcli.core.mechanisms import harmonics
 from balcli.engine.build import Engine, build
 from balcli.engine.load import read
 from balcli.errors import BalcliError
@@ -267,25 +267,3 @@ def test_peak_of_a_single_cylinder_is_at_top_dead_centre():
     found = analyze(e, only=["peak"]).force
     assert found.value == pytest.approx(1.25 * 1 * 0.05 * (20 * np.pi) ** 2, rel=1e-14)
     assert np.cos(found.theta) == pytest.approx(1, abs=1e-12)
-
-
-# ------------------------------------------------------------------ textbook units
-def test_textbook_units():
-    e = engine(crank={"throws": [0, 240, 120], "positions": [0, 80, 200]}, operation={"speed": 600})
-    units = find_textbook_units(e, np.array([1.0, 2.0, 3.0]))
-    assert (units.force, units.arm, units.equal) == (
-        pytest.approx(0.05 * (20 * np.pi) ** 2),
-        pytest.approx(0.1),
-        True,
-    )
-    assert list(units.ratios) == list(closed_form.piston([1, 2, 3], 0.25))
-    assert np.isnan(find_textbook_units(engine(), np.array([1.0])).arm)
-
-
-def test_textbook_units_of_unequal_cylinders_are_cylinder_1s():
-    e = engine(
-        crank={"throws": [0, 0]}, cylinder={"1": {"piston_mass": 3}}, layout={"numbering": [[2, 1]]}
-    )
-    units = find_textbook_units(e, np.array([1.0]))
-    assert units.force == pytest.approx(3 * 0.05 * (2 * np.pi) ** 2)
-    assert not units.equal

@@ -203,7 +203,7 @@ def run(*arguments):
     return run_here("sum", *arguments)
 
 
-def test_json(file):
+def test_the_json_says_how_the_second_engine_stands(file):
     document = json.loads(
         run(
             file, file, "--phase", "180", "--at", "0,0,100", "--orders", "1,2", "--format", "json"

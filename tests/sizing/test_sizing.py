@@ -815,7 +815,7 @@ def test_minimax_knows_its_error(name):
 def test_minimax_puts_its_angles_in_order_after_they_are_wrapped(monkeypatch):
     """A hair before a whole turn is 0, and stands first."""
     found = circle.Circle(3 + 4j, 1e3, np.array([1.0, 4.0, 2 * np.pi - 1e-14]), 0.0)
-    monkeypatch.setattr(circle, "enclosing", lambda curve: found)
+    monkeypatch.setattr(circle, "enclose_curve", lambda curve: found)
     told = figures(size(build(parse(ENGINES["one"])), "minimax"))
     assert told["reached"] == (0, round(math.degrees(1), 9), round(math.degrees(4), 9))
 
@@ -830,10 +830,10 @@ def test_minimax_with_nothing_to_fit_says_so_and_fits_no_rounding():
 
 @pytest.mark.parametrize("slip", [-1e-15, 1e-15])
 def test_a_gain_of_rounding_is_none(monkeypatch, slip):
-    exact = circle.enclosing
+    exact = circle.enclose_curve
     monkeypatch.setattr(
         circle,
-        "enclosing",
+        "enclose_curve",
         lambda curve: (found := exact(curve))._replace(radius=found.radius * (1 + slip)),
     )
     engine = build(parse(ENGINES["three"]))

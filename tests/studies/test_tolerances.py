@@ -122,7 +122,9 @@ def test_mistakes_in_words(given: tuple[str, str, str], message: str) -> None:
         (Tolerances(0.01), "force.1.major", 0, "0 samples: from 1 to 20000000 are allowed"),
     ],
 )
-def test_refusals(tolerance: Tolerances, quantity: str, samples: int, message: str) -> None:
+def test_what_cannot_be_scattered_is_told(
+    tolerance: Tolerances, quantity: str, samples: int, message: str
+) -> None:
     with pytest.raises(BalcliError) as caught:
         scatter_engine(load(GOOD), tolerance, parse_quantity_list(quantity), samples)
     assert str(caught.value).startswith(message)

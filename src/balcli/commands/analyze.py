@@ -10,11 +10,13 @@ from ..render.formats import Format, Units
 from .options import (
     EnginePaths,
     FormatOption,
+    GuideHeight,
     Only,
     Orders,
     Output,
     Speed,
     UnitsOption,
+    check_guide_height,
     check_speed,
     parse_orders,
     parse_quantities,
@@ -41,6 +43,7 @@ def analyze(
     why: Annotated[
         bool, typer.Option("--why", help="Also say whether each order is balanced by symmetry.")
     ] = False,
+    guide_height: GuideHeight = None,
     units: UnitsOption = Units.SI,
     plot: Annotated[
         bool,
@@ -50,9 +53,7 @@ def analyze(
     ] = False,
     output: Output = None,
 ) -> None:
-    """Free forces and moments by order, couple, inertia torque and roll, peaks, and what would
-    balance them.
-    """
+    """Free forces and moments by order, couple, torque and roll, peaks, and what balances them."""
     refuse_overwriting(reads=paths, writes={"--output": output})
     from ..render import analyses
     from ..results.analysis import Analysis
@@ -62,19 +63,18 @@ def analyze(
     if by not in ("", "cylinder"):
         raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")
     asked, chosen, rpm = parse_orders(orders), parse_quantities(only), check_speed(speed)
+    height_m = check_guide_height(guide_height)
 
     def analyze_file(path: str) -> tuple[str, Analysis]:
         engine = read_engine(path, rpm).engine
-        return path, analyze_engine(engine, asked, chosen, by_cylinder=bool(by), reasons=why)
+        return path, analyze_engine(engine, asked, chosen, bool(by), why, height_m)
 
     found, errors = try_each(paths, analyze_file)
     if found and not (errors and output):  # a file gets all of them or is left as it was
         good, results = zip(*found, strict=True)
         names = distinct_names([result.engine.name for result in results], good)
         pictures = plot and form is Format.TABLE and is_seen(output)
-        named = [
-            analyses.NamedAnalysis(name, result, pictures)
-            for name, result in zip(names, results, strict=True)
-        ]
+        paired = zip(names, results, strict=True)
+        named = [analyses.NamedAnalysis(name, result, pictures) for name, result in paired]
         show(named, analyses, form, output, units)
     exit_on_errors(errors)

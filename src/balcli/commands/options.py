@@ -71,6 +71,16 @@ Only = Annotated[
         "(shear, bending, bearing loads along the crankshaft) and guide (H- and X-type).",
     ),
 ]
+GuideHeight = Annotated[
+    float | None,
+    typer.Option(
+        "--guide-height",
+        metavar="MM",
+        show_default=False,
+        help="With --only guide: from the crankshaft to the middle of the guides; default: "
+        "length of the rod.",
+    ),
+]
 Scheme = Annotated[
     str | None,
     typer.Option(
@@ -143,3 +153,19 @@ def check_speed(speed: float | None) -> float | None:
             f"--speed {speed:g}: the crank speed must be a positive number of rpm, below 1e9"
         )
     return speed
+
+
+def check_guide_height(height_mm: float | None) -> float | None:
+    """The height of `--guide-height`, m.
+
+    Raises:
+        BalcliError: unless it is positive and finite.
+    """
+    if height_mm is None:
+        return None
+    if not 0 < height_mm < 1e6:
+        raise BalcliError(
+            f"--guide-height {height_mm:g}: the distance from the crankshaft to the middle of "
+            "the guides must be a positive number of mm, below 1e6"
+        )
+    return height_mm / 1e3

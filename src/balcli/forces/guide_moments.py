@@ -18,37 +18,53 @@ class GuideMoments:
 
     Attributes:
         h: H-type, their sum.
-        x: X-type, `sum roll_i (z_i - z_ref) / L`, L from the first throw to the last; None where
-            there is only one.
+        x: X-type, the moment of the guides' side forces: `sum roll_i (z_i - z_ref) / L_i`; None
+            where all cylinders stand at one place.
+        height_m: L of each row of `engine.numbers`, from the crankshaft to the middle of the
+            guide, shape (cylinders,).
     """
 
     h: Phasors
     x: Phasors | None
+    height_m: Array
 
 
-def compute_guide_moments(engine: Engine, orders: Array | None = None) -> GuideMoments:
+def compute_guide_moments(
+    engine: Engine, orders: Array | None = None, height_m: float | None = None
+) -> GuideMoments:
     """Guide-force moments of an engine's cylinders; devices have none.
 
     Each cylinder's roll moment is that about the crank axis, wherever the point of reference stands
-    in x and y.
+    in x and y. The X-type is that of the project guides of MAN B&W two-stroke engines, section
+    17.05: bi-moment `sum force couple x distance`, divided by the height of the guide.
 
     Args:
         engine: without trailing axes.
         orders: shape (orders,), ascending; default: those worth showing.
+        height_m: from the crankshaft to the middle of the guide; default: each rod's length.
     """
     z_ref = engine.reference_m[2]
     about_crank = replace(engine, reference_m=(0.0, 0.0, z_ref))
     every = find_relevant_orders(engine) if orders is None else orders
     rolls = compute_each_cylinder(about_crank, every, ["roll"])["roll"]
+    z = np.ravel(engine.cylinders.z)
     h = _sum_weighted(rolls, np.ones(engine.cylinders.count))
     due = mark_considerable(h)
+    height = _rod_lengths(engine) if height_m is None else np.full(len(z), height_m)
     x = None
-    if length := float(np.ptp(engine.throws_m)):
-        x = _sum_weighted(rolls, (np.ravel(engine.cylinders.z) - z_ref) / length)
+    if np.ptp(z):
+        x = _sum_weighted(rolls, (z - z_ref) / height)
         due |= mark_considerable(x)
     if orders is None:
         orders = every[due]
-    return GuideMoments(h.select_orders(orders), None if x is None else x.select_orders(orders))
+    chosen_x = None if x is None else x.select_orders(orders)
+    return GuideMoments(h.select_orders(orders), chosen_x, height)
+
+
+def _rod_lengths(engine: Engine) -> Array:
+    """Length of the rod of each cylinder, m, shape (cylinders,)."""
+    c = engine.cylinders
+    return np.broadcast_to(np.ravel(c.radius / c.lam), c.count)
 
 
 def _sum_weighted(rolls: Phasors, weights: Array) -> Phasors:

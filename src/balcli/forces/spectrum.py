@@ -135,7 +135,7 @@ def compute_device_force(engine: Engine, device: Device, orders: Array) -> Phaso
         return find_device_force(device, orders, engine.omega**2).settled()
     w, dense = _uneven_speed(engine, orders)
     steady = find_device_force(device, dense, engine.omega**2).settled()
-    return ripple.force(steady, w).select_orders(orders).settled()
+    return ripple.apply_to_force(steady, w).select_orders(orders).settled()
 
 
 def _compute(engine: Engine, orders: ArrayLike, kinds: Collection[str], *, apart: bool) -> Spectra:
@@ -218,14 +218,15 @@ def _uneven(
     found = {name: phasors.settled() for name, phasors in steady.items()}
     for name, phasors in found.items():
         if name == "torque":
-            uneven = ripple.torque(phasors, w, loads.mean_inertia)
+            uneven = ripple.apply_to_torque(phasors, w, loads.mean_inertia)
         else:
-            uneven = ripple.force(phasors, w, loads.mean_momentum if name == "couple" else 0.0)
+            mean = loads.mean_momentum if name == "couple" else 0.0
+            uneven = ripple.apply_to_force(phasors, w, mean)
         found[name] = uneven.select_orders(orders)
     return found
 
 
 def _uneven_speed(engine: Engine, orders: Array) -> tuple[Complex, Array]:
-    """Coefficients of the speed (`ripple.speed`), and the dense orders that it mixes into these."""
-    w = ripple.speed((line.order, line.amplitude, line.angle_deg) for line in engine.ripple)
+    """Coefficients of the speed (`ripple.find_speed`), and the dense orders it mixes into these."""
+    w = ripple.find_speed((line.order, line.amplitude, line.angle_deg) for line in engine.ripple)
     return w, np.arange(0.0, orders.max(initial=0) + len(w))

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..core.phasors import Phasors
 from ..forces.guide_moments import GuideMoments
-from .figures import Row, order_number, order_rows, scalar
+from .figures import Row, clean, order_number, order_rows, scalar
 from .sheet import Grid, number
 from .units import System, Unit
 
@@ -25,6 +25,11 @@ def sheet_parts(guide: GuideMoments, system: System) -> Iterator[Grid]:
             )
             for k, n in enumerate(guide.h.orders)
         ),
+        note=(
+            "H-type: sum of the cylinders' force couples. X-type: sum of each couple times its "
+            f"distance from the reference, divided by L = {_heights(guide, system)} (crankshaft to "
+            "the middle of the guide; unless given, the length of the rod)."
+        ),
     )
 
 
@@ -35,7 +40,11 @@ def document(guide: GuideMoments) -> dict[str, Any]:
         | ({} if guide.x is None else {"x_Nm": scalar(guide.x, k)})
         for k, n in enumerate(guide.h.orders)
     ]
-    return {"includes": "inertia, without gas", "orders": orders}
+    return {
+        "includes": "inertia, without gas",
+        "height_m": [clean(height) for height in guide.height_m],
+        "orders": orders,
+    }
 
 
 def rows(guide: GuideMoments, system: System) -> Iterator[Row]:
@@ -44,6 +53,13 @@ def rows(guide: GuideMoments, system: System) -> Iterator[Row]:
         yield from order_rows("guide_h", order, scalar(guide.h, k), system.moment)
         if guide.x is not None:
             yield from order_rows("guide_x", order, scalar(guide.x, k), system.moment)
+
+
+def _heights(guide: GuideMoments, system: System) -> str:
+    """Of all cylinders if they are alike, else the shortest and the longest."""
+    found = (float(guide.height_m.min()), float(guide.height_m.max()))
+    texts = dict.fromkeys(number(system.length.of(height)) for height in found)
+    return f"{' to '.join(texts)} {system.length.name}"
 
 
 def _largest(moment: Phasors, k: int, unit: Unit) -> str:

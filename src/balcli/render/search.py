@@ -33,7 +33,7 @@ def rows(result: Search, _system: System) -> Rows:
     return Rows(
         (*first.design.given(), "objective", *first.figures),
         [
-            (*map(_setting, one.design.given().values()), one.objective, *one.figures.values())
+            (*map(_exactly, one.design.given().values()), one.objective, *one.figures.values())
             for one in result.results
         ],
     )
@@ -83,3 +83,9 @@ def _textbook(result: Search, one: Found) -> dict[str, tuple[float, str]]:
 def _setting(value: Any) -> str:
     """A number, or several with hyphens between them."""
     return "-".join(f"{v:.6g}" for v in value) if isinstance(value, list) else f"{value:.9g}"
+
+
+def _exactly(value: float | list[float] | list[int]) -> str:
+    """The setting of one key in full precision."""
+    numbers = value if isinstance(value, list) else [value]
+    return "-".join(repr(number).removesuffix(".0") for number in numbers)

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core.peaks import Peak, peak
 from ..core.phasors import Array
-from ..core.strokes import Travel, travel
+from ..core.strokes import Travel, find_travel
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..forces.crankshaft import InnerLoads, compute_inner_loads
@@ -111,6 +111,7 @@ def analyze(
     only: Collection[str] | None = None,
     by_cylinder: bool = False,
     reasons: bool = False,
+    guide_height_m: float | None = None,
 ) -> Analysis:
     """Free forces and moments of an engine, order by order.
 
@@ -121,6 +122,8 @@ def analyze(
         only: any of QUANTITIES and EXTRAS; default: all QUANTITIES.
         by_cylinder: also the phasors of every cylinder alone.
         reasons: also why each order is balanced, or is not.
+        guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
+            moment; default: the rods' lengths.
 
     Raises:
         BalcliError: an unknown quantity, an order that is negative or above HIGHEST_ORDER, too many
@@ -145,8 +148,8 @@ def analyze(
         cylinders=cylinders,
         why=explain_symmetry(engine, above_0, shown) if reasons else None,
         inner=compute_inner_loads(engine, asked) if "inner" in wanted else None,
-        guide=compute_guide_moments(engine, asked) if "guide" in wanted else None,
-        travel=None if engine.cylinders.linkage is None else travel(engine.cylinders),
+        guide=compute_guide_moments(engine, asked, guide_height_m) if "guide" in wanted else None,
+        travel=None if engine.cylinders.linkage is None else find_travel(engine.cylinders),
     )
 
 

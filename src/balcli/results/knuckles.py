@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..core.cylinders import Cylinders
 from ..core.mechanisms.articulated import Articulated
 from ..core.phasors import Array, unit
-from ..core.strokes import Travel, travel
+from ..core.strokes import Travel, find_travel
 from ..engine.build import build
 from ..engine.layout import plan
 from ..enginefile.model import EngineFile
@@ -93,8 +93,8 @@ def even_knuckles(model: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
         goal,
         better,
         angles_deg,
-        before=travel(c),
-        after=travel(build(better).cylinders),
+        before=find_travel(c),
+        after=find_travel(build(better).cylinders),
         reasons=_explain(goal, hung[rows], done[rows], turn_deg[rows]),
     )
 
@@ -136,7 +136,7 @@ def _find_range(values: Array) -> Range:
 def _turn_knuckles(c: Cylinders, linkage: Articulated, turn_deg: Array) -> Travel:
     """Strokes and dead centres with the knuckle pin of each cylinder turned so far."""
     turned = replace(linkage, knuckle=linkage.knuckle * unit(turn_deg))
-    return travel(replace(c, linkage=turned))
+    return find_travel(replace(c, linkage=turned))
 
 
 def _measure_error(found: Travel, linkage: Articulated, goal: Goal) -> Array:

@@ -35,7 +35,7 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
         NothingToBalanceError: no weight makes the largest force smaller.
     """
     fitting = Fitting.start(engine, "minimax", 1)
-    circle = enclosing_circle.enclosing(find_curve(fitting.engine, "force"))
+    circle = enclosing_circle.enclose_curve(find_curve(fitting.engine, "force"))
     newtons_per_kg_m = float(engine.omega) ** 2
     noise = fitting.find_residual(1).noise[FORWARD_FORCE] * newtons_per_kg_m
     centred = abs(circle.centre) <= max(noise, circle.noise)

@@ -17,6 +17,8 @@ from balcli.enginefile.model import EngineFile
 from balcli.errors import BalcliError
 from balcli.forces.quantity import evaluate_quantities
 from balcli.forces.symmetry import explain_symmetry
+from balcli.render.search import rows
+from balcli.render.units import SYSTEMS
 from balcli.studies.parameters import varied
 from balcli.studies.search.angles import Span, find_minima, neaten
 from balcli.studies.search.even_firing import fires_evenly
@@ -296,6 +298,9 @@ def test_sevenths_of_a_turn_stay_such() -> None:
     ).results
     assert sorted(best.design.throws) == [k * 360 / 7 for k in range(7)]
     written = build(load(write_design(text.encode(), best.design)))
+    found = search_arrangements(load(text), "throws", parse_objective("moment.1.major"), 1)
+    (line,) = rows(found, SYSTEMS["si"]).lines
+    assert list(map(float, line[0].split("-"))) == list(best.design.throws)
     verdicts = [reason.verdict for reason in explain_symmetry(written, [1, 2], ["force"]).reasons]
     assert verdicts == ["exact", "exact"]
 
