@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from ..render.formats import Format, Units
+from ..render.formats import Units
 from ..sizing.schemes import KNUCKLES
 from . import balance_options
+from .file_names import require_ending, text_format
 from .options import (
     EnginePath,
     FormatOption,
@@ -38,12 +39,14 @@ def balance(
     write: balance_options.Write = None,
     speed: Speed = None,
     orders: Orders = None,
-    form: FormatOption = Format.TABLE,
+    form: FormatOption = None,
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
     """Size counterweights, balancer shafts or sliders, and show what is left with them."""
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
+    form = text_format(output, form)
+    require_ending(write, ".toml", "--write")
     from ..render import balance as renderer
     from ..results.balance import balance as balance_engine
     from ..results.permitted_unbalance import permit_unbalance
