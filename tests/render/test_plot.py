@@ -16,7 +16,6 @@ from support.engines import GOOD, changed
 from balcli.commands.plot import What
 from balcli.engine.build import build
 from balcli.engine.load import parse
-from balcli.errors import BalcliError
 from balcli.render.plot import style
 from balcli.render.plot.axes import choose_scale
 from balcli.render.plot.bars import draw_vector_bars, visible_rows
@@ -96,19 +95,6 @@ def test_matplotlib_is_imported_for_pictures_only():
 
 def test_the_command_offers_every_page():
     assert list(What) == list(PAGES)
-
-
-def test_forms_by_name(tmp_path):
-    assert [style.find_form(tmp_path / f"x.{s}") for s in ("svg", "PNG", "pdf")] == [
-        "svg",
-        "png",
-        "pdf",
-    ]
-    with pytest.raises(
-        BalcliError,
-        match=r"x\.jpg: a picture is written as \.svg, \.png or \.pdf; give a name that ends so",
-    ):
-        style.find_form(tmp_path.parent / "x.jpg")
 
 
 # ------------------------------------------------------------------ what is drawn

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from ..render import comparison as renderer
-from ..render.formats import Format, Units
+from ..render.formats import Units
+from .file_names import text_format
 from .options import (
     EnginePaths,
     FormatOption,
@@ -22,7 +23,7 @@ from .overwrite_guard import refuse_overwriting
 
 def compare(
     paths: EnginePaths,
-    form: FormatOption = Format.TABLE,
+    form: FormatOption = None,
     speed: Speed = None,
     orders: Orders = None,
     only: Only = None,
@@ -33,6 +34,7 @@ def compare(
     engine's.
     """
     refuse_overwriting(reads=paths, writes={"--output": output})
+    form = text_format(output, form)
     from ..results.comparison import compare_engines
     from .inputs import distinct_names, read_engine
 

@@ -9,8 +9,8 @@ from typing import Annotated
 import typer
 
 from ..render.formats import Units
-from ..render.plot.style import find_form
 from ..render.units import SYSTEMS
+from .file_names import picture_form
 from .options import EnginePath, Orders, Scheme, Speed, UnitsOption, check_speed, parse_orders
 from .output import write_file
 from .overwrite_guard import refuse_overwriting
@@ -60,11 +60,12 @@ def plot(
     angle.
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
+    form = picture_form(output)
     from ..render.plot.pages import Subject, draw_page
     from ..studies.pictures import compute_study
     from .inputs import read_engine
 
-    form, asked = find_form(output), parse_orders(orders)
+    asked = parse_orders(orders)
     engine = read_engine(path, check_speed(speed)).engine
     subject = Subject(system=SYSTEMS[units], **compute_study(engine, what, asked, scheme)._asdict())
     write_file(draw_page(subject, what, form), output)

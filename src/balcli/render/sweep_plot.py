@@ -6,37 +6,55 @@ from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 from ..errors import BalcliError
+from ..limits import MOST_PICTURE_VARIANTS
 from .plot import style
 
 if TYPE_CHECKING:
+    from ..studies.parameters import Parameter
     from ..studies.sweep import Array, Sweep
 
 LEVELS = 12
 
 
-def draw_sweep(sweep: Sweep, values: list[Array]) -> bytes:
-    """Draw the sweep as SVG: curves over one parameter, or contours over two.
+def check_drawable(sweep: Sweep) -> None:
+    """See that there can be a picture, before anything is computed for it.
 
     Raises:
-        BalcliError: more than two parameters, or fewer than two values of one.
+        BalcliError: more than two parameters, fewer than two values of one, or too many variants.
     """
-    several = [p for p in sweep.parameters if len(p) > 1]
-    if not 0 < len(several) <= 2:
+    several = len(_varied_parameters(sweep))
+    if not 0 < several <= 2:
         raise BalcliError(
-            f"--plot draws one or two parameters with several values each, not {len(several)}"
+            f"--plot draws one or two parameters with several values each, not {several}"
         )
+    if sweep.variants > MOST_PICTURE_VARIANTS:
+        raise BalcliError(
+            f"{sweep.variants} variants are too many for one picture; "
+            f"{MOST_PICTURE_VARIANTS} are allowed"
+        )
+
+
+def _varied_parameters(sweep: Sweep) -> list[Parameter]:
+    return [p for p in sweep.parameters if len(p) > 1]
+
+
+def draw_sweep(sweep: Sweep, values: list[Array], form: style.Form) -> bytes:
+    """A picture of a sweep that can be drawn, in this form.
+
+    Args:
+        values: each quantity on the whole grid.
+    """
+    several = _varied_parameters(sweep)
     if len(several) == 1:
-        with style.open_figure(7, 4.2, "svg") as page:
+        with style.open_figure(7, 4.2, form) as page:
             _draw_curves(page.subplots(), sweep, values)
-            return style.save_figure(page, "svg")
-    with style.open_figure(6 * len(values), 4.8, "svg") as page:
-        for axes, quantity, value in zip(
-            page.subplots(1, len(values), squeeze=False)[0], sweep.quantities, values, strict=True
-        ):
-            _draw_contours(
-                page, axes, several, value.squeeze(), f"{quantity.name}, {quantity.unit}"
-            )
-        return style.save_figure(page, "svg")
+            return style.save_figure(page, form)
+    with style.open_figure(6 * len(values), 4.8, form) as page:
+        places = page.subplots(1, len(values), squeeze=False)[0]
+        for axes, quantity, value in zip(places, sweep.quantities, values, strict=True):
+            title = f"{quantity.name}, {quantity.unit}"
+            _draw_contours(page, axes, several, value.squeeze(), title)
+        return style.save_figure(page, form)
 
 
 def _draw_curves(axes: Any, sweep: Sweep, values: list[Array]) -> None:

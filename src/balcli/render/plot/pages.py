@@ -10,6 +10,7 @@ from ...core.phasors import Phasors
 from ...forces.crankshaft import InnerLoads
 from ...forces.kinds import KINDS, VECTORS
 from ...results.analysis import Analysis
+from ...sizing.details import FactorPeaks
 from ...studies.pictures import Banks
 from ..sheet import NAMELESS
 from ..units import SI, System, Unit
@@ -39,7 +40,7 @@ class Subject:
     now: Analysis
     before: Analysis | None = None
     system: System = SI
-    factors: Sequence[dict[str, float]] = ()
+    factors: Sequence[FactorPeaks] = ()
     banks: Banks | None = None
     bent: tuple[InnerLoads, ...] = ()
 

@@ -11,10 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from io import BytesIO
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
-
-from ...errors import BalcliError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -94,20 +91,6 @@ _EAST = (
     "Arial Unicode MS",
 )
 _UNDATED = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
-
-
-def find_form(path: Path) -> Form:
-    """The form that a file's name asks for.
-
-    Raises:
-        BalcliError: none that can be drawn.
-    """
-    for form in FORMS:
-        if path.suffix.lower() == f".{form}":
-            return form
-    raise BalcliError(
-        f"{path}: a picture is written as .svg, .png or .pdf; give a name that ends so"
-    )
 
 
 @contextmanager
