@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Form = Literal["svg", "png", "pdf"]
-FORMS: tuple[Form, ...] = ("svg", "png", "pdf")
 
 # Wong, Nature Methods 8 (2011) 441: told apart by colour-blind readers; line styles and hatches do
 # it in black and white.
