@@ -15,7 +15,7 @@ from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate
 from balcli.forces.quantity import parse as quantities
 from balcli.render.sweep import csv_text, json_text
-from balcli.studies.parameters import parse, varied
+from balcli.studies.parameters import parse
 from balcli.studies.sweep import Sweep, boxes, check, chunks, columns, grid
 
 SAME = 1e-12  # of the largest value of a column
@@ -86,9 +86,7 @@ def test_every_variant_is_the_engine_alone(engine: str, vary: tuple[str, ...]) -
         dict(zip(paths, values, strict=True))
         for values in product(*(p.values.tolist() for p in sweep.parameters))
     ]
-    alone = [
-        [float(v) for v in evaluate(build(varied(sweep.file, one)), EVERYTHING)] for one in variants
-    ]
+    alone = [[float(v) for v in evaluate(build(sweep.file, one), EVERYTHING)] for one in variants]
     for quantity, values, expected in zip(EVERYTHING, found, np.array(alone).T, strict=True):
         assert values.ravel() == pytest.approx(
             expected, abs=SAME * max(np.abs(expected).max(), 1e-9)

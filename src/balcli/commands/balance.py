@@ -40,7 +40,8 @@ def balance(
     output: Output = None,
 ) -> None:
     """Size counterweights, balancer shafts or sliders, and show what is left with them."""
-    from ..engine.load import name_of, parse
+    from ..engine.load import parse
+    from ..enginefile.read import name_file
     from ..render.formats import balances
     from ..results.balance import balance as balanced
     from .fitted_engine import write_fitted
@@ -54,7 +55,7 @@ def balance(
     asked = order_list(orders)
     text, engine = engine_and_text(file, rpm := checked_speed(speed))
     if scheme == KNUCKLES or even is not None:
-        result = wishes.knuckles(scheme, wish, even, parse(text, name_of(file)), engine, asked)
+        result = wishes.knuckles(scheme, wish, even, parse(text, name_file(file)), engine, asked)
     else:
         result = balanced(engine, scheme, wish, asked, tools)
     shown = balances(result, format, units, into_file=output is not None)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..engine.load import name_of
 from ..enginefile.edit import changed
+from ..enginefile.read import name_file
 from ..sizing.schemes import KNUCKLES
 from ..sizing.sizing import Remedy
 from ..sizing.write import fit, fit_knuckles
@@ -22,9 +22,9 @@ def write_fitted(
         BalcliError: the target cannot be written, or the devices cannot be described.
     """
     if remedy.scheme == KNUCKLES:
-        new = fit_knuckles(text, tuple(remedy.details["knuckle_angles_deg"]), name_of(source))
+        new = fit_knuckles(text, tuple(remedy.details["knuckle_angles_deg"]), name_file(source))
     else:
-        new = fit(text, remedy, name_of(source))
+        new = fit(text, remedy, name_file(source))
     write(
         new
         if speed_rpm is None

@@ -11,8 +11,9 @@ from typing import TypeVar
 import typer
 
 from ..engine.build import Engine
-from ..engine.load import built, name_of, parse, text_of
+from ..engine.load import build_named, parse
 from ..enginefile.model import EngineFile
+from ..enginefile.read import name_file, read_bytes
 from ..enginefile.suspicious import suspicious
 from ..errors import BalcliError, Exit, legible, say
 
@@ -26,19 +27,19 @@ def engine_of(file: str, speed_rpm: float | None = None) -> tuple[EngineFile, En
     Raises:
         BalcliError: all mistakes of the file.
     """
-    return _built(parse(text_of(file), name_of(file)), file, speed_rpm)
+    return _built(parse(read_bytes(file), name_file(file)), file, speed_rpm)
 
 
 def engine_and_text(file: str, speed_rpm: float | None = None) -> tuple[bytes, Engine]:
     """The text of one file, too, for what is written from it."""
-    text = text_of(file)
-    return text, _built(parse(text, name_of(file)), file, speed_rpm)[1]
+    text = read_bytes(file)
+    return text, _built(parse(text, name_file(file)), file, speed_rpm)[1]
 
 
 def _built(model: EngineFile, file: str, speed_rpm: float | None) -> tuple[EngineFile, Engine]:
-    engine = built(model, file)
+    engine = build_named(model, file)
     for warning in suspicious(model):
-        say(f"warning: {name_of(file)}: {warning}")
+        say(f"warning: {name_file(file)}: {warning}")
     return model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)
 
 
@@ -83,7 +84,7 @@ def engine_files(paths: Sequence[Path]) -> list[Path]:
 
 def named(engine: Engine, file: str) -> Engine:
     """The engine, called by its file where it has no name."""
-    return engine if engine.name else replace(engine, name=legible(Path(name_of(file)).stem))
+    return engine if engine.name else replace(engine, name=legible(Path(name_file(file)).stem))
 
 
 def distinct(names: Sequence[str], files: Sequence[str]) -> list[str]:
@@ -91,6 +92,6 @@ def distinct(names: Sequence[str], files: Sequence[str]) -> list[str]:
     stands for several.
     """
     return [
-        name if name and names.count(name) == 1 else legible(name_of(file))
+        name if name and names.count(name) == 1 else legible(name_file(file))
         for name, file in zip(names, files, strict=True)
     ]

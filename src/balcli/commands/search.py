@@ -67,7 +67,8 @@ def search(
     ] = None,
 ) -> None:
     """The best crank, firing order, bank angle or splay; mirror images and rotations once."""
-    from ..engine import load as enginefile
+    from ..engine.load import build_named, parse
+    from ..enginefile.read import name_file, read_bytes
     from ..render import search as rendered
     from ..render.formats import render
     from ..studies.search import search as searches
@@ -79,9 +80,9 @@ def search(
         raise typer.BadParameter(
             f'"{require}": only even-firing can be required', param_hint="--require"
         )
-    text, name = enginefile.text_of(file), enginefile.name_of(file)
-    model = enginefile.parse(text, name)
-    enginefile.built(model, name)  # what is wrong with the file itself is told with its name
+    text, name = read_bytes(file), name_file(file)
+    model = parse(text, name)
+    build_named(model, name)  # what is wrong with the file itself is told with its name
     found = searches.search(
         model, over, searches.objective(minimise, limit or ()), top, bool(require)
     )

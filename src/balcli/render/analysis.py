@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from itertools import pairwise
 
@@ -67,17 +68,15 @@ def facts(result: Analysis, system: System) -> Facts:
         f"{length.name}, "
         f"λ = {number(lam, 4)}{unequal}"
     )
+    reciprocating, rotating = (
+        number(mass.of(float(kg)), 4)
+        for kg in (weighed.piston + weighed.small_end, weighed.big_end + weighed.share)
+    )
     masses = (
-        f"reciprocating {number(mass.of(weighed.piston + weighed.small_end), 4)} {mass.name} a "
-        "cylinder (piston, rod's "
-        "share at its pin)"
+        f"reciprocating {reciprocating} {mass.name} a cylinder (piston, rod's share at its pin)"
     )
     if c.linkage is None or not c.linkage.turning:  # else the pins stand still
-        masses += (
-            f", rotating {number(mass.of(weighed.big_end + weighed.share), 4)} {mass.name} "
-            "a pin "
-            "(rod's share, throw)"
-        )
+        masses += f", rotating {rotating} {mass.name} a pin (rod's share, throw)"
     about = ", ".join(number(length.of(float(v))) for v in engine.reference_m)
     pairs = [
         ("cylinders", f"{c.count}{_banks(engine)}{_bore(engine, system)}"),
@@ -86,7 +85,7 @@ def facts(result: Analysis, system: System) -> Facts:
         (
             "speed",
             (
-                f"{number(engine.speed_rpm, 6)} rpm"
+                f"{number(float(engine.speed_rpm), 6)} rpm"
                 f"{', uneven: figures are those of the uneven speed' if engine.ripple else ''}"
             ),
         ),
@@ -104,12 +103,11 @@ def facts(result: Analysis, system: System) -> Facts:
 
 def _bore(engine: Engine, system: System) -> str:
     """Bore, stroke and displacement, where the file gives the bore."""
-    if engine.bore_m != engine.bore_m:
+    bore_m, stroke_m = float(engine.bore_m), 2 * float(engine.cylinders.radius)
+    if math.isnan(bore_m):
         return ""
-    bore, stroke = (
-        number(system.length.of(v)) for v in (engine.bore_m, 2 * float(engine.cylinders.radius))
-    )
-    volume = number(system.volume.of(engine.displacement_m3), 4)
+    bore, stroke = (number(system.length.of(v)) for v in (bore_m, stroke_m))
+    volume = number(system.volume.of(float(engine.displacement_m3)), 4)
     return f", bore × stroke {bore} × {stroke} {system.length.name}, {volume} {system.volume.name}"
 
 

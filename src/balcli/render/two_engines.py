@@ -66,7 +66,7 @@ def sheet(result: Combined, system: System) -> Sheet:
                 f"{', and turns against the first' if how.reverse else ''}"
             ),
         ),
-        ("speed", f"{number(first.speed_rpm, 6)} rpm, both"),
+        ("speed", f"{number(float(first.speed_rpm), 6)} rpm, both"),
         ("reference", f"moments about {place(first.reference_m)}"),
     )
     return Sheet(

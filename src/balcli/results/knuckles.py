@@ -16,7 +16,7 @@ from ..core.mechanisms.articulated import Articulated
 from ..core.phasors import Array, unit
 from ..core.strokes import Travel, travel
 from ..engine.build import build
-from ..engine.layout import plan
+from ..engine.layout import plan_cylinders
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
 from ..sizing.schemes import KNUCKLES
@@ -156,7 +156,7 @@ def _solved(
 
 def _first_rows(file: EngineFile, numbers: tuple[int, ...]) -> list[int]:
     """Row of the first cylinder of each bank."""
-    cells = plan(file.crank, file.layout).cells
+    cells = plan_cylinders(file.crank, file.layout).cells
     first = {c.bank: c.number for c in sorted(cells, key=lambda c: -c.throw)}
     return [numbers.index(first[bank]) for bank in sorted(first)]
 

@@ -11,7 +11,9 @@ import numpy as np
 
 from ..core.peaks import Peak, peak
 from ..core.phasors import Phasors, unit
-from ..engine.build import Engine, Ripple
+from ..engine.arrays import Figure
+from ..engine.assembly import Ripple
+from ..engine.build import Engine
 from ..forces.kinds import KINDS, VECTORS, Kind
 from ..forces.spectrum import Spectra, assembled, relevant_orders, spectra
 from .analysis import checked_orders, shown_orders
@@ -102,7 +104,7 @@ def geared(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
     return replace(engine, speed_rpm=leader.speed_rpm, ripple=ripple)
 
 
-def placed(own: Spectra, arrangement: Arrangement, reference_m: Collection[float]) -> Spectra:
+def placed(own: Spectra, arrangement: Arrangement, reference_m: Collection[Figure]) -> Spectra:
     """Phasors of an engine about its own origin, by its own crank angle -> where it stands, by the
     leading one's.
     """

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from ..core.loads import Device
 from ..core.phasors import EPS, reduced
 from ..engine.build import Engine
-from ..engine.devices import devices
+from ..engine.devices import build_device
 from ..enginefile.model import Counterweight, Shaft, Slider
 
 
@@ -46,7 +46,8 @@ def fitted(engine: Engine, remedy: Remedy) -> Engine:
     """The engine with the devices of a remedy added to its own, in the order in which its file
     would have them.
     """
-    everything = (*engine.devices, *devices(remedy.devices, engine.first_axis_deg), *remedy.beyond)
+    new = (build_device(table, engine.first_axis_deg) for table in remedy.devices)
+    everything = (*engine.devices, *new, *remedy.beyond)
     return replace(engine, devices=tuple(sorted(everything, key=lambda device: device.rank)))
 
 

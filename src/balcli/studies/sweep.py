@@ -17,14 +17,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..engine import load as enginefile
 from ..engine.build import Engine, build
+from ..engine.load import read
 from ..enginefile.model import EngineFile
+from ..enginefile.read import name_file
 from ..errors import BalcliError, InputError
 from ..forces import quantity
 from ..forces.quantity import Quantity, evaluate
 from ..limits import MOST_PICTURE_VARIANTS
-from .parameters import Parameter, parse, varied
+from .parameters import Parameter, parse
 
 Array = NDArray[np.float64]
 Box = tuple[slice, ...]
@@ -75,7 +76,7 @@ class Sweep:
             for path, values in axes.items()
         }
         try:
-            return build(varied(self.file, arrays), rank)
+            return build(self.file, arrays, rank=rank)
         except InputError as error:
             raise InputError(error.problems, self.name) from None
 
@@ -87,12 +88,12 @@ def ask(file: str, vary: Sequence[str], quantities: str) -> Sweep:
         BalcliError: what is wrong with the file, a parameter or a quantity, or if one of the
         variants cannot be.
     """
-    model = enginefile.read(file)
+    model = read(file)
     parameters = tuple(parse(text, model) for text in vary)
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
-    sweep = Sweep(model, parameters, quantity.parse(quantities), enginefile.name_of(file))
+    sweep = Sweep(model, parameters, quantity.parse(quantities), name_file(file))
     check(sweep)
     return sweep
 

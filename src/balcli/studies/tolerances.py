@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ..core.phasors import Phasors
 from ..engine.build import Engine, build
-from ..engine.layout import plan
+from ..engine.layout import plan_cylinders
 from ..enginefile.fields import Number
 from ..enginefile.model import EngineFile
 from ..enginefile.units import ANGLE
@@ -187,13 +187,14 @@ class _Crowd:
     """Engines of one file with deviations."""
 
     def __init__(self, file: EngineFile, tolerances: Tolerances) -> None:
-        self._engine = build(file, 1)
-        cells = {cell.number: cell for cell in plan(file.crank, file.layout).cells}
+        self._engine = build(file, rank=1)
+        cells = {cell.number: cell for cell in plan_cylinders(file.crank, file.layout).cells}
         self._throws = [cells[n].throw for n in self._engine.numbers]
-        bare = build(_without(file, "piston"), 1).cylinders
+        bare = build(_without(file, "piston"), rank=1).cylinders
         self._pistons = self._whole(self._engine.cylinders.reciprocating - bare.reciprocating)
         self._webs = self._whole(
-            self._engine.cylinders.rotating - build(_without(file, "throw"), 1).cylinders.rotating
+            self._engine.cylinders.rotating
+            - build(_without(file, "throw"), rank=1).cylinders.rotating
         )
         rods, throws = sorted(self._engine.numbers), range(1, 1 + max(self._throws) + 1)
         self.sources = [

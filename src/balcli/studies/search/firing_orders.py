@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice
 
-from ...engine.firing import TOLERANCE
+from ...engine.firing import TOLERANCE_DEG
 from ...engine.layout import Cell
 from ...errors import BalcliError
 from ...limits import MOST_CYLINDERS_FIRED, MOST_EVEN_CRANKS
@@ -119,7 +119,7 @@ class Slots:
             (
                 slot
                 for slot in self._slots
-                if abs((ready - slot + 180.0) % 360.0 - 180.0) <= TOLERANCE
+                if abs((ready - slot + 180.0) % 360.0 - 180.0) <= TOLERANCE_DEG
             ),
             math.nan,
         )

@@ -12,15 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.arrays import ranked
-from ...engine.build import Engine, build, tops
-from ...engine.firing import TOLERANCE
-from ...engine.layout import cycle, plan
+from ...engine.build import Engine, assemble, build
+from ...engine.firing import TOLERANCE_DEG
+from ...engine.layout import cycle_deg, plan_cylinders
 from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
 from ...forces.quantity import evaluate
 from ...results.analysis import Textbook, textbook
-from ..parameters import varied
 from . import angles
 from . import throws as cranks
 from .firing_orders import Slots
@@ -119,7 +118,7 @@ def _over_throws(file: EngineFile, objective: Objective, top: int, even: bool) -
 def _over_firing_order(
     file: EngineFile, objective: Objective, top: int, even: bool
 ) -> Iterator[Found]:
-    layout, top_deg = plan(file.crank, file.layout), tops(file)
+    layout, top_deg = plan_cylinders(file.crank, file.layout), assemble(file).tops_deg
     if any(own.throw is not None for own in file.cylinder.values()):
         raise BalcliError(
             "cylinders with throws of their own leave no firing order to look for: give "
@@ -129,7 +128,7 @@ def _over_firing_order(
         cell.number: float(top_deg[cell.number]) - cell.bank * file.crank.splay
         for cell in layout.cells
     }
-    slots = Slots(layout.cells, at_throw, cycle(file.layout), -1 if file.layout.rotary else 1)
+    slots = Slots(layout.cells, at_throw, cycle_deg(file.layout), -1 if file.layout.rotary else 1)
     possible = [file.crank.throws] if file.crank.throws else slots.cranks()
     if not possible or next(slots.orders(possible[0]), None) is None:
         raise BalcliError("these throws allow no even firing order")
@@ -146,7 +145,7 @@ def _over_firing_order(
 
 def _without_order(file: EngineFile) -> EngineFile:
     """With throws of some kind and no firing order, so that any can be looked for."""
-    throws = file.crank.throws or (0.0,) * plan(file.crank, file.layout).throws
+    throws = file.crank.throws or (0.0,) * plan_cylinders(file.crank, file.layout).throws
     layout = file.layout.model_copy(update={"firing_order": None, "firing_intervals": None})
     return file.model_copy(
         update={"crank": file.crank.model_copy(update={"throws": throws}), "layout": layout}
@@ -157,7 +156,7 @@ def _over_angle(
     key: str, low: float, high: float
 ) -> Callable[[EngineFile, Objective, int, bool], Iterator[Found]]:
     def over(file: EngineFile, objective: Objective, top: int, even: bool) -> Iterator[Found]:
-        if len(plan(file.crank, file.layout).banks) < 2 or (
+        if plan_cylinders(file.crank, file.layout).banks < 2 or (
             key == "bank_angle" and file.layout.bank_angle is None
         ):
             raise BalcliError(
@@ -207,11 +206,11 @@ def _engines(file: EngineFile, candidates: Candidates) -> Engine:
         for key, path in (("bank_angle", "layout.bank_angle"), ("splay", "crank.splay"))
         if key in candidates
     }
-    return build(varied(file, paths), 1)
+    return build(file, paths)
 
 
 def fires_evenly(
-    engine: Engine, file: EngineFile, tolerance: float = TOLERANCE
+    engine: Engine, file: EngineFile, tolerance: float = TOLERANCE_DEG
 ) -> NDArray[np.bool_]:
     """Whether the cylinders reach top dead centre in turn at even distances (within a tolerance,
     deg), shape (variants,).
@@ -219,10 +218,10 @@ def fires_evenly(
     c = engine.cylinders
     late = (
         0.0 if file.articulation else np.degrees(np.arcsin(c.eps / (1 + c.lam)))
-    )  # see engine.tops
+    )  # as Assembly.tops_deg
     ready = c.axis_of_each_deg + late - c.pin_deg
     ready = np.sort(np.mod(ready - ready[engine.numbers.index(1)] + tolerance, 360.0), axis=0)
-    even = np.sort(np.mod(np.arange(c.count) * cycle(file.layout) / c.count, 360.0)).reshape(
+    even = np.sort(np.mod(np.arange(c.count) * cycle_deg(file.layout) / c.count, 360.0)).reshape(
         -1, *(1,) * (ready.ndim - 1)
     )
     fits: NDArray[np.bool_] = (np.abs(ready - tolerance - even) <= tolerance).all(axis=0)
@@ -268,7 +267,7 @@ def _distinct(
 
 def _mirrored(file: EngineFile) -> Callable[[Found], Iterator[tuple[float, ...]]]:
     """The arrangement and its images: seen from the other end, turning the other way, and both."""
-    cells = {(c.bank, c.throw): c.number for c in plan(file.crank, file.layout).cells}
+    cells = {(c.bank, c.throw): c.number for c in plan_cylinders(file.crank, file.layout).cells}
     last = max(t for _, t in cells)
     other_end = {n: cells.get((b, last - t), n) for (b, t), n in cells.items()}
 

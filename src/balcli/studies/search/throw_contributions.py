@@ -12,11 +12,10 @@ from numpy.typing import NDArray
 
 from ...core.phasors import Phasors
 from ...engine.build import build
-from ...engine.layout import plan
+from ...engine.layout import plan_cylinders
 from ...enginefile.model import EngineFile
 from ...forces.quantity import Quantity
 from ...forces.spectrum import spectra, with_only
-from ..parameters import varied
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -65,14 +64,11 @@ def shares(
     """All kinds and orders that the quantities need; throw `fixed` (cylinder 1's) stands at 0, the
     others at any of `angles`.
     """
-    cells = plan(file.crank, file.layout).cells
+    cells = plan_cylinders(file.crank, file.layout).cells
     throw_of = {cell.number: cell.throw for cell in cells}
     count = 1 + max(throw_of.values())
     engine = build(
-        varied(
-            file, {f"crank.throws.{t + 1}": 0.0 if t == fixed else angles for t in range(count)}
-        ),
-        1,
+        file, {f"crank.throws.{t + 1}": 0.0 if t == fixed else angles for t in range(count)}
     )
     orders, kinds = sorted({q.order for q in quantities}), {q.kind for q in quantities}
     each = [

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.arrays import ranked
-from ...engine.layout import plan
+from ...engine.layout import plan_cylinders
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
 from ...forces.quantity import Quantity
@@ -47,7 +47,7 @@ def best(
             f"crank.throws: {len(given)} throws can be arranged in more than "
             f"{MOST_ARRANGEMENTS:g} ways, too many to search"
         )
-    fixed = next(c.throw for c in plan(file.crank, file.layout).cells if c.number == 1)
+    fixed = next(c.throw for c in plan_cylinders(file.crank, file.layout).cells if c.number == 1)
     free = [t for t in range(len(given)) if t != fixed]
     found = _Best(count)
     for angles in _turns(given):
