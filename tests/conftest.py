@@ -1,14 +1,9 @@
 """What all tests share: hypothesis repeats itself and has no deadline (machines are shared)."""
 
-import gc
-import io
-import sys
-
 import numpy as np
 import pytest
 from hypothesis import settings
-
-from balcli.cli import main
+from support.commands import run_here
 
 settings.register_profile("repeatable", deadline=None, derandomize=True, max_examples=60)
 settings.load_profile("repeatable")
@@ -23,25 +18,7 @@ def _no_silent_infinities():
         yield
 
 
-@pytest.fixture(autouse=True)
-def _no_frozen_garbage():
-    """`cli.main` takes its process for ended and freezes what is there, which hypothesis could then
-    not see any more.
-    """
-    yield
-    gc.unfreeze()
-
-
 @pytest.fixture
-def balcli(capsys, monkeypatch):
+def balcli():
     """Runs a command in this process: (exit status, standard output, standard error)."""
-
-    def run(*args: object, stdin: str = "") -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["balcli", *map(str, args)])
-        monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(stdin.encode())))
-        with pytest.raises(SystemExit) as done:
-            main()
-        out, err = capsys.readouterr()
-        return int(done.value.code or 0), out, err
-
-    return run
+    return run_here

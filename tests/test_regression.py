@@ -9,13 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.engines import GOOD, changed
+from support.paths import ENGINES
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
-from balcli.regression import TOLERANCE, differences, record, recorded_at
+from balcli.regression import TOLERANCE, find_differences, find_record, record_result
 from balcli.results.analysis import analyze
-
-ENGINES = Path(__file__).parents[1] / "engines"
 
 
 @pytest.fixture
@@ -28,15 +27,15 @@ def file(tmp_path):
     """An engine file with its recorded result."""
     engine_file = tmp_path / "four.toml"
     engine_file.write_text(GOOD)
-    target = recorded_at(engine_file)
+    target = find_record(engine_file)
     target.parent.mkdir()
-    target.write_text(record(build(parse(GOOD))))
+    target.write_text(record_result(build(parse(GOOD))))
     return engine_file
 
 
 def edited(file: Path, edit) -> None:
     """Changes the recorded result of an engine file."""
-    target = recorded_at(file)
+    target = find_record(file)
     document = json.loads(target.read_text())
     edit(document)
     target.write_text(json.dumps(document))
@@ -90,7 +89,7 @@ def test_every_figure_that_moved_is_named(check, file):
     """
     before = {
         (e["order"], "force"): e["force_N"]
-        for e in json.loads(recorded_at(file).read_text())["orders"]
+        for e in json.loads(find_record(file).read_text())["orders"]
     }
     file.write_text(changed(("mass = 0.5", "mass = 0.5005")))
     status, out, err = check(file)
@@ -118,15 +117,15 @@ def test_the_tolerance_is_a_share_of_the_largest_order(file, share, moved):
     """
     largest = max(
         max(map(abs, e["force_N"]["forward"]))
-        for e in json.loads(recorded_at(file).read_text())["orders"]
+        for e in json.loads(find_record(file).read_text())["orders"]
     )
-    peak = json.loads(recorded_at(file).read_text())["peak"]["force_N"]
+    peak = json.loads(find_record(file).read_text())["peak"]["force_N"]
 
     def edit(document):
         document["orders"][3]["force_N"]["forward"][0] += share * TOLERANCE * max(largest, peak)
 
     edited(file, edit)
-    found = differences("four", build(parse(GOOD)), recorded_at(file))
+    found = find_differences("four", build(parse(GOOD)), find_record(file))
     assert len(found) == moved
     assert all(str(d).startswith("four: force order ") for d in found)
 
@@ -137,8 +136,8 @@ def test_where_all_large_orders_cancel_rounding_is_no_difference(tmp_path, round
     than 1e-9 of them.
     """
     engine_file = Path(shutil.copy(ENGINES / "rotary9.toml", tmp_path))
-    recorded_at(engine_file).parent.mkdir()
-    shutil.copy(recorded_at(ENGINES / "rotary9.toml"), recorded_at(engine_file))
+    find_record(engine_file).parent.mkdir()
+    shutil.copy(find_record(ENGINES / "rotary9.toml"), find_record(engine_file))
     engine = build(parse(engine_file.read_text()))
     force = analyze(engine).spectra.force
     noise = float(np.broadcast_to(force.noise, force.forward.shape)[force.orders == 9][0])
@@ -149,7 +148,7 @@ def test_where_all_large_orders_cancel_rounding_is_no_difference(tmp_path, round
         entry["force_N"]["forward"][0] += roundings * noise
 
     edited(engine_file, edit)
-    assert [str(d)[:28] for d in differences("rotary9", engine, recorded_at(engine_file))] == [
+    assert [str(d)[:28] for d in find_differences("rotary9", engine, find_record(engine_file))] == [
         "rotary9: force order 9 forwa"
     ] * moved
 
@@ -205,7 +204,7 @@ def test_speed_and_number_of_cylinders(check, file):
     ],
 )
 def test_a_broken_record_is_a_difference(check, file, text, reason):
-    recorded_at(file).write_text(text)
+    find_record(file).write_text(text)
     assert check(file) == (
         1,
         f"four: the result recorded in expected/four.json cannot be read ({reason}); "
@@ -233,7 +232,7 @@ def test_a_broken_record_is_a_difference(check, file, text, reason):
     ],
 )
 def test_no_record_however_broken_brings_check_down(check, file, text):
-    recorded_at(file).write_text(text, encoding="latin-1")
+    find_record(file).write_text(text, encoding="latin-1")
     status, out, err = check(file)
     assert (status, err) == (1, "")
     assert out.startswith("four: ")

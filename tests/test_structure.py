@@ -9,19 +9,21 @@ import re
 import shutil
 import sys
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
+from typing import get_type_hints
 
 import pytest
+from support.paths import ENGINES, PACKAGE, ROOT
 
 import balcli
 from balcli.cli import COMMANDS
+from balcli.commands import options
 from balcli.render.formats import Format
 
-ROOT = Path(__file__).parents[1]
-SOURCE = ROOT / "src" / "balcli"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-CORE = sorted((SOURCE / "core").rglob("*.py"))
-RENDER = sorted((SOURCE / "render").rglob("*.py"))
+CORE = sorted((PACKAGE / "core").rglob("*.py"))
+RENDER = sorted((PACKAGE / "render").rglob("*.py"))
 LINES_OF_A_COMMAND = 25
 
 
@@ -30,14 +32,14 @@ def tree(file: Path) -> ast.Module:
 
 
 def name_of(file: Path) -> str:
-    return file.relative_to(SOURCE).as_posix()
+    return file.relative_to(PACKAGE).as_posix()
 
 
 def imported(file: Path) -> Iterator[tuple[str, str]]:
     """(module, name) of everything a file imports, modules of its own with their full name; also
     inside functions.
     """
-    package = ["balcli", *file.relative_to(SOURCE).parts[:-1]]
+    package = ["balcli", *file.relative_to(PACKAGE).parts[:-1]]
     for node in ast.walk(tree(file)):
         if isinstance(node, ast.Import):
             yield from ((alias.name, "") for alias in node.names)
@@ -48,24 +50,25 @@ def imported(file: Path) -> Iterator[tuple[str, str]]:
 
 
 # ------------------------------------------------------------------ commands
+def definition(command: str) -> ast.FunctionDef:
+    """The one function of a command's module that bears its name."""
+    body = tree(PACKAGE / "commands" / f"{command}.py").body
+    (function,) = (n for n in body if isinstance(n, ast.FunctionDef) and n.name == command)
+    return function
+
+
 @pytest.mark.parametrize("command", COMMANDS)
 def test_a_command_is_a_module_with_a_function_of_its_name(command):
-    file = SOURCE / "commands" / f"{command}.py"
-    (function,) = (
-        n for n in tree(file).body if isinstance(n, ast.FunctionDef) and n.name == command
-    )
-    described, *body = function.body
+    described, *body = definition(command).body
     assert isinstance(described, ast.Expr), "help is the docstring"
     length = body[-1].end_lineno - body[0].lineno + 1
     assert length <= LINES_OF_A_COMMAND
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_a_command_prints_once_and_computes_nothing(command):
-    """No arithmetic library is imported by a command, and results leave by way of
-    commands/output.py.
-    """
-    file = SOURCE / "commands" / f"{command}.py"
+def test_a_command_computes_nothing_and_prints_by_way_of_output(command):
+    """It imports no library that computes or writes, and no call of it prints."""
+    file = PACKAGE / "commands" / f"{command}.py"
     assert not {module.partition(".")[0] for module, _ in imported(file)} & {
         "numpy",
         "rich",
@@ -77,8 +80,35 @@ def test_a_command_prints_once_and_computes_nothing(command):
     assert "sys.stdout.write" not in calls
 
 
-def test_every_format_is_documented():
-    assert [form for form in Format if form not in README] == []
+def paths_of(command: str) -> tuple[set[str], set[str]]:
+    """Parameters of a command that name engine files, and those that name other files."""
+    function = getattr(import_module(f"balcli.commands.{command}"), command)
+    engines = (options.EnginePath, options.EnginePaths)
+    marked = get_type_hints(function, include_extras=True).items()
+    plain = get_type_hints(function).items()
+    return (
+        {name for name, kind in marked if kind in engines},
+        {name for name, kind in plain if kind in (Path, Path | None)},
+    )
+
+
+@pytest.mark.parametrize("command", [name for name in COMMANDS if all(paths_of(name))])
+def test_what_reads_engines_and_writes_files_first_refuses_to_overwrite(command):
+    """It names every path of an engine among `reads`, every other path by its option."""
+    reads, writes = paths_of(command)
+    call = definition(command).body[1].value
+    assert ast.unparse(call.func) == "refuse_overwriting"
+    told = {keyword.arg: keyword.value for keyword in call.keywords}
+    assert {n.id for n in ast.walk(told["reads"]) if isinstance(n, ast.Name)} == reads
+    assert {
+        key.value: value.id
+        for key, value in zip(told["writes"].keys, told["writes"].values, strict=True)
+    } == {f"--{name}": name for name in writes}
+
+
+def test_the_readme_names_every_format():
+    (formats,) = set(re.findall(r"`--format ([a-z|]+)`", README))
+    assert formats.split("|") == list(Format)
 
 
 def test_modules_of_commands_are_commands_or_their_helpers():
@@ -86,7 +116,7 @@ def test_modules_of_commands_are_commands_or_their_helpers():
     one.
     """
     forgotten = []
-    for file in (SOURCE / "commands").glob("*.py"):
+    for file in (PACKAGE / "commands").glob("*.py"):
         functions = [
             n for n in tree(file).body if isinstance(n, ast.FunctionDef) and n.name == file.stem
         ]
@@ -99,7 +129,7 @@ def test_python_examples_of_the_readme_run(tmp_path, monkeypatch):
     """As they stand, beside a copy of engines/; what its commands show is the business of
     test_docs.py.
     """
-    shutil.copytree(ROOT / "engines", tmp_path / "engines")
+    shutil.copytree(ENGINES, tmp_path / "engines")
     monkeypatch.chdir(tmp_path)
     blocks = re.findall(r"^```python\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
     assert blocks
@@ -122,11 +152,10 @@ def test_core_knows_numpy_and_the_standard_library_alone(file):
 # Types and constants of a room may be named by what shows them, functions not: these shape figures
 # for the eye.
 SHAPING = {
-    ("balcli.results.analysis", "textbook"),
-    ("balcli.tables.table", "deviates"),
-    ("balcli.tables.table", "figure"),
-    ("balcli.tables.table", "rational"),
-    ("balcli.tables.table", "rounded"),
+    ("balcli.tables.recomputed", "deviates"),
+    ("balcli.tables.recomputed", "parse_decimal"),
+    ("balcli.tables.recomputed", "parse_fraction"),
+    ("balcli.tables.recomputed", "round_like"),
 }
 COMPUTING = (
     "balcli.results.analysis",
@@ -137,6 +166,7 @@ COMPUTING = (
     "balcli.engine.build",
     "balcli.engine.load",
     "balcli.studies.sweep",
+    "balcli.studies.deviations",
     "balcli.studies.tolerances",
     "balcli.studies.search.search",
     "balcli.results.comparison",
@@ -162,7 +192,7 @@ def test_every_limit_stands_in_limits():
     """Outside the core, whose bounds belong to its methods."""
     found = {
         f"{name_of(file)}: {target.id}"
-        for file in {*SOURCE.rglob("*.py")} - {*CORE, SOURCE / "limits.py"}
+        for file in {*PACKAGE.rglob("*.py")} - {*CORE, PACKAGE / "limits.py"}
         for node in tree(file).body
         if isinstance(node, ast.Assign)
         for target in node.targets
@@ -171,9 +201,11 @@ def test_every_limit_stands_in_limits():
     assert found == set()
 
 
-@pytest.mark.parametrize("file", sorted(SOURCE.rglob("*.py")), ids=name_of)
+@pytest.mark.parametrize("file", sorted(PACKAGE.rglob("*.py")), ids=name_of)
 def test_files_speak_for_themselves(file):
-    """A docstring, and none of what fails silently: blanket except, assert as a check, eval."""
+    """A docstring, and none of what fails silently: blanket except (but at the process's end, where
+    it is told as our fault), assert as a check, eval.
+    """
     module = tree(file)
     if file.name != "__main__.py":
         assert ast.get_docstring(module)
@@ -184,6 +216,7 @@ def test_files_speak_for_themselves(file):
         )
         assert not (
             isinstance(node, ast.ExceptHandler)
+            and file.name != "__main__.py"
             and ast.unparse(node.type) in ("Exception", "BaseException")
         ), f"line {node.lineno}"
         assert not (isinstance(node, ast.Call) and ast.unparse(node.func) in ("eval", "exec")), (
@@ -200,7 +233,7 @@ def test_public_names_are_there():
 
 
 def test_the_library_does_what_the_command_does():
-    engine = balcli.load(ROOT / "engines" / "v8_crossplane.toml")
+    engine = balcli.load(ENGINES / "v8_crossplane.toml")
     found = balcli.analyze(engine, only=["moment"]).spectra.moment
     left = balcli.balance(engine, "counterweights").after.spectra.moment
     assert found.major[0] > 1000

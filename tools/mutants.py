@@ -8,7 +8,7 @@ with the lines that each of them reaches; then every mutant has a process of its
 all is imported, in which the changed functions are put in place and the tests that reach the line
 run, those first that reach little else or have found others, until one fails or those left would
 take longer than `--seconds`. Survivors are printed and end the run with exit code 1;
-docs/development.md says which are known, and why.
+docs/mutation-testing.md says which are known, and why.
 """
 
 from __future__ import annotations

@@ -1,65 +1,62 @@
-"""The program's start: what makes a process quick, before anything large is imported."""
+"""The program's start and end: what makes a process quick, around what it does."""
 
 from __future__ import annotations
 
+import atexit
 import gc
-import importlib
 import os
 import sys
-from importlib.machinery import PathFinder
-from types import ModuleType
-from typing import Any
+from typing import NoReturn
+
+from .errors import Exit, say
+from .process import end_on_signals, open_closed_streams
 
 
-def main() -> None:
+def main() -> NoReturn:
     """Entry point of `balcli` and `python -m balcli`."""
+    end_on_signals()
+    open_closed_streams()
     gc.set_threshold(100_000)  # start-up makes many objects, but no garbage
-    os.environ.setdefault(
-        "PYDANTIC_DISABLE_PLUGINS", "1"
-    )  # looking for plugins takes longer than an analysis
-    for name in ("importlib.metadata", "secrets"):
-        _Later.defer(name)
-    from .cli import main as run
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")  # looking for them takes 20 ms
+    status: int = Exit.INTERNAL
+    try:
+        from .cli import main as run  # after that, for it imports what heeds it
 
-    run()
+        run()
+    except SystemExit as end:
+        status = int(end.code or 0)
+    except Exception as error:
+        _tell_fault(error)
+    _end_at_once(status)
 
 
-class _Later(ModuleType):
-    """A module of the standard library that is imported when something is asked of it.
-
-    pydantic imports `importlib.metadata` even where plugins are off, and with it e-mail, archives
-    and sockets, and `secrets` for random strings of which we have none, and with it OpenSSL:
-    together as much as half of our own modules.
+def _tell_fault(error: Exception) -> None:
+    """One sentence about an error that is nobody's but ours; for those who look for it, where it
+    was raised, too.
     """
+    if sys.flags.dev_mode or os.environ.get("BALCLI_TRACEBACK"):
+        import traceback  # for those alone
 
-    @classmethod
-    def defer(cls, name: str) -> None:
-        """Stand in for the module, unless it is there already."""
-        if name in sys.modules:
-            return
-        home, _, last = name.rpartition(".")
-        later = sys.modules[name] = cls(name)
-        spec = later.__spec__ = PathFinder.find_spec(
-            name, sys.modules[home].__path__ if home else None
-        )
-        if spec is not None:
-            later.__file__ = spec.origin
-            if spec.submodule_search_locations is not None:
-                later.__path__ = list(spec.submodule_search_locations)
-        if home:
-            setattr(sys.modules[home], last, later)
+        say("".join(traceback.format_exception(error)).rstrip("\n"))
+    what = ": ".join(filter(None, (type(error).__name__, str(error))))
+    say(
+        f"balcli: internal error ({what}); this is a fault of balcli, no figure is to be trusted: "
+        "please report it with the command and its files (BALCLI_TRACEBACK=1 shows where it is)"
+    )
 
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._real(), name)
 
-    def entry_points(self, **chosen: Any) -> Any:
-        """Of `importlib.metadata`: pydantic imports it by name."""
-        return self._real().entry_points(**chosen)
-
-    def _real(self) -> ModuleType:
-        if sys.modules.get(self.__name__) is self:
-            del sys.modules[self.__name__]
-        return importlib.import_module(self.__name__)
+def _end_at_once(status: int) -> NoReturn:
+    """End the process without taking its thousands of objects to pieces, which takes 10 ms; what is
+    registered for its end is done.
+    """
+    atexit._run_exitfuncs()
+    try:
+        sys.stdout.flush()
+    except OSError as error:
+        if not status:  # else this has been told already
+            status = Exit.BAD_INPUT
+            say(f"balcli: standard output: cannot be written ({error.strerror or error})")
+    os._exit(status)
 
 
 if __name__ == "__main__":

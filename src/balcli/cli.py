@@ -6,14 +6,13 @@ Only the module of the command that is called is imported; what a command does i
 
 from __future__ import annotations
 
-import gc
 import re
 import sys
 from difflib import get_close_matches
 from importlib import import_module
 from inspect import cleandoc
 from io import StringIO
-from typing import Annotated, Any
+from typing import Annotated, Any, NoReturn
 
 import typer
 from typer.core import TyperGroup
@@ -37,15 +36,16 @@ COMMANDS = (
     "scatter",
     "compare",
     "sum",
+    "field",
     "engines",
     "bench",
 )
 
-_UsageError: Any = typer.BadParameter.__mro__[1]  # click's, or typer's own copy of it
-
 
 class _OnDemand(TyperGroup):
-    """Commands by name; the module of one is imported when it is needed."""
+    """The commands by name; the module of one is imported when it is called, or help is asked
+    for.
+    """
 
     def list_commands(self, ctx: Any) -> list[str]:
         return list(COMMANDS)
@@ -53,17 +53,15 @@ class _OnDemand(TyperGroup):
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         if cmd_name not in COMMANDS:
             return None
-        from .commands.overwrite_guard import guarded
-
         single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
         function = getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name)
-        single.command(cmd_name, help=_unwrapped(cleandoc(function.__doc__)))(guarded(function))
+        single.command(cmd_name, help=_unwrapped(cleandoc(function.__doc__)))(function)
         return get_command(single)
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         try:
             return super().resolve_command(ctx, args)
-        except _UsageError as error:
+        except typer.TyperException as error:
             if near := get_close_matches(args[0].lower()[:100], COMMANDS, 1):
                 error.message += f" Did you mean {near[0]}?"
             raise
@@ -105,9 +103,9 @@ def _options(
     """
 
 
-def main() -> None:
-    """Runs the command; whatever a user can mend becomes a message on standard error and exit
-    status 2.
+def main() -> NoReturn:
+    """Run the command of `sys.argv` and exit. Whatever a user can mend becomes a message on
+    standard error and exit status 2.
     """
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
@@ -116,18 +114,23 @@ def main() -> None:
         sys.exit(app(prog_name="balcli", standalone_mode=False))
     except BalcliError as error:
         say(f"balcli: {error}")
-    except _UsageError as error:
-        text = StringIO()
-        error.show(text)  # plain: a box would fold it, even in a pipe
-        say(text.getvalue().rstrip("\n"))
-    except typer.Abort:  # Ctrl-C
+    except typer.TyperException as error:
+        say(_usage(error))
+    except BrokenPipeError:  # the reader of it has what they want
+        sys.exit(Exit.DONE)
+    except OSError as error:  # of what typer prints itself, such as help
+        say(f"balcli: {error.filename or 'standard output'}: {error.strerror or error}")
+    except typer.Abort:  # Ctrl-C, where balcli is no process of its own
         sys.exit(Exit.INTERRUPTED)
     except SystemExit as end:
-        if isinstance(
-            end.__context__, BrokenPipeError
-        ):  # help, or the version, whose reader has what they want
+        if isinstance(end.__context__, BrokenPipeError):  # the reader of help has what they want
             sys.exit(Exit.DONE)
         raise
-    finally:
-        gc.freeze()  # the process ends: nothing need be collected any more
     sys.exit(Exit.BAD_INPUT)
+
+
+def _usage(error: Any) -> str:
+    """How the command is used and what is wrong, plain: a box would fold it, even in a pipe."""
+    text = StringIO()
+    error.show(text)
+    return text.getvalue().rstrip("\n")

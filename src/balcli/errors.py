@@ -8,7 +8,15 @@ from contextlib import suppress
 from enum import IntEnum
 from typing import NamedTuple
 
-_CONTROL = dict.fromkeys([*range(0x09), *range(0x0B, 0x20), *range(0x7F, 0xA0)], "?")
+# Unicode's own: what turns the direction of text, and what ends a line or a paragraph.
+DISGUISES = "\u061c\u200e\u200f\u2028\u2029\u202a-\u202e\u2066-\u2069"  # in a class of a pattern
+_CONTROL = dict.fromkeys(
+    [
+        *(*range(0x09), *range(0x0B, 0x20), *range(0x7F, 0xA0)),
+        *(0x061C, 0x200E, 0x200F, *range(0x2028, 0x202F), *range(0x2066, 0x206A)),
+    ],
+    "?",
+)
 
 
 def legible(text: str) -> str:
@@ -20,7 +28,7 @@ def legible(text: str) -> str:
 
 def say(text: str) -> None:
     """A message on standard error, whether somebody reads it or not."""
-    with suppress(BrokenPipeError):
+    with suppress(OSError):
         print(legible(text), file=sys.stderr, flush=True)
 
 
@@ -30,6 +38,7 @@ class Exit(IntEnum):
     DONE = 0
     DIFFERENCE = 1
     BAD_INPUT = 2
+    INTERNAL = 70  # our fault; never 1
     INTERRUPTED = 130
 
 

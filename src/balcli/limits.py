@@ -52,3 +52,9 @@ MOST_TOLERANCE_SAMPLES = 20_000_000  # percentiles keep all of them in memory
 MOST_ARRANGEMENTS = 10**10  # of given throws: branch and bound tries few of them
 MOST_EVEN_CRANKS = 200_000  # with an even firing order: each of them is tried
 MOST_CYLINDERS_FIRED = 64  # whose firing orders are looked for
+
+# Field balancing -----------------------------------------------------------------------------
+MOST_BALANCING_PLANES = 50  # weights that influence one another: solved together, 1 s at most
+MOST_SENSORS = 200  # readings of one run
+MOST_RUNS = 500  # nobody starts a machine more often
+MOST_PLACES = 720  # blades or holes of a plane: every pair of them may be looked at

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,17 +14,34 @@ from .engine.build import Engine
 from .errors import BalcliError
 from .forces.kinds import KINDS, VECTORS
 from .forces.spectrum import Spectra
-from .render import json as documents
-from .results.analysis import analyze
+from .render import analysis as renderer
+from .results.analysis import Analysis, analyze
 
 TOLERANCE = 1e-9  # of a quantity's largest order, beyond what rounding may do
 RECORDED = (*KINDS, "peak")
 _PARTS = ("forward", "backward", "cos", "sin")
+# whatever a record that somebody has edited may cause
+_UNREADABLE = (
+    OSError,
+    ValueError,
+    LookupError,
+    TypeError,
+    AttributeError,
+    RecursionError,
+    BalcliError,
+)
 
 
 @dataclass(frozen=True)
 class Difference:
-    """A figure that moved, or a reason why it could not be compared."""
+    """A figure that moved, or a reason why it could not be compared.
+
+    Attributes:
+        engine: its name in messages.
+        figure: what moved, or why nothing could be compared.
+        recorded, now: its values; None where it has none.
+        share: by how much it moved, of the largest of its kind.
+    """
 
     engine: str
     figure: str
@@ -41,62 +58,48 @@ class Difference:
         )
 
 
-def recorded_at(engine_file: Path) -> Path:
+class _Place(NamedTuple):
+    """Where a figure stands in a result: name of its kind, `order 2` or `peak,`, part and unit."""
+
+    kind: str
+    order: str
+    part: str
+
+
+def find_record(engine_file: Path) -> Path:
     """Where the result of an engine file is recorded."""
     return engine_file.parent / "expected" / f"{engine_file.stem}.json"
 
 
-def record(engine: Engine) -> str:
-    """What `check --update` writes."""
-    return (
-        json.dumps(documents.analysis(analyze(engine, only=RECORDED)), indent=1, ensure_ascii=False)
-        + "\n"
-    )
+def record_result(engine: Engine) -> str:
+    """The text to record of an engine."""
+    document = renderer.document(analyze(engine, only=RECORDED))
+    return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
 
 
-def differences(name: str, engine: Engine, file: Path) -> list[Difference]:
-    """All figures of an engine that are not those of its recorded result."""
-    if not file.exists():
-        return [
-            Difference(
-                name,
-                f"no result is recorded in {file.parent.name}/{file.name}; check --update records "
-                "it",
-            )
-        ]
+def find_differences(name: str, engine: Engine, record: Path) -> list[Difference]:
+    """All figures of an engine that are not those of its recorded result; `name`: in messages."""
+    where = f"{record.parent.name}/{record.name}"
+    if not record.exists():
+        missing = f"no result is recorded in {where}; check --update records it"
+        return [Difference(name, missing)]
     shown = analyze(engine, only=RECORDED)
     try:
-        recorded = json.loads(file.read_text(encoding="utf-8"))
-        old, before = dict(_figures(recorded)), _plain(recorded)
-        found = analyze(
-            engine, {*(entry["order"] for entry in recorded["orders"]), *shown.orders}, RECORDED
-        )
-        now = documents.analysis(found)
-    except (
-        OSError,
-        ValueError,
-        LookupError,
-        TypeError,
-        AttributeError,
-        RecursionError,
-        BalcliError,
-    ) as error:
-        return [
-            Difference(
-                name,
-                f"the result recorded in {file.parent.name}/{file.name} cannot be read "
-                f"({type(error).__name__}: {error}); check --update records it anew",
-            )
-        ]
-    plain = [
-        Difference(name, f"{what}: {before[what]} -> {new}")
-        for what, new in _plain(now).items()
-        if before[what] != new
+        recorded = json.loads(record.read_text(encoding="utf-8"))
+        old, exactly_old = dict(_list_figures(recorded)), _list_exact_figures(recorded)
+        orders = {*(entry["order"] for entry in recorded["orders"]), *shown.orders}
+        found = analyze(engine, orders, RECORDED)
+    except _UNREADABLE as error:
+        reason = f"{type(error).__name__}: {error}"
+        broken = f"the result recorded in {where} cannot be read ({reason})"
+        return [Difference(name, f"{broken}; check --update records it anew")]
+    return [
+        *_compare_exact_figures(name, exactly_old, found),
+        *_compare_figures(name, old, found),
     ]
-    return [*plain, *_moved(name, old, dict(_figures(now)), _roundings(found.spectra))]
 
 
-def _plain(document: dict[str, Any]) -> dict[str, Any]:
+def _list_exact_figures(document: dict[str, Any]) -> dict[str, Any]:
     """What must be the same to the last digit."""
     return {
         "number of cylinders": document["engine"]["cylinders"],
@@ -104,55 +107,58 @@ def _plain(document: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def _moved(
-    name: str,
-    old: dict[tuple[str, str, str], float],
-    new: dict[tuple[str, str, str], float],
-    roundings: dict[tuple[str, str], float],
+def _compare_exact_figures(
+    name: str, old: Mapping[str, Any], found: Analysis
 ) -> Iterator[Difference]:
-    scale: dict[str, float] = {}
+    for what, new in _list_exact_figures(renderer.document(found)).items():
+        if old[what] != new:
+            yield Difference(name, f"{what}: {old[what]} -> {new}")
+
+
+def _compare_figures(
+    name: str, old: Mapping[_Place, float], found: Analysis
+) -> Iterator[Difference]:
+    new = dict(_list_figures(renderer.document(found)))
+    roundings = _find_roundings(found.spectra)
+    largest: dict[str, float] = {}
     for figures in (old, new):
-        for (quantity, _, _), value in figures.items():
-            scale[quantity] = max(scale.get(quantity, 0.0), abs(value))
-    for key in dict.fromkeys((*new, *old)):
-        before, after = old.get(key, 0.0), new.get(key, 0.0)
-        if not abs(after - before) <= TOLERANCE * scale[key[0]] + roundings.get(key[:2], 0.0):
-            yield Difference(
-                name,
-                " ".join(filter(None, key)),
-                before,
-                after,
-                abs(after - before) / scale[key[0]],
-            )
+        for place, value in figures.items():
+            largest[place.kind] = max(largest.get(place.kind, 0.0), abs(value))
+    for place in dict.fromkeys((*new, *old)):
+        before, after = old.get(place, 0.0), new.get(place, 0.0)
+        scale, move = largest[place.kind], abs(after - before)
+        allowed = TOLERANCE * scale + roundings.get((place.kind, place.order), 0.0)
+        if not move <= allowed:  # nan is a difference
+            yield Difference(name, " ".join(filter(None, place)), before, after, move / scale)
 
 
-def _roundings(found: Spectra) -> dict[tuple[str, str], float]:
-    """How far rounding may move a figure, by (quantity, order): what decides whether an order is
-    balanced. Where all large orders cancel, that is more than TOLERANCE of what is left, and the
-    next processor may round otherwise.
+def _find_roundings(found: Spectra) -> dict[tuple[str, str], float]:
+    """How far rounding may move a figure, by the kind and order of its place: what decides whether
+    an order is balanced. Where all large orders cancel, that is more than TOLERANCE of what is
+    left, and the next processor may round otherwise.
     """
     errors: dict[tuple[str, str], float] = {}
     for kind, phasors in found.items():
         each = 2 * np.broadcast_to(phasors.noise, phasors.forward.shape)
-        errors |= {
-            (kind.name, f"order {order:g}"): float(error)
-            for order, error in zip(phasors.orders, each, strict=True)
-        }
+        for order, error in zip(phasors.orders, each, strict=True):
+            errors[kind.name, f"order {order:g}"] = float(error)
         errors[kind.name, "peak,"] = float(each.sum())
     return errors
 
 
-def _figures(document: dict[str, Any]) -> Iterator[tuple[tuple[str, str, str], float]]:
-    """(quantity, order, part) and value of everything that is compared."""
+def _list_figures(document: dict[str, Any]) -> Iterator[tuple[_Place, float]]:
+    """Everything that is compared within a tolerance."""
     for entry in document["orders"]:
         for kind in KINDS.values():
-            for part, value in _parts(entry[kind.key]):
-                yield (kind.name, f"order {entry['order']}", f"{part}, {kind.si_unit}"), value
+            for part, value in _list_parts(entry[kind.key]):
+                place = _Place(kind.name, f"order {entry['order']}", f"{part}, {kind.si_unit}")
+                yield place, value
     for kind in VECTORS:
-        yield (kind.name, "peak,", kind.si_unit), float(document["peak"][kind.key])
+        place = _Place(kind.name, "peak,", kind.si_unit)
+        yield place, float(document["peak"][kind.key])
 
 
-def _parts(figures: dict[str, Any]) -> Iterator[tuple[str, float]]:
+def _list_parts(figures: dict[str, Any]) -> Iterator[tuple[str, float]]:
     """The figures of one kind and order that are compared, vectors component by component."""
     for part in _PARTS:
         value = figures.get(part)

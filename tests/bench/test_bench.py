@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import mpmath
 import pytest
+from support.paths import DOCS
 
 from balcli.bench import methods
 from balcli.bench.bench import LAM, cases
@@ -75,7 +74,7 @@ def test_closed_form_is_exact_where_sampling_is_not() -> None:
 
 
 # ------------------------------------------------------------------ docs/accuracy.md
-PAGE = Path(__file__).parents[2] / "docs" / "accuracy.md"
+PAGE = DOCS / "accuracy.md"
 
 
 def shown() -> dict[tuple[str, str], str]:

@@ -10,18 +10,16 @@ import json
 import math
 import sys
 from contextlib import nullcontext
-from pathlib import Path
 from types import ModuleType
 
 import pytest
 from support.engines import GOOD, tables
+from support.paths import ENGINES
 
-from balcli.bench import bench
+from balcli.bench import bench, stopwatch
 from balcli.bench.bench import Bench, Case, Ratio, Row
-from balcli.cli import main
 from balcli.errors import BalcliError, InputError
 
-ENGINES = Path(__file__).parents[2] / "engines"
 MEASURED = Bench(
     (
         Row("A_2", "closed form", 2e-6, 0.0),
@@ -32,19 +30,6 @@ MEASURED = Bench(
     ),
     (Ratio("one to other", 1.25),),
 )
-
-
-@pytest.fixture
-def balcli(capsys, monkeypatch):
-    """Runs a command: (exit status, standard output, standard error)."""
-
-    def run(*args: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["balcli", *map(str, args)])
-        with pytest.raises(SystemExit) as done:
-            main()
-        return int(done.value.code or 0), *capsys.readouterr()
-
-    return run
 
 
 @pytest.fixture
@@ -168,8 +153,8 @@ def test_bench_in_every_format(balcli, tmp_path):
 def test_bench_times_each_case_by_the_variant_and_its_own_pairs(monkeypatch):
     case = Case("task", "way", lambda: sum(range(1000)), 0.5, times=1000)
     monkeypatch.setattr(bench, "cases", lambda: [case])
-    monkeypatch.setattr(bench, "_imports", lambda: iter([Ratio("cold", 2.0)]))
-    monkeypatch.setattr(bench, "_seconds", lambda run: 8.0)
+    monkeypatch.setattr(bench, "_start_ratios", lambda: iter([Ratio("cold", 2.0)]))
+    monkeypatch.setattr(bench, "time_run", lambda run: 8.0)
     found = bench.bench()
     assert found.rows[0].error == 0.5
     assert found.rows[0].seconds == 0.008  # of one variant of a thousand
@@ -189,8 +174,8 @@ def test_two_times_are_taken_in_turn_and_compared_by_their_medians(monkeypatch):
             * (50 if len(taken) in (4, 9, 12, 15) else 1)
         )
 
-    monkeypatch.setattr(bench.timeit, "timeit", timed)
-    assert bench._ratio("three", lambda: "one", lambda: "other").value == pytest.approx(3)
+    monkeypatch.setattr(stopwatch.timeit, "timeit", timed)
+    assert stopwatch.compare_times(lambda: "one", lambda: "other") == pytest.approx(3)
     assert taken == ["other", *["one", "other"] * 9]
 
 
@@ -205,8 +190,8 @@ def test_the_quickest_of_several_runs_counts(monkeypatch):
         def repeat(self, times, number):
             return [number * seconds for seconds in (0.007, 0.003, 0.9, 0.005, 0.004)][:times]
 
-    monkeypatch.setattr(bench.timeit, "Timer", Timer)
-    assert bench._seconds(lambda: None) == pytest.approx(0.003)
+    monkeypatch.setattr(stopwatch.timeit, "Timer", Timer)
+    assert stopwatch.time_run(lambda: None) == pytest.approx(0.003)
 
 
 # ------------------------------------------------------------------ sweeps: cluster, files,
@@ -241,7 +226,7 @@ def test_a_cluster_that_does_not_answer(monkeypatch):
             BalcliError,
             match=r"--dask tcp://host:1: no cluster answers there \(nobody at tcp://host:1\)",
         ),
-        cluster.client("tcp://host:1"),
+        cluster.connect_cluster("tcp://host:1"),
     ):
         pass
 
@@ -258,7 +243,7 @@ def test_a_cluster_of_our_own_and_one_by_address(monkeypatch):
         ),
     )
     for address, found in (("local", "client of own"), ("tcp://host:1", "client of tcp://host:1")):
-        with cluster.client(address) as client:
+        with cluster.connect_cluster(address) as client:
             assert client == found
 
 
@@ -277,13 +262,13 @@ def test_row_groups_of_a_parquet_file_hold_all_rows(balcli, four, tmp_path, monk
 
 
 def test_progress_changes_no_chunk(monkeypatch, capsys):
-    from balcli.commands.sweep_output import with_progress
+    from balcli.commands.sweep_output import showing_progress
     from balcli.core.phasors import np
     from balcli.studies.sweep import Chunk
 
     chunks = [Chunk(((0, 2),), [np.zeros(2)]), Chunk(((2, 3),), [np.zeros(1)])]
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    assert list(with_progress(chunks, 3, True)) == chunks
+    assert list(showing_progress(chunks, 3, True)) == chunks
     assert "3/3" in capsys.readouterr().err
 
 

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
-from pathlib import Path
-
 import pytest
+from support.commands import run_python
 
 from balcli.cli import COMMANDS
 
-SOURCE = str(Path(__file__).resolve().parents[2] / "src")
 CASES = [
     ("", set(COMMANDS)),
     ("ana", {"analyze"}),
@@ -34,11 +29,5 @@ def test_tab_offers(typed: str, offered: set[str]) -> None:
         "COMP_WORDS": f"balcli {typed}",
         "COMP_CWORD": str(typed.count(" ") + 1),
     }
-    done = subprocess.run(
-        [sys.executable, "-c", "from balcli.cli import main; main()"],
-        env=os.environ | asking | {"PYTHONPATH": SOURCE},
-        capture_output=True,
-        text=True,
-        timeout=300,
-    )
+    done = run_python("-m", "balcli", env=asking)
     assert (set(done.stdout.split()), done.stderr) == (offered, "")

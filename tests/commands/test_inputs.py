@@ -1,10 +1,10 @@
 """Several engines side by side are told apart."""
 
-from balcli.commands.inputs import distinct
+from balcli.commands.inputs import distinct_names
 
 
 def test_engines_of_one_name_and_nameless_ones_go_by_their_files():
-    assert distinct(["i4", "V8", "i4", ""], ["a.toml", "b.toml", "c.toml", "d.toml"]) == [
+    assert distinct_names(["i4", "V8", "i4", ""], ["a.toml", "b.toml", "c.toml", "d.toml"]) == [
         "a.toml",
         "V8",
         "c.toml",

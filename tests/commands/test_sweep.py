@@ -11,9 +11,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from support.commands import HANGS, run_command, run_here, start_command
 from support.engines import GOOD
-
-HANGS = 300  # seconds: what takes longer has hung, however busy the machine
 
 
 @pytest.fixture
@@ -23,24 +22,14 @@ def engine(tmp_path: Path) -> str:
     return str(path)
 
 
-def run(*argv: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "balcli", *argv],
-        capture_output=True,
-        text=True,
-        timeout=HANGS,
-        check=False,
-    )
-
-
 SWEEP = ("--vary", "rod.ratio=0.2,0.3", "--quantity", "force.2.major")
 
 
 def test_sweep_writes_what_it_prints(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "x.csv"
     printed, written = (
-        run("sweep", engine, *SWEEP),
-        run("sweep", engine, *SWEEP, "-o", str(target), "--progress"),
+        run_command("sweep", engine, *SWEEP),
+        run_command("sweep", engine, *SWEEP, "-o", str(target), "--progress"),
     )
     assert (printed.returncode, written.returncode, written.stdout, written.stderr) == (
         0,
@@ -55,7 +44,7 @@ def test_sweep_writes_what_it_prints(engine: str, tmp_path: Path) -> None:
 def test_a_refused_sweep_leaves_the_older_file(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "x.csv"
     target.write_text("old\n")
-    done = run(
+    done = run_command(
         "sweep",
         engine,
         "--vary",
@@ -79,7 +68,7 @@ def test_a_variant_that_cannot_be_is_told_before_anything_is_written(tmp_path: P
         "0.5\n[operation]\nspeed_ripple = ["
         "{ order = 1, amplitude = 0.6 }, { order = 2, amplitude = 0.5 }]\n"
     )
-    done = run(
+    done = run_command(
         "sweep",
         str(file),
         "--vary",
@@ -107,26 +96,11 @@ def until(happened: Callable[[], bool]) -> None:
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_ctrl_c_leaves_a_valid_part(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "x.json"
-    process = subprocess.Popen(
-        [
-            sys.executable,
-            "-m",
-            "balcli",
-            "sweep",
-            engine,
-            "--vary",
-            "rod.ratio=0.2:0.3:0.00001",
-            "--vary",
-            "crank.stroke=80:90:0.001",
-            "-q",
-            "force.2.major",
-            "-f",
-            "json",
-            "-o",
-            str(target),
-        ],
+    process = start_command(
+        *("sweep", engine, "-q", "force.2.major", "-f", "json", "-o", target),
+        *("--vary", "rod.ratio=0.2:0.3:0.00001", "--vary", "crank.stroke=80:90:0.001"),
         stderr=subprocess.PIPE,
-        text=True,
+        encoding="utf-8",
     )
     until(
         lambda: (
@@ -145,7 +119,7 @@ def test_ctrl_c_leaves_a_valid_part(engine: str, tmp_path: Path) -> None:
 def test_parquet_and_pictures(engine: str, tmp_path: Path) -> None:
     parquet = pytest.importorskip("pyarrow.parquet")
     target, picture = tmp_path / "x.parquet", tmp_path / "x.svg"
-    done = run(
+    done = run_command(
         "sweep",
         engine,
         *SWEEP,
@@ -165,7 +139,7 @@ def test_parquet_and_pictures(engine: str, tmp_path: Path) -> None:
 
 def test_search_writes_the_best(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "best.toml"
-    done = run(
+    done = run_command(
         "search",
         engine,
         "--over",
@@ -182,7 +156,7 @@ def test_search_writes_the_best(engine: str, tmp_path: Path) -> None:
     assert document["format"] == "balcli.search/1"
     assert document["results"][0]["throws"] == [0, 180, 180, 0]
     assert document["results"][0]["objective"] == 0
-    assert run("analyze", str(target)).returncode == 0
+    assert run_command("analyze", str(target)).returncode == 0
 
 
 def test_scatter_as_json_and_table(engine: str) -> None:
@@ -198,17 +172,37 @@ def test_scatter_as_json_and_table(engine: str) -> None:
         "-q",
         "force.1.major",
     )
-    document = json.loads(run(*options, "-f", "json").stdout)
+    document = json.loads(run_command(*options, "-f", "json").stdout)
     assert document["format"] == "balcli.scatter/1"
     assert document["samples"] == 1000
     figures = document["quantities"]["force.1.major"]
     assert 0 < figures["p05"] < figures["p50"] < figures["p95"] < figures["max"] < figures["bound"]
-    assert "Spread of 1000 engines" in run(*options).stdout
+    assert "Spread of 1000 engines" in run_command(*options).stdout
+
+
+def test_normal_deviations_may_exceed_the_bound_and_the_note_says_so(tmp_path: Path) -> None:
+    """One piston: 3 standard deviations are its tolerance, and 1 of 370 samples lies beyond."""
+    file = tmp_path / "one.toml"
+    file.write_text("[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 1\n")
+    command = ["scatter", str(file), "--mass-scatter=1%", "--seed=1", "-q", "force.1.major"]
+    texts = {
+        shape: run_here(*command, f"--distribution={shape}").out for shape in ("uniform", "normal")
+    }
+    assert "bound: no combination exceeds it (exact for masses" in texts["uniform"]
+    assert "bound: no combination within the tolerances exceeds it (exact" in texts["normal"]
+    told = " ".join(texts["normal"].split())
+    assert "normal deviations go beyond a tolerance, three times their standard deviation" in told
+    document = json.loads(run_here(*command, "--distribution=normal", "-f", "json").out)
+    figures = document["quantities"]["force.1.major"]
+    assert document["distribution"] == "normal"
+    assert figures["max"] > figures["bound"]
 
 
 def test_compare_in_every_format(engine: str) -> None:
     document = json.loads(
-        run("compare", engine, engine, "--orders", "2", "--only", "force", "-f", "json").stdout
+        run_command(
+            "compare", engine, engine, "--orders", "2", "--only", "force", "-f", "json"
+        ).stdout
     )
     (figure,) = document["figures"]
     assert (figure["quantity"], figure["order"], figure["ratios"]) == ("force_N", 2, [1.0, 1.0])
@@ -217,4 +211,4 @@ def test_compare_in_every_format(engine: str) -> None:
         ("csv", "quantity,order,unit,"),
         ("markdown", "| order 2 |"),
     ):
-        assert said in run("compare", engine, engine, "-f", form).stdout
+        assert said in run_command("compare", engine, engine, "-f", form).stdout

@@ -11,16 +11,16 @@ from functools import partial
 from pathlib import Path
 
 import pytest
+from support.commands import HANGS, run_here, run_python, start_command
 from support.engines import GOOD
 
-ROOT = Path(__file__).parents[2]
 unix = pytest.mark.skipif(sys.platform == "win32", reason="needs links, pipes and signals")
 
 
 @pytest.fixture
-def balcli(balcli):
+def balcli():
     """Runs a command in this process, with an engine file as standard input."""
-    return lambda *args: balcli(*args, stdin=GOOD)
+    return lambda *args: run_here(*args, stdin=GOOD)
 
 
 @pytest.fixture
@@ -39,15 +39,6 @@ def good(tmp_path, monkeypatch):
 
 def contents() -> dict[str, str]:
     return {path.name: path.read_text() for path in Path().iterdir() if path.is_file()}
-
-
-def started(*args: str, **more) -> subprocess.Popen:
-    return subprocess.Popen(
-        [sys.executable, "-m", "balcli", *args],
-        env={**os.environ, "PYTHONPATH": str(ROOT / "src")},
-        stderr=subprocess.PIPE,
-        **more,
-    )
 
 
 COMMANDS = [
@@ -214,7 +205,7 @@ def test_a_disk_that_fills_up_during_a_sweep(balcli, good, monkeypatch):
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("balcli.commands.sweep_output._copy", full)
+    monkeypatch.setattr("balcli.commands.sweep_output._write_text", full)
     assert balcli("sweep", good, "--vary", "crank.stroke=80,90", "-o", "out.csv") == (
         2,
         "",
@@ -229,12 +220,10 @@ def test_a_folder_in_which_nothing_may_be_made(balcli, good, monkeypatch):
 
     Path("out.txt").write_text("old")
     before = contents()
-    monkeypatch.setattr("tempfile.mkstemp", forbidden)
-    assert balcli("analyze", good, "-o", "out.txt") == (
-        2,
-        "",
-        "balcli: out.txt: cannot be written (Permission denied)\n",
-    )
+    with monkeypatch.context() as patched:
+        patched.setattr("os.open", forbidden)
+        outcome = balcli("analyze", good, "-o", "out.txt")
+    assert outcome == (2, "", "balcli: out.txt: cannot be written (Permission denied)\n")
     assert contents() == before
 
 
@@ -252,8 +241,8 @@ def test_a_folder_in_which_nothing_may_be_made(balcli, good, monkeypatch):
 def test_standard_output_that_is_full(good, command):
     name, *rest = command
     with Path("/dev/full").open("wb") as full:
-        running = started(name, str(good), *rest, stdout=full)
-        err = running.communicate(timeout=300)[1].decode()
+        running = start_command(name, good, *rest, stdout=full, stderr=subprocess.PIPE)
+        err = running.communicate(timeout=HANGS)[1].decode()
     assert (running.returncode, err) == (
         2,
         "balcli: standard output: cannot be written (No space left on device)\n",
@@ -264,23 +253,55 @@ def test_standard_output_that_is_full(good, command):
 def test_a_reader_who_leaves_early_ends_a_sweep_quietly(good):
     reading, writing = os.pipe()
     os.close(reading)
-    running = started("sweep", str(good), "--vary", "crank.stroke=1:90:0.001", stdout=writing)
+    running = start_command(
+        *("sweep", good, "--vary", "crank.stroke=1:90:0.001"),
+        stdout=writing,
+        stderr=subprocess.PIPE,
+    )
     os.close(writing)
-    assert (running.communicate(timeout=300)[1], running.returncode) == (b"", 0)
+    assert (running.communicate(timeout=HANGS)[1], running.returncode) == (b"", 0)
 
 
 @unix
 def test_an_interrupt_is_no_traceback():
     """It waits for the rest of its standard input: more than a pipe holds has been read."""
-    heeded = partial(
-        signal.signal, signal.SIGINT, signal.SIG_DFL
-    )  # jobs in the background of a script ignore it
-    running = started(
-        "analyze", "-", stdin=subprocess.PIPE, stdout=subprocess.PIPE, preexec_fn=heeded
+    # Jobs in the background of a script ignore it.
+    heeded = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    running = start_command(
+        *("analyze", "-"),
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        preexec_fn=heeded,
     )
     assert running.stdin is not None
     running.stdin.write(b"#\n" * 200_000)
     running.stdin.flush()
     running.send_signal(signal.SIGINT)
-    out, err = running.communicate(timeout=300)
+    out, err = running.communicate(timeout=HANGS)
     assert (running.returncode, out, err.strip()) == (130, b"", b"")
+
+
+@unix
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGINT"])
+def test_a_signal_leaves_the_older_file_and_nothing_beside_it(good, name):
+    """It comes while the new file is being written: the sweep's text never ends."""
+    Path("out.csv").write_text("old")
+    before, number = contents(), getattr(signal, name)
+    code = f"""
+import os, signal
+from pathlib import Path
+from balcli.commands import output
+from balcli.process import end_on_signals
+signal.signal({int(number)}, signal.SIG_DFL)
+end_on_signals()
+with output.replacing(Path("out.csv")) as place:
+    place.write_text("half")
+    print(len(list(Path().iterdir())))
+    os.kill(os.getpid(), {int(number)})
+    print("still here")
+"""
+    done = run_python("-u", "-c", code)
+    assert (done.returncode, done.stdout, done.stderr) == (128 + number, f"{len(before) + 1}\n", "")
+    assert contents() == before
+    assert not list(Path().glob(".*"))

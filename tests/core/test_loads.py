@@ -9,11 +9,12 @@ import pytest
 from support.engines import alone, engine, engine_text
 
 from balcli.core.loads import Loads
-from balcli.core.mechanisms.harmonics import Series
+from balcli.core.mechanisms.fourier import Series
+from balcli.core.phases import Phases
 from balcli.core.phasors import EPS
 from balcli.engine.build import build
 from balcli.engine.load import parse
-from balcli.forces.spectrum import spectra
+from balcli.forces.spectrum import compute_spectra
 from balcli.studies.parameters import parse as parameter
 from balcli.studies.sweep import Sweep
 
@@ -39,7 +40,7 @@ def test_every_order_has_a_bound_of_its_rounding(name, along):
         crank={"stroke": 100, "throws": [0], "positions": [100]},
         frame={"reference": [20, 30, along]},
     )
-    found = spectra(built, np.arange(0.0, 9.0), QUANTITIES)
+    found = compute_spectra(built, np.arange(0.0, 9.0), QUANTITIES)
     for quantity in QUANTITIES:
         phasors = getattr(found, quantity)
         noise = np.broadcast_to(phasors.noise, phasors.forward.shape)
@@ -59,7 +60,7 @@ def test_what_balances_does_so_about_any_point():
             crank={"stroke": 100, "throws": [0, 240, 120, 120, 240, 0], "spacing": 100},
             frame={"reference": reference},
         )
-        found = spectra(six, np.arange(1.0, 6.0), ("force", "moment"))
+        found = compute_spectra(six, np.arange(1.0, 6.0), ("force", "moment"))
         assert found.force.balanced.all()
         assert found.moment.balanced.all()
 
@@ -113,11 +114,11 @@ def test_variants_side_by_side_are_what_each_is_alone(vary):
     """All quantities of several orders at once, with their bounds."""
     file = parse(VEE)
     sweep = Sweep(file, tuple(parameter(v, file) for v in vary), ())
-    together = spectra(sweep.engine((slice(None),) * len(vary)), LOW, QUANTITIES)
+    together = compute_spectra(sweep.engine((slice(None),) * len(vary)), LOW, QUANTITIES)
     shape = [len(p.values) for p in sweep.parameters]
     for place in np.ndindex(*shape):
         values = {p.path: float(p.values[k]) for p, k in zip(sweep.parameters, place, strict=True)}
-        for quantity, single in spectra(build(file, values), LOW, QUANTITIES).items():
+        for quantity, single in compute_spectra(build(file, values), LOW, QUANTITIES).items():
             found = together[quantity.name]
             for name in ("forward", "backward", "noise"):
                 whole = np.broadcast_to(getattr(found, name), (len(LOW), *shape))[
@@ -142,8 +143,8 @@ def test_an_engine_does_what_its_cylinders_do(ripple):
         + "\n[cylinder.2]\npiston_mass = 3\nrod_length = 170\n[cylinder.5]\npiston_offset = 9\n"
     )
     built = build(parse(text))
-    parts = [spectra(alone(built, number), LOW, QUANTITIES) for number in built.numbers]
-    for quantity, whole in spectra(built, LOW, QUANTITIES).items():
+    parts = [compute_spectra(alone(built, number), LOW, QUANTITIES) for number in built.numbers]
+    for quantity, whole in compute_spectra(built, LOW, QUANTITIES).items():
         each = [part[quantity.name] for part in parts]
         assert np.all(np.abs(sum(p.forward for p in each) - whole.forward) <= whole.noise), quantity
         assert np.all(np.abs(sum(p.backward for p in each) - whole.backward) <= whole.noise), (
@@ -161,7 +162,7 @@ def test_an_engine_does_what_its_cylinders_do(ripple):
     ],
 )
 def test_a_heavy_device_has_a_bound_of_its_rounding(device):
-    force = spectra(engine(**device), [2.0], ("force",)).force
+    force = compute_spectra(engine(**device), [2.0], ("force",)).force
     assert force.noise >= EPS * force.major
 
 
@@ -173,8 +174,10 @@ def test_errors_of_a_curve_stay_within_the_bounds_of_the_forces(name, size):
     """
     built = engine(**ENGINES[name])
     c = built.cylinders
-    few, which = c.linkage.harmonics(LOW, c.lam, c.eps, rod=False, energy=False)
-    exact = few.of_rows(which)._replace(piston=Series(0 * few.of_rows(which).piston.c))
+    few, which = c.linkage.find_distinct_harmonics(LOW, c.lam, c.eps, rod=False, energy=False)
+    exact = few.select_cylinders(which)._replace(
+        piston=Series(0 * few.select_cylinders(which).piston.c)
+    )
     for turn in (1, -1, 1j, -1j):
         curve = exact.curve._replace(
             along=Series(exact.curve.along.c, size * np.ones(1)),
@@ -184,7 +187,8 @@ def test_errors_of_a_curve_stay_within_the_bounds_of_the_forces(name, size):
             along=Series(curve.along.c + size), across=Series(curve.across.c + 3 * turn * size)
         )
         here, there = (
-            Loads(c, (), (0j, 0.0), LOW, exact._replace(curve=it), 1.0).force for it in (curve, off)
+            Loads(c, (), 0j, 0.0, Phases(c, LOW), exact._replace(curve=it), 1.0).force
+            for it in (curve, off)
         )
         assert np.all(here.noise >= EPS * here.major)
         assert np.all(np.abs(there.forward - here.forward) <= here.noise)

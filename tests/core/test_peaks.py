@@ -125,3 +125,28 @@ def test_of_equal_peaks_the_first_counts():
         found = peak(Phasors(np.array([3.0]), half, np.conj(half), np.zeros(1)))
         assert found.value == pytest.approx(1, rel=1e-14)
         assert (np.degrees(found.theta) + 1e-9) % 360 == pytest.approx(first, abs=1e-7)
+
+
+@pytest.mark.parametrize("order", [200, 1000])
+def test_more_near_maxima_than_are_climbed(order):
+    """Two neighbouring orders against each other, and a little of a first that says which of their
+    maxima, hundreds within 8 % of the top, is the highest: its sample is none of the highest 64.
+    """
+    many = curve(
+        (1, 0.0242 * np.exp(0.7j), 0),
+        (order - 1, 0, np.exp(1.7453j)),
+        (order, np.exp(0.2967j), 0),
+    )
+    found = peak(many)
+    theta = np.linspace(0, 2 * np.pi, 400 * order, endpoint=False)
+    dense = max(np.abs(many.values(part)).max() for part in np.array_split(theta, 100))
+    assert found.value >= dense * (1 - 1e-9)
+    there = np.abs(many.values(np.array([found.theta])))[0]
+    assert found.value == pytest.approx(float(there), rel=1e-11)
+
+
+def test_of_many_equal_peaks_the_first():
+    """cos 200 t, turned by a little, has 400 of them."""
+    turned = np.exp(-0.1j)
+    found = peak(curve((200, turned / 2, turned.conjugate() / 2)))
+    assert found.theta == pytest.approx(0.1 / 200)

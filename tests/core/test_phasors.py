@@ -130,7 +130,7 @@ def test_components_along_x_and_y(forward, backward):
 # ------------------------------------------------------------------ scalars and means
 def test_a_scalar_is_a_real_curve():
     orders, c = np.array([0.0, 1.0, 4.0]), np.array([2 + 0j, 3 - 1j, -0.5j])
-    phasors = Phasors.real(orders, c, np.zeros(3))
+    phasors = Phasors.from_scalar(orders, c, np.zeros(3))
     curve = sum((c[k] * np.exp(1j * n * THETA)).real for k, n in enumerate(orders))
     assert phasors.values(THETA).real == pytest.approx(curve, abs=1e-14)
     assert np.abs(phasors.values(THETA).imag).max() < 1e-14
@@ -140,7 +140,7 @@ def test_a_scalar_is_a_real_curve():
 
 
 def test_order_0_holds_its_mean_in_forward_alone():
-    mean = Phasors.real(np.array([0.0]), np.array([5 + 0j]), np.zeros(1))
+    mean = Phasors.from_scalar(np.array([0.0]), np.array([5 + 0j]), np.zeros(1))
     assert (mean.forward[0], mean.backward[0], mean.x[0]) == (5, 0, 5)
     vector = one(3 - 4j, 0, 0)
     assert (vector.x[0], vector.y[0], vector.major[0], vector.minor[0]) == (3, -4, 5, 5)
@@ -186,7 +186,7 @@ def test_settled_clears_each_vector_for_itself():
 def test_at_takes_rows_in_any_order():
     orders = np.array([0.0, 1.0, 2.0, 5.0])
     phasors = Phasors(orders, orders + 1j, -orders + 0j, np.zeros(1))
-    rows = phasors.at([5, 1])
+    rows = phasors.select_orders([5, 1])
     assert list(rows.orders) == [5, 1]
     assert list(rows.forward) == [5 + 1j, 1 + 1j]
     assert rows.noise.shape == (2,)

@@ -13,11 +13,12 @@ import pytest
 from oracle import momentum
 from support.engines import RADIAL
 
-from balcli.core.strokes import travel
+from balcli.core.strokes import find_travel
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
 from balcli.errors import InputError
 from balcli.forces import spectrum
+from balcli.forces.orders import find_relevant_orders
 
 
 def built(*changes: tuple[str, str], more: str = "") -> engine.Engine:
@@ -145,7 +146,7 @@ def test_strokes_and_dead_centres_against_fine_sampling(offset):
     """Places straight from docs/theory.md, on a grid of 0.001 degrees."""
     psi = np.radians(np.arange(0, 360, 0.001))
     lean = np.arcsin((60 * np.sin(psi) - offset) / 240)
-    found = travel(built(("mass = 1.3", f"mass = 1.3\noffset = {offset}")).cylinders)
+    found = find_travel(built(("mass = 1.3", f"mass = 1.3\noffset = {offset}")).cylinders)
     for k in range(7):
         bank = 2 * math.pi * k / 7
         knuckle = (60 * np.exp(1j * psi) + 52 * (k > 0) * np.exp(1j * (bank - lean))) * np.exp(
@@ -163,7 +164,7 @@ def test_an_offset_slider_crank_has_its_stroke_in_closed_form():
     line.
     """
     text = "[crank]\nstroke = 80\n[rod]\nlength = 140\n[piston]\nmass = 1\noffset = 10\n"
-    found = travel(engine.build(enginefile.parse(text)).cylinders)
+    found = find_travel(engine.build(enginefile.parse(text)).cylinders)
     assert found.stroke[0] * 1e3 == pytest.approx(
         math.sqrt(180**2 - 100) - math.sqrt(100**2 - 100), rel=1e-14
     )
@@ -178,7 +179,7 @@ def test_a_radial_with_a_master_rod_shakes_forward_in_the_second_order():
     """
     equal = RADIAL[: RADIAL.index("[articulation]")]
     before, after = (
-        spectrum.spectra(e, [2.0], ["force"]).force
+        spectrum.compute_spectra(e, [2.0], ["force"]).force
         for e in (engine.build(enginefile.parse(equal)), built())
     )
     assert before is not None
@@ -196,7 +197,7 @@ def test_knuckles_that_differ_in_one_component_alone(angles):
         "knuckle_radius", f"knuckle_angles = {list(angles)}\nknuckle_radius"
     )
     want = momentum.Engine.read(text).curves()
-    found = spectrum.spectra(
+    found = spectrum.compute_spectra(
         built(
             ("radial = 7", "banks = [0, 60, 60]"),
             ("knuckle_radius", f"knuckle_angles = {list(angles)}\nknuckle_radius"),
@@ -219,7 +220,10 @@ def test_knuckle_pins_on_the_crank_pin_are_equal_rods():
     )
     plain = engine.build(enginefile.parse(RADIAL[: RADIAL.index("[articulation]")]))
     orders = np.arange(1.0, 9.0)
-    one, other = spectrum.spectra(articulated, orders), spectrum.spectra(plain, orders)
+    one, other = (
+        spectrum.compute_spectra(articulated, orders),
+        spectrum.compute_spectra(plain, orders),
+    )
     for (quantity, a), (_, b) in zip(one.items(), other.items(), strict=True):
         assert np.abs(a.forward - b.forward).max() < 1e-8 + 1e-12 * np.abs(b.forward).max(), (
             quantity
@@ -227,7 +231,7 @@ def test_knuckle_pins_on_the_crank_pin_are_equal_rods():
 
 
 def highest(c):
-    return c.linkage.highest(c.lam, c.eps)
+    return c.linkage.find_highest_order(c.lam, c.eps)
 
 
 @pytest.mark.parametrize("angle", [60, 89.999, 90, 90.001, 120, 180])
@@ -242,7 +246,7 @@ def test_few_orders_far_from_the_lock(angle, rotary):
             ("mass = 1.3", "mass = 1.3\noffset = 2.5"),
             ("[articulation]", f"[articulation]\nmaster = {master}"),
         )
-        assert len(spectrum.relevant_orders(e)) <= 64
+        assert len(find_relevant_orders(e)) <= 64
 
 
 def test_variants_on_a_trailing_axis():
@@ -261,13 +265,13 @@ def test_variants_on_a_trailing_axis():
 
     orders = np.arange(1.0, 7.0)
     many = variant(radii, lengths)
-    together = spectrum.spectra(many, orders)
+    together = spectrum.compute_spectra(many, orders)
     of_each = [
         variant(radius, length).cylinders for radius, length in zip(radii, lengths, strict=True)
     ]
     assert highest(many.cylinders) == max(map(highest, of_each))
     for k in range(3):
-        alone = spectrum.spectra(variant(radii[k], lengths[k]), orders)
+        alone = spectrum.compute_spectra(variant(radii[k], lengths[k]), orders)
         for (quantity, many), (_, one) in zip(together.items(), alone.items(), strict=True):
             difference = np.abs(np.broadcast_to(many.forward, (6, 3))[:, k] - one.forward).max()
             assert difference <= 1e-12 * np.abs(one.forward).max(initial=1e-9), quantity
@@ -284,4 +288,6 @@ def test_many_variants_are_taken_some_angles_at_a_time():
         np.zeros((1, 1)),
         np.linspace(0, 7, 1440),
     )
-    assert np.array_equal(linkage.each("lean", psi, lam, eps), linkage.motion(psi, lam, eps).lean)
+    assert np.array_equal(
+        linkage.sample(lambda m: m.lean, psi, lam, eps), linkage.motion(psi, lam, eps).lean
+    )

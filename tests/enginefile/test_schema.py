@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from typing import Any
 
 import pytest
 from pydantic import ValidationError
+from support.commands import run_python
 
 from balcli.enginefile.messages import DEVICES, TABLES
 from balcli.enginefile.model import Override, Pendulum, Ripple, Table
@@ -94,4 +93,4 @@ def test_it_needs_no_numpy():
         "in "
         "sys.modules)"
     )
-    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+    assert run_python("-c", code).returncode == 0

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-import subprocess
-import sys
 from fractions import Fraction
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.commands import run_python
 
 from balcli.enginefile import units
 from balcli.enginefile.units import (
@@ -196,7 +195,7 @@ def test_common_units_need_no_pint():
         "INERTIA); "
         "sys.exit('pint' in sys.modules)"
     )
-    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+    assert run_python("-c", code).returncode == 0
 
 
 def test_pint_prints_nothing(capfd):

@@ -4,54 +4,31 @@ engines.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-from support.engines import alone
+from support.engines import INLINE, alone, inline_engine
+from support.paths import ENGINES
 
 from balcli.core.peaks import peak
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
 from balcli.errors import BalcliError
 from balcli.forces import spectrum
-from balcli.forces.crankshaft import bearings, inner
-from balcli.forces.guide_moments import guide
+from balcli.forces.crankshaft import compute_inner_loads, place_bearings
+from balcli.forces.guide_moments import compute_guide_moments
+from balcli.forces.orders import find_relevant_orders
 
-ENGINES = Path(__file__).parents[2] / "engines"
 ORDERS = np.arange(1.0, 5.0)
-FILE = """\
-[crank]
-stroke = 90
-throws = {throws}
-spacing = 100
-throw_mass = 1.0
-[rod]
-length = 160
-mass = 0.6
-cg = 45
-inertia = 2000
-[piston]
-mass = 0.5
-[layout]
-{layout}
-[operation]
-speed = 3000
-"""
 OMEGA = 3000 * np.pi / 30
 ROTATING = (1.0 + 0.6 * (160 - 45) / 160) * 0.045 * OMEGA**2  # N, of one throw
 RECIPROCATING = (0.5 + 0.6 * 45 / 160) * 0.045 * OMEGA**2
-
-
-def built(throws, layout="", more=""):
-    return engine.build(enginefile.parse(FILE.format(throws=throws, layout=layout) + more))
 
 
 def test_the_first_order_along_an_inline_four():
     """Loads +1 -1 -1 +1, 100 mm apart: shear 1 0 -1 0, moment about the section 0 -100 -100 0
     (times i).
     """
-    found = inner(built([0, 180, 180, 0]), ORDERS)
+    found = compute_inner_loads(inline_engine([0, 180, 180, 0]), ORDERS)
     assert found.shear.z_m == pytest.approx([-0.15, -0.05, 0.05, 0.15])
     ahead, against = ROTATING + RECIPROCATING / 2, RECIPROCATING / 2
     for got, pattern, factor in (
@@ -70,16 +47,18 @@ def test_an_inline_six_has_a_large_inner_moment_and_counterweights_take_most_of_
     """0-120-240-240-120-0: nothing is free, but the middle carries what three throws on one side
     make.
     """
-    plain = built([0, 120, 240, 240, 120, 0])
+    plain = inline_engine([0, 120, 240, 240, 120, 0])
     weights = "".join(
         f"[[counterweight]]\nunbalance = {(ROTATING + RECIPROCATING / 2) / OMEGA**2 * 1e6}\nangle "
         f"= {angle + 180}\n"
         f"position = {place}\n"
         for angle, place in zip([0, 120, 240, 240, 120, 0], range(-250, 251, 100), strict=True)
     )
-    fitted = built([0, 120, 240, 240, 120, 0], more=weights)
-    assert all(spectrum.spectra(e, [1.0], ["moment"]).moment.balanced[0] for e in (plain, fitted))
-    before, after = (inner(e, ORDERS).bending for e in (plain, fitted))
+    fitted = inline_engine([0, 120, 240, 240, 120, 0], more=weights)
+    assert all(
+        spectrum.compute_spectra(e, [1.0], ["moment"]).moment.balanced[0] for e in (plain, fitted)
+    )
+    before, after = (compute_inner_loads(e, ORDERS).bending for e in (plain, fitted))
     middle = abs(before.phasors.forward[0, 2])
     statics = (
         abs(
@@ -99,8 +78,10 @@ def test_an_inline_six_has_a_large_inner_moment_and_counterweights_take_most_of_
 def test_beyond_the_last_load_stand_free_force_and_moment(layout):
     last = 0.1 + (0.01 if layout else 0)
     weight = "[[counterweight]]\nunbalance = 30000\nangle = 99\nposition = -20\n"
-    subject = built([0, 90, 200], layout, f"[frame]\nreference = [0, 0, {last * 1e3}]\n{weight}")
-    found, free = inner(subject, ORDERS), spectrum.spectra(subject, ORDERS)
+    subject = inline_engine(
+        [0, 90, 200], layout, f"[frame]\nreference = [0, 0, {last * 1e3}]\n{weight}"
+    )
+    found, free = compute_inner_loads(subject, ORDERS), spectrum.compute_spectra(subject, ORDERS)
     assert found.shear.z_m[-1] == pytest.approx(last)
     for along, whole in ((found.shear, free.force), (found.bending, free.moment)):
         assert along.phasors.forward[:, -1] == pytest.approx(whole.forward, rel=1e-11, abs=1e-8)
@@ -108,10 +89,13 @@ def test_beyond_the_last_load_stand_free_force_and_moment(layout):
 
 
 def test_bearings_carry_all_force_and_moment():
-    subject = built(
+    subject = inline_engine(
         [0, 90, 200], more="[[counterweight]]\nunbalance = 30000\nangle = 99\nposition = -20\n"
     )
-    found, free = inner(subject, ORDERS).bearings, spectrum.spectra(subject, ORDERS)
+    found, free = (
+        compute_inner_loads(subject, ORDERS).bearings,
+        spectrum.compute_spectra(subject, ORDERS),
+    )
     assert found is not None
     assert found.z_m == pytest.approx([-0.15, -0.05, 0.05, 0.15])
     assert found.phasors.forward.sum(axis=1) == pytest.approx(
@@ -123,8 +107,8 @@ def test_bearings_carry_all_force_and_moment():
 
 
 def test_one_throw_in_the_middle_of_its_bearings_would_be_a_guess():
-    assert bearings(np.array([0.0])) is None
-    assert inner(built([0]), ORDERS).bearings is None
+    assert place_bearings(np.array([0.0])) is None
+    assert compute_inner_loads(inline_engine([0]), ORDERS).bearings is None
 
 
 def test_shafts_and_sliders_act_on_the_block_not_on_the_crank():
@@ -132,27 +116,62 @@ def test_shafts_and_sliders_act_on_the_block_not_on_the_crank():
         "[[shaft]]\nratio = -1\nunbalance = 9000\n[[slider]]\norder = 1\nunbalance = "
         "9000\ndirection = 0\n"
     )
-    plain, with_devices = (inner(built([0, 180], more=text), ORDERS) for text in ("", more))
+    plain, with_devices = (
+        compute_inner_loads(inline_engine([0, 180], more=text), ORDERS) for text in ("", more)
+    )
     assert np.array_equal(plain.bending.phasors.forward, with_devices.bending.phasors.forward)
 
 
 def test_guide_force_moments():
-    """H is the roll moment of the engine; X of two cylinders at +-L/2 is half the difference of
-    their rolls.
+    """H is the roll moment of the engine; X of two cylinders 50 mm to either side is the moment of
+    the side forces at their guides, 160 mm (the rod's length) above the crankshaft.
     """
-    subject = built([0, 180])
-    found, roll = guide(subject, ORDERS), spectrum.spectra(subject, ORDERS).roll
+    subject = inline_engine([0, 180])
+    found, roll = (
+        compute_guide_moments(subject, ORDERS),
+        spectrum.compute_spectra(subject, ORDERS).roll,
+    )
     assert found.h.forward == pytest.approx(roll.forward, rel=1e-11, abs=1e-9)
-    first, second = (spectrum.spectra(alone(subject, n), ORDERS).roll for n in (1, 2))
+    first, second = (spectrum.compute_spectra(alone(subject, n), ORDERS).roll for n in (1, 2))
     assert found.x is not None
     assert found.x.forward == pytest.approx(
-        (second.forward - first.forward) / 2, rel=1e-11, abs=1e-9
+        (second.forward - first.forward) * 50 / 160, rel=1e-11, abs=1e-9
     )
     assert found.x.balanced.tolist() == [False, True, False, True]
 
 
 def test_one_throw_has_no_x_type():
-    assert guide(built([0]), ORDERS).x is None
+    assert compute_guide_moments(inline_engine([0]), ORDERS).x is None
+
+
+def test_the_x_type_is_the_moment_of_the_side_forces_on_the_pistons():
+    """Couples from the motion of the pistons, with the rods' masses at their ends, times the places
+    of the cylinders, over the height of the guide: as MAN's project guides define it (17.05).
+    """
+    text = INLINE.format(throws=[0, 120, 240, 240, 120, 0], layout="")
+    theta, r, rod = np.arange(256) * 2 * np.pi / 256, 0.045, 0.160
+    point_masses = 0.6 * 45 * (160 - 45)  # m a b: what the two ends have, in kg mm^2
+    subject = engine.build(
+        enginefile.parse(text.replace("inertia = 2000", f"inertia = {point_masses}"))
+    )
+    mass = 0.5 + 0.6 * 45 / 160
+    couples = []
+    for pin in np.radians([0, 120, 240, 240, 120, 0]):
+        wave = np.fft.fft(_height_of_pin(theta + pin, r, rod)) / 256
+        order = np.fft.fftfreq(256, 1 / 256)
+        acceleration = np.fft.ifft(-(order**2) * OMEGA**2 * wave * 256).real
+        tilt = np.arcsin(r / rod * np.sin(theta + pin))
+        couples.append(mass * acceleration * np.tan(tilt) * _height_of_pin(theta + pin, r, rod))
+    places = np.array([-250, -150, -50, 50, 150, 250]) / 1e3
+    for height_m, length in ((None, rod), (0.2, 0.2)):
+        found = compute_guide_moments(subject, ORDERS, height_m).x
+        wanted = np.fft.fft(places @ np.array(couples) / length) / 128
+        assert found is not None
+        assert found.major == pytest.approx(abs(wanted[1:5]), rel=1e-9, abs=1e-6)
+
+
+def _height_of_pin(angle, r, rod):
+    return r * np.cos(angle) + np.sqrt(rod**2 - (r * np.sin(angle)) ** 2)
 
 
 # ------------------------------------------------------------------ cylinder by cylinder, and near
@@ -162,14 +181,14 @@ def test_each_cylinder_is_what_it_is_alone(name):
     layout = "firing_order = [1, 3, 4, 2]" if name == "ripple" else ""
     ripple = "speed_ripple = [{order = 2, amplitude = 0.02, angle = 30}]\n"
     subject = (
-        built([0, 180, 180, 0], layout, ripple)
+        inline_engine([0, 180, 180, 0], layout, ripple)
         if name == "ripple"
         else enginefile.load(ENGINES / f"{name}.toml")
     )
-    together = spectrum.each(subject, ORDERS)
+    together = spectrum.compute_each_cylinder(subject, ORDERS)
     for row, number in enumerate(subject.numbers):
-        for quantity, single in spectrum.spectra(alone(subject, number), ORDERS).items():
-            one = together.of(row)
+        for quantity, single in spectrum.compute_spectra(alone(subject, number), ORDERS).items():
+            one = together.select_place(row)
             np.testing.assert_allclose(one[quantity.name].forward, single.forward, rtol=1e-14)
             np.testing.assert_allclose(one[quantity.name].backward, single.backward, rtol=1e-14)
             np.testing.assert_array_equal(
@@ -179,7 +198,7 @@ def test_each_cylinder_is_what_it_is_alone(name):
 
 def near_the_lock(throws, more=""):
     text = (
-        FILE.format(throws=throws, layout="")
+        INLINE.format(throws=throws, layout="")
         .replace("length = 160", "ratio = 0.999999")
         .replace("cg = 45\n", "cg = 20\n")
     )
@@ -188,13 +207,16 @@ def near_the_lock(throws, more=""):
 
 def test_near_the_lock_only_orders_to_512_are_told_unasked_but_the_largest_values_are_of_all():
     subject = near_the_lock([0, 10, 20, 45])
-    found = inner(subject)
+    found = compute_inner_loads(subject)
     assert 100 < len(found.bending.phasors.orders) <= 512
     assert found.bending.phasors.orders[-1] <= 512
-    force = spectrum.spectra(subject, spectrum.relevant_orders(subject), ["force"]).force
+    force = spectrum.compute_spectra(subject, find_relevant_orders(subject), ["force"]).force
     assert force is not None
     assert found.shear.peaks[-1].value == pytest.approx(peak(force).value, rel=1e-12)
-    assert list(inner(subject, np.array([1.0, 4096.0])).shear.phasors.orders) == [1, 4096]
+    assert list(compute_inner_loads(subject, np.array([1.0, 4096.0])).shear.phasors.orders) == [
+        1,
+        4096,
+    ]
 
 
 def test_so_many_loads_that_they_would_fill_the_memory_are_refused():
@@ -203,11 +225,11 @@ def test_so_many_loads_that_they_would_fill_the_memory_are_refused():
         match=r"^32768 orders of 34 cylinders and counterweights one by one are 1114112 forces, "
         r"and at most 1100000 are kept: an engine farther from its lock has fewer orders$",
     ):
-        inner(near_the_lock([10 * k for k in range(34)]))
+        compute_inner_loads(near_the_lock([10 * k for k in range(34)]))
     with pytest.raises(
         BalcliError, match=r"32773 orders of 17 cylinders .* at most 550000 are kept"
     ):
-        guide(
+        compute_guide_moments(
             near_the_lock(
                 [10 * k for k in range(17)], "speed_ripple = [{order = 2, amplitude = 0.01}]\n"
             )
@@ -221,4 +243,4 @@ def test_more_results_along_the_crank_than_anybody_reads_are_refused():
         r"results, "
         r"and at most 32768 are told: ask for fewer orders$",
     ):
-        inner(built([0] * 9), np.arange(1.0, 4097))
+        compute_inner_loads(inline_engine([0] * 9), np.arange(1.0, 4097))

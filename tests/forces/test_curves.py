@@ -4,19 +4,18 @@ do.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from support.paths import ENGINES
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.forces.curves import crank_angles, cylinder_curves, engine_curves
-from balcli.forces.spectrum import relevant_orders, spectra
-from balcli.render.json import orders
+from balcli.forces.curves import compute_cylinder_curves, compute_engine_curves, divide_revolution
+from balcli.forces.orders import find_relevant_orders
+from balcli.forces.spectrum import compute_spectra
+from balcli.render.figures import order_entries
 
-ENGINES = Path(__file__).parents[2] / "engines"
 RELATIVE = 1e-12  # of the largest parts that are added up
 
 UNEVEN = """
@@ -53,7 +52,7 @@ def engine(name):
 
 
 def summed(subject, crank_deg):
-    found = spectra(subject, relevant_orders(subject))
+    found = compute_spectra(subject, find_relevant_orders(subject))
     theta = np.radians(crank_deg)
     force, moment = found.force.values(theta), found.moment.values(theta)
     return {
@@ -94,8 +93,8 @@ def scale(subject):
     ],
 )
 def test_direct_evaluation_is_the_sum_of_all_orders(name):
-    subject, angles = engine(name), crank_angles(7.5)
-    direct, orders = engine_curves(subject, angles).values, summed(engine(name), angles)
+    subject, angles = engine(name), divide_revolution(7.5)
+    direct, orders = compute_engine_curves(subject, angles).values, summed(engine(name), angles)
     assert set(direct) == set(orders)
     for quantity, curve in direct.items():
         assert (
@@ -113,7 +112,7 @@ def test_force_of_a_single_at_top_dead_centre():
     expected += sum(
         (d.forward + d.backward).real * d.order**2 * subject.omega**2 for d in subject.devices
     )
-    assert engine_curves(subject, np.zeros(1)).values["force_x_N"][0] == pytest.approx(
+    assert compute_engine_curves(subject, np.zeros(1)).values["force_x_N"][0] == pytest.approx(
         expected, rel=1e-14
     )
 
@@ -124,7 +123,7 @@ def test_what_is_zero_is_exactly_zero(name):
     their parts.
     """
     subject = engine(name)
-    curves = engine_curves(subject, crank_angles(15)).values
+    curves = compute_engine_curves(subject, divide_revolution(15)).values
     for quantity, curve in curves.items():
         small = np.abs(curve) <= 1e-13 * scale(subject)[quantity.endswith("_N")]
         assert not curve[small].any(), quantity
@@ -134,7 +133,7 @@ def test_what_is_zero_is_exactly_zero(name):
 
 
 def test_a_piston_stands_still_at_its_dead_centres():
-    found = cylinder_curves(engine("single"), 1, np.array([0.0, 180.0])).values
+    found = compute_cylinder_curves(engine("single"), 1, np.array([0.0, 180.0])).values
     assert found["velocity_m_per_s"].tolist() == found["rod_angle_deg"].tolist() == [0, 0]
 
 
@@ -142,10 +141,11 @@ def test_a_mean_under_uneven_speed_keeps_its_sign_where_the_documents_say():
     """Order 0 is the mean over the crank angle: in `forward` with signs, in the amplitudes of x and
     y without them.
     """
-    subject, angles = engine("uneven"), crank_angles(0.5)
-    (order,) = orders(spectra(subject, [0]))
+    subject, angles = engine("uneven"), divide_revolution(0.5)
+    (order,) = order_entries(compute_spectra(subject, [0]))
     mean = {
-        name: float(curve.mean()) for name, curve in engine_curves(subject, angles).values.items()
+        name: float(curve.mean())
+        for name, curve in compute_engine_curves(subject, angles).values.items()
     }
     force, couple = order["force_N"], order["couple_Nm"]
     assert force["forward"] == pytest.approx([mean["force_x_N"], mean["force_y_N"]], rel=1e-9)
@@ -167,8 +167,10 @@ def test_piston_motion_is_consistent_with_its_derivatives():
     (central differences).
     """
     subject, h = engine("i4"), 1e-3
-    angles = crank_angles(30)
-    mid, before, after = (cylinder_curves(subject, 1, angles + d).values for d in (0, -h, h))
+    angles = divide_revolution(30)
+    mid, before, after = (
+        compute_cylinder_curves(subject, 1, angles + d).values for d in (0, -h, h)
+    )
     dt = np.radians(h) / subject.omega
     stroke = 2 * float(np.ravel(subject.cylinders.radius)[0])
     assert mid["travel_m"][0] == 0
@@ -185,28 +187,28 @@ def test_cylinders_follow_their_cranks():
     """Throws at 0, 90, 270, 180 degrees: cylinder 4 is at its top half a turn from cylinder 1."""
     subject = engine("i4_crossplane")
     lowest = {
-        n: int(cylinder_curves(subject, n, crank_angles()).values["travel_m"].argmin())
+        n: int(compute_cylinder_curves(subject, n, divide_revolution()).values["travel_m"].argmin())
         for n in (1, 4)
     }
     assert lowest[1] == 0
     assert lowest[4] == 180
 
 
-def test_crank_angles():
-    assert crank_angles().tolist() == list(range(360))
-    assert crank_angles(0.1).size == 3600
-    assert crank_angles(7)[-1] == 357
+def test_a_revolution_is_divided_from_0_without_360():
+    assert divide_revolution().tolist() == list(range(360))
+    assert divide_revolution(0.1).size == 3600
+    assert divide_revolution(7)[-1] == 357
     with pytest.raises(
         BalcliError, match=r"--step 0: give a step of the crank angle from 0.001 to 360 degrees"
     ):
-        crank_angles(0)
+        divide_revolution(0)
 
 
 def test_an_unknown_cylinder():
     with pytest.raises(
         BalcliError, match=r"--cylinder 9: in-line four, 2 litres has the cylinders 1, 2, 3, 4"
     ):
-        cylinder_curves(engine("i4"), 9, crank_angles(90))
+        compute_cylinder_curves(engine("i4"), 9, divide_revolution(90))
 
 
 @pytest.mark.parametrize("name", ["articulated", "rotary"])
@@ -215,10 +217,10 @@ def test_other_mechanisms_by_differences(name):
     less.
     """
     text = TEXTS[name].replace(", speed_ripple = [{ order = 2, amplitude = 0.02, angle = 40 }]", "")
-    subject, fine = build(parse(text)), crank_angles(0.05)
+    subject, fine = build(parse(text)), divide_revolution(0.05)
     omega, step = float(subject.omega), np.radians(0.05)
     for number in (1, 6):
-        curve = cylinder_curves(subject, number, fine).values
+        curve = compute_cylinder_curves(subject, number, fine).values
         travel = curve["travel_m"]
         assert 0 <= travel.min() < 1e-7
         slope = (np.roll(travel, -1) - np.roll(travel, 1)) / (2 * step) * omega

@@ -9,7 +9,7 @@ import pytest
 from support.engines import engine
 
 from balcli.forces.kinds import FORCE, KINDS, SCALARS, TORQUE, VECTORS
-from balcli.forces.spectrum import Spectra, spectra
+from balcli.forces.spectrum import Spectra, compute_spectra
 
 
 def test_every_kind_is_a_member_of_spectra_in_the_order_of_the_table():
@@ -34,7 +34,7 @@ def test_a_sum_is_made_of_kinds_that_are_none(kind):
 
 
 def test_roll_is_couple_less_torque():
-    found = spectra(engine(), np.arange(1.0, 9.0))
+    found = compute_spectra(engine(), np.arange(1.0, 9.0))
     assert not found["torque"].balanced.all()
     assert np.array_equal(
         found["roll"].forward, (found["couple"] - found["torque"]).settled().forward
@@ -42,7 +42,7 @@ def test_roll_is_couple_less_torque():
 
 
 def test_only_what_was_asked_for_is_there():
-    found = spectra(engine(), [2.0], ["torque", "force"])
+    found = compute_spectra(engine(), [2.0], ["torque", "force"])
     assert found.items() == [(FORCE, found["force"]), (TORQUE, found["torque"])]
     assert found.vectors() == [(FORCE, found.force)]
     assert found.scalars() == [(TORQUE, found.torque)]

@@ -9,8 +9,8 @@ from support.engines import changed
 from balcli.engine.build import build
 from balcli.engine.load import parse as load
 from balcli.errors import BalcliError
-from balcli.forces.quantity import evaluate, parse
-from balcli.forces.spectrum import spectra
+from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
+from balcli.forces.spectrum import compute_spectra
 from balcli.results.analysis import analyze
 
 UNEVEN = changed(
@@ -31,7 +31,7 @@ UNEVEN = changed(
     ],
 )
 def test_names_read_back(name: str) -> None:
-    assert parse(name)[0].name == name
+    assert parse_quantity_list(name)[0].name == name
 
 
 @pytest.mark.parametrize(
@@ -63,7 +63,7 @@ def test_names_read_back(name: str) -> None:
 )
 def test_mistakes_in_words(text: str, message: str) -> None:
     with pytest.raises(BalcliError) as caught:
-        parse(text)
+        parse_quantity_list(text)
     assert str(caught.value) == message
 
 
@@ -86,7 +86,13 @@ def test_they_are_what_analyze_gives() -> None:
         "roll.2.amplitude": roll.major[1],
         "peak.force": found.force.value,
     }
-    values = dict(zip(expected, evaluate(engine, parse(",".join(expected))), strict=True))
+    values = dict(
+        zip(
+            expected,
+            evaluate_quantities(engine, parse_quantity_list(",".join(expected))),
+            strict=True,
+        )
+    )
     assert {name: float(v) for name, v in values.items()} == pytest.approx(
         {name: float(v) for name, v in expected.items()}, rel=1e-13
     )
@@ -109,10 +115,12 @@ def test_the_signed_parts_of_an_order_are_those_of_the_curve() -> None:
     }
     for stem, axis in curves.items():
         for order in (0, 1, 2, 3):
-            phasors = getattr(spectra(engine, [order]), stem.split(".")[0])
+            phasors = getattr(compute_spectra(engine, [order]), stem.split(".")[0])
             cos, sin = (
                 float(v)
-                for v in evaluate(engine, parse(f"{stem}cos,{stem}sin".format(order, order)))
+                for v in evaluate_quantities(
+                    engine, parse_quantity_list(f"{stem}cos,{stem}sin".format(order, order))
+                )
             )
             value = (phasors.values(theta) * np.conj(axis)).real
             found = cos * np.cos(order * theta) + sin * np.sin(order * theta)
@@ -123,5 +131,7 @@ def test_the_signed_parts_of_an_order_are_those_of_the_curve() -> None:
 def test_quantities_keep_the_order_asked_for() -> None:
     engine = build(load(UNEVEN))
     names = "moment.1.major,force.2.major,force.4.major"
-    one_by_one = [evaluate(engine, parse(name))[0] for name in names.split(",")]
-    assert np.array_equal(evaluate(engine, parse(names)), one_by_one)
+    one_by_one = [
+        evaluate_quantities(engine, parse_quantity_list(name))[0] for name in names.split(",")
+    ]
+    assert np.array_equal(evaluate_quantities(engine, parse_quantity_list(names)), one_by_one)

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from support.paths import ENGINES
 
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
 from balcli.forces import spectrum
-from balcli.forces.symmetry import why
-from balcli.render import json as as_json
+from balcli.forces.symmetry import explain_symmetry
+from balcli.render.analysis import document as analysis_document
+from balcli.render.json import json_text
 from balcli.results import analysis
 
-ENGINES = sorted((Path(__file__).parents[2] / "engines").glob("*.toml"))
+FILES = sorted(ENGINES.glob("*.toml"))
 
 BASE = """\
 [crank]
@@ -32,7 +33,7 @@ mass = 0.5
 
 def sentences(throws, *, spacing=100, more="", orders=(1, 2)):
     text = BASE.format(throws=throws, spacing=spacing) + more
-    return why(engine.build(enginefile.parse(text)), orders).sentences
+    return explain_symmetry(engine.build(enginefile.parse(text)), orders).sentences
 
 
 def test_the_inline_four():
@@ -94,8 +95,8 @@ def test_two_banks_of_different_mechanisms_that_are_each_balanced():
     """A VR6: neighbouring pins stand at no fraction of a turn, but each bank is a balanced
     three.
     """
-    vr6 = engine.build(enginefile.read(next(p for p in ENGINES if p.stem == "vr6")))
-    assert why(vr6, [1]).reasons[0].verdict == "exact"
+    vr6 = engine.build(enginefile.read(next(p for p in FILES if p.stem == "vr6")))
+    assert explain_symmetry(vr6, [1]).reasons[0].verdict == "exact"
 
 
 def test_pairs_that_stand_at_no_fraction_of_a_turn_to_each_other():
@@ -133,20 +134,20 @@ def test_balanced_by_figures_only():
         ),
     ],
 )
-def test_firing(layout, text):
+def test_even_and_uneven_fire_in_words(layout, text):
     base = "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n[layout]\n"
-    assert why(engine.build(enginefile.parse(base + layout)), [1]).firing == text
+    assert explain_symmetry(engine.build(enginefile.parse(base + layout)), [1]).firing == text
 
 
-@pytest.mark.parametrize("path", ENGINES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_exact_and_numeric_decisions_agree(path):
     """What is balanced exactly has no force left but rounding, and what is free is not reported as
     balanced.
     """
     built = engine.build(enginefile.read(path))
     bare = replace(built, devices=())
-    found = spectrum.spectra(bare, np.arange(1.0, 9.0))
-    for reason in why(built, range(1, 9)).reasons:
+    found = spectrum.compute_spectra(bare, np.arange(1.0, 9.0))
+    for reason in explain_symmetry(built, range(1, 9)).reasons:
         numeric = [
             getattr(found, q).balanced[reason.order - 1]
             for q in (["couple", "torque"] if reason.quantity == "turning" else [reason.quantity])
@@ -157,7 +158,7 @@ def test_exact_and_numeric_decisions_agree(path):
 def test_only_what_is_asked_and_as_json():
     built = engine.build(enginefile.parse(BASE.format(throws=[0, 180], spacing=100)))
     result = analysis.analyze(built, [1, 2], ["force"], reasons=True)
-    document = json.loads(as_json.dumps(as_json.analysis(result)))
+    document = json.loads(json_text(analysis_document(result)))
     assert document["why"] == {
         "reasons": [
             {"order": 1, "quantity": "force", "verdict": "exact", "size": 0.0},

@@ -15,7 +15,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from balcli.core.mechanisms import harmonics
+from balcli.core.mechanisms import closed_form, fourier, harmonics
 
 RELATIVE = 2e-14  # of each coefficient of the centred mechanism, where it is above 1e-290
 ABSOLUTE = 1e-15  # of the offset mechanism, in units of the first order
@@ -154,7 +154,7 @@ def worst(got: np.ndarray, want: list[mp.mpf]) -> float:
 def test_centred_against_the_power_series(lam):
     want = of_power_series(lam)
     for name in SERIES:
-        assert worst(getattr(harmonics, name)(ORDERS, lam), want[name]) < RELATIVE, name
+        assert worst(getattr(closed_form, name)(ORDERS, lam), want[name]) < RELATIVE, name
 
 
 @pytest.mark.parametrize("lam", LARGE)
@@ -163,7 +163,7 @@ def test_centred_against_the_trapezoidal_rule(lam):
     for name in SERIES:
         exact = [c if name != "rod" else -c.imag for c in want[name]]
         exact = [c.real if abs(c) > mp.mpf(10) ** -80 else mp.mpf(0) for c in exact]
-        assert worst(getattr(harmonics, name)(ORDERS, lam), exact) < RELATIVE, name
+        assert worst(getattr(closed_form, name)(ORDERS, lam), exact) < RELATIVE, name
 
 
 def test_the_two_oracles_agree():
@@ -179,7 +179,7 @@ def test_means_of_the_squares(lam):
     """Order 0 enters the mean inertia under uneven speed."""
     want = of_power_series(lam) if lam < 0.3 else of_revolution(lam)
     for name in ("kinetic", "rod_kinetic"):
-        assert getattr(harmonics, name)([0], lam)[0] == pytest.approx(
+        assert getattr(closed_form, name)([0], lam)[0] == pytest.approx(
             float(mp.re(want[name][0])), rel=RELATIVE
         )
 
@@ -211,7 +211,7 @@ def test_high_orders_are_no_less_accurate(lam):
                 for e in (turn[n * k % count] for k in range(count))
             )
             want = 2 * mp.fdot(curves[name], waves) / count
-            got = getattr(harmonics, name)([n], lam)[0]
+            got = getattr(closed_form, name)([n], lam)[0]
             assert abs(mp.mpf(float(got)) / want - 1) < 2e-15, (name, n)
 
 
@@ -221,24 +221,24 @@ def test_first_coefficients_are_those_of_the_books():
     to its next term.
     """
     lam = 1e-4
-    a = harmonics.piston([1, 2, 3, 4, 6, 8], lam)
+    a = closed_form.piston([1, 2, 3, 4, 6, 8], lam)
     assert list(a[[0, 2]]) == [1, 0]
     assert a[1] == pytest.approx(lam + lam**3 / 4 + 15 * lam**5 / 128, rel=1e-14)
     assert a[3:] == pytest.approx(
         [-(lam**3 / 4 + 3 * lam**5 / 16), 9 * lam**5 / 128, -5 * lam**7 / 256], rel=1e-7
     )
-    assert harmonics.rod([1, 3], lam) == pytest.approx(
+    assert closed_form.rod([1, 3], lam) == pytest.approx(
         [lam + lam**3 / 8, -3 * lam**3 / 8], rel=1e-7
     )
 
 
 def test_shapes_and_orders_in_any_number():
     lam = np.array([[0.2, 0.3, 0.4]])
-    found = harmonics.centred([0, 1, 2, 7], lam)
+    found = closed_form.find_harmonics([0, 1, 2, 7], lam)
     for name in SERIES:
         assert getattr(found, name).c.shape == (4, 1, 3)
-        alone = getattr(harmonics, name)([7], 0.3)[0]
-        assert getattr(harmonics, name)([0, 1, 2, 7], lam)[3, 0, 1] == pytest.approx(
+        alone = getattr(closed_form, name)([7], 0.3)[0]
+        assert getattr(closed_form, name)([0, 1, 2, 7], lam)[3, 0, 1] == pytest.approx(
             alone, rel=1e-14, abs=0
         )
 
@@ -249,7 +249,7 @@ def test_offset_against_the_trapezoidal_rule(lam, eps):
     orders = np.arange(0, 25)
     with mp.workdps(30):
         want = of_revolution(lam, eps, 24, 22)
-        found = harmonics.of(orders, np.array([lam]), np.array([eps]))
+        found = harmonics.find_harmonics(orders, np.array([lam]), np.array([eps]))
         for name in SERIES:
             first = float(abs(want[name][1]))
             largest = max(float(abs(c)) for c in want[name])
@@ -262,7 +262,10 @@ def test_offset_against_the_trapezoidal_rule(lam, eps):
 
 def test_sampling_agrees_with_the_closed_form_where_there_is_no_offset():
     orders, lam, eps = np.arange(0, 40), np.array([0.25, 0.31]), np.zeros(1)
-    closed, sampled = harmonics.centred(orders, lam), harmonics.sampled(orders, lam, eps)
+    closed, sampled = (
+        closed_form.find_harmonics(orders, lam),
+        harmonics.sample_harmonics(orders, lam, eps),
+    )
     for name in SERIES:
         assert np.abs(getattr(closed, name).c - getattr(sampled, name).c).max() < ABSOLUTE, name
 
@@ -270,8 +273,8 @@ def test_sampling_agrees_with_the_closed_form_where_there_is_no_offset():
 def test_equal_mechanisms_are_gathered_in_their_places():
     """Of three cylinders the middle one has an offset; the outer two keep their closed form."""
     lam, eps = np.array([0.3, 0.3, 0.3]), np.array([0.0, 0.02, 0.0])
-    found = harmonics.of([1, 2, 3, 4], lam, eps).piston
-    assert np.array_equal(found.c[:, 0], harmonics.piston([1, 2, 3, 4], 0.3) + 0j)
+    found = harmonics.find_harmonics([1, 2, 3, 4], lam, eps).piston
+    assert np.array_equal(found.c[:, 0], closed_form.piston([1, 2, 3, 4], 0.3) + 0j)
     assert np.array_equal(found.c[:, 0], found.c[:, 2])
     assert found.c[2, 1] != 0
     assert list(found.noise[[0, 2]]) == [0, 0]
@@ -281,8 +284,8 @@ def test_equal_mechanisms_are_gathered_in_their_places():
 @pytest.mark.parametrize("eps", [0.0, 0.02])
 def test_mechanisms_given_as_several_may_be_one(eps):
     """Three cylinders, each with a rod of its own, all of them equal."""
-    found = harmonics.of([0, 1, 2, 3], np.full(3, 0.3), np.full(3, eps))
-    single = harmonics.of([0, 1, 2, 3], np.array([0.3]), np.array([eps]))
+    found = harmonics.find_harmonics([0, 1, 2, 3], np.full(3, 0.3), np.full(3, eps))
+    single = harmonics.find_harmonics([0, 1, 2, 3], np.array([0.3]), np.array([eps]))
     for name in SERIES:
         assert np.array_equal(
             np.broadcast_to(getattr(found, name).c, (4, 3)),
@@ -294,7 +297,8 @@ def test_mechanisms_given_as_several_may_be_one(eps):
 def test_an_order_of_one_engine_is_the_same_among_any_others(lam, eps):
     """To the last bit: what a report says of an order does not depend on what else it says."""
     alone, among = (
-        harmonics.of(orders, np.array([lam]), np.array([eps])) for orders in ([1], np.arange(40))
+        harmonics.find_harmonics(orders, np.array([lam]), np.array([eps]))
+        for orders in ([1], np.arange(40))
     )
     for name in SERIES:
         assert getattr(alone, name).c[0] == getattr(among, name).c[1], name
@@ -302,22 +306,22 @@ def test_an_order_of_one_engine_is_the_same_among_any_others(lam, eps):
 
 def test_side_by_side_the_steepest_mechanism_says_how_many_samples():
     lam, eps = np.array([0.1, 0.6, 0.3]), np.array([0.3, 0.35, -0.2])
-    most = harmonics.points(0.6, 0.35)
+    most = harmonics.count_samples(0.6, 0.35)
     assert (
-        harmonics.points(lam, eps)
+        harmonics.count_samples(lam, eps)
         == most
-        > max(harmonics.points(0.1, 0.3), harmonics.points(0.3, -0.2))
+        > max(harmonics.count_samples(0.1, 0.3), harmonics.count_samples(0.3, -0.2))
     )
-    found = harmonics.of(np.arange(9), lam[None], eps[None])
+    found = harmonics.find_harmonics(np.arange(9), lam[None], eps[None])
     for k in range(3):
-        single = harmonics.of(np.arange(9), lam[k : k + 1], eps[k : k + 1])
+        single = harmonics.find_harmonics(np.arange(9), lam[k : k + 1], eps[k : k + 1])
         assert np.abs(found.piston.c[:, 0, k] - single.piston.c[:, 0]).max() < ABSOLUTE
 
 
 def test_multiples_and_sums_of_series_keep_bounds_of_their_errors():
     one, other = (
-        harmonics.Series(np.ones((1, 1)), 0.25),
-        harmonics.Series(np.full((1, 1), 3.0), 0.5),
+        fourier.Series(np.ones((1, 1)), 0.25),
+        fourier.Series(np.full((1, 1), 3.0), 0.5),
     )
     found = np.array([-2.0]) * one + other
     assert (found.c.item(), found.noise) == (1, 1)
@@ -327,7 +331,7 @@ def test_orders_beyond_the_samples_vanish():
     """Order 4096 of a mild offset is far below every number that could be sampled; it must not be
     an alias.
     """
-    assert harmonics.of([4096], np.array([0.25]), np.array([0.01])).piston.c == 0
+    assert harmonics.find_harmonics([4096], np.array([0.25]), np.array([0.01])).piston.c == 0
 
 
 @pytest.mark.parametrize(("lam", "eps"), [(0.3, 0.1), (0.6, 0.39), (0.05, 0.9)])
@@ -335,9 +339,11 @@ def test_an_offset_to_the_other_side_is_the_mirror_image(lam, eps):
     """Seen in a mirror along the cylinder's axis the crank turns backward: coefficients become
     conjugate, those of the rod's angle change sign besides; as many samples either way.
     """
-    assert harmonics.points(lam, eps) == harmonics.points(lam, -eps)
+    assert harmonics.count_samples(lam, eps) == harmonics.count_samples(lam, -eps)
     orders = np.arange(1, 40)
-    one, other = (harmonics.sampled(orders, np.array([lam]), np.array([e])) for e in (eps, -eps))
+    one, other = (
+        harmonics.sample_harmonics(orders, np.array([lam]), np.array([e])) for e in (eps, -eps)
+    )
     mirrored = np.conj(one.piston.c[:, 0])
     assert np.abs(other.piston.c[:, 0] - mirrored).max() <= 1e-14 * np.abs(mirrored).max()
     assert (

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from oracle import momentum
 from support.engines import alone
+from support.paths import ENGINES
 
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
@@ -15,7 +14,7 @@ from balcli.forces import spectrum
 
 TOLERANCE = 1e-11  # of the largest first-order amplitude of one cylinder
 ORDERS = np.arange(0.0, 11.0)
-ENGINES = sorted((Path(__file__).parents[2] / "engines").glob("*.toml"))
+FILES = sorted(ENGINES.glob("*.toml"))
 
 BASE = """\
 [crank]
@@ -144,7 +143,7 @@ def compare(text: str) -> None:
     """Every order of every quantity, in units of what one cylinder does."""
     oracle = momentum.Engine.read(text)
     curves, scales = oracle.curves(), oracle.scales()
-    found = spectrum.spectra(engine.build(enginefile.parse(text)), ORDERS)
+    found = spectrum.compute_spectra(engine.build(enginefile.parse(text)), ORDERS)
     for kind, phasors in found.items():
         quantity = kind.name
         for row, n in enumerate(ORDERS):
@@ -162,7 +161,7 @@ def test_mechanisms(name):
     compare(BASE.format(**parts))
 
 
-@pytest.mark.parametrize("path", ENGINES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_every_engine_that_comes_with_balcli(path):
     compare(path.read_text(encoding="utf-8"))
 
@@ -175,7 +174,7 @@ def test_one_cylinder_of_an_articulated_engine_alone():
     oracle, whole = momentum.Engine.read(text), engine.build(enginefile.parse(text))
     for number in (1, 3):
         curves = oracle.curves([number])
-        force = spectrum.spectra(alone(whole, number), ORDERS, ["force"]).force
+        force = spectrum.compute_spectra(alone(whole, number), ORDERS, ["force"]).force
         for row, n in enumerate(ORDERS):
             assert (
                 abs(force.forward[row] - curves.order("force", int(n))[0])

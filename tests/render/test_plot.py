@@ -4,14 +4,13 @@ values where they belong.
 
 from __future__ import annotations
 
-import subprocess
-import sys
 import warnings
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.commands import run_python
 from support.engines import GOOD, changed
 
 from balcli.commands.plot import What
@@ -89,7 +88,7 @@ def test_matplotlib_is_imported_for_pictures_only():
         "with style.figure(2, 2, 'png') as f: f.subplots(); style.saved(f, 'png')\nassert "
         "'matplotlib.pyplot' not in sys.modules"
     )
-    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+    assert run_python("-c", code).returncode == 0
 
 
 def test_the_command_offers_every_page():

@@ -103,7 +103,7 @@ def test_imperial_units_reach_everything():
     scene = json.loads(re.search(r'id="scene">(.*?)</script>', text, re.S)[1])
     assert scene["units"]["force"] == {"name": "lbf", "thousand": ""}
     second = next(row for row in scene["variants"][0]["force"] if row[0] == 2)
-    force = analyze(build(parse(GOOD))).spectra.force.at([2])
+    force = analyze(build(parse(GOOD))).spectra.force.select_orders([2])
     assert second[1] == pytest.approx(float(force.forward[0].real) / 4.4482216152605, rel=1e-12)
 
 
@@ -231,7 +231,7 @@ def test_orders_are_switched(show):
     fourth = page.run("document.getElementById('force-now').textContent")
     page.run("document.querySelector('[name=order][value=\"4\"]').click()")
     assert before != [0]
-    force = analyze(build(parse(GOOD))).spectra.force.at([4])
+    force = analyze(build(parse(GOOD))).spectra.force.select_orders([4])
     assert float(fourth.split()[0]) == pytest.approx(float(force.major[0]), rel=1e-3)
     assert page.run("document.getElementById('force-now').textContent") == "none"
 

@@ -4,13 +4,11 @@ nobody looks.
 
 from __future__ import annotations
 
-import os
-import pty
-import subprocess
 import sys
 
 import numpy as np
 import pytest
+from support.commands import run_in_terminal
 from support.engines import GOOD
 
 from balcli.core.phasors import Phasors
@@ -56,47 +54,28 @@ def test_nothing_shakes():
     assert "+" not in "".join(locus(phasors((1, 0, 0))))
 
 
-def command(tmp_path, *options):
+@pytest.fixture
+def four(tmp_path):
     file = tmp_path / "four.toml"
     file.write_text(GOOD)
-    return [sys.executable, "-m", "balcli", "analyze", str(file), "--plot", *options]
+    return file
 
 
-def test_absent_in_pipes(tmp_path):
+def is_drawn(line):
+    return "█" in line or any(0x2800 <= ord(c) <= 0x28FF for c in line)
+
+
+def test_absent_in_pipes(balcli, four):
     for options in ((), ("--format", "markdown")):
-        out = subprocess.run(
-            command(tmp_path, *options), capture_output=True, text=True, check=True
-        ).stdout
-        assert "█" not in out
-        assert not any(0x2800 <= ord(c) <= 0x28FF for c in out)
+        status, out, _ = balcli("analyze", four, "--plot", *options)
+        assert status == 0
+        assert not any(map(is_drawn, out.splitlines()))
 
 
-def test_in_a_terminal_of_80_columns(tmp_path):
-    lines = in_terminal(command(tmp_path), 80).splitlines()
-    drawn = [line for line in lines if "█" in line or any(0x2800 <= ord(c) <= 0x28FF for c in line)]
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a pseudo-terminal")
+def test_in_a_terminal_of_80_columns(four):
+    plain = {"COLUMNS": "80", "TERM": "xterm", "NO_COLOR": "1"}
+    lines = run_in_terminal("analyze", four, "--plot", columns=80, env=plain).out.splitlines()
+    drawn = list(filter(is_drawn, lines))
     assert len(drawn) > SIDE
     assert max(map(len, drawn)) <= 80
-
-
-def in_terminal(argv: list[str], columns: int) -> str:
-    """What a program prints in a terminal."""
-    ours, theirs = pty.openpty()
-    with subprocess.Popen(
-        argv,
-        stdin=subprocess.DEVNULL,
-        stdout=theirs,
-        stderr=theirs,
-        env={**os.environ, "COLUMNS": str(columns), "TERM": "xterm", "NO_COLOR": "1"},
-    ):
-        os.close(theirs)
-        seen = b""
-        while True:
-            try:
-                part = os.read(ours, 65536)
-            except OSError:  # Linux: the other end is closed
-                break
-            if not part:
-                break
-            seen += part
-    os.close(ours)
-    return seen.decode()

@@ -6,29 +6,30 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 from support.engines import alone, engine
+from support.paths import ENGINES
 
 from balcli.core.mechanisms import harmonics
 from balcli.engine.build import Engine, build
 from balcli.engine.load import read
 from balcli.errors import BalcliError
 from balcli.forces.kinds import KINDS
-from balcli.forces.spectrum import SHOWN, relevant_orders, spectra
+from balcli.forces.orders import SHOWN, find_relevant_orders
+from balcli.forces.spectrum import compute_spectra
+from balcli.forces.textbook import find_textbook_units
 from balcli.limits import HIGHEST_ORDER
-from balcli.results.analysis import QUANTITIES, Analysis, analyze, textbook
+from balcli.results.analysis import QUANTITIES, Analysis, analyze
 
-FOLDER = Path(__file__).parents[2] / "engines"
-NAMES = sorted(file.stem for file in FOLDER.glob("*.toml"))
+NAMES = sorted(file.stem for file in ENGINES.glob("*.toml"))
 STEADY = ("force", "moment", "couple", "torque", "roll", "peak")
 
 
 @lru_cache
 def example(name: str) -> Engine:
-    return build(read(FOLDER / f"{name}.toml"))
+    return build(read(ENGINES / f"{name}.toml"))
 
 
 @lru_cache
@@ -41,7 +42,7 @@ def analysed(name: str) -> Analysis:
 def test_orders_shown_by_default(name):
     """1 and 2, and each in which some quantity exceeds 1e-6 of its own largest order; no other."""
     shown = set(analysed(name).orders)
-    everything = spectra(example(name), relevant_orders(example(name)))
+    everything = compute_spectra(example(name), find_relevant_orders(example(name)))
     due = {1.0, 2.0}
     for _, phasors in everything.items():
         due |= set(everything.orders[phasors.major > SHOWN * phasors.major.max()])
@@ -60,9 +61,9 @@ def test_orders_asked_for_are_the_same_to_the_last_bit(name):
         again, alone_ = asked.spectra[q], single.spectra[q]
         assert np.array_equal(phasors.forward, again.forward), q
         assert np.array_equal(phasors.backward, again.backward), q
-        assert np.array_equal(phasors.at([2]).forward, alone_.forward), q
+        assert np.array_equal(phasors.select_orders([2]).forward, alone_.forward), q
         assert np.array_equal(
-            phasors.forward, getattr(many.spectra, q).at(default.orders).forward
+            phasors.forward, getattr(many.spectra, q).select_orders(default.orders).forward
         ), q
     assert (asked.force, asked.moment) == (default.force, default.moment)
 
@@ -70,9 +71,9 @@ def test_orders_asked_for_are_the_same_to_the_last_bit(name):
 @pytest.mark.parametrize("name", NAMES)
 def test_nothing_beyond_the_relevant_orders(name):
     """What lies above them is below the rounding error of the largest order."""
-    highest = relevant_orders(example(name))[-1]
+    highest = find_relevant_orders(example(name))[-1]
     beyond = np.arange(highest + 1, highest + 17)
-    for q, phasors in spectra(example(name), beyond).items():
+    for q, phasors in compute_spectra(example(name), beyond).items():
         assert phasors.major.max() <= 1e-12 * analysed(name).spectra[q.name].major.max(), q
 
 
@@ -138,7 +139,7 @@ def test_a_balanced_order_is_exactly_zero(name):
 def test_a_small_order_that_is_there_is_not_swallowed(name, order, factor):
     """Eighth orders are 1e-6 to 1e-4 of the first; A_20 is 1e-16."""
     e = example(name)
-    units = textbook(e, np.array([float(order)]))
+    units = find_textbook_units(e, np.array([float(order)]))
     found = analyze(e, [order], only=["force"]).spectra.force
     assert not found.balanced[0]
     assert found.major[0] == pytest.approx(factor * units.force * units.ratios[0], rel=1e-10)
@@ -174,7 +175,7 @@ def test_only_one_quantity(quantity):
     assert (result.force is not None) == (result.moment is not None) == (quantity == "peak")
     assert (result.sizing is not None) == (quantity == "sizing")
     if quantity in KINDS:
-        whole = analysed("vr6").spectra.at(result.orders)[quantity]
+        whole = analysed("vr6").spectra.select_orders(result.orders)[quantity]
         assert np.array_equal(result.spectra[quantity].forward, whole.forward)
 
 
@@ -183,13 +184,13 @@ def test_what_is_not_asked_for_is_not_computed(monkeypatch):
     peak, no others.
     """
     asked = []
-    original = harmonics.of_distinct
+    original = harmonics.find_distinct_harmonics
 
     def spy(orders, *rest, rod=True, energy=True):
         asked.append((list(orders), rod, energy))
         return original(orders, *rest, rod=rod, energy=energy)
 
-    monkeypatch.setattr(harmonics, "of_distinct", spy)
+    monkeypatch.setattr(harmonics, "find_distinct_harmonics", spy)
     analyze(example("i4"), [1, 2], only=["force"])
     assert [(orders, energy) for orders, _, energy in asked] == [([1, 2], False)]
 
@@ -230,7 +231,7 @@ def test_cylinders_and_devices_sum_to_the_engine(name):
     still = replace(
         e, cylinders=replace(e.cylinders, reciprocating=nothing, rotating=nothing, couple=nothing)
     )
-    parts = [spectra(still, result.orders), *(share for _, share in result.cylinders)]
+    parts = [compute_spectra(still, result.orders), *(share for _, share in result.cylinders)]
     for q, whole in result.spectra.items():
         scale = sum(part[q.name].major.max() for part in parts)
         for way in ("forward", "backward"):
@@ -251,7 +252,7 @@ def test_peaks_are_those_of_the_whole_curve(name):
     are shown.
     """
     e, theta = example(name), np.linspace(0, 2 * np.pi, 2881)
-    whole = spectra(e, relevant_orders(e), ("force", "moment"))
+    whole = compute_spectra(e, find_relevant_orders(e), ("force", "moment"))
     for q in ("force", "moment"):
         found, phasors = getattr(analysed(name), q), getattr(whole, q)
         samples = np.abs(phasors.values(theta))
@@ -266,25 +267,3 @@ def test_peak_of_a_single_cylinder_is_at_top_dead_centre():
     found = analyze(e, only=["peak"]).force
     assert found.value == pytest.approx(1.25 * 1 * 0.05 * (20 * np.pi) ** 2, rel=1e-14)
     assert np.cos(found.theta) == pytest.approx(1, abs=1e-12)
-
-
-# ------------------------------------------------------------------ textbook units
-def test_textbook_units():
-    e = engine(crank={"throws": [0, 240, 120], "positions": [0, 80, 200]}, operation={"speed": 600})
-    units = textbook(e, np.array([1.0, 2.0, 3.0]))
-    assert (units.force, units.arm, units.equal) == (
-        pytest.approx(0.05 * (20 * np.pi) ** 2),
-        pytest.approx(0.1),
-        True,
-    )
-    assert list(units.ratios) == list(harmonics.piston([1, 2, 3], 0.25))
-    assert np.isnan(textbook(engine(), np.array([1.0])).arm)
-
-
-def test_textbook_units_of_unequal_cylinders_are_cylinder_1s():
-    e = engine(
-        crank={"throws": [0, 0]}, cylinder={"1": {"piston_mass": 3}}, layout={"numbering": [[2, 1]]}
-    )
-    units = textbook(e, np.array([1.0]))
-    assert units.force == pytest.approx(3 * 0.05 * (2 * np.pi) ** 2)
-    assert not units.equal

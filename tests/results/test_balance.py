@@ -9,17 +9,16 @@ from io import StringIO
 from pathlib import Path
 
 import pytest
+from support.commands import refusal, run_here
 from support.engines import GOOD, changed
-from typer.testing import CliRunner
 
-from balcli.cli import app
+from balcli.core.drilled_hole import STEEL, find_drill_depth
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.enginefile.model import Counterweight, Slider
 from balcli.errors import BalcliError
 from balcli.results.balance import balance
 from balcli.sizing.sizing import SCHEMES, Remedy, Tools, Wish, practical
-from balcli.sizing.workshop import STEEL, drill_depth
 
 SINGLE = changed(
     ("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4")
@@ -34,34 +33,27 @@ def file(tmp_path) -> Path:
 
 
 def run(*arguments: object, text: str | None = None):
-    return CliRunner().invoke(app, ["balance", *map(str, arguments)], input=text)
+    return run_here("balance", *arguments, stdin=text or "")
 
 
 def document(*arguments: object, text: str | None = None) -> dict:
     result = run(*arguments, "--format", "json", text=text)
-    assert result.exit_code == 0, result.output
-    return json.loads(result.stdout)
-
-
-def refusal(*arguments: object, text: str | None = None) -> str:
-    result = run(*arguments, text=text)
-    assert isinstance(result.exception, BalcliError)
-    assert result.stdout == ""
-    return str(result.exception)
+    assert result.status == 0, result.err
+    return json.loads(result.out)
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
 def test_every_scheme_and_format(scheme):
     for form in ("table", "csv", "markdown", "json"):
         result = run("-", "--scheme", scheme, "--format", form, text=SINGLE)
-        assert result.exit_code == 0, result.output
-        assert result.stdout.strip()
+        assert result.status == 0, result.err
+        assert result.out.strip()
 
 
 def test_tables_fit_eighty_columns(monkeypatch):
     for scheme in SCHEMES:
         result = run("-", "--scheme", scheme, "--drill", "10", text=SINGLE)
-        tables = [line for line in result.stdout.splitlines() if set(line) == {"─"}]
+        tables = [line for line in result.out.splitlines() if set(line) == {"─"}]
         assert tables
         assert max(map(len, tables)) <= 80
 
@@ -101,7 +93,7 @@ def test_before_and_after_show_the_same_orders():
 
 
 def test_csv_has_one_figure_a_line(file):
-    rows = list(csv.DictReader(StringIO(run(file, "--format", "csv").stdout)))
+    rows = list(csv.DictReader(StringIO(run(file, "--format", "csv").out)))
     devices = {(r["part"], r["figure"]): r["value"] for r in rows if r["part"].startswith("shaft")}
     assert devices["shaft 1", "ratio"] == "2"
     assert {r["part"] for r in rows} == {"shaft 1", "shaft 2", "before", "after"}
@@ -110,7 +102,7 @@ def test_csv_has_one_figure_a_line(file):
 
 def test_csv_has_what_json_calls_practical_and_details(file):
     options = ("--scheme", "factor", "--factor", "0.5")
-    rows = list(csv.DictReader(StringIO(run(file, *options, "--format", "csv").stdout)))
+    rows = list(csv.DictReader(StringIO(run(file, *options, "--format", "csv").out)))
     found = {(r["part"], r["figure"]): r["value"] for r in rows if not r["quantity"]}
     wanted = document(file, *options)
     for k, shop in enumerate(wanted["practical"], 1):
@@ -129,7 +121,7 @@ def test_csv_has_what_json_calls_practical_and_details(file):
 def test_csv_has_devices_in_the_units_asked_for(file, units, size, length):
     options = ("--scheme", "two-shaft", "--at=-60,80", "--position", "12")
     rows = list(
-        csv.DictReader(StringIO(run(file, *options, "--format", "csv", "--units", units).stdout))
+        csv.DictReader(StringIO(run(file, *options, "--format", "csv", "--units", units).out))
     )
     found = {
         r["figure"]: (float(r["value"]), r["unit"])
@@ -145,19 +137,19 @@ def test_csv_has_devices_in_the_units_asked_for(file, units, size, length):
 
 
 def test_imperial_units(file):
-    assert "oz·in" in run(file, "--units", "imperial").stdout
+    assert "oz·in" in run(file, "--units", "imperial").out
 
 
 def test_uneven_speed_is_said(file):
     file.write_text(GOOD + "speed_ripple = [{ order = 2, amplitude = 0.01 }]\n")
     assert "steady mean speed" in document(file)["details"]["speed"]
-    assert "steady mean speed" in run(file).stdout
+    assert "steady mean speed" in run(file).out
 
 
 def test_written_file_reads_back(file, tmp_path):
     doc = document(file, "--scheme", "auto", "--write", tmp_path / "out.toml")
-    result = CliRunner().invoke(app, ["analyze", str(tmp_path / "out.toml"), "--format", "json"])
-    again = json.loads(result.stdout)
+    result = run_here("analyze", tmp_path / "out.toml", "--format", "json")
+    again = json.loads(result.out)
     same = {o["order"]: o for o in again["orders"]}
     assert again["peak"] == doc["after"]["peak"]
     assert all(same[o["order"]] == o for o in doc["after"]["orders"] if o["order"] in same)
@@ -213,7 +205,7 @@ def test_standard_input_can_be_written(tmp_path):
     ],
 )
 def test_refusals(file, options, told):
-    assert told in refusal(file, *options)
+    assert told in refusal("balance", file, *options)
 
 
 def test_a_rotary_engine_has_no_factor(tmp_path):
@@ -224,17 +216,17 @@ def test_a_rotary_engine_has_no_factor(tmp_path):
         )
     )
     assert "the cylinders turn and the crank pins stand still" in refusal(
-        file, "--scheme", "factor"
+        "balance", file, "--scheme", "factor"
     )
 
 
 def test_the_engine_file_itself_is_never_written(file):
-    assert "choose another name" in refusal(file, "--write", file)
+    assert "choose another name" in refusal("balance", file, "--write", file)
     assert file.read_text() == GOOD
 
 
 def test_a_folder_that_is_not_there(file, tmp_path):
-    assert "not_there" in refusal(file, "--write", tmp_path / "not_there" / "x.toml")
+    assert "not_there" in refusal("balance", file, "--write", tmp_path / "not_there" / "x.toml")
 
 
 # ------------------------------------------------------------------ the workshop
@@ -274,11 +266,11 @@ def test_given_thickness_sets_the_radius():
 
 def test_drill_depth_removes_the_unbalance():
     """Radial hole from the rim: the integral of density times area times radius over its depth."""
-    depth = drill_depth(1e-3, 0.08, 0.012)
+    depth = find_drill_depth(1e-3, 0.08, 0.012)
     area = math.pi / 4 * 0.012**2
     assert STEEL * area * (0.08**2 - (0.08 - depth) ** 2) / 2 == pytest.approx(1e-3, rel=1e-13)
-    assert math.isnan(drill_depth(1.0, 0.08, 0.012))
-    assert drill_depth(0.0, 0.08, 0.012) == 0
+    assert math.isnan(find_drill_depth(1.0, 0.08, 0.012))
+    assert find_drill_depth(0.0, 0.08, 0.012) == 0
 
 
 def test_a_first_guess_of_a_device_in_steel():
@@ -309,8 +301,8 @@ def test_a_hole_ends_at_the_axis():
     no more.
     """
     most = STEEL * math.pi / 4 * 0.01**2 * 0.05**2 / 2
-    assert drill_depth(most * (1 - 1e-14), 0.05, 0.01) == pytest.approx(0.05, rel=1e-6)
-    assert math.isnan(drill_depth(most * (1 + 1e-14), 0.05, 0.01))
+    assert find_drill_depth(most * (1 - 1e-14), 0.05, 0.01) == pytest.approx(0.05, rel=1e-6)
+    assert math.isnan(find_drill_depth(most * (1 + 1e-14), 0.05, 0.01))
 
 
 def test_sliders_move_at_their_order():

@@ -10,13 +10,14 @@ from support.engines import GOOD, changed
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.results.comparison import compare
+from balcli.results.comparison import compare_engines
 
 
 def test_force_of_order_2_goes_with_the_square_of_the_speed() -> None:
     slow, fast = build(parse(GOOD)), build(parse(changed(("speed = 3000", "speed = 6000"))))
     lines = {
-        (line.kind.name, line.order): line for line in compare([slow, fast], ["slow", "fast"]).lines
+        (line.kind.name, line.order): line
+        for line in compare_engines([slow, fast], ["slow", "fast"]).lines
     }
     assert lines["force", 2].ratios == pytest.approx((1, 4))
     assert lines["force", None].ratios == pytest.approx((1, 4))
@@ -35,7 +36,7 @@ def test_orders_of_every_engine_are_shown() -> None:
     )
     lines = {
         (line.kind.name, line.order): line
-        for line in compare([build(parse(GOOD)), six], ["4", "6"], only=["force"]).lines
+        for line in compare_engines([build(parse(GOOD)), six], ["4", "6"], only=["force"]).lines
     }
     assert {order for _, order in lines} >= {1, 2, 4, 6}
     assert lines["force", 6].values[1] > 0
@@ -44,4 +45,4 @@ def test_orders_of_every_engine_are_shown() -> None:
 
 def test_one_engine_is_refused() -> None:
     with pytest.raises(BalcliError, match="name at least two to compare"):
-        compare([build(parse(GOOD))], ["one"])
+        compare_engines([build(parse(GOOD))], ["one"])

@@ -7,10 +7,9 @@ import re
 
 import numpy as np
 import pytest
-from engine.test_articulation import RADIAL
-from typer.testing import CliRunner
+from support.commands import refusal, run_here
+from support.engines import RADIAL
 
-from balcli.cli import app
 from balcli.engine import load as enginefile
 from balcli.errors import BalcliError
 from balcli.results.knuckles import even_knuckles
@@ -77,7 +76,7 @@ def test_an_engine_without_articulated_rods():
 
 # ------------------------------------------------------------------ the command
 def run(*arguments):
-    return CliRunner().invoke(app, ["balance", *map(str, arguments), "--scheme", "knuckles"])
+    return run_here("balance", *arguments, "--scheme", "knuckles")
 
 
 @pytest.mark.parametrize(
@@ -88,7 +87,7 @@ def test_what_is_written_reads_back_as_it_was_analysed(tmp_path, older):
     file.write_text(
         "# a comment\n" + RADIAL.replace("[articulation]\n", f"[articulation] # seven\n{older}")
     )
-    document = json.loads(run(file, "--write", out, "--format", "json").stdout)
+    document = json.loads(run(file, "--write", out, "--format", "json").out)
     assert document["scheme"] == "knuckles"
     assert document["counterweights"] == []
     read = enginefile.read(out)
@@ -101,7 +100,7 @@ def test_an_articulation_in_one_line_is_written_anew(tmp_path):
     file, out = tmp_path / "radial.toml", tmp_path / "even.toml"
     head, table = RADIAL.split("[articulation]")
     file.write_text(f"articulation = {{ {', '.join(table.strip().splitlines())} }}\n{head}")
-    assert run(file, "--write", out).exit_code == 0
+    assert run(file, "--write", out).status == 0
     assert out.read_text().startswith("# Comments and lay-out of the original could not be kept")
     assert np.abs(even_knuckles(enginefile.read(out)).before.top_deg).max() < 1e-9
 
@@ -109,10 +108,10 @@ def test_an_articulation_in_one_line_is_written_anew(tmp_path):
 def test_for_people(tmp_path):
     file = tmp_path / "radial.toml"
     file.write_text(RADIAL)
-    text = run(file, "--even", "strokes", "--speed", "2000").stdout
+    text = run(file, "--even", "strokes", "--speed", "2000").out
     assert "What is changed, and why" in text
     assert "strokes equal to the master's" in text
-    even = run(file).stdout
+    even = run(file).out
     assert re.search(r"(?m)^knuckle angles  0\.0, .* deg$", even)
     assert re.search(r"(?m)^stroke least    120 mm$", even)
     assert re.search(r"(?m)^top least       0\.000 deg$", even)  # and no rounding noise
@@ -125,17 +124,15 @@ def test_for_people(tmp_path):
         (["--order", "2"], "scheme knuckles: has no option but --even"),
     ],
 )
-def test_mistakes(tmp_path, options, message):
+def test_options_that_knuckles_do_not_take_are_refused(tmp_path, options, message):
     file = tmp_path / "radial.toml"
     file.write_text(RADIAL)
-    assert str(run(file, *options).exception) == message
+    assert refusal("balance", file, "--scheme", "knuckles", *options) == message
 
 
 def test_even_without_the_scheme(tmp_path):
     file = tmp_path / "radial.toml"
     file.write_text(RADIAL)
-    result = CliRunner().invoke(app, ["balance", str(file), "--even", "strokes"])
-    assert (
-        str(result.exception)
-        == "--even belongs to --scheme knuckles; scheme auto has no such option"
+    assert refusal("balance", file, "--even", "strokes") == (
+        "--even belongs to --scheme knuckles; scheme auto has no such option"
     )

@@ -10,13 +10,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from oracle import momentum
+from support.commands import refusal, run_here
 
-from balcli.cli import app
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
 from balcli.forces import spectrum
-from balcli.results.two_engines import Arrangement, combine
+from balcli.results.two_engines import Arrangement, combine_engines
 
 ORDERS = np.arange(1.0, 9.0)
 RELATIVE = 1e-12
@@ -62,8 +62,8 @@ def test_two_singles_behind_one_another_are_a_twin(operation):
     )
     single, plain = built(more="[frame]\nreference = [10, -20, 30]\n", operation=operation), built()
     agree(
-        combine(single, plain, Arrangement(110, (0, 0, 0.13)), orders).spectra,
-        spectrum.spectra(twin, orders),
+        combine_engines(single, plain, Arrangement(110, (0, 0, 0.13)), orders).spectra,
+        spectrum.compute_spectra(twin, orders),
     )
 
 
@@ -72,8 +72,8 @@ def test_two_singles_on_one_pin_are_a_vee():
     single = engine.build(
         enginefile.parse("[crank]\nstroke = 90\nthrow_mass = 0.4\n" + PARTS.format(operation=""))
     )
-    found = combine(single, single, Arrangement(-70, turn_deg=70), ORDERS).spectra
-    agree(found, spectrum.spectra(built(more="[layout]\nbanks = [0, 70]\n"), ORDERS))
+    found = combine_engines(single, single, Arrangement(-70, turn_deg=70), ORDERS).spectra
+    agree(found, spectrum.compute_spectra(built(more="[layout]\nbanks = [0, 70]\n"), ORDERS))
 
 
 def test_counter_rotating_cranks_side_by_side():
@@ -81,9 +81,9 @@ def test_counter_rotating_cranks_side_by_side():
     along them add up.
     """
     one = built(more="[[counterweight]]\nunbalance = 70000\nangle = 180\n")
-    both = combine(one, one, Arrangement(at_m=(0, 0.2, 0), reverse=True), ORDERS)
+    both = combine_engines(one, one, Arrangement(at_m=(0, 0.2, 0), reverse=True), ORDERS)
     assert np.allclose(both.spectra.force.y, 0, atol=1e-9)
-    alone = spectrum.spectra(one, ORDERS).force
+    alone = spectrum.compute_spectra(one, ORDERS).force
     assert np.allclose(both.spectra.force.x, 2 * alone.x, rtol=1e-12)
 
 
@@ -97,9 +97,9 @@ def test_mirrored_turned_and_placed_against_curves():
     )
     how = Arrangement(75, (0.2, -0.3, 0.4), 35, True)
     orders = np.arange(1.0, 40.0)
-    both = combine(first, second, how, orders).spectra
-    origin = spectrum.spectra(replace(second, reference_m=(0.0, 0.0, 0.0)), orders)
-    own = spectrum.spectra(first, orders)
+    both = combine_engines(first, second, how, orders).spectra
+    origin = spectrum.compute_spectra(replace(second, reference_m=(0.0, 0.0, 0.0)), orders)
+    own = spectrum.compute_spectra(first, orders)
     theta = np.linspace(0, 2 * np.pi, 50)
     ahead, turn = theta + np.radians(75), np.exp(1j * np.radians(35))
     force = np.conj(origin.force.values(ahead)) * turn
@@ -110,13 +110,83 @@ def test_mirrored_turned_and_placed_against_curves():
         ("force", force),
         ("moment", moment),
         ("couple", couple),
-        ("torque", -origin.torque.values(ahead)),
+        ("torque", origin.torque.values(ahead)),
     ):
         wanted = curve + getattr(own, name).values(theta)
         assert (
             np.abs(getattr(both, name).values(theta) - wanted).max() < 1e-11 * np.abs(wanted).max()
         ), name
     assert np.allclose(both.roll.forward, both.couple.forward - both.torque.forward)
+
+
+def together(lead: int, at: complex, reverse: bool) -> dict[str, np.ndarray]:
+    """Torque about the first crank by the energy of all bodies of both engines, and what the frame
+    feels about the origin, by their angular momentum and by where the load is.
+
+    Args:
+        lead: samples of `momentum.THETA` by which the second engine leads.
+        at: its place.
+    """
+    first, second = (momentum.Engine.read(text) for text in (FIRST, SECOND))
+    bodies = [
+        [(b.place, b.spin + 0 * momentum.THETA, b) for c in e.cylinders.values() for b in c]
+        for e in (first, second)
+    ]
+    back = -1 if reverse else 1
+    for k, (place, spin, body) in enumerate(bodies[1]):
+        ahead, turning = np.roll(place, -lead), back * np.roll(spin, -lead)
+        bodies[1][k] = ((ahead.conj() if reverse else ahead) + at, turning, body)
+    energies, swirl = [], 0 * momentum.THETA
+    for parts in bodies:
+        energy = 0 * momentum.THETA
+        for place, spin, body in parts:
+            velocity = momentum.slope(place)
+            energy = energy + body.mass * np.abs(velocity) ** 2 + body.inertia * spin**2
+            swirl = swirl + body.mass * (place.conj() * velocity).imag + body.inertia * spin
+        energies.append(energy)
+    one, other = (-0.5 * first.speed**2 * momentum.slope(energy) for energy in energies)
+    couple = -(first.speed**2) * momentum.slope(swirl)
+    return {
+        "torque": one + other,
+        "couple": couple,
+        "first": couple - (one + other),
+        "second": couple - back * (one + other),
+        "both": couple - one - back * other,
+    }
+
+
+FIRST = "[crank]\nstroke = 90\n" + PARTS.format(operation="") + "[frame]\nreference = [0, 0, 0]\n"
+SECOND = (
+    "[crank]\nstroke = 70\nthrows = [0, 90]\nspacing = 90\n"
+    + PARTS.format(operation="").replace("offset = 3", "offset = 0")
+    + "[layout]\nbank_angle = 50\n[frame]\nreference = [0, 0, 0]\n"
+)
+
+
+@pytest.mark.parametrize("load", ["first", "second", "both"])
+@pytest.mark.parametrize("reverse", [False, True])
+def test_kinetic_energies_of_geared_engines_add(reverse, load):
+    """Against energy and angular momentum of all bodies together: what the load takes, the frame
+    does not feel.
+    """
+    wanted = together(128, 0.2 - 0.3j, reverse)
+    how = Arrangement(45, (0.2, -0.3, 0), 0, reverse, load)
+    one, other = (engine.build(enginefile.parse(text)) for text in (FIRST, SECOND))
+    found = combine_engines(one, other, how, np.arange(0.0, 60.0)).spectra
+    for name, curve in (
+        ("torque", wanted["torque"]),
+        ("couple", wanted["couple"]),
+        ("roll", wanted[load]),
+    ):
+        values = found[name].values(momentum.THETA).real
+        assert np.abs(values - curve).max() < 1e-9 * np.abs(curve).max(), name
+
+
+def test_equal_cranks_against_each_other_feel_twice_the_torque():
+    single = built()
+    both = combine_engines(single, single, Arrangement(reverse=True), ORDERS).spectra
+    alone = spectrum.compute_spectra(single, ORDERS).torque
+    assert np.allclose(both.torque.forward, 2 * alone.forward, rtol=1e-14)
 
 
 # ------------------------------------------------------------------ the command
@@ -130,14 +200,14 @@ def file(tmp_path):
 
 
 def run(*arguments):
-    return CliRunner().invoke(app, ["sum", *arguments])
+    return run_here("sum", *arguments)
 
 
-def test_json(file):
+def test_the_json_says_how_the_second_engine_stands(file):
     document = json.loads(
         run(
             file, file, "--phase", "180", "--at", "0,0,100", "--orders", "1,2", "--format", "json"
-        ).stdout
+        ).out
     )
     assert document["format"] == "balcli.sum/1"
     assert document["arrangement"] == {
@@ -145,6 +215,7 @@ def test_json(file):
         "at_mm": [0.0, 0.0, 100.0],
         "turn_deg": 0.0,
         "reverse": False,
+        "load": "first",
     }
     assert [entry["order"] for entry in document["orders"]] == [1, 2]
     assert document["orders"][0]["force_N"]["balanced"]
@@ -154,19 +225,32 @@ def test_json(file):
 @pytest.mark.parametrize("form", ["table", "csv", "markdown"])
 def test_other_formats(file, form):
     result = run(file, file, "--reverse", "--turn", "180", "--format", form)
-    assert result.exit_code == 0
-    assert "roll" in result.stdout
+    assert result.status == 0
+    assert "roll" in result.out
+
+
+@pytest.mark.parametrize(
+    ("load", "roll"),
+    [
+        ("first", "It drives the load, and the roll is C − T."),
+        ("second", "The second one drives the load, against its sense: the roll is C + T."),
+        ("both", "Each has its own flywheel and load: the roll is C − T1 + T2."),
+    ],
+)
+def test_what_the_roll_is_stands_under_the_table(file, load, roll):
+    told = "Geared one to one, kinetic energies add: the first crank feels T = T1 + T2. "
+    assert told + roll in run(file, file, "--reverse", "--load", load).out
+    assert told not in run(file, file).out
 
 
 def test_engines_without_a_name_go_by_their_files(file, tmp_path):
     nameless = tmp_path / "twin.toml"
     nameless.write_text(Path(file).read_text().replace('name = "single"', ""))
-    assert run(file, str(nameless)).stdout.startswith(
+    assert run(file, str(nameless)).out.startswith(
         "single and twin\n\nfirst      single, 1 cylinder\n"
     )
     assert [
-        e["name"]
-        for e in json.loads(run(str(nameless), file, "--format", "json").stdout)["engines"]
+        e["name"] for e in json.loads(run(str(nameless), file, "--format", "json").out)["engines"]
     ] == ["twin", "single"]
 
 
@@ -177,8 +261,13 @@ def test_engines_without_a_name_go_by_their_files(file, tmp_path):
         (["--at", "0,nan,1"], '--at "0,nan,1": give three numbers, X,Y,Z in mm, such as 0,300,0'),
         (["--at", "0,2e9,1"], '--at "0,2e9,1": the places may be up to 1e+06 m'),
         (["--phase", "inf"], "--phase inf: give an angle in degrees, up to 1e+06"),
+        (["--load", "third"], '--load "third": choose from first, second, both'),
+        (
+            ["--load", "both"],
+            "--load both: cranks that turn alike roll the frame alike, whichever drives the load; "
+            "it matters with --reverse",
+        ),
     ],
 )
-def test_mistakes(file, options, message):
-    result = run(file, file, *options)
-    assert str(result.exception) == message
+def test_arrangements_that_cannot_be_are_refused(file, options, message):
+    assert refusal("sum", file, file, *options) == message

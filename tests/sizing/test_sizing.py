@@ -18,7 +18,7 @@ from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.enginefile.model import Counterweight
 from balcli.errors import BalcliError
-from balcli.forces.spectrum import spectra
+from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.auto import auto
 from balcli.sizing.effects import Part, Rest, Slot, effect, exactly, rest, solve
 from balcli.sizing.remedy import counterweight, degrees, shaft, slider
@@ -284,7 +284,7 @@ def test_devices_are_summed_in_the_order_of_the_file():
     )
     ranks = [d.rank for d in fitted(engine, auto(engine)).devices]
     assert ranks == sorted(ranks)
-    assert spectra(fitted(engine, auto(engine)), [1], ("force",)).force.balanced.all()
+    assert compute_spectra(fitted(engine, auto(engine)), [1], ("force",)).force.balanced.all()
 
 
 # ------------------------------------------------------------------ all schemes
@@ -517,7 +517,7 @@ def test_what_a_single_plane_leaves_is_said(place):
     """Away from the middle, force and moment both."""
     engine = build(parse(ENGINES["vee"]))
     remedy = remedy_for(engine, "counterweights", Wish(planes=(place,)))
-    after = spectra(fitted(engine, remedy), [1], ("force", "moment"))
+    after = compute_spectra(fitted(engine, remedy), [1], ("force", "moment"))
     assert remedy.details["left_force_N"] == pytest.approx(
         abs(after.force.forward[0]), rel=1e-9, abs=1e-9
     )
@@ -555,7 +555,7 @@ def test_a_single_shaft_stands_where_its_couple_is_smallest(name):
         assert (
             here.details["couple_left_Nm"] <= there.details["couple_left_Nm"] * (1 + 1e-12) + 1e-12
         )
-        left = spectra(fitted(engine, there), [here.order], ("moment", "roll"))
+        left = compute_spectra(fitted(engine, there), [here.order], ("moment", "roll"))
         assert there.details["couple_left_Nm"] == pytest.approx(
             abs(left.moment.backward[0]), rel=1e-9, abs=1e-9
         )
@@ -567,13 +567,13 @@ def test_a_single_shaft_stands_where_its_couple_is_smallest(name):
 def test_sliders_stand_where_the_stronger_part_acts(bank, order):
     """Between the throws, so that it leaves the least moment."""
     engine = build(parse(UNEVEN.replace("bank_angle = 50", f"bank_angle = {bank}")))
-    force = spectra(engine, [order], ("force",)).force
+    force = compute_spectra(engine, [order], ("force",)).force
     stronger = "forward" if abs(force.forward[0]) > abs(force.backward[0]) else "backward"
     place = remedy_for(engine, "slider", Wish(order=order)).sliders[0].position / 1e3
 
     def left(position):
         after = fitted(engine, remedy_for(engine, "slider", Wish(order=order, position=position)))
-        return abs(getattr(spectra(after, [order], ("moment",)).moment, stronger)[0])
+        return abs(getattr(compute_spectra(after, [order], ("moment",)).moment, stronger)[0])
 
     least = left(place) * (1 - 1e-9) - 1e-9
     assert all(
@@ -603,7 +603,7 @@ def test_no_roll_by_the_nearest_places(order, frame):
     wish = Wish(order=order, roll="zero")
     remedy = remedy_for(build(parse(UNEVEN + frame)), "two-shaft", wish)
     before, after = (
-        spectra(e, [order], ("force", "roll")) for e in (at_crank, fitted(at_crank, remedy))
+        compute_spectra(e, [order], ("force", "roll")) for e in (at_crank, fitted(at_crank, remedy))
     )
     assert after.force.balanced.all()
     assert after.roll.major[0] <= 1e-13 * before.roll.major[0]
@@ -626,7 +626,7 @@ def test_a_single_shaft_says_what_force_it_leaves():
     """Of an order that nothing on the crankshaft can take."""
     engine = build(parse(UNEVEN))
     remedy = remedy_for(engine, "single-shaft", Wish(order=2))
-    left = spectra(fitted(engine, remedy), [2], ("force",)).force.forward[0]
+    left = compute_spectra(fitted(engine, remedy), [2], ("force",)).force.forward[0]
     assert remedy.details["force_with_crank_left_N"] == pytest.approx(abs(left), rel=1e-12)
     assert remedy.details["force_with_crank_left_N"] > 1
 
@@ -649,7 +649,9 @@ def test_the_geometry_of_a_pair_in_the_details():
     assert (told["direction_with_crank_deg"], told["direction_against_crank_deg"]) == pytest.approx(
         (90, math.degrees(math.atan2(4, -3)))
     )
-    before, after = (spectra(e, [2], ("moment", "roll")) for e in (engine, fitted(engine, remedy)))
+    before, after = (
+        compute_spectra(e, [2], ("moment", "roll")) for e in (engine, fitted(engine, remedy))
+    )
     assert told["roll_before_Nm"] == pytest.approx(before.roll.major[0], rel=1e-12)
     assert told["roll_left_Nm"] == pytest.approx(after.roll.major[0], rel=1e-12)
     assert told["moment_left_Nm"] == pytest.approx(after.moment.major[0], rel=1e-9)
@@ -701,7 +703,7 @@ def test_couple_shafts_say_what_they_do_and_what_is_left():
         "moment and no force"
         for turning, ratio in (("with", "+1"), ("against", "-1"))
     ]
-    after = spectra(fitted(engine, remedy), [1], ("force", "moment"))
+    after = compute_spectra(fitted(engine, remedy), [1], ("force", "moment"))
     assert after.moment.balanced.all()
     assert (remedy.details["moment_left_Nm"], remedy.details["force_left_N"]) == pytest.approx(
         (0, after.force.major[0]), rel=1e-12
@@ -779,7 +781,7 @@ def test_sliders_lie_along_the_axes_above_minus_90_up_to_90(bank):
 # ------------------------------------------------------------------ the smallest peak
 def forces(engine, quantity="force"):
     """Force of all orders."""
-    return getattr(spectra(engine, np.arange(1, 41), (quantity,)), quantity)
+    return getattr(compute_spectra(engine, np.arange(1, 41), (quantity,)), quantity)
 
 
 @pytest.mark.parametrize("more", ["", "[[counterweight]]\nunbalance = 30000\nangle = 170\n"])
@@ -816,7 +818,7 @@ def test_minimax_knows_its_error(name):
 def test_minimax_puts_its_angles_in_order_after_they_are_wrapped(monkeypatch):
     """A hair before a whole turn is 0, and stands first."""
     found = circle.Circle(3 + 4j, 1e3, np.array([1.0, 4.0, 2 * np.pi - 1e-14]), 0.0)
-    monkeypatch.setattr(circle, "enclosing", lambda curve: found)
+    monkeypatch.setattr(circle, "enclose_curve", lambda curve: found)
     told = remedy_for(build(parse(ENGINES["one"])), "minimax").details
     assert told["reached_deg"] == [0, round(math.degrees(1), 9), round(math.degrees(4), 9)]
 
@@ -833,10 +835,10 @@ def test_minimax_with_nothing_to_fit_says_so_and_fits_no_rounding():
 
 @pytest.mark.parametrize("slip", [-1e-15, 1e-15])
 def test_a_gain_of_rounding_is_none(monkeypatch, slip):
-    exact = circle.enclosing
+    exact = circle.enclose_curve
     monkeypatch.setattr(
         circle,
-        "enclosing",
+        "enclose_curve",
         lambda curve: (found := exact(curve))._replace(radius=found.radius * (1 + slip)),
     )
     told = remedy_for(build(parse(ENGINES["three"])), "minimax", Wish(planes="ends")).details
@@ -853,7 +855,7 @@ def test_minimax_in_several_planes_takes_the_moment_too():
     ) == pytest.approx(
         cmath.rect(one.devices[0].unbalance, math.radians(one.devices[0].angle)), rel=1e-12
     )
-    after = spectra(fitted(engine, several), [1], ("moment",)).moment
+    after = compute_spectra(fitted(engine, several), [1], ("moment",)).moment
     assert abs(after.forward[0]) <= 1e-13 * abs(after.backward[0])
     with pytest.raises(
         BalcliError,

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 from support.engines import GOOD, changed
+from support.paths import ENGINES
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
@@ -31,7 +30,7 @@ def figures(engine):
 @pytest.mark.parametrize("scheme", sorted(set(SCHEMES) - {"eccentric-slider", "oldham"}))
 @pytest.mark.parametrize(
     "path",
-    sorted((Path(__file__).parents[2] / "engines").glob("*.toml"))[::4],
+    sorted(ENGINES.glob("*.toml"))[::4],
     ids=lambda p: p.stem,
 )
 def test_every_written_engine_reads_back_to_exactly_what_was_promised(path, scheme):

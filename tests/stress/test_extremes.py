@@ -6,21 +6,21 @@ Each test holds a bound of `BOUNDS`, as `docs/accuracy.md` prints them.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from support.engines import engine
+from support.paths import DOCS
 
-from balcli.core.mechanisms import harmonics
-from balcli.core.mechanisms.harmonics import EPS
+from balcli.core.mechanisms import closed_form, fourier, harmonics
 from balcli.core.peaks import peak
+from balcli.core.phasors import EPS
 from balcli.engine.build import Engine
 from balcli.errors import InputError
-from balcli.forces.spectrum import Spectra, relevant_orders, spectra
+from balcli.forces.orders import find_relevant_orders
+from balcli.forces.spectrum import Spectra, compute_spectra
 from balcli.results.analysis import analyze
 
 BOUNDS = {  # by row of docs/accuracy.md; roundings, or relative errors
@@ -39,7 +39,7 @@ LAMBDAS = [1e-12, 1e-9, 1e-6, 1e-3, 0.1, 0.28, 0.5, 0.75, 0.9, 0.99, 1 - 1e-5, 1
 HIGH = [255, 256, 4095, 4096]
 SMALLEST = 1e-290  # below which a float has not all its digits
 NEAREST = 1 - 1e-6  # of lambda + |eps|
-PAGE = Path(__file__).parents[2] / "docs" / "accuracy.md"
+PAGE = DOCS / "accuracy.md"
 REVOLVING = 0.05 * (2 * np.pi) ** 2  # m r omega^2 of `kit.engine`: 1 kg, 50 mm, 60 rpm
 
 
@@ -76,7 +76,7 @@ def exact(name: str, n: int, lam: float) -> mp.mpf:
 
 def error(name: str, orders: list[int], lam: float) -> float:
     """Largest relative error; what has to vanish must be 0."""
-    got, worst = getattr(harmonics, name)(orders, lam), 0.0
+    got, worst = getattr(closed_form, name)(orders, lam), 0.0
     for n, value in zip(orders, got, strict=True):
         want = exact(name, n, lam)
         if want == 0:
@@ -124,9 +124,9 @@ def revolution(motion, count: int, orders: list[int]) -> list[list[mp.mpc]]:
     ]
 
 
-def share_of_bound(series: harmonics.Series, row: int, want: list[mp.mpc]) -> float:
+def share_of_bound(series: fourier.Series, row: int, want: list[mp.mpc]) -> float:
     """Largest error as a share of the bound that the product states, which is 16 roundings."""
-    assert harmonics.SAMPLING == BOUNDS["offset pistons"] * EPS == BOUNDS["articulated rods"] * EPS
+    assert fourier.SAMPLING == BOUNDS["offset pistons"] * EPS == BOUNDS["articulated rods"] * EPS
     errors = [
         float(abs(mp.mpmathify(complex(got)) - exact))
         for got, exact in zip(series.c[:, row], want, strict=True)
@@ -166,11 +166,11 @@ def test_offset_mechanisms_keep_the_bound_they_state(lam, eps):
         )
 
     ratio, offset = mp.mpf(lam), mp.mpf(eps)
-    count = harmonics.points(lam, eps)
+    count = harmonics.count_samples(lam, eps)
     orders = [n for n in (0, 1, 2, 3, 7, 24) if n < count // 4]
     with mp.workdps(30):
         want = revolution(motion, count, orders)
-    found = harmonics.sampled(orders, np.array([lam]), np.array([eps]))
+    found = harmonics.sample_harmonics(orders, np.array([lam]), np.array([eps]))
     for name, values in zip(("piston", "rod", "kinetic", "rod_kinetic"), want, strict=True):
         assert share_of_bound(getattr(found, name), 0, values) < 0.6, name
 
@@ -231,9 +231,9 @@ def test_articulated_rods_near_dead_lock_keep_the_bound_they_state(short, master
 
     orders = [0, 1, 2, 3, 7]
     with mp.workdps(30):
-        want = revolution(motion, 2 * c.linkage.highest(c.lam, c.eps), orders)
-    few, which = c.linkage.harmonics(orders, c.lam, c.eps, rod=True, energy=True)
-    found = few.of_rows(which)
+        want = revolution(motion, 2 * c.linkage.find_highest_order(c.lam, c.eps), orders)
+    few, which = c.linkage.find_distinct_harmonics(orders, c.lam, c.eps, rod=True, energy=True)
+    found = few.select_cylinders(which)
     assert share_of_bound(found.piston, row, want[0]) < 0.5
     assert share_of_bound(found.rod, row, want[1]) < 0.5
 
@@ -243,14 +243,14 @@ def test_the_mirror_image_of_an_articulated_rod_has_the_same_bound():
     bounds = []
     for master in (1, 2):
         c = vee(1e-2, master).cylinders
-        few, which = c.linkage.harmonics([1, 2], c.lam, c.eps, rod=True, energy=False)
-        found, row = few.of_rows(which), 2 - master
+        few, which = c.linkage.find_distinct_harmonics([1, 2], c.lam, c.eps, rod=True, energy=False)
+        found, row = few.select_cylinders(which), 2 - master
         bounds.append((found.piston.noise[row], found.rod.noise[row], found.piston.noise[1 - row]))
     assert bounds[0] == pytest.approx(bounds[1], rel=1e-6, abs=0)
 
 
 def test_an_articulated_rod_nearer_to_dead_lock_is_refused_with_the_number():
-    assert len(relevant_orders(vee(2e-6))) == 1 << 15
+    assert len(find_relevant_orders(vee(2e-6))) == 1 << 15
     with pytest.raises(
         InputError, match=r"stands 0\.9999995\d* rod lengths beside .*at most 1 - 1e-06 is allowed"
     ):
@@ -332,7 +332,7 @@ def test_nearer_to_the_lock_is_an_error_with_the_number(ratio, offset, number):
 def three(**parts) -> Spectra:
     """Throws at 0, 120, 240 degrees."""
     crank = {"stroke": 100, "throws": [0, 120, 240], "spacing": 100} | parts.pop("crank", {})
-    return spectra(engine(crank=crank, **parts), np.arange(1.0, 65.0))
+    return compute_spectra(engine(crank=crank, **parts), np.arange(1.0, 65.0))
 
 
 @pytest.mark.parametrize("off", [1e-9, -1e-9, 1e-7, 1e-3])
@@ -342,7 +342,7 @@ def test_throws_that_almost_cancel(off):
     """
     found = three(crank={"throws": [0, 120 + off, 240]})
     true = np.radians((120 + off) - 120)  # exact, of the number that is in the file
-    a = harmonics.piston([1, 2, 4], 0.25)
+    a = closed_form.piston([1, 2, 4], 0.25)
     for n, share in zip((1, 2, 4), a, strict=True):
         want = REVOLVING * abs(share) * 2 * abs(np.sin(n * true / 2))
         assert abs(found.force.major[n - 1] - want) <= BOUNDS[
@@ -372,7 +372,7 @@ def test_whole_turns_and_thirds_cancel_exactly(throws, layout):
 def test_banks_and_throws_of_72_degrees_cancel_exactly(count):
     """Five throws at 72 degrees, and two banks of them: orders 5, 10 .. alone."""
     layout = {"bank_angle": 72} if count == 10 else {}
-    found = spectra(
+    found = compute_spectra(
         engine(
             crank={"stroke": 100, "throws": [0, 144, 216, 288, 72], "spacing": 90}, layout=layout
         ),
@@ -387,7 +387,7 @@ def test_planes_that_almost_coincide(apart):
     """Two opposed pistons `apart` mm: a couple of m r omega^2 times that, to 1e-12 of it (positions
     are sums of halves).
     """
-    found = spectra(
+    found = compute_spectra(
         engine(crank={"stroke": 100, "throws": [0, 180], "positions": [0, apart]}), [1, 2]
     )
     assert found.force.balanced[0]
@@ -398,7 +398,7 @@ def test_planes_that_almost_coincide(apart):
 
 def test_planes_that_almost_coincide_far_from_the_point_of_reference():
     """10 m away, 1e-9 mm is below the rounding of the place itself, and nothing is invented."""
-    found = spectra(
+    found = compute_spectra(
         engine(
             crank={"stroke": 100, "throws": [0, 180], "positions": [1e4, 1e4 + 1e-12]},
             frame={"reference": [0, 0, 0]},
@@ -454,8 +454,8 @@ def test_a_microgram_beside_a_million_tonnes():
         crank={"stroke": 100, "throws": [0, 90]},
         cylinder={"1": {"piston_mass": 1e-9}, "2": {"piston_mass": 1e9}},
     )
-    found = spectra(both, [1, 2, 4])
-    a = harmonics.piston([1, 2, 4], 0.25)
+    found = compute_spectra(both, [1, 2, 4])
+    a = closed_form.piston([1, 2, 4], 0.25)
     assert found.force.major == pytest.approx(1e9 * REVOLVING * np.abs(a), rel=1e-14)
     own = dict(analyze(both, [1, 2, 4], by_cylinder=True, only=["force"]).cylinders)
     assert own[1].force.major == pytest.approx(1e-9 * REVOLVING * np.abs(a), rel=1e-14)
@@ -467,12 +467,12 @@ def test_many_cylinders(count):
     8 n roundings.
     """
     throws = [360 * k / count for k in range(count)]
-    found = spectra(
+    found = compute_spectra(
         engine(crank={"stroke": 100, "throws": throws}, rod={"ratio": 0.999}), np.arange(1.0, 513.0)
     )
     left = found.orders % count == 0
     assert found.force.balanced[~left].all()
-    want = REVOLVING * np.abs(harmonics.piston(found.orders[left], 0.999)) * count
+    want = REVOLVING * np.abs(closed_form.piston(found.orders[left], 0.999)) * count
     assert np.all(
         np.abs(found.force.major[left] - want) <= BOUNDS["many cylinders"] * count * EPS * want
     )
@@ -484,10 +484,10 @@ def test_512_cylinders_at_odd_angles():
     """
     throws = [7.3 * k % 360 for k in range(512)]
     orders = [1, 2, 4, 64, 256]
-    found = spectra(
+    found = compute_spectra(
         engine(crank={"stroke": 100, "throws": throws}, rod={"ratio": 0.999}), orders
     ).force
-    for row, (n, a) in enumerate(zip(orders, harmonics.piston(orders, 0.999), strict=True)):
+    for row, (n, a) in enumerate(zip(orders, closed_form.piston(orders, 0.999), strict=True)):
         want = (
             abs(mp.fsum(mp.expjpi(n * mp.mpf(throw) / 180) for throw in throws))
             * REVOLVING
@@ -505,9 +505,9 @@ def test_peaks_of_32768_orders_and_64_cylinders_are_the_sum_of_all():
 
     def highest(count: int) -> float:
         whole = engine(crank={"stroke": 100, "throws": [0] * count}, rod={"ratio": NEAREST})
-        orders = relevant_orders(whole)
+        orders = find_relevant_orders(whole)
         assert len(orders) == 1 << 15
-        return peak(spectra(whole, orders, ("force",)).force).value
+        return peak(compute_spectra(whole, orders, ("force",)).force).value
 
     assert highest(64) == pytest.approx(64 * highest(1), rel=1e-12)
 

@@ -7,41 +7,26 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from support.commands import run_command
 from support.engines import alone, engine
+from support.paths import ENGINES
 
-from balcli.core.mechanisms.harmonics import EPS
+from balcli.core.phasors import EPS
 from balcli.engine.build import Engine
 from balcli.forces.kinds import KINDS
-from balcli.forces.spectrum import spectra
+from balcli.forces.spectrum import compute_spectra
 
-ENGINES = Path(__file__).parents[2] / "engines"
 ORDERS = np.arange(1.0, 17.0)
 
 
 def output(threads: int) -> bytes:
     names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-    command = [
-        sys.executable,
-        "-m",
-        "balcli",
-        "analyze",
-        str(ENGINES / "vr6.toml"),
-        str(ENGINES / "radial9.toml"),
-        "--format",
-        "json",
-    ]
-    return subprocess.run(
-        command,
-        env=os.environ
-        | dict.fromkeys(names, str(threads))
-        | {"PYTHONPATH": os.pathsep.join(sys.path)},
-        capture_output=True,
-        check=True,
-    ).stdout
+    engines = ENGINES / "vr6.toml", ENGINES / "radial9.toml"
+    limits = dict.fromkeys(names, str(threads))
+    return run_command("analyze", *engines, "--format", "json", env=limits, encoding=None).stdout
 
 
 def test_runs_and_threads_do_not_matter():
@@ -84,7 +69,7 @@ def test_the_order_of_cylinders_in_the_file_does_not_matter(seed):
     (cylinder 1 stays the first).
     """
     order = [0, *(1 + np.random.default_rng(seed).permutation(7)).tolist()]
-    one, other = (spectra(listed(each), ORDERS) for each in (list(range(8)), order))
+    one, other = (compute_spectra(listed(each), ORDERS) for each in (list(range(8)), order))
     for q in KINDS:
         p, o = getattr(one, q), getattr(other, q)
         sizes = sum(getattr(part, q).major for part in alone_each(listed(list(range(8)))))
@@ -94,18 +79,19 @@ def test_the_order_of_cylinders_in_the_file_does_not_matter(seed):
 
 
 def alone_each(whole: Engine) -> list:
-    return [spectra(alone(whole, n), ORDERS) for n in whole.numbers]
+    return [compute_spectra(alone(whole, n), ORDERS) for n in whole.numbers]
 
 
 LARGEST = """
 import tracemalloc
 from support.engines import alone, engine
 from balcli.core.peaks import peak
-from balcli.forces.spectrum import relevant_orders, spectra
+from balcli.forces.orders import find_relevant_orders
+from balcli.forces.spectrum import compute_spectra
 whole = engine(crank={"stroke": 100, "throws": [7.3 * k % 360 for k in range(512)], "spacing": 1}, rod={"ratio": 1 - 1e-6})
-orders = relevant_orders(whole)
+orders = find_relevant_orders(whole)
 tracemalloc.start()
-found = spectra(whole, orders, ["force", "moment"])
+found = compute_spectra(whole, orders, ["force", "moment"])
 assert len(orders) == 32768 and peak(found.force).value > 0 and peak(found.moment).value > 0
 print(tracemalloc.get_traced_memory()[1] / 1e6)
 """

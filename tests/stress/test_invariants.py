@@ -23,7 +23,7 @@ from balcli.core.phasors import Phasors
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
 from balcli.forces.kinds import KINDS
-from balcli.forces.spectrum import Spectra, spectra
+from balcli.forces.spectrum import Spectra, compute_spectra
 
 SCALED = 1e-12
 ORDERS = np.arange(0.0, 9.0)
@@ -133,7 +133,7 @@ def changed(model: Tables, change: Any) -> Tables:
 
 # ------------------------------------------------------------------ comparison
 def found(engine: Engine) -> Spectra:
-    return spectra(engine, ORDERS)
+    return compute_spectra(engine, ORDERS)
 
 
 def sizes(engine: Engine) -> dict[str, float]:

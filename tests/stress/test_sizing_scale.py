@@ -15,7 +15,7 @@ from support.engines import engine_text
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.forces.spectrum import spectra
+from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.auto import auto
 from balcli.sizing.sizing import SCHEMES, Wish, fitted, remedy_for
 
@@ -26,7 +26,10 @@ def share_left(engine: Engine, after: Engine, quantities=("force", "moment")) ->
     """Largest of what is left of orders 1 and 2, against the largest of the same quantity
     before.
     """
-    before, rest = spectra(engine, [1, 2], quantities), spectra(after, [1, 2], quantities)
+    before, rest = (
+        compute_spectra(engine, [1, 2], quantities),
+        compute_spectra(after, [1, 2], quantities),
+    )
     return max(
         float(getattr(rest, q).major.max() / (getattr(before, q).major.max() or 1))
         for q in quantities
@@ -69,7 +72,7 @@ def random_engine(seed: int) -> Engine:
 @example(33446)
 def test_auto_leaves_nothing_in_any_engine(seed):
     engine = random_engine(seed)
-    after = spectra(fitted(engine, auto(engine)), [1, 2], ("force", "moment"))
+    after = compute_spectra(fitted(engine, auto(engine)), [1, 2], ("force", "moment"))
     assert after.force.balanced.all()
     assert after.moment.balanced.all()
 
@@ -79,7 +82,7 @@ def test_pairs_add_no_roll_in_any_engine(seed):
     engine = random_engine(seed)
     remedy = remedy_for(engine, "two-shaft", Wish(order=2, at=(0.05 - 0.03j,)))
     before, after = (
-        spectra(e, [2], ("force", "roll", "torque", "couple"))
+        compute_spectra(e, [2], ("force", "roll", "torque", "couple"))
         for e in (engine, fitted(engine, remedy))
     )
     assert after.force.balanced.all()
@@ -112,15 +115,19 @@ def test_no_scheme_breaks(seed, scheme):
     remedy = remedy_for(engine, scheme, wish)
     assert all(d.unbalance >= 0 and np.isfinite(d.unbalance) for d in remedy.devices)
     assert len(remedy.reasons) == len(remedy.devices)
-    after = spectra(fitted(engine, remedy), [1, 2], ("force", "moment"))
+    after = compute_spectra(fitted(engine, remedy), [1, 2], ("force", "moment"))
     if scheme == "four-shaft":
         assert after.force.balanced.all()
     if scheme == "counterweights":
         assert after.force.forward[0] == after.moment.forward[0] == 0
     if scheme == "slider":
-        assert spectra(fitted(engine, remedy), [remedy.order], ("force",)).force.balanced.all()
+        assert compute_spectra(
+            fitted(engine, remedy), [remedy.order], ("force",)
+        ).force.balanced.all()
     if scheme == "couple-shaft":
-        assert spectra(fitted(engine, remedy), [remedy.order], ("moment",)).moment.balanced.all()
+        assert compute_spectra(
+            fitted(engine, remedy), [remedy.order], ("moment",)
+        ).moment.balanced.all()
 
 
 @pytest.mark.parametrize("light", [1e-3, 1e-6])
@@ -154,7 +161,9 @@ def test_planes_next_to_each_other(apart):
         )
     )
     remedy = remedy_for(engine, "counterweights", Wish(planes=(0.05, 0.05 + apart / 1e3)))
-    before, after = (spectra(e, [1], ("force", "moment")) for e in (engine, fitted(engine, remedy)))
+    before, after = (
+        compute_spectra(e, [1], ("force", "moment")) for e in (engine, fitted(engine, remedy))
+    )
     assert abs(after.moment.forward[0]) <= LEFT * before.moment.major[0]
     assert abs(after.force.forward[0]) * 0.1 <= LEFT * before.moment.major[0]
     system = [[1, 1], [0.05 / (0.05 + apart / 1e3), 1]]  # force, and moment by the longest arm

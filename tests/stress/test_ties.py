@@ -11,11 +11,12 @@ import pytest
 from docs_examples import ROOT
 
 from balcli.engine.load import load, read
-from balcli.forces.crankshaft import inner
-from balcli.forces.quantity import parse
-from balcli.studies.search.objective import Objective
-from balcli.studies.search.search import objective, search
-from balcli.studies.tolerances import Tolerances, scatter
+from balcli.forces.crankshaft import compute_inner_loads
+from balcli.forces.quantity import parse_quantity_list
+from balcli.studies.deviations import Tolerances
+from balcli.studies.search.objective import Objective, parse_objective
+from balcli.studies.search.search import search_arrangements
+from balcli.studies.tolerances import scatter_engine
 
 ENGINES = ROOT / "engines"
 
@@ -23,8 +24,8 @@ ENGINES = ROOT / "engines"
 @pytest.mark.parametrize("name", ["tsinghua_6120q", "tsinghua_eq6100", "v10_split", "vr6"])
 def test_equal_shares_of_a_scatter(name: str) -> None:
     """Parts of one kind stand by their numbers."""
-    quantities = parse("force.1.major,force.2.major,moment.1.major,moment.2.major")
-    for spread in scatter(
+    quantities = parse_quantity_list("force.1.major,force.2.major,moment.1.major,moment.2.major")
+    for spread in scatter_engine(
         read(ENGINES / f"{name}.toml"), Tolerances(mass=0.01), quantities, 10, seed=1
     ).spreads:
         for _, equal in groupby(
@@ -35,7 +36,7 @@ def test_equal_shares_of_a_scatter(name: str) -> None:
 
 
 def test_equal_inner_moments() -> None:
-    bending = inner(load(ENGINES / "flat12.toml")).bending
+    bending = compute_inner_loads(load(ENGINES / "flat12.toml")).bending
     values = np.array([peak.value for peak in bending.peaks])
     assert bending.largest == np.flatnonzero(values >= values.max() * (1 - 1e-12))[0]
 
@@ -46,16 +47,16 @@ def test_equal_arrangements_of_a_search(name: str, monkeypatch: pytest.MonkeyPat
 
     def found() -> list[object]:
         return [
-            one.arrangement
-            for one in search(
-                read(ENGINES / f"{name}.toml"), "throws", objective("moment.1.major"), 10
+            one.design
+            for one in search_arrangements(
+                read(ENGINES / f"{name}.toml"), "throws", parse_objective("moment.1.major"), 10
             ).results
         ]
 
-    before, random, exact = found(), np.random.default_rng(5), Objective.of
+    before, random, exact = found(), np.random.default_rng(5), Objective.evaluate
     monkeypatch.setattr(
         Objective,
-        "of",
+        "evaluate",
         lambda *args: (values := exact(*args)) * (1 + 1e-15 * random.uniform(-1, 1, values.shape)),
     )
     assert found() == before

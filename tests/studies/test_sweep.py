@@ -12,18 +12,24 @@ from support.engines import GOOD, changed
 from balcli.engine.build import build
 from balcli.engine.load import parse as load
 from balcli.errors import BalcliError, InputError
-from balcli.forces.quantity import evaluate
-from balcli.forces.quantity import parse as quantities
+from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
 from balcli.render.sweep import csv_text, json_text
 from balcli.studies.parameters import parse
-from balcli.studies.sweep import Sweep, boxes, check, chunks, columns, grid
+from balcli.studies.sweep import (
+    Sweep,
+    check_corners,
+    divide_grid,
+    evaluate_chunks,
+    evaluate_grid,
+    list_columns,
+)
 
 SAME = 1e-12  # of the largest value of a column
 VEE = changed(
     ("[0, 180, 180, 0]", "[0, 100, 250, 190]"),
     ("firing_order = [1, 3, 4, 2]", "bank_angle = 70\nstagger = 20"),
 )
-EVERYTHING = quantities(
+EVERYTHING = parse_quantity_list(
     "force.1.major,force.2.minor,moment.1.backward,moment.4.x,"
     "couple.3.amplitude,torque.2.amplitude,roll.4.amplitude,peak.force"
 )
@@ -47,7 +53,9 @@ UNSTEADY = "[[operation.speed_ripple]]\norder = 4\namplitude = 0.01\n"
 
 def asked(engine: str, *vary: str, of: str = "") -> Sweep:
     file = load(engine)
-    return Sweep(file, tuple(parse(v, file) for v in vary), quantities(of) if of else EVERYTHING)
+    return Sweep(
+        file, tuple(parse(v, file) for v in vary), parse_quantity_list(of) if of else EVERYTHING
+    )
 
 
 @pytest.mark.parametrize(
@@ -80,13 +88,16 @@ def asked(engine: str, *vary: str, of: str = "") -> Sweep:
 )
 def test_every_variant_is_the_engine_alone(engine: str, vary: tuple[str, ...]) -> None:
     sweep = asked(engine, *vary)
-    found = grid(sweep)
+    found = evaluate_grid(sweep)
     paths = [p.path for p in sweep.parameters]
     variants = [
         dict(zip(paths, values, strict=True))
         for values in product(*(p.values.tolist() for p in sweep.parameters))
     ]
-    alone = [[float(v) for v in evaluate(build(sweep.file, one), EVERYTHING)] for one in variants]
+    alone = [
+        [float(v) for v in evaluate_quantities(build(sweep.file, one), EVERYTHING)]
+        for one in variants
+    ]
     for quantity, values, expected in zip(EVERYTHING, found, np.array(alone).T, strict=True):
         assert values.ravel() == pytest.approx(
             expected, abs=SAME * max(np.abs(expected).max(), 1e-9)
@@ -99,7 +110,7 @@ def test_an_unbalance_of_mass_and_radius_varies_by_either(vary: str) -> None:
     U omega^2.
     """
     sweep = asked(GOOD + "[[counterweight]]\nmass = 0.3\nradius = 40\n", vary, of="force.1.forward")
-    (found,) = evaluate(sweep.engine((slice(None),)), sweep.quantities)
+    (found,) = evaluate_quantities(sweep.engine((slice(None),)), sweep.quantities)
     assert found == pytest.approx([0, 0.3 * 0.040 * (3000 * math.pi / 30) ** 2], rel=1e-14)
 
 
@@ -108,7 +119,7 @@ def test_a_rod_weighed_at_one_end_only_is_refused() -> None:
     with pytest.raises(
         InputError, match=r"rod\.big_end: needs small_end beside it: weigh the rod at both ends"
     ):
-        check(asked(light, "rod.big_end=0.1,0.2"))
+        check_corners(asked(light, "rod.big_end=0.1,0.2"))
 
 
 def test_what_does_not_vary_is_not_computed_again() -> None:
@@ -123,7 +134,7 @@ def test_what_does_not_vary_is_not_computed_again() -> None:
 @pytest.mark.parametrize("most", [1, 4, 10, 1000])
 def test_boxes_cover_the_grid_in_the_order_of_rows(shape: tuple[int, ...], most: int) -> None:
     numbers = np.arange(math.prod(shape)).reshape(shape)
-    parts = [numbers[box].ravel() for box in boxes(shape, most)]
+    parts = [numbers[box].ravel() for box in divide_grid(shape, most)]
     assert np.concatenate(parts).tolist() == list(range(numbers.size))
     assert max(map(len, parts)) <= most
 
@@ -135,19 +146,19 @@ def test_chunks_do_not_change_figures() -> None:
         "rod.ratio=0.2:0.399:0.001",
         of="force.2.major,moment.1.backward",
     )
-    several = list(chunks(sweep))
+    several = list(evaluate_chunks(sweep))
     assert len(several) == 2
-    every = np.concatenate([np.stack(columns(sweep, chunk)) for chunk in several], axis=1)
+    every = np.concatenate([np.stack(list_columns(sweep, chunk)) for chunk in several], axis=1)
     assert every.shape == (4, 36_000)
-    whole = np.stack(grid(sweep)).reshape(2, -1)
+    whole = np.stack(evaluate_grid(sweep)).reshape(2, -1)
     assert np.array_equal(every[2:], whole)
     assert every[:2, [0, 1, 200, -1]].T.tolist() == [[0, 0.2], [0, 0.201], [1, 0.2], [179, 0.399]]
 
 
 def test_csv_is_exact_and_an_axis_that_is_none_an_empty_cell() -> None:
     sweep = asked(GOOD, "piston.mass=0.1,0.5", of="force.2.major,force.2.axis,force.1.axis")
-    text = "".join(csv_text(sweep, chunks(sweep)))
-    force = [repr(float(v)) for v in grid(sweep)[0]]
+    text = "".join(csv_text(sweep, evaluate_chunks(sweep)))
+    force = [repr(float(v)) for v in evaluate_grid(sweep)[0]]
     assert (
         text
         == f"piston.mass,force.2.major,force.2.axis,force.1.axis\n0.1,{force[0]},0.0,\n0.5,{force[1]},0.0,\n"
@@ -158,7 +169,7 @@ def test_json_is_one_document() -> None:
     import json
 
     sweep = asked(GOOD, "piston.mass=0.1,0.5", of="force.2.major,force.1.axis")
-    document = json.loads("".join(json_text(sweep, chunks(sweep))))
+    document = json.loads("".join(json_text(sweep, evaluate_chunks(sweep))))
     assert document["format"] == "balcli.sweep/1"
     assert document["columns"] == ["piston.mass", "force.2.major", "force.1.axis"]
     assert [row[0] for row in document["rows"]] == [0.1, 0.5]
@@ -167,12 +178,12 @@ def test_json_is_one_document() -> None:
 
 def test_a_variant_that_cannot_turn_is_found_before_anything_is_computed() -> None:
     with pytest.raises(InputError, match=r"rod.length: the crank cannot turn: .* lambda = 1.25"):
-        check(asked(GOOD, "crank.stroke=80:400:1"))
+        check_corners(asked(GOOD, "crank.stroke=80:400:1"))
 
 
 def test_a_picture_of_too_many_variants_is_refused() -> None:
     with pytest.raises(BalcliError, match="4004001 variants are too many for one picture"):
-        grid(asked(GOOD, "piston.mass=0:2:0.001", "crank.stroke=80:100:0.01"))
+        evaluate_grid(asked(GOOD, "piston.mass=0:2:0.001", "crank.stroke=80:100:0.01"))
 
 
 def test_cluster_gives_identical_rows() -> None:
@@ -191,5 +202,5 @@ def test_cluster_gives_identical_rows() -> None:
         ) as local,
         distributed.Client(local) as client,
     ):
-        there = "".join(csv_text(sweep, cluster.chunks(sweep, client)))
-    assert there == "".join(csv_text(sweep, chunks(sweep)))
+        there = "".join(csv_text(sweep, cluster.evaluate_on_cluster(sweep, client)))
+    assert there == "".join(csv_text(sweep, evaluate_chunks(sweep)))

@@ -11,10 +11,11 @@ from support.engines import GOOD, RADIAL, changed
 from balcli.engine.build import build
 from balcli.engine.load import parse as load
 from balcli.errors import BalcliError
-from balcli.forces.quantity import evaluate, parse
-from balcli.studies.tolerances import Tolerances, scatter, tolerances
+from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
+from balcli.studies.deviations import Tolerances
+from balcli.studies.tolerances import parse_tolerances, scatter_engine
 
-FORCES = parse("force.1.major,force.2.major,moment.1.major")
+FORCES = parse_quantity_list("force.1.major,force.2.major,moment.1.major")
 TWIN = changed(
     ("[0, 180, 180, 0]", "[0, 180]"),
     ("throw_mass = 0.8", ""),
@@ -28,8 +29,8 @@ def test_two_pistons_alone_have_a_triangular_difference() -> None:
     uniform d of +-t: its mean is 2t/3.
     """
     t, samples = 0.01, 200_000
-    (spread,) = scatter(
-        load(TWIN), Tolerances(mass=t), parse("force.1.major"), samples, seed=1
+    (spread,) = scatter_engine(
+        load(TWIN), Tolerances(mass=t), parse_quantity_list("force.1.major"), samples, seed=1
     ).spreads
     whole = 0.5 * 0.045 * (3000 * math.pi / 30) ** 2
     deviation = t * math.sqrt(2 / 9) / math.sqrt(samples)  # of the mean of |d1 - d2|
@@ -40,13 +41,14 @@ def test_two_pistons_alone_have_a_triangular_difference() -> None:
 
 
 def test_shares_are_what_a_changed_file_gives() -> None:
-    (spread,) = scatter(
-        load(GOOD), Tolerances(mass=0.01), parse("force.2.major"), 10, seed=1
+    (spread,) = scatter_engine(
+        load(GOOD), Tolerances(mass=0.01), parse_quantity_list("force.2.major"), 10, seed=1
     ).spreads
     share = {source.name: value for source, value in spread.shares}
     heavier = build(load(GOOD + "[cylinder.2]\npiston_mass = 0.505\n"))
     nominal, other = (
-        float(evaluate(e, parse("force.2.major"))[0]) for e in (build(load(GOOD)), heavier)
+        float(evaluate_quantities(e, parse_quantity_list("force.2.major"))[0])
+        for e in (build(load(GOOD)), heavier)
     )
     assert share["piston mass 2"] == pytest.approx(other - nominal, rel=1e-9)
     assert spread.nominal == pytest.approx(nominal, rel=1e-14)
@@ -54,13 +56,18 @@ def test_shares_are_what_a_changed_file_gives() -> None:
 
 def test_shares_of_angles_and_lengths_are_derivatives() -> None:
     weighed = changed(("mass = 0.6\ncg = 45\n", "small_end = 0.17\nbig_end = 0.43\n"))
-    (spread,) = scatter(
-        load(weighed), Tolerances(length=1e-6, angle_deg=1e-5), parse("force.2.major"), 10, seed=1
+    (spread,) = scatter_engine(
+        load(weighed),
+        Tolerances(length=1e-6, angle_deg=1e-5),
+        parse_quantity_list("force.2.major"),
+        10,
+        seed=1,
     ).spreads
     share = {source.name: value for source, value in spread.shares}
     longer = build(load(weighed + "[cylinder.3]\nrod_length = 160.00016\n"))
     nominal, other = (
-        float(evaluate(e, parse("force.2.major"))[0]) for e in (build(load(weighed)), longer)
+        float(evaluate_quantities(e, parse_quantity_list("force.2.major"))[0])
+        for e in (build(load(weighed)), longer)
     )
     assert share["rod length 3"] == pytest.approx(other - nominal, rel=1e-4)
     assert (
@@ -70,7 +77,9 @@ def test_shares_of_angles_and_lengths_are_derivatives() -> None:
 
 def test_nothing_exceeds_the_bound_of_masses() -> None:
     for shape in ("uniform", "normal"):
-        result = scatter(load(GOOD), Tolerances(mass=0.02), FORCES, 5000, seed=3, shape=shape)
+        result = scatter_engine(
+            load(GOOD), Tolerances(mass=0.02), FORCES, 5000, seed=3, shape=shape
+        )
         for s in result.spreads:
             assert s.percentiles["p05"] <= s.percentiles["p50"] <= s.percentiles["p95"] <= s.largest
             assert shape == "normal" or s.largest <= s.bound * (1 + 1e-12)
@@ -78,15 +87,16 @@ def test_nothing_exceeds_the_bound_of_masses() -> None:
 
 def test_a_seed_repeats_and_chunks_do_not_matter() -> None:
     runs = [
-        scatter(load(GOOD), Tolerances(mass=0.01), FORCES, 20_000, seed=seed) for seed in (7, 7, 8)
+        scatter_engine(load(GOOD), Tolerances(mass=0.01), FORCES, 20_000, seed=seed)
+        for seed in (7, 7, 8)
     ]
     assert runs[0].spreads == runs[1].spreads
     assert runs[0].spreads[0].mean != runs[2].spreads[0].mean
 
 
 def test_tolerances_in_words() -> None:
-    assert tolerances("0.5%", "0 %", "0.2 deg") == Tolerances(0.005, 0.0, 0.2)
-    assert tolerances("1%", "0%", "0.1").angle_deg == 0.1
+    assert parse_tolerances("0.5%", "0 %", "0.2 deg") == Tolerances(0.005, 0.0, 0.2)
+    assert parse_tolerances("1%", "0%", "0.1").angle_deg == 0.1
 
 
 @pytest.mark.parametrize(
@@ -100,7 +110,7 @@ def test_tolerances_in_words() -> None:
 )
 def test_mistakes_in_words(given: tuple[str, str, str], message: str) -> None:
     with pytest.raises(BalcliError) as caught:
-        tolerances(*given)
+        parse_tolerances(*given)
     assert str(caught.value).startswith(message)
 
 
@@ -112,14 +122,18 @@ def test_mistakes_in_words(given: tuple[str, str, str], message: str) -> None:
         (Tolerances(0.01), "force.1.major", 0, "0 samples: from 1 to 20000000 are allowed"),
     ],
 )
-def test_refusals(tolerance: Tolerances, quantity: str, samples: int, message: str) -> None:
+def test_what_cannot_be_scattered_is_told(
+    tolerance: Tolerances, quantity: str, samples: int, message: str
+) -> None:
     with pytest.raises(BalcliError) as caught:
-        scatter(load(GOOD), tolerance, parse(quantity), samples)
+        scatter_engine(load(GOOD), tolerance, parse_quantity_list(quantity), samples)
     assert str(caught.value).startswith(message)
 
 
 def test_percentiles_are_those_of_the_samples() -> None:
-    result = scatter(load(TWIN), Tolerances(mass=0.01), parse("force.1.major"), 50_000, seed=1)
+    result = scatter_engine(
+        load(TWIN), Tolerances(mass=0.01), parse_quantity_list("force.1.major"), 50_000, seed=1
+    )
     whole = 0.5 * 0.045 * (3000 * math.pi / 30) ** 2
     median = (
         0.01 * (2 - math.sqrt(2)) * whole
@@ -133,13 +147,15 @@ ARTICULATED = RADIAL.replace("radial = 7", "radial = 5").replace("cg = 90", "cg 
 
 def test_an_articulated_rods_mass_deviates_at_its_knuckle_pin_too() -> None:
     def force(text: str) -> float:
-        return float(evaluate(build(load(text)), parse("force.1.major"))[0])
+        return float(
+            evaluate_quantities(build(load(text)), parse_quantity_list("force.1.major"))[0]
+        )
 
     heavier = force(ARTICULATED + "[cylinder.3]\nrod_mass = 0.6231\nrod_cg = 30\n") - force(
         ARTICULATED
     )
-    (found,) = scatter(
-        load(ARTICULATED), Tolerances(mass=0.005), parse("force.1.major"), 10, 1
+    (found,) = scatter_engine(
+        load(ARTICULATED), Tolerances(mass=0.005), parse_quantity_list("force.1.major"), 10, 1
     ).spreads
     assert {s.name: share for s, share in found.shares}["rod mass 3"] == pytest.approx(
         heavier, rel=1e-3
@@ -151,4 +167,6 @@ def test_rotary_engines_have_no_scatter() -> None:
     with pytest.raises(
         BalcliError, match="there is no scatter of rotary engines, whose masses move on curves"
     ):
-        scatter(load(rotary), Tolerances(mass=0.005), parse("force.1.major"), 10, 1)
+        scatter_engine(
+            load(rotary), Tolerances(mass=0.005), parse_quantity_list("force.1.major"), 10, 1
+        )

@@ -46,6 +46,43 @@ rod = { length = 188, mass = 0.62, cg = 90 }
 """
 
 
+INLINE = """\
+[crank]
+stroke = 90
+throws = {throws}
+spacing = 100
+throw_mass = 1.0
+[rod]
+length = 160
+mass = 0.6
+cg = 45
+inertia = 2000
+[piston]
+mass = 0.5
+[layout]
+{layout}
+[operation]
+speed = 3000
+"""
+
+GNOME = """\
+[crank]
+stroke = 120
+throw_mass = 3
+[rod]
+length = 230
+mass = 0.9
+cg = 70
+inertia = 7000
+[piston]
+mass = 0.8
+offset = {offset}
+[layout]
+{layout}
+rotary = true
+"""
+
+
 def changed(*replacements: tuple[str, str], more: str = "") -> str:
     """GOOD with each old text (which must be there) replaced by the new one, and `more` at its
     end.
@@ -81,10 +118,25 @@ def engine(**parts: dict[str, Any] | list[dict[str, Any]]) -> Engine:
     """The same, built: through TOML and the loader, as a user's file would be."""
     import tomli_w
 
+    return build_text(tomli_w.dumps(tables(**parts)))
+
+
+def build_text(text: str) -> Engine:
+    """The engine of a file's text."""
     from balcli.engine.build import build
     from balcli.engine.load import parse
 
-    return build(parse(tomli_w.dumps(tables(**parts))))
+    return build(parse(text))
+
+
+def inline_engine(throws: list[float], layout: str = "", more: str = "") -> Engine:
+    """Cylinders 100 mm apart; lines of [layout], and tables at the end of the file."""
+    return build_text(INLINE.format(throws=throws, layout=layout) + more)
+
+
+def rotary_engine(layout: str = "radial = 7", offset: float = 0, more: str = "") -> Engine:
+    """Cylinders that turn about a crank standing still; as above."""
+    return build_text(GNOME.format(layout=layout, offset=offset) + more)
 
 
 def refused(**parts: dict[str, Any] | list[dict[str, Any]]) -> str:

@@ -10,10 +10,10 @@ from math import sqrt
 import numpy as np
 import pytest
 
-from balcli.core.mechanisms import harmonics
+from balcli.core.mechanisms import closed_form
 from balcli.core.mechanisms import power_series as series
 from balcli.core.phasors import unit
-from balcli.tables import recompute
+from balcli.tables.registry import recompute
 
 LAM = np.array([1 / 6, 1 / 4])
 
@@ -27,15 +27,15 @@ def percent(coefficients, n, first):
 
 def test_force_orders_relative_to_the_first():
     """After Table I: 17 to 25 %, 0.1 to 0.4 %, 0.00 to 0.01 %."""
-    assert percent(harmonics.piston, 2, 1) == pytest.approx([16.78, 25.40], abs=0.005)
-    assert percent(harmonics.piston, 4, 1) == [0.1182, 0.4098]
-    assert percent(harmonics.piston, 6, 1) == pytest.approx([0.00094, 0.00744], abs=6e-5)
+    assert percent(closed_form.piston, 2, 1) == pytest.approx([16.78, 25.40], abs=0.005)
+    assert percent(closed_form.piston, 4, 1) == [0.1182, 0.4098]
+    assert percent(closed_form.piston, 6, 1) == pytest.approx([0.00094, 0.00744], abs=6e-5)
 
 
 def test_rod_moments_relative_to_the_first():
     """After (32): 2.4 to 1 % and 0.05 to 0.01 % (print: 0.04 to 0.00)."""
-    assert percent(harmonics.rod, 3, 1) == pytest.approx([1.055, 2.410], abs=6e-4)
-    assert percent(harmonics.rod, 5, 1) == pytest.approx([0.0093, 0.0485], abs=6e-5)
+    assert percent(closed_form.rod, 3, 1) == pytest.approx([1.055, 2.410], abs=6e-4)
+    assert percent(closed_form.rod, 5, 1) == pytest.approx([0.0093, 0.0485], abs=6e-5)
 
 
 def test_wrong_coefficients_of_the_series():
@@ -47,8 +47,8 @@ def test_wrong_coefficients_of_the_series():
 @pytest.mark.parametrize(
     ("coefficients", "terms", "orders"),
     [
-        (harmonics.piston, series.piston, (2, 4, 6, 8)),
-        (harmonics.rod, series.rod, (1, 3, 5, 7)),
+        (closed_form.piston, series.piston, (2, 4, 6, 8)),
+        (closed_form.rod, series.rod, (1, 3, 5, 7)),
     ],
 )
 def test_tables_i_and_ii_agree_with_the_series(coefficients, terms, orders):

@@ -11,9 +11,9 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
-from balcli.core.mechanisms import harmonics
+from balcli.core.mechanisms import closed_form
 from balcli.core.mechanisms import power_series as series
-from balcli.tables import recompute
+from balcli.tables.registry import recompute
 
 P = 2 / 7
 OMEGA = 4000 * 2 * pi / 60
@@ -29,7 +29,7 @@ def test_small_coefficients_at_p_0_3():
     """a_6 = 0.00019 (0.000190081 in two terms, 0.000191937 in all), a_8 = -4.27e-6 in one term,
     -5.027e-6 in all.
     """
-    a6, a8 = harmonics.piston([6, 8], 0.3)
+    a6, a8 = closed_form.piston([6, 8], 0.3)
     assert float(a6) == pytest.approx(1.91937e-4, rel=1e-5)
     assert float(a8) == pytest.approx(-5.0272e-6, rel=1e-5)
     assert sum(float(c) * 0.3**p for p, c in series.piston(6, 7).items()) == pytest.approx(

@@ -14,8 +14,8 @@ import pytest
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
-from balcli.forces.spectrum import spectra
-from balcli.tables import recompute
+from balcli.forces.spectrum import compute_spectra
+from balcli.tables.registry import recompute
 
 GAMMA = np.radians(np.arange(0.0, 180.0, 0.01))
 
@@ -45,10 +45,10 @@ def flat_plane(gamma):
 
 def vectors(gamma):
     """|V+| and |V-| of the second order over 4 m r omega^2 A_2 = K, from the engine itself."""
-    from balcli.core.mechanisms.harmonics import piston
+    from balcli.core.mechanisms.closed_form import piston
 
     engine = flat_plane(gamma)
-    force = spectra(engine, [2], ["force"]).force
+    force = compute_spectra(engine, [2], ["force"]).force
     k = 4 * 0.5 * 0.04 * engine.omega**2 * float(piston([2], 0.28)[0])
     return abs(force.forward[0]) / k, abs(force.backward[0]) / k
 

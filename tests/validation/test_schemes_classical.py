@@ -11,17 +11,17 @@ import numpy as np
 import pytest
 from support.engines import engine_text
 
-from balcli.core.mechanisms import harmonics
+from balcli.core.mechanisms import closed_form
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.forces.spectrum import spectra
+from balcli.forces.spectrum import compute_spectra
 from balcli.results.analysis import analyze
 from balcli.sizing.auto import auto
 from balcli.sizing.sizing import Wish, fitted, remedy_for
 
 M, R, LAM = 1.0, 0.05, 0.25
-A2 = float(harmonics.piston([2], LAM)[0])
+A2 = float(closed_form.piston([2], LAM)[0])
 
 
 def engine(
@@ -37,7 +37,7 @@ CROSS_V8 = engine([0, 90, 270, 180], layout="bank_angle = 90")
 
 
 def left(e: Engine, orders=(1, 2), quantities=("force", "moment", "roll")):
-    return spectra(e, list(orders), quantities)
+    return compute_spectra(e, list(orders), quantities)
 
 
 def sizes(tables) -> list[float]:
@@ -181,7 +181,7 @@ def test_shafts_at_different_heights_take_the_roll():
     Inertia torque of order 2 of one cylinder: `1/2 m r^2 K_2 2 sin 2 theta` with K_2 the
     coefficient of (s'/r)^2; four of them.
     """
-    inertia_torque = 4 * M * R**2 * abs(float(harmonics.kinetic([2], LAM)[0]))  # per omega^2
+    inertia_torque = 4 * M * R**2 * abs(float(closed_form.kinetic([2], LAM)[0]))  # per omega^2
     height = inertia_torque / (4 * A2 * M * R / 2)  # force of one shaft
     remedy = remedy_for(INLINE_4, "two-shaft", Wish(roll="zero"))
     place = {s.ratio: complex(*s.at) / 1e3 for s in remedy.shafts}

@@ -15,14 +15,14 @@ import numpy as np
 import pytest
 from support.engines import engine_text
 
-from balcli.core.mechanisms import harmonics
+from balcli.core.mechanisms import closed_form
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
-from balcli.forces.spectrum import spectra
+from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.sizing import Wish, fitted, remedy_for
 
 K = (
-    4 * float(harmonics.piston([2], 0.25)[0]) * 1.0 * 0.05
+    4 * float(closed_form.piston([2], 0.25)[0]) * 1.0 * 0.05
 )  # per omega^2 (kg m): A2 m r, four cylinders in a row
 EVERY_ANGLE = [0, 15, 30, 45, 59, 60, 61, 75, 90, 105, 120, 135, 150, 165, 179, 180]
 
@@ -56,7 +56,7 @@ def test_shafts_cancel_both_rotating_vectors_at_every_bank_angle(gamma):
         K * abs(math.cos(half)), abs=1e-13 * K
     )  # (2 omega)^2 = 4 omega^2
     assert abs(found.get(-2, 0j)) * 4 == pytest.approx(K * abs(math.cos(3 * half)), abs=1e-13 * K)
-    after = spectra(
+    after = compute_spectra(
         fitted(engine, remedy_for(engine, "two-shaft", Wish(order=2))), [2], ("force", "moment")
     )
     assert after.force.balanced.all()
@@ -78,7 +78,9 @@ def test_places_that_add_no_roll(gamma):
     assert between == pytest.approx(
         round(between), abs=1e-12
     )  # (4.1); his x is our y: k odd and even swap
-    rolls = [spectra(e, [2], ("roll",)).roll.forward[0] for e in (engine, fitted(engine, remedy))]
+    rolls = [
+        compute_spectra(e, [2], ("roll",)).roll.forward[0] for e in (engine, fitted(engine, remedy))
+    ]
     assert abs(rolls[1] - rolls[0]) <= 1e-13 * K * engine.omega**2 * 0.1
 
 

@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 from support.engines import engine_text
 
-from balcli.core.mechanisms import harmonics, slidercrank
+from balcli.core.mechanisms import closed_form, slidercrank
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.forces.spectrum import spectra
+from balcli.forces.spectrum import compute_spectra
 from balcli.results.analysis import analyze
 from balcli.sizing import eccentric_slider as eccentric
 from balcli.sizing.sizing import Wish, fitted, remedy_for
@@ -155,10 +155,10 @@ def test_eccentric_slider_leaves_its_residual():
     """
     engine = single(0.25)
     remedy = remedy_for(engine, "eccentric-slider")
-    left = spectra(fitted(engine, remedy), np.arange(1.0, 12), ("force",)).force
+    left = compute_spectra(fitted(engine, remedy), np.arange(1.0, 12), ("force",)).force
     theta = np.linspace(0, 2 * np.pi, 3601)
     force = left.values(theta).real / (M * R * engine.omega**2)
-    exact = harmonics.piston(np.arange(1.0, 12), 0.25)
+    exact = closed_form.piston(np.arange(1.0, 12), 0.25)
     two_terms = sum(
         (a - (1 if n == 1 else 0.25 if n == 2 else 0)) * np.cos(n * theta)
         for n, a in enumerate(exact, 1)
@@ -188,7 +188,7 @@ def test_eccentric_slider_of_any_mass_in_any_direction():
     assert weight.unbalance / 1e6 == pytest.approx(0.7 * R, rel=1e-12)
     assert all(device.place == 0 for device in remedy.beyond)
     one, many = (
-        spectra(
+        compute_spectra(
             fitted(e, remedy_for(e, "eccentric-slider")), np.arange(0.0, 12), ("force", "moment")
         )
         for e in (plain, other)
@@ -235,12 +235,12 @@ def test_shafts_of_variable_speed_leave_only_what_turns_with_the_throw_to_the_co
 def test_oldham_couplings_cancel_orders_1_and_2(bank):
     engine = single(0.3, layout=f"banks = [{bank}]")
     remedy = remedy_for(engine, "oldham")
-    assert spectra(fitted(engine, remedy), [1, 2], ("force",)).force.balanced.all()
+    assert compute_spectra(fitted(engine, remedy), [1, 2], ("force",)).force.balanced.all()
     (weight,) = remedy.counterweights
     assert weight.unbalance / 1e6 == pytest.approx(0.7 * R, rel=1e-13)
     assert remedy.details["first_order_kg_m"] == pytest.approx(M * R / 2, rel=1e-14)
     assert remedy.details["block_kg_m"] == pytest.approx(
-        float(harmonics.piston([2], 0.3)[0]) * M * R / 8, rel=1e-14
+        float(closed_form.piston([2], 0.3)[0]) * M * R / 8, rel=1e-14
     )
     assert all(device.place == 0 for device in remedy.beyond)
 
@@ -248,7 +248,7 @@ def test_oldham_couplings_cancel_orders_1_and_2(bank):
 def test_oldham_couplings_suit_an_offset_too():
     """The two vectors of an order then differ in phase."""
     engine = single(0.3, layout="banks = [20]", piston="mass = 1\noffset = 6")
-    assert spectra(
+    assert compute_spectra(
         fitted(engine, remedy_for(engine, "oldham")), [1, 2], ("force",)
     ).force.balanced.all()
 
@@ -258,7 +258,7 @@ def test_two_and_four_shafts():
     crank); (2.2) A2 m r / 8.
     """
     shafts = {s.ratio: s.unbalance / 1e6 for s in remedy_for(single(), "four-shaft").shafts}
-    second = float(harmonics.piston([2], 0.25)[0]) * M * R / 8
+    second = float(closed_form.piston([2], 0.25)[0]) * M * R / 8
     assert shafts == pytest.approx(
         {-1: M * R / 2, 1: M * R / 2 + 0.7 * R, -2: second, 2: second}, rel=1e-14
     )
@@ -273,7 +273,7 @@ def test_single_shaft_leaves_a_couple():
     couple = 0.08 * M * R / 2 * engine.omega**2
     assert remedy.details["couple_left_Nm"] == pytest.approx(couple, rel=1e-14)
     assert remedy.details["axial_distance_mm"] == pytest.approx(80)
-    left = spectra(fitted(engine, remedy), [1], ("force", "moment"))
+    left = compute_spectra(fitted(engine, remedy), [1], ("force", "moment"))
     assert left.force.balanced.all()
     assert (abs(left.moment.backward[0]), left.moment.forward[0]) == (
         pytest.approx(couple, rel=1e-14),
@@ -301,8 +301,8 @@ def test_overbalance_optimum_of_both_orders(lam, peak, k):
     engine = single(lam)
     (weight,) = remedy_for(engine, "minimax").counterweights
     found = analyze(after(engine, "minimax"), only=["peak"]).force.value / (M * R * engine.omega**2)
-    rest = sum(abs(float(a)) for a in harmonics.piston([4, 6, 8], lam)) + abs(
-        float(harmonics.piston([2], lam)[0]) - lam
+    rest = sum(abs(float(a)) for a in closed_form.piston([4, 6, 8], lam)) + abs(
+        float(closed_form.piston([2], lam)[0]) - lam
     )
     assert found == pytest.approx(peak, abs=rest)
     assert weight.unbalance / 1e6 / (M * R) - 0.7 == pytest.approx(k, abs=2 * rest)
@@ -311,7 +311,7 @@ def test_overbalance_optimum_of_both_orders(lam, peak, k):
 
 def test_half_balance_leaves_half():
     """(36): k = 1/2 leaves J/2 turning against the crank."""
-    left = spectra(after(single(), "factor", factor=(0.5,)), [1], ("force",)).force
+    left = compute_spectra(after(single(), "factor", factor=(0.5,)), [1], ("force",)).force
     assert left.forward[0] == 0
     assert abs(left.backward[0]) == pytest.approx(M * R / 2 * single().omega ** 2, rel=1e-14)
 
@@ -337,6 +337,6 @@ def test_overbalance_figures_are_those_of_the_ellipse():
             f"[[counterweight]]\nunbalance = {1e6 * (0.7 * R)}\nangle = 180\n"
             f"[[counterweight]]\nunbalance = {1e6 * k * R}\nangle = {180 + alpha}\n"
         )
-        force = spectra(single(more=weight), [1], ("force",)).force
+        force = compute_spectra(single(more=weight), [1], ("force",)).force
         wanted = (1 + math.sqrt(1 - 4 * k * math.cos(math.radians(alpha)) + 4 * k * k)) / 2
         assert force.major[0] / (M * R * single().omega ** 2) == pytest.approx(wanted, rel=1e-13)

@@ -16,13 +16,13 @@ from typing import Any
 import pytest
 from support.engines import engine
 
-from balcli.core.mechanisms import harmonics
-from balcli.forces.spectrum import Spectra, spectra
+from balcli.core.mechanisms import closed_form
+from balcli.forces.spectrum import Spectra, compute_spectra
 
 RELATIVE = 1e-13
 LAM = 0.25
 ORDERS = range(1, 13)
-A = dict(zip(ORDERS, harmonics.piston(list(ORDERS), LAM), strict=True))
+A = dict(zip(ORDERS, closed_form.piston(list(ORDERS), LAM), strict=True))
 F1 = 1.0 * 0.05 * (2 * pi) ** 2  # N, at 60 rpm
 ARM = 0.1  # m
 
@@ -41,7 +41,9 @@ INLINE = {
 
 
 def of(throws: list[float], **layout: Any) -> Spectra:
-    return spectra(engine(crank={"throws": throws, "spacing": 100}, layout=layout), list(ORDERS))
+    return compute_spectra(
+        engine(crank={"throws": throws, "spacing": 100}, layout=layout), list(ORDERS)
+    )
 
 
 def units(found: Spectra, quantity: str, order: int, part: str) -> float:
@@ -201,7 +203,7 @@ def test_v12(gamma):
 
 def v6(gamma: float, splay: float) -> Spectra:
     crank = {"throws": [0, 120, 240], "spacing": 100, "splay": splay}
-    return spectra(engine(crank=crank, layout={"bank_angle": gamma}), list(ORDERS))
+    return compute_spectra(engine(crank=crank, layout={"bank_angle": gamma}), list(ORDERS))
 
 
 def test_v6_of_60_degrees_on_six_pins():

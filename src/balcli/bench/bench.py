@@ -2,33 +2,31 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
-import timeit
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from itertools import count
-from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..core.phasors import EPS
+from ..core.phasors import Array, Complex
 from ..engine.build import Engine, build
 from ..engine.load import parse
 from ..enginefile.model import EngineFile
-from ..forces.kinds import KINDS
-from ..forces.quantity import parse as quantities
-from ..forces.spectrum import spectra
+from ..forces.kinds import DEFAULT_QUANTITIES, KINDS
+from ..forces.quantity import parse_quantity_list
+from ..forces.spectrum import compute_spectra
 from ..results.analysis import analyze
 from ..studies.parameters import Parameter, ladder
-from ..studies.sweep import CHUNK, Sweep, chunks
+from ..studies.sweep import CHUNK, Sweep, evaluate_chunks
 from . import methods
+from .cold_start import start_balcli, start_libraries
+from .stopwatch import compare_times, time_run
 
 LAM = 0.28
 ORDERS = [1, 2, 4, 6, 8]
+SWEPT_ORDERS = [1, 2]
 V8 = """
 name = "72-degree V8, uneven throws"
 [crank]
@@ -51,8 +49,11 @@ stagger = 22
 
 @dataclass(frozen=True)
 class Row:
-    """One way to one figure: seconds (a variant, of a sweep), and the largest relative error; None:
-    not meaningful.
+    """One way to one figure.
+
+    Attributes:
+        seconds: of one run; of a sweep, for each variant.
+        error: the largest relative error; None: not meaningful.
     """
 
     task: str
@@ -83,238 +84,192 @@ class Case:
 
     task: str
     method: str
-    run: Callable[[], Any]
+    run: Callable[[], object]
     error: float | None
     times: int = 1
+
+    def time(self) -> float:
+        """Seconds for the work done once."""
+        return time_run(self.run) / self.times
 
 
 def bench() -> Bench:
     """All tasks and ratios; about ten seconds."""
-    return Bench(
-        tuple(Row(c.task, c.method, _seconds(c.run) / c.times, c.error) for c in cases()),
-        tuple(ratios()),
-    )
+    rows = tuple(Row(case.task, case.method, case.time(), case.error) for case in cases())
+    return Bench(rows, tuple(ratios()))
 
 
 def cases() -> Iterator[Case]:
     """All that is timed, with its error."""
-    yield from _coefficient()
-    yield from _engine()
-    yield from _sweep()
+    yield from _coefficient_cases()
+    yield from _engine_cases()
+    yield from _sweep_cases()
 
 
-def _coefficient() -> Iterator[Case]:
+def _coefficient_cases() -> Iterator[Case]:
     ways: list[tuple[str, methods.Coefficients]] = [
         ("two-term formula", methods.two_term),
         *((f"series to λ^{p}", methods.printed(p)) for p in methods.POWERS),
-        ("closed form", methods.closed_form),
+        ("closed form", methods.find_closed_form),
         *((f"FFT, {n} points", methods.transformed(n)) for n in methods.POINTS),
         *((f"time stepping, {n} steps", methods.stepped(n)) for n in methods.SAMPLES),
     ]
-    for orders, task in (([2], "A_2"), ([8], "A_8")):
-        exact = methods.exact(orders, LAM)
+    for order in (2, 8):
+        exact = methods.exact([order], LAM)
         for name, find in ways:
-            yield Case(task, name, partial(find, orders, LAM), _worst(find(orders, LAM), exact))
+            error = _largest_error(find([order], LAM), exact)
+            yield Case(f"A_{order}", name, partial(find, [order], LAM), error)
 
 
-def _engine() -> Iterator[Case]:
-    engine, find = build(parse(V8)), methods.from_coefficients
-    exact = find(methods.exact)(engine, ORDERS)
+def _engine_cases() -> Iterator[Case]:
+    engine, task = build(parse(V8)), "one V8, force and moment"
+    add_up = methods.from_coefficients
+    exact = add_up(methods.exact)(engine, ORDERS)
     ways: list[tuple[str, methods.Vectors]] = [
-        ("two-term formula", find(methods.two_term)),
-        *((f"series to λ^{p}", find(methods.printed(p))) for p in methods.POWERS),
+        ("two-term formula", add_up(methods.two_term)),
+        *((f"series to λ^{p}", add_up(methods.printed(p))) for p in methods.POWERS),
         ("closed form", methods.of_engine),
         *((f"FFT, {n} points", methods.sampled(n)) for n in methods.POINTS),
         *((f"time stepping, {n} steps", methods.time_stepped(n)) for n in methods.SAMPLES),
     ]
     for name, way in ways:
-        yield Case(
-            "one V8, force and moment",
-            name,
-            partial(way, engine, ORDERS),
-            _worst(way(engine, ORDERS), exact, axis=(0, 2)),
-        )
+        error = _largest_error_of_orders(way(engine, ORDERS), exact)
+        yield Case(task, name, partial(way, engine, ORDERS), error)
 
 
-def _sweep() -> Iterator[Case]:
+def _sweep_cases() -> Iterator[Case]:
     """A V8 over bank angles and rod ratios, orders 1 and 2 of force and moment."""
-    file, task = parse(V8), "sweep of a V8, a variant"
-    grid, few = _grid(file, *_parameters(512, 128)), _grid(file, *_parameters(2, 2))
-    yield Case(
-        task,
-        "closed form, as arrays",
-        lambda: list(chunks(grid)),
-        _swept(few, methods.of_engine),
-        grid.variants,
-    )
+    task, few = "sweep of a V8, a variant", _grid(2, 2)
+    yield _array_case()
     ways = [
         ("closed form, engine by engine", methods.of_engine),
         ("FFT, 16 points, engine by engine", methods.sampled(16)),
         ("time stepping, 360 steps, engine by engine", methods.time_stepped(360)),
     ]
     for name, way in ways:
-        yield Case(task, name, partial(_one_by_one, few, way), _swept(few, way), few.variants)
+        run = partial(_run_one_by_one, few, way)
+        yield Case(task, name, run, _largest_error_of_sweep(few, way), few.variants)
+    yield _exponential_case()
+
+
+def _array_case() -> Case:
+    """The sweep as balcli computes it."""
+    grid = _grid(512, 128)
+    error = _largest_error_of_sweep(_grid(2, 2), methods.of_engine)
+    run = partial(_run_sweep, grid)
+    return Case("sweep of a V8, a variant", "closed form, as arrays", run, error, grid.variants)
+
+
+def _exponential_case() -> Case:
+    """What a variant costs at least, if each has crank angles of its own."""
     angles = np.random.default_rng(1).uniform(0, 7, 8 * CHUNK)
-    yield Case(
-        task, "np.exp(1j*x) of its 8 crank angles alone", lambda: np.exp(1j * angles), None, CHUNK
-    )
+    name = "np.exp(1j*x) of its 8 crank angles alone"
+    return Case("sweep of a V8, a variant", name, lambda: np.exp(1j * angles), None, CHUNK)
 
 
-def _grid(file: EngineFile, *parameters: Parameter) -> Sweep:
-    return Sweep(
-        file, parameters, quantities("force.1.major,force.2.major,moment.1.major,moment.2.major")
-    )
-
-
-def _parameters(banks: int, ratios: int) -> tuple[Parameter, Parameter]:
-    return (
+def _grid(banks: int, ratios: int) -> Sweep:
+    """The V8 over so many bank angles and rod ratios."""
+    return _sweep(
         Parameter("layout.bank_angle", ladder(Fraction(40), Fraction(1, 5), banks)),
         Parameter("rod.ratio", ladder(Fraction(1, 5), Fraction(1, 1000), ratios)),
     )
 
 
+def _sweep(*parameters: Parameter) -> Sweep:
+    return Sweep(parse(V8), parameters, parse_quantity_list(DEFAULT_QUANTITIES))
+
+
+def _run_sweep(sweep: Sweep) -> None:
+    for _ in evaluate_chunks(sweep):
+        pass
+
+
+def _run_one_by_one(sweep: Sweep, way: methods.Vectors) -> None:
+    for engine in _engines(sweep):
+        way(engine, SWEPT_ORDERS)
+
+
 def _engines(sweep: Sweep) -> Iterator[Engine]:
-    first, second = sweep.parameters
-    for k in range(len(first)):
-        for j in range(len(second)):
-            yield build(_set(sweep.file, float(first.values[k]), float(second.values[j])))
+    angles, ratios = sweep.parameters
+    for angle in angles.values:
+        for ratio in ratios.values:
+            yield build(_set(sweep.file, float(angle), float(ratio)))
 
 
 def _set(file: EngineFile, angle: float, ratio: float) -> EngineFile:
-    return file.model_copy(
-        update={
-            "layout": file.layout.model_copy(update={"bank_angle": angle}),
-            "rod": file.rod.model_copy(update={"ratio": ratio}),
-        }
-    )
+    layout = file.layout.model_copy(update={"bank_angle": angle})
+    rod = file.rod.model_copy(update={"ratio": ratio})
+    return file.model_copy(update={"layout": layout, "rod": rod})
 
 
-def _one_by_one(sweep: Sweep, way: methods.Vectors) -> list[Any]:
-    return [way(engine, [1, 2]) for engine in _engines(sweep)]
+def _largest_error(found: Array, exact: Array) -> float:
+    """Relative to each exact value."""
+    return float(np.abs((found - exact) / exact).max())
 
 
-def _swept(sweep: Sweep, way: methods.Vectors) -> float:
-    exact = methods.from_coefficients(methods.exact)
+def _largest_error_of_orders(found: Complex, exact: Complex) -> float:
+    """Relative to the largest exact value of each order, for shapes (kind, order, direction)."""
+    scale = np.abs(exact).max(axis=(0, 2), keepdims=True)
+    return float((np.abs(found - exact) / scale).max())
+
+
+def _largest_error_of_sweep(sweep: Sweep, way: methods.Vectors) -> float:
+    find_exact = methods.from_coefficients(methods.exact)
     return max(
-        _worst(way(engine, [1, 2]), exact(engine, [1, 2]), axis=(0, 2))
+        _largest_error_of_orders(way(engine, SWEPT_ORDERS), find_exact(engine, SWEPT_ORDERS))
         for engine in _engines(sweep)
     )
-
-
-def _worst(found: Any, exact: Any, axis: tuple[int, ...] = ()) -> float:
-    """The largest error relative to the largest exact value of its order (`axis`: what belongs to
-    one order).
-    """
-    scale = np.abs(exact).max(axis=axis, keepdims=True) if axis else np.abs(exact)
-    return float((np.abs(found - exact) / scale).max())
 
 
 # ------------------------------------------------------------------ what is saved by not doing it
 def ratios() -> Iterator[Ratio]:
     """Pairs of run times, measured in turn."""
-    file = parse(V8)
-    engine = build(file)
-    unequal = build(
-        file.model_copy(
-            update={
-                "cylinder": parse(
-                    V8 + "[cylinder.3]\npiston_mass = 0.51\nrod_ratio = 0.281\n"
-                ).cylinder
-            }
-        )
-    )
-    forces = ("force", "moment")
-    long, short = np.arange(1.0, 33.0), [1.0, 2.0]
+    yield from _engine_ratios()
+    yield from _start_ratios()
+    yield from _sweep_ratios()
+
+
+def _engine_ratios() -> Iterator[Ratio]:
+    engine = build(parse(V8))
+    unequal = build(parse(V8 + "[cylinder.3]\npiston_mass = 0.51\nrod_ratio = 0.281\n"))
+    eight: NDArray[np.float64] = np.arange(1.0, 9.0)
+
+    def analyse(
+        subject: Engine = engine,
+        orders: NDArray[np.float64] = eight,
+        kinds: tuple[str, ...] = ("force", "moment"),
+    ) -> Callable[[], object]:
+        return lambda: compute_spectra(subject, orders, kinds)
+
     plain = partial(methods.sampled(64), engine, list(range(1, 9)))
-    eight = np.arange(1.0, 9.0)
-    yield _ratio(
-        "force and moment of a V8, orders 1-8, to plain numpy (64 angles, FFT)",
-        lambda: spectra(engine, eight, forces),
-        plain,
-    )
-    another = _unseen(engine)
-    yield _ratio(
-        "the same of a V8 not seen before", lambda: spectra(another(), eight, forces), plain
-    )
-    yield _ratio("all quantities of it to the same", lambda: spectra(engine, eight, KINDS), plain)
-    yield _ratio(
-        "orders: 1-32 to 1 and 2",
-        lambda: spectra(engine, long, forces),
-        lambda: spectra(engine, short, forces),
-    )
-    yield _ratio(
-        "moments: force and moment to force",
-        lambda: spectra(engine, eight, forces),
-        lambda: spectra(engine, eight, ("force",)),
-    )
-    yield _ratio(
-        "equal cylinders: unequal to equal",
-        lambda: spectra(unequal, eight, forces),
-        lambda: spectra(engine, eight, forces),
-    )
-    yield _ratio(
-        "peaks: force with peak to force",
-        lambda: analyze(engine, [1, 2], {"force", "peak"}),
-        lambda: analyze(engine, [1, 2], {"force"}),
-    )
-    yield from _imports()
-    array, exponential = (c for c in _sweep() if "array" in c.method or "exp(" in c.method)
-    unit = _seconds(exponential.run) / exponential.times
-    throw = _grid(
-        file, Parameter("crank.throws.2", ladder(Fraction(40), Fraction(1, 1000), 2 * CHUNK))
-    )
-    yield Ratio(
-        "a variant of a sweep to np.exp(1j*x) of its 8 crank angles",
-        _seconds(array.run) / array.times / unit,
-    )
-    yield Ratio(
-        "a variant of a sweep of one throw to the same",
-        _seconds(lambda: list(chunks(throw))) / throw.variants / unit,
-    )
+    what = "force and moment of a V8, orders 1-8, to plain numpy (64 angles, FFT)"
+    yield Ratio(what, compare_times(analyse(), plain))
+    what = "all quantities of it to the same"
+    yield Ratio(what, compare_times(analyse(kinds=tuple(KINDS)), plain))
+    low, many = analyse(orders=np.arange(1.0, 3.0)), analyse(orders=np.arange(1.0, 33.0))
+    yield Ratio("orders: 1-32 to 1 and 2", compare_times(many, low))
+    force = analyse(kinds=("force",))
+    yield Ratio("moments: force and moment to force", compare_times(analyse(), force))
+    what = "equal cylinders: unequal to equal"
+    yield Ratio(what, compare_times(analyse(unequal), analyse()))
+    without = partial(analyze, engine, [1, 2], {"force"})
+    with_peak = partial(analyze, engine, [1, 2], {"force", "peak"})
+    yield Ratio("peaks: force with peak to force", compare_times(with_peak, without))
 
 
-def _unseen(engine: Engine) -> Callable[[], Engine]:
-    """Engines of which nothing is kept from an earlier call: each has a lambda of its own."""
-    ulps, c = count(1), engine.cylinders
-    return lambda: replace(engine, cylinders=replace(c, lam=c.lam * (1 + next(ulps) * EPS)))
-
-
-def _imports() -> Iterator[
-    Ratio
-]:  # pragma: no cover: measures cold starts for minutes; the tests leave it out
-    """Cold starts of the whole program."""
-
-    def start(*argv: str) -> Callable[[], Any]:
-        return lambda: subprocess.run(
-            [sys.executable, *argv],
-            input=V8.encode(),
-            capture_output=True,
-            check=True,
-            env=os.environ,
-        )
-
-    floor = start("-c", "import numpy, typer; from pydantic import BaseModel")
+def _start_ratios() -> Iterator[Ratio]:  # pragma: no cover: cold starts for minutes
+    """Cold starts of the whole program, which the tests leave out."""
     for argv in ("analyze - --format json", "analyze -", "--help"):
-        yield _ratio(
-            f"imports: cold balcli {argv} to importing numpy, typer and pydantic",
-            start("-m", "balcli", *argv.split()),
-            floor,
-        )
+        what = f"imports: cold balcli {argv} to importing numpy, typer and pydantic"
+        start = partial(start_balcli, argv.split(), V8)
+        yield Ratio(what, compare_times(start, start_libraries))
 
 
-def _ratio(what: str, one: Callable[[], Any], other: Callable[[], Any]) -> Ratio:
-    """Measured in turn, so that a busy machine disturbs both alike."""
-    number = max(int(0.01 / max(timeit.timeit(other, number=1), 1e-7)), 1)
-    pairs = [
-        (timeit.timeit(one, number=number), timeit.timeit(other, number=number)) for _ in range(9)
-    ]
-    first, second = (float(np.median(times)) for times in zip(*pairs, strict=True))
-    return Ratio(what, first / second)
-
-
-def _seconds(run: Callable[[], Any]) -> float:
-    """The quickest of several runs, each of at least a few milliseconds."""
-    timer = timeit.Timer(run)
-    once = max(timer.timeit(1), 1e-7)
-    number = max(int(0.02 / once), 1)
-    return min(timer.repeat(5 if once < 0.2 else 2, number)) / number
+def _sweep_ratios() -> Iterator[Ratio]:
+    exponential = _exponential_case().time()
+    what = "a variant of a sweep to np.exp(1j*x) of its 8 crank angles"
+    yield Ratio(what, _array_case().time() / exponential)
+    angles = ladder(Fraction(40), Fraction(1, 1000), 2 * CHUNK)
+    throw = _sweep(Parameter("crank.throws.2", angles))
+    seconds = time_run(partial(_run_sweep, throw)) / throw.variants
+    yield Ratio("a variant of a sweep of one throw to the same", seconds / exponential)

@@ -9,36 +9,37 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..core.mechanisms import harmonics
-from ..core.mechanisms import power_series as series
+from ..core.mechanisms import closed_form, power_series
+from ..core.phasors import Array, Complex
 from ..engine.build import Engine
-from ..forces.spectrum import spectra
+from ..forces.spectrum import compute_spectra
 
-Complex = NDArray[np.complex128]
 POWERS = (3, 5, 7)  # of lambda, up to which books print the series
 POINTS = (8, 16, 32, 64)
 SAMPLES = (64, 360, 720, 3600)
 EXACT_POWER = 81  # lambda^81 is below 1e-40 at lambda = 0.3
 
-Coefficients = Callable[[list[int], float], NDArray[np.float64]]
+Coefficients = Callable[[list[int], float], Array]
 
 
-def exact(orders: list[int], lam: float) -> NDArray[np.float64]:
+def exact(orders: list[int], lam: float) -> Array:
     """A_n to the last digit: the series in exact fractions, far beyond the last power that
     matters.
     """
     x = Fraction(lam)
     return np.array(
-        [float(sum(c * x**p for p, c in series.piston(n, EXACT_POWER).items())) for n in orders]
+        [
+            float(sum(c * x**p for p, c in power_series.piston(n, EXACT_POWER).items()))
+            for n in orders
+        ]
     )
 
 
-def two_term(orders: list[int], lam: float) -> NDArray[np.float64]:
+def two_term(orders: list[int], lam: float) -> Array:
     """`cos psi + lambda cos 2 psi`."""
     return np.array([{1: 1.0, 2: lam}.get(n, 0.0) for n in orders])
 
@@ -46,24 +47,24 @@ def two_term(orders: list[int], lam: float) -> NDArray[np.float64]:
 def printed(power: int) -> Coefficients:
     """The series that books print, up to a power of lambda."""
     terms = {
-        n: [(p, float(c)) for p, c in series.piston(n, power).items() if p <= power]
+        n: [(p, float(c)) for p, c in power_series.piston(n, power).items() if p <= power]
         for n in range(1, 65)
     }
 
-    def evaluate(orders: list[int], lam: float) -> NDArray[np.float64]:
+    def evaluate(orders: list[int], lam: float) -> Array:
         return np.array([sum(c * lam**p for p, c in terms[n]) for n in orders])
 
     return evaluate
 
 
-def closed_form(orders: list[int], lam: float) -> NDArray[np.float64]:
-    return harmonics.piston(orders, lam)
+def find_closed_form(orders: list[int], lam: float) -> Array:
+    return closed_form.piston(orders, lam)
 
 
 def transformed(points: int) -> Coefficients:
     """The acceleration's formula, sampled and transformed."""
 
-    def evaluate(orders: list[int], lam: float) -> NDArray[np.float64]:
+    def evaluate(orders: list[int], lam: float) -> Array:
         psi = 2 * np.pi * np.arange(points) / points
         return _picked(np.fft.rfft(_acceleration(psi, lam)).real * (2 / points), orders)
 
@@ -75,7 +76,7 @@ def stepped(samples: int) -> Coefficients:
     psi.
     """
 
-    def evaluate(orders: list[int], lam: float) -> NDArray[np.float64]:
+    def evaluate(orders: list[int], lam: float) -> Array:
         psi = 2 * np.pi * np.arange(samples) / samples
         acceleration = -_second_difference(
             np.cos(psi) + np.sqrt(1 - (lam * np.sin(psi)) ** 2) / lam
@@ -85,19 +86,20 @@ def stepped(samples: int) -> Coefficients:
     return evaluate
 
 
-def _acceleration(psi: Any, lam: Any) -> Any:
+def _acceleration(psi: Array, lam: float) -> Array:
+    """Of the piston at crank angles (rad), in crank radii by the square of the speed."""
     cosine, sine = np.cos(psi), np.sin(psi)
     cos_beta = np.sqrt(1 - (lam * sine) ** 2)
     return cosine - lam * sine**2 / cos_beta + lam * cosine**2 / cos_beta**3
 
 
-def _second_difference(place: Any) -> Any:
+def _second_difference(place: Array | Complex) -> Array | Complex:
     """By the square of the step, along the last axis, which is one revolution."""
     step = 2 * np.pi / place.shape[-1]
     return (np.roll(place, -1, axis=-1) - 2 * place + np.roll(place, 1, axis=-1)) / step**2
 
 
-def _picked(spectrum: Any, orders: list[int]) -> Any:
+def _picked(spectrum: Array, orders: list[int]) -> Array:
     """The lines of these orders; there is nothing beyond half the number of points."""
     return np.array([spectrum[n] if n < len(spectrum) - 1 else 0.0 for n in orders])
 
@@ -125,7 +127,7 @@ def from_coefficients(find: Coefficients) -> Vectors:
 
 def of_engine(engine: Engine, orders: list[int]) -> Complex:
     """balcli itself."""
-    found = spectra(engine, orders, ("force", "moment"))
+    found = compute_spectra(engine, orders, ("force", "moment"))
     return np.array([(p.forward, p.backward) for _, p in found.items()]).transpose(0, 2, 1)
 
 
@@ -161,18 +163,24 @@ def time_stepped(samples: int) -> Vectors:
     return evaluate
 
 
-def _columns(engine: Engine) -> tuple[Any, Any, Any, Any, Any]:
-    """Of an engine of equal cylinders: `m_rec r omega^2`, `m_rot r omega^2`; axis, phase (rad) and
-    arm (m) of every cylinder.
-    """
+class _Columns(NamedTuple):
+    """An engine of equal cylinders, as the ways above see it; of each shape (cylinders,)."""
+
+    mass: float  # m_rec r omega^2, N
+    turning: float  # m_rot r omega^2, N
+    axis: Array  # rad
+    phase: Array  # crank angle at crank angle 0, rad
+    z: Array  # arm, m
+
+
+def _columns(engine: Engine) -> _Columns:
     c = engine.cylinders
-    axis = np.radians(c.axis_of_each_deg)
     scale = c.radius * engine.omega**2
-    return (
+    return _Columns(
         float(c.reciprocating[0] * scale),
         float(c.rotating[0] * scale),
-        axis,
-        axis[engine.numbers.index(1)] + np.radians(c.pin_deg) - axis,
+        np.radians(c.axis_of_each_deg),
+        np.radians(c.angle_deg),
         c.z - engine.reference_m[2],
     )
 

@@ -1,3 +1,3 @@
-"""One module a command: load, compute, render, print once. Heavy imports stand inside the
-functions.
+"""One module a command: load, compute, render, print once; what brings numpy or pydantic is
+imported when a command runs, so that its help and the shell's completion need not wait for them.
 """

@@ -8,22 +8,26 @@ import typer
 
 from ..render.formats import Format, Units
 from .options import (
-    EngineFiles,
+    EnginePaths,
     FormatOption,
+    GuideHeight,
     Only,
     Orders,
     Output,
     Speed,
     UnitsOption,
-    checked_speed,
-    only_list,
-    order_list,
+    check_guide_height,
+    check_speed,
+    parse_orders,
+    parse_quantities,
 )
+from .output import is_seen, show
+from .overwrite_guard import refuse_overwriting
 
 
 def analyze(
-    files: EngineFiles,
-    format: FormatOption = Format.TABLE,  # noqa: A002 (the option's name)
+    paths: EnginePaths,
+    form: FormatOption = Format.TABLE,
     speed: Speed = None,
     orders: Orders = None,
     only: Only = None,
@@ -39,6 +43,7 @@ def analyze(
     why: Annotated[
         bool, typer.Option("--why", help="Also say whether each order is balanced by symmetry.")
     ] = False,
+    guide_height: GuideHeight = None,
     units: UnitsOption = Units.SI,
     plot: Annotated[
         bool,
@@ -48,28 +53,28 @@ def analyze(
     ] = False,
     output: Output = None,
 ) -> None:
-    """Free forces and moments by order, couple, inertia torque and roll, peaks, and what would
-    balance them.
-    """
-    from ..render.formats import analyses
-    from ..results.analysis import analyze as analyzed
-    from .inputs import distinct, each, engine_of, tell
-    from .output import emit
+    """Free forces and moments by order, couple, torque and roll, peaks, and what balances them."""
+    refuse_overwriting(reads=paths, writes={"--output": output})
+    from ..render import analyses
+    from ..results.analysis import Analysis
+    from ..results.analysis import analyze as analyze_engine
+    from .inputs import distinct_names, exit_on_errors, read_engine, try_each
 
     if by not in ("", "cylinder"):
         raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")
-    asked, chosen, rpm = order_list(orders), only_list(only), checked_speed(speed)
-    found, errors = each(
-        files,
-        lambda file: (
-            file,
-            analyzed(engine_of(file, rpm)[1], asked, chosen, by_cylinder=bool(by), reasons=why),
-        ),
-    )
+    asked, chosen, rpm = parse_orders(orders), parse_quantities(only), check_speed(speed)
+    height_m = check_guide_height(guide_height)
+
+    def analyze_file(path: str) -> tuple[str, Analysis]:
+        engine = read_engine(path, rpm).engine
+        return path, analyze_engine(engine, asked, chosen, bool(by), why, height_m)
+
+    found, errors = try_each(paths, analyze_file)
     if found and not (errors and output):  # a file gets all of them or is left as it was
         good, results = zip(*found, strict=True)
-        names = distinct([result.engine.name for result in results], good)
-        emit(
-            analyses(results, names, format, units, into_file=output is not None, plot=plot), output
-        )
-    tell(errors)
+        names = distinct_names([result.engine.name for result in results], good)
+        pictures = plot and form is Format.TABLE and is_seen(output)
+        paired = zip(names, results, strict=True)
+        named = [analyses.NamedAnalysis(name, result, pictures) for name, result in paired]
+        show(named, analyses, form, output, units)
+    exit_on_errors(errors)

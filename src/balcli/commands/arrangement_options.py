@@ -2,36 +2,52 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import get_args
 
 from ..errors import BalcliError
 from ..limits import FARTHEST_DEG, FARTHEST_M
-from .options import numbers
-
-if TYPE_CHECKING:
-    from ..results.two_engines import Arrangement
+from ..results.two_engines import Arrangement, Load
+from .options import parse_numbers
 
 
-def arrangement(phase: float, at: str, turn: float, reverse: bool) -> Arrangement:
+def parse_arrangement(phase: float, at: str, turn: float, reverse: bool, load: str) -> Arrangement:
     """From the options' text and numbers.
 
-    Raises:
-        BalcliError: a place that is not three numbers, or anything infinite.
-    """
-    from ..results.two_engines import Arrangement
+    Args:
+        phase: crank angle by which the second engine leads, degrees.
+        at: place of its origin in the first engine's axes: three numbers in mm.
+        turn: how far it is turned about z, degrees.
+        reverse: whether its crank turns against the first one's.
+        load: first, second or both: which crank has flywheel and load.
 
+    Raises:
+        BalcliError: a place that is not three numbers, anything infinite, an unknown load, or one
+            that makes no difference.
+    """
     for option, value in (("--phase", phase), ("--turn", turn)):
         if not abs(value) <= FARTHEST_DEG:
             raise BalcliError(
                 f"{option} {value:g}: give an angle in degrees, up to {FARTHEST_DEG:g}"
             )
-    return Arrangement(phase, _place(at), turn, reverse)
+    return Arrangement(phase, _parse_place(at), turn, reverse, _parse_load(load, reverse))
 
 
-def _place(text: str) -> tuple[float, float, float]:
-    x, y, z = (
-        v / 1e3 for v in numbers("--at", text, "three numbers, X,Y,Z in mm, such as 0,300,0", 3)
-    )
+def _parse_load(text: str, reverse: bool) -> Load:
+    found: Load | None = next((name for name in get_args(Load) if name == text), None)
+    if found is None:
+        raise BalcliError(f'--load "{text[:60]}": choose from {", ".join(get_args(Load))}')
+    if found != "first" and not reverse:
+        raise BalcliError(
+            f"--load {found}: cranks that turn alike roll the frame alike, whichever drives the "
+            "load; it matters with --reverse"
+        )
+    return found
+
+
+def _parse_place(text: str) -> tuple[float, float, float]:
+    """x, y and z in m."""
+    wanted = "three numbers, X,Y,Z in mm, such as 0,300,0"
+    x, y, z = (v / 1e3 for v in parse_numbers("--at", text, wanted, 3))
     if max(map(abs, (x, y, z))) > FARTHEST_M:
         raise BalcliError(f'--at "{text[:60]}": the places may be up to {FARTHEST_M:g} m')
     return x, y, z

@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
+from ..render.formats import Format, Units
 from ..sizing.schemes import KNUCKLES
 from . import balance_options as wishes
 from .options import (
-    EngineFile,
-    Format,
+    EnginePath,
     FormatOption,
     Orders,
     Output,
     Speed,
-    Units,
     UnitsOption,
-    checked_speed,
-    order_list,
+    check_speed,
+    parse_orders,
 )
+from .output import show
+from .overwrite_guard import refuse_overwriting
 
 
 def balance(
-    file: EngineFile,
+    path: EnginePath,
     scheme: wishes.Scheme = "auto",
     order: wishes.Order = None,
     at: wishes.At = None,
@@ -32,33 +33,32 @@ def balance(
     disc: wishes.Disc = None,
     drill: wishes.Drill = None,
     even: wishes.Even = None,
+    grade: wishes.Grade = None,
+    mass: wishes.Mass = None,
     write: wishes.Write = None,
     speed: Speed = None,
     orders: Orders = None,
-    format: FormatOption = Format.TABLE,  # noqa: A002 (the option's name)
+    form: FormatOption = Format.TABLE,
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
     """Size counterweights, balancer shafts or sliders, and show what is left with them."""
-    from ..engine.load import parse
-    from ..enginefile.read import name_file
-    from ..render.formats import balances
-    from ..results.balance import balance as balanced
+    refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
+    from ..render import balance as renderer
+    from ..results.balance import balance as balance_engine
+    from ..results.permitted_unbalance import permit_unbalance
     from .fitted_engine import write_fitted
-    from .inputs import engine_and_text
-    from .output import emit
+    from .inputs import read_engine
 
-    wish, tools = (
-        wishes.wish_of(order, at, position, planes, factor, roll),
-        wishes.shop_tools(radius, thickness, disc, drill),
-    )
-    asked = order_list(orders)
-    text, engine = engine_and_text(file, rpm := checked_speed(speed))
+    wish = wishes.wish_of(order, at, position, planes, factor, roll)
+    tools = wishes.shop_tools(radius, thickness, disc, drill)
+    asked, rpm = parse_orders(orders), check_speed(speed)
+    text, model, engine = read_engine(path, rpm)
     if scheme == KNUCKLES or even is not None:
-        result = wishes.knuckles(scheme, wish, even, parse(text, name_file(file)), engine, asked)
+        result = wishes.knuckles(scheme, wish, even, model, engine, asked)
     else:
-        result = balanced(engine, scheme, wish, asked, tools)
-    shown = balances(result, format, units, into_file=output is not None)
+        result = balance_engine(engine, scheme, wish, asked, tools)
+    result = permit_unbalance(result, grade, mass)
     if write is not None:
-        write_fitted(file, text, result.remedy, write, rpm)
-    emit(shown, output)
+        write_fitted(path, text, result.remedy, write, rpm)
+    show([result], renderer, form, output, units)

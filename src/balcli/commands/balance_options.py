@@ -11,8 +11,8 @@ import typer
 from ..errors import BalcliError
 from ..limits import MOST_FACTORS
 from ..sizing.schemes import KNUCKLES, NAMES
-from . import completion
-from .options import numbers
+from .completion import complete_schemes
+from .options import parse_numbers
 
 if TYPE_CHECKING:
     from ..engine.build import Engine
@@ -26,7 +26,7 @@ Scheme = Annotated[
         "--scheme",
         "--with",
         metavar="NAME",
-        autocompletion=completion.schemes,
+        autocompletion=complete_schemes,
         help=f"What to fit: {', '.join(NAMES[:-1])} or {NAMES[-1]}.",
     ),
 ]
@@ -121,6 +121,23 @@ Even = Annotated[
         help="What --scheme knuckles makes even; default: dead-centres.",
     ),
 ]
+Grade = Annotated[
+    float | None,
+    typer.Option(
+        metavar="G",
+        show_default=False,
+        help="Balance quality grade of ISO 21940-11, mm/s: say what may be left beside each "
+        "counterweight.",
+    ),
+]
+Mass = Annotated[
+    float | None,
+    typer.Option(
+        metavar="KG",
+        show_default=False,
+        help="Mass of the crankshaft as it is balanced, for --grade.",
+    ),
+]
 Write = Annotated[
     Path | None,
     typer.Option(
@@ -148,7 +165,8 @@ def wish_of(
         at=tuple(map(_place, at)) if at else None,
         position=None
         if position is None
-        else numbers("--position", position, "one place along z in mm, such as 40", 1)[0] / 1e3,
+        else parse_numbers("--position", position, "one place along z in mm, such as 40", 1)[0]
+        / 1e3,
         planes=None if planes is None else _planes(planes),
         factor=None if factor is None else _factors(factor),
         roll=roll,
@@ -193,7 +211,7 @@ def shop_tools(
 
 
 def _place(text: str) -> complex:
-    x, y = numbers("--at", text, "x,y of a shaft in mm, such as -40,60", 2)
+    x, y = parse_numbers("--at", text, "x,y of a shaft in mm, such as -40,60", 2)
     return complex(x / 1e3, y / 1e3)
 
 
@@ -202,7 +220,7 @@ def _planes(text: str) -> str | tuple[float, ...]:
         return text
     return tuple(
         z / 1e3
-        for z in numbers(
+        for z in parse_numbers(
             "--planes", text, "ends, throws, or places along z in mm, such as -200,200"
         )
     )
@@ -212,8 +230,8 @@ def _factors(text: str) -> tuple[float, ...]:
     """`0.5`, `0.4,0.5` or `0:1:0.1` (ends included)."""
     wanted = "a share of the reciprocating mass such as 0.5, or a range such as 0:1:0.1"
     if ":" not in text:
-        return numbers("--factor", text, wanted)
-    parts = [numbers("--factor", part, wanted, 1)[0] for part in text.split(":")]
+        return parse_numbers("--factor", text, wanted)
+    parts = [parse_numbers("--factor", part, wanted, 1)[0] for part in text.split(":")]
     if (
         len(parts) != 3
         or parts[2] <= 0

@@ -7,6 +7,9 @@ from typing import Annotated
 
 import typer
 
+from ..errors import Exit, legible
+from .output import emit, make_folder_of, write_file
+
 
 def check(
     paths: Annotated[
@@ -25,29 +28,24 @@ def check(
     """Recompute engines and compare with their recorded results; exit status 1 if anything
     moved.
     """
-    from ..errors import Exit, legible
-    from ..regression import Difference, differences, record, recorded_at
-    from .inputs import each, engine_files, engine_of, tell
-    from .output import emit, made, write
+    from ..regression import Difference, find_differences, find_record, record_result
+    from .inputs import exit_on_errors, find_engine_files, read_engine, try_each
 
-    def compared(file: Path) -> list[Difference]:
-        _, engine = engine_of(str(file))
-        target = recorded_at(file)
+    def compare_or_record(path: Path) -> list[Difference]:
+        engine, target = read_engine(str(path)).engine, find_record(path)
         if not update:
-            return differences(file.stem, engine, target)
-        write(record(engine), made(target))
+            return find_differences(path.stem, engine, target)
+        write_file(record_result(engine), make_folder_of(target))
         return []
 
-    results, errors = each(engine_files(paths), compared)
+    results, errors = try_each(find_engine_files(paths), compare_or_record)
     moved = [difference for found in results for difference in found]
-    done = _count(len(results), "engine") + (
-        " recorded" if update else f", {_count(len(moved), 'difference')}"
-    )
-    emit(legible("\n".join([*map(str, moved), done])))
-    tell(errors)
+    done = " recorded" if update else f", {_counted(len(moved), 'difference')}"
+    emit(legible("\n".join([*map(str, moved), _counted(len(results), "engine") + done])))
+    exit_on_errors(errors)
     if moved:
         raise typer.Exit(Exit.DIFFERENCE)
 
 
-def _count(number: int, thing: str) -> str:
+def _counted(number: int, thing: str) -> str:
     return f"{number} {thing}{'' if number == 1 else 's'}"

@@ -4,22 +4,24 @@ from __future__ import annotations
 
 from ..render.formats import Format, Units
 from .options import (
-    EngineFiles,
+    EnginePaths,
     FormatOption,
     Only,
     Orders,
     Output,
     Speed,
     UnitsOption,
-    checked_speed,
-    only_list,
-    order_list,
+    check_speed,
+    parse_orders,
+    parse_quantities,
 )
+from .output import show
+from .overwrite_guard import refuse_overwriting
 
 
 def compare(
-    files: EngineFiles,
-    format: FormatOption = Format.TABLE,  # noqa: A002 (the option's name)
+    paths: EnginePaths,
+    form: FormatOption = Format.TABLE,
     speed: Speed = None,
     orders: Orders = None,
     only: Only = None,
@@ -29,25 +31,13 @@ def compare(
     """Engines side by side: free forces and moments by order, peaks, and their ratios to the first
     engine's.
     """
-    from ..render import comparison as rendered
-    from ..render.formats import render
-    from ..render.units import SYSTEMS
-    from ..results.comparison import compare as compared
-    from .inputs import distinct, engine_of
-    from .output import emit
+    refuse_overwriting(reads=paths, writes={"--output": output})
+    from ..render import comparison as renderer
+    from ..results.comparison import compare_engines
+    from .inputs import distinct_names, read_engine
 
-    rpm, asked = checked_speed(speed), order_list(orders)
-    engines = [engine_of(file, rpm)[1] for file in files]
-    found = compared(
-        engines, distinct([engine.name for engine in engines], files), asked, only_list(only)
-    )
-    emit(
-        render(
-            format,
-            sheets=lambda: [rendered.sheet(found, SYSTEMS[units])],
-            documents=lambda: [rendered.document(found)],
-            rows=lambda: rendered.rows(found, SYSTEMS[units]),
-            into_file=output is not None,
-        ),
-        output,
-    )
+    rpm, asked = check_speed(speed), parse_orders(orders)
+    engines = [read_engine(path, rpm).engine for path in paths]
+    names = distinct_names([engine.name for engine in engines], paths)
+    found = compare_engines(engines, names, asked, parse_quantities(only))
+    show([found], renderer, form, output, units)

@@ -6,34 +6,33 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-
-def kinds(incomplete: str) -> list[str]:
-    """Of `balcli new`."""
-    from ..enginefile.templates import KINDS
-
-    return _beginning(incomplete, KINDS)
+from ..enginefile import examples
+from ..enginefile.templates import KINDS
+from ..field_balancing.starting_file import KIND as FIELD
+from ..sizing.schemes import NAMES
 
 
-def schemes(incomplete: str) -> list[str]:
-    """Of `--scheme`."""
-    from ..sizing.schemes import NAMES
-
-    return _beginning(incomplete, NAMES)
+def complete_kinds(incomplete: str) -> list[str]:
+    """Kinds of files, of `balcli new`."""
+    return _beginning_with(incomplete, (*KINDS, FIELD))
 
 
-def tables(incomplete: str) -> list[str]:
-    """Of `balcli tables`."""
-    from ..tables import NAMES
-
-    return _beginning(incomplete, NAMES)
+def complete_schemes(incomplete: str) -> list[str]:
+    """Schemes, of `--scheme`."""
+    return _beginning_with(incomplete, NAMES)
 
 
-def examples(incomplete: str) -> list[str]:
-    """Of `balcli engines`."""
-    from ..enginefile import examples as shipped
+def complete_tables(incomplete: str) -> list[str]:
+    """Printed tables, of `balcli tables`."""
+    from ..tables import registry  # numpy
 
-    return _beginning(incomplete, shipped.names())
+    return _beginning_with(incomplete, registry.NAMES)
 
 
-def _beginning(incomplete: str, known: Iterable[str]) -> list[str]:
+def complete_examples(incomplete: str) -> list[str]:
+    """Example engines, of `balcli engines`."""
+    return _beginning_with(incomplete, examples.names())
+
+
+def _beginning_with(incomplete: str, known: Iterable[str]) -> list[str]:
     return [name for name in known if name.startswith(incomplete)]

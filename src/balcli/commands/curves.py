@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, assert_never
 
 import typer
 
-from .options import EngineFile, Output, Speed, checked_speed
-
-
-class CurveFormat(StrEnum):
-    """How curves are written."""
-
-    CSV = "csv"
-    JSON = "json"
-
+from ..render.csv import csv_text
+from ..render.json import json_text
+from .options import EnginePath, Output, SeriesFormat, Speed, check_speed
+from .output import emit
+from .overwrite_guard import refuse_overwriting
 
 Cylinder = Annotated[
     int | None,
@@ -27,28 +22,34 @@ Cylinder = Annotated[
     ),
 ]
 Step = Annotated[float, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
-Form = Annotated[CurveFormat, typer.Option("--format", "-f", help="How to write the curves.")]
+Form = Annotated[SeriesFormat, typer.Option("--format", "-f", help="How to write the curves.")]
 
 
 def curves(
-    file: EngineFile,
+    path: EnginePath,
     cylinder: Cylinder = None,
     step: Step = 1.0,
     speed: Speed = None,
-    form: Form = CurveFormat.CSV,
+    form: Form = SeriesFormat.CSV,
     output: Output = None,
 ) -> None:
     """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston."""
-    from ..forces.curves import crank_angles, cylinder_curves, engine_curves
-    from ..render.curves import curves_csv, curves_json
-    from .inputs import engine_of
-    from .output import emit
+    refuse_overwriting(reads=[path], writes={"--output": output})
+    from ..forces.curves import compute_cylinder_curves, compute_engine_curves, divide_revolution
+    from ..render import curves as renderer
+    from .inputs import read_engine
 
-    angles = crank_angles(step)
-    _, engine = engine_of(file, checked_speed(speed))
-    found = (
-        engine_curves(engine, angles)
-        if cylinder is None
-        else cylinder_curves(engine, cylinder, angles)
-    )
-    emit(curves_json(found) if form is CurveFormat.JSON else curves_csv(found), output)
+    angles = divide_revolution(step)
+    engine = read_engine(path, check_speed(speed)).engine
+    if cylinder is None:
+        found = compute_engine_curves(engine, angles)
+    else:
+        found = compute_cylinder_curves(engine, cylinder, angles)
+    match form:
+        case SeriesFormat.CSV:
+            text = csv_text([renderer.rows(found)])
+        case SeriesFormat.JSON:
+            text = json_text(renderer.document(found))
+        case _:
+            assert_never(form)
+    emit(text, output)

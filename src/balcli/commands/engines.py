@@ -7,7 +7,9 @@ from typing import Annotated
 
 import typer
 
-from . import completion
+from ..enginefile import examples
+from .completion import complete_examples
+from .output import emit, refuse_existing
 
 
 def engines(
@@ -16,22 +18,20 @@ def engines(
         typer.Argument(
             metavar="NAME",
             help="An example; without it all are listed.",
-            autocompletion=completion.examples,
+            autocompletion=complete_examples,
         ),
     ] = None,
-    file: Annotated[
+    path: Annotated[
         Path | None, typer.Argument(metavar="FILE", help="Copy it here; default: standard output.")
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
 ) -> None:
     """List the example engines that come with balcli, print one, or copy it."""
-    from ..enginefile import examples
-    from .output import emit, keep
-
     if name is None:
         known = examples.names()
-        emit("\n".join(f"{short:{max(map(len, known))}}  {long}" for short, long in known.items()))
+        width = max(map(len, known))
+        emit("\n".join(f"{short:{width}}  {long}" for short, long in known.items()))
         return
     text = examples.text(name)
-    keep(file, force)
-    emit(text, file)
+    refuse_existing(path, force)
+    emit(text, path)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..enginefile.edit import changed
-from ..enginefile.read import name_file
+from ..enginefile.toml_text import name_file
 from ..sizing.schemes import KNUCKLES
 from ..sizing.sizing import Remedy
 from ..sizing.write import fit, fit_knuckles
-from .output import write
+from .output import write_file
 
 
 def write_fitted(
@@ -25,9 +25,6 @@ def write_fitted(
         new = fit_knuckles(text, tuple(remedy.details["knuckle_angles_deg"]), name_file(source))
     else:
         new = fit(text, remedy, name_file(source))
-    write(
-        new
-        if speed_rpm is None
-        else changed(new, "operation", {"speed": speed_rpm}, "as balanced by balcli"),
-        target,
-    )
+    if speed_rpm is not None:
+        new = changed(new, "operation", {"speed": speed_rpm}, "as balanced by balcli")
+    write_file(new, target)

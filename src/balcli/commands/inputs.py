@@ -1,4 +1,4 @@
-"""Several engine files: what is good is reported, what is bad is named."""
+"""Engine files as commands read them: what is good is computed, what is bad is named."""
 
 from __future__ import annotations
 
@@ -6,63 +6,68 @@ import os
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import typer
 
 from ..engine.build import Engine
 from ..engine.load import build_named, parse
 from ..enginefile.model import EngineFile
-from ..enginefile.read import name_file, read_bytes
 from ..enginefile.suspicious import suspicious
+from ..enginefile.toml_text import name_file, read_bytes
 from ..errors import BalcliError, Exit, legible, say
 
-F = TypeVar("F")
+P = TypeVar("P")
 T = TypeVar("T")
 
 
-def engine_of(file: str, speed_rpm: float | None = None) -> tuple[EngineFile, Engine]:
-    """Model and engine of one file, with warnings about suspicious values on standard error.
+class Source(NamedTuple):
+    """An engine file that has been read: its text, what it says, and the engine."""
+
+    text: bytes
+    model: EngineFile
+    engine: Engine
+
+
+def read_engine(path: str, speed_rpm: float | None = None) -> Source:
+    """Read one file (`-`: standard input), with warnings about suspicious values on standard error.
+
+    Args:
+        speed_rpm: crank speed of the engine instead of the file's.
 
     Raises:
         BalcliError: all mistakes of the file.
     """
-    return _built(parse(read_bytes(file), name_file(file)), file, speed_rpm)
-
-
-def engine_and_text(file: str, speed_rpm: float | None = None) -> tuple[bytes, Engine]:
-    """The text of one file, too, for what is written from it."""
-    text = read_bytes(file)
-    return text, _built(parse(text, name_file(file)), file, speed_rpm)[1]
-
-
-def _built(model: EngineFile, file: str, speed_rpm: float | None) -> tuple[EngineFile, Engine]:
-    engine = build_named(model, file)
+    text = read_bytes(path)
+    model = parse(text, name_file(path))
+    engine = build_named(model, path)
     for warning in suspicious(model):
-        say(f"warning: {name_file(file)}: {warning}")
-    return model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)
+        say(f"warning: {name_file(path)}: {warning}")
+    return Source(
+        text, model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)
+    )
 
 
-def each(files: Sequence[F], work: Callable[[F], T]) -> tuple[list[T], list[str]]:
+def try_each(paths: Sequence[P], work: Callable[[P], T]) -> tuple[list[T], list[str]]:
     """Results of all good files, in order, and the messages of the bad ones."""
     results, errors = [], []
-    for file in files:
+    for path in paths:
         try:
-            results.append(work(file))
+            results.append(work(path))
         except BalcliError as error:
             errors.append(str(error))
     return results, errors
 
 
-def tell(errors: Sequence[str]) -> None:
-    """Messages on standard error and exit status 2, if there are any."""
+def exit_on_errors(errors: Sequence[str]) -> None:
+    """End with exit status 2 after these messages on standard error, if there are any."""
     for text in errors:
         say(f"balcli: {text}")
     if errors:
         raise typer.Exit(Exit.BAD_INPUT)
 
 
-def engine_files(paths: Sequence[Path]) -> list[Path]:
+def find_engine_files(paths: Sequence[Path]) -> list[Path]:
     """Engine files as named, and all that are in a folder.
 
     Raises:
@@ -70,28 +75,26 @@ def engine_files(paths: Sequence[Path]) -> list[Path]:
     """
     files: list[Path] = []
     for path in paths:
-        folder = os.path.isdir(
-            path
-        )  # unlike Path.is_dir false where one may not look, or the name is too long
+        # Unlike Path.is_dir, this is false where one may not look, or the name is too long.
+        folder = os.path.isdir(path)
         found = sorted(path.glob("*.toml")) if folder else [path]
         if not found or not os.path.exists(path):
-            raise BalcliError(
-                f"{path}: {'has no engine files (*.toml)' if folder else 'no such file or folder'}"
-            )
+            reason = "has no engine files (*.toml)" if folder else "no such file or folder"
+            raise BalcliError(f"{path}: {reason}")
         files += found
     return files
 
 
-def named(engine: Engine, file: str) -> Engine:
+def named_by_file(engine: Engine, path: str) -> Engine:
     """The engine, called by its file where it has no name."""
-    return engine if engine.name else replace(engine, name=legible(Path(name_file(file)).stem))
+    return engine if engine.name else replace(engine, name=legible(Path(name_file(path)).stem))
 
 
-def distinct(names: Sequence[str], files: Sequence[str]) -> list[str]:
+def distinct_names(names: Sequence[str], paths: Sequence[str]) -> list[str]:
     """What to call several engines side by side: by name, or by file where a name is missing or
     stands for several.
     """
     return [
-        name if name and names.count(name) == 1 else legible(name_file(file))
-        for name, file in zip(names, files, strict=True)
+        name if name and names.count(name) == 1 else legible(name_file(path))
+        for name, path in zip(names, paths, strict=True)
     ]

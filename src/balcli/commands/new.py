@@ -7,7 +7,10 @@ from typing import Annotated
 
 import typer
 
-from . import completion
+from ..enginefile.templates import template
+from ..field_balancing.starting_file import KIND, read_starting_file
+from .completion import complete_kinds
+from .output import emit, refuse_existing
 
 
 def new(
@@ -15,12 +18,12 @@ def new(
         str,
         typer.Argument(
             metavar="KIND",
-            help="single, inline, vee, boxer, radial or w.",
+            help="single, inline, vee, boxer, radial or w; field: runs of a rotor on a machine.",
             show_default=False,
-            autocompletion=completion.kinds,
+            autocompletion=complete_kinds,
         ),
     ],
-    file: Annotated[
+    path: Annotated[
         Path | None,
         typer.Argument(
             metavar="FILE", help="Where to write it; default: standard output.", show_default=False
@@ -28,10 +31,7 @@ def new(
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
 ) -> None:
-    """Write a commented, valid engine file to start from."""
-    from ..enginefile.templates import template
-    from .output import emit, keep
-
-    text = template(kind)
-    keep(file, force)
-    emit(text, file)
+    """Write a commented, valid engine file (or file of runs, for `field`) to start from."""
+    text = read_starting_file() if kind == KIND else template(kind)
+    refuse_existing(path, force)
+    emit(text, path)

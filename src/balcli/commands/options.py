@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -11,17 +12,16 @@ import typer
 from ..errors import BalcliError
 from ..forces.kinds import KINDS
 from ..limits import HIGHEST_ORDER
-from ..render.formats import Format as Format
-from ..render.formats import Units as Units
-from . import completion
+from ..render.formats import Format, Units
+from .completion import complete_schemes
 
-EngineFile = Annotated[
+EnginePath = Annotated[
     str,
     typer.Argument(
         metavar="FILE", help="Engine file (TOML); - reads standard input.", show_default=False
     ),
 ]
-EngineFiles = Annotated[
+EnginePaths = Annotated[
     list[str],
     typer.Argument(
         metavar="FILE...", show_default=False, help="Engine files (TOML); - reads standard input."
@@ -37,6 +37,15 @@ Output = Annotated[
         "--output", "-o", metavar="FILE", help="Write into this file instead.", show_default=False
     ),
 ]
+
+
+class SeriesFormat(StrEnum):
+    """How long series of numbers are written."""
+
+    CSV = "csv"
+    JSON = "json"
+
+
 Speed = Annotated[
     float | None,
     typer.Option(
@@ -62,19 +71,29 @@ Only = Annotated[
         "(shear, bending, bearing loads along the crankshaft) and guide (H- and X-type).",
     ),
 ]
+GuideHeight = Annotated[
+    float | None,
+    typer.Option(
+        "--guide-height",
+        metavar="MM",
+        show_default=False,
+        help="With --only guide: from the crankshaft to the middle of the guides; default: "
+        "length of the rod.",
+    ),
+]
 Scheme = Annotated[
     str | None,
     typer.Option(
         "--scheme",
         metavar="NAME",
         show_default=False,
-        autocompletion=completion.schemes,
+        autocompletion=complete_schemes,
         help="Also with the devices of a balance scheme, such as auto: before and after.",
     ),
 ]
 
 
-def order_list(text: str | None) -> list[int] | None:
+def parse_orders(text: str | None) -> list[int] | None:
     """Orders as in `1-8`, `1,2,4` or `1-4,8`.
 
     Raises:
@@ -85,14 +104,7 @@ def order_list(text: str | None) -> list[int] | None:
     orders: list[int] = []
     for part in text.split(","):
         first, dash, last = part.strip().partition("-")
-        if (
-            not (
-                first.isascii()
-                and first.isdigit()
-                and (not dash or (last.isascii() and last.isdigit()))
-            )
-            or len(first + last) > 12
-        ):
+        if not _is_whole(first) or (dash and not _is_whole(last)) or len(first + last) > 12:
             raise BalcliError(f'--orders "{text}": give whole numbers such as 1-8 or 1,2,4')
         low, high = int(first), int(last or first)
         if low > high or high > HIGHEST_ORDER:
@@ -103,12 +115,18 @@ def order_list(text: str | None) -> list[int] | None:
     return orders
 
 
-def only_list(text: str | None) -> list[str] | None:
-    """The words of `--only`."""
+def _is_whole(text: str) -> bool:
+    return text.isascii() and text.isdigit()
+
+
+def parse_quantities(text: str | None) -> list[str] | None:
+    """The quantities of `--only`, by name."""
     return None if text is None else [word.strip() for word in text.split(",")]
 
 
-def numbers(option: str, text: str, wanted: str, count: int | None = None) -> tuple[float, ...]:
+def parse_numbers(
+    option: str, text: str, wanted: str, count: int | None = None
+) -> tuple[float, ...]:
     """Finite numbers with commas between them (so many, if a count is given).
 
     Raises:
@@ -118,17 +136,14 @@ def numbers(option: str, text: str, wanted: str, count: int | None = None) -> tu
         found = tuple(float(part) for part in text.split(","))
     except ValueError:
         found = ()
-    if (
-        not found
-        or not all(map(math.isfinite, found))
-        or (count is not None and len(found) != count)
-    ):
+    wrong_count = not found or (count is not None and len(found) != count)
+    if wrong_count or not all(map(math.isfinite, found)):
         raise BalcliError(f'{option} "{text[:60]}": give {wanted}')
     return found
 
 
-def checked_speed(speed: float | None) -> float | None:
-    """The speed of `--speed`, rpm.
+def check_speed(speed: float | None) -> float | None:
+    """The speed of `--speed`, rpm, as it is.
 
     Raises:
         BalcliError: unless it is positive and finite.
@@ -138,3 +153,19 @@ def checked_speed(speed: float | None) -> float | None:
             f"--speed {speed:g}: the crank speed must be a positive number of rpm, below 1e9"
         )
     return speed
+
+
+def check_guide_height(height_mm: float | None) -> float | None:
+    """The height of `--guide-height`, m.
+
+    Raises:
+        BalcliError: unless it is positive and finite.
+    """
+    if height_mm is None:
+        return None
+    if not 0 < height_mm < 1e6:
+        raise BalcliError(
+            f"--guide-height {height_mm:g}: the distance from the crankshaft to the middle of "
+            "the guides must be a positive number of mm, below 1e6"
+        )
+    return height_mm / 1e3

@@ -7,26 +7,51 @@ from __future__ import annotations
 import errno
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TextIO
+from typing import TextIO, TypeVar
 
 from ..errors import BalcliError
+from ..process import unfinished
+from ..render.formats import Format, Renderer, Units, render
+from ..render.units import SYSTEMS
+
+R = TypeVar("R")
+
+
+def show(
+    results: Sequence[R],
+    renderer: Renderer[R],
+    form: Format,
+    output: Path | None,
+    units: Units = Units.SI,
+) -> None:
+    """Print results in this format, or write them into a file.
+
+    Raises:
+        BalcliError: if the file cannot be written.
+    """
+    emit(render(results, renderer, form, SYSTEMS[units], seen=is_seen(output)), output)
+
+
+def is_seen(output: Path | None) -> bool:
+    """Whether a person sees what is printed, in a terminal."""
+    return output is None and sys.stdout.isatty()
 
 
 def emit(text: str, output: Path | None = None) -> None:
-    """Print once, or write the whole file or nothing of it; what the reader of a closed pipe does
-    not want need not be written.
+    """Print a text that ends in a newline, or write the whole file or nothing of it.
 
     Raises:
         BalcliError: if the file cannot be written; an older one is left as it was.
     """
-    if output is None:
-        with standard_output() as stream:
-            stream.write(text if text.endswith("\n") else text + "\n")
-    else:
-        write(text if text.endswith("\n") else text + "\n", output)
+    text = text if text.endswith("\n") else text + "\n"
+    if output is not None:
+        write_file(text, output)
+        return
+    with standard_output() as stream:
+        stream.write(text)
 
 
 @contextmanager
@@ -40,55 +65,59 @@ def standard_output() -> Iterator[TextIO]:
         yield sys.stdout
         sys.stdout.flush()
     except BrokenPipeError:
-        _let_go()
+        _discard_what_is_left()
     except OSError as error:
-        _let_go()
+        _discard_what_is_left()
         raise BalcliError(
             f"standard output: cannot be written ({error.strerror or error})"
         ) from None
 
 
-def _let_go() -> None:
-    """What is still to be written goes nowhere, so that nothing fails again when the program
+def _discard_what_is_left() -> None:
+    """Let what is still to be written go nowhere, so that nothing fails again when the program
     ends.
     """
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def keep(file: Path | None, force: bool) -> None:
+def refuse_existing(path: Path | None, force: bool) -> None:
     """Refuse to overwrite a file that is there, unless forced.
 
     Raises:
         BalcliError: with what to do.
     """
-    if file is not None and os.path.lexists(file) and not force:
+    if path is not None and os.path.lexists(path) and not force:
         raise BalcliError(
-            f"{file}: is there already; choose another name, or --force to overwrite it"
+            f"{path}: is there already; choose another name, or --force to overwrite it"
         )
 
 
-def made(file: Path) -> Path:
-    """The file, in a folder that is there now.
+def make_folder_of(path: Path) -> Path:
+    """Make the folder of a file, unless it is there; returns the file's path.
 
     Raises:
         BalcliError: if the folder cannot be made.
     """
     try:
-        file.parent.mkdir(exist_ok=True)
+        path.parent.mkdir(exist_ok=True)
     except OSError as error:
-        raise BalcliError(f"{file.parent}: cannot be made ({error.strerror or error})") from None
-    return file
+        raise BalcliError(f"{path.parent}: cannot be made ({error.strerror or error})") from None
+    return path
 
 
-def write(content: str | bytes, target: Path) -> None:
-    """Replace a file in one step."""
+def write_file(content: str | bytes, target: Path) -> None:
+    """Replace a file in one step.
+
+    Raises:
+        BalcliError: if it cannot be written; an older one is left as it was.
+    """
     data = content.encode() if isinstance(content, str) else content
-    with beside(target) as place:
+    with replacing(target) as place:
         place.write_bytes(data)
 
 
 @contextmanager
-def beside(target: Path) -> Iterator[Path]:
+def replacing(target: Path) -> Iterator[Path]:
     """A new file beside the target, which replaces it when all has gone well and is gone otherwise.
 
     Through a symbolic link, what it points to is replaced. What is no ordinary file (/dev/null, a
@@ -97,34 +126,35 @@ def beside(target: Path) -> Iterator[Path]:
     Raises:
         BalcliError: if it cannot be written; an older one is left as it was.
     """
-    import tempfile
-
-    real, place = Path(os.path.realpath(target)), None
     try:
-        if real.is_dir():
+        if target.is_dir():
             raise BalcliError(f"{target}: is a folder, so no file can be written there")
+        if target.exists() and not target.is_file():
+            yield target
+            return
+        real = Path(os.path.realpath(target))
         if real.is_symlink():
             raise OSError(errno.ELOOP, "a symbolic link that leads to itself")
-        if real.exists() and not real.is_file():
-            yield real
-            return
-        handle, name = tempfile.mkstemp(dir=real.parent, prefix=f".{real.name[:40]}.")
-        os.close(handle)
-        place = Path(name)
-        yield place
-        place.chmod(_mode(real))
-        place.replace(real)
+        with _beside(real) as place:
+            yield place
+            if real.exists():
+                place.chmod(real.stat().st_mode & 0o777)
+            place.replace(real)
     except OSError as error:
         raise BalcliError(f"{target}: cannot be written ({error.strerror or error})") from None
+
+
+@contextmanager
+def _beside(target: Path) -> Iterator[Path]:
+    """A new, empty file in the target's folder, as secret as the target is; it is gone afterwards
+    unless it has been moved, also where a signal ends the process.
+    """
+    place = target.parent / f".{target.name[:40]}.{os.urandom(6).hex()}"
+    mode = 0o600 if target.exists() else 0o666
+    unfinished.add(str(place))
+    try:
+        os.close(os.open(place, os.O_CREAT | os.O_EXCL | os.O_WRONLY, mode))
+        yield place
     finally:
-        if place is not None:
-            place.unlink(missing_ok=True)
-
-
-def _mode(target: Path) -> int:
-    """Permissions of the file that is replaced, or those of a new one."""
-    if target.exists():
-        return target.stat().st_mode & 0o777
-    mask = os.umask(0)
-    os.umask(mask)
-    return 0o666 & ~mask
+        place.unlink(missing_ok=True)
+        unfinished.discard(str(place))

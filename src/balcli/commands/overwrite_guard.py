@@ -5,56 +5,39 @@ result.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping
-from functools import wraps
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from ..errors import BalcliError
 
-READ = ("file", "files", "first", "second")  # parameters of commands
-WRITTEN = ("output", "write", "plot")
+STANDARD_INPUT = "-"
 
 
-def guarded(command: Callable[..., None]) -> Callable[..., None]:
-    """The command, which first refuses such paths. Raises BalcliError with the option and its
-    path.
+def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | None]) -> None:
+    """Refuse to write onto a file that is read, or two results into one file.
+
+    Args:
+        reads: paths of the engine files; `-` is standard input.
+        writes: by option (`--output`), where its result goes; None: nowhere.
+
+    Raises:
+        BalcliError: with the option and its path.
     """
-
-    @wraps(command)
-    def checked(**chosen: Any) -> None:
-        _refuse(chosen)
-        command(**chosen)
-
-    return checked
-
-
-def _refuse(chosen: Mapping[str, Any]) -> None:
-    read, written = list(_paths(chosen, READ)), list(_paths(chosen, WRITTEN))
-    for k, (option, target) in enumerate(written):
-        if any(_same(target, source) for _, source in read):
+    sources = [path for path in reads if path != STANDARD_INPUT]
+    targets = [(option, str(path)) for option, path in writes.items() if path is not None]
+    for k, (option, target) in enumerate(targets):
+        if any(_same_file(target, source) for source in sources):
             raise BalcliError(
-                f"--{option} {target}: this is the engine file itself, which stays as it is; "
+                f"{option} {target}: this is the engine file itself, which stays as it is; "
                 "choose another name"
             )
-        if any(_same(target, other) for _, other in written[:k]):
+        if any(_same_file(target, other) for _, other in targets[:k]):
             raise BalcliError(
-                f"--{option} {target}: another result goes there, too; choose another name"
+                f"{option} {target}: another result goes there, too; choose another name"
             )
 
 
-def _paths(chosen: Mapping[str, Any], names: tuple[str, ...]) -> Iterator[tuple[str, str]]:
-    for name in names:
-        value = chosen.get(name)
-        values = value if isinstance(value, (list, tuple)) else [value]
-        yield from (
-            (name, str(path))
-            for path in values
-            if isinstance(path, (str, Path)) and str(path) != "-"
-        )
-
-
-def _same(one: str, other: str) -> bool:
+def _same_file(one: str, other: str) -> bool:
     """Whether two paths are one file, there or not; a device may be named as often as one likes."""
     if not os.path.exists(one):
         return os.path.realpath(one) == os.path.realpath(other)

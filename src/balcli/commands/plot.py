@@ -9,11 +9,14 @@ from typing import Annotated
 import typer
 
 from ..render.formats import Units
-from .options import EngineFile, Orders, Scheme, Speed, UnitsOption, checked_speed, order_list
+from ..render.units import SYSTEMS
+from .options import EnginePath, Orders, Scheme, Speed, UnitsOption, check_speed, parse_orders
+from .output import write_file
+from .overwrite_guard import refuse_overwriting
 
 
 class What(StrEnum):
-    """Which page."""
+    """Which pictures are drawn on the page."""
 
     ALL = "all"
     POLAR = "polar"
@@ -44,7 +47,7 @@ Page = Annotated[
 
 
 def plot(
-    file: EngineFile,
+    path: EnginePath,
     output: Picture,
     what: Page = What.ALL,
     scheme: Scheme = None,
@@ -55,13 +58,12 @@ def plot(
     """Draw free forces and moments: loci over a revolution, order by order, and over the crank
     angle.
     """
+    refuse_overwriting(reads=[path], writes={"--output": output})
     from ..render.plot.pages import Subject, form_of, picture
-    from ..render.units import SYSTEMS
-    from ..studies.pictures import study
-    from .inputs import engine_of
-    from .output import write
+    from ..studies.pictures import compute_study
+    from .inputs import read_engine
 
-    form, asked = form_of(output), order_list(orders)
-    _, engine = engine_of(file, checked_speed(speed))
-    subject = Subject(system=SYSTEMS[units], **study(engine, what, asked, scheme)._asdict())
-    write(picture(subject, what, form), output)
+    form, asked = form_of(output), parse_orders(orders)
+    engine = read_engine(path, check_speed(speed)).engine
+    subject = Subject(system=SYSTEMS[units], **compute_study(engine, what, asked, scheme)._asdict())
+    write_file(picture(subject, what, form), output)

@@ -7,8 +7,12 @@ from typing import Annotated
 
 import typer
 
+from ..forces.kinds import KINDS
 from ..render.formats import Units
-from .options import EngineFile, Orders, Scheme, Speed, UnitsOption, checked_speed, order_list
+from ..render.units import SYSTEMS
+from .options import EnginePath, Orders, Scheme, Speed, UnitsOption, check_speed, parse_orders
+from .output import emit
+from .overwrite_guard import refuse_overwriting
 
 Page = Annotated[
     Path,
@@ -19,7 +23,7 @@ Page = Annotated[
 
 
 def report(
-    file: EngineFile,
+    path: EnginePath,
     output: Page,
     scheme: Scheme = "auto",
     speed: Speed = None,
@@ -29,15 +33,14 @@ def report(
     """Write one self-contained page: the engine in motion, what it shakes, and a balance scheme
     before and after.
     """
-    from ..forces.kinds import KINDS
+    refuse_overwriting(reads=[path], writes={"--output": output})
     from ..render.html import page
-    from ..render.units import SYSTEMS
     from ..results.analysis import analyze
     from ..results.balance import balance
-    from .inputs import engine_of
-    from .output import emit
+    from .inputs import read_engine
 
-    asked = order_list(orders)
-    _, engine = engine_of(file, checked_speed(speed))
+    asked = parse_orders(orders)
+    engine = read_engine(path, check_speed(speed)).engine
     result = analyze(engine, asked, {*KINDS, "peak"})
-    emit(page(result, balance(engine, scheme or "auto", orders=asked), SYSTEMS[units]), output)
+    balanced = balance(engine, scheme or "auto", orders=asked)
+    emit(page(result, balanced, SYSTEMS[units]), output)

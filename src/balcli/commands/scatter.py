@@ -7,8 +7,11 @@ from typing import Annotated
 
 import typer
 
+from ..forces.kinds import DEFAULT_QUANTITIES
 from ..render.formats import Format
-from .options import EngineFile, FormatOption, Output
+from .options import EnginePath, FormatOption, Output
+from .output import show
+from .overwrite_guard import refuse_overwriting
 
 
 class Distribution(StrEnum):
@@ -19,7 +22,7 @@ class Distribution(StrEnum):
 
 
 def scatter(
-    file: EngineFile,
+    path: EnginePath,
     mass: Annotated[
         str,
         typer.Option(
@@ -60,36 +63,21 @@ def scatter(
         typer.Option(
             "--quantity", "-q", metavar="WHAT,...", help="As force.1.major, couple.4.amplitude."
         ),
-    ] = "force.1.major,force.2.major,moment.1.major,moment.2.major",
-    format: FormatOption = Format.TABLE,  # noqa: A002 (the option's name)
+    ] = DEFAULT_QUANTITIES,
+    form: FormatOption = Format.TABLE,
     output: Output = None,
 ) -> None:
     """How free forces and moments spread when masses (rod lengths, throw angles) vary, and which
     tolerance matters most.
     """
-    from ..forces import quantity as quantities
-    from ..render import tolerances as rendered
-    from ..render.formats import render
-    from ..studies import tolerances as scatters
-    from .inputs import engine_of
-    from .output import emit
+    refuse_overwriting(reads=[path], writes={"--output": output})
+    from ..forces.quantity import parse_quantity_list
+    from ..render import tolerances as renderer
+    from ..studies.tolerances import parse_tolerances, scatter_engine
+    from .inputs import read_engine
 
-    tolerances = scatters.tolerances(mass, length, angle)
-    found = scatters.scatter(
-        engine_of(file)[0],
-        tolerances,
-        quantities.parse(quantity),
-        samples,
-        seed,
-        distribution.value,
-    )
-    emit(
-        render(
-            format,
-            sheets=lambda: [rendered.sheet(found)],
-            documents=lambda: [rendered.document(found)],
-            rows=lambda: rendered.rows(found),
-            into_file=output is not None,
-        ),
-        output,
-    )
+    tolerances = parse_tolerances(mass, length, angle)
+    model = read_engine(path).model
+    asked = parse_quantity_list(quantity)
+    found = scatter_engine(model, tolerances, asked, samples, seed, distribution.value)
+    show([found], renderer, form, output)

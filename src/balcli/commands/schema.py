@@ -2,14 +2,32 @@
 
 from __future__ import annotations
 
+import json
+from enum import StrEnum
+from typing import Annotated
+
+import typer
+
 from .options import Output
+from .output import emit
 
 
-def schema(output: Output = None) -> None:
-    """Print the JSON Schema of the engine file, for editors."""
-    import json
+class File(StrEnum):
+    """Files that have a schema."""
 
-    from ..enginefile.schema import schema as described
-    from .output import emit
+    ENGINE = "engine"
+    FIELD = "field"
 
-    emit(json.dumps(described(), indent=2, ensure_ascii=False), output)
+
+def schema(
+    kind: Annotated[
+        File, typer.Argument(help="engine: the engine file; field: runs of a rotor on a machine.")
+    ] = File.ENGINE,
+    output: Output = None,
+) -> None:
+    """Print the JSON Schema of the engine file, or of a file of runs, for editors."""
+    from ..enginefile.schema import schema as describe_engine_file  # pydantic
+    from ..field_balancing.schema import describe_runs_file
+
+    describe = describe_engine_file if kind is File.ENGINE else describe_runs_file
+    emit(json.dumps(describe(), indent=2, ensure_ascii=False), output)

@@ -8,11 +8,13 @@ from typing import Annotated
 import typer
 
 from ..render.formats import Format
-from .options import EngineFile, FormatOption, Output
+from .options import EnginePath, FormatOption, Output
+from .output import show, write_file
+from .overwrite_guard import refuse_overwriting
 
 
 def search(
-    file: EngineFile,
+    path: EnginePath,
     over: Annotated[
         str,
         typer.Option(
@@ -54,7 +56,7 @@ def search(
         ),
     ] = "",
     top: Annotated[int, typer.Option("--top", min=1, max=1000, help="How many to show.")] = 10,
-    format: FormatOption = Format.TABLE,  # noqa: A002 (the option's name)
+    form: FormatOption = Format.TABLE,
     output: Output = None,
     write: Annotated[
         Path | None,
@@ -67,34 +69,23 @@ def search(
     ] = None,
 ) -> None:
     """The best crank, firing order, bank angle or splay; mirror images and rotations once."""
+    refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     from ..engine.load import build_named, parse
-    from ..enginefile.read import name_file, read_bytes
-    from ..render import search as rendered
-    from ..render.formats import render
-    from ..studies.search import search as searches
-    from ..studies.search.write import arranged
-    from .output import emit
-    from .output import write as write_file
+    from ..enginefile.toml_text import name_file, read_bytes
+    from ..render import search as renderer
+    from ..studies.search.objective import parse_objective
+    from ..studies.search.search import search_arrangements
+    from ..studies.search.write import write_design
 
     if require not in ("", "even-firing"):
         raise typer.BadParameter(
             f'"{require}": only even-firing can be required', param_hint="--require"
         )
-    text, name = read_bytes(file), name_file(file)
+    text, name = read_bytes(path), name_file(path)
     model = parse(text, name)
     build_named(model, name)  # what is wrong with the file itself is told with its name
-    found = searches.search(
-        model, over, searches.objective(minimise, limit or ()), top, bool(require)
-    )
-    emit(
-        render(
-            format,
-            sheets=lambda: [rendered.sheet(found)],
-            documents=lambda: [rendered.document(found)],
-            rows=lambda: rendered.rows(found),
-            into_file=output is not None,
-        ),
-        output,
-    )
+    goal = parse_objective(minimise, limit or ())
+    found = search_arrangements(model, over, goal, top, bool(require))
+    show([found], renderer, form, output)
     if write is not None:
-        write_file(arranged(text, found.results[0].arrangement), write)
+        write_file(write_design(text, found.results[0].design), write)

@@ -6,23 +6,24 @@ from typing import Annotated
 
 import typer
 
+from ..render.formats import Format, Units
 from .options import (
-    EngineFile,
-    Format,
+    EnginePath,
     FormatOption,
     Orders,
     Output,
     Speed,
-    Units,
     UnitsOption,
-    checked_speed,
-    order_list,
+    check_speed,
+    parse_orders,
 )
+from .output import show
+from .overwrite_guard import refuse_overwriting
 
 
 def sum(  # noqa: A001 (the command's name)
-    first: EngineFile,
-    second: EngineFile,
+    first: EnginePath,
+    second: EnginePath,
     phase: Annotated[
         float, typer.Option(metavar="DEG", help="Crank angle by which the second engine leads.")
     ] = 0.0,
@@ -33,24 +34,32 @@ def sum(  # noqa: A001 (the command's name)
     reverse: Annotated[
         bool, typer.Option("--reverse", help="Its crank turns against the first one's.")
     ] = False,
+    load: Annotated[
+        str,
+        typer.Option(
+            "--load",
+            metavar="first|second|both",
+            help=(
+                "With --reverse: the crank that has flywheel and load, and so bears the inertia "
+                "torque of both engines; both: each bears its own."
+            ),
+        ),
+    ] = "first",
     speed: Speed = None,
     orders: Orders = None,
-    format: FormatOption = Format.TABLE,  # noqa: A002 (the option's name)
+    form: FormatOption = Format.TABLE,
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
     """Two engines on one frame, geared one to one: H, U and opposed-piston engines."""
-    from ..render.formats import sums
-    from ..results.two_engines import combine
-    from .arrangement_options import arrangement
-    from .inputs import engine_of, named
-    from .output import emit
+    refuse_overwriting(reads=[first, second], writes={"--output": output})
+    from ..render import two_engines as renderer
+    from ..results.two_engines import combine_engines
+    from .arrangement_options import parse_arrangement
+    from .inputs import named_by_file, read_engine
 
-    rpm, asked, placed = (
-        checked_speed(speed),
-        order_list(orders),
-        arrangement(phase, at, turn, reverse),
-    )
-    engines = [named(engine_of(file, rpm)[1], file) for file in (first, second)]
-    result = combine(engines[0], engines[1], placed, asked)
-    emit(sums(result, format, units, into_file=output is not None), output)
+    rpm, asked = check_speed(speed), parse_orders(orders)
+    arrangement = parse_arrangement(phase, at, turn, reverse, load)
+    engines = [named_by_file(read_engine(path, rpm).engine, path) for path in (first, second)]
+    result = combine_engines(engines[0], engines[1], arrangement, asked)
+    show([result], renderer, form, output, units)

@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from .options import EngineFile, Output
-
-
-class Form(StrEnum):
-    """How variants are written."""
-
-    CSV = "csv"
-    JSON = "json"
+from ..errors import Exit
+from ..forces.kinds import DEFAULT_QUANTITIES
+from .options import EnginePath, Output, SeriesFormat
+from .output import write_file
+from .overwrite_guard import refuse_overwriting
 
 
 def sweep(
-    file: EngineFile,
+    path: EnginePath,
     vary: Annotated[
         list[str],
         typer.Option(
@@ -46,10 +42,10 @@ def sweep(
                 "torque..., roll...; peak.force, peak.moment."
             ),
         ),
-    ] = "force.1.major,force.2.major,moment.1.major,moment.2.major",
-    format: Annotated[  # noqa: A002
-        Form, typer.Option("--format", "-f", help="How to write the variants.")
-    ] = Form.CSV,
+    ] = DEFAULT_QUANTITIES,
+    form: Annotated[
+        SeriesFormat, typer.Option("--format", "-f", help="How to write the variants.")
+    ] = SeriesFormat.CSV,
     output: Output = None,
     progress: Annotated[
         bool, typer.Option("--progress", help="Show a bar on standard error.")
@@ -73,20 +69,21 @@ def sweep(
     """Figures of many variants of an engine: numbers of its file over ranges, as CSV, JSON or (by
     the name of -o) Parquet.
     """
-    from ..studies import dask_cluster as cluster
-    from ..studies import sweep as sweeps
-    from .sweep_output import heeding, interruptible, with_progress, write
+    refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
+    from ..render.sweep_plot import draw
+    from ..studies.dask_cluster import connect_cluster, evaluate_on_cluster
+    from ..studies.sweep import evaluate_chunks, evaluate_grid, read_sweep
+    from .sweep_output import noting_interrupt, showing_progress, until_interrupted, write_sweep
 
-    job = sweeps.ask(file, vary, quantity)
-    form = "parquet" if output is not None and output.suffix == ".parquet" else format.value
-    with interruptible() as stopped, cluster.client(dask) if dask else nullcontext() as workers:
-        chunks = cluster.chunks(job, workers) if dask else sweeps.chunks(job)
-        write(job, with_progress(heeding(chunks, stopped), job.variants, progress), form, output)
-    if stopped.asked:
-        typer.echo(f"balcli: stopped after {stopped.at} of {job.variants} variants", err=True)
-        raise typer.Exit(130)
+    job = read_sweep(path, vary, quantity)
+    kind = "parquet" if output is not None and output.suffix == ".parquet" else form.value
+    cluster = connect_cluster(dask) if dask else nullcontext()
+    with noting_interrupt() as interrupt, cluster as workers:
+        chunks = evaluate_on_cluster(job, workers) if dask else evaluate_chunks(job)
+        shown = showing_progress(until_interrupted(chunks, interrupt), job.variants, progress)
+        write_sweep(job, shown, kind, output)
+    if interrupt.noted:
+        typer.echo(f"balcli: stopped after {interrupt.done} of {job.variants} variants", err=True)
+        raise typer.Exit(Exit.INTERRUPTED)
     if plot:
-        from ..render.sweep_plot import draw
-        from .output import write as write_file
-
-        write_file(draw(job, sweeps.grid(job)), plot)
+        write_file(draw(job, evaluate_grid(job)), plot)

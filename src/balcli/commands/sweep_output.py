@@ -8,51 +8,53 @@ import signal
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from itertools import chain
+from dataclasses import dataclass
+from itertools import chain, islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TextIO
+
+import numpy as np
 
 from ..errors import BalcliError
 from ..render.sweep import csv_text, json_text
-
-if TYPE_CHECKING:
-    from ..studies.sweep import Chunk, Sweep
+from ..studies.sweep import Array, Chunk, Sweep, list_columns
+from .output import replacing, standard_output
 
 ROWS_A_GROUP = 1 << 20  # of a Parquet file
 
 
-def write(sweep: Sweep, chunks: Iterable[Chunk], form: str, output: Path | None) -> None:
-    """All chunks, in one of the forms csv, json and parquet; a file takes its place when it is
-    whole.
+def write_sweep(sweep: Sweep, chunks: Iterable[Chunk], kind: str, output: Path | None) -> None:
+    """Write all chunks as csv, json or parquet; a file takes its place when it is whole.
 
     Raises:
         BalcliError: the file cannot be written, or pyarrow is missing.
     """
-    from .output import beside, standard_output
-
     if output is None:
         with standard_output() as stream:
-            _copy(sweep, chunks, form, stream)
+            _write_text(sweep, chunks, kind, stream)
         return
-    with beside(output) as place:
-        if form == "parquet":
-            _parquet(sweep, chunks, place)
+    with replacing(output) as place:
+        if kind == "parquet":
+            _write_parquet(sweep, chunks, place)
         else:
             with place.open("w", encoding="utf-8") as stream:
-                _copy(sweep, chunks, form, stream)
+                _write_text(sweep, chunks, kind, stream)
 
 
-def _copy(sweep: Sweep, chunks: Iterable[Chunk], form: str, stream: Any) -> None:
-    first = next(
-        iter(chunks := iter(chunks)), None
-    )  # a variant that cannot be is told before a heading is written
-    for text in (json_text if form == "json" else csv_text)(
-        sweep, chunks if first is None else chain([first], chunks)
-    ):
-        stream.write(text)
+def _write_text(sweep: Sweep, chunks: Iterable[Chunk], kind: str, stream: TextIO) -> None:
+    write = json_text if kind == "json" else csv_text
+    stream.writelines(write(sweep, _first_at_once(chunks)))
 
 
-def _parquet(sweep: Sweep, chunks: Iterable[Chunk], place: Path) -> None:
+def _first_at_once(chunks: Iterable[Chunk]) -> Iterator[Chunk]:
+    """The same chunks; the first is computed at once, so that a variant that cannot be is told
+    before a heading is written.
+    """
+    waiting = iter(chunks)
+    return chain(list(islice(waiting, 1)), waiting)
+
+
+def _write_parquet(sweep: Sweep, chunks: Iterable[Chunk], place: Path) -> None:
     try:
         import pyarrow
         from pyarrow import parquet
@@ -60,19 +62,15 @@ def _parquet(sweep: Sweep, chunks: Iterable[Chunk], place: Path) -> None:
         raise BalcliError("a .parquet file needs pyarrow: install balcli[scale]") from None
     schema = pyarrow.schema([(name, pyarrow.float64()) for name in sweep.columns])
     with parquet.ParquetWriter(place, schema) as writer:
-        for columns in _grouped(sweep, chunks):
+        for columns in _row_groups(sweep, chunks):
             writer.write_table(pyarrow.table(columns, schema=schema))
 
 
-def _grouped(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[list[Any]]:
-    """Columns of many chunks together."""
-    import numpy as np
-
-    from ..studies.sweep import columns
-
-    waiting: list[list[Any]] = []
+def _row_groups(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[list[Array]]:
+    """Columns of many chunks together: ROWS_A_GROUP rows or a few more, fewer in the last."""
+    waiting: list[list[Array]] = []
     for chunk in chunks:
-        waiting.append(columns(sweep, chunk))
+        waiting.append(list_columns(sweep, chunk))
         if sum(len(c[0]) for c in waiting) >= ROWS_A_GROUP:
             yield [np.concatenate(parts) for parts in zip(*waiting, strict=True)]
             waiting = []
@@ -80,43 +78,43 @@ def _grouped(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[list[Any]]:
         yield [np.concatenate(parts) for parts in zip(*waiting, strict=True)]
 
 
-class Stopped:
-    """Whether the user has pressed Ctrl-C."""
+@dataclass
+class Interrupt:
+    """Whether Ctrl-C has been pressed, and how many variants were done by then."""
 
-    def __init__(self) -> None:
-        self.at = 0  # variants that were complete then
-        self.asked = False
+    noted: bool = False
+    done: int = 0
 
 
 @contextmanager
-def interruptible() -> Iterator[Stopped]:
-    """Ctrl-C is noted here and heeded between two chunks, so that what is written is whole; the
-    second one kills.
+def noting_interrupt() -> Iterator[Interrupt]:
+    """Ctrl-C is only noted here, for a loop to end between two chunks, so that what is written is
+    whole; the second one kills.
     """
-    stopped = Stopped()
+    interrupt = Interrupt()
 
     def note(*_: object) -> None:
-        stopped.asked = True
+        interrupt.noted = True
         signal.signal(signal.SIGINT, before)
 
     before = signal.signal(signal.SIGINT, note)
     try:
-        yield stopped
+        yield interrupt
     finally:
         signal.signal(signal.SIGINT, before)
 
 
-def heeding(chunks: Iterable[Chunk], stopped: Stopped) -> Iterator[Chunk]:
-    """The chunks until Ctrl-C."""
+def until_interrupted(chunks: Iterable[Chunk], interrupt: Interrupt) -> Iterator[Chunk]:
+    """The chunks, counted, until Ctrl-C is noted."""
     for chunk in chunks:
         yield chunk
-        stopped.at += len(chunk.values[0])
-        if stopped.asked:
+        interrupt.done += len(chunk.values[0])
+        if interrupt.noted:
             return
 
 
-def with_progress(chunks: Iterable[Chunk], total: int, wanted: bool) -> Iterator[Chunk]:
-    """A bar on standard error while they are computed, if that is a terminal."""
+def showing_progress(chunks: Iterable[Chunk], total: int, wanted: bool) -> Iterator[Chunk]:
+    """The chunks, with a bar on standard error while they are computed, if that is a terminal."""
     if not (wanted and sys.stderr.isatty()):
         yield from chunks
         return

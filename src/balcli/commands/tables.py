@@ -7,8 +7,9 @@ from typing import Annotated
 import typer
 
 from ..render.formats import Format
-from . import completion
+from .completion import complete_tables
 from .options import FormatOption, Output
+from .output import show
 
 Name = Annotated[
     str | None,
@@ -16,7 +17,7 @@ Name = Annotated[
         metavar="NAME",
         help="Which table; without it, all are listed.",
         show_default=False,
-        autocompletion=completion.tables,
+        autocompletion=complete_tables,
     ),
 ]
 Errata = Annotated[
@@ -65,15 +66,14 @@ def tables(
     """The printed coefficient tables of five books and papers, recomputed, and every misprint in
     them.
     """
-    from ..render import tables as printed
-    from ..tables import select
-    from .output import emit
+    from ..render import errata as errata_renderer
+    from ..render import printed_table, table_list
+    from ..tables.registry import select_tables
 
-    shown, into_file = select(name, lam, angle, power), output is not None
+    chosen = select_tables(name, lam, angle, power)
     if errata:
-        text = printed.errata(shown, form, into_file=into_file)
+        show([chosen], errata_renderer, form, output)
     elif name:
-        text = printed.table(shown[0], form, digits, into_file=into_file)
+        show([printed_table.RoundedTable(chosen[0], digits)], printed_table, form, output)
     else:
-        text = printed.names(shown, form, into_file=into_file)
-    emit(text, output)
+        show([chosen], table_list, form, output)

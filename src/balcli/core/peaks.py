@@ -4,11 +4,14 @@ a grid of samples.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial import polynomial
+from numpy.typing import NDArray
 
-from .phasors import Array, Phasors
+from .phasors import Array, Complex, Phasors
 
 
 class Peak(NamedTuple):
@@ -21,10 +24,14 @@ class Peak(NamedTuple):
 
 
 _EQUAL = 1e-12  # peaks that differ by a smaller share are equal
+_TERMS = 7  # of the series by which many peaks are told apart
+_ROUNDS = 4  # of Newton's method on it
+_DIGITS = 8  # to which they are
 
 
 def peak(curve: Phasors) -> Peak:
-    """The global maximum of |F|, to rounding.
+    """The global maximum of |F|, to rounding, or to 1e-8 where more than 64 maxima are that near to
+    it.
 
     |F|^2 is a trigonometric polynomial of degree 2n, n the highest order that is there. Between
     samples at 16n points it exceeds the largest of them by less than a factor 1/cos(pi/8) (Ehlich
@@ -35,10 +42,10 @@ def peak(curve: Phasors) -> Peak:
     if not len(there):
         return Peak(0.0, 0.0)
     curve = Phasors(curve.orders[there], curve.forward[there], curve.backward[there], np.zeros(1))
-    theta = candidates(curve)
+    theta = find_candidates(curve)
     step = np.pi / (8 * max(curve.orders[-1], 1))
     theta = np.concatenate(
-        [[0.0], climb(curve, theta, step)]
+        [[0.0], climb_peaks(curve, theta, step)]
     )  # 0 is the first place of a peak beside it, and of a level curve
     values, turned = np.abs(curve.values(theta)), theta % (2 * np.pi)
     equal = np.flatnonzero(
@@ -48,10 +55,11 @@ def peak(curve: Phasors) -> Peak:
     return Peak(float(values.max()), float(turned[best]))
 
 
-def candidates(curve: Phasors, most: int = 64) -> Array:
-    """Angles of the samples that may lie beside the highest peak."""
-    highest = int(curve.orders[-1])
-    count = 16 * max(highest, 1)
+def find_candidates(curve: Phasors, most: int = 64) -> Array:
+    """Angles of the samples that may lie beside the highest peak, at most so many: where there are
+    more, those of the highest peaks but for 1e-8, of equal ones the first.
+    """
+    count = 16 * max(int(curve.orders[-1]), 1)
     spectrum = np.zeros(count, complex)
     spectrum[curve.orders.astype(int)] += curve.forward
     spectrum[-curve.orders.astype(int)] += curve.backward
@@ -60,24 +68,58 @@ def candidates(curve: Phasors, most: int = 64) -> Array:
         (power >= np.roll(power, 1)) & (power >= np.roll(power, -1)) & (power >= 0.92 * power.max())
     )
     found = np.flatnonzero(top)
-    return found[np.argsort(-power[found], kind="stable")[:most]] * (2 * np.pi / count)
+    height = power[found]
+    if len(found) > most:
+        height = _estimate_peaks(spectrum, found)
+        height = np.round(height / height.max(), _DIGITS)
+    highest_first = found[np.argsort(-height, kind="stable")]
+    return highest_first[:most].astype(float) * (2 * np.pi / count)
 
 
-def climb(curve: Phasors, theta: Array, step: float, rounds: int = 12) -> Array:
+def _estimate_peaks(spectrum: Complex, at: NDArray[np.intp]) -> Array:
+    """|F|^2 at the maxima beside samples, by the Taylor series of F about each: within half a step
+    of pi/8n its remainder is below 1e-9 of the amplitudes.
+    """
+    count = len(spectrum)
+    rate = 1j * np.fft.fftfreq(count, 1 / count)
+    derivatives = [spectrum / math.factorial(k) * rate**k for k in range(_TERMS)]
+    series = np.stack([np.fft.ifft(d, norm="forward")[at] for d in derivatives])
+    first, second = (np.asarray(polynomial.polyder(series, k), complex) for k in (1, 2))
+    x = np.zeros(len(at))
+    for _ in range(_ROUNDS):
+        f, f1, f2 = (_evaluate_each(c, x) for c in (series, first, second))
+        x = np.clip(x + _find_move(f, f1, f2, np.pi / count), -np.pi / count, np.pi / count)
+    values: Array = np.abs(_evaluate_each(series, x)) ** 2
+    return values
+
+
+def _evaluate_each(series: Complex, x: Array) -> Complex:
+    """Polynomials of coefficients of shape (terms, polynomials), each at its own x."""
+    return np.asarray(polynomial.polyval(x, series, tensor=False), complex)
+
+
+def climb_peaks(curve: Phasors, theta: Array, step: float, rounds: int = 12) -> Array:
     """Newton's method for the maxima of |F|^2 beside the given angles, in steps of at most
     `step`.
     """
     first, second = _derivative(curve), _derivative(_derivative(curve))
     for _ in range(rounds):
-        f, f1, f2 = curve.values(theta), first.values(theta), second.values(theta)
-        slope = (np.conj(f) * f1).real
-        bend = np.abs(f1) ** 2 + (np.conj(f) * f2).real
-        steep = np.where(bend < 0, -slope / np.where(bend < 0, bend, -1), np.sign(slope) * step / 2)
-        move = np.clip(steep, -step, step)
+        move = _find_move(curve.values(theta), first.values(theta), second.values(theta), step)
         theta = theta + move
         if np.max(np.abs(move)) < 1e-10:
             break
     return theta
+
+
+def _find_move(f: Complex, f1: Complex, f2: Complex, step: float) -> Array:
+    """One step of Newton's method, at most `step`, by F and its two derivatives; uphill where |F|^2
+    bends upwards.
+    """
+    slope = (np.conj(f) * f1).real
+    bend = np.abs(f1) ** 2 + (np.conj(f) * f2).real
+    steep = np.where(bend < 0, -slope / np.where(bend < 0, bend, -1), np.sign(slope) * step / 2)
+    move: Array = np.clip(steep, -step, step)
+    return move
 
 
 def _derivative(curve: Phasors) -> Phasors:

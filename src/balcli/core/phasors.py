@@ -10,16 +10,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Array = NDArray[Any]  # of real numbers
-Complex = NDArray[Any]  # of complex ones
+Array: TypeAlias = NDArray[np.float64]
+Complex: TypeAlias = NDArray[np.complex128]
+Figure: TypeAlias = float | Array  # a number, or an array of variants
 
 EPS = float(np.finfo(float).eps)
-_STEP = 15  # degrees
+_STEP = 15.0  # degrees
 _COSINES = (1, (6**0.5 + 2**0.5) / 4, 0.75**0.5, 0.5**0.5, 0.5, (6**0.5 - 2**0.5) / 4, 0)
 
 
@@ -42,7 +43,7 @@ def unit(degrees: ArrayLike) -> Complex:
     x = np.asarray(degrees, float)
     steps = np.rint(x / _STEP)
     rest = x - _STEP * steps
-    turned: Complex = _UNITS.take((steps - 24 * np.floor(steps / 24)).astype(np.intp))
+    turned: Complex = _UNITS.take((steps - 24.0 * np.floor(steps / 24.0)).astype(np.intp))
     return turned * _turn(rest * (np.pi / 180)) if np.count_nonzero(rest) else turned
 
 
@@ -81,7 +82,7 @@ class Phasors:
     __array_ufunc__ = None  # array * phasors is ours to answer
 
     @classmethod
-    def real(cls, orders: Array, coefficients: Complex, noise: Array) -> Phasors:
+    def from_scalar(cls, orders: Array, coefficients: Complex, noise: Array) -> Phasors:
         """The scalar `Re sum c_n e^{i n theta}`; a mean (order 0) is its own conjugate and stands
         in `forward` alone.
         """
@@ -109,20 +110,17 @@ class Phasors:
             self.noise + other.noise,
         )
 
-    def __rmul__(self, factor: Any) -> Phasors:
+    def __rmul__(self, factor: complex | Figure | Complex) -> Phasors:
         """Scaled, or scaled and turned where the factor is complex."""
-        return Phasors(
-            self.orders, factor * self.forward, factor * self.backward, abs(factor) * self.noise
-        )
+        noise: Array = np.abs(factor) * self.noise
+        return Phasors(self.orders, factor * self.forward, factor * self.backward, noise)
 
-    def about(self, p: ArrayLike) -> Phasors:
+    def about(self, p: complex | Complex) -> Phasors:
         """Moment about z of this force acting at the point p = x + iy: `Im(conj(p) F)`, a
         scalar.
         """
-        moment = np.conj(p) * self.forward - p * np.conj(
-            self.backward
-        )  # times i/... of a real quantity's coefficient
-        return Phasors.real(self.orders, -1j * moment, 2 * np.abs(p) * self.noise)
+        moment = np.conjugate(p) * self.forward - p * np.conjugate(self.backward)
+        return Phasors.from_scalar(self.orders, -1j * moment, 2 * np.abs(p) * self.noise)
 
     def settled(self) -> Phasors:
         """The same with whatever lies within its rounding error set to exactly 0, each of both
@@ -135,14 +133,14 @@ class Phasors:
             self.noise,
         )
 
-    def at(self, orders: ArrayLike) -> Phasors:
-        """The rows of these orders (each must be there)."""
+    def select_orders(self, orders: ArrayLike) -> Phasors:
+        """Those of these orders, each of which must be there."""
         rows = np.searchsorted(self.orders, np.asarray(orders, float))
         noise = np.broadcast_to(self.noise, self.forward.shape)
         return Phasors(self.orders[rows], self.forward[rows], self.backward[rows], noise[rows])
 
-    def of(self, place: int) -> Phasors:
-        """Those at one place of the trailing axis."""
+    def select_place(self, place: int) -> Phasors:
+        """Those at one place along the trailing axis."""
         noise = np.broadcast_to(self.noise, self.forward.shape)
         return Phasors(
             self.orders, self.forward[:, place], self.backward[:, place], noise[:, place]
@@ -204,16 +202,15 @@ class Phasors:
         return curve
 
 
-def joined(parts: Sequence[Phasors]) -> Phasors:
+def join_orders(parts: Sequence[Phasors]) -> Phasors:
     """One run of orders from several, in their order."""
     noises = [np.broadcast_to(p.noise, p.forward.shape) for p in parts]
-    columns = (
-        [p.orders for p in parts],
-        [p.forward for p in parts],
-        [p.backward for p in parts],
-        noises,
+    return Phasors(
+        np.concatenate([p.orders for p in parts]),
+        np.concatenate([p.forward for p in parts]),
+        np.concatenate([p.backward for p in parts]),
+        np.concatenate(noises),
     )
-    return Phasors(*map(np.concatenate, columns))
 
 
 def _settled(vectors: Complex, noise: Array) -> Complex:

@@ -19,14 +19,15 @@ from fractions import Fraction
 
 TURN = 360
 LARGEST_DENOMINATOR = 5040  # of a fraction of a turn: 7!, so that all common divisions are in it
-_ULPS = 2 * math.ulp(float(TURN))
+_ULPS = 2  # by which an angle may differ from its fraction
 
 
-def turns(degrees: float) -> Fraction | None:
-    """The fraction of a turn that an angle is, to within 2 ulp of 360 degrees; None if no
-    denominator to 5040 gives it.
+def turns(degrees: float, largest: float = TURN) -> Fraction | None:
+    """The fraction of a turn that an angle is, modulo a turn; None if no denominator to 5040 gives
+    it to within 2 ulp of `largest`, the size of the angles that it comes from (360 at least).
     """
-    found = rational(degrees / TURN, LARGEST_DENOMINATOR, _ULPS / TURN)
+    tolerance = _ULPS * math.ulp(max(largest, float(TURN)))
+    found = rational(math.fmod(degrees, TURN) / TURN, LARGEST_DENOMINATOR, tolerance / TURN)
     return None if found is None else found % 1
 
 

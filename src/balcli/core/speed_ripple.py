@@ -10,24 +10,24 @@ that every order stays as exact as at steady speed.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .peaks import Peak, peak
-from .phasors import EPS, Complex, Phasors, unit
+from .phasors import EPS, Complex, Figure, Phasors, unit
+
+Line: TypeAlias = tuple[int, Figure, Figure]  # order, amplitude, angle in degrees
+Number = TypeVar("Number", np.float64, np.complex128)
 
 
-def speed(lines: Iterable[tuple[int, Any, Any]]) -> Complex:
-    """Two-sided coefficients of W for lines (order, amplitude, angle in degrees), orders -k .. k,
-    before any trailing axes.
-    """
+def find_speed(lines: Iterable[Line]) -> Complex:
+    """Coefficients of W for both signs of the order, shape (2 k + 1, *trailing): orders -k .. k."""
     halves = [(order, amplitude / 2 * unit(-angle)) for order, amplitude, angle in lines]
     highest = max(order for order, _ in halves)
-    w: Complex = np.zeros(
-        (2 * highest + 1, *np.broadcast_shapes(*(half.shape for _, half in halves))), complex
-    )
+    trailing = np.broadcast_shapes(*(half.shape for _, half in halves))
+    w: Complex = np.zeros((2 * highest + 1, *trailing), complex)
     w[highest] = 1
     for order, half in halves:
         w[highest + order] += half
@@ -35,23 +35,27 @@ def speed(lines: Iterable[tuple[int, Any, Any]]) -> Complex:
     return w
 
 
-def slowest(lines: Sequence[tuple[int, float, float]]) -> Peak:
-    """The least W over a revolution, to rounding, and a crank angle (rad) at which it is reached,
-    for lines as of `speed`.
+def find_slowest(lines: Sequence[tuple[int, float, float]]) -> Peak:
+    """The least W over a revolution, to rounding, and a crank angle (rad) at which it is reached.
 
     It is where `sum |amplitude| + 1 - W`, which is nowhere negative, has its peak.
     """
-    w, size = speed(lines), sum(abs(amplitude) for _, amplitude, _ in lines)
+    w, size = find_speed(lines), sum(abs(amplitude) for _, amplitude, _ in lines)
     orders = np.arange(len(w) // 2 + 1.0)
     rest = np.where(orders, -w[len(w) // 2 :], size)
     top = peak(Phasors(orders, rest, np.where(orders, rest.conj(), 0), np.zeros(1)))
     return Peak(1 + size - top.value, top.theta)
 
 
-def force(steady: Phasors, w: Complex, mean: Any = 0.0) -> Phasors:
-    """Force (or moment, or couple) under W, from that at steady speed for the dense orders 0 .. n;
-    correct up to order n - 2k. `mean` is the mean momentum (for the couple: of the rotating
-    masses), which a steady speed does not show.
+def apply_to_force(steady: Phasors, w: Complex, mean: Figure = 0.0) -> Phasors:
+    """Force, moment or couple under W.
+
+    Args:
+        steady: the same at a steady speed, for the orders 0, 1 .. n without a gap.
+        w: from `find_speed`, up to order k.
+        mean: mean momentum (for the couple: of what turns), which a steady speed does not show.
+
+    Returns: for the same orders, correct up to n - 2k.
     """
 
     def shake(momentum: Complex, w: Complex, rate: Complex) -> Complex:
@@ -60,8 +64,10 @@ def force(steady: Phasors, w: Complex, mean: Any = 0.0) -> Phasors:
     return _transformed(steady, w, mean, shake)
 
 
-def torque(steady: Phasors, w: Complex, mean: Any) -> Phasors:
-    """Inertia torque under W likewise; `mean` is the mean inertia I_0 (kg m2)."""
+def apply_to_torque(steady: Phasors, w: Complex, mean: Figure) -> Phasors:
+    """Inertia torque under W, as `apply_to_force`; `mean` is the mean inertia times the square of
+    the mean speed, N m.
+    """
 
     def shake(momentum: Complex, w: Complex, rate: Complex) -> Complex:
         return -rate * _convolved(_convolved(momentum, w), w)
@@ -70,25 +76,22 @@ def torque(steady: Phasors, w: Complex, mean: Any) -> Phasors:
 
 
 def _transformed(
-    steady: Phasors, w: Complex, mean: Any, shake: Callable[[Complex, Complex, Complex], Complex]
+    steady: Phasors, w: Complex, mean: Figure, shake: Callable[[Complex, Complex, Complex], Complex]
 ) -> Phasors:
     n = len(steady.orders) - 1
-    forces = _two_sided(steady)
+    forces = _two_sided(steady.backward, steady.forward)
     both = np.broadcast_to(steady.noise, steady.forward.shape)
-    noise = _two_sided(Phasors(steady.orders, both, both, steady.noise)).real
-    order = np.arange(-n, n + 1.0).reshape(-1, *(1,) * (forces.ndim - 1))
+    noise = _two_sided(both, both)
+    order = np.arange(-n, n + 1.0, dtype=np.float64).reshape(-1, *(1,) * (forces.ndim - 1))
     divisor = np.where(order, order, 1)
-    shape = np.broadcast_shapes(forces.shape[1:], np.shape(mean))
-    momentum = np.broadcast_to(
-        1j * forces / divisor, (2 * n + 1, *shape)
-    ).copy()  # steady force = -i n momentum
+    shape = (2 * n + 1, *np.broadcast_shapes(forces.shape[1:], np.shape(mean)))
+    momentum = np.broadcast_to(1j * forces / divisor, shape).copy()  # force = -i n momentum
     momentum[n] = mean
-    scale = np.broadcast_to(
-        noise / EPS / np.abs(divisor), momentum.shape
-    ).copy()  # sizes of the parts, as their noise tells them
-    scale[n] = np.maximum(scale[n], np.abs(mean))
-    result = shake(momentum, w, 1j * order)
-    error = EPS * np.abs(shake(scale + 0j, np.abs(w) + 0j, np.abs(order) + 0j))
+    sizes = np.broadcast_to(noise / EPS / np.abs(divisor), shape).copy()  # as the noise tells them
+    sizes[n] = np.maximum(sizes[n], np.abs(mean))
+    result = shake(momentum, w, np.asarray(1j * order, np.complex128))
+    magnitudes = (np.asarray(v, np.complex128) for v in (sizes, np.abs(w), np.abs(order)))
+    error = EPS * np.abs(shake(*magnitudes))
     backward = np.where(order[n:] > 0, result[n::-1], 0)
     return Phasors(steady.orders, result[n:], backward, error[n:])  # the bound of -n is that of n
 
@@ -107,6 +110,6 @@ def _convolved(series: Complex, w: Complex) -> Complex:
     )
 
 
-def _two_sided(phasors: Phasors) -> NDArray[np.complex128]:
-    """Coefficients of e^{i n theta} for n = -N .. N."""
-    return np.concatenate([phasors.backward[:0:-1], phasors.forward])
+def _two_sided(backward: NDArray[Number], forward: NDArray[Number]) -> NDArray[Number]:
+    """Rows -N .. N from those of the orders 0 .. N of both sides."""
+    return np.concatenate([backward[:0:-1], forward])

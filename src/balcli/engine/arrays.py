@@ -5,14 +5,17 @@ any axes of variants.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TypeAlias
+from typing import cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array: TypeAlias = NDArray[np.float64]
-Complex: TypeAlias = NDArray[np.complex128]
-Figure: TypeAlias = float | Array  # a number, or variants of it along trailing axes
+from ..core.phasors import Array, Complex, Figure
+
+
+def place_in_plane(x: Figure, y: Figure) -> complex | Complex:
+    """x + iy."""
+    return cast("complex | Complex", x + 1j * y)
 
 
 def column(values: Sequence[Figure], rank: int) -> Array:

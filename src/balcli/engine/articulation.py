@@ -9,16 +9,16 @@ from typing import NamedTuple, cast
 
 import numpy as np
 
-from ..core.loads import Cylinders
+from ..core.cylinders import Cylinders
 from ..core.mechanisms.articulated import Articulated
 from ..core.mechanisms.linkage import STEPS, Linkage, revolution
 from ..core.mechanisms.rotary import Rotary
-from ..core.phasors import unit
+from ..core.phasors import Array, Figure, unit
 from ..enginefile.fields import counted
 from ..enginefile.model import Articulation, EngineFile
 from ..errors import Problem
 from ..limits import NEAREST_TO_LOCK
-from .arrays import Array, Figure, column
+from .arrays import column
 from .layout import Plan
 
 
@@ -161,7 +161,11 @@ def check_knuckles(
     linkage = cast(Linkage, cylinders.linkage)
     hung = cast(Articulated, linkage.hung if isinstance(linkage, Rotary) else linkage)
     with np.errstate(invalid="ignore"):  # beyond 1 there is no angle
-        leans = np.abs(linkage.each("lean", revolution(STEPS), cylinders.lam, cylinders.eps))
+        leans = np.abs(
+            linkage.sample(
+                lambda motion: motion.lean, revolution(STEPS), cylinders.lam, cylinders.eps
+            )
+        )
     leans = leans.reshape(len(numbers), -1, STEPS).max(axis=1)
     turned = cylinders.angle_deg.reshape(len(numbers), -1)[:, 0]
     for row, number in enumerate(numbers):

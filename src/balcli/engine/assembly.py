@@ -12,12 +12,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.loads import Cylinders
+from ..core.cylinders import Cylinders
 from ..core.mechanisms.articulated import Articulated
 from ..core.mechanisms.rotary import Rotary
+from ..core.phasors import Array, Figure
 from ..enginefile.model import EngineFile
 from . import firing
-from .arrays import Array, Figure, column, shared_column
+from .arrays import column, shared_column
 from .articulation import Knuckles, build_linkage, find_masters
 from .figures import (
     NOTHING,

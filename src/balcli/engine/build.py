@@ -9,10 +9,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from ..core.loads import Cylinders, Device
+from ..core.cylinders import Cylinders, Device
+from ..core.phasors import Array, Figure
 from ..enginefile.model import EngineFile
 from ..errors import InputError
-from .arrays import Array, Figure
 from .assembly import Assembly, Ripple
 from .devices import build_devices
 from .rules import find_contradictions

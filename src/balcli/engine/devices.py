@@ -7,12 +7,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..core.loads import Device
-from ..core.phasors import unit
+from ..core.cylinders import Device
+from ..core.phasors import Complex, Figure, unit
 from ..enginefile.model import Counterweight, EngineFile, Shaft, Slider
-from .arrays import Figure
+from .arrays import place_in_plane
 from .figures import AS_GIVEN, Figures, or_nothing
 
 
@@ -83,12 +82,10 @@ def _unbalance(figures: Figures, path: str, device: Counterweight | Shaft | Slid
     return mass * or_nothing(figures.take_optional(f"{path}.radius", device.radius)) / 1e3
 
 
-def _place(
-    figures: Figures, path: str, at: Sequence[float]
-) -> complex | NDArray[np.complexfloating]:
+def _place(figures: Figures, path: str, at: Sequence[float]) -> complex | Complex:
     """x + iy of the device's axis, m."""
     x, y = figures.take_each(f"{path}.at", at)
-    return x / 1e3 + 1j * (y / 1e3)
+    return place_in_plane(x / 1e3, y / 1e3)
 
 
 def _position(figures: Figures, path: str, device: Counterweight | Shaft | Slider) -> Figure:

@@ -11,9 +11,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple, cast
 
+from ..core.phasors import Figure
 from ..enginefile.model import ArticulatedRod, EngineFile, Override, Pendulum, Rod, Table
 from ..errors import BalcliError
-from .arrays import Figure
 
 
 class Figures:

@@ -15,8 +15,8 @@ from itertools import accumulate
 
 import numpy as np
 
+from ..core.phasors import Array, Figure
 from ..errors import InputError, Problem
-from .arrays import Array, Figure
 
 # deg; real files round offsets, angles and intervals, real mistakes are tens of degrees
 TOLERANCE_DEG = 1.0

@@ -6,11 +6,11 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from ..core.phasors import Figure
 from ..enginefile.fields import counted
 from ..enginefile.model import Crank, Layout
 from ..errors import InputError, Problem
 from ..limits import MOST_PARTS
-from .arrays import Figure
 from .figures import Figures
 
 TURN = 360.0

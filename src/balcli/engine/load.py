@@ -7,7 +7,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..enginefile.model import EngineFile
-from ..enginefile.read import name_file, read_bytes, read_tables
+from ..enginefile.read import read_tables
+from ..enginefile.toml_text import name_file, read_bytes
 from ..errors import InputError
 from .assembly import Assembly
 from .build import Engine, build

@@ -10,11 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..core.phasors import Figure
 from ..enginefile.model import describe_quick_period
 from ..enginefile.units import STANDARD_GRAVITY
 from ..errors import Problem
 from ..limits import NEAREST_TO_LOCK
-from .arrays import Figure
 from .figures import RodFigures, Swing, or_nothing
 
 ENDS = ("small_end", "big_end")

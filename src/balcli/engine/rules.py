@@ -144,7 +144,7 @@ def check_speed(parts: Assembly) -> Iterator[Problem]:
         amplitudes, angles = variant[::2], variant[1::2]
         if sum(map(abs, amplitudes)) < 1 - STANDSTILL:
             continue
-        least, theta = speed_ripple.slowest(list(zip(orders, amplitudes, angles, strict=True)))
+        least, theta = speed_ripple.find_slowest(list(zip(orders, amplitudes, angles, strict=True)))
         if least <= STANDSTILL:
             yield Problem("operation.speed_ripple", _describe_standstill(least, theta))
             return
@@ -182,8 +182,8 @@ def check_samples(parts: Assembly) -> Iterator[Problem]:
     c = parts.cylinders
     if parts.rank or c.count * harmonics.HARDEST <= MOST_SAMPLES:
         return
-    sampled = c.linkage.samples if c.linkage else harmonics.samples
-    different, samples = sampled(c.lam, c.eps)
+    count = c.linkage.count_all_samples if c.linkage else harmonics.count_all_samples
+    different, samples = count(c.lam, c.eps)
     if samples > MOST_SAMPLES:
         yield Problem(
             "cylinder",

@@ -6,24 +6,18 @@ What the tables say against each other is not looked at here: that takes an engi
 from __future__ import annotations
 
 import re
-import sys
-import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
-from ..errors import BalcliError, InputError, Problem
+from ..errors import DISGUISES, InputError, Problem
 from ..limits import (
-    DEEPEST_KEY,
-    LARGEST_FILE_BYTES,
     LONGEST_NAME,
     MOST_KEY_VALUES,
     MOST_MISTAKES_SHOWN,
     MOST_PARTS,
-    MOST_TOML_MARKS,
 )
 from .fields import printable, shorten
 from .messages import (
@@ -39,15 +33,13 @@ from .messages import (
     join_path,
 )
 from .model import EngineFile, Override, Table, mistakes_of_choice
+from .toml_text import parse_toml
 
 REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5"}
 CONTROL_CHARACTERS = {
-    "name": re.compile(r"[\x00-\x1f\x7f-\x9f]"),
-    "source": re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]"),  # may have lines
+    "name": re.compile(rf"[\x00-\x1f\x7f-\x9f{DISGUISES}]"),
+    "source": re.compile(rf"[\x00-\x08\x0b-\x1f\x7f-\x9f{DISGUISES}]"),  # may have lines
 }
-_KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
-_DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
-
 T = TypeVar("T", bound=Table)
 
 
@@ -91,31 +83,6 @@ class Draft:
         return InputError(listed, name, max(more, 0))
 
 
-def name_file(path: str | Path) -> str:
-    """What messages call a file; "-" is standard input."""
-    return "standard input" if str(path) == "-" else str(path)
-
-
-def read_bytes(path: str | Path) -> bytes:
-    """The content of a file, or of standard input for "-", as far as an engine file may be long.
-
-    Raises:
-        BalcliError: it cannot be read.
-    """
-    if str(path) == "-":
-        return sys.stdin.buffer.read(LARGEST_FILE_BYTES + 1)
-    try:
-        with Path(path).open("rb") as stream:
-            return stream.read(LARGEST_FILE_BYTES + 1)
-    except IsADirectoryError:
-        raise BalcliError(f"{path}: is a folder; name an engine file in it") from None
-    except FileNotFoundError:
-        raise BalcliError(f"{path}: no such file") from None
-    except (OSError, ValueError) as error:  # ValueError: a zero byte in the name
-        reason = error.strerror if isinstance(error, OSError) else error
-        raise BalcliError(f"{str(path)[:200]!r}: cannot be read ({reason})") from None
-
-
 def read_tables(text: str | bytes, name: str = "") -> Draft:
     """What a TOML text says of an engine; `name` is that of its file, for messages.
 
@@ -124,7 +91,7 @@ def read_tables(text: str | bytes, name: str = "") -> Draft:
     Raises:
         InputError: it is no TOML.
     """
-    data = _parse_toml(text, name)
+    data = parse_toml(text, name)
     reader = _Reader()
     reader.unknown += [UnknownKey("", key, None) for key in data if key not in KNOWN]
     for key, example in REQUIRED.items():
@@ -141,45 +108,6 @@ def read_tables(text: str | bytes, name: str = "") -> Draft:
     if "cylinder" in data:
         parts["cylinder"] = reader.read_cylinders(data["cylinder"])
     return reader.draft(parts)
-
-
-def _parse_toml(text: str | bytes, name: str) -> dict[str, Any]:
-    """TOML -> nested dicts; whatever tomllib raises becomes an InputError."""
-    if len(text) > LARGEST_FILE_BYTES:
-        megabytes = LARGEST_FILE_BYTES // 1_000_000
-        message = f"has more than {megabytes} MB; no engine file needs that"
-        raise InputError([Problem("", message)], name)
-    try:
-        return _load_toml(text.decode("utf-8-sig") if isinstance(text, bytes) else text)
-    except tomllib.TOMLDecodeError as error:
-        message = f"is not valid TOML: {str(error)[:300]}"
-    except OverflowError as error:
-        message = str(error)
-    except RecursionError:
-        message = (
-            "lists or tables are nested too deeply; an engine file needs no more than four levels"
-        )
-    except UnicodeDecodeError as error:
-        line = error.object[: error.start].count(b"\n") + 1
-        message = f"is not UTF-8 text (line {line}); save it as UTF-8"
-    except ValueError as error:  # int() of very many digits
-        message = f"a number cannot be read: {str(error).split(';')[0][:300]}"
-    raise InputError([Problem("", message)], name)
-
-
-def _load_toml(text: str) -> dict[str, Any]:
-    """The text as nested dicts, unless tomllib would take too much memory for it.
-
-    Raises:
-        RecursionError: a key has too many parts. OverflowError: there are too many values.
-    """
-    if _DEEP_KEY.search(text):
-        raise RecursionError
-    if sum(map(text.count, "[{.,=")) > MOST_TOML_MARKS:
-        raise OverflowError(
-            f"has more than {MOST_TOML_MARKS} keys, lists and values; no engine file needs that"
-        )
-    return tomllib.loads(text)
 
 
 class _Reader:

@@ -18,22 +18,22 @@ def schema() -> dict[str, Any]:
     tables: list[type[Table]] = [*TABLES.values(), *DEVICES.values(), Override]
     for table in tables:
         table.model_rebuild()  # pydantic before 2.13 writes no default of a table not built yet
-    document: dict[str, Any] = _tidy(EngineFile.model_json_schema())
+    document: dict[str, Any] = tidy_schema(EngineFile.model_json_schema())
     for table in tables:
         document["$defs"][table.__name__] |= _exclusions(table)
     document["properties"]["cylinder"]["propertyNames"] = {"pattern": "^[1-9][0-9]*$"}
     return {"$schema": DIALECT, **document, "title": "balcli engine file"}
 
 
-def _tidy(node: Any) -> Any:
+def tidy_schema(node: Any) -> Any:
     """Without what pydantic adds for Python's sake: null (TOML has none), titles of keys, empty
     defaults.
     """
     if isinstance(node, list):
-        return [_tidy(item) for item in node]
+        return [tidy_schema(item) for item in node]
     if not isinstance(node, dict):
         return node
-    node = {key: _tidy(value) for key, value in node.items()}
+    node = {key: tidy_schema(value) for key, value in node.items()}
     if isinstance(node.get("description"), str):
         node["description"] = " ".join(node["description"].split())  # docstrings are wrapped
     options = [option for option in node.get("anyOf", ()) if option != {"type": "null"}]

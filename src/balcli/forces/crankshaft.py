@@ -13,22 +13,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.loads import Device
+from ..core.cylinders import Device
 from ..core.peaks import Peak, peak
 from ..core.phasors import Array, Phasors
 from ..engine.arrays import ranked
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import MOST_RESULTS_ALONG_CRANK
-from .spectrum import considerable, each, few_enough, relevant_orders, weight
+from .orders import find_relevant_orders, mark_considerable
+from .spectrum import compute_device_force, compute_each_cylinder, refuse_too_many_loads
 
 
 @dataclass(frozen=True)
-class Along:
+class AlongCrank:
     """A force or moment at several places along the crank.
 
     Attributes:
-        z_m: shape (places,).
+        z_m: shape (places,), ascending.
         phasors: shape (orders, places).
         peaks: largest over a revolution, all orders, and its crank angle, one a place.
     """
@@ -38,17 +39,17 @@ class Along:
     peaks: tuple[Peak, ...]
 
     def at(self, place: int) -> Phasors:
-        """Phasors at one of the places."""
-        return self.phasors.of(place)
+        """Phasors at one of the places, by its index."""
+        return self.phasors.select_place(place)
 
     @property
     def largest(self) -> int:
-        """Which place has the highest peak; of equal ones the first."""
-        return int(np.argmax(ranked([found.value for found in self.peaks])))
+        """Index of the place with the highest peak; of equal ones the first."""
+        return int(np.argmax(ranked([peak.value for peak in self.peaks])))
 
 
 @dataclass(frozen=True)
-class Inner:
+class InnerLoads:
     """Shear force (N) and bending moment (N m) just behind each load, and inertia loads of the main
     bearings (N).
 
@@ -57,45 +58,55 @@ class Inner:
     with one throw, whose bearings the file cannot tell.
     """
 
-    shear: Along
-    bending: Along
-    bearings: Along | None
+    shear: AlongCrank
+    bending: AlongCrank
+    bearings: AlongCrank | None
 
 
-def inner(engine: Engine, orders: Array | None = None) -> Inner:
-    """Inner forces and moments of an engine without trailing axes, for these orders, and their
-    peaks over all orders.
+def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoads:
+    """Forces and moments within the crankshaft, for some orders, and their peaks over all orders.
 
-    By default orders 1 and 2 and those in which the bending moment is worth showing. BalcliError
-    where they are too many.
+    Args:
+        engine: without trailing axes.
+        orders: shape (orders,), ascending; default: 1 and 2 and those in which the bending moment
+            is worth showing.
+
+    Raises:
+        BalcliError: too many orders of too many loads.
     """
-    every = np.union1d(relevant_orders(engine), [1, 2] if orders is None else orders)
-    loads, z = _loads(engine, every)
+    every = np.union1d(find_relevant_orders(engine), [1, 2] if orders is None else orders)
+    loads, z = _compute_loads(engine, every)
     sections = np.unique(z)
     ahead = (z <= sections[:, None]).astype(float)  # which loads stand on the free-end side
+    shear = _sum_weighted(loads, ahead, ahead)
     arms = ahead * (z - sections[:, None])
     size = ahead * (np.abs(z) + np.abs(sections[:, None]))
-    span, moments = bearings(engine.throws_m), 1j * _weighted(loads, arms, size)
+    bending = 1j * _sum_weighted(loads, arms, size)
     if orders is None:
-        orders = every[considerable(moments) | (every <= 2)]
-    if (told := len(orders) * len(z)) > MOST_RESULTS_ALONG_CRANK:
-        raise BalcliError(
-            f"along the crankshaft, {len(orders)} orders of {len(z)} cylinders and counterweights "
-            f"are {told} results, and at "
-            f"most {MOST_RESULTS_ALONG_CRANK} are told: ask for fewer orders"
-        )
-    return Inner(
-        shear=_along(sections, _weighted(loads, ahead, ahead), orders),
-        bending=_along(sections, moments, orders),
-        bearings=None
-        if span is None
-        else _along(span, _weighted(loads, *2 * [_shares(z, span)]), orders),
+        orders = every[mark_considerable(bending) | (every <= 2)]
+    _refuse_too_many_results(len(orders), len(z))
+    bearings = None
+    if (span := place_bearings(engine.throws_m)) is not None:
+        shares = _share_among_bearings(z, span)
+        bearings = _with_peaks(span, _sum_weighted(loads, shares, shares), orders)
+    return InnerLoads(
+        _with_peaks(sections, shear, orders), _with_peaks(sections, bending, orders), bearings
     )
 
 
-def bearings(throws_m: Array) -> Array | None:
-    """Places of main bearings half-way between throws and as far outside; None for throws in one
-    place.
+def _refuse_too_many_results(orders: int, loads: int) -> None:
+    told = orders * loads
+    if told > MOST_RESULTS_ALONG_CRANK:
+        raise BalcliError(
+            f"along the crankshaft, {orders} orders of {loads} cylinders and counterweights "
+            f"are {told} results, and at "
+            f"most {MOST_RESULTS_ALONG_CRANK} are told: ask for fewer orders"
+        )
+
+
+def place_bearings(throws_m: Array) -> Array | None:
+    """Places of main bearings half-way between throws and as far outside the end ones, m, shape
+    (bearings,); None for throws in one place.
     """
     places = np.unique(throws_m)
     if len(places) < 2:
@@ -104,9 +115,9 @@ def bearings(throws_m: Array) -> Array | None:
     return np.array([2 * places[0] - between[0], *between, 2 * places[-1] - between[-1]])
 
 
-def _shares(z: Array, span: Array) -> Array:
-    """Share of each load that each bearing carries: by the lever in its own span; loads outside
-    hang on the end spans.
+def _share_among_bearings(z: Array, span: Array) -> Array:
+    """Share of each load at z that each bearing carries, shape (bearings, loads): by the lever in
+    its own span; loads outside hang on the end spans.
     """
     left = np.clip(np.searchsorted(span, z, side="right") - 1, 0, len(span) - 2)
     right_share = (z - span[left]) / (span[left + 1] - span[left])
@@ -117,30 +128,34 @@ def _shares(z: Array, span: Array) -> Array:
     return shares
 
 
-def _loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
+def _compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
     """Forces of each cylinder and counterweight, phasors of shape (orders, loads), and their
-    places.
+    places, shape (loads,).
     """
-    counterweights = [device for device in engine.devices if on_crank(device)]
-    few_enough(engine, len(orders), engine.cylinders.count + len(counterweights))
-    forces = [
-        each(engine, orders, ["force"])["force"],
-        *(weight(engine, device, orders) for device in counterweights),
-    ]
-    columns = [[f.forward, f.backward, np.broadcast_to(f.noise, f.forward.shape)] for f in forces]
-    forward, backward, noise = (np.column_stack(column) for column in zip(*columns, strict=True))
-    return Phasors(orders, forward, backward, noise), np.array(
-        [*np.ravel(engine.cylinders.z), *(d.z for d in counterweights)], float
+    counterweights = [device for device in engine.devices if is_counterweight(device)]
+    refuse_too_many_loads(engine, len(orders), engine.cylinders.count + len(counterweights))
+    forces = [compute_each_cylinder(engine, orders, ["force"])["force"]]
+    forces += [compute_device_force(engine, device, orders) for device in counterweights]
+    noises = [np.broadcast_to(force.noise, force.forward.shape) for force in forces]
+    together = Phasors(
+        orders,
+        np.column_stack([force.forward for force in forces]),
+        np.column_stack([force.backward for force in forces]),
+        np.column_stack(noises),
     )
+    places = [*np.ravel(engine.cylinders.z), *(device.z for device in counterweights)]
+    return together, np.array(places, float)
 
 
-def on_crank(device: Device) -> bool:
-    """Whether a device turns on the crank's axis, with it: a counterweight."""
+def is_counterweight(device: Device) -> bool:
+    """Whether a device turns on the crank's axis, with it."""
     return device.order == 1 and not device.backward and not device.place
 
 
-def _weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
-    """Sums over the loads, weights of shape (places, loads)."""
+def _sum_weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
+    """Sums over the loads, weights of shape (places, loads); `size`, of the same shape: what the
+    weights were computed from, which bounds their rounding.
+    """
     return Phasors(
         loads.orders,
         loads.forward @ weights.T,
@@ -149,6 +164,9 @@ def _weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
     ).settled()
 
 
-def _along(places: Array, phasors: Phasors, orders: Array) -> Along:
-    every = Along(places, phasors, ())
-    return Along(places, phasors.at(orders), tuple(peak(every.at(k)) for k in range(len(places))))
+def _with_peaks(places: Array, phasors: Phasors, orders: Array) -> AlongCrank:
+    """Phasors of all orders, shape (orders, places), and their peaks; only these orders are
+    kept.
+    """
+    peaks = tuple(peak(phasors.select_place(place)) for place in range(len(places)))
+    return AlongCrank(places, phasors.select_orders(orders), peaks)

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..core.mechanisms import slidercrank as sc
 from ..core.phasors import EPS, Array, Complex, unit
-from ..core.strokes import travel as dead_centres
+from ..core.strokes import find_travel
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import FINEST_STEP_DEG
@@ -29,8 +29,12 @@ _EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken,
 
 @dataclass(frozen=True)
 class Curves:
-    """Quantities over the crank angle. `values`: by name with unit (`force_x_N`), each of the shape
-    of `crank_deg`.
+    """Figures over the crank angle.
+
+    Attributes:
+        name, speed_rpm: of the engine.
+        crank_deg: shape (angles,).
+        values: by name with unit (`force_x_N`), each of the shape of `crank_deg`.
     """
 
     name: str
@@ -39,8 +43,9 @@ class Curves:
     values: Mapping[str, Array]
 
 
-def crank_angles(step: float = 1.0) -> Array:
-    """One revolution in steps of so many degrees, from 0, without 360.
+def divide_revolution(step: float = 1.0) -> Array:
+    """Crank angles of one revolution in steps of so many degrees, from 0, without 360, shape
+    (angles,).
 
     Raises:
         BalcliError: the step is not from 0.001 to 360.
@@ -53,7 +58,7 @@ def crank_angles(step: float = 1.0) -> Array:
     return np.arange(0.0, np.ceil(360 / step - 1e-9)) * step
 
 
-def engine_curves(engine: Engine, crank_deg: Array) -> Curves:
+def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
     """Free force (N), moment, couple, inertia torque and roll (N m) of a whole engine, devices
     included.
 
@@ -61,47 +66,69 @@ def engine_curves(engine: Engine, crank_deg: Array) -> Curves:
         engine: without trailing axes.
         crank_deg: shape (angles,).
     """
-    return _summed(engine, crank_deg, lambda angles: _engine_parts(engine, angles))
+    return _sum_parts(engine, crank_deg, lambda angles: _compute_engine_parts(engine, angles))
 
 
-def _summed(engine: Engine, crank_deg: Array, parts: Callable[[Array], dict[str, Array]]) -> Curves:
-    """Curves by their parts, over so many angles at a time that memory does not grow with both
-    cylinders and angles.
+def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:
+    """Piston travel from top dead centre (m), velocity and acceleration away from it (m/s, m/s2)
+    and rod angle (deg) of one cylinder.
+
+    Args:
+        engine: without trailing axes.
+        number: of the cylinder, as the engine file counts them.
+        crank_deg: shape (angles,).
+
+    Raises:
+        BalcliError: the engine has no such cylinder.
     """
-    noise = {
-        name: 8 * len(some) * EPS * float(np.abs(some).sum(axis=0).max())
-        for name, some in parts(_EVERYWHERE).items()
-    }
-    step = max(AT_ONCE // engine.cylinders.count, 1)
-    pieces = [
-        {name: some.sum(axis=0) for name, some in parts(crank_deg[k : k + step]).items()}
-        for k in range(0, max(len(crank_deg), 1), step)
-    ]
-    curves = {name: np.concatenate([piece[name] for piece in pieces]) for name in noise}
-    return Curves(
-        engine.name,
-        float(engine.speed_rpm),
-        crank_deg,
-        MappingProxyType(
-            {
-                name: np.where(np.abs(curve) <= noise[name], 0.0, curve)
-                for name, curve in curves.items()
-            }
-        ),
+    if number not in engine.numbers:
+        some = ", ".join(map(str, sorted(engine.numbers)))
+        raise BalcliError(
+            f"--cylinder {number}: {engine.name or 'the engine'} has the cylinders {some}"
+        )
+    row = engine.numbers.index(number)
+    return _sum_parts(
+        engine, crank_deg, lambda angles: _compute_cylinder_parts(engine, row, angles)
     )
 
 
-def _engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
+def _sum_parts(
+    engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, Array]]
+) -> Curves:
+    """Curves by their parts, over so many angles at a time that memory does not grow with both
+    cylinders and angles. What lies within the rounding error of its parts is 0.
+
+    Args:
+        compute: parts at some angles, by name, each of shape (parts, angles).
+    """
+    noise = {
+        name: 8 * len(parts) * EPS * float(np.abs(parts).sum(axis=0).max())
+        for name, parts in compute(_EVERYWHERE).items()
+    }
+    step = max(AT_ONCE // engine.cylinders.count, 1)
+    pieces: dict[str, list[Array]] = {name: [] for name in noise}
+    for start in range(0, max(len(crank_deg), 1), step):
+        for name, parts in compute(crank_deg[start : start + step]).items():
+            pieces[name].append(parts.sum(axis=0))
+    values = {}
+    for name, some in pieces.items():
+        curve = np.concatenate(some)
+        values[name] = np.where(np.abs(curve) <= noise[name], 0.0, curve)
+    return Curves(engine.name, float(engine.speed_rpm), crank_deg, MappingProxyType(values))
+
+
+def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     """What each cylinder and device does, shape (cylinders and devices, angles)."""
     motion = _Motion(engine, crank_deg)
-    force, arms = _forces(engine, motion)
+    force = np.concatenate([_force_of_cylinders(motion), _force_of_devices(engine, motion)])
     x, y, z = engine.reference_m
-    moment = 1j * (arms - float(z))[:, None] * force
-    places = np.concatenate(
-        [np.zeros(engine.cylinders.count), [d.place for d in engine.devices]]
-    ) - (x + 1j * y)
-    couple = np.concatenate([_couple(engine, motion), (np.conj(places)[:, None] * force).imag])
-    torque = _torque(engine, motion)
+    levels = np.array([*np.ravel(engine.cylinders.z), *(d.z for d in engine.devices)], float)
+    moment = 1j * (levels - float(z))[:, None] * force
+    on_crank = np.zeros(engine.cylinders.count)
+    places = np.concatenate([on_crank, [d.place for d in engine.devices]]) - (x + 1j * y)
+    arms = (np.conj(places)[:, None] * force).imag
+    couple = np.concatenate([_couple_of_cylinders(motion), arms])
+    torque = _torque_of_cylinders(motion)
     return {
         FORCE.key_along("x"): force.real,
         FORCE.key_along("y"): force.imag,
@@ -113,87 +140,76 @@ def _engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     }
 
 
-def cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:
-    """Piston travel from top dead centre (m), velocity and acceleration away from it, rod angle of
-    one cylinder.
-
-    Raises:
-        BalcliError: the engine has no such cylinder.
-    """
-    if number not in engine.numbers:
-        some = ", ".join(map(str, sorted(engine.numbers)))
-        raise BalcliError(
-            f"--cylinder {number}: {engine.name or 'the engine'} has the cylinders {some}"
-        )
-    row = engine.numbers.index(number)
-
-    def parts(crank_deg: Array) -> dict[str, Array]:
-        motion = _Motion(engine, crank_deg)
-        r, v = motion.radius, motion.v[row]
-        return {
-            "travel_m": r * motion.travel()[row : row + 1],
-            "velocity_m_per_s": (r * motion.omega * v)[None],
-            "acceleration_m_per_s2": r * np.array([motion.omega**2 * motion.a[row], motion.xi * v]),
-            "rod_angle_deg": np.degrees(motion.beta()[row : row + 1]),
-        }
-
-    return _summed(engine, crank_deg, parts)
+def _compute_cylinder_parts(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
+    """Parts of the motion of the cylinder in this row, shape (parts, angles)."""
+    motion = _Motion(engine, crank_deg)
+    r, v, a = motion.radius, motion.v[row], motion.a[row]
+    return {
+        "travel_m": r * motion.travel()[row : row + 1],
+        "velocity_m_per_s": (r * motion.omega * v)[None],
+        "acceleration_m_per_s2": r * np.array([motion.omega**2 * a, motion.xi * v]),
+        "rod_angle_deg": np.degrees(motion.rod_angle()[row : row + 1]),
+    }
 
 
 class _Motion:
-    """Crank speed and acceleration, and the mechanisms of all cylinders, shape (cylinders,
-    angles).
+    """How all cylinders of an engine stand and move at some crank angles.
+
+    Attributes:
+        cylinders: whose motion it is.
+        radius: of the crank, m.
+        crank_deg: shape (angles,).
+        omega, xi: crank speed, rad/s, and acceleration, rad2/s2, shape (angles,).
+        lam, eps: shape (cylinders, 1).
+        pin_deg: of the crank pins from x, shape (cylinders, angles).
+        psi: of the crank pins from their cylinders' axes, rad, shape (cylinders, angles).
+        axis: directions of the cylinders, shape (cylinders, 1).
+        v, a: first and second derivative of the pistons' travel with respect to the crank angle, in
+            crank radii, shape (cylinders, angles).
+        spin, spin_rate: those of the rods' angles, in the crank's sense.
+        linked: motion of a linkage with its masses on curves, `mass`, kg, shape (cylinders, 1).
     """
 
     def __init__(self, engine: Engine, crank_deg: Array) -> None:
-        c = engine.cylinders
-        count = (c.count, 1)
+        self.cylinders = c = engine.cylinders
         self.radius = float(np.ravel(c.radius)[0])
-        self.lam, self.eps = (
-            np.broadcast_to(_column(c.lam), count),
-            np.broadcast_to(_column(c.eps), count),
-        )
-        axes = _column(c.axis_of_each_deg)
         self.crank_deg = crank_deg
-        self.pin = crank_deg + float(np.ravel(c.axis_deg)[c.first]) + _column(c.pin_deg)  # from x
-        self.psi = np.radians(np.remainder(self.pin - axes + 180, 360) - 180)
+        self.omega, self.xi = _find_speed(engine, crank_deg)
+        self.lam = np.broadcast_to(_column(c.lam), (c.count, 1))
+        self.eps = np.broadcast_to(_column(c.eps), (c.count, 1))
+        axes = _column(c.axis_of_each_deg)
         self.axis = unit(axes)
-        self.omega, self.xi = _speed(engine, crank_deg)
-        self.cylinders, mechanism = c, (self.psi, self.lam, self.eps)
-        self.linkage = c.linkage
+        self.pin_deg = crank_deg + float(np.ravel(c.axis_deg)[c.first]) + _column(c.pin_deg)
+        self.psi = np.radians(np.remainder(self.pin_deg - axes + 180, 360) - 180)
         if c.linkage is None:
+            mechanism = self.psi, self.lam, self.eps
             self.linked = None
             self.v, self.a = sc.velocity(*mechanism), sc.acceleration(*mechanism)
             self.spin, self.spin_rate = -sc.rod_rate(*mechanism), -sc.rod_acceleration(*mechanism)
         else:
             self.linked = m = c.linkage.motion(self.psi, np.ravel(c.lam), np.ravel(c.eps))
-            self.v, self.a, self.spin, self.spin_rate = (
-                -m.velocity,
-                -m.acceleration,
-                m.spin,
-                m.spin_rate,
-            )
-            self.mass = _column(c.linkage.mass)  # what moves on curves
+            self.mass = _column(c.linkage.mass)
+            self.v, self.a = -m.velocity, -m.acceleration
+            self.spin, self.spin_rate = m.spin, m.spin_rate
 
     def travel(self) -> Array:
         """Of the pistons, from their top dead centres, in crank radii."""
-        if self.linkage is None or self.linked is None:
+        c = self.cylinders
+        if c.linkage is None or self.linked is None:
             return sc.displacement(self.psi, self.lam, self.eps)
-        top = np.radians(dead_centres(self.cylinders).top_deg).reshape(-1, 1)
-        highest = self.linkage.motion(
-            top, np.ravel(self.cylinders.lam), np.ravel(self.cylinders.eps)
-        ).place
+        top = np.radians(find_travel(c).top_deg).reshape(-1, 1)
+        highest = c.linkage.motion(top, np.ravel(c.lam), np.ravel(c.eps)).place
         return np.asarray(highest - self.linked.place)
 
-    def beta(self) -> Array:
-        """Angles of the rods, rad."""
+    def rod_angle(self) -> Array:
+        """Of the rods to their cylinders' axes, rad."""
         if self.linked is None:
             return np.asarray(np.arctan2(*sc.rod_angle(self.psi, self.lam, self.eps)))
         return np.asarray(np.arcsin(self.linked.lean))
 
 
-def _speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
-    """Crank speed omega (rad/s) and acceleration xi = omega d omega/d theta."""
+def _find_speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
+    """Crank speed omega (rad/s) and acceleration xi = omega d omega/d theta, shape (angles,)."""
     ratio, slope = np.ones_like(crank_deg), np.zeros_like(crank_deg)
     for line in engine.ripple:
         wave = line.amplitude * unit(line.order * crank_deg - line.angle_deg)
@@ -201,37 +217,33 @@ def _speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
     return engine.omega * ratio, engine.omega**2 * ratio * slope
 
 
-def _forces(engine: Engine, motion: _Motion) -> tuple[Complex, Array]:
-    """Force of each cylinder and device, shape (cylinders + devices, angles), and its place along
-    z.
-    """
-    c, w2, xi, r = engine.cylinders, motion.omega**2, motion.xi, motion.radius
-    crank = unit(motion.pin)
+def _force_of_cylinders(motion: _Motion) -> Complex:
+    """N, shape (cylinders, angles)."""
+    c, r, w2, xi = motion.cylinders, motion.radius, motion.omega**2, motion.xi
     piston: Complex = _column(c.reciprocating) * r * (w2 * motion.a + xi * motion.v) * motion.axis
-    pins = _column(c.rotating) * r * (w2 - 1j * xi) * crank
     if (m := motion.linked) is not None:
-        piston = (
-            piston
-            - motion.mass
-            * r
-            * (w2 * m.acceleration_of_mass + xi * m.velocity_of_mass)
-            * motion.axis
-        )
-    rows = [*(piston + pins)]
-    for d in engine.devices:
+        away = w2 * m.acceleration_of_mass + xi * m.velocity_of_mass
+        piston = piston - motion.mass * r * away * motion.axis
+    pins = _column(c.rotating) * r * (w2 - 1j * xi) * unit(motion.pin_deg)
+    return piston + pins
+
+
+def _force_of_devices(engine: Engine, motion: _Motion) -> Complex:
+    """N, shape (devices, angles)."""
+    rows = np.empty((len(engine.devices), len(motion.crank_deg)), complex)
+    for row, d in enumerate(engine.devices):
         ahead = unit(d.order * motion.crank_deg)
-        radial, along = d.order**2 * w2, 1j * d.order * xi
-        rows.append(
-            d.forward * ahead * (radial - along) + d.backward * np.conj(ahead) * (radial + along)
-        )
-    return np.array(rows), np.concatenate([np.ravel(c.z), [d.z for d in engine.devices]])
+        radial, along = d.order**2 * motion.omega**2, 1j * d.order * motion.xi
+        rows[row] = d.forward * ahead * (radial - along)
+        rows[row] += d.backward * np.conj(ahead) * (radial + along)
+    return rows
 
 
-def _couple(engine: Engine, motion: _Motion) -> Array:
-    """Free couple of each cylinder about the crank's axis: h = -m_rec e s' + m_rot r^2 - H spin (+
-    the masses on curves), s' = -r v.
+def _couple_of_cylinders(motion: _Motion) -> Array:
+    """Free couple of each cylinder about the crank's axis, N m, shape (cylinders, angles): h =
+    -m_rec e s' + m_rot r^2 - H spin (+ the masses on curves), s' = -r v.
     """
-    c, r = engine.cylinders, motion.radius
+    c, r = motion.cylinders, motion.radius
     pull = _column(c.reciprocating) * (motion.eps * r / motion.lam) * r
     h = pull * motion.v + _column(c.rotating) * r**2 - _column(c.couple) * motion.spin
     slope = pull * motion.a - _column(c.couple) * motion.spin_rate
@@ -241,11 +253,11 @@ def _couple(engine: Engine, motion: _Motion) -> Array:
     return np.asarray(-(motion.omega**2 * slope + motion.xi * h))
 
 
-def _torque(engine: Engine, motion: _Motion) -> Array:
-    """Inertia torque of each cylinder on the crank: I = m_rec s'^2 + m_rot r^2 - H spin^2 (+ the
-    masses on curves).
+def _torque_of_cylinders(motion: _Motion) -> Array:
+    """Inertia torque of each cylinder on the crank, N m, shape (cylinders, angles): I = m_rec s'^2
+    + m_rot r^2 - H spin^2 (+ the masses on curves).
     """
-    c, r = engine.cylinders, motion.radius
+    c, r = motion.cylinders, motion.radius
     mass, couple = _column(c.reciprocating) * r**2, _column(c.couple)
     inertia = mass * motion.v**2 + _column(c.rotating) * r**2 - couple * motion.spin**2
     half_slope = mass * motion.v * motion.a - couple * motion.spin * motion.spin_rate

@@ -8,37 +8,66 @@ import numpy as np
 
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
-from .spectrum import considerable, each, relevant_orders
+from .orders import find_relevant_orders, mark_considerable
+from .spectrum import compute_each_cylinder
 
 
 @dataclass(frozen=True)
-class Guide:
-    """H-type: sum of the cylinders' roll moments, N m. X-type: `sum roll_i (z_i - z_ref) / L`, L
-    from the first throw to the last; None where there is only one.
+class GuideMoments:
+    """Sums of the cylinders' roll moments, N m, by order.
+
+    Attributes:
+        h: H-type, their sum.
+        x: X-type, the moment of the guides' side forces: `sum roll_i (z_i - z_ref) / L_i`; None
+            where all cylinders stand at one place.
+        height_m: L of each row of `engine.numbers`, from the crankshaft to the middle of the
+            guide, shape (cylinders,).
     """
 
     h: Phasors
     x: Phasors | None
+    height_m: Array
 
 
-def guide(engine: Engine, orders: Array | None = None) -> Guide:
-    """Guide-force moments of an engine without trailing axes, by order (default: those worth
-    showing); devices have none.
+def compute_guide_moments(
+    engine: Engine, orders: Array | None = None, height_m: float | None = None
+) -> GuideMoments:
+    """Guide-force moments of an engine's cylinders; devices have none.
 
     Each cylinder's roll moment is that about the crank axis, wherever the point of reference stands
-    in x and y.
+    in x and y. The X-type is that of the project guides of MAN B&W two-stroke engines, section
+    17.05: bi-moment `sum force couple x distance`, divided by the height of the guide.
+
+    Args:
+        engine: without trailing axes.
+        orders: shape (orders,), ascending; default: those worth showing.
+        height_m: from the crankshaft to the middle of the guide; default: each rod's length.
     """
-    axis = replace(engine, reference_m=(0.0, 0.0, engine.reference_m[2]))
-    every = relevant_orders(engine) if orders is None else orders
-    rolls = each(axis, every, ["roll"])["roll"]
-    length = float(np.ptp(engine.throws_m))
-    arms = (np.ravel(engine.cylinders.z) - engine.reference_m[2]) / length if length else None
-    h, x = _sum(rolls, np.ones(engine.cylinders.count)), None if arms is None else _sum(rolls, arms)
+    z_ref = engine.reference_m[2]
+    about_crank = replace(engine, reference_m=(0.0, 0.0, z_ref))
+    every = find_relevant_orders(engine) if orders is None else orders
+    rolls = compute_each_cylinder(about_crank, every, ["roll"])["roll"]
+    z = np.ravel(engine.cylinders.z)
+    h = _sum_weighted(rolls, np.ones(engine.cylinders.count))
+    due = mark_considerable(h)
+    height = _rod_lengths(engine) if height_m is None else np.full(len(z), height_m)
+    x = None
+    if np.ptp(z):
+        x = _sum_weighted(rolls, (z - z_ref) / height)
+        due |= mark_considerable(x)
     if orders is None:
-        orders = every[considerable(h) | (False if x is None else considerable(x))]
-    return Guide(h.at(orders), None if x is None else x.at(orders))
+        orders = every[due]
+    chosen_x = None if x is None else x.select_orders(orders)
+    return GuideMoments(h.select_orders(orders), chosen_x, height)
 
 
-def _sum(rolls: Phasors, weights: Array) -> Phasors:
-    total = [float(w) * rolls.of(k) for k, w in enumerate(weights)]
+def _rod_lengths(engine: Engine) -> Array:
+    """Length of the rod of each cylinder, m, shape (cylinders,)."""
+    c = engine.cylinders
+    return np.broadcast_to(np.ravel(c.radius / c.lam), c.count)
+
+
+def _sum_weighted(rolls: Phasors, weights: Array) -> Phasors:
+    """Sum over the cylinders of phasors of shape (orders, cylinders), each times its weight."""
+    total = [float(weight) * rolls.select_place(row) for row, weight in enumerate(weights)]
     return sum(total[1:], total[0]).settled()

@@ -58,5 +58,7 @@ TORQUE = Kind("torque", "inertia torque T", "T", "inertia_torque_Nm", False, "mo
 ROLL = Kind("roll", "roll C − T", "C − T", "roll_Nm", False, "moment", ("couple",), ("torque",))
 
 KINDS = {kind.name: kind for kind in (FORCE, MOMENT, COUPLE, TORQUE, ROLL)}
+# what is asked of variants of an engine unless something else is: quantities, see quantity.py
+DEFAULT_QUANTITIES = "force.1.major,force.2.major,moment.1.major,moment.2.major"
 VECTORS = tuple(kind for kind in KINDS.values() if kind.vector)
 SCALARS = tuple(kind for kind in KINDS.values() if not kind.vector)

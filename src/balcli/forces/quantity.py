@@ -6,40 +6,28 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.peaks import peak
-from ..core.phasors import Phasors
+from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..enginefile.fields import nearest
 from ..errors import BalcliError
 from ..limits import HIGHEST_ORDER
 from .kinds import KINDS, VECTORS
-from .spectrum import relevant_orders, spectra
+from .orders import find_relevant_orders, parse_order
+from .spectrum import compute_spectra
 
-PARTS = (
-    "major",
-    "minor",
-    "forward",
-    "backward",
-    "axis",
-    "x",
-    "y",
-    "x_cos",
-    "x_sin",
-    "y_cos",
-    "y_sin",
-)
+_SIZES = ("major", "minor", "forward", "backward")
+_ALONG_AXES = ("x", "y", "x_cos", "x_sin", "y_cos", "y_sin")
+VECTOR_PARTS = (*_SIZES, "axis", *_ALONG_AXES)
 SCALAR_PARTS = ("amplitude", "major", "cos", "sin")
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """`kind.order.part`, or `peak.kind` with order 0 and part "peak".
+    """One figure: `kind.order.part`, or `peak.kind` with order 0 and part "peak".
 
     Of a couple, torque or roll, and of force and moment along x or y, `cos` and `sin` are the parts
     of the value `cos cos n theta + sin sin n theta`: they have signs, and so has the mean of order
@@ -52,12 +40,14 @@ class Quantity:
 
     @property
     def name(self) -> str:
-        return (
-            f"peak.{self.kind}" if self.part == "peak" else f"{self.kind}.{self.order}.{self.part}"
-        )
+        """As a user writes it."""
+        if self.part == "peak":
+            return f"peak.{self.kind}"
+        return f"{self.kind}.{self.order}.{self.part}"
 
     @property
     def unit(self) -> str:
+        """SI unit or degrees."""
         return "deg" if self.part == "axis" else KINDS[self.kind].si_unit
 
     @property
@@ -65,10 +55,8 @@ class Quantity:
         """Whether it is one of two parts of a harmonic, which may be negative."""
         return self.part.endswith(("cos", "sin"))
 
-    def of(self, phasors: Phasors) -> Array:
-        """Its value by the phasors of its kind, shape (*trailing): sizes of vectors, amplitudes
-        along x and y or their parts, degrees.
-        """
+    def read_from(self, phasors: Phasors) -> Array:
+        """Its value by the phasors of its kind, SI or degrees, shape (*trailing)."""
         row = int(np.searchsorted(phasors.orders, self.order))
         only = slice(row, row + 1)
         column = (len(phasors.orders), *(1,) * (phasors.forward.ndim - 1))
@@ -79,13 +67,15 @@ class Quantity:
         if self.signed:
             c = (own.y if self.part.startswith("y") else own.x)[0]
             return (c.real if self.part.endswith("cos") else -c.imag) + 0.0
-        name = {"amplitude": "major", "axis": "axis_deg"}.get(self.part, self.part)
-        value: Array = getattr(own, name)[0]
-        return value if self.part in ("major", "minor", "axis", "amplitude") else np.abs(value)
+        if self.part == "axis":
+            return own.axis_deg[0]
+        size = "major" if self.part == "amplitude" else self.part
+        value: Array = np.abs(getattr(own, size)[0])
+        return value
 
 
-def parse(text: str) -> tuple[Quantity, ...]:
-    """`force.2.major,moment.1.backward,couple.4.amplitude,peak.force`.
+def parse_quantity_list(text: str) -> tuple[Quantity, ...]:
+    """`force.2.major,moment.1.backward,couple.4.amplitude,peak.force`, each once.
 
     Raises:
         BalcliError: anything else, with what there is.
@@ -95,22 +85,21 @@ def parse(text: str) -> tuple[Quantity, ...]:
         raise BalcliError(
             "no quantity is given; name some, such as force.2.major,moment.1.backward"
         )
-    return tuple(dict.fromkeys(map(_parse, words)))
+    return tuple(dict.fromkeys(map(_parse_quantity, words)))
 
 
-def _parse(text: str) -> Quantity:
+def _parse_quantity(text: str) -> Quantity:
     kind, _, rest = text.partition(".")
-    if kind == "peak" and rest in (vector.name for vector in VECTORS):
+    if kind == "peak" and rest in [vector.name for vector in VECTORS]:
         return Quantity(rest, 0, "peak")
-    order, _, part = rest.partition(".")
     if kind not in KINDS:
         near = nearest(kind, (*KINDS, "peak"))
-        raise BalcliError(
-            f"{text} is no quantity: {f'did you mean {near}?' if near else 'it begins with'} "
-            f"{'' if near else ', '.join(KINDS) + ' or peak'}".rstrip()
-        )
-    allowed = PARTS if KINDS[kind].vector else SCALAR_PARTS
-    if not (order.isascii() and order.isdigit() and len(order) < 6 and int(order) <= HIGHEST_ORDER):
+        hint = f"did you mean {near}?" if near else f"it begins with {', '.join(KINDS)} or peak"
+        raise BalcliError(f"{text} is no quantity: {hint}")
+    number, _, part = rest.partition(".")
+    order = parse_order(number)
+    allowed = VECTOR_PARTS if KINDS[kind].vector else SCALAR_PARTS
+    if order is None:
         raise BalcliError(
             f"{text} is no quantity: after {kind} comes a whole order up to {HIGHEST_ORDER}, as in "
             f"{kind}.2.{allowed[0]}"
@@ -119,48 +108,48 @@ def _parse(text: str) -> Quantity:
         raise BalcliError(
             f"{text} is no quantity: after the order comes one of {', '.join(allowed)}"
         )
-    return Quantity(kind, int(order), part)
+    return Quantity(kind, order, part)
 
 
-def evaluate(engine: Engine, quantities: Sequence[Quantity]) -> list[Array]:
-    """The value of each quantity, shape (*trailing), length 1 along axes on which it does not
-    depend.
+def evaluate_quantities(engine: Engine, quantities: Sequence[Quantity]) -> list[Array]:
+    """The value of each quantity, SI or degrees, shape (*trailing), of length 1 along axes on which
+    it does not depend.
 
     Only the orders that a kind is asked for are computed; kinds with the same orders share what
     they have in common.
     """
-    found: dict[Quantity, Array] = {}
-    for orders, members in _together(quantities):
-        result = spectra(engine, orders, {q.kind for q in members})
-        found |= {q: q.of(result[q.kind]) for q in members}
+    values: dict[Quantity, Array] = {}
+    for orders, members in _group_by_orders(quantities):
+        found = compute_spectra(engine, orders, {q.kind for q in members})
+        values |= {q: q.read_from(found[q.kind]) for q in members}
     peaks = [q for q in quantities if q.part == "peak"]
     if peaks:
-        whole = spectra(engine, relevant_orders(engine), {q.kind for q in peaks})
-        found |= {q: _peaks(whole[q.kind]) for q in peaks}
-    return [found[q] for q in quantities]
+        whole = compute_spectra(engine, find_relevant_orders(engine), {q.kind for q in peaks})
+        values |= {q: _find_peaks(whole[q.kind]) for q in peaks}
+    return [values[q] for q in quantities]
 
 
-def _together(quantities: Iterable[Quantity]) -> list[tuple[list[int], list[Quantity]]]:
-    """Quantities whose kinds need the same orders."""
+def _group_by_orders(quantities: Iterable[Quantity]) -> list[tuple[list[int], list[Quantity]]]:
+    """Quantities whose kinds need the same orders, with these; peaks left out."""
     by_kind: dict[str, list[Quantity]] = {}
     for q in quantities:
         if q.part != "peak":
             by_kind.setdefault(q.kind, []).append(q)
     groups: dict[tuple[int, ...], list[Quantity]] = {}
     for members in by_kind.values():
-        groups.setdefault(tuple(sorted({q.order for q in members})), []).extend(members)
+        orders = tuple(sorted({q.order for q in members}))
+        groups.setdefault(orders, []).extend(members)
     return [(list(orders), members) for orders, members in groups.items()]
 
 
-def _peaks(curves: Phasors) -> Array:
-    """Largest value over a revolution of every variant, one after the other."""
+def _find_peaks(curves: Phasors) -> Array:
+    """Largest value over a revolution of every variant, shape (*trailing)."""
     shape = np.broadcast_shapes(curves.forward.shape[1:], curves.backward.shape[1:])
-    forward, backward = (
-        np.broadcast_to(v, (len(curves.orders), *shape)) for v in (curves.forward, curves.backward)
-    )
-    values: Any = np.empty(shape)
+    every = (len(curves.orders), *shape)
+    forward = np.broadcast_to(curves.forward, every)
+    backward = np.broadcast_to(curves.backward, every)
+    values = np.empty(shape)
     for at in np.ndindex(shape):
-        values[at] = peak(
-            Phasors(curves.orders, forward[:, *at], backward[:, *at], np.zeros(1))
-        ).value
-    return np.asarray(values)
+        curve = Phasors(curves.orders, forward[:, *at], backward[:, *at], np.zeros(1))
+        values[at] = peak(curve).value
+    return values

@@ -8,24 +8,23 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ..core import speed_ripple as ripple
-from ..core.loads import Device, Loads, turning
+from ..core.cylinders import Device
+from ..core.loads import Loads, find_device_force
 from ..core.mechanisms import harmonics
-from ..core.phasors import Array, Complex, Phasors, joined
+from ..core.phases import Phases, SeparatePhases
+from ..core.phasors import Array, Complex, Phasors, join_orders
+from ..engine.arrays import place_in_plane
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..limits import HIGHEST_ORDER_UNASKED, MOST_LOADS_APART
+from ..limits import MOST_LOADS_APART
 from .kinds import KINDS, Kind
 
-SHOWN = 1e-6  # share of a quantity's largest order below which an order is not worth showing
 _ALL = slice(None)
-_AT_ONCE = (
-    1 << 18
-    # orders x cylinders that are computed together: bounds the memory, about 16 arrays of complex
-    # numbers
-)
+# orders x cylinders that are computed together, which bounds the memory: about 16 complex arrays
+_AT_ONCE = 1 << 18
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,19 +68,23 @@ class Spectra:
         """The same without all other kinds."""
         return Spectra(self.orders, **{k.name: p for k, p in self.items() if k.name in kinds})
 
-    def at(self, orders: ArrayLike) -> Spectra:
+    def select_orders(self, orders: ArrayLike) -> Spectra:
         """The same without all other orders."""
         if orders is self.orders:
             return self
-        rows = {kind.name: phasors.at(orders) for kind, phasors in self.items()}
+        rows = {kind.name: phasors.select_orders(orders) for kind, phasors in self.items()}
         return Spectra(np.asarray(orders, float), **rows)
 
-    def of(self, place: int) -> Spectra:
+    def select_place(self, place: int) -> Spectra:
         """Those of one place along the trailing axis."""
-        return Spectra(self.orders, **{kind.name: p.of(place) for kind, p in self.items()})
+        return Spectra(
+            self.orders, **{kind.name: p.select_place(place) for kind, p in self.items()}
+        )
 
 
-def spectra(engine: Engine, orders: ArrayLike, kinds: Collection[str] = tuple(KINDS)) -> Spectra:
+def compute_spectra(
+    engine: Engine, orders: ArrayLike, kinds: Collection[str] = tuple(KINDS)
+) -> Spectra:
     """Free forces and moments of an engine.
 
     Args:
@@ -89,25 +92,34 @@ def spectra(engine: Engine, orders: ArrayLike, kinds: Collection[str] = tuple(KI
         orders: shape (orders,), ascending, not negative.
         kinds: names of KINDS.
     """
-    return _spectra(engine, orders, kinds, apart=False)
+    return _compute(engine, orders, kinds, apart=False)
 
 
-def each(engine: Engine, orders: ArrayLike, kinds: Collection[str] = tuple(KINDS)) -> Spectra:
+def compute_each_cylinder(
+    engine: Engine, orders: ArrayLike, kinds: Collection[str] = tuple(KINDS)
+) -> Spectra:
     """What each cylinder does by itself, as if no other had a mass; the devices are left out.
 
-    The phasors have the shape (orders, cylinders), the cylinders as in `engine.numbers`; the engine
-    has no trailing axes.
+    Args:
+        engine: without trailing axes.
+        orders, kinds: as in `compute_spectra`.
+
+    Returns:
+        Phasors of shape (orders, cylinders), the cylinders in the order of `engine.numbers`.
 
     Raises:
         BalcliError: more than MOST_LOADS_APART of them.
     """
-    few_enough(engine, np.size(orders), engine.cylinders.count)
-    return _spectra(replace(engine, devices=()), orders, kinds, apart=True)
+    refuse_too_many_loads(engine, np.size(orders), engine.cylinders.count)
+    return _compute(replace(engine, devices=()), orders, kinds, apart=True)
 
 
-def few_enough(engine: Engine, orders: int, loads: int) -> None:
-    """BalcliError for so many orders of so many loads one by one that they would fill the
-    memory.
+def refuse_too_many_loads(engine: Engine, orders: int, loads: int) -> None:
+    """Nothing, unless so many orders of so many cylinders and counterweights, kept one by one,
+    would fill the memory.
+
+    Raises:
+        BalcliError: they would.
     """
     most = MOST_LOADS_APART // 2 if engine.ripple else MOST_LOADS_APART
     if orders * loads > most:
@@ -118,26 +130,27 @@ def few_enough(engine: Engine, orders: int, loads: int) -> None:
         )
 
 
-def weight(engine: Engine, device: Device, orders: Array) -> Phasors:
-    """Force of one device, of an engine without trailing axes, N."""
+def compute_device_force(engine: Engine, device: Device, orders: Array) -> Phasors:
+    """Force of one device of an engine without trailing axes, N, for these orders."""
     if not engine.ripple:
-        return turning(device, orders, engine.omega**2).settled()
+        return find_device_force(device, orders, engine.omega**2).settled()
     w, dense = _uneven_speed(engine, orders)
-    return ripple.force(turning(device, dense, engine.omega**2).settled(), w).at(orders).settled()
+    steady = find_device_force(device, dense, engine.omega**2).settled()
+    return ripple.apply_to_force(steady, w).select_orders(orders).settled()
 
 
-def _spectra(engine: Engine, orders: ArrayLike, kinds: Collection[str], *, apart: bool) -> Spectra:
+def _compute(engine: Engine, orders: ArrayLike, kinds: Collection[str], *, apart: bool) -> Spectra:
     wanted = np.asarray(orders, float)
     parts = {part for name in kinds for part in KINDS[name].parts}
     if engine.ripple:
         found = _uneven(engine, wanted, parts, apart)
     else:
         found, _ = _steady(engine, wanted, parts, apart)
-    return Spectra(wanted, **{name: assembled(KINDS[name], found).settled() for name in kinds})
+    return Spectra(wanted, **{name: add_parts(KINDS[name], found).settled() for name in kinds})
 
 
-def assembled(kind: Kind, parts: Mapping[str, Phasors]) -> Phasors:
-    """Phasors of a kind by those of its parts (`Kind.parts`), which are given by their names."""
+def add_parts(kind: Kind, parts: Mapping[str, Phasors]) -> Phasors:
+    """Phasors of a kind by those of its parts (`Kind.parts`), which are given by name."""
     if not kind.plus:
         return parts[kind.name]
     first, *others = kind.plus
@@ -147,28 +160,6 @@ def assembled(kind: Kind, parts: Mapping[str, Phasors]) -> Phasors:
     for name in kind.minus:
         total = total - parts[name]
     return total
-
-
-def relevant_orders(engine: Engine) -> Array:
-    """The orders 1 .. n (0 .. n under uneven speed) beyond which nothing exceeds rounding
-    errors.
-    """
-    c = engine.cylinders
-    own = c.linkage.highest(c.lam, c.eps) if c.linkage else harmonics.points(c.lam, c.eps) // 2
-    highest = max([own, *(d.order for d in engine.devices)])
-    if not engine.ripple:
-        return np.arange(1.0, highest + 1)
-    return np.arange(0.0, highest + 2 * max(line.order for line in engine.ripple) + 1)
-
-
-def considerable(phasors: Phasors) -> NDArray[np.bool_]:
-    """Orders up to HIGHEST_ORDER_UNASKED in which something exceeds SHOWN of its own largest order,
-    shape (orders,).
-    """
-    sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1, initial=0)
-    return np.asarray(
-        (sizes > SHOWN * sizes.max(initial=0)) & (phasors.orders <= HIGHEST_ORDER_UNASKED)
-    )
 
 
 def with_only(engine: Engine, moving: ArrayLike) -> Engine:
@@ -195,21 +186,17 @@ def _steady(
     """Phasors at a steady speed, and the loads of the lowest orders."""
     c, (x, y, z) = engine.cylinders, engine.reference_m
     names = [name for name in KINDS if name in parts]
-    find = c.linkage.harmonics if c.linkage else harmonics.of_distinct
+    find = c.linkage.find_distinct_harmonics if c.linkage else harmonics.find_distinct_harmonics
     about_crank = any(not KINDS[name].vector for name in parts)
     rod = about_crank and bool(np.count_nonzero(c.couple))
     few, which = find(orders, c.lam, c.eps, rod=rod, energy="torque" in parts)
 
     def loads(block: slice) -> Loads:
-        own = few if block == _ALL else few.of_orders(block)
+        own = few if block == _ALL else few.select_orders(block)
+        phases = (SeparatePhases if apart else Phases)(c, orders[block])
+        square = engine.omega**2
         return Loads(
-            c,
-            engine.devices,
-            (x + 1j * y, z),
-            orders[block],
-            own.of_rows(which),
-            engine.omega**2,
-            apart=apart,
+            c, engine.devices, place_in_plane(x, y), z, phases, own.select_cylinders(which), square
         )
 
     most = max(_AT_ONCE // c.count, 1)
@@ -223,7 +210,7 @@ def _steady(
         found.append({name: getattr(these, name) for name in names})
     if len(found) == 1:
         return found[0], lowest
-    return {name: joined([block[name] for block in found]) for name in names}, lowest
+    return {name: join_orders([block[name] for block in found]) for name in names}, lowest
 
 
 def _uneven(
@@ -234,14 +221,15 @@ def _uneven(
     found = {name: phasors.settled() for name, phasors in steady.items()}
     for name, phasors in found.items():
         if name == "torque":
-            uneven = ripple.torque(phasors, w, loads.mean_inertia)
+            uneven = ripple.apply_to_torque(phasors, w, loads.mean_inertia)
         else:
-            uneven = ripple.force(phasors, w, loads.mean_momentum if name == "couple" else 0.0)
-        found[name] = uneven.at(orders)
+            mean = loads.mean_momentum if name == "couple" else 0.0
+            uneven = ripple.apply_to_force(phasors, w, mean)
+        found[name] = uneven.select_orders(orders)
     return found
 
 
 def _uneven_speed(engine: Engine, orders: Array) -> tuple[Complex, Array]:
-    """Coefficients of the speed (`ripple.speed`), and the dense orders that it mixes into these."""
-    w = ripple.speed((line.order, line.amplitude, line.angle_deg) for line in engine.ripple)
+    """Coefficients of the speed (`ripple.find_speed`), and the dense orders it mixes into these."""
+    w = ripple.find_speed((line.order, line.amplitude, line.angle_deg) for line in engine.ripple)
     return w, np.arange(0.0, orders.max(initial=0) + len(w))

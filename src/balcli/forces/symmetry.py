@@ -3,18 +3,20 @@ fractions of a turn.
 
 Cylinders with one mechanism share their Fourier coefficients, so an order vanishes if its sum over
 each such family does (docs/theory.md): for the force `sum m e^{i(n phi +- g)}`, for the moment the
-same with z, for couple, torque and roll `sum e^{i n phi}`. Families of different mechanisms may
-still cancel each other by their figures; that is no symmetry.
+same with z, for couple, torque and roll `sum m e^{i n phi}`. In each sum the terms fall into sets
+whose angles differ by fractions of a turn and whose weights are fractions of each other, and every
+set has to vanish: no unit of mass or length, and no factor common to all, matters. Families and
+sets may still cancel each other by their figures; that is no symmetry.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,26 +24,35 @@ from numpy.typing import NDArray
 from ..core.phasors import Array
 from ..core.roots_of_unity import even, rational, turns, vanishes
 from ..engine.build import Engine
-from .spectrum import each, spectra
+from .spectrum import compute_each_cylinder, compute_spectra
 
 Verdict = Literal["none", "exact", "rounding", "nearly", "free"]
 Quantity = Literal["force", "moment", "turning"]  # turning: couple, torque and roll
-KINDS_OF: dict[Quantity, tuple[str, ...]] = {
+_QUANTITY: dict[str, Quantity] = {  # by the name of the kind
+    "force": "force",
+    "moment": "moment",
+    "couple": "turning",
+    "torque": "turning",
+    "roll": "turning",
+}
+_PARTS: dict[Quantity, tuple[str, ...]] = {
     "force": ("force",),
     "moment": ("moment",),
-    "turning": ("couple", "torque"),  # and roll, their difference
+    "turning": ("couple", "torque"),
 }
-QUANTITIES: tuple[Quantity, ...] = tuple(KINDS_OF)
-_KINDS = tuple(name for names in KINDS_OF.values() for name in names)
 NEARLY = 1e-2  # of one cylinder
-_DECIMALS = 10_000  # largest denominator of a place in mm or a mass in g
-_ULPS = 4
+_LARGEST_DENOMINATOR = 1_000_000  # of the ratio of two weights
+_ULPS = 16  # of the largest weight, by which such a ratio may be off
 
 
 @dataclass(frozen=True)
 class Reason:
-    """Why one order of one quantity is balanced, or is not; `size`: what is left, in units of one
-    cylinder's.
+    """Why one order of one quantity is balanced, or is not.
+
+    Attributes:
+        verdict: "none": no cylinder has any; "exact": by symmetry; "rounding": balanced, but not by
+            exact fractions of a turn; "nearly": less than NEARLY of one cylinder is left; "free".
+        size: what is left, in units of the largest that one cylinder makes.
     """
 
     order: int
@@ -51,6 +62,7 @@ class Reason:
 
     @property
     def sentence(self) -> str:
+        """The reason in words."""
         name = "couple, torque and roll" if self.quantity == "turning" else self.quantity
         told = {
             "none": "no cylinder has any",
@@ -63,39 +75,44 @@ class Reason:
 
 
 @dataclass(frozen=True)
-class Why:
-    """Reasons by order and quantity, and how the engine fires (empty: the file does not say)."""
+class Symmetry:
+    """Why each order of each quantity is balanced or is not, and how the engine fires (empty: the
+    file does not say).
+    """
 
     reasons: tuple[Reason, ...]
     firing: str
 
     @property
     def sentences(self) -> tuple[str, ...]:
-        return (
-            *(reason.sentence for reason in self.reasons),
-            *([self.firing] if self.firing else []),
-        )
+        """All of it in words."""
+        reasons = tuple(reason.sentence for reason in self.reasons)
+        return (*reasons, self.firing) if self.firing else reasons
 
 
-def why(
-    engine: Engine, orders: Iterable[float], quantities: Collection[Quantity] = QUANTITIES
-) -> Why:
-    """The conditions of self-balance for whole orders from 1, at steady speed, of the cylinders
-    alone: no devices.
+def explain_symmetry(
+    engine: Engine, orders: Iterable[float], kinds: Collection[str] = tuple(_QUANTITY)
+) -> Symmetry:
+    """The conditions of self-balance, at steady speed, of the cylinders alone: no devices.
 
     The moment is that about the engine's point of reference; in couple, torque and roll the
-    displacement of this point is left out. The engine has no trailing axes.
+    displacement of this point is left out.
+
+    Args:
+        engine: without trailing axes.
+        orders: whole, from 1.
+        kinds: any of force, moment, couple, torque and roll; the last three have one reason in
+            common.
     """
     asked = np.unique(np.fromiter(orders, float))
+    quantities = dict.fromkeys(q for name, q in _QUANTITY.items() if name in kinds)
     bare = replace(engine, devices=(), ripple=(), reference_m=(0.0, 0.0, engine.reference_m[2]))
     layout = _Layout(bare, asked)
-    return Why(
-        tuple(layout.reason(row, q) for row in range(len(asked)) for q in quantities),
-        firing(engine),
-    )
+    reasons = [layout.explain(row, q) for row in range(len(asked)) for q in quantities]
+    return Symmetry(tuple(reasons), describe_firing(engine))
 
 
-def firing(engine: Engine) -> str:
+def describe_firing(engine: Engine) -> str:
     """Even or odd fire, in words; empty where the file says nothing of firing."""
     if not engine.fires_deg:
         return ""
@@ -105,13 +122,23 @@ def firing(engine: Engine) -> str:
     exact = [turns(t * 360 / cycle) for t in instants]
     if None not in exact and even([x for x in exact if x is not None], Fraction(1)):
         return f"firing: even, every {cycle / len(gaps):.6g} deg"
+    least, most = f"{min(gaps):.6g}", f"{max(gaps):.6g}"
+    if least == most:
+        return f"firing: even to {max(gaps) - min(gaps):.1g} deg, every {least} deg"
     if max(gaps) - min(gaps) < NEARLY * cycle / len(gaps):
-        return f"firing: nearly even, every {min(gaps):.6g} to {max(gaps):.6g} deg"
+        return f"firing: nearly even, every {least} to {most} deg"
     return f"firing: uneven, at intervals of {', '.join(f'{gap:.6g}' for gap in gaps)} deg"
 
 
 class _Sum(NamedTuple):
-    """`sum w e^{i(n phi + side gamma)}` over some rows of the cylinders."""
+    """`sum w e^{i(n phi + side gamma)}` over some rows of the cylinders.
+
+    Attributes:
+        rows: of the cylinders that it runs over.
+        weights: w of every cylinder, shape (cylinders,).
+        order: n.
+        side: 1 forward, -1 backward, 0 for what acts about the crank's axis.
+    """
 
     rows: list[int]
     weights: Array
@@ -119,117 +146,109 @@ class _Sum(NamedTuple):
     side: int
 
 
+class _Term(NamedTuple):
+    """One term of a sum, as a share of the largest of its set and in turns ahead of that."""
+
+    share: Fraction
+    angle: Fraction
+
+
 class _Layout:
-    """Angles and weights of an engine's cylinders, as fractions where they are some; forces of the
-    whole and its parts.
+    """Angles and weights of an engine's cylinders, as fractions where they are some; what the whole
+    engine and each cylinder make of some orders.
     """
 
     def __init__(self, engine: Engine, orders: Array) -> None:
-        self._c = c = engine.cylinders
+        self._c = engine.cylinders
         self._orders = orders
-        self._axis_deg = c.axis_of_each_deg
-        self._arms = (c.z - engine.reference_m[2]) * 1e3
-        self._whole = spectra(engine, orders, _KINDS)
-        self._single = {
-            kind.name: phasors.major for kind, phasors in each(engine, orders, _KINDS).items()
-        }
+        self._axis_deg = self._c.axis_of_each_deg
+        self._largest_deg = float(max(np.abs(self._axis_deg).max(), np.abs(self._c.pin_deg).max()))
+        self._arms = self._c.z - engine.reference_m[2]
+        kinds = [name for parts in _PARTS.values() for name in parts]
+        self._whole = compute_spectra(engine, orders, kinds)
+        self._single = compute_each_cylinder(engine, orders, kinds)
 
-    def reason(self, row: int, quantity: Quantity) -> Reason:
-        order, names = int(self._orders[row]), KINDS_OF[quantity]
-        single = {name: self._single[name][row] for name in names}
-        whole = {name: self._whole[name].major[row] for name in names}
-        sizes = [whole[name] / single[name].max() for name in names if single[name].any()]
+    def explain(self, row: int, quantity: Quantity) -> Reason:
+        """Why the order in this row is balanced, or is not."""
+        order, parts = int(self._orders[row]), _PARTS[quantity]
+        whole = {name: self._whole[name].major[row] for name in parts}
+        single = {name: self._single[name].major[row] for name in parts}
+        sizes = [whole[name] / single[name].max() for name in parts if single[name].any()]
         if not sizes:
             return Reason(order, quantity, "none", 0.0)
         there = np.any([one > 0 for one in single.values()], axis=0)
         if all(map(self._exactly_zero, self._sums(order, quantity, there))):
             return Reason(order, quantity, "exact", 0.0)
-        verdict: Verdict = (
-            "rounding" if max(sizes) == 0 else "nearly" if max(sizes) < NEARLY else "free"
-        )
-        return Reason(order, quantity, verdict, float(max(sizes)))
+        size = float(max(sizes))
+        return Reason(order, quantity, _judge(size), size)
 
     def _sums(self, order: int, quantity: Quantity, there: NDArray[np.bool_]) -> Iterator[_Sum]:
         """All that must vanish; `there`: which cylinders have this order at all."""
-        if quantity == "turning":
-            for rows in self._families(self._figures("reciprocating", "couple"), there):
-                yield _Sum(rows, np.ones(self._c.count), order, 0)
-            return
+        turning = quantity == "turning"
         arms = self._arms if quantity == "moment" else np.ones(self._c.count)
-        for rows in self._families(self._figures(), there):
-            yield from (_Sum(rows, self._moving() * arms, order, side) for side in (1, -1))
-        if order == 1:
-            yield _Sum(list(range(self._c.count)), self._grams("rotating") * arms, 1, 1)
+        masses = [self._c.reciprocating]
+        if self._c.linkage is not None:
+            masses.append(self._c.linkage.mass)
+        if turning:
+            masses.append(self._c.couple)
+        for mass in masses:
+            for rows in self._families(there):
+                for side in (0,) if turning else (1, -1):
+                    yield _Sum(rows, mass * arms, order, side)
+        if order == 1 and not turning:
+            yield _Sum(list(range(self._c.count)), self._c.rotating * arms, 1, 1)
 
     # -------------------------------------------------------------- one sum
     def _exactly_zero(self, s: _Sum) -> bool:
-        """Whether the sum vanishes, each set of cylinders that stand fractions of a turn apart for
-        itself.
-        """
-        weights = _decimals(s.weights)
-        for angles in self._commensurable(s):
-            terms = [(w, angle) for row, angle in angles.items() if (w := weights[row]) is not None]
-            if len(terms) < len(angles) or not vanishes(*zip(*terms, strict=True)):
-                return False
-        return True
+        """Whether the sum vanishes, each set of commensurable terms for itself."""
+        sets = self._commensurable(s)
+        return all(vanishes([t.share for t in one], [t.angle for t in one]) for one in sets)
 
-    def _commensurable(self, s: _Sum) -> list[dict[int, Fraction]]:
-        """Sets of rows whose angles differ by fractions of a turn, with these differences from the
-        first of each.
+    def _commensurable(self, s: _Sum) -> list[list[_Term]]:
+        """The terms that are not 0 in sets within which angles differ by fractions of a turn and
+        weights are fractions of each other.
         """
-        pin, axis = (
-            self._c.pin_deg,
-            self._axis_deg if s.side != s.order else np.zeros(self._c.count),
-        )
-        sets: list[dict[int, Fraction]] = []
-        for row in s.rows:
-            for known in sets:
-                first = next(iter(known))
-                turned, leaned = (
-                    turns(float(pin[row] - pin[first])),
-                    turns(float(axis[row] - axis[first])),
-                )
-                if turned is not None and leaned is not None:
-                    known[row] = (s.order * turned + (s.side - s.order) * leaned) % 1
+        largest = float(np.abs(s.weights).max())
+        rounding = _ULPS * float(np.spacing(largest))
+        sets: dict[int, list[_Term]] = {}  # by the row of their largest weight
+        for row in sorted(s.rows, key=lambda row: -abs(s.weights[row])):
+            weight = float(s.weights[row])
+            if abs(weight) <= rounding:
+                continue
+            for first, terms in sets.items():
+                most = float(s.weights[first])
+                share = rational(weight / most, _LARGEST_DENOMINATOR, rounding / abs(most))
+                angle = None if share is None else self._angle_between(first, row, s)
+                if share is not None and angle is not None:
+                    terms.append(_Term(share, angle))
                     break
             else:
-                sets.append({row: Fraction(0)})
-        return sets
+                sets[row] = [_Term(Fraction(1), Fraction(0))]
+        return list(sets.values())
 
-    # -------------------------------------------------------------- which cylinders are alike
-    def _figures(self, *more: str) -> Callable[[int], tuple[Any, ...]]:
-        """What two cylinders of one family have in common."""
-        linkage = self._c.linkage
-        columns = [getattr(self._c, key) for key in ("lam", "eps", *more)]
-        if linkage is not None:
-            columns += [*linkage.figures, self._c.reciprocating]
-        return lambda row: tuple(column[row if len(column) > 1 else 0].item() for column in columns)
+    def _angle_between(self, first: int, row: int, s: _Sum) -> Fraction | None:
+        """By how many turns the angle of a row's term is ahead of that of the first; None if that
+        is no fraction.
+        """
+        pin, axis, lean = self._c.pin_deg, self._axis_deg, s.side - s.order
+        turned = turns(float(pin[row] - pin[first]), self._largest_deg)
+        leaned = turns(float(axis[row] - axis[first]), self._largest_deg) if lean else Fraction(0)
+        if turned is None or leaned is None:
+            return None
+        return (s.order * turned + lean * leaned) % 1
 
-    @staticmethod
-    def _families(
-        figures: Callable[[int], tuple[Any, ...]], there: NDArray[np.bool_]
-    ) -> list[list[int]]:
-        found: dict[tuple[Any, ...], list[int]] = defaultdict(list)
+    def _families(self, there: NDArray[np.bool_]) -> list[list[int]]:
+        """Rows of the cylinders that are there, those with equal mechanisms together."""
+        lam, eps, linkage = self._c.lam, self._c.eps, self._c.linkage
+        columns = (lam, eps) if linkage is None else linkage.figures(lam, eps)
+        found: dict[tuple[complex, ...], list[int]] = defaultdict(list)
         for row in map(int, np.flatnonzero(there)):
-            found[figures(row)].append(row)
+            figures = tuple(column[row if len(column) > 1 else 0].item() for column in columns)
+            found[figures].append(row)
         return list(found.values())
 
-    def _moving(self) -> Array:
-        """What moves with each piston, g: on its axis, or on the curve of a linkage (whose
-        cylinders count as equal or not).
-        """
-        linkage = self._c.linkage
-        return self._grams("reciprocating") + (0 if linkage is None else linkage.mass * 1e3)
 
-    def _grams(self, key: str) -> Array:
-        return np.broadcast_to(getattr(self._c, key) * 1e3, (self._c.count,))
-
-
-def _decimals(values: Array) -> list[Fraction | None]:
-    """Places or masses as the short fractions that they were written as; a factor common to all
-    does not matter.
-    """
-    largest = float(np.abs(values).max())
-    if np.all(np.isin(values, (0, largest, -largest))):
-        return [Fraction(int(np.sign(v))) for v in values]
-    return [rational(float(v), _DECIMALS, _ULPS * float(np.spacing(largest))) for v in values]
+def _judge(size: float) -> Verdict:
+    if size == 0:
+        return "rounding"
+    return "nearly" if size < NEARLY else "free"

@@ -1,23 +1,28 @@
-"""What a person reads of an analysis."""
+"""The analysis of one engine."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
-from ..forces.kinds import Kind
+from ..forces.kinds import FORCE, MOMENT, ROLL, Kind
 from ..forces.spectrum import Spectra
+from ..forces.textbook import TextbookUnits
 from ..limits import HIGHEST_ORDER_UNASKED
-from ..results.analysis import Analysis, Sizing, Textbook, textbook
-from .devices import device_grid
-from .figures import Result, order_number, peak_deg, phase_deg
-from .sheet import Facts, Grid, Sheet, Text, capitalized, degrees, number
+from ..results.analysis import Analysis, Sizing
+from . import crankshaft, figures, guide_moments, strokes, symmetry
+from .csv import Rows
+from .devices import device_entries, device_grid
+from .figures import Result, clean, order_entries, order_number, peak_deg, peaks, phase_deg
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, capitalized, degrees, number
+from .terminal_plot import sketches
 from .units import System, Unit
 from .verdict import verdict
 
@@ -30,25 +35,87 @@ def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
     parts: list[Grid | Facts | Text] = [facts(result, system)]
     parts += order_by_order(spectra, system)
     if spectra.vectors():
-        parts += _textbook(spectra, textbook(engine, spectra.orders), system)
+        parts += _textbook(spectra, result.textbook, system)
     if result.peaks:
         parts.append(largest(result, system, "Largest over a revolution, all orders"))
     parts += [_share(n, share, system) for n, share in result.cylinders]
-    if result.inner is not None or result.guide is not None or result.travel is not None:
-        from .extras import parts as extras
-
-        parts += extras(result, system)
+    if result.travel is not None:
+        parts += strokes.sheet_parts(result.travel, engine.numbers, system)
+    if result.inner is not None:
+        parts += crankshaft.sheet_parts(result.inner, system)
+    if result.guide is not None:
+        parts += guide_moments.sheet_parts(result.guide, system)
     if found := verdict(spectra, system, result.of_one_cylinder):
         parts.append(Text("Verdict", found))
     if result.why is not None:
-        parts.append(Text("Why", result.why.sentences))
+        parts += symmetry.sheet_parts(result.why)
     if result.sizing is not None:
         parts += _sizing(result.sizing, system)
     if pictures:
-        from .terminal_plot import sketches
-
         parts += sketches(result, system)
-    return Sheet(engine.name or "engine without a name", tuple(parts))
+    return Sheet(engine.name or NAMELESS, tuple(parts))
+
+
+def document(result: Analysis) -> dict[str, Any]:
+    """`balcli.analysis/1`."""
+    engine = result.engine
+    found: dict[str, Any] = {
+        "format": "balcli.analysis/1",
+        "engine": {
+            "name": engine.name,
+            "cylinders": engine.cylinders.count,
+            "displacement_m3": clean(engine.displacement_m3),
+        },
+        "speed_rpm": clean(engine.speed_rpm),
+        "reference_mm": [clean(v * 1e3) for v in engine.reference_m],
+        "orders": order_entries(result.spectra),
+    }
+    if largest_values := peaks(result):
+        found["peak"] = largest_values
+    if result.sizing is not None:
+        found["sizing"] = {
+            "scheme": result.sizing.remedy.scheme,
+            **device_entries(result.sizing.remedy),
+            "after": brief_document(result.sizing.after),
+        }
+    if result.cylinders:
+        found["cylinders"] = [
+            {"cylinder": number, "orders": order_entries(spectra)}
+            for number, spectra in result.cylinders
+        ]
+    if result.inner is not None:
+        found["inner"] = crankshaft.document(result.inner)
+    if result.guide is not None:
+        found["guide"] = guide_moments.document(result.guide)
+    if result.travel is not None:
+        found["travel"] = strokes.document(result.travel, engine.numbers)
+    if result.why is not None:
+        found["why"] = symmetry.document(result.why)
+    return found
+
+
+def brief_document(result: Analysis) -> dict[str, Any]:
+    """Peaks and orders alone, where the engine is known."""
+    return {"peak": peaks(result), "orders": order_entries(result.spectra)}
+
+
+def rows(result: Analysis, system: System) -> Rows:
+    """CSV: a figure a line; cylinder 0 is the whole engine, an empty order the whole curve."""
+    return Rows(
+        ("cylinder", "quantity", "order", "figure", "value", "unit"), _all_rows(result, system)
+    )
+
+
+def _all_rows(result: Analysis, system: System) -> Iterator[figures.Row]:
+    yield from figures.rows(result, system)
+    if result.travel is not None:
+        yield from strokes.rows(result.travel, result.engine.numbers, system)
+    if result.inner is not None:
+        yield from crankshaft.rows(result.inner, system)
+    if result.guide is not None:
+        yield from guide_moments.rows(result.guide, system)
+    if result.why is not None:
+        yield from symmetry.rows(result.why)
 
 
 # ------------------------------------------------------------------ what it is
@@ -78,6 +145,9 @@ def facts(result: Analysis, system: System) -> Facts:
     if c.linkage is None or not c.linkage.turning:  # else the pins stand still
         masses += f", rotating {rotating} {mass.name} a pin (rod's share, throw)"
     about = ", ".join(number(length.of(float(v))) for v in engine.reference_m)
+    higher = ""
+    if result.has_higher_orders:
+        higher = f"to {HIGHEST_ORDER_UNASKED}; --orders asks for higher ones"
     pairs = [
         ("cylinders", f"{c.count}{_banks(engine)}{_bore(engine, system)}"),
         ("crank", crank),
@@ -90,10 +160,7 @@ def facts(result: Analysis, system: System) -> Facts:
             ),
         ),
         ("masses", masses + unequal),
-        (
-            "orders",
-            f"to {HIGHEST_ORDER_UNASKED}; --orders asks for higher ones" if result.beyond else "",
-        ),
+        ("orders", higher),
         ("reference", f"moments about x, y, z = {about} {length.name}"),
         ("devices", _counted(engine)),
         ("source", engine.source),
@@ -152,12 +219,16 @@ def _rows(
     )
 
 
-def order_by_order(spectra: Spectra, system: System) -> Iterator[Grid]:
-    """Phasors and scalars, and vectors along x and y."""
+def order_by_order(spectra: Spectra, system: System, roll: str = "") -> Iterator[Grid]:
+    """Phasors and scalars, and vectors along x and y.
+
+    Args:
+        roll: a sentence on what the roll is, if it is more than the couple C less the torque T.
+    """
     for kind, phasors in spectra.vectors():
         yield _vectors(kind, phasors, system.unit(kind))
     if spectra.scalars():
-        yield _scalars(spectra, system.moment)
+        yield _scalars(spectra, system.moment, roll)
     if spectra.vectors():
         yield _directions(spectra, system)
 
@@ -183,7 +254,7 @@ def _vectors(kind: Kind, phasors: Phasors, unit: Unit) -> Grid:
     )
 
 
-def _scalars(spectra: Spectra, unit: Unit) -> Grid:
+def _scalars(spectra: Spectra, unit: Unit, roll: str) -> Grid:
     scalars = spectra.scalars()
 
     def row(k: int) -> tuple[str, ...]:
@@ -198,11 +269,13 @@ def _scalars(spectra: Spectra, unit: Unit) -> Grid:
             )
         return tuple(cells)
 
-    heads = [head for kind, _ in scalars for head in (kind.label, "peak, deg")]
+    labels = [ROLL.name if roll and kind == ROLL else kind.label for kind, _ in scalars]
+    heads = [head for label in labels for head in (label, "peak, deg")]
     return Grid(
         f"About the crank axis, {unit.name}",
         ("order", *heads),
         _rows(spectra.orders, [phasors for _, phasors in scalars], row),
+        note=roll,
     )
 
 
@@ -231,7 +304,7 @@ def _directions(spectra: Spectra, system: System) -> Grid:
     )
 
 
-def _textbook(spectra: Spectra, units: Textbook, system: System) -> Iterator[Grid]:
+def _textbook(spectra: Spectra, units: TextbookUnits, system: System) -> Iterator[Grid]:
     if not units.force:
         return
     cylinder = "one cylinder" if units.equal else "cylinder 1"
@@ -241,17 +314,19 @@ def _textbook(spectra: Spectra, units: Textbook, system: System) -> Iterator[Gri
             f"(reciprocating mass of {cylinder}), "
             "Fn = A_n F1 its n-th order."
         )
-        yield _multiples("force", spectra.force, units.force, units.ratios, note)
+        yield _multiples(FORCE, spectra.force, units, note)
     if spectra.moment is not None and units.arm == units.arm:
         note = (
             f"a = {number(system.length.of(units.arm), 4)} {system.length.name}, the distance "
             "of "
             "neighbouring throws."
         )
-        yield _multiples("moment", spectra.moment, units.force * units.arm, units.ratios, note)
+        yield _multiples(MOMENT, spectra.moment, units, note)
 
 
-def _multiples(quantity: str, phasors: Phasors, size: float, ratios: Array, note: str) -> Grid:
+def _multiples(kind: Kind, phasors: Phasors, units: TextbookUnits, note: str) -> Grid:
+    size, ratios = units.size(kind), units.ratios
+
     def row(k: int) -> tuple[str, ...]:
         parts = [
             float(v) for v in (phasors.major[k], abs(phasors.forward[k]), abs(phasors.backward[k]))
@@ -263,7 +338,7 @@ def _multiples(quantity: str, phasors: Phasors, size: float, ratios: Array, note
             number(parts[0] / own, 4) if ratios[k] > 1e-12 and size else "–",
         )
 
-    unit = "F1" if quantity == "force" else "F1·a"
+    unit = units.name(kind)
     heads = (
         "order",
         f"largest, {unit}",
@@ -272,7 +347,10 @@ def _multiples(quantity: str, phasors: Phasors, size: float, ratios: Array, note
         f"largest, {unit.replace('1', 'n')}",
     )
     return Grid(
-        f"Free {quantity} in textbook units", heads, _rows(phasors.orders, [phasors], row), note
+        f"{capitalized(kind.label)} in textbook units",
+        heads,
+        _rows(phasors.orders, [phasors], row),
+        note,
     )
 
 

@@ -1,11 +1,9 @@
-"""What a person reads of a balance: devices, their practical figures, and what shakes before and
-after.
-"""
+"""A balance: devices, their practical figures, and what shakes before and after."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -13,9 +11,13 @@ import numpy as np
 from ..core.peaks import Peak
 from ..forces.kinds import FORCE, MOMENT, ROLL
 from ..results.balance import Balance
-from .devices import device_grid
-from .figures import order_number
-from .sheet import Facts, Grid, Sheet, Text, degrees, number
+from ..sizing.sizing import Remedy
+from . import figures
+from .analysis import brief_document
+from .csv import Rows
+from .devices import device_entries, device_grid, device_rows, practical_entry
+from .figures import clean, order_number
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number
 from .units import System, Unit
 
 _UNITS = {"N": "force", "Nm": "moment", "kg_m": "unbalance", "mm": "length"}
@@ -51,9 +53,10 @@ def sheet(result: Balance, system: System) -> Sheet:
     if "note" in remedy.details:
         parts.append(Text("Note", (str(remedy.details["note"]),)))
     parts += _details(remedy.details, system)
+    parts += _permitted(result, system)
     parts += [_orders(result, system), _peaks(result, system)]
     return Sheet(
-        f"{result.before.engine.name or 'engine without a name'}: {remedy.scheme}{order}",
+        f"{result.before.engine.name or NAMELESS}: {remedy.scheme}{order}",
         tuple(parts),
     )
 
@@ -100,6 +103,29 @@ def _practical(result: Balance, system: System) -> Grid:
         note=f"Mass at a radius of {number(system.length.of(first.radius), 4)} "
         f"{system.length.name}; "
         f"disc: a semicircular one of steel{hole}.",
+    )
+
+
+def _permitted(result: Balance, system: System) -> Iterator[Grid]:
+    """What a grade permits beside each counterweight, if one was asked for."""
+    if result.permitted is None:
+        return
+    unit, each = system.unbalance, result.permitted.each
+    rows = [
+        (
+            str(k),
+            number(unit.of(p.unbalance)),
+            number(unit.of(each), 4),
+            f"{each / p.unbalance:.2%}" if p.unbalance else "–",
+        )
+        for k, p in enumerate(result.practical[: len(result.remedy.counterweights)], 1)
+    ]
+    yield Grid(
+        f"Permitted residual unbalance, ISO 21940-11, G {result.permitted.grade:g}",
+        ("counterweight", f"unbalance, {unit.name}", f"permitted, {unit.name}", "share"),
+        tuple(rows),
+        f"A crankshaft of {result.permitted.mass:g} kg at {result.before.engine.speed_rpm:g} rpm; "
+        "all counterweights share alike.",
     )
 
 
@@ -258,3 +284,86 @@ def _optima(optima: list[dict[str, Any]]) -> Grid:
         ("design", "criterion", "engine force", "k", "μ", "largest/J", "mean/J"),
         tuple(rows),
     )
+
+
+# ------------------------------------------------------------------ JSON and CSV
+def document(result: Balance) -> dict[str, Any]:
+    """`balcli.balance/1`."""
+    remedy, permitted = result.remedy, result.permitted
+    document = {
+        "format": "balcli.balance/1",
+        "scheme": remedy.scheme,
+        "order": remedy.order,
+        **device_entries(remedy),
+        "reasons": list(remedy.reasons),
+        "practical": [practical_entry(p) for p in result.practical],
+        "details": details_document(remedy),
+        "before": brief_document(result.before),
+        "after": brief_document(result.after),
+    }
+    if permitted is not None:
+        document["permitted"] = {
+            "grade": permitted.grade,
+            "mass_kg": permitted.mass,
+            "each_g_mm": 1e6 * permitted.each,
+        }
+    return document
+
+
+def details_document(remedy: Remedy) -> dict[str, Any]:
+    """Figures of a scheme that are no device, as JSON has them."""
+    return {key: _cleaned(value) for key, value in remedy.details.items()}
+
+
+def _cleaned(value: Any) -> Any:
+    """The same value with plain floats in it: no nan, no negative zero."""
+    if isinstance(value, Mapping):
+        return {key: _cleaned(part) for key, part in value.items()}
+    if isinstance(value, list):
+        return [_cleaned(part) for part in value]
+    return clean(value) if isinstance(value, float) else value
+
+
+def rows(result: Balance, system: System) -> Rows:
+    """CSV: a figure a line: those of the devices, the scheme's other figures (SI, as in JSON: their
+    names say the unit), and those of the engine without and with the devices.
+    """
+    header = ("part", "quantity", "order", "figure", "value", "unit")
+    return Rows(header, _all_rows(result, system))
+
+
+def _all_rows(result: Balance, system: System) -> Iterator[tuple[Any, ...]]:
+    parts = [
+        (f"{kind} {number}", device)
+        for kind, devices in (
+            ("counterweight", result.remedy.counterweights),
+            ("shaft", result.remedy.shafts),
+            ("slider", result.remedy.sliders),
+        )
+        for number, device in enumerate(devices, 1)
+    ]
+    for (part, device), practical in zip(parts, result.practical, strict=True):
+        for figure in device_rows(device, system):
+            yield part, "", "", *figure
+        for name, value in _with_paths(practical_entry(practical)):
+            yield part, "", "", name, value, ""
+    for name, value in _with_paths(details_document(result.remedy)):
+        yield "details", "", "", name, value, ""
+    for name, value in _with_paths(document(result).get("permitted", {})):
+        yield "permitted", "", "", name, value, ""
+    for state, analysis in (("before", result.before), ("after", result.after)):
+        for row in figures.rows(analysis, system):
+            yield state, row.quantity, row.order, row.figure, row.value, row.unit
+
+
+def _with_paths(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
+    """Members of tables and lists by their paths: `card.1.bobweight_g`."""
+    if isinstance(value, Mapping):
+        members: Iterable[tuple[Any, Any]] = value.items()
+    elif isinstance(value, list):
+        members = enumerate(value, 1)
+    else:
+        yield path, value
+        return
+    for key, part in members:
+        yield from _with_paths(part, f"{path}.{key}".lstrip("."))

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .csv import write
+from .csv import Rows
+from .plot import style
 from .sheet import Grid, Sheet, number
 
 if TYPE_CHECKING:
     from ..bench.bench import Bench, Row
+    from .units import System
 
 ROUNDING = 1e-13  # errors below it are rounding, which a picture shows here
 
@@ -27,9 +29,9 @@ def document(result: Bench) -> dict[str, Any]:
     }
 
 
-def rows(result: Bench) -> str:
-    """CSV: run times and errors, then ratios."""
-    return write(
+def rows(result: Bench, _system: System) -> Rows:
+    """CSV: run times in seconds and relative errors, then ratios."""
+    return Rows(
         ("task", "method", "seconds", "error", "ratio"),
         [
             *((r.task, r.method, r.seconds, r.error, None) for r in result.rows),
@@ -38,7 +40,7 @@ def rows(result: Bench) -> str:
     )
 
 
-def sheet(result: Bench) -> Sheet:
+def sheet(result: Bench, _system: System) -> Sheet:
     """A table a task, and the ratios."""
     grids = [
         Grid(
@@ -67,8 +69,6 @@ def error(row: Row) -> str:
 
 def draw(result: Bench) -> bytes:
     """SVG: run time and error of every method, a panel a task, both axes logarithmic."""
-    from .plot import style
-
     tasks = list(dict.fromkeys(r.task for r in result.rows))
     with style.figure(5.2 * len(tasks), 4.6, "svg") as page:
         for axes, task in zip(page.subplots(1, len(tasks), squeeze=False)[0], tasks, strict=True):

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ..forces.kinds import TORQUE
-from .csv import write
+from .csv import Rows
+from .figures import order_number
 from .sheet import Grid, Sheet, capitalized, number
 
 _TITLES = {TORQUE: "inertia torque"}
@@ -23,7 +24,7 @@ def document(result: Comparison) -> dict[str, Any]:
         "figures": [
             {
                 "quantity": _key(line),
-                "order": line.order,
+                "order": None if line.order is None else order_number(line.order),
                 "values": list(line.values),
                 "ratios": [r if r == r else None for r in line.ratios],
             }
@@ -36,20 +37,17 @@ def _key(line: Line) -> str:
     return f"peak_{line.kind.key}" if line.order is None else line.kind.key
 
 
-def rows(result: Comparison, system: System) -> str:
-    """CSV, a figure a line."""
-    return write(
-        ("quantity", "order", "unit", *result.names),
-        [
-            (
-                line.kind.name if line.order is not None else f"peak {line.kind.name}",
-                line.order,
-                system.unit(line.kind).name,
-                *map(system.unit(line.kind).of, line.values),
-            )
-            for line in result.lines
-        ],
-    )
+def rows(result: Comparison, system: System) -> Rows:
+    """CSV: a figure a line, a column an engine."""
+    header = ("quantity", "order", "unit", *result.names)
+    return Rows(header, [_csv_line(line, system) for line in result.lines])
+
+
+def _csv_line(line: Line, system: System) -> tuple[Any, ...]:
+    unit = system.unit(line.kind)
+    name = line.kind.name if line.order is not None else f"peak {line.kind.name}"
+    order = None if line.order is None else order_number(line.order)
+    return name, order, unit.name, *map(unit.of, line.values)
 
 
 def sheet(result: Comparison, system: System) -> Sheet:
@@ -68,7 +66,7 @@ def _row(line: Line, of: Any) -> tuple[str, ...]:
     first, *others = (number(of(value)) for value in line.values)
     ratios = [number(ratio, 4) for ratio in line.ratios[1:]]
     return (
-        "peak" if line.order is None else f"order {line.order}",
+        "peak" if line.order is None else f"order {line.order:g}",
         first,
         *(cell for pair in zip(others, ratios, strict=True) for cell in pair),
     )

@@ -1,26 +1,25 @@
-"""Curves over the crank angle as JSON and CSV, full precision."""
+"""Curves over the crank angle, in full precision."""
 
 from __future__ import annotations
 
+from typing import Any
+
 from ..forces.curves import Curves
-from .csv import write
-from .json import dumps
+from .csv import Rows
 
 
-def curves_json(curves: Curves) -> str:
-    """One list a quantity, all of the length of `crank_deg`."""
-    return dumps(
-        {
-            "format": "balcli.curves/1",
-            "engine": curves.name,
-            "speed_rpm": curves.speed_rpm,
-            "crank_deg": curves.crank_deg.tolist(),
-            "curves": {name: y.tolist() for name, y in curves.values.items()},
-        }
-    )
+def document(curves: Curves) -> dict[str, Any]:
+    """`balcli.curves/1`: one list a quantity, all of the length of `crank_deg`."""
+    return {
+        "format": "balcli.curves/1",
+        "engine": curves.name,
+        "speed_rpm": curves.speed_rpm,
+        "crank_deg": curves.crank_deg.tolist(),
+        "curves": {name: y.tolist() for name, y in curves.values.items()},
+    }
 
 
-def curves_csv(curves: Curves) -> str:
-    """One line a crank angle."""
+def rows(curves: Curves) -> Rows:
+    """CSV: a line a crank angle, a column a quantity."""
     columns = [curves.crank_deg.tolist(), *(y.tolist() for y in curves.values.values())]
-    return write(("crank_deg", *curves.values), zip(*columns, strict=True))
+    return Rows(("crank_deg", *curves.values), zip(*columns, strict=True))

@@ -56,7 +56,7 @@ def figures(kind: Kind, phasors: Phasors, k: int) -> dict[str, Any]:
 def vector(phasors: Phasors, k: int) -> dict[str, Any]:
     """Force or moment of the k-th order."""
     phasors, k = (
-        phasors.at(phasors.orders[k : k + 1]),
+        phasors.select_orders(phasors.orders[k : k + 1]),
         0,
     )  # else each figure would be computed for all orders each time
     forward, backward = phasors.forward[k], phasors.backward[k]
@@ -74,7 +74,7 @@ def vector(phasors: Phasors, k: int) -> dict[str, Any]:
 
 def scalar(phasors: Phasors, k: int) -> dict[str, Any]:
     """Couple, torque or roll of the k-th order."""
-    phasors, k = phasors.at(phasors.orders[k : k + 1]), 0
+    phasors, k = phasors.select_orders(phasors.orders[k : k + 1]), 0
     c, order = phasors.x[k], phasors.orders[k]
     return {
         "cos": clean(c.real),
@@ -109,6 +109,14 @@ def phase_deg(c: complex) -> float:
 def entries(spectra: Spectra, k: int) -> dict[str, dict[str, Any]]:
     """All kinds of the k-th order by their JSON keys."""
     return {kind.key: figures(kind, phasors, k) for kind, phasors in spectra.items()}
+
+
+def order_entries(spectra: Spectra) -> list[dict[str, Any]]:
+    """What JSON says order by order."""
+    return [
+        {"order": order_number(order), **entries(spectra, k)}
+        for k, order in enumerate(spectra.orders)
+    ]
 
 
 def peaks(analysis: Result) -> dict[str, float | None]:

@@ -1,17 +1,17 @@
-"""Which formats there are, and which renderer makes each."""
+"""Which formats there are, and how a result becomes text in each."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any, assert_never
+from typing import Any, Protocol, TypeVar, assert_never
 
-if TYPE_CHECKING:
-    from ..results.analysis import Analysis
-    from ..results.balance import Balance
-    from ..results.two_engines import Combined
-    from .sheet import Sheet
-    from .units import System
+from .csv import Rows, csv_text
+from .json import json_text
+from .markdown import markdown
+from .sheet import Sheet
+from .table import terminal
+from .units import System
 
 
 class Format(StrEnum):
@@ -30,108 +30,42 @@ class Units(StrEnum):
     IMPERIAL = "imperial"
 
 
+R = TypeVar("R")
+R_contra = TypeVar("R_contra", contravariant=True)
+
+
+class Renderer(Protocol[R_contra]):
+    """How results of one kind are shown; the modules of `render/` that are named as a kind of
+    result are such.
+    """
+
+    def sheet(self, result: R_contra, system: System, /) -> Sheet:
+        """What a person reads, in these units."""
+
+    def document(self, result: R_contra, /) -> Any:
+        """What JSON says, in SI units."""
+
+    def rows(self, result: R_contra, system: System, /) -> Rows:
+        """What CSV lists, in these units."""
+
+
 def render(
-    form: Format,
-    *,
-    sheets: Callable[[], list[Sheet]],
-    documents: Callable[[], Sequence[Any]],
-    rows: Callable[[], str],
-    into_file: bool = False,
+    results: Sequence[R], renderer: Renderer[R], form: Format, system: System, *, seen: bool = False
 ) -> str:
-    """Text of a result in one format; only what that format needs is made (JSON imports no
-    table).
+    """Text of one or more results in one format: sheets one after the other, one JSON document a
+    line, all rows of CSV under one header.
+
+    Args:
+        seen: whether a person will see it in a terminal, with colours and at its width.
     """
     match form:
         case Format.TABLE:
-            from .table import terminal
-
-            return terminal(sheets(), into_file=into_file)
+            return terminal([renderer.sheet(result, system) for result in results], seen=seen)
         case Format.MARKDOWN:
-            from .markdown import markdown
-
-            return markdown(sheets())
+            return markdown([renderer.sheet(result, system) for result in results])
         case Format.CSV:
-            return rows()
+            return csv_text([renderer.rows(result, system) for result in results])
         case Format.JSON:
-            from .json import dumps
-
-            return "\n".join(map(dumps, documents()))
+            return "\n".join(json_text(renderer.document(result)) for result in results)
         case _:
             assert_never(form)
-
-
-def analyses(
-    results: Sequence[Analysis],
-    names: Sequence[str],
-    form: Format,
-    units: Units,
-    *,
-    into_file: bool = False,
-    plot: bool = False,
-) -> str:
-    """Analyses, one after the other; JSON is one document a line.
-
-    Args:
-        names: of the engines, by which the rows of CSV are told apart.
-        plot: with pictures, if a person looks at a terminal.
-    """
-
-    def sheets() -> list[Sheet]:
-        from .analysis import sheet
-        from .table import seen
-
-        pictures = plot and form is Format.TABLE and seen(into_file)
-        return [sheet(result, _system(units), pictures=pictures) for result in results]
-
-    def documents() -> list[Any]:
-        from .json import analysis
-
-        return [analysis(result) for result in results]
-
-    def rows() -> str:
-        from .csv import analyses
-
-        return analyses(results, names, _system(units))
-
-    return render(form, sheets=sheets, documents=documents, rows=rows, into_file=into_file)
-
-
-def _system(units: Units) -> System:
-    from .units import SYSTEMS
-
-    return SYSTEMS[units]
-
-
-def balances(result: Balance, form: Format, units: Units, *, into_file: bool = False) -> str:
-    """One balance."""
-    from . import csv, json
-
-    system = _system(units)
-
-    def sheets() -> list[Sheet]:
-        from .balance import sheet
-
-        return [sheet(result, system)]
-
-    return render(
-        form,
-        sheets=sheets,
-        documents=lambda: [json.balance(result)],
-        rows=lambda: csv.balances(result, system),
-        into_file=into_file,
-    )
-
-
-def sums(result: Combined, form: Format, units: Units, *, into_file: bool = False) -> str:
-    """Two engines on one frame."""
-    from . import csv
-    from . import two_engines as combined
-
-    system = _system(units)
-    return render(
-        form,
-        sheets=lambda: [combined.sheet(result, system)],
-        documents=lambda: [combined.document(result)],
-        rows=lambda: csv.sums(result, system),
-        into_file=into_file,
-    )

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.loads import Device
+from ..core.cylinders import Device
 from ..core.mechanisms.articulated import Articulated
 from ..core.mechanisms.rotary import Rotary
 from ..core.phasors import Phasors
@@ -109,5 +109,5 @@ def _device(device: Device) -> dict[str, Any]:
 
 
 def _shakes(result: Analysis, order: float) -> bool:
-    rows = [p.at([order]) for _, p in result.spectra.vectors() if order in p.orders]
+    rows = [p.select_orders([order]) for _, p in result.spectra.vectors() if order in p.orders]
     return any(not row.balanced[0] for row in rows)

@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+NAMELESS = "engine without a name"
+
 
 @dataclass(frozen=True)
 class Grid:

@@ -4,7 +4,6 @@ no terminal.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from io import StringIO
@@ -23,27 +22,21 @@ PROSE = (
 )
 
 
-def seen(into_file: bool) -> bool:
-    """Whether a person looks at a terminal."""
-    return sys.stdout.isatty() and not into_file
-
-
-def terminal(sheets: list[Sheet], *, into_file: bool = False) -> str:
-    """All sheets as text: with colours and folded to the width where a person looks at a terminal,
-    else plain and as wide as they are.
+def terminal(sheets: list[Sheet], *, seen: bool = False) -> str:
+    """All sheets as text: with colours and folded to the width of the terminal in which they are
+    seen, else plain and as wide as they are.
     """
     from rich.console import Console
     from rich.text import Text as Line
 
-    person = seen(into_file)
     buffer = StringIO()
     console = Console(
         file=buffer,
         highlight=False,
         emoji=False,
         markup=False,
-        soft_wrap=not person,
-        **({"force_terminal": True} if person else {"width": UNLIMITED, "no_color": True}),
+        soft_wrap=not seen,
+        **({"force_terminal": True} if seen else {"width": UNLIMITED, "no_color": True}),
     )
     for sheet in sheets:
         console.print(Line(legible(sheet.title), style="bold"))
@@ -55,7 +48,7 @@ def terminal(sheets: list[Sheet], *, into_file: bool = False) -> str:
                 console.print(piece)
         console.print()
     text = "\n".join(line.rstrip() for line in buffer.getvalue().splitlines())
-    return text if person else legible(text)
+    return text if seen else legible(text)
 
 
 def _pieces(part: Grid | Facts | Text, width: int) -> Iterator[Any]:

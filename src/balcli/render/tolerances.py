@@ -4,30 +4,38 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .csv import write
-from .sheet import Grid, Sheet, number
+from .csv import Rows
+from .sheet import NAMELESS, Grid, Sheet, number
 
 if TYPE_CHECKING:
-    from ..studies.tolerances import Scatter, Spread
+    from ..studies.tolerances import Scatter, Shape, Spread
+    from .units import System
 
 SHOWN = 6  # sources of each quantity in a table
+_ORDER = "(exact for masses, to first order for lengths and angles)"
+_BOUND: dict[Shape, str] = {
+    "uniform": f"bound: no combination exceeds it {_ORDER}",
+    "normal": f"bound: no combination within the tolerances exceeds it {_ORDER}; normal deviations "
+    "go beyond a tolerance, three times their standard deviation, in 1 of 370",
+}
 
 
 def document(result: Scatter) -> dict[str, Any]:
     """`balcli.scatter/1`."""
     return {
         "format": "balcli.scatter/1",
-        "engine": {"name": result.file.name},
+        "engine": {"name": result.model.name},
         "samples": result.samples,
+        "distribution": result.shape,
         "quantities": {
-            s.quantity.name: _figures(s)
+            s.quantity.name: _statistics(s)
             | {"sensitivity": {source.name: share for source, share in s.shares}}
             for s in result.spreads
         },
     }
 
 
-def _figures(s: Spread) -> dict[str, float]:
+def _statistics(s: Spread) -> dict[str, float]:
     return {
         "nominal": s.nominal,
         "mean": s.mean,
@@ -37,35 +45,36 @@ def _figures(s: Spread) -> dict[str, float]:
     }
 
 
-def rows(result: Scatter) -> str:
-    """CSV, a quantity a line."""
-    return write(
-        ("quantity", *_figures(result.spreads[0])),
-        [(s.quantity.name, *_figures(s).values()) for s in result.spreads],
+def rows(result: Scatter, _system: System) -> Rows:
+    """CSV: a quantity a line, in SI units."""
+    return Rows(
+        ("quantity", *_statistics(result.spreads[0])),
+        [(s.quantity.name, *_statistics(s).values()) for s in result.spreads],
     )
 
 
-def sheet(result: Scatter) -> Sheet:
-    """Percentiles, and which tolerances matter most."""
+def sheet(result: Scatter, _system: System) -> Sheet:
+    """Percentiles in SI units, and which tolerances matter most."""
     spread = Grid(
         f"Spread of {result.samples} engines",
-        ("quantity", *_figures(result.spreads[0])),
+        ("quantity", *_statistics(result.spreads[0])),
         tuple(
-            (f"{s.quantity.name}, {s.quantity.unit}", *map(number, _figures(s).values()))
+            (f"{s.quantity.name}, {s.quantity.unit}", *map(number, _statistics(s).values()))
             for s in result.spreads
         ),
-        note="bound: no combination exceeds it (exact for masses, to first order for lengths and "
-        "angles)",
+        note=_BOUND[result.shape],
     )
     shares = Grid(
         "What each tolerance alone changes, most first",
         ("quantity", *(f"{k}." for k in range(1, SHOWN + 1))),
-        tuple((f"{s.quantity.name}, {s.quantity.unit}", *_texts(s)) for s in result.spreads),
+        tuple(
+            (f"{s.quantity.name}, {s.quantity.unit}", *_largest_shares(s)) for s in result.spreads
+        ),
         words=tuple(range(SHOWN + 1)),
     )
-    return Sheet(result.file.name or "engine without a name", (spread, shares))
+    return Sheet(result.model.name or NAMELESS, (spread, shares))
 
 
-def _texts(s: Spread) -> list[str]:
+def _largest_shares(s: Spread) -> list[str]:
     texts = [f"{source.name}: {number(share, 3)}" for source, share in s.shares[:SHOWN]]
     return texts + [""] * (SHOWN - len(texts))

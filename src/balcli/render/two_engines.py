@@ -1,16 +1,25 @@
-"""Two engines on one frame, as a sheet and as JSON."""
+"""Two engines on one frame."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .figures import clean, peaks
-from .json import orders
+from . import figures
+from .analysis import largest, order_by_order
+from .csv import Rows
+from .figures import clean, order_entries, peaks
+from .sheet import Facts, Sheet, number
 
 if TYPE_CHECKING:
-    from ..results.two_engines import Combined
-    from .sheet import Sheet
+    from ..results.two_engines import Combined, Load
     from .units import System
+
+_GEARED = "Geared one to one, kinetic energies add: the first crank feels T = T1 + T2."
+_ROLL: dict[Load, str] = {
+    "first": f"{_GEARED} It drives the load, and the roll is C − T.",
+    "second": f"{_GEARED} The second one drives the load, against its sense: the roll is C + T.",
+    "both": f"{_GEARED} Each has its own flywheel and load: the roll is C − T1 + T2.",
+}
 
 
 def document(result: Combined) -> dict[str, Any]:
@@ -31,19 +40,23 @@ def document(result: Combined) -> dict[str, Any]:
             "at_mm": [clean(v * 1e3) for v in how.at_m],
             "turn_deg": how.turn_deg,
             "reverse": how.reverse,
+            "load": how.load,
         },
         "speed_rpm": clean(first.speed_rpm),
         "reference_mm": [clean(v * 1e3) for v in first.reference_m],
-        "orders": orders(result.spectra),
+        "orders": order_entries(result.spectra),
         "peak": peaks(result),
     }
 
 
+def rows(result: Combined, system: System) -> Rows:
+    """CSV: a figure a line, of both engines together."""
+    header = ("quantity", "order", "figure", "value", "unit")
+    return Rows(header, [row[1:] for row in figures.rows(result, system)])
+
+
 def sheet(result: Combined, system: System) -> Sheet:
     """The engines, how they stand, and what they do together."""
-    from .analysis import largest, order_by_order
-    from .sheet import Facts, Sheet, number
-
     first, how, length = result.engines[0], result.arrangement, system.length
     names = [engine.name for engine in result.engines]
 
@@ -73,7 +86,7 @@ def sheet(result: Combined, system: System) -> Sheet:
         " and ".join(names),
         (
             Facts(pairs),
-            *order_by_order(result.spectra, system),
+            *order_by_order(result.spectra, system, _ROLL[how.load] if how.reverse else ""),
             largest(result, system, "Largest over a revolution, all orders"),
         ),
     )

@@ -6,35 +6,34 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from ..core.mechanisms import harmonics
 from ..core.peaks import Peak, peak
 from ..core.phasors import Array
+from ..core.strokes import Travel, find_travel
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..forces.kinds import KINDS, SCALARS, VECTORS, Kind
-from ..forces.spectrum import (
-    Spectra,
-    considerable,
-    each,
-    relevant_orders,
-    spectra,
+from ..forces.crankshaft import InnerLoads, compute_inner_loads
+from ..forces.guide_moments import GuideMoments, compute_guide_moments
+from ..forces.kinds import KINDS, VECTORS, Kind
+from ..forces.orders import (
+    check_orders,
+    choose_orders,
+    find_relevant_orders,
+    merge_orders,
 )
-from ..limits import HIGHEST_ORDER, HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
+from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
+from ..forces.symmetry import Symmetry, explain_symmetry
+from ..forces.textbook import TextbookUnits, find_textbook_units
+from ..limits import HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
 from ..sizing.auto import auto
 from ..sizing.sizing import Remedy, fitted
 
-if TYPE_CHECKING:
-    from ..core.strokes import Travel
-    from ..forces.crankshaft import Inner
-    from ..forces.guide_moments import Guide
-    from ..forces.symmetry import Why
-
 QUANTITIES = (*KINDS, "peak", "sizing")
 EXTRAS = ("inner", "guide")  # computed only when they are named
+DEFAULT_ORDERS = (1.0, 2.0)
 
 
 class Sizing(NamedTuple):
@@ -50,15 +49,15 @@ class Analysis:
 
     Attributes:
         engine: as analysed.
-        spectra: phasors of the orders shown. force, moment: largest value over a revolution (N, N
-        m), of all orders, and its crank angle (rad).
+        spectra: phasors of the orders shown.
+        force, moment: largest value over a revolution (N, N m), of all orders, and its crank angle.
         sizing: devices of the scheme `auto`, and the analysis with them.
         cylinders: phasors of each cylinder alone (no devices), by cylinder number.
         why: whether the orders shown are balanced by symmetry.
         inner: shear force and bending moment along the crankshaft.
         guide: H- and X-type guide-force moments.
         travel: strokes and dead centres of articulated cylinders and of the masters, by rows of
-        `engine.numbers`.
+            `engine.numbers`; None where all cylinders are plain slider-cranks.
     """
 
     engine: Engine
@@ -67,13 +66,14 @@ class Analysis:
     moment: Peak | None = None
     sizing: Sizing | None = None
     cylinders: tuple[tuple[int, Spectra], ...] = ()
-    why: Why | None = None
-    inner: Inner | None = None
-    guide: Guide | None = None
+    why: Symmetry | None = None
+    inner: InnerLoads | None = None
+    guide: GuideMoments | None = None
     travel: Travel | None = None
 
     @property
     def orders(self) -> Array:
+        """Those shown, shape (orders,)."""
         return self.spectra.orders
 
     @property
@@ -83,9 +83,14 @@ class Analysis:
         return [(kind, peak) for kind, peak in found if peak is not None]
 
     @property
-    def beyond(self) -> bool:
+    def has_higher_orders(self) -> bool:
         """Whether there may be orders above those that are shown unless they are asked for."""
-        return bool(relevant_orders(self.engine)[-1] > HIGHEST_ORDER_UNASKED)
+        return bool(find_relevant_orders(self.engine)[-1] > HIGHEST_ORDER_UNASKED)
+
+    @property
+    def textbook(self) -> TextbookUnits:
+        """What textbooks measure forces and moments by, for the orders shown."""
+        return find_textbook_units(self.engine, self.orders)
 
     @property
     def of_one_cylinder(self) -> dict[str, float]:
@@ -106,150 +111,83 @@ def analyze(
     only: Collection[str] | None = None,
     by_cylinder: bool = False,
     reasons: bool = False,
+    guide_height_m: float | None = None,
 ) -> Analysis:
     """Free forces and moments of an engine, order by order.
 
     Args:
         engine: without trailing axes.
-        orders: which orders to show; default: 1 and 2 (0 too under uneven speed) and all in which a
-        quantity that was asked
-            for exceeds 1e-6 of its own largest order, up to 512.
+        orders: which orders to show; default: 1 and 2 (0 too at uneven speed) and all in which a
+            quantity that was asked for exceeds 1e-6 of its own largest order, up to 512.
         only: any of QUANTITIES and EXTRAS; default: all QUANTITIES.
         by_cylinder: also the phasors of every cylinder alone.
         reasons: also why each order is balanced, or is not.
+        guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
+            moment; default: the rods' lengths.
 
     Raises:
         BalcliError: an unknown quantity, an order that is negative or above HIGHEST_ORDER, too many
-        orders of too many cylinders.
+            orders of too many cylinders.
     """
-    wanted = set(QUANTITIES if only is None else only)
+    wanted = _check_quantities(QUANTITIES if only is None else only)
+    asked = None if orders is None else check_orders(orders)
+    peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
+    shown = wanted.intersection(KINDS)
+    computed = _choose_computed(engine, asked, whole=bool(peaked))
+    everything = compute_spectra(engine, computed, shown | peaked)
+    visible = everything.only(shown)
+    visible = visible.select_orders(choose_orders(visible) if asked is None else asked)
+    above_0 = visible.orders[visible.orders > 0]
+    cylinders = _analyze_cylinders(engine, visible.orders, shown) if by_cylinder else ()
+    return Analysis(
+        engine,
+        visible,
+        peak(everything["force"]) if peaked else None,
+        peak(everything["moment"]) if peaked else None,
+        sizing=_size_and_analyze(engine, asked, wanted) if "sizing" in wanted else None,
+        cylinders=cylinders,
+        why=explain_symmetry(engine, above_0, shown) if reasons else None,
+        inner=compute_inner_loads(engine, asked) if "inner" in wanted else None,
+        guide=compute_guide_moments(engine, asked, guide_height_m) if "guide" in wanted else None,
+        travel=None if engine.cylinders.linkage is None else find_travel(engine.cylinders),
+    )
+
+
+def _check_quantities(only: Collection[str]) -> set[str]:
+    wanted = set(only)
     if strangers := sorted(wanted.difference(QUANTITIES, EXTRAS)):
         raise BalcliError(
             f"there is no quantity {', '.join(strangers)}: choose from "
             f"{', '.join((*QUANTITIES, *EXTRAS))}"
         )
-    asked = None if orders is None else checked_orders(orders)
-    curves = {kind.name for kind in VECTORS} if "peak" in wanted else set()
-    shown = wanted.intersection(KINDS)
-    due = np.array([1.0, 2.0]) if asked is None else asked
-    whole = due
-    if (
-        asked is None or curves
-    ):  # a set: np.union1d imports masked arrays, which takes longer than all the rest
-        whole = np.array(sorted({*relevant_orders(engine).tolist(), *due.tolist()}))
-    everything = spectra(engine, whole, shown | curves)
-    visible = everything.only(shown)
-    visible = visible.at(shown_orders(visible) if asked is None else asked)
-    apart = len(visible.orders) * len(engine.numbers)
-    if by_cylinder and apart > MOST_RESULTS_BY_CYLINDER:
+    return wanted
+
+
+def _choose_computed(engine: Engine, asked: Array | None, *, whole: bool) -> Array:
+    """Orders to compute: those asked for; all there are where the whole curve is needed, or none
+    was asked for.
+    """
+    if asked is not None and not whole:
+        return asked
+    due = DEFAULT_ORDERS if asked is None else asked
+    return merge_orders(find_relevant_orders(engine), due)
+
+
+def _analyze_cylinders(
+    engine: Engine, orders: Array, kinds: Collection[str]
+) -> tuple[tuple[int, Spectra], ...]:
+    count = len(orders) * len(engine.numbers)
+    if count > MOST_RESULTS_BY_CYLINDER:
         raise BalcliError(
-            f"by cylinder, {len(visible.orders)} orders of {len(engine.numbers)} cylinders are "
-            f"{apart} results, and at most "
+            f"by cylinder, {len(orders)} orders of {len(engine.numbers)} cylinders are "
+            f"{count} results, and at most "
             f"{MOST_RESULTS_BY_CYLINDER} are told: ask for fewer orders"
         )
-    peaks = {q: peak(everything[q]) for q in curves}
-    return Analysis(
-        engine,
-        visible,
-        peaks.get("force"),
-        peaks.get("moment"),
-        sizing=_sized(engine, asked, wanted) if "sizing" in wanted else None,
-        cylinders=_by_cylinder(engine, visible.orders, shown) if by_cylinder else (),
-        why=_explained(engine, visible.orders, shown) if reasons else None,
-        **_extras(engine, asked, wanted),
-    )
+    own = compute_each_cylinder(engine, orders, kinds)
+    return tuple((n, own.select_place(engine.numbers.index(n))) for n in sorted(engine.numbers))
 
 
-def _by_cylinder(
-    engine: Engine, orders: Array, quantities: Collection[str]
-) -> tuple[tuple[int, Spectra], ...]:
-    own = each(engine, orders, quantities)
-    return tuple((n, own.of(engine.numbers.index(n))) for n in sorted(engine.numbers))
-
-
-class Textbook(NamedTuple):
-    """Units of textbooks: `F1 = m_rec r omega^2` of cylinder 1 (N), throw spacing a (m, nan for one
-    throw), and A_n.
-    """
-
-    force: float
-    arm: float
-    ratios: Array
-    equal: bool
-
-
-def textbook(engine: Engine, orders: Array) -> Textbook:
-    """What forces and moments are multiples of, with `F_n = A_n F1` for each order."""
-    c, row = engine.cylinders, engine.numbers.index(1)
-
-    def own(values: Array) -> Array:
-        return values[row : row + 1] if len(values) > 1 else values
-
-    series = harmonics.of(orders, own(c.lam), own(c.eps), rod=False, energy=False).piston
-    throws = engine.throws_m
-    return Textbook(
-        float(own(c.reciprocating)[0] * c.radius * engine.omega**2),
-        float(np.ptp(throws) / (len(throws) - 1)) if len(throws) > 1 else float("nan"),
-        np.abs(series.c[:, 0]),
-        engine.equal,
-    )
-
-
-def _extras(engine: Engine, asked: Array | None, wanted: Collection[str]) -> dict[str, Any]:
-    """What is computed only where it is asked for, or where the engine has it."""
-    found: dict[str, Any] = {}
-    if "inner" in wanted:
-        from ..forces.crankshaft import inner
-
-        found["inner"] = inner(engine, asked)
-    if "guide" in wanted:
-        from ..forces.guide_moments import guide
-
-        found["guide"] = guide(engine, asked)
-    if engine.cylinders.linkage is not None:
-        from ..core.strokes import travel
-
-        found["travel"] = travel(engine.cylinders)
-    return found
-
-
-def _explained(engine: Engine, orders: Array, quantities: Collection[str]) -> Why:
-    from ..forces.symmetry import QUANTITIES, why
-
-    turning = any(kind.name in quantities for kind in SCALARS)
-    return why(
-        engine,
-        orders[orders > 0],
-        [q for q in QUANTITIES if q in quantities or (q == "turning" and turning)],
-    )
-
-
-def _sized(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizing:
+def _size_and_analyze(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizing:
     remedy = auto(engine)
-    return Sizing(
-        remedy,
-        analyze(fitted(engine, remedy), asked, {*wanted, "force", "moment", "peak"} - {"sizing"}),
-    )
-
-
-def checked_orders(orders: Iterable[float]) -> Array:
-    """Orders that were asked for, ascending; BalcliError unless they are whole numbers up to
-    HIGHEST_ORDER.
-    """
-    asked = np.array(sorted(set(orders)), float)
-    if not len(asked) or asked[0] < 0 or asked[-1] > HIGHEST_ORDER or (asked % 1).any():
-        raise BalcliError(
-            f"orders must be whole numbers from 0 to {HIGHEST_ORDER}, not "
-            f"{', '.join(f'{n:g}' for n in asked[:8]) or 'none'}"
-        )
-    return asked
-
-
-def shown_orders(found: Spectra) -> Array:
-    """Orders to 2, and those up to HIGHEST_ORDER_UNASKED in which a quantity exceeds SHOWN of its
-    own largest order.
-    """
-    due = found.orders <= 2
-    for _, phasors in found.items():
-        due |= considerable(phasors)
-    return found.orders[due]
+    left = {*wanted, "force", "moment", "peak"} - {"sizing"}
+    return Sizing(remedy, analyze(fitted(engine, remedy), asked, left))

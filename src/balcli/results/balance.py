@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,16 +15,30 @@ from .analysis import QUANTITIES, Analysis, analyze
 _UNEVEN = "sized for steady mean speed; before and after are those of the uneven one"
 
 
+class PermittedUnbalance(NamedTuple):
+    """By ISO 21940-11, SI.
+
+    Attributes:
+        grade: permitted speed of the centre of mass, mm/s. mass: of the crankshaft, kg.
+        each: permitted unbalance at each counterweight, kg m; all share alike.
+    """
+
+    grade: float
+    mass: float
+    each: float
+
+
 @dataclass(frozen=True)
 class Balance:
     """A remedy, what the engine does without and with it (same orders), and the workshop's figures
-    of its devices.
+    of its devices; what a grade permits, if one was asked for.
     """
 
     remedy: Remedy
     before: Analysis
     after: Analysis
     practical: tuple[Practical, ...]
+    permitted: PermittedUnbalance | None = None
 
 
 def balance(

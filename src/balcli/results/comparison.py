@@ -2,31 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import nan
 
-import numpy as np
-
+from ..core.phasors import Array
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..forces.kinds import Kind
+from ..forces.orders import merge_orders
 from .analysis import QUANTITIES, Analysis, analyze
 
 
 @dataclass(frozen=True)
 class Line:
-    """One figure of every engine: an amplitude (N, N m) by kind and order, or a peak (order
-    None).
+    """One figure of every engine, SI: the amplitude of an order, or the peak of the whole curve.
+
+    Attributes:
+        kind: of force or moment.
+        order: None for the peak.
+        values: one an engine.
     """
 
     kind: Kind
-    order: int | None
+    order: float | None
     values: tuple[float, ...]
 
     @property
     def ratios(self) -> tuple[float, ...]:
-        """To the first engine's; nan where that has none."""
+        """To the first engine's value; nan where that is 0."""
         first = self.values[0]
         return tuple(value / first if first else nan for value in self.values)
 
@@ -39,7 +43,7 @@ class Comparison:
     lines: tuple[Line, ...]
 
 
-def compare(
+def compare_engines(
     engines: Sequence[Engine],
     names: Sequence[str],
     orders: Iterable[float] | None = None,
@@ -48,6 +52,8 @@ def compare(
     """The free forces and moments of several engines: the largest of each order, and peaks.
 
     Args:
+        engines: without trailing axes, at least two.
+        names: what to call them.
         orders: default: all that `analyze` shows for one of them.
         only: as in `analyze`; sizing is never computed.
 
@@ -57,20 +63,22 @@ def compare(
     if len(engines) < 2:
         raise BalcliError("there is one engine; name at least two to compare")
     wanted = set(only or QUANTITIES) - {"sizing"}
-    shown = [analyze(engine, orders, wanted) for engine in engines]
-    every = np.unique(np.concatenate([a.orders for a in shown]))
-    same = shown if orders is not None else [analyze(engine, every, wanted) for engine in engines]
-    return Comparison(tuple(names), (*_orders(same, every), *_peaks(same)))
+    analyses = [analyze(engine, orders, wanted) for engine in engines]
+    every = merge_orders(*(one.orders for one in analyses))
+    if orders is None:
+        analyses = [analyze(engine, every, wanted) for engine in engines]
+    return Comparison(tuple(names), (*_compare_orders(analyses, every), *_compare_peaks(analyses)))
 
 
-def _orders(found: Sequence[Analysis], orders: np.ndarray) -> Iterable[Line]:
-    for kind, _ in found[0].spectra.items():
-        sizes = np.stack([a.spectra[kind.name].major for a in found], axis=1)
-        for order, row in zip(orders, sizes, strict=True):
-            if order <= 2 or row.any():
-                yield Line(kind, int(order), tuple(row.tolist()))
+def _compare_orders(analyses: Sequence[Analysis], orders: Array) -> Iterator[Line]:
+    for kind, _ in analyses[0].spectra.items():
+        sizes = [one.spectra[kind.name].major for one in analyses]
+        for order, *values in zip(orders, *sizes, strict=True):
+            if order <= 2 or any(values):
+                yield Line(kind, float(order), tuple(map(float, values)))
 
 
-def _peaks(found: Sequence[Analysis]) -> Iterable[Line]:
-    for same in zip(*(a.peaks for a in found), strict=True):
-        yield Line(same[0][0], None, tuple(peak.value for _, peak in same))
+def _compare_peaks(analyses: Sequence[Analysis]) -> Iterator[Line]:
+    for same in zip(*(one.peaks for one in analyses), strict=True):
+        kind, _ = same[0]
+        yield Line(kind, None, tuple(peak.value for _, peak in same))

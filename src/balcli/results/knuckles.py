@@ -11,10 +11,10 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.loads import Cylinders
+from ..core.cylinders import Cylinders
 from ..core.mechanisms.articulated import Articulated
 from ..core.phasors import Array, unit
-from ..core.strokes import Travel, travel
+from ..core.strokes import Travel, find_travel
 from ..engine.build import build
 from ..engine.layout import plan_cylinders
 from ..enginefile.model import EngineFile
@@ -91,8 +91,8 @@ def even_knuckles(file: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
         goal,
         better,
         found,
-        travel(c),
-        travel(build(better).cylinders),
+        find_travel(c),
+        find_travel(build(better).cylinders),
         _reasons(goal, hung[rows], done[rows], turn[rows]),
     )
 
@@ -130,7 +130,8 @@ def _range(values: Array) -> dict[str, float]:
 
 
 def _turned(c: Cylinders, linkage: Articulated, angle_deg: Array) -> Travel:
-    return travel(replace(c, linkage=replace(linkage, knuckle=linkage.knuckle * unit(angle_deg))))
+    turned = replace(linkage, knuckle=linkage.knuckle * unit(angle_deg))
+    return find_travel(replace(c, linkage=turned))
 
 
 def _error(found: Travel, linkage: Articulated, goal: Goal) -> Array:

@@ -4,46 +4,61 @@ added.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
 from ..core.peaks import Peak, peak
-from ..core.phasors import Phasors, unit
-from ..engine.arrays import Figure
+from ..core.phasors import Complex, Figure, Phasors, unit
 from ..engine.assembly import Ripple
 from ..engine.build import Engine
 from ..forces.kinds import KINDS, VECTORS, Kind
-from ..forces.spectrum import Spectra, assembled, relevant_orders, spectra
-from .analysis import checked_orders, shown_orders
+from ..forces.orders import check_orders, choose_orders, find_relevant_orders, merge_orders
+from ..forces.spectrum import Spectra, add_parts, compute_spectra
+from .analysis import DEFAULT_ORDERS
+
+Load = Literal["first", "second", "both"]
 
 
 @dataclass(frozen=True)
 class Arrangement:
-    """How the second engine stands to the first.
+    """How the second engine stands to the first, and what they drive.
 
     Attributes:
         phase_deg: crank angle by which it leads, in its own sense of rotation.
         at_m: place of its origin (its crank axis at its z = 0) in the first engine's axes.
         turn_deg: how far it is turned about z, with all its banks.
         reverse: whether its crank turns against the first: it is then built as its own mirror image
-        (y changed in sign), so
-            that its file still counts everything in its own sense of rotation.
+            (y changed in sign), so that its file still counts everything in its own sense of
+            rotation.
+        load: which crank has the flywheel and the load, and so bears the whole inertia torque;
+            "both": each bears its own, and the gears carry none of it. Where the cranks turn alike
+            it makes no difference.
     """
 
     phase_deg: float = 0.0
     at_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
     turn_deg: float = 0.0
     reverse: bool = False
+    load: Load = "first"
 
 
 @dataclass(frozen=True)
 class Combined:
     """What two engines do to their common frame, about the first one's point of reference.
 
-    The inertia torque is the sum of both about z, in the first one's sense: what a common gear
-    train would feel.
+    Geared one to one the kinetic energies add, so that the inertia torque, as the first crank feels
+    it, is T1 + T2, each in its own crank's sense, whichever way they turn. What the load takes does
+    not act on the frame: the roll is C - (T1 + T2) with the load on the first crank,
+    C + (T1 + T2) on a second one that turns against it, C - T1 + T2 if each has a load of its own.
+
+    Attributes:
+        engines: as they were given.
+        spectra: phasors of the orders shown, of both together.
+        force, moment: largest value over a revolution (N, N m), of all orders, and its crank angle.
+        cylinders: none; each engine's own analysis has them.
     """
 
     engines: tuple[Engine, Engine]
@@ -59,41 +74,38 @@ class Combined:
         return list(zip(VECTORS, (self.force, self.moment), strict=True))
 
 
-def combine(
+def combine_engines(
     first: Engine, second: Engine, arrangement: Arrangement, orders: Iterable[float] | None = None
 ) -> Combined:
-    """Both engines together, at the first one's speed and unevenness of speed; engines without
-    trailing axes.
+    """Both engines together, at the first one's speed and unevenness of speed.
 
     Args:
+        first, second: without trailing axes.
         orders: which to show; default as in `analyze`.
 
     Raises:
         BalcliError: orders that are negative or too high.
     """
-    asked = None if orders is None else checked_orders(orders)
-    second = geared(second, first, arrangement.phase_deg)
-    whole = sorted(
-        {
-            *relevant_orders(first),
-            *relevant_orders(second),
-            *([1.0, 2.0] if asked is None else asked),
-        }
+    asked = None if orders is None else check_orders(orders)
+    second = gear_to(second, first, arrangement.phase_deg)
+    computed = merge_orders(
+        find_relevant_orders(first),
+        find_relevant_orders(second),
+        DEFAULT_ORDERS if asked is None else asked,
     )
-    own = replace(second, reference_m=(0.0, 0.0, 0.0))
-    everything = _sum(
-        spectra(first, whole), placed(spectra(own, whole), arrangement, first.reference_m)
-    )
+    own = compute_spectra(replace(second, reference_m=(0.0, 0.0, 0.0)), computed)
+    moved = place_spectra(own, arrangement, first.reference_m)
+    everything = _add_spectra(compute_spectra(first, computed), moved, arrangement)
     return Combined(
         (first, second),
         arrangement,
-        everything.at(shown_orders(everything) if asked is None else asked),
+        everything.select_orders(choose_orders(everything) if asked is None else asked),
         peak(everything["force"]),
         peak(everything["moment"]),
     )
 
 
-def geared(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
+def gear_to(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
     """An engine at another's speed, which it leads by an angle; the unevenness is that of the
     other's crank angle.
     """
@@ -104,44 +116,59 @@ def geared(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
     return replace(engine, speed_rpm=leader.speed_rpm, ripple=ripple)
 
 
-def placed(own: Spectra, arrangement: Arrangement, reference_m: Collection[Figure]) -> Spectra:
-    """Phasors of an engine about its own origin, by its own crank angle -> where it stands, by the
-    leading one's.
+def place_spectra(
+    own: Spectra, arrangement: Arrangement, reference_m: tuple[Figure, Figure, Figure]
+) -> Spectra:
+    """Phasors of an engine where it stands, by the crank angle of the engine that it is geared to.
+
+    Args:
+        own: all kinds, about its own origin, by its own crank angle; the inertia torque comes out
+            about z, too.
+        reference_m: point of reference of the result, in the other engine's axes.
     """
     n = own.orders
-    x, y, z = (place - point for place, point in zip(arrangement.at_m, reference_m, strict=True))
+    places = zip(arrangement.at_m, reference_m, strict=True)
+    x, y, z = (place - float(point) for place, point in places)
     lead = unit(n * arrangement.phase_deg)
-    parts = {kind.name: _led(phasors, lead) for kind, phasors in own.items()}
+    parts = {kind.name: _advance(phasors, lead) for kind, phasors in own.items()}
     if arrangement.reverse:
-        parts = {name: _mirrored(phasors, KINDS[name]) for name, phasors in parts.items()}
+        parts = {name: _mirror(phasors, KINDS[name]) for name, phasors in parts.items()}
     turn = unit(arrangement.turn_deg)
     force = turn * parts["force"]
     parts["force"] = force
     parts["moment"] = turn * parts["moment"] + 1j * z * force
     parts["couple"] = parts["couple"] + force.about(x + 1j * y)
-    return Spectra(n, **{name: assembled(kind, parts) for name, kind in KINDS.items()})
+    return Spectra(n, **{name: add_parts(kind, parts) for name, kind in KINDS.items()})
 
 
-def _led(phasors: Phasors, lead: np.ndarray) -> Phasors:
+def _advance(phasors: Phasors, lead: Complex) -> Phasors:
+    """The same earlier by the angles e^{i n phase}, shape (orders,)."""
     return Phasors(
         phasors.orders, lead * phasors.forward, np.conj(lead) * phasors.backward, phasors.noise
     )
 
 
-def _mirrored(phasors: Phasors, kind: Kind) -> Phasors:
+def _mirror(phasors: Phasors, kind: Kind) -> Phasors:
     """In the mirror that changes the sign of y a vector becomes its conjugate, and what turns
     changes its sign besides.
     """
     sign = 1.0 if kind.dimension == "force" else -1.0
     mean = phasors.orders == 0
-    forward = np.where(mean, np.conj(phasors.forward), np.conj(phasors.backward))
-    return Phasors(
-        phasors.orders,
-        sign * forward,
-        sign * np.where(mean, 0, np.conj(phasors.forward)),
-        phasors.noise,
-    )
+    ahead, against = phasors.forward.conj(), phasors.backward.conj()
+    forward: Complex = np.where(mean, ahead, against)
+    backward: Complex = np.where(mean, 0, ahead)
+    return Phasors(phasors.orders, sign * forward, sign * backward, phasors.noise)
 
 
-def _sum(one: Spectra, other: Spectra) -> Spectra:
-    return Spectra(one.orders, **{name: (one[name] + other[name]).settled() for name in KINDS})
+def _add_spectra(one: Spectra, other: Spectra, arrangement: Arrangement) -> Spectra:
+    """Both engines geared together; torque and roll as in `Combined`."""
+    parts = {name: one[name] + other[name] for name in ("force", "moment", "couple")}
+    sense = -1.0 if arrangement.reverse else 1.0  # of the second crank
+    parts["torque"] = one["torque"] + sense * other["torque"]
+    taken = {  # by the load, about z
+        "first": parts["torque"],
+        "second": sense * parts["torque"],
+        "both": one["torque"] + other["torque"],
+    }
+    parts["roll"] = parts["couple"] - taken[arrangement.load]
+    return Spectra(one.orders, **{name: parts[name].settled() for name in KINDS})

@@ -17,7 +17,8 @@ from ..core.peaks import peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..engine.build import Engine, Weighed
 from ..errors import BalcliError
-from ..forces.spectrum import relevant_orders, spectra
+from ..forces.orders import find_relevant_orders
+from ..forces.spectrum import compute_spectra
 from . import planes
 from .auto import why_weights
 from .effects import Part, Slot, solve, steady
@@ -214,12 +215,14 @@ def _peaks(engine: Engine, share: float) -> dict[str, float]:
 def _component(curve: Phasors, direction: complex) -> float:
     """Largest component along a direction."""
     c: Complex = curve.forward * direction.conjugate() + np.conj(curve.backward) * direction
-    return peak(Phasors.real(curve.orders, c, curve.noise).settled()).value
+    return peak(Phasors.from_scalar(curve.orders, c, curve.noise).settled()).value
 
 
 def _curve(engine: Engine, quantity: str) -> Phasors:
     """Force or moment, all orders."""
-    found: Phasors = getattr(spectra(engine, relevant_orders(engine), (quantity,)), quantity)
+    found: Phasors = getattr(
+        compute_spectra(engine, find_relevant_orders(engine), (quantity,)), quantity
+    )
     return found
 
 
@@ -232,7 +235,7 @@ def minimax(engine: Engine, wish: Wish) -> Remedy:
     with the crank vanishes too.
     """
     fitting = Fitting.of(engine, "minimax", 1)
-    found = circle.enclosing(_curve(fitting.engine, "force"))
+    found = circle.enclose_curve(_curve(fitting.engine, "force"))
     newton = float(engine.omega) ** 2
     reason = (
         f"The largest force over a revolution, all orders, becomes {found.radius:.5g} N: no "

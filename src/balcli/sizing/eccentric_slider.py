@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.mechanisms import harmonics
+from ..core.mechanisms import closed_form
 from ..core.phasors import Array
 from ..errors import BalcliError
 
@@ -92,7 +92,7 @@ def shafts(design: str, k: Any) -> tuple[Array, Array]:
     """Cosine coefficients of `g m^-2 = cos phi` up to sign, i.e. of cos phi, and of its derivative
     by k.
     """
-    theta = np.arange(_COUNT) * (2 * np.pi / _COUNT)
+    theta = np.arange(_COUNT, dtype=np.float64) * (2 * np.pi / _COUNT)
     step = 1e-30  # complex step: the derivative to rounding
     wave = _cos_phi(design, theta, k + 1j * step)
     return _cosines(wave.real), _cosines(wave.imag / step)
@@ -111,7 +111,7 @@ def _cosines(samples: Array) -> Array:
 
 def _engine_force(force: str, lam: float) -> Array:
     if force == "all orders":
-        return harmonics.piston(_ORDERS, lam)
+        return closed_form.piston(_ORDERS, lam)
     return np.where(_ORDERS == 1, 1.0, np.where(_ORDERS == 2, lam, 0.0))
 
 

@@ -17,12 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core import least_squares
-from ..core.loads import Device
+from ..core.cylinders import Device
 from ..core.phasors import EPS, unit
 from ..engine.build import Engine
 from ..enginefile.model import Counterweight, Shaft, Slider
 from ..errors import BalcliError
-from ..forces.spectrum import spectra
+from ..forces.spectrum import compute_spectra
 from . import remedy
 
 LEFT = 1e-12  # of what was there before: more must not remain of what a scheme promises to cancel
@@ -64,7 +64,7 @@ def steady(engine: Engine) -> Engine:
 
 def rest(engine: Engine, order: int) -> Rest:
     """What is left to cancel at one order."""
-    found = spectra(steady(engine), [order], ("force", "moment", "roll"))
+    found = compute_spectra(steady(engine), [order], ("force", "moment", "roll"))
     newton = order**2 * float(engine.omega) ** 2
     x, y, z = engine.reference_m
     parts, noise = {}, {}

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
-from ..core.loads import Device
+from ..core.cylinders import Device
 from ..engine.build import Engine
 from ..enginefile.model import Counterweight, Shaft, Slider
 from .effects import Part, Rest, Slot, exactly, rest, steady

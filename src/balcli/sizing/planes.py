@@ -17,7 +17,7 @@ def ends(engine: Engine) -> tuple[float, float]:
     reaches = [
         _reach(engine.throws_m),
         _reach(engine.cylinders.z),
-        _reach([*engine.throws_m, *(d.z for d in engine.devices)]),
+        _reach([*engine.throws_m, *(float(d.z) for d in engine.devices)]),
     ]
     return next((r for r in reaches if r[0] < r[1]), reaches[0])
 

@@ -11,7 +11,7 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from ..core.loads import Device
+from ..core.cylinders import Device
 from ..core.phasors import EPS, reduced
 from ..engine.build import Engine
 from ..engine.devices import build_device

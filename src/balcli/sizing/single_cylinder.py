@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.loads import Device
+from ..core.cylinders import Device
 from ..core.phasors import unit
 from ..engine.build import Engine
 from ..errors import BalcliError

@@ -7,11 +7,11 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from ..core.drilled_hole import STEEL, find_drill_depth
 from ..engine.build import Engine
 from ..errors import BalcliError
 from .remedy import Remedy
 
-STEEL = 7850.0  # kg/m3, plain carbon steel
 THICKNESS = 0.020  # m, of a semicircular disc if nothing else is said
 
 
@@ -70,7 +70,7 @@ def practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practical, 
 
     def figures(unbalance: float, times: int) -> Practical:
         r, t = _disc(unbalance, tools)
-        depth = drill_depth(unbalance, radius, tools.drill) if tools.drill else None
+        depth = find_drill_depth(unbalance, radius, tools.drill) if tools.drill else None
         return Practical(
             unbalance,
             unbalance / radius,
@@ -96,15 +96,3 @@ def _disc(unbalance: float, tools: Tools) -> tuple[float, float]:
         return tools.disc, 1.5 * unbalance / (STEEL * tools.disc**3)
     thickness = tools.thickness or THICKNESS
     return (1.5 * unbalance / (STEEL * thickness)) ** (1 / 3), thickness
-
-
-def drill_depth(unbalance: float, rim: float, drill: float) -> float:
-    """Depth of a radial hole from the rim (radius, m) inwards whose removed steel had this
-    unbalance; nan if none is deep enough.
-
-    `m r = density pi d^2/4 (rim h - h^2/2)`, the hole ending at the axis at the latest.
-    """
-    share = (
-        unbalance / (STEEL * math.pi / 4 * drill**2) / rim**2
-    )  # = h/rim - (h/rim)^2 / 2, at most 1/2
-    return rim * 2 * share / (1 + math.sqrt(1 - 2 * share)) if share <= 0.5 else math.nan

@@ -11,16 +11,16 @@ from itertools import islice
 from typing import Any
 
 from ..errors import BalcliError
-from .sweep import Box, Chunk, Sweep, boxes, values
+from .sweep import Box, Chunk, Sweep, divide_grid, evaluate_box
 
 BATCH = 16  # boxes that a worker computes at a time
 AHEAD = 4  # batches for each thread that may wait to be fetched
 
 
 @contextmanager
-def client(address: str) -> Iterator[Any]:
-    """A client of the scheduler at an address such as tcp://host:8786, or of a cluster of our own
-    (`local`).
+def connect_cluster(address: str) -> Iterator[Any]:
+    """A client of the scheduler at an address such as tcp://host:8786, or of a cluster on this
+    machine (`local`) that ends with it.
 
     Raises:
         BalcliError: dask is not installed, or nobody answers.
@@ -34,37 +34,39 @@ def client(address: str) -> Iterator[Any]:
         if address == "local":
             with (
                 dask.LocalCluster(threads_per_worker=1, dashboard_address=None) as cluster,
-                dask.Client(cluster) as found,
+                dask.Client(cluster) as client,
             ):
-                yield found
+                yield client
         else:
-            with dask.Client(address, timeout=10) as found:
-                yield found
+            with dask.Client(address, timeout=10) as client:
+                yield client
     except (OSError, ValueError) as error:
         raise BalcliError(f"--dask {address}: no cluster answers there ({error})") from None
 
 
-def chunks(sweep: Sweep, found: Any) -> Iterator[Chunk]:
-    """All variants, computed by the cluster, in the order of rows; a bounded number of batches is
-    under way at a time.
+def evaluate_on_cluster(sweep: Sweep, client: Any) -> Iterator[Chunk]:
+    """All variants, computed by the workers of a client's cluster, in the order of rows; a bounded
+    number of batches is under way at a time.
     """
-    batches = _batches(boxes(sweep.shape))
-    most = AHEAD * max(sum(found.nthreads().values()), 1)
-    job = found.scatter(sweep, broadcast=True)
-    waiting = deque(
-        found.submit(_compute, job, batch, pure=False) for batch in islice(batches, most)
-    )
+    batches = _group(divide_grid(sweep.shape))
+    most = AHEAD * max(sum(client.nthreads().values()), 1)
+    job = client.scatter(sweep, broadcast=True)
+
+    def submit(count: int) -> Iterator[Any]:
+        for batch in islice(batches, count):
+            yield client.submit(_evaluate_batch, job, batch, pure=False)
+
+    waiting = deque(submit(most))
     while waiting:
         yield from waiting.popleft().result()
-        waiting.extend(
-            found.submit(_compute, job, batch, pure=False) for batch in islice(batches, 1)
-        )
+        waiting.extend(submit(1))
 
 
-def _compute(sweep: Sweep, batch: list[Box]) -> list[Chunk]:
-    return [Chunk(box, values(sweep, box)) for box in batch]
+def _evaluate_batch(sweep: Sweep, batch: list[Box]) -> list[Chunk]:
+    return [Chunk(box, evaluate_box(sweep, box)) for box in batch]
 
 
-def _batches(every: Iterator[Box]) -> Iterator[list[Box]]:
-    while batch := list(islice(every, BATCH)):
+def _group(boxes: Iterator[Box]) -> Iterator[list[Box]]:
+    """So many boxes at a time as a worker computes."""
+    while batch := list(islice(boxes, BATCH)):
         yield batch

@@ -13,9 +13,9 @@ import numpy as np
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..forces.crankshaft import Inner, inner
+from ..forces.crankshaft import InnerLoads, compute_inner_loads
 from ..forces.kinds import KINDS
-from ..forces.spectrum import spectra
+from ..forces.spectrum import compute_spectra
 from ..results.analysis import Analysis, analyze
 from ..results.balance import balance
 from ..sizing.sizing import Wish, remedy_for
@@ -25,8 +25,12 @@ _ALONE = ("factor", "bank")  # studies of the engine as it is
 
 
 class Banks(NamedTuple):
-    """Free force of one order over the bank angle of a vee, all else unchanged; the phasors have
-    the angles as their axis.
+    """Free force of one order over the bank angle of a vee, all else unchanged.
+
+    Attributes:
+        angles_deg: shape (angles,).
+        own_deg: the engine's bank angle.
+        force: N, shape (1, angles).
     """
 
     order: int
@@ -36,18 +40,23 @@ class Banks(NamedTuple):
 
 
 class Study(NamedTuple):
-    """Now, and before devices were fitted if any were; rows of peaks over the balance factor; the
-    order over the bank angle; what bends the crankshaft now and before.
+    """What a page shows.
+
+    Attributes:
+        now, before: the engine, and without the devices that were fitted, if any were.
+        factors: rows of peaks over the balance factor.
+        banks: an order over the bank angle.
+        bent: what bends the crankshaft now, and before.
     """
 
     now: Analysis
     before: Analysis | None = None
     factors: Sequence[dict[str, float]] = ()
     banks: Banks | None = None
-    bent: tuple[Inner, ...] = ()
+    bent: tuple[InnerLoads, ...] = ()
 
 
-def study(
+def compute_study(
     engine: Engine, what: str, orders: Sequence[int] | None = None, scheme: str | None = None
 ) -> Study:
     """What the page `what` shows.
@@ -59,29 +68,32 @@ def study(
 
     Raises:
         BalcliError: an unknown scheme, one that cannot be fitted, or one beside a study that takes
-        none; a bank angle is asked
-            of an engine that is no vee.
+            none; a bank angle is asked of an engine that is no vee.
     """
     if scheme is not None and what in _ALONE:
         raise BalcliError(f"--what {what} shows the engine as it is: leave --scheme {scheme} out")
     if scheme is not None:
         found = balance(engine, scheme, orders=orders)
-        bent = (inner(found.after.engine), inner(engine)) if what == "inner" else ()
+        bent = (
+            (compute_inner_loads(found.after.engine), compute_inner_loads(engine))
+            if what == "inner"
+            else ()
+        )
         return Study(found.after, found.before, bent=bent)
     now = analyze(engine, orders, KINDS)
     if what == "inner":
-        return Study(now, bent=(inner(engine),))
+        return Study(now, bent=(compute_inner_loads(engine),))
     if what == "factor":
         details: Any = remedy_for(engine, "factor", Wish(factor=FACTORS)).details
         return Study(now, factors=details["sweep"])
     return (
-        Study(now, banks=over_bank_angle(engine, _lowest(now) if orders is None else orders[0]))
+        Study(now, banks=swing_banks(engine, _find_lowest(now) if orders is None else orders[0]))
         if what == "bank"
         else Study(now)
     )
 
 
-def over_bank_angle(engine: Engine, order: int) -> Banks:
+def swing_banks(engine: Engine, order: int) -> Banks:
     """The free force of an order while the two banks of a vee are swung apart from 0 to 180
     degrees, the crankshaft unchanged.
     """
@@ -112,10 +124,10 @@ def over_bank_angle(engine: Engine, order: int) -> Banks:
 
 
 def _force(engine: Engine, order: int) -> Phasors:
-    return spectra(replace(engine, ripple=()), [order], ["force"])["force"]
+    return compute_spectra(replace(engine, ripple=()), [order], ["force"])["force"]
 
 
-def _lowest(now: Analysis) -> int:
+def _find_lowest(now: Analysis) -> int:
     """The lowest order with a free force, or the second."""
     force = now.spectra["force"]
     free = [

@@ -20,10 +20,9 @@ from numpy.typing import NDArray
 from ..engine.build import Engine, build
 from ..engine.load import read
 from ..enginefile.model import EngineFile
-from ..enginefile.read import name_file
+from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, InputError
-from ..forces import quantity
-from ..forces.quantity import Quantity, evaluate
+from ..forces.quantity import Quantity, evaluate_quantities, parse_quantity_list
 from ..limits import MOST_PICTURE_VARIANTS
 from .parameters import Parameter, parse
 
@@ -41,7 +40,7 @@ class Chunk(NamedTuple):
 
 @dataclass(frozen=True)
 class Sweep:
-    """What to compute: a file, the parameters that vary, and the quantities asked for."""
+    """What to compute: an engine file, the parameters that vary, and the quantities asked for."""
 
     file: EngineFile
     parameters: tuple[Parameter, ...]
@@ -50,14 +49,17 @@ class Sweep:
 
     @property
     def columns(self) -> list[str]:
+        """Names of the parameters and quantities."""
         return [*(p.path for p in self.parameters), *(q.name for q in self.quantities)]
 
     @property
     def shape(self) -> tuple[int, ...]:
+        """How many values each parameter has."""
         return tuple(map(len, self.parameters))
 
     @property
     def variants(self) -> int:
+        """How many there are."""
         return math.prod(self.shape)
 
     def engine(self, box: Box) -> Engine:
@@ -81,7 +83,7 @@ class Sweep:
             raise InputError(error.problems, self.name) from None
 
 
-def ask(file: str, vary: Sequence[str], quantities: str) -> Sweep:
+def read_sweep(file: str, vary: Sequence[str], quantities: str) -> Sweep:
     """The sweep of an engine file that a user asks for.
 
     Raises:
@@ -93,12 +95,12 @@ def ask(file: str, vary: Sequence[str], quantities: str) -> Sweep:
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
-    sweep = Sweep(model, parameters, quantity.parse(quantities), name_file(file))
-    check(sweep)
+    sweep = Sweep(model, parameters, parse_quantity_list(quantities), name_file(file))
+    check_corners(sweep)
     return sweep
 
 
-def check(sweep: Sweep) -> None:
+def check_corners(sweep: Sweep) -> None:
     """A first look whether all variants can be, at the corners of the grid: what can lock a
     mechanism grows towards one of them (what an uneven speed can do to it may lie between them, and
     is found on the way).
@@ -112,16 +114,20 @@ def check(sweep: Sweep) -> None:
     Sweep(sweep.file, corners, (), sweep.name).engine((slice(None),) * len(corners))
 
 
-def values(sweep: Sweep, box: Box) -> list[Array]:
-    """Each quantity for all variants of a box, shape (variants in it,)."""
+def evaluate_box(sweep: Sweep, box: Box) -> list[Array]:
+    """Each quantity for all variants of a box, SI or degrees, shape (variants in it,).
+
+    Raises:
+        InputError: one of them cannot be.
+    """
     shape = tuple(len(range(*cut.indices(n))) for cut, n in zip(box, sweep.shape, strict=True))
     return [
         np.broadcast_to(found, shape).ravel()
-        for found in evaluate(sweep.engine(box), sweep.quantities)
+        for found in evaluate_quantities(sweep.engine(box), sweep.quantities)
     ]
 
 
-def boxes(shape: tuple[int, ...], most: int = CHUNK) -> Iterator[Box]:
+def divide_grid(shape: tuple[int, ...], most: int = CHUNK) -> Iterator[Box]:
     """The grid in boxes of at most `most` variants, in the order of rows: the last axes whole, one
     cut, the first one by one.
     """
@@ -138,19 +144,19 @@ def boxes(shape: tuple[int, ...], most: int = CHUNK) -> Iterator[Box]:
             )
 
 
-def chunks(sweep: Sweep) -> Iterator[Chunk]:
+def evaluate_chunks(sweep: Sweep) -> Iterator[Chunk]:
     """All variants, box by box, in the order of rows."""
-    for box in boxes(sweep.shape):
-        yield Chunk(box, values(sweep, box))
+    for box in divide_grid(sweep.shape):
+        yield Chunk(box, evaluate_box(sweep, box))
 
 
-def columns(sweep: Sweep, chunk: Chunk) -> list[Array]:
+def list_columns(sweep: Sweep, chunk: Chunk) -> list[Array]:
     """A chunk as columns: parameters and quantities, each of shape (variants in it,)."""
     axes = [p.values[cut] for p, cut in zip(sweep.parameters, chunk.box, strict=True)]
     return [*(axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")), *chunk.values]
 
 
-def grid(sweep: Sweep) -> list[Array]:
+def evaluate_grid(sweep: Sweep) -> list[Array]:
     """Each quantity on the whole grid, shape (values of the first parameter, of the second ...).
 
     Raises:
@@ -161,5 +167,5 @@ def grid(sweep: Sweep) -> list[Array]:
             f"{sweep.variants} variants are too many for one picture; "
             f"{MOST_PICTURE_VARIANTS} are allowed"
         )
-    found = zip(*(chunk.values for chunk in chunks(sweep)), strict=True)
+    found = zip(*(chunk.values for chunk in evaluate_chunks(sweep)), strict=True)
     return [np.concatenate(parts).reshape(sweep.shape) for parts in found]

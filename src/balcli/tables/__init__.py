@@ -1,11 +1,3 @@
-"""The printed coefficient tables of five sources, recomputed; what deviates is found, never
-typed.
+"""The name of a printed coefficient table in, the table recomputed beside its print out, with
+every printed figure that is wrong.
 """
-
-from __future__ import annotations
-
-from .options import Options
-from .registry import NAMES, recompute, select
-from .table import Erratum, Table
-
-__all__ = ["NAMES", "Erratum", "Options", "Table", "recompute", "select"]

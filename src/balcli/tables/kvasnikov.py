@@ -11,45 +11,44 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..core.mechanisms import harmonics
+from ..core.mechanisms import closed_form
 from ..core.mechanisms import power_series as series
-from ..core.mechanisms.slidercrank import Real
-from .options import Options
-from .printed import Print, cells
-from .ranges import values
-from .table import Explanation, Row, Table
+from ..core.phasors import Array
+from .printed import Print, as_cells
+from .ranges import Ranges, as_numbers
+from .recomputed import Explanation, Row, Table
 
-Exact: TypeAlias = Callable[[list[int], Real], Real]
+Exact: TypeAlias = Callable[[list[int], Array], Array]
 Terms: TypeAlias = Callable[[int, int], series.Series]
 
 
-def piston(printed: Print, options: Options) -> Table:
+def tabulate_piston(printed: Print, ranges: Ranges) -> Table:
     """Table I: A_n."""
-    return _table(printed, options, harmonics.piston, series.piston)
+    return _tabulate(printed, ranges, closed_form.piston, series.piston)
 
 
-def rod(printed: Print, options: Options) -> Table:
+def tabulate_rod(printed: Print, ranges: Ranges) -> Table:
     """Table II: D_k."""
-    return _table(printed, options, harmonics.rod, series.rod)
+    return _tabulate(printed, ranges, closed_form.rod, series.rod)
 
 
-def _table(printed: Print, options: Options, exact: Exact, terms: Terms) -> Table:
-    headings = options.lam or printed.headings()
-    lam = np.array(values(headings))
+def _tabulate(printed: Print, ranges: Ranges, exact: Exact, terms: Terms) -> Table:
+    headings = ranges.lam or printed.headings()
+    lam = np.array(as_numbers(headings))
     stub = [label or "" for label in printed.column("coefficient")]
     orders = [int(label.partition("_")[2]) for label in stub]
     columns = (printed.columns[0], *headings)
 
-    def rows(body: Real) -> tuple[Row, ...]:
-        return tuple((label, *cells(line)) for label, line in zip(stub, body, strict=True))
+    def rows(body: Array) -> tuple[Row, ...]:
+        return tuple((label, *as_cells(line)) for label, line in zip(stub, body, strict=True))
 
     def first(count: int) -> tuple[Row, ...]:
         return rows(np.array([_sum(terms(n, n + 2 * count), lam, count) for n in orders]))
 
-    return printed.table(
+    return printed.compare(
         columns,
         rows(exact(orders, lam)),
-        printed.aligned(stub, columns),
+        printed.align_cells(stub, columns),
         [
             Explanation("author's approximation: first term of the series alone", first(1)),
             Explanation("author's approximation: two terms of the series", first(2)),
@@ -57,5 +56,5 @@ def _table(printed: Print, options: Options, exact: Exact, terms: Terms) -> Tabl
     )
 
 
-def _sum(terms: series.Series, lam: Real, count: int) -> Real:
+def _sum(terms: series.Series, lam: Array, count: int) -> Array:
     return np.asarray(sum(float(terms[p]) * lam**p for p in sorted(terms)[:count]))

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..enginefile.examples import folder
-from .options import Options
 from .printed import Print
-from .table import Row, Table
+from .ranges import Ranges
+from .recomputed import Row, Table
 
 if TYPE_CHECKING:
     from ..engine.build import Engine
@@ -25,27 +25,27 @@ if TYPE_CHECKING:
 ORDERS = (1, 2, 4, 6)
 
 
-def textbook(printed: Print, options: Options) -> Table:
+def tabulate_layouts(printed: Print, ranges: Ranges) -> Table:
     """One row an engine; semi-axes (equal: a circle) of the force F and the moment M of each
     order.
     """
     ends = [f"{letter}{n}_{axis}" for n in ORDERS for letter in "FM" for axis in ("major", "minor")]
     rows = [_row(name or "") for name in printed.column("engine")]
-    return printed.table(("engine", "layout", "cylinders", *ends), rows, stub=3)
+    return printed.compare(("engine", "layout", "cylinders", *ends), rows, stub=3)
 
 
 def _row(name: str) -> Row:
-    from ..core.mechanisms import harmonics
+    from ..core.mechanisms import closed_form
     from ..engine.build import build
     from ..engine.load import parse
-    from ..forces.spectrum import spectra
+    from ..forces.spectrum import compute_spectra
 
     file = parse((folder() / f"{name}.toml").read_text(encoding="utf-8"), name)
     engine = build(_bare(file))
-    found = spectra(engine, ORDERS, ("force", "moment"))
+    found = compute_spectra(engine, ORDERS, ("force", "moment"))
     c = engine.cylinders
     unit = engine.omega**2 * float(c.reciprocating.ravel()[0] * c.radius.ravel()[0])
-    each = unit * harmonics.piston(ORDERS, c.lam.ravel()[:1]).ravel()
+    each = unit * closed_form.piston(ORDERS, c.lam.ravel()[:1]).ravel()
     axes = np.stack(
         [axis.ravel() for q in ("force", "moment") for axis in (found[q].major, found[q].minor)],
         axis=-1,

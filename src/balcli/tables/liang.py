@@ -9,9 +9,9 @@ import numpy as np
 
 from ..enginefile import units
 from ..enginefile.units import STANDARD_GRAVITY
-from .options import Options
 from .printed import Print
-from .table import Cell, Explanation, Row, Table
+from .ranges import Ranges
+from .recomputed import Cell, Explanation, Row, Table
 
 if TYPE_CHECKING:
     from ..engine.build import Engine
@@ -38,12 +38,12 @@ piston = { mass = "6 lb" }
 """
 
 
-def examples(printed: Print, options: Options) -> Table:
+def tabulate_examples(printed: Print, ranges: Ranges) -> Table:
     """Exact answers beside the printed ones, in the order of the book."""
     exact = (*_first(), *_second(), *_third())
     margin = [words[:-1] for words in printed.rows]
     rows = [(*words, answer) for words, answer in zip(margin, exact, strict=True)]
-    return printed.table(
+    return printed.compare(
         printed.columns,
         rows,
         stub=4,
@@ -79,11 +79,12 @@ def _first() -> Row:
 
 def _acceleration(omega: float | None = None) -> float:
     """At top dead centre, ft/s^2."""
-    from ..forces.curves import cylinder_curves
+    from ..forces.curves import compute_cylinder_curves
 
     engine = _engine(FIRST)
     greatest = (
-        float(cylinder_curves(engine, 1, np.zeros(1)).values["acceleration_m_per_s2"][0]) / FOOT
+        float(compute_cylinder_curves(engine, 1, np.zeros(1)).values["acceleration_m_per_s2"][0])
+        / FOOT
     )
     return greatest if omega is None else greatest * (omega / float(engine.omega)) ** 2
 
@@ -93,13 +94,13 @@ def _second(gravity: float = STANDARD_GRAVITY) -> Row:
     degrees).
     """
     from ..core.mechanisms.slidercrank import rod_acceleration
-    from ..forces.curves import engine_curves
+    from ..forces.curves import compute_engine_curves
 
     engine = _engine(SECOND)
     lam, c = float(engine.cylinders.lam[0]), engine.cylinders
     hk = 1 / 3 * 2 / 3
     difference = float(c.couple[0]) / (2.75 * POUND * (7 * FOOT / 12) ** 2)  # H/(m l^2)
-    couple = float(engine_curves(engine, np.array([90.0])).values["couple_Nm"][0])
+    couple = float(compute_engine_curves(engine, np.array([90.0])).values["couple_Nm"][0])
     peak = -float(rod_acceleration(np.pi / 2, lam)) / lam
     return (hk, hk - difference, difference, peak, couple / (POUND * gravity * FOOT))
 

@@ -13,22 +13,20 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..core.mechanisms.slidercrank import Real
-from ..core.phasors import unit
-from .options import Options
-from .printed import Print, cells
-from .ranges import values
-from .table import Explanation, Row, Table, figure
+from ..core.phasors import Array, unit
+from .printed import Print, as_cells
+from .ranges import Ranges, as_numbers
+from .recomputed import Explanation, Row, Table, parse_decimal
 
-Cosine: TypeAlias = Callable[[Real], Real]  # of degrees
+Cosine: TypeAlias = Callable[[Array], Array]  # of degrees
 ROUGH = "author's approximation: cos 45° taken as 0.706"
 
 
-def _cos(degrees: Real) -> Real:
+def _cos(degrees: Array) -> Array:
     return unit(degrees).real
 
 
-def _rough(degrees: Real) -> Real:
+def _rough(degrees: Array) -> Array:
     """The cosine with 0.706 for cos 45 degrees and 0.258 for cos 75 degrees, as Tables 1 and 3 were
     computed.
     """
@@ -39,9 +37,9 @@ def _rough(degrees: Real) -> Real:
     return exact
 
 
-def paths(printed: Print, options: Options) -> Table:
+def tabulate_paths(printed: Print, ranges: Ranges) -> Table:
     """Table 1: radii of the two shafts over gamma, their ratio, and the same for their rates."""
-    gamma = np.array(values(printed.headings()))
+    gamma = np.array(as_numbers(printed.headings()))
     return _laid_out(
         printed,
         _paths(gamma, _cos),
@@ -52,17 +50,17 @@ def paths(printed: Print, options: Options) -> Table:
     )
 
 
-def vectors(printed: Print, options: Options) -> Table:
+def tabulate_vectors(printed: Print, ranges: Ranges) -> Table:
     """Table 2: the two rotating vectors."""
-    gamma = np.array(values(printed.headings()))
+    gamma = np.array(as_numbers(printed.headings()))
     return _laid_out(printed, np.array([_cos(gamma / 2), _cos(3 * gamma / 2)]))
 
 
-def sliders(printed: Print, options: Options) -> Table:
+def tabulate_sliders(printed: Print, ranges: Ranges) -> Table:
     """Table 3: the sliders' forces over the crank angle alpha, for each gamma."""
     gammas = [None if text is None else float(text) for text in printed.column("gamma_deg")]
     rough = _sliders(printed, gammas, _rough)
-    return printed.table(
+    return printed.compare(
         printed.columns,
         _sliders(printed, gammas, _cos),
         explanations=[Explanation(ROUGH, rough)],
@@ -70,7 +68,7 @@ def sliders(printed: Print, options: Options) -> Table:
     )
 
 
-def _paths(gamma: Real, cosine: Cosine) -> Real:
+def _paths(gamma: Array, cosine: Cosine) -> Array:
     """b''/b, b'''/b, their ratio, their derivatives by gamma, the ratio of these; ratios with the
     zeros divided out.
 
@@ -84,11 +82,11 @@ def _paths(gamma: Real, cosine: Cosine) -> Real:
 
 
 def _sliders(printed: Print, gammas: Sequence[float | None], cosine: Cosine) -> tuple[Row, ...]:
-    alpha = np.array(values(printed.headings()))
+    alpha = np.array(as_numbers(printed.headings()))
     double, sine = cosine(2 * alpha), cosine(2 * alpha - 90)
     margin = {"2alpha_deg": 2 * alpha, "cos 2alpha": double, "sin 2alpha": sine}
 
-    def line(label: str, gamma: float | None) -> Real:
+    def line(label: str, gamma: float | None) -> Array:
         if gamma is None:
             return margin[label]
         near, far = cosine(np.array(gamma / 2)), cosine(np.array(3 * gamma / 2))
@@ -96,7 +94,8 @@ def _sliders(printed: Print, gammas: Sequence[float | None], cosine: Cosine) -> 
 
     labels = [label or "" for label in printed.column("row")]
     return tuple(
-        (label, g, *cells(line(label, g).tolist())) for label, g in zip(labels, gammas, strict=True)
+        (label, g, *as_cells(line(label, g).tolist()))
+        for label, g in zip(labels, gammas, strict=True)
     )
 
 
@@ -104,7 +103,10 @@ def _quotients(printed: Print) -> tuple[Row, ...]:
     """Lines 3 and 6 of Table 1 from the lines before them as printed."""
 
     def quotient(above: Sequence[str | None], below: Sequence[str | None]) -> Row:
-        pairs = [(figure(a or ""), figure(b or "")) for a, b in zip(above, below, strict=True)]
+        pairs = [
+            (parse_decimal(a or ""), parse_decimal(b or ""))
+            for a, b in zip(above, below, strict=True)
+        ]
         return tuple(float(a / b) if a is not None and b else None for a, b in pairs)
 
     nothing = (None,) * len(printed.columns)
@@ -112,12 +114,12 @@ def _quotients(printed: Print) -> tuple[Row, ...]:
     return (nothing, nothing, quotient(a, b), nothing, nothing, quotient(c, d))
 
 
-def _labelled(printed: Print, body: Real) -> tuple[Row, ...]:
+def _labelled(printed: Print, body: Array) -> tuple[Row, ...]:
     return tuple(
-        (label, *cells(line))
+        (label, *as_cells(line))
         for label, line in zip(printed.column(printed.columns[0]), body, strict=True)
     )
 
 
-def _laid_out(printed: Print, body: Real, explanations: Sequence[Explanation] = ()) -> Table:
-    return printed.table(printed.columns, _labelled(printed, body), explanations=explanations)
+def _laid_out(printed: Print, body: Array, explanations: Sequence[Explanation] = ()) -> Table:
+    return printed.compare(printed.columns, _labelled(printed, body), explanations=explanations)

@@ -9,7 +9,7 @@ from fractions import Fraction
 from importlib.resources import files
 from typing import TypeAlias
 
-from .table import Cell, Explanation, Row, Table, Words
+from .recomputed import Cell, Explanation, Row, Table, Words
 
 Key: TypeAlias = Fraction | str
 
@@ -29,26 +29,26 @@ class Print:
 
     def numbers(self, heading: str) -> list[float]:
         """A column all of whose cells are numbers."""
-        return [float(number(text or "")) for text in self.column(heading)]
+        return [float(parse_number(text or "")) for text in self.column(heading)]
 
     def headings(self) -> tuple[str, ...]:
         """The headings that are numbers: 0.24, 1/4.5."""
-        return tuple(c for c in self.columns if isinstance(key(c), Fraction))
+        return tuple(c for c in self.columns if isinstance(identify(c), Fraction))
 
-    def aligned(self, stub: Sequence[str], columns: Sequence[str]) -> tuple[Words, ...]:
+    def align_cells(self, stub: Sequence[str], columns: Sequence[str]) -> tuple[Words, ...]:
         """The printed cells of these rows (found by the first column) and columns; None where
         nothing is printed.
         """
-        rows = {key(row[0] or ""): row for row in self.rows}
-        places = {key(c): j for j, c in enumerate(self.columns)}
+        rows = {identify(row[0] or ""): row for row in self.rows}
+        places = {identify(c): j for j, c in enumerate(self.columns)}
 
         def cell(row: Words | None, column: str) -> str | None:
-            place = places.get(key(column))
+            place = places.get(identify(column))
             return None if row is None or place is None else row[place]
 
-        return tuple(tuple(cell(rows.get(key(s)), c) for c in columns) for s in stub)
+        return tuple(tuple(cell(rows.get(identify(s)), c) for c in columns) for s in stub)
 
-    def table(
+    def compare(
         self,
         columns: Sequence[str],
         rows: Sequence[Row],
@@ -73,7 +73,7 @@ class Print:
         )
 
 
-def load(name: str) -> Print:
+def load_print(name: str) -> Print:
     """The print of a table: `# source:` and `# title:` lines, headings, rows."""
     text = files(__package__).joinpath("data", f"{name}.csv").read_text(encoding="utf-8")
     lines = text.splitlines()
@@ -83,7 +83,7 @@ def load(name: str) -> Print:
     return Print(name, notes["source"], notes["title"], tuple(head), rows)
 
 
-def number(text: str) -> Fraction:
+def parse_number(text: str) -> Fraction:
     """`0.24`, `1/4.5`, `.0048` or `-1.6`, exactly.
 
     Raises:
@@ -96,16 +96,16 @@ def number(text: str) -> Fraction:
         raise ValueError(text) from None
 
 
-def key(text: str) -> Key:
+def identify(text: str) -> Key:
     """What identifies a row or column: its number where it is one (so that 0.3 is 0.30), or else
     its text.
     """
     try:
-        return number(text)
+        return parse_number(text)
     except ValueError:
         return text
 
 
-def cells(values: Iterable[float]) -> list[Cell]:
+def as_cells(values: Iterable[float]) -> list[Cell]:
     """Numbers of any kind as plain floats; minus zero as zero."""
     return [float(v) + 0.0 for v in values]

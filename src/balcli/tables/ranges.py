@@ -1,19 +1,43 @@
-"""Ranges on the command line: `0.20:0.40:0.01`, `0.24,0.28,1/3`."""
+"""What a reader may ask of a table: other columns and rows than the printed ones.
+
+Ranges are written as on the command line: `0.20:0.40:0.01`, `0.24,0.28,1/3`.
+"""
 
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 
 from ..errors import BalcliError
 from ..limits import LARGEST_TABLE_VALUE, MOST_TABLE_VALUES
-from .printed import number
+from .printed import parse_number
 
 _PLAIN = re.compile(r"[-+.\d/]{1,30}(e-?\d{1,2})?", re.IGNORECASE)
 
 
-def headings(text: str, option: str) -> tuple[str, ...]:
+@dataclass(frozen=True)
+class Ranges:
+    """What is asked of a table beside its name; None: as printed.
+
+    Attributes:
+        lam: columns: crank radius over rod length, as headings.
+        angle: rows: crank angles in degrees, as headings.
+        power: the highest power of lambda.
+    """
+
+    lam: tuple[str, ...] | None = None
+    angle: tuple[str, ...] | None = None
+    power: int | None = None
+
+    def given(self) -> tuple[str, ...]:
+        """The options that are set, by their names on the command line."""
+        named = {"lambda": self.lam, "angle": self.angle, "power": self.power}
+        return tuple(name for name, value in named.items() if value is not None)
+
+
+def parse_range(text: str, option: str) -> tuple[str, ...]:
     """The numbers of a range as they would be printed; both ends of START:STOP:STEP are included.
 
     Raises:
@@ -28,19 +52,19 @@ def headings(text: str, option: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(found))
 
 
-def values(found: tuple[str, ...]) -> list[float]:
-    """The numbers themselves."""
-    return [float(number(heading)) for heading in found]
+def as_numbers(headings: tuple[str, ...]) -> list[float]:
+    """The numbers that these headings are."""
+    return [float(parse_number(heading)) for heading in headings]
 
 
-def crank_ratios(text: str) -> tuple[str, ...]:
+def parse_crank_ratios(text: str) -> tuple[str, ...]:
     """A range of lambda = crank radius / rod length.
 
     Raises:
-        BalcliError: as in `headings`, or a mechanism of the range cannot turn.
+        BalcliError: as of `parse_range`, or a mechanism of the range cannot turn.
     """
-    found = headings(text, "--lambda")
-    bad = next((heading for heading in found if not 0 < float(number(heading)) < 1), None)
+    found = parse_range(text, "--lambda")
+    bad = next((heading for heading in found if not 0 < float(parse_number(heading)) < 1), None)
     if bad is not None:
         raise BalcliError(
             f"--lambda {text!r}: lambda = {bad}, but a crank turns only with 0 < lambda < 1"
@@ -52,7 +76,7 @@ def _exact(text: str) -> tuple[str, Fraction]:
     """The text and its number, as long as that can be an angle or a ratio."""
     if not _PLAIN.fullmatch(text.strip()):
         raise ValueError(text)
-    value = number(text)
+    value = parse_number(text)
     if abs(value) > LARGEST_TABLE_VALUE:
         raise ValueError(text)
     return text.strip(), value

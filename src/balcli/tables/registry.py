@@ -7,42 +7,41 @@ from dataclasses import dataclass
 
 from ..enginefile.fields import nearest
 from ..errors import BalcliError
-from . import kvasnikov, layouts, liang, liu, series, tsinghua, wang
-from .options import Options
-from .printed import Print, load
-from .ranges import crank_ratios, headings
-from .table import Table
+from . import kvasnikov, layouts, liang, liu, series_coefficients, tsinghua, wang
+from .printed import Print, load_print
+from .ranges import Ranges, parse_crank_ratios, parse_range
+from .recomputed import Table
 
 
 @dataclass(frozen=True)
 class Entry:
     """How a table is computed, and which options it takes."""
 
-    compute: Callable[[Print, Options], Table]
+    compute: Callable[[Print, Ranges], Table]
     takes: tuple[str, ...] = ()
 
 
 REGISTRY: dict[str, Entry] = {
-    "tsinghua-1-1": Entry(tsinghua.engines),
-    "tsinghua-1-2": Entry(tsinghua.travel, ("lambda", "angle")),
-    "tsinghua-1-3": Entry(tsinghua.speed, ("lambda", "angle")),
-    "tsinghua-1-4": Entry(tsinghua.extremes, ("lambda",)),
-    "tsinghua-1-5": Entry(tsinghua.mean_speeds),
-    "tsinghua-1-6": Entry(tsinghua.acceleration, ("lambda", "angle")),
-    "liu-1": Entry(liu.paths),
-    "liu-2": Entry(liu.vectors),
-    "liu-3": Entry(liu.sliders),
-    "wang-1": Entry(wang.optimum),
-    "kvasnikov-1": Entry(kvasnikov.piston, ("lambda",)),
-    "kvasnikov-2": Entry(kvasnikov.rod, ("lambda",)),
-    "liang-examples": Entry(liang.examples),
-    "series": Entry(series.coefficients, ("power",)),
-    "layouts": Entry(layouts.textbook),
+    "tsinghua-1-1": Entry(tsinghua.tabulate_engines),
+    "tsinghua-1-2": Entry(tsinghua.tabulate_travel, ("lambda", "angle")),
+    "tsinghua-1-3": Entry(tsinghua.tabulate_speed, ("lambda", "angle")),
+    "tsinghua-1-4": Entry(tsinghua.tabulate_extremes, ("lambda",)),
+    "tsinghua-1-5": Entry(tsinghua.tabulate_mean_speeds),
+    "tsinghua-1-6": Entry(tsinghua.tabulate_acceleration, ("lambda", "angle")),
+    "liu-1": Entry(liu.tabulate_paths),
+    "liu-2": Entry(liu.tabulate_vectors),
+    "liu-3": Entry(liu.tabulate_sliders),
+    "wang-1": Entry(wang.tabulate_optimum),
+    "kvasnikov-1": Entry(kvasnikov.tabulate_piston, ("lambda",)),
+    "kvasnikov-2": Entry(kvasnikov.tabulate_rod, ("lambda",)),
+    "liang-examples": Entry(liang.tabulate_examples),
+    "series": Entry(series_coefficients.tabulate_series, ("power",)),
+    "layouts": Entry(layouts.tabulate_layouts),
 }
 NAMES = tuple(REGISTRY)
 
 
-def recompute(name: str, options: Options | None = None) -> Table:
+def recompute(name: str, ranges: Ranges | None = None) -> Table:
     """A table by its name.
 
     Raises:
@@ -55,15 +54,15 @@ def recompute(name: str, options: Options | None = None) -> Table:
             f"no table {name!r}{f'; the nearest name is {near!r}' if near else ''}. Tables: "
             f"{', '.join(NAMES)}"
         )
-    asked = options or Options()
+    asked = ranges or Ranges()
     for option in asked.given():
         if option not in entry.takes:
             takes = " and ".join(f"--{o}" for o in entry.takes) or "no other range"
             raise BalcliError(f"--{option}: table {name} takes {takes}")
-    return entry.compute(load(name), asked)
+    return entry.compute(load_print(name), asked)
 
 
-def select(
+def select_tables(
     name: str | None, lam: str | None = None, angle: str | None = None, power: int | None = None
 ) -> list[Table]:
     """The table of this name, or all of them; ranges as text (`0.20:0.40:0.01`).
@@ -72,14 +71,18 @@ def select(
         BalcliError: no such table or range, an option that the table does not take, or a range
         without a name.
     """
-    options = Options(
-        crank_ratios(lam) if lam else None, headings(angle, "--angle") if angle else None, power
-    )
-    if name is None and options.given():
-        some = ", ".join(_taking(options)) or "these do not go together"
-        raise BalcliError(f"--{options.given()[0]}: name the table that it is for ({some})")
-    return [recompute(name, options)] if name else [recompute(each) for each in NAMES]
+    lams = parse_crank_ratios(lam) if lam else None
+    angles = parse_range(angle, "--angle") if angle else None
+    ranges = Ranges(lams, angles, power)
+    if name is not None:
+        return [recompute(name, ranges)]
+    if ranges.given():
+        some = ", ".join(_names_taking(ranges)) or "these do not go together"
+        raise BalcliError(f"--{ranges.given()[0]}: name the table that it is for ({some})")
+    return [recompute(each) for each in NAMES]
 
 
-def _taking(options: Options) -> list[str]:
-    return [name for name, entry in REGISTRY.items() if set(options.given()) <= set(entry.takes)]
+def _names_taking(ranges: Ranges) -> list[str]:
+    """The tables that take all of these options."""
+    given = set(ranges.given())
+    return [name for name, entry in REGISTRY.items() if given <= set(entry.takes)]

@@ -9,15 +9,15 @@ from typing import TypeAlias
 import numpy as np
 
 from ..core.mechanisms import slidercrank as sc
-from .options import Options
-from .printed import Print, cells
-from .ranges import values
-from .table import Cell, Explanation, Row, Table, figure
+from ..core.phasors import Array
+from .printed import Print, as_cells
+from .ranges import Ranges, as_numbers
+from .recomputed import Cell, Explanation, Row, Table, parse_decimal
 
-ByAngle: TypeAlias = Callable[[sc.Real, sc.Real], sc.Real]  # degrees, lambda
+ByAngle: TypeAlias = Callable[[Array, Array], Array]  # degrees, lambda
 
 
-def engines(printed: Print, options: Options) -> Table:
+def tabulate_engines(printed: Print, ranges: Ranges) -> Table:
     """Table 1-1: lambda = r/l, mean piston speed S n/30 and xi = e/r from the dimensions given."""
 
     def row(words: tuple[str | None, ...], **computed: float) -> Row:
@@ -37,68 +37,69 @@ def engines(printed: Print, options: Options) -> Table:
         rows.append(row(words, Cm_m_per_s=stroke * rpm / 30e3, xi=e / r, **{"lambda": r / length}))
         supposed.append(row(words, **{"lambda": r / 280}))
     shorter = Explanation("misprint, as with l = 280 mm", tuple(supposed))
-    return printed.table(printed.columns, rows, explanations=[shorter], stub=2)
+    return printed.compare(printed.columns, rows, explanations=[shorter], stub=2)
 
 
-def travel(printed: Print, options: Options) -> Table:
+def tabulate_travel(printed: Print, ranges: Ranges) -> Table:
     """Table 1-2: x/r."""
-    return _by_angle(printed, options, lambda a, lam: sc.displacement(np.radians(a), lam))
+    return _tabulate_by_angle(printed, ranges, lambda a, lam: sc.displacement(np.radians(a), lam))
 
 
-def speed(printed: Print, options: Options) -> Table:
+def tabulate_speed(printed: Print, ranges: Ranges) -> Table:
     """Table 1-3: v/(r omega); the sign columns say its sign at the crank angles of the left and
     right margins.
     """
-    return _by_angle(
+    return _tabulate_by_angle(
         printed,
-        options,
+        ranges,
         lambda a, lam: np.where(a % 180 == 0, 0.0, sc.velocity(np.radians(a), lam)),
     )
 
 
-def acceleration(printed: Print, options: Options) -> Table:
+def tabulate_acceleration(printed: Print, ranges: Ranges) -> Table:
     """Table 1-6: j/(r omega^2)."""
-    return _by_angle(printed, options, lambda a, lam: sc.acceleration(np.radians(a), lam))
+    return _tabulate_by_angle(printed, ranges, lambda a, lam: sc.acceleration(np.radians(a), lam))
 
 
-def extremes(printed: Print, options: Options) -> Table:
+def tabulate_extremes(printed: Print, ranges: Ranges) -> Table:
     """Table 1-4: where and how large the greatest velocity is, by the two-term formula as printed,
     then exactly.
     """
-    headings = options.lam or printed.headings()
-    lam = np.array(values(headings))
+    headings = ranges.lam or printed.headings()
+    lam = np.array(as_numbers(headings))
     columns = (printed.columns[0], *headings, *(f"exact {h}" for h in headings))
     approximate, exact = (
         _extreme(lam, *fastest(lam)) for fastest in (sc.fastest_two_term, sc.fastest)
     )
     stub = printed.column(printed.columns[0])
     rows = [
-        (name, *cells(a), *cells(b)) for name, a, b in zip(stub, approximate, exact, strict=True)
+        (name, *as_cells(a), *as_cells(b))
+        for name, a, b in zip(stub, approximate, exact, strict=True)
     ]
-    return printed.table(
+    return printed.compare(
         columns,
         rows,
-        printed.aligned([s or "" for s in stub], columns),
+        printed.align_cells([s or "" for s in stub], columns),
         [Explanation("sum of the rounded lines above", _sums(printed, columns))],
     )
 
 
-def mean_speeds(printed: Print, options: Options) -> Table:
+def tabulate_mean_speeds(printed: Print, ranges: Ranges) -> Table:
     """Table 1-5: ranges in use, which nothing computes."""
-    return printed.table(printed.columns, [tuple(map(_given, words)) for words in printed.rows])
+    return printed.compare(printed.columns, [tuple(map(_given, words)) for words in printed.rows])
 
 
-def _by_angle(printed: Print, options: Options, function: ByAngle) -> Table:
+def _tabulate_by_angle(printed: Print, ranges: Ranges, function: ByAngle) -> Table:
     """One row a crank angle, one column a lambda, margins as the print has them."""
-    headings = options.lam or printed.headings()
-    stub = options.angle or tuple(text or "" for text in printed.column("alpha_deg"))
-    angles = np.array(values(stub))
-    body = function(angles[:, None], np.array(values(headings))[None, :])
+    headings = ranges.lam or printed.headings()
+    stub = ranges.angle or tuple(text or "" for text in printed.column("alpha_deg"))
+    angles = np.array(as_numbers(stub))
+    body = function(angles[:, None], np.array(as_numbers(headings))[None, :])
     signs = "sign_left" in printed.columns
     inner = (*(["sign_left"] if signs else []), *headings, *(["sign_right"] if signs else []))
     columns = ("alpha_deg", *inner, "alpha_right_deg")
-    rows = [_margins(float(a), cells(line), signs) for a, line in zip(angles, body, strict=True)]
-    return printed.table(columns, rows, printed.aligned(stub, columns))
+    rows = [_margins(float(a), as_cells(line), signs) for a, line in zip(angles, body, strict=True)]
+    return printed.compare(columns, rows, printed.align_cells(stub, columns))
 
 
 def _margins(angle: float, line: list[Cell], signs: bool) -> Row:
@@ -109,7 +110,7 @@ def _margins(angle: float, line: list[Cell], signs: bool) -> Row:
 
 
 def _extreme(
-    lam: sc.Real, psi: sc.Real, value: sc.Real
+    lam: Array, psi: Array, value: Array
 ) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
     """The seven lines of Table 1-4, angles in degrees; the mean piston speed is (2/pi) r omega."""
     alpha = np.degrees(psi)
@@ -120,13 +121,16 @@ def _extreme(
 
 def _sums(printed: Print, columns: tuple[str, ...]) -> tuple[Row, ...]:
     """Lines 4 and 5 of Table 1-4 from lines 1 to 3 as printed."""
-    first, second, beta = printed.aligned(
+    first, second, beta = printed.align_cells(
         [text or "" for text in printed.column(printed.columns[0])[:3]], columns
     )
     nothing = (None,) * len(columns)
 
     def add(words: tuple[str | None, ...], sign: int) -> Row:
-        figures = [(figure(a or ""), figure(b or "")) for a, b in zip(words, beta, strict=True)]
+        figures = [
+            (parse_decimal(a or ""), parse_decimal(b or ""))
+            for a, b in zip(words, beta, strict=True)
+        ]
         return tuple(None if a is None or b is None else float(a + sign * b) for a, b in figures)
 
     return (nothing, nothing, nothing, add(first, 1), add(second, -1), nothing, nothing)
@@ -134,5 +138,5 @@ def _sums(printed: Print, columns: tuple[str, ...]) -> tuple[Row, ...]:
 
 def _given(text: str | None) -> Cell:
     """A figure that is an input, as a number; words as they are."""
-    value = figure(text or "")
+    value = parse_decimal(text or "")
     return text if value is None else float(value)

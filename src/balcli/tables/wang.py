@@ -11,10 +11,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.mechanisms.slidercrank import Real
-from .options import Options
-from .printed import Print, cells
-from .table import Explanation, Row, Table
+from ..core.phasors import Array
+from .printed import Print, as_cells
+from .ranges import Ranges
+from .recomputed import Explanation, Row, Table
 
 SEARCHED = tuple(
     f"half_cycle_{what}" for what in ("Pmax_min", "k0", "alpha0_deg", "phi0_deg", "theta0_deg")
@@ -22,7 +22,7 @@ SEARCHED = tuple(
 FOLLOWED = ("printed_choice_Pmax", "printed_choice_theta_deg")
 
 
-def optimum(printed: Print, options: Options) -> Table:
+def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
     """The true optimum, the printed search, and what the printed choice really leaves over the
     whole revolution.
     """
@@ -35,7 +35,7 @@ def optimum(printed: Print, options: Options) -> Table:
         rows.append((lam, *_true(lam), *search, size, theta % 360 % 360))
     rest = (None,) * (len(columns) - 6)
     search_rows = tuple((lam, *search, *rest) for lam, search in zip(lams, searches, strict=True))
-    return printed.table(
+    return printed.compare(
         columns, rows, explanations=[Explanation("half-cycle search", search_rows)]
     )
 
@@ -79,10 +79,10 @@ def _half_cycle(lam: float) -> Row:
     at = np.abs(force[i, j]).argmax()
     worst = force[i, j, at]
     phi = np.degrees(np.arctan(worst.imag / worst.real))
-    return tuple(cells(map(float, (peaks[i, j], k[i], alpha[j], phi, theta[at]))))
+    return tuple(as_cells(map(float, (peaks[i, j], k[i], alpha[j], phi, theta[at]))))
 
 
-def _force(lam: float, k: Real, alpha: Real, theta: Real) -> NDArray[np.complex128]:
+def _force(lam: float, k: Array, alpha: Array, theta: Array) -> NDArray[np.complex128]:
     """P/J for angles in degrees."""
     th = np.radians(theta)
     return np.asarray(np.cos(th) + lam * np.cos(2 * th) - k * np.exp(1j * (th + np.radians(alpha))))

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.engines import GNOME, rotary_engine
 
-from balcli.core.strokes import travel
+from balcli.core.strokes import find_travel
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
 from balcli.errors import BalcliError, InputError
@@ -15,35 +16,14 @@ from balcli.render.units import SYSTEMS
 from balcli.results.analysis import analyze
 from balcli.results.knuckles import even_knuckles
 
-GNOME = """\
-[crank]
-stroke = 120
-throw_mass = 3
-[rod]
-length = 230
-mass = 0.9
-cg = 70
-inertia = 7000
-[piston]
-mass = 0.8
-offset = {offset}
-[layout]
-{layout}
-rotary = true
-"""
-
-
-def built(layout="radial = 7", offset=0, more=""):
-    return engine.build(enginefile.parse(GNOME.format(layout=layout, offset=offset) + more))
-
 
 @pytest.mark.parametrize("count", [3, 4, 5, 7, 9])
 def test_three_or_more_cylinders_have_no_first_order_force(count):
     """Well known: the pistons run round the crank pin almost on a circle. What is left has the
     order of the cylinders.
     """
-    force = spectrum.spectra(
-        built(f"radial = {count}"), np.arange(1.0, 2 * count + 1), ["force"]
+    force = spectrum.compute_spectra(
+        rotary_engine(f"radial = {count}"), np.arange(1.0, 2 * count + 1), ["force"]
     ).force
     assert force is not None
     assert force.balanced[0]
@@ -55,7 +35,7 @@ def test_one_cylinder_has_a_first_order_force_of_its_mean_distance():
     """Forward first order: m omega^2 times the mean distance of the piston pin, here by quadrature
     (lambda = 6/23).
     """
-    force = spectrum.spectra(built("banks = [0]"), [1.0], ["force"]).force
+    force = spectrum.compute_spectra(rotary_engine("banks = [0]"), [1.0], ["force"]).force
     assert force is not None
     psi = np.arange(64) * (2 * np.pi / 64)
     distance = (0.06 * np.cos(psi) + np.sqrt(0.23**2 - (0.06 * np.sin(psi)) ** 2)).mean()
@@ -66,7 +46,7 @@ def test_one_cylinder_has_a_first_order_force_of_its_mean_distance():
 def test_the_throw_stands_still():
     text = GNOME.format(layout="banks = [0]", offset=0)
     light, heavy = (
-        spectrum.spectra(
+        spectrum.compute_spectra(
             engine.build(enginefile.parse(text.replace("throw_mass = 3", mass))),
             np.arange(1.0, 4.0),
         )
@@ -79,7 +59,7 @@ def test_the_throw_stands_still():
 def test_strokes_and_dead_centres_are_those_of_the_same_engine_with_a_turning_crank():
     text = GNOME.format(layout="radial = 5", offset=9)
     turning, still = (
-        travel(engine.build(enginefile.parse(text.replace("rotary = true", flag))).cylinders)
+        find_travel(engine.build(enginefile.parse(text.replace("rotary = true", flag))).cylinders)
         for flag in ("", "rotary = true")
     )
     assert still.stroke == pytest.approx(turning.stroke, rel=1e-12)
@@ -88,20 +68,20 @@ def test_strokes_and_dead_centres_are_those_of_the_same_engine_with_a_turning_cr
 
 def test_every_second_cylinder_fires_as_they_come_round():
     """Cylinder 5 of 5 stands 72 degrees behind cylinder 1 and comes to the top after it."""
-    built("radial = 5", more="firing_order = [1, 4, 2, 5, 3]\n")
+    rotary_engine("radial = 5", more="firing_order = [1, 4, 2, 5, 3]\n")
     with pytest.raises(
         InputError,
         match="cylinder 3 is not at top dead centre when it fires: its crank pin stands 0 deg "
         "ahead of cylinder 1's, and would have to stand at 288 deg",
     ):
-        built("radial = 5", more="firing_order = [1, 3, 5, 2, 4]\n")
+        rotary_engine("radial = 5", more="firing_order = [1, 3, 5, 2, 4]\n")
 
 
 def test_the_throws_of_two_rows_follow_from_the_firing_order():
     """Cylinder 6 stands at 240 degrees and is to fire 60 degrees after cylinder 1: its pin stands
     still at 300.
     """
-    found = built("radial = 3", more="firing_order = [1, 6, 5, 4, 3, 2]\nstrokes = 2\n")
+    found = rotary_engine("radial = 3", more="firing_order = [1, 6, 5, 4, 3, 2]\nstrokes = 2\n")
     assert found.cylinders.axis_deg == pytest.approx([0, 300])
     assert found.numbers == (1, 3, 5, 2, 4, 6)
 
@@ -137,7 +117,7 @@ ARTICULATED = (
 def test_a_master_rod_with_knuckle_pins_nearly_on_the_crank_pin_is_no_master_rod():
     orders = np.arange(1.0, 15.0)
     equal, hung = (
-        spectrum.spectra(built(offset=4, more=more), orders)
+        spectrum.compute_spectra(rotary_engine(offset=4, more=more), orders)
         for more in ("", ARTICULATED.format(radius=1e-9, length=230, cg=70))
     )
     for (quantity, wanted), (_, found) in zip(equal.items(), hung.items(), strict=True):
@@ -148,8 +128,8 @@ def test_a_master_rod_with_knuckle_pins_nearly_on_the_crank_pin_is_no_master_rod
 
 
 def test_articulated_rods_leave_orders_that_equal_rods_do_not():
-    found = spectrum.spectra(
-        built(more=ARTICULATED.format(radius=48, length=184, cg=60)), [1.0, 2, 3], ["force"]
+    found = spectrum.compute_spectra(
+        rotary_engine(more=ARTICULATED.format(radius=48, length=184, cg=60)), [1.0, 2, 3], ["force"]
     ).force
     assert found is not None
     assert not found.balanced.any()
@@ -157,7 +137,7 @@ def test_articulated_rods_leave_orders_that_equal_rods_do_not():
 
 def test_an_articulated_rod_that_is_too_short():
     with pytest.raises(InputError) as caught:
-        built(more=ARTICULATED.format(radius=48, length=60, cg=20))
+        rotary_engine(more=ARTICULATED.format(radius=48, length=60, cg=20))
     assert all("the crank cannot turn: at crank angle" in p.message for p in caught.value.problems)
 
 
@@ -177,7 +157,7 @@ def test_even_knuckles_are_not_for_rotary_engines():
 
 def test_the_page_has_the_knuckle_pins_of_turning_cylinders():
     """As seen from the cylinder, in the mirror."""
-    subject = built(more=ARTICULATED.format(radius=48, length=184, cg=60))
+    subject = rotary_engine(more=ARTICULATED.format(radius=48, length=184, cg=60))
     third = next(
         c for c in scene(analyze(subject), None, SYSTEMS["si"])["cylinders"] if c["number"] == 3
     )
@@ -199,10 +179,10 @@ def test_variants_along_two_axes():
         return engine.build(file, {"crank.stroke": stroke, "rod.length": length})
 
     orders = np.arange(1.0, 7.0)
-    together = spectrum.spectra(variant(strokes, lengths), orders)
+    together = spectrum.compute_spectra(variant(strokes, lengths), orders)
     for i in range(3):
         for j in range(2):
-            alone = spectrum.spectra(variant(strokes[i, 0], lengths[0, j]), orders)
+            alone = spectrum.compute_spectra(variant(strokes[i, 0], lengths[0, j]), orders)
             for (quantity, many), (_, one) in zip(together.items(), alone.items(), strict=True):
                 difference = np.abs(
                     np.broadcast_to(many.forward, (6, 3, 2))[:, i, j] - one.forward

@@ -13,12 +13,14 @@ from balcli.engine.layout import plan_cylinders
 from balcli.engine.load import parse as load
 from balcli.enginefile.model import EngineFile
 from balcli.errors import BalcliError, InputError
-from balcli.forces.quantity import evaluate, parse
-from balcli.studies.search.objective import objective
-from balcli.studies.search.search import fires_evenly, search
-from balcli.studies.search.throw_contributions import shares
-from balcli.studies.search.throws import best
-from balcli.studies.search.write import arranged
+from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
+from balcli.studies.search.designs import Design
+from balcli.studies.search.even_firing import fires_evenly
+from balcli.studies.search.objective import parse_objective
+from balcli.studies.search.search import search_arrangements
+from balcli.studies.search.throw_contributions import tabulate_contributions
+from balcli.studies.search.throws import find_best_throws
+from balcli.studies.search.write import write_design
 
 NO_ORDER = ("[layout]\nfiring_order = [1, 3, 4, 2]\n", "")
 SHUFFLED = changed(("[0, 180, 180, 0]", "[0, 0, 180, 180]"), NO_ORDER)
@@ -29,11 +31,13 @@ def engine(throws: list[float], layout: str = "") -> EngineFile:
 
 
 def test_in_line_four() -> None:
-    found = search(load(SHUFFLED), "throws", objective("moment.1.major,force.1.major=1")).results
-    assert [r.arrangement["throws"] for r in found] == [
-        [0, 180, 180, 0],
-        [0, 180, 0, 180],
-        [0, 0, 180, 180],
+    found = search_arrangements(
+        load(SHUFFLED), "throws", parse_objective("moment.1.major,force.1.major=1")
+    ).results
+    assert [r.design.throws for r in found] == [
+        (0, 180, 180, 0),
+        (0, 180, 0, 180),
+        (0, 0, 180, 180),
     ]
     assert found[0].objective == 0
 
@@ -51,7 +55,7 @@ def test_in_line_four() -> None:
 def test_branch_and_bound_finds_what_trying_all_finds(throws: list[float], layout: str) -> None:
     file, wanted = (
         engine(throws, layout),
-        objective("moment.1.major,moment.2.backward=2,force.1.major=0.5"),
+        parse_objective("moment.1.major,moment.2.backward=2,force.1.major=0.5"),
     )
     every = np.array(
         sorted(set(permutations(throws)))
@@ -64,65 +68,75 @@ def test_branch_and_bound_finds_what_trying_all_finds(throws: list[float], layou
         else every[np.random.default_rng(1).choice(len(every), 1000, replace=False)]
     )
     whole = build(file, {f"crank.throws.{t + 1}": column for t, column in enumerate(sample.T)})
-    values = dict(zip(wanted.quantities, evaluate(whole, wanted.quantities), strict=True))
-    tried = np.broadcast_to(wanted.of(values.__getitem__), len(sample)).min()
-    first = search(file, "throws", wanted, 1).results[0].objective
+    values = dict(
+        zip(wanted.quantities, evaluate_quantities(whole, wanted.quantities), strict=True)
+    )
+    tried = np.broadcast_to(wanted.evaluate(values.__getitem__), len(sample)).min()
+    first = search_arrangements(file, "throws", wanted, 1).results[0].objective
     if len(sample) == len(every):
         assert first == pytest.approx(tried, rel=1e-12, abs=1e-8)
     assert first <= tried + 1e-8
 
 
 def test_every_arrangement_of_a_five_once() -> None:
-    found = search(
-        engine([0, 72, 144, 216, 288]), "throws", objective("moment.1.major"), 100
+    found = search_arrangements(
+        engine([0, 72, 144, 216, 288]), "throws", parse_objective("moment.1.major"), 100
     ).results
-    keys = {tuple(r.arrangement["throws"]) for r in found}
+    keys = {tuple(r.design.throws) for r in found}
     assert len(keys) == len(found) == 8  # 5!/5 rotations = 24 cranks, 8 but for mirror images
-    assert all(r.arrangement["throws"][0] == 0 for r in found)
+    assert all(r.design.throws[0] == 0 for r in found)
 
 
 def test_eight_distinct_throws_are_all_tried() -> None:
     file, count = engine([0, 45, 90, 135, 180, 225, 270, 315]), 5040
-    rows = best(file, objective("moment.1.major"), 10_000)
+    rows = find_best_throws(file, parse_objective("moment.1.major"), 10_000)
     assert len(np.unique(np.mod(rows, 360), axis=0)) == len(rows) == count
 
 
 def test_limits_are_kept() -> None:
     file = engine([0, 90, 270, 180], "bank_angle = 90")
-    free = search(file, "throws", objective("moment.1.major")).results
-    kept = search(file, "throws", objective("moment.1.major", ["moment.2.major<1"])).results
-    assert free[0].arrangement != kept[0].arrangement
+    free = search_arrangements(file, "throws", parse_objective("moment.1.major")).results
+    kept = search_arrangements(
+        file, "throws", parse_objective("moment.1.major", ["moment.2.major<1"])
+    ).results
+    assert free[0].design != kept[0].design
     assert kept[0].figures["moment.2.major"] < 1
     with pytest.raises(BalcliError, match="no throws keeps these limits"):
-        search(file, "throws", objective("moment.1.major", ["force.4.major<1e-9"]))
+        search_arrangements(
+            file, "throws", parse_objective("moment.1.major", ["force.4.major<1e-9"])
+        )
 
 
 def test_firing_orders_of_a_given_crank_once() -> None:
-    found = search(load(GOOD), "firing_order", objective("moment.1.major")).results
-    assert [r.arrangement["firing_order"] for r in found] in (
-        [[1, 3, 4, 2]],
-        [[1, 2, 4, 3]],
+    found = search_arrangements(
+        load(GOOD), "firing_order", parse_objective("moment.1.major")
+    ).results
+    assert [r.design.firing_order for r in found] in (
+        [(1, 3, 4, 2)],
+        [(1, 2, 4, 3)],
     )  # mirror images
 
 
 def test_firing_orders_bring_their_cranks() -> None:
     file = load(changed(("throws = [0, 180, 180, 0]\n", "")))
-    found = search(file, "firing_order", objective("moment.1.major")).results
+    found = search_arrangements(file, "firing_order", parse_objective("moment.1.major")).results
     assert len(found) == 3
     assert found[0].objective == 0
     for r in found:
-        new = load(arranged(changed(("throws = [0, 180, 180, 0]\n", "")).encode(), r.arrangement))
-        value = evaluate(build(new), parse("moment.1.major"))[0]
+        new = load(write_design(changed(("throws = [0, 180, 180, 0]\n", "")).encode(), r.design))
+        value = evaluate_quantities(build(new), parse_quantity_list("moment.1.major"))[0]
         assert float(value) == pytest.approx(r.objective, abs=1e-9)
-        assert new.layout.firing_order == tuple(r.arrangement["firing_order"])
+        assert new.layout.firing_order == r.design.firing_order
 
 
 def test_v8_firing_orders_fit_their_crank() -> None:
     file = engine([0, 90, 270, 180], "bank_angle = 90")
-    found = search(file, "firing_order", objective("moment.1.major"), 100).results
-    orders = [r.arrangement["firing_order"] for r in found]
+    found = search_arrangements(
+        file, "firing_order", parse_objective("moment.1.major"), 100
+    ).results
+    orders = [r.design.firing_order for r in found]
     assert len(orders) == 4  # 16, but for mirror images
-    common, from_the_other_end = [1, 5, 4, 2, 6, 3, 7, 8], [1, 3, 7, 2, 6, 5, 4, 8]
+    common, from_the_other_end = (1, 5, 4, 2, 6, 3, 7, 8), (1, 3, 7, 2, 6, 5, 4, 8)
     assert common in orders or from_the_other_end in orders
 
 
@@ -165,8 +179,10 @@ def test_firing_orders_are_those_that_an_engine_file_may_have(layout: str, splay
     every = {order for rest in permutations(range(2, count + 1)) if fits(order := (1, *rest))}
     given = load(text(next(iter(every))))
     found = [
-        tuple(r.arrangement["firing_order"])
-        for r in search(given, "firing_order", objective("moment.1.major"), 1000).results
+        r.design.firing_order
+        for r in search_arrangements(
+            given, "firing_order", parse_objective("moment.1.major"), 1000
+        ).results
     ]
     mirrored = {other for order in found for other in _images(order, given)}
     assert every <= mirrored
@@ -191,13 +207,15 @@ def test_millions_of_firing_orders_are_no_hindrance() -> None:
             ("firing_order = [1, 3, 4, 2]", f"bank_angle = 90\nfiring_order = {order}"),
         )
     )
-    found = search(file, "firing_order", objective("moment.1.major,moment.2.major=1"), 3).results
+    found = search_arrangements(
+        file, "firing_order", parse_objective("moment.1.major,moment.2.major=1"), 3
+    ).results
     assert [r.objective for r in found] == [0, 0, 0]
     assert all(
         fires_evenly(
             build(
                 load(
-                    arranged(
+                    write_design(
                         changed(
                             ("throws = [0, 180, 180, 0]\n", ""),
                             (
@@ -205,7 +223,7 @@ def test_millions_of_firing_orders_are_no_hindrance() -> None:
                                 f"bank_angle = 90\nfiring_order = {order}",
                             ),
                         ).encode(),
-                        r.arrangement,
+                        r.design,
                     )
                 )
             ),
@@ -217,14 +235,18 @@ def test_millions_of_firing_orders_are_no_hindrance() -> None:
 
 def test_ninety_degree_twin() -> None:
     file = engine([0], "bank_angle = 50")
-    (found, *_) = search(file, "bank_angle", objective("force.1.backward")).results
-    assert (found.arrangement, found.objective) == ({"bank_angle": 90}, 0)
+    (found, *_) = search_arrangements(
+        file, "bank_angle", parse_objective("force.1.backward")
+    ).results
+    assert (found.design, found.objective) == (Design(bank_angle=90), 0)
 
 
 def test_splay_of_the_90_degree_v6_for_even_firing() -> None:
     file = engine([0, 240, 120], "bank_angle = 90")
-    found = search(file, "splay", objective("moment.1.major"), even_firing=True).results
-    assert sorted(r.arrangement["splay"] for r in found) == [-150, -30, 90]
+    found = search_arrangements(
+        file, "splay", parse_objective("moment.1.major"), even_firing=True
+    ).results
+    assert sorted(r.design.splay for r in found) == [-150, -30, 90]
 
 
 def test_even_firing() -> None:
@@ -257,7 +279,7 @@ def test_even_firing() -> None:
 )
 def test_mistakes_in_words(over: str, message: str) -> None:
     with pytest.raises(BalcliError) as caught:
-        search(load(GOOD), over, objective("force.1.major"))
+        search_arrangements(load(GOOD), over, parse_objective("force.1.major"))
     assert str(caught.value) == message
 
 
@@ -271,7 +293,7 @@ def test_an_angle_is_looked_for_on_a_given_crank(over: str) -> None:
         )
     )
     with pytest.raises(BalcliError, match=r"give crank\.throws, so that the crank stays as it is"):
-        search(file, over, objective("force.1.major"))
+        search_arrangements(file, over, parse_objective("force.1.major"))
 
 
 @pytest.mark.parametrize(
@@ -299,13 +321,13 @@ def test_an_angle_is_looked_for_on_a_given_crank(over: str) -> None:
 )
 def test_mistakes_of_objectives(minimise: str, limits: tuple[str, ...], message: str) -> None:
     with pytest.raises(BalcliError) as caught:
-        objective(minimise, limits)
+        parse_objective(minimise, limits)
     assert str(caught.value).startswith(message)
 
 
 def test_peaks_do_not_add_up() -> None:
     with pytest.raises(BalcliError, match=r"which peak\.force does not allow"):
-        search(load(SHUFFLED), "throws", objective("peak.force"))
+        search_arrangements(load(SHUFFLED), "throws", parse_objective("peak.force"))
 
 
 def test_written_file_keeps_its_comments() -> None:
@@ -319,11 +341,11 @@ def test_written_file_keeps_its_comments() -> None:
     wanted = text.replace(
         "[0, 180, 180, 0]  # deg", "[0.0, 180.0, 0.0, 180.0]  # deg (found by balcli)"
     )
-    assert arranged(text.encode(), {"throws": [0.0, 180.0, 0.0, 180.0]}) == wanted
+    assert write_design(text.encode(), Design(throws=(0.0, 180.0, 0.0, 180.0))) == wanted
 
 
 def test_written_file_drops_a_firing_order_that_no_longer_fits() -> None:
-    new = load(arranged(GOOD.encode(), {"throws": [0.0, 0.0, 180.0, 180.0]}))
+    new = load(write_design(GOOD.encode(), Design(throws=(0.0, 0.0, 180.0, 180.0))))
     assert new.crank.throws == (0, 0, 180, 180)
     assert new.layout.firing_order is None
     build(new)
@@ -339,11 +361,13 @@ ARTICULATED = engine_text(
 
 def test_articulated_rods_count_once_for_their_throw() -> None:
     """The shares of all throws add up to the whole."""
-    file, quantities = load(ARTICULATED), parse("force.1.major,moment.2.major")
+    file, quantities = load(ARTICULATED), parse_quantity_list("force.1.major,moment.2.major")
     angles = np.array([0.0, 100, 190, 250])
-    found = shares(file, angles, 0, quantities)
-    for q, whole in zip(quantities, evaluate(build(file), quantities), strict=True):
-        forward, backward = found[q.kind, q.order].sums(range(4), np.array([[0, 1, 2, 3]], np.int8))
-        assert found[q.kind, q.order].value(q, forward, backward)[0] == pytest.approx(
+    found = tabulate_contributions(file, angles, 0, quantities)
+    for q, whole in zip(quantities, evaluate_quantities(build(file), quantities), strict=True):
+        forward, backward = found[q.kind, q.order].add_throws(
+            range(4), np.array([[0, 1, 2, 3]], np.int8)
+        )
+        assert found[q.kind, q.order].read(q, forward, backward)[0] == pytest.approx(
             float(whole), rel=1e-9
         )

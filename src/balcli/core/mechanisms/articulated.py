@@ -9,14 +9,12 @@ K as a plain one hangs on the crank pin. A master rod is the case k = 0.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..phasors import EPS, Complex, unit
+from ..phasors import EPS, Array, Complex, unit
 from . import slidercrank
-from .harmonics import Array
 from .linkage import Linkage, Motion, Point
 
 
@@ -36,11 +34,13 @@ class Articulated(Linkage):
     knuckle: Complex
     lead_deg: Array
 
-    @property
-    def figures(self) -> tuple[NDArray[Any], ...]:
-        return self.mass, self.knuckle, self.lead_deg
+    def figures(self, lam: Array, eps: Array) -> tuple[Array | Complex, ...]:
+        of_master = (
+            np.broadcast_to(a, (len(self.master), *a.shape[1:]))[self.master] for a in (lam, eps)
+        )
+        return lam, eps, self.knuckle, self.lead_deg, *of_master
 
-    def motion(self, psi: Array, lam: Array, eps: Array) -> Motion:
+    def motion(self, psi: Array | Complex, lam: Array, eps: Array) -> Motion:
         lam, eps = (
             np.broadcast_to(a, (len(self.master), *a.shape[1:]))[..., None] for a in (lam, eps)
         )
@@ -59,7 +59,7 @@ class Articulated(Linkage):
             condition=1 / (1 - np.minimum(np.abs(sine), 1 - EPS)),
         )
 
-    def distinct(
+    def find_distinct(
         self, lam: Array, eps: Array
     ) -> tuple[Articulated, Array, Array, NDArray[np.intp] | slice]:
         if self.knuckle.ndim > 1:
@@ -86,7 +86,9 @@ class Articulated(Linkage):
         )
         return few, lam[rows], eps[rows], which
 
-    def _knuckles(self, psi: Array, lam: Array, eps: Array) -> tuple[Complex, Complex, Complex]:
+    def _knuckles(
+        self, psi: Array | Complex, lam: Array, eps: Array
+    ) -> tuple[Complex, Complex, Complex]:
         """K and its two derivatives in each cylinder's frame."""
         lead = unit(self.lead_deg)[..., None]
         crank = slidercrank.on_circle(psi)  # e^{i psi_m} turned back by the lead

@@ -5,7 +5,7 @@ A plain slider-crank needs no more than its piston's motion along the cylinder's
 mass moves on a closed curve `z(psi)` (complex, in crank radii, in the cylinder's frame): the
 knuckle pin of an articulated rod, the piston of a cylinder that itself turns, or shares of it on
 both. It adds two components of force, a moment of momentum and a kinetic energy, all of which are
-harmonics of the crank angle like the others (`harmonics.Curve`).
+harmonics of the crank angle like the others (`fourier.Curve`).
 """
 
 from __future__ import annotations
@@ -13,23 +13,25 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
+from functools import reduce
+from operator import add
+from typing import ClassVar, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from .harmonics import (
+from ..phasors import Array, Complex, Figure
+from .fourier import (
     NONE,
     SAMPLING,
-    Array,
     Curve,
     Harmonics,
     Rows,
-    circle,
-    from_samples,
-    points,
-    rounding,
+    amplify_rounding,
+    transform,
+    unit_circle,
 )
+from .harmonics import count_samples
 
 STEPS = 1440  # crank angles that do not miss a lock
 FEWEST_SAMPLES, MOST_SAMPLES = 64, 1 << 18
@@ -39,10 +41,10 @@ _AT_ONCE = 1 << 16  # cylinders x angles of figures by themselves
 class Point(NamedTuple):
     """A closed curve with its derivatives, and the share of the mass that moves on it."""
 
-    z: NDArray[np.complex128]
-    z1: NDArray[np.complex128]
-    z2: NDArray[np.complex128]
-    share: Any = 1.0
+    z: Complex
+    z1: Complex
+    z2: Complex
+    share: Figure = 1.0
 
 
 class Motion(NamedTuple):
@@ -57,40 +59,37 @@ class Motion(NamedTuple):
     spin: Array  # angular velocity of the rod, in the crank's sense
     spin_rate: Array
     points: tuple[Point, ...]  # where the mass is
-    condition: Array | float = (
-        1.0  # relative error of what the rod does, in roundings: near its lock they are amplified
-    )
-
-    def of(self, what: Callable[[Point], Any]) -> Any:
-        """What unit mass does, shared out over its points."""
-        return sum(p.share * what(p) for p in self.points)
+    condition: Array | float = 1.0  # relative error of rod and piston, in roundings: near a lock
 
     @property
-    def velocity_of_mass(self) -> NDArray[np.complex128]:
-        return self.of(lambda p: p.z1)
+    def velocity_of_mass(self) -> Complex:
+        """Of unit mass on its points, likewise all that follows."""
+        return reduce(add, (p.share * p.z1 for p in self.points))
 
     @property
-    def acceleration_of_mass(self) -> NDArray[np.complex128]:
-        return self.of(lambda p: p.z2)
+    def acceleration_of_mass(self) -> Complex:
+        """Derivative of `velocity_of_mass`."""
+        return reduce(add, (p.share * p.z2 for p in self.points))
 
     @property
     def swirl(self) -> Array:
         """Moment of momentum."""
-        return self.of(lambda p: (np.conj(p.z) * p.z1).imag)
+        return reduce(add, (p.share * (np.conj(p.z) * p.z1).imag for p in self.points))
 
     @property
     def swirl_rate(self) -> Array:
-        return self.of(lambda p: (np.conj(p.z) * p.z2).imag)
+        """Derivative of `swirl`."""
+        return reduce(add, (p.share * (np.conj(p.z) * p.z2).imag for p in self.points))
 
     @property
     def energy(self) -> Array:
         """Twice the kinetic energy."""
-        return self.of(lambda p: np.abs(p.z1) ** 2)
+        return reduce(add, (p.share * np.abs(p.z1) ** 2 for p in self.points))
 
     @property
     def power(self) -> Array:
-        """Half the derivative of that."""
-        return self.of(lambda p: (np.conj(p.z1) * p.z2).real)
+        """Half the derivative of `energy`."""
+        return reduce(add, (p.share * (np.conj(p.z1) * p.z2).real for p in self.points))
 
 
 @dataclass(frozen=True)
@@ -102,93 +101,96 @@ class Linkage(ABC):
     """
 
     mass: Array
-    turning: ClassVar[bool] = (
-        False  # whether the cylinders, and so the rods, turn about a crank that stands still
-    )
-
-    @property
-    @abstractmethod
-    def figures(self) -> tuple[NDArray[Any], ...]:
-        """What distinguishes the cylinders, each of shape (cylinders or 1, *trailing)."""
+    turning: ClassVar[bool] = False  # whether cylinders, and so rods, turn about a crank at rest
 
     @abstractmethod
-    def motion(self, psi: Array, lam: Array, eps: Array) -> Motion:
-        """The cylinders at their own crank angles psi, shape (samples,) or one row each, or at e^{i
-        psi}; lam and eps as in `Cylinders`.
+    def figures(self, lam: Array, eps: Array) -> tuple[Array | Complex, ...]:
+        """What distinguishes the mechanisms of the cylinders, masses left out, each of shape
+        (cylinders or 1, *trailing); lam and eps as in `Cylinders`.
         """
 
-    def distinct(self, lam: Array, eps: Array) -> tuple[Linkage, Array, Array, Rows]:
+    @abstractmethod
+    def motion(self, psi: Array | Complex, lam: Array, eps: Array) -> Motion:
+        """The cylinders in motion.
+
+        Args:
+            psi: their own crank angles (rad) or e^{i psi}, shape (samples,) or one row each.
+            lam, eps: crank radius and offset over rod length, shape (cylinders or 1, *trailing).
+        """
+
+    def find_distinct(self, lam: Array, eps: Array) -> tuple[Linkage, Array, Array, Rows]:
         """The mechanisms that differ, their lam and eps, and which of them each cylinder has."""
         return self, lam, eps, slice(None)
 
-    def harmonics(
+    def find_distinct_harmonics(
         self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool
     ) -> tuple[Harmonics, Rows]:
-        """Those of the mechanisms that differ, for whole orders, and which of them each cylinder
-        has; accelerations are sampled as such, so that no order's error grows.
-        """
-        few, *mechanisms, which = self.distinct(lam, eps)
-        return few._harmonics(orders, *mechanisms, rod=rod, energy=energy), which
+        """Harmonics of the mechanisms that differ, and which of them each cylinder has.
 
-    def _harmonics(
+        Accelerations are sampled as such, so that no order's error grows.
+
+        Args:
+            orders: whole, shape (orders,).
+            lam, eps: shape (cylinders or 1, *trailing).
+            rod, energy: whether the series of the rods, and of the kinetic energies, are wanted.
+        """
+        few, *mechanisms, which = self.find_distinct(lam, eps)
+        return few._find_harmonics(orders, *mechanisms, rod=rod, energy=energy), which
+
+    def _find_harmonics(
         self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool
     ) -> Harmonics:
-        m = self._sampled(lam, eps)
+        m = self._sample_revolution(lam, eps)
         shake = -m.acceleration_of_mass
         return Harmonics(
-            piston=from_samples(-m.acceleration, orders, m.condition),
-            rod=from_samples(m.spin_rate, orders, m.condition) if rod else NONE,
-            kinetic=from_samples(m.velocity**2, orders, m.condition) if energy else NONE,
-            rod_kinetic=from_samples(m.spin**2, orders, m.condition) if energy and rod else NONE,
+            piston=transform(-m.acceleration, orders, m.condition),
+            rod=transform(m.spin_rate, orders, m.condition) if rod else NONE,
+            kinetic=transform(m.velocity**2, orders, m.condition) if energy else NONE,
+            rod_kinetic=transform(m.spin**2, orders, m.condition) if energy and rod else NONE,
             curve=Curve(
-                along=from_samples(shake.real, orders),
-                across=from_samples(shake.imag, orders),
-                couple=from_samples(-m.swirl_rate, orders),
-                kinetic=from_samples(m.energy, orders) if energy else NONE,
+                along=transform(shake.real, orders),
+                across=transform(shake.imag, orders),
+                couple=transform(-m.swirl_rate, orders),
+                kinetic=transform(m.energy, orders) if energy else NONE,
                 momentum=m.swirl.mean(axis=-1),
             ),
             turns=float(self.turning),
         )
 
-    def each(self, name: str, psi: Array, lam: Array, eps: Array) -> Array:
-        """One figure of `Motion` at crank angles that all cylinders share, by so many at a time
+    def sample(
+        self, figure: Callable[[Motion], Array], psi: Array, lam: Array, eps: Array
+    ) -> Array:
+        """A figure of the motion at crank angles that all cylinders share, by so many at a time
         that memory stays small.
         """
         count = max(len(self.mass), lam.size, eps.size)
         step = max(_AT_ONCE // count, 1)
         return np.concatenate(
-            [
-                getattr(self.motion(psi[k : k + step], lam, eps), name)
-                for k in range(0, len(psi), step)
-            ],
+            [figure(self.motion(psi[k : k + step], lam, eps)) for k in range(0, len(psi), step)],
             axis=-1,
         )
 
-    def samples(self, lam: Array, eps: Array) -> tuple[int, int]:
+    def count_all_samples(self, lam: Array, eps: Array) -> tuple[int, int]:
         """How many mechanisms differ, and about how many samples of a revolution they take
         together.
         """
-        few, *mechanisms, _ = self.distinct(lam, eps)
-        lean = np.abs(few.each("lean", revolution(STEPS), *mechanisms)).max(axis=-1)
-        return lean.size, lean.size * points(lean.max(), 0.0)
+        few, *mechanisms, _ = self.find_distinct(lam, eps)
+        lean = np.abs(few.sample(lambda m: m.lean, revolution(STEPS), *mechanisms)).max(axis=-1)
+        return lean.size, lean.size * count_samples(lean.max(), 0.0)
 
-    def highest(self, lam: Array, eps: Array) -> int:
+    def find_highest_order(self, lam: Array, eps: Array) -> int:
         """The order beyond which nothing exceeds rounding errors."""
-        few, *mechanisms, _ = self.distinct(lam, eps)
-        return int(few._sampled(*mechanisms).place.shape[-1]) // 2
+        few, *mechanisms, _ = self.find_distinct(lam, eps)
+        return int(few._sample_revolution(*mechanisms).place.shape[-1]) // 2
 
-    def _sampled(self, lam: Array, eps: Array) -> Motion:
+    def _sample_revolution(self, lam: Array, eps: Array) -> Motion:
         """A revolution on as many points (a power of two) as leave neither alias nor tail above
         rounding.
         """
         count = FEWEST_SAMPLES
         while True:
-            motion = self.motion(circle(count), lam, eps)
-            rod = (
-                _resolved(samples, motion.condition)
-                for samples in (motion.acceleration, motion.spin_rate)
-            )
-            if count >= MOST_SAMPLES or (all(rod) and _resolved(motion.acceleration_of_mass)):
+            motion = self.motion(unit_circle(count), lam, eps)
+            if count >= MOST_SAMPLES or _is_resolved(motion):
                 return motion
             count *= 2
 
@@ -198,9 +200,19 @@ def revolution(count: int) -> Array:
     return np.arange(count, dtype=float) * (2 * np.pi / count)
 
 
-def _resolved(samples: NDArray[Any], condition: Array | float = 1.0) -> bool:
+def _is_resolved(motion: Motion) -> bool:
+    """Whether there are enough samples."""
+    return (
+        _ends_in_rounding(motion.acceleration, motion.condition)
+        and _ends_in_rounding(motion.spin_rate, motion.condition)
+        and _ends_in_rounding(motion.acceleration_of_mass)
+    )
+
+
+def _ends_in_rounding(samples: Array | Complex, condition: Array | float = 1.0) -> bool:
     """Whether the upper half of the spectrum holds rounding errors alone."""
     sizes = np.abs(np.fft.fft(samples, norm="forward"))
     count = samples.shape[-1]
     tails = sizes[..., count // 4 : -(count // 4)].max(axis=-1)
-    return bool(np.all(tails <= SAMPLING / 4 * np.maximum(rounding(samples, condition), 1.0)))
+    rounding = np.maximum(amplify_rounding(samples, condition), 1.0)
+    return bool(np.all(tails <= SAMPLING / 4 * rounding))

@@ -4,22 +4,20 @@ Seen from its cylinder, the crank turns backward: with psi now the cylinder's an
 crank pin, and offset and rod angle counted as always towards the side to which the crank pin moves,
 all that moves does so in the mirror: a point w of the mechanism is at `e^{i psi} conj(w)` from the
 direction of the pin, the piston w = s + i e among them, and a rod that turns at `b` turns at `1 -
-b`. So in `inertia.Cylinders` pin and axis change their parts: `axis_deg` are the directions of the
+b`. So in `Cylinders` pin and axis change their parts: `axis_deg` are the directions of the
 pins, which stand still, and `pin_deg` those of the cylinders, which turn.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..phasors import Complex
+from ..phasors import Array, Complex
 from . import slidercrank
 from .articulated import Articulated
-from .harmonics import Array
 from .linkage import Linkage, Motion, Point
 
 
@@ -38,19 +36,16 @@ class Rotary(Linkage):
     on_knuckle: Array | None = None
     turning: ClassVar[bool] = True
 
-    @property
-    def figures(self) -> tuple[NDArray[Any], ...]:
-        return (
-            (self.mass,)
-            if self.hung is None or self.on_knuckle is None
-            else (self.mass, *self.hung.figures, self.on_knuckle)
-        )
+    def figures(self, lam: Array, eps: Array) -> tuple[Array | Complex, ...]:
+        if self.hung is None or self.on_knuckle is None:
+            return lam, eps
+        return *self.hung.figures(lam, eps), self.on_knuckle
 
-    def motion(self, psi: Array, lam: Array, eps: Array) -> Motion:
+    def motion(self, psi: Array | Complex, lam: Array, eps: Array) -> Motion:
         m = _plain(psi, lam, eps) if self.hung is None else self.hung.motion(psi, lam, eps)
         turned = slidercrank.on_circle(psi)
-        piston = m.place + 1j * (eps / lam)[..., None], m.velocity, m.acceleration
-        points = [_seen(turned, *piston)]
+        piston = m.place + 1j * (eps / lam)[..., None]
+        points = [_seen(turned, piston, m.velocity, m.acceleration)]
         if self.on_knuckle is not None:
             share, (knuckle,) = self.on_knuckle[..., None], m.points
             points = [
@@ -60,7 +55,7 @@ class Rotary(Linkage):
         return m._replace(spin=1 - m.spin, spin_rate=-m.spin_rate, points=tuple(points))
 
 
-def _plain(psi: Array, lam: Array, eps: Array) -> Motion:
+def _plain(psi: Array | Complex, lam: Array, eps: Array) -> Motion:
     """Rods that are all on the crank pin."""
     lam, eps = lam[..., None], eps[..., None]
     sine, cosine = slidercrank.rod_angle(psi, lam, eps)
@@ -76,7 +71,7 @@ def _plain(psi: Array, lam: Array, eps: Array) -> Motion:
     )
 
 
-def _seen(turned: Complex, w: Complex, w1: Complex, w2: Complex) -> Point:
+def _seen(turned: Complex, w: Complex, w1: Complex | Array, w2: Complex | Array) -> Point:
     """A point of the mechanism from the direction of the pin, and its derivatives."""
     w, w1, w2 = np.conj(w), np.conj(w1), np.conj(w2)
     return Point(turned * w, turned * (w1 + 1j * w), turned * (w2 + 2j * w1 - w))

@@ -18,22 +18,22 @@ neighbourhood of its zeros.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Real: TypeAlias = NDArray[np.float64]
+from ..phasors import Array, Complex
 
 
 class Extreme(NamedTuple):
     """Where a curve over the crank angle has its extreme, and how large it is there."""
 
-    psi: Real
-    value: Real
+    psi: Array
+    value: Array
 
 
-def rod_angle(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> tuple[Real, Real]:
+def rod_angle(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> tuple[Array, Array]:
     """(sin beta, cos beta) of the rod's angle; the rod stands at -beta from the cylinder's axis.
 
     sin beta = lam sin psi - eps. In cos^2 beta = (1 - sin beta)(1 + sin beta) the factor that can
@@ -47,7 +47,7 @@ def rod_angle(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> tuple[Rea
     return lam * sine - eps, np.sqrt(near * far)
 
 
-def displacement(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
+def displacement(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
     """Travel x/r from top dead centre, which an offset mechanism reaches at tau with sin tau =
     eps/(1 + lam).
 
@@ -62,7 +62,7 @@ def displacement(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
     return _real(2 * half * half * lift / (1 + cos_beta * cos_tau + sin_beta * sin_tau))
 
 
-def velocity(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
+def velocity(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
     """Piston velocity v/(r omega) = sin(psi + beta)/cos beta, positive away from top dead centre.
 
     Where the two terms of the sine differ in sign, their difference is replaced by that of their
@@ -77,7 +77,7 @@ def velocity(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
     return _real(np.where(opposed, product, crank + rod) / cos_beta)
 
 
-def acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
+def acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
     """Piston acceleration j/(r omega^2), positive towards the crankshaft (as near top dead centre).
 
     cos psi - sin psi tan beta + lam cos^2 psi/cos^3 beta. Accurate relative to its value without
@@ -89,7 +89,7 @@ def acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
     return _real(np.where(eps == 0, _centred_acceleration(sine, cosine, lam, cos_beta), offset))
 
 
-def _centred_acceleration(sine: Real, cosine: Real, lam: Real, cos_beta: Real) -> Real:
+def _centred_acceleration(sine: Array, cosine: Array, lam: Array, cos_beta: Array) -> Array:
     """cos psi + P/cos^3 beta, P = lam (cos^4 psi - w^2 sin^4 psi), w^2 = 1 - lam^2.
 
     Where the two differ in sign: P^2 - cos^6 beta cos^2 psi = -w^2 (cos^2 psi - lam^2 sin^4 psi
@@ -104,13 +104,13 @@ def _centred_acceleration(sine: Real, cosine: Real, lam: Real, cos_beta: Real) -
     return _real(np.where(opposed, product, rod + cube * cosine) / cube)
 
 
-def rod_rate(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
+def rod_rate(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
     """beta' = lam cos psi/cos beta; the rod turns at -beta' omega."""
     _, cosine, ratio, _ = _given(psi, lam, eps)
     return _real(ratio * cosine / rod_angle(psi, lam, eps)[1])
 
 
-def rod_acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Real:
+def rod_acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
     """beta'' = -lam ((w^2 - eps^2) sin psi + eps lam (1 + sin^2 psi))/cos^3 beta, w^2 = (1 - lam)(1
     + lam).
 
@@ -154,7 +154,7 @@ def fastest_two_term(lam: ArrayLike) -> Extreme:
 
 
 # ---------------------------------------------------------------- small helpers
-def _floats(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike) -> tuple[Real, Real, Real]:
+def _floats(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike) -> tuple[Array, Array, Array]:
     return (
         np.asarray(psi, dtype=np.float64),
         np.asarray(lam, dtype=np.float64),
@@ -162,35 +162,35 @@ def _floats(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike) -> tuple[Real, Real,
     )
 
 
-def _given(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike) -> tuple[Real, Real, Real, Real]:
+def _given(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike) -> tuple[Array, Array, Array, Array]:
     """sin psi, cos psi, lam and eps, psi being an angle or e^{i psi}."""
     at = on_circle(psi)
     return at.imag, at.real, np.asarray(lam, dtype=np.float64), np.asarray(eps, dtype=np.float64)
 
 
-def on_circle(psi: ArrayLike) -> NDArray[np.complex128]:
+def on_circle(psi: ArrayLike) -> Complex:
     """e^{i psi}, psi being an angle or e^{i psi} itself."""
     angle = np.asarray(psi)
     return angle if np.iscomplexobj(angle) else np.exp(1j * angle)
 
 
-def _clearance(lam: Real, lean: Real) -> Real:
+def _clearance(lam: Array, lean: Array) -> Array:
     """1 - lam + lean, rounded once, however small it is."""
     most = 1 - lam
     return (most + lean) + ((1 - most) - lam)
 
 
-def _real(value: ArrayLike) -> Real:
+def _real(value: ArrayLike) -> Array:
     return np.asarray(value, dtype=np.float64)
 
 
-def _top(lam: Real, eps: Real) -> tuple[Real, Real]:
+def _top(lam: Array, eps: Array) -> tuple[Array, Array]:
     """(sin, cos) of the crank angle at top dead centre."""
     sine = eps / (1 + lam)
     return sine, np.sqrt((1 - sine) * (1 + sine))
 
 
-def _bisect(falling: Callable[[Real], Real], low: Real, high: Real) -> Real:
+def _bisect(falling: Callable[[Array], Array], low: Array, high: Array) -> Array:
     """Root of a function that is positive at `low` and not at `high`, halved down to neighbouring
     numbers.
     """

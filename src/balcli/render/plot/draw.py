@@ -154,7 +154,7 @@ _SHOWN_AT = 36  # degrees of the order's own angle: both vectors are then seen a
 
 def ellipse(ax: Axes, curve: Phasors, k: int, what: str, unit: Unit) -> None:
     """The k-th order as the sum of two rotating vectors."""
-    one = curve.at(curve.orders[[k]])
+    one = curve.select_orders(curve.orders[[k]])
     order, phase = order_number(curve.orders[k]), np.exp(1j * np.radians(_SHOWN_AT))
     s = scale(unit, float(one.major[0]))
     values = one.values(FINE)

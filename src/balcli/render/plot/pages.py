@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 
 from ...core.phasors import Phasors
 from ...errors import BalcliError
-from ...forces.crankshaft import Inner
+from ...forces.crankshaft import InnerLoads
 from ...forces.kinds import KINDS, VECTORS
 from ...results.analysis import Analysis
 from ...studies.pictures import Banks
+from ..sheet import NAMELESS
 from ..units import SI, System, Unit
 from . import draw, studied
 from .style import FORMS, Form, figure, inline, plain, saved
@@ -36,7 +37,7 @@ class Subject:
     system: System = SI
     factors: Sequence[dict[str, float]] = ()
     banks: Banks | None = None
-    bent: tuple[Inner, ...] = ()
+    bent: tuple[InnerLoads, ...] = ()
 
     def phasors(self, quantity: str) -> tuple[Phasors, Phasors | None]:
         old = None if self.before is None else self.before.spectra[quantity]
@@ -71,7 +72,7 @@ def picture(subject: Subject, what: str, form: Form) -> bytes:
         layout(fig, subject)
         engine = subject.now.engine
         fig.suptitle(
-            f"{plain(engine.name) or 'engine without a name'}, {engine.speed_rpm:g} rpm",
+            f"{plain(engine.name) or NAMELESS}, {engine.speed_rpm:g} rpm",
             x=0.01,
             ha="left",
         )

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...core.phasors import Phasors
-from ...forces.crankshaft import Along
+from ...forces.crankshaft import AlongCrank
 from ...studies.pictures import Banks
 from ..units import Unit
 from .draw import FINE, LOOKS, legend_above, plane, scale
@@ -62,7 +62,7 @@ def factors(ax: Axes, rows: Sequence[Mapping[str, float]], force: Unit, moment: 
 
 def along(
     ax: Axes,
-    now_and_before: Sequence[Along],
+    now_and_before: Sequence[AlongCrank],
     titles: tuple[str, str],
     unit: Unit,
     steps: str = "default",

@@ -8,7 +8,6 @@ cranks nor orders have to be tried in vain.
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -45,22 +44,17 @@ class Slots:
                 f"{MOST_CYLINDERS_FIRED} are allowed"
             )
 
-    def cranks(self) -> list[tuple[float, ...]]:
+    def find_cranks(self) -> list[tuple[float, ...]]:
         """The angles of all throws, for every crank that allows an even firing order; cylinder 1's
         throw at 0.
 
         Raises:
             BalcliError: more than MOST_EVEN_CRANKS.
         """
-        fixed = next(c.throw for c in self.cells if c.number == 1)
-        found = list(
-            islice(
-                self._cranks(
-                    {}, [fixed, *({c.throw for c in self.cells} - {fixed})], Counter(self._slots)
-                ),
-                MOST_EVEN_CRANKS + 1,
-            )
-        )
+        first = next(c.throw for c in self.cells if c.number == 1)
+        throws = [first, *({c.throw for c in self.cells} - {first})]
+        every = self._place_throws({}, throws, Counter(self._slots))
+        found = list(islice(every, MOST_EVEN_CRANKS + 1))
         if len(found) > MOST_EVEN_CRANKS:
             raise BalcliError(
                 f"more than {MOST_EVEN_CRANKS} cranks of {len(self.cells)} cylinders have even "
@@ -68,58 +62,59 @@ class Slots:
             )
         return found
 
-    def _cranks(
-        self, throws: dict[int, float], free: Sequence[int], left: Counter[float]
+    def _place_throws(
+        self, throws: dict[int, float], free: Sequence[int], left: Counter[int]
     ) -> Iterator[tuple[float, ...]]:
-        """With the further throws at every angle at which there are slots left for all their
-        cylinders.
+        """All cranks with some throws at these angles, the free ones at every angle at which there
+        are slots left for all their cylinders.
         """
         if not free:
             yield tuple(throws[t] for t in sorted(throws))
             return
         cells = [c for c in self.cells if c.throw == free[0]]
-        for slot in sorted(left) if throws else [0.0]:
-            angle = (
-                (self.top[cells[0].number] - self.top[1] - self.sense * slot) % 360.0
-                if throws
-                else 0.0
-            )
-            taken = Counter(self._slot(c, angle) for c in cells)
-            if all(left[kind] >= count for kind, count in taken.items()):
-                yield from self._cranks(throws | {free[0]: angle}, free[1:], left - taken)
+        lead = self.top[cells[0].number] - self.top[1]
+        turns = [self.sense * 180.0 * slot / len(self.cells) for slot in sorted(left)]
+        angles = [(lead - turn) % 360.0 for turn in turns]
+        for angle in angles if throws else [0.0]:
+            taken = Counter(self._find_slot(c, angle) for c in cells)
+            if all(left[slot] >= count for slot, count in taken.items()):
+                yield from self._place_throws(throws | {free[0]: angle}, free[1:], left - taken)
 
-    def orders(self, throws: Sequence[float]) -> Iterator[tuple[int, ...]]:
+    def find_orders(self, throws: Sequence[float]) -> Iterator[tuple[int, ...]]:
         """All even firing orders of a crank that begin with cylinder 1."""
         start = throws[next(c.throw for c in self.cells if c.number == 1)]
-        kinds = {c.number: self._slot(c, throws[c.throw] - start) for c in self.cells}
-        if Counter(kinds.values()) == Counter(self._slots):
-            yield from self._orders((1,), kinds)
+        slots = {c.number: self._find_slot(c, throws[c.throw] - start) for c in self.cells}
+        if Counter(slots.values()) == Counter(self._slots):
+            yield from self._continue_order((1,), slots)
 
-    def _orders(
-        self, order: tuple[int, ...], kinds: Mapping[int, float]
+    def _continue_order(
+        self, order: tuple[int, ...], slots: Mapping[int, int]
     ) -> Iterator[tuple[int, ...]]:
+        """All firing orders that begin so; `slots` says where the crank stands when each cylinder
+        is at top dead centre.
+        """
         if len(order) == len(self.cells):
             yield order
             return
-        for number, kind in kinds.items():
-            if kind == self._slots[len(order)] and number not in order:
-                yield from self._orders((*order, number), kinds)
+        for number, slot in slots.items():
+            if slot == self._slots[len(order)] and number not in order:
+                yield from self._continue_order((*order, number), slots)
 
     @cached_property
-    def _slots(self) -> list[float]:
-        """Where the crank stands at each firing, after cylinder 1's, deg; alike ones are equal."""
-        return [round(self.cycle * k / len(self.cells), 9) % 360.0 for k in range(len(self.cells))]
+    def _slots(self) -> list[int]:
+        """Where the crank stands at each firing, after cylinder 1's: half turns shared out among
+        all cylinders, modulo a turn; whole numbers, so that alike ones are equal.
+        """
+        half_turns = round(self.cycle / 180.0)
+        return [half_turns * k % (2 * len(self.cells)) for k in range(len(self.cells))]
 
-    def _slot(self, cell: Cell, throw: float) -> float:
-        """Where the crank stands when this cylinder is at top dead centre; nan if nothing fires
+    def _find_slot(self, cell: Cell, throw: float) -> int:
+        """Where the crank stands when this cylinder is at top dead centre; -1 if nothing fires
         there.
         """
+        grain = 180.0 / len(self.cells)
         ready = self.sense * (self.top[cell.number] - self.top[1] - throw)
-        return next(
-            (
-                slot
-                for slot in self._slots
-                if abs((ready - slot + 180.0) % 360.0 - 180.0) <= TOLERANCE_DEG
-            ),
-            math.nan,
-        )
+        nearest = round(ready / grain)
+        slot = nearest % (2 * len(self.cells))
+        fires = abs(ready - nearest * grain) <= TOLERANCE_DEG and slot in self._slots
+        return slot if fires else -1

@@ -4,31 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...core.phasors import Array
 from ...errors import BalcliError
-from ...forces.quantity import Quantity, parse
-
-Array = NDArray[np.float64]
+from ...forces.quantity import Quantity, parse_quantity_list
 
 
 @dataclass(frozen=True)
 class Objective:
-    """Weights by quantity, and upper limits by quantity."""
+    """Weights by quantity, and upper limits by quantity (SI)."""
 
     weights: dict[Quantity, float]
     limits: dict[Quantity, float]
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:
+        """All that have to be known, each once."""
         return tuple(dict.fromkeys((*self.weights, *self.limits)))
 
-    def of(self, value: Callable[[Quantity], Any]) -> Array:
-        """The weighted sum, infinite where a limit is broken; `value` gives a quantity for all
-        candidates.
+    def evaluate(self, value: Callable[[Quantity], float | Array]) -> Array:
+        """The weighted sum, infinite where a limit is broken, shape (candidates,).
+
+        Args:
+            value: gives a quantity for all candidates.
         """
         total = np.asarray(sum(weight * value(q) for q, weight in self.weights.items()), float)
         for q, limit in self.limits.items():
@@ -36,7 +36,7 @@ class Objective:
         return total
 
 
-def objective(minimise: str, limits: Sequence[str] = ()) -> Objective:
+def parse_objective(minimise: str, limits: Sequence[str] = ()) -> Objective:
     """`moment.1.major,force.2.major=0.5` and limits such as `moment.2.major<100` (N, N m).
 
     Raises:
@@ -45,7 +45,8 @@ def objective(minimise: str, limits: Sequence[str] = ()) -> Objective:
     weights: dict[Quantity, float] = {}
     for term in minimise.split(","):
         name, _, weight = term.partition("=")
-        weights |= dict.fromkeys(_quantity(name), _positive(weight, term) if weight else 1.0)
+        share = _parse_positive(weight, term) if weight else 1.0
+        weights |= dict.fromkeys(_parse_sizes(name), share)
     bounds: dict[Quantity, float] = {}
     for text in limits:
         name, less, bound = text.partition("<")
@@ -54,12 +55,13 @@ def objective(minimise: str, limits: Sequence[str] = ()) -> Objective:
                 f'--limit "{text}": give a quantity and what it must stay below, such as '
                 '"moment.2.major<100"'
             )
-        bounds |= dict.fromkeys(_quantity(name), _positive(bound, text))
+        bounds |= dict.fromkeys(_parse_sizes(name), _parse_positive(bound, text))
     return Objective(weights, bounds)
 
 
-def _quantity(name: str) -> tuple[Quantity, ...]:
-    found = parse(name)
+def _parse_sizes(name: str) -> tuple[Quantity, ...]:
+    """Quantities that can be large or small."""
+    found = parse_quantity_list(name)
     for q in found:
         if q.part == "axis":
             raise BalcliError(
@@ -74,7 +76,8 @@ def _quantity(name: str) -> tuple[Quantity, ...]:
     return found
 
 
-def _positive(text: str, whole: str) -> float:
+def _parse_positive(text: str, whole: str) -> float:
+    """A positive number; `whole` is what it stands in."""
     try:
         number = float(text)
     except ValueError:

@@ -10,23 +10,24 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.phasors import Phasors
+from ...core.phasors import Array, Complex, Phasors
 from ...engine.build import build
 from ...engine.layout import plan_cylinders
 from ...enginefile.model import EngineFile
 from ...forces.quantity import Quantity
-from ...forces.spectrum import spectra, with_only
+from ...forces.spectrum import compute_spectra, with_only
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
-Key = tuple[str, int]  # kind (force, moment ...) and order
+Key = tuple[str, int]  # name of a kind of force or moment, and order
 ROUNDING = 1e-12  # sums below this share of the size of their parts are 0
 
 
 @dataclass(frozen=True)
-class Share:
-    """Forward and backward vectors of one kind and order: of every throw, shape (throws, angles),
-    and of the devices.
+class Contributions:
+    """Forward and backward vectors of one kind and order.
+
+    Attributes:
+        forward, backward: of every throw at every angle, shape (throws, angles).
+        devices: forward and backward vector of the devices.
     """
 
     order: int
@@ -40,60 +41,48 @@ class Share:
         most: Array = np.maximum(np.abs(self.forward), np.abs(self.backward)).max(axis=1)
         return most
 
-    def sums(self, throws: Sequence[int], rows: NDArray[np.int8]) -> tuple[Complex, Complex]:
-        """Of some throws at angles by their indices, shape (candidates, throws): shape
-        (candidates,) each.
+    def add_throws(self, throws: Sequence[int], rows: NDArray[np.int8]) -> tuple[Complex, Complex]:
+        """Sums over some throws at angles by their indices, shape (candidates, throws): forward and
+        backward, shape (candidates,).
         """
-        forward, backward = (np.zeros(len(rows), complex) for _ in range(2))
+        forward, backward = np.zeros(len(rows), complex), np.zeros(len(rows), complex)
         for throw, column in zip(throws, rows.T, strict=True):
             forward += self.forward[throw].take(column)
             backward += self.backward[throw].take(column)
         return forward, backward
 
-    def value(self, quantity: Quantity, forward: Complex, backward: Complex) -> Array:
-        """A quantity by the sums of all throws and the devices."""
+    def read(self, quantity: Quantity, forward: Complex, backward: Complex) -> Array:
+        """A quantity by the sums over all throws and the devices, shape (candidates,)."""
         noise = np.full((1, 1), ROUNDING * self.reach.sum())
-        return quantity.of(
-            Phasors(np.array([float(self.order)]), forward[None], backward[None], noise).settled()
-        )
+        order = np.array([float(self.order)])
+        return quantity.read_from(Phasors(order, forward[None], backward[None], noise).settled())
 
 
-def shares(
-    file: EngineFile, angles: Array, fixed: int, quantities: Collection[Quantity]
-) -> dict[Key, Share]:
+def tabulate_contributions(
+    model: EngineFile, angles: Array, fixed: int, quantities: Collection[Quantity]
+) -> dict[Key, Contributions]:
     """All kinds and orders that the quantities need; throw `fixed` (cylinder 1's) stands at 0, the
-    others at any of `angles`.
+    others at any of `angles` (deg).
     """
-    cells = plan_cylinders(file.crank, file.layout).cells
-    throw_of = {cell.number: cell.throw for cell in cells}
+    throw_of = {c.number: c.throw for c in plan_cylinders(model.crank, model.layout).cells}
     count = 1 + max(throw_of.values())
-    engine = build(
-        file, {f"crank.throws.{t + 1}": 0.0 if t == fixed else angles for t in range(count)}
-    )
+    paths = {f"crank.throws.{t + 1}": 0.0 if t == fixed else angles for t in range(count)}
+    engine = build(model, paths)
+    own_throw = np.array([throw_of[number] for number in engine.numbers])
     orders, kinds = sorted({q.order for q in quantities}), {q.kind for q in quantities}
     each = [
-        spectra(with_only(engine, [throw_of[n] == t for n in engine.numbers]), orders, kinds)
-        for t in range(count)
+        compute_spectra(with_only(engine, own_throw == throw), orders, kinds)
+        for throw in range(count)
     ]
-    devices = spectra(
-        replace(with_only(engine, [False] * len(engine.numbers)), devices=engine.devices),
-        orders,
-        kinds,
-    )
-
-    def share(kind: str, order: int) -> Share:
-        row, still = orders.index(order), devices[kind]
-
-        def table(way: str) -> Complex:
-            return np.stack(
-                [np.broadcast_to(getattr(s[kind], way)[row], angles.shape) for s in each]
-            )
-
-        return Share(
-            order,
-            table("forward"),
-            table("backward"),
+    nothing = with_only(engine, own_throw < 0)
+    devices = compute_spectra(replace(nothing, devices=engine.devices), orders, kinds)
+    table = {}
+    for q in quantities:
+        row, throws, still = orders.index(q.order), [s[q.kind] for s in each], devices[q.kind]
+        table[q.kind, q.order] = Contributions(
+            q.order,
+            np.stack([np.broadcast_to(p.forward[row], angles.shape) for p in throws]),
+            np.stack([np.broadcast_to(p.backward[row], angles.shape) for p in throws]),
             (still.forward[row].flat[0], still.backward[row].flat[0]),
         )
-
-    return {(q.kind, q.order): share(q.kind, q.order) for q in quantities}
+    return table

@@ -10,30 +10,34 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.phasors import Array, Complex
 from ...engine.arrays import ranked
-from ...engine.layout import plan_cylinders
+from ...engine.layout import TURN, plan_cylinders
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
 from ...forces.quantity import Quantity
 from ...limits import MOST_ARRANGEMENTS
+from .angles import neaten
 from .objective import Objective
-from .throw_contributions import Array, Complex, Key, Share, shares
+from .throw_contributions import Key, tabulate_contributions
 
 Indices = NDArray[np.int8]
 Allowed = Callable[[Array], NDArray[np.bool_]]
 Left = tuple[int, ...]  # how often each angle is still to be given
+_DECIMALS = 9  # of angles that are equal, deg
 BLOCK = 7  # throws of which all arrangements are tried at a time (7! = 5040)
 
 
-def best(
-    file: EngineFile, objective: Objective, count: int, allowed: Allowed | None = None
+def find_best_throws(
+    model: EngineFile, objective: Objective, count: int, allowed: Allowed | None = None
 ) -> Array:
     """The best arrangements of the file's throw angles, shape (at most count, throws), cylinder 1's
-    throw at 0, best first.
+    throw at 0, best first, deg.
 
     Args:
         allowed: which of some arrangements (shape (candidates, throws)) may be; None: all.
@@ -41,62 +45,73 @@ def best(
     Raises:
         BalcliError: more than MOST_ARRANGEMENTS.
     """
-    given = np.mod(np.asarray(file.crank.throws, float), 360.0)
-    if _count(given) > MOST_ARRANGEMENTS:
+    given = np.mod(np.asarray(model.crank.throws, float), 360.0)
+    if _count_arrangements(given) > MOST_ARRANGEMENTS:
         raise BalcliError(
             f"crank.throws: {len(given)} throws can be arranged in more than "
             f"{MOST_ARRANGEMENTS:g} ways, too many to search"
         )
-    fixed = next(c.throw for c in plan_cylinders(file.crank, file.layout).cells if c.number == 1)
+    fixed = next(c.throw for c in plan_cylinders(model.crank, model.layout).cells if c.number == 1)
     free = [t for t in range(len(given)) if t != fixed]
-    found = _Best(count)
-    for angles in _turns(given):
+    best = _BestSoFar(count)
+    for angles in _turn_to_cylinder_1(given):
         levels, times = np.unique(angles, return_counts=True)
-
-        tree = _Tree(
-            shares(file, levels, fixed, objective.quantities),
-            objective,
-            levels,
-            fixed,
-            free,
-            found,
-            allowed,
-        )
+        tree = _Tree(model, objective, _Places(levels, fixed, free), best, allowed)
         tree.grow((), (times[0] - 1, *times[1:]))
-    return found.rows
+    return best.rows
 
 
-def _count(given: Array) -> int:
-    """How many arrangements there are."""
-    return math.factorial(len(given)) // math.prod(
-        map(math.factorial, np.unique(given, return_counts=True)[1].tolist())
-    )
+def _count_arrangements(given: Array) -> int:
+    """In how many ways throws at these angles can follow each other."""
+    times = np.unique(given, return_counts=True)[1].tolist()
+    return math.factorial(len(given)) // math.prod(map(math.factorial, times))
 
 
-def _turns(given: Array) -> Iterator[Array]:
-    """The angles counted from each that can be cylinder 1's; turns that give the same angles
-    once.
+def _turn_to_cylinder_1(given: Array) -> Iterator[Array]:
+    """The angles, ascending, counted from each that can be cylinder 1's; turns that give the same
+    angles once.
     """
     seen = set()
-    for first in given:
-        turned = np.sort(np.round(np.mod(given - first, 360.0), 9) % 360.0)
-        if turned.tobytes() not in seen:
-            seen.add(turned.tobytes())
-            yield turned
+    for turned in count_from(given[:, None], given):
+        rounded = np.round(np.sort(turned), _DECIMALS).tobytes()
+        if rounded not in seen:
+            seen.add(rounded)
+            yield np.sort(turned)
 
 
-class _Best:
-    """The best candidates so far."""
+def count_from(first: Array, throws: Array) -> Array:
+    """Angles of throws counted from others, deg in [0, 360), as a file would have them."""
+    return neaten(np.mod(throws - first, TURN)) % TURN
+
+
+class _Places(NamedTuple):
+    """The angles that throws may take (deg, ascending, each once, shape (angles,)), the throw that
+    stands at 0, and the others.
+    """
+
+    levels: Array
+    fixed: int
+    free: list[int]
+
+
+class _BestSoFar:
+    """The best candidates so far, at most `count`.
+
+    Attributes:
+        rows: angles of all throws, deg, shape (candidates, throws), best first.
+        worst: what a value must be below to belong to them.
+    """
 
     def __init__(self, count: int) -> None:
         self.count, self.worst = count, np.inf
         self.rows, self._values = np.empty((0, 0)), np.empty(0)
 
     def take(self, rows: Array, values: Array) -> None:
-        both = np.concatenate([self._values, values])
-        order = np.argsort(both, kind="stable")[: self.count]
+        """Those of further candidates that belong to them; of equal ones the first stay."""
+        together = np.concatenate([self._values, values])
+        order = np.argsort(together, kind="stable")[: self.count]
         self.rows = (np.concatenate([self.rows, rows]) if len(self.rows) else rows)[order]
-        self._values = both[order]
+        self._values = together[order]
         self.worst = self._values[-1] if len(order) == self.count else np.inf
 
 
@@ -105,93 +120,92 @@ class _Tree:
 
     def __init__(
         self,
-        table: dict[Key, Share],
+        model: EngineFile,
         objective: Objective,
-        levels: Array,
-        fixed: int,
-        free: list[int],
-        found: _Best,
+        places: _Places,
+        best: _BestSoFar,
         allowed: Allowed | None,
     ) -> None:
-        self._table, self._objective, self._found, self._allowed = table, objective, found, allowed
-        self._levels, self._fixed, self._free = levels, fixed, free
-        self._start = {
-            key: tuple(
-                a + b
-                for a, b in zip(
-                    share.sums([fixed], np.zeros((1, 1), np.int8)), share.devices, strict=True
-                )
-            )
-            for key, share in table.items()
-        }
+        self._objective, self._places, self._best, self._allowed = objective, places, best, allowed
+        self._table = tabulate_contributions(
+            model, places.levels, places.fixed, objective.quantities
+        )
+        self._start: dict[Key, tuple[Complex, Complex]] = {}  # of the fixed throw and the devices
+        for key, own in self._table.items():
+            ahead, astern = own.add_throws([places.fixed], np.zeros((1, 1), np.int8))
+            self._start[key] = ahead + own.devices[0], astern + own.devices[1]
 
     def grow(self, prefix: tuple[int, ...], left: Left) -> None:
         """Try everything that begins so."""
-        if len(prefix) and self._least(prefix) >= self._found.worst:
+        if prefix and self._find_bound(prefix) >= self._best.worst:
             return
         if sum(left) <= BLOCK:
-            self._try(_joined(prefix, _arrangements(left)))
+            self._try(_prepend(prefix, _list_arrangements(left)))
             return
         for level, times in enumerate(left):
             if times:
-                self.grow((*prefix, level), (*left[:level], times - 1, *left[level + 1 :]))
+                self.grow((*prefix, level), _take_one(left, level))
 
-    def _whole(self, rows: Indices) -> Array:
-        """Angles of all throws by the indices of the free ones."""
-        return np.insert(self._levels[rows], self._fixed, 0.0, axis=1)
+    def _find_angles(self, rows: Indices) -> Array:
+        """Angles of all throws by the indices of the free ones, deg, shape (candidates, throws)."""
+        return np.insert(self._places.levels[rows], self._places.fixed, 0.0, axis=1)
 
-    def _sums(self, key: Key, rows: Indices) -> tuple[Complex, Complex]:
-        ahead, astern = self._table[key].sums(self._free[: rows.shape[1]], rows)
-        return self._start[key][0] + ahead, self._start[key][1] + astern
+    def _add(self, rows: Indices) -> dict[Key, tuple[Complex, Complex]]:
+        """Forward and backward vectors of cranks that begin with these rows, shape (candidates,)
+        each.
+        """
+        sums = {}
+        for key, own in self._table.items():
+            ahead, astern = own.add_throws(self._places.free[: rows.shape[1]], rows)
+            sums[key] = self._start[key][0] + ahead, self._start[key][1] + astern
+        return sums
 
-    def _least(self, prefix: tuple[int, ...]) -> float:
-        """A bound of the objective from below: what is to come may cancel as much as its size."""
-        sums = {key: self._sums(key, np.array([prefix], np.int8)) for key in self._table}
-        to_come = {
-            key: share.reach[self._free[len(prefix) :]].sum() for key, share in self._table.items()
-        }
+    def _find_bound(self, prefix: tuple[int, ...]) -> float:
+        """What the objective is at least: what is to come may cancel as much as its size."""
+        sums = self._add(np.array([prefix], np.int8))
+        to_come = self._places.free[len(prefix) :]
 
-        def least(q: Quantity) -> float:
-            ahead, astern = (
-                max(float(np.abs(v[0])) - to_come[q.kind, q.order], 0.0)
-                for v in sums[q.kind, q.order]
-            )
-            return {
-                "major": ahead + astern,
-                "amplitude": ahead + astern,
-                "forward": ahead,
-                "backward": astern,
-            }.get(q.part, 0.0)
+        def find_least(q: Quantity) -> float:
+            key = q.kind, q.order
+            reach = float(self._table[key].reach[to_come].sum())
+            ahead, astern = (max(float(np.abs(v[0])) - reach, 0.0) for v in sums[key])
+            sizes = {"forward": ahead, "backward": astern}
+            sizes |= dict.fromkeys(("major", "amplitude"), ahead + astern)
+            return sizes.get(q.part, 0.0)
 
-        return float(self._objective.of(least))
+        return float(self._objective.evaluate(find_least))
 
     def _try(self, rows: Indices) -> None:
-        sums = {key: self._sums(key, rows) for key in self._table}
-        values = self._objective.of(
-            lambda q: self._table[q.kind, q.order].value(q, *sums[q.kind, q.order])
-        )
-        values = ranked(values)  # of equal arrangements the first are kept
-        good = np.flatnonzero(values < self._found.worst)
+        """Keep what is good enough of whole cranks, shape (candidates, free throws)."""
+        sums = self._add(rows)
+
+        def read(q: Quantity) -> Array:
+            key = q.kind, q.order
+            return self._table[key].read(q, *sums[key])
+
+        values = ranked(self._objective.evaluate(read))  # of equal arrangements the first are kept
+        good = np.flatnonzero(values < self._best.worst)
         if self._allowed is not None and len(good):
-            good = good[self._allowed(self._whole(rows[good]))]
+            good = good[self._allowed(self._find_angles(rows[good]))]
         if len(good):
-            good = good[np.argsort(values[good], kind="stable")[: self._found.count]]
-            self._found.take(self._whole(rows[good]), values[good])
+            good = good[np.argsort(values[good], kind="stable")[: self._best.count]]
+            self._best.take(self._find_angles(rows[good]), values[good])
 
 
-def _joined(prefix: tuple[int, ...], rest: Indices) -> Indices:
+def _take_one(left: Left, level: int) -> Left:
+    return (*left[:level], left[level] - 1, *left[level + 1 :])
+
+
+def _prepend(prefix: tuple[int, ...], rest: Indices) -> Indices:
     return np.concatenate([np.tile(np.array(prefix, np.int8), (len(rest), 1)), rest], axis=1)
 
 
 @lru_cache(maxsize=4096)
-def _arrangements(left: Left) -> Indices:
+def _list_arrangements(left: Left) -> Indices:
     """All distinct sequences with each index that often, shape (sequences, length)."""
     if not sum(left):
         return np.empty((1, 0), np.int8)
+    first = [level for level, times in enumerate(left) if times]
     return np.concatenate(
-        [
-            _joined((k,), _arrangements((*left[:k], times - 1, *left[k + 1 :])))
-            for k, times in enumerate(left)
-            if times
-        ]
+        [_prepend((level,), _list_arrangements(_take_one(left, level))) for level in first]
     )

@@ -1,27 +1,25 @@
-"""The engine file with an arrangement that was found."""
+"""The engine file with a design that was found."""
 
 from __future__ import annotations
-
-from collections.abc import Mapping
-from typing import Any
 
 from ...engine.build import build
 from ...engine.load import parse
 from ...enginefile.edit import changed
 from ...errors import InputError
+from .designs import Design
 
 TABLES = {"throws": "crank", "splay": "crank", "firing_order": "layout", "bank_angle": "layout"}
 NOTE = "found by balcli"
 
 
-def arranged(text: bytes, arrangement: Mapping[str, Any]) -> str:
-    """The text of an engine file, comments and all, with an arrangement; a firing order that no
-    longer fits is left out.
+def write_design(text: bytes, design: Design) -> str:
+    """The text of an engine file, comments and all, with a design; a firing order that no longer
+    fits is left out.
     """
     new = text.decode("utf-8-sig")
-    for key, value in arrangement.items():
+    for key, value in design.given().items():
         new = changed(new, TABLES[key], {key: value}, NOTE)
-    if "firing_order" in arrangement:
+    if design.firing_order is not None:
         new = changed(new, "layout", {"firing_intervals": None}, NOTE)
     try:
         build(parse(new))

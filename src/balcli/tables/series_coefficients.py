@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
 from ..core.mechanisms import power_series as series
-from .options import Options
 from .printed import Print
-from .table import Row, Table, Words
+from .ranges import Ranges
+from .recomputed import Row, Table, Words
 
 Generator: TypeAlias = Callable[[int, int], series.Series]
 
@@ -36,14 +36,16 @@ PRINTED: dict[str, Generator] = {  # other forms, where a source has them
 }
 
 
-def coefficients(printed: Print, options: Options) -> Table:
+def tabulate_series(printed: Print, ranges: Ranges) -> Table:
     """One row a coefficient, repeated for every source that prints it; what no source prints stands
     without one.
     """
-    power = POWER if options.power is None else options.power
+    power = POWER if ranges.power is None else ranges.power
     shown = [words for words in printed.rows if int(words[2] or 0) <= power]
     pairs = sorted([*_beside(shown), *_unprinted(shown, power)], key=lambda pair: _place(pair[0]))
-    return printed.table(COLUMNS, [row for row, _ in pairs], [words for _, words in pairs], stub=3)
+    return printed.compare(
+        COLUMNS, [row for row, _ in pairs], [words for _, words in pairs], stub=3
+    )
 
 
 def _beside(shown: list[Words]) -> Iterator[tuple[Row, Words]]:

@@ -56,7 +56,8 @@ class Table:
     def label(self, row: int) -> str:
         """What names a row: the cells of its stub."""
         shown = [
-            shortest(c) if isinstance(c, (int, float)) else c for c in self.rows[row][: self.stub]
+            write_shortest(c) if isinstance(c, (int, float)) else c
+            for c in self.rows[row][: self.stub]
         ]
         return ", ".join(text for text in shown if text)
 
@@ -70,18 +71,18 @@ class Table:
         value, text = self.rows[i][j], self.printed[i][j] or ""
         for explanation in self.explanations:
             supposed = explanation.rows[i][j]
-            found = explained(supposed, text)
+            found = explain_figure(supposed, text)
             if found is not None and not _same(supposed, value):
                 return explanation.kind + found
         return _plain_kind(value, text)
 
 
-def shortest(value: float) -> str:
+def write_shortest(value: float) -> str:
     """A number without superfluous zeros: 5, 22.5."""
     return f"{value:.15g}"
 
 
-def figure(text: str) -> Decimal | None:
+def parse_decimal(text: str) -> Decimal | None:
     """The printed decimal with its digits (`.4312`, `+1.0`, `-0.5`), None if the text is none."""
     try:
         value = Decimal(text.strip().replace("−", "-"))
@@ -90,7 +91,7 @@ def figure(text: str) -> Decimal | None:
     return value if value.is_finite() else None
 
 
-def rational(cell: Cell) -> Fraction | None:
+def parse_fraction(cell: Cell) -> Fraction | None:
     """`15/128` as a fraction, None for any other text."""
     try:
         return Fraction(str(cell).replace(" ", ""))
@@ -98,7 +99,7 @@ def rational(cell: Cell) -> Fraction | None:
         return None
 
 
-def rounded(value: float, like: Decimal, rounding: str = ROUND_HALF_UP) -> Decimal:
+def round_like(value: float, like: Decimal, rounding: str = ROUND_HALF_UP) -> Decimal:
     """The value with as many decimals as a printed figure, halves rounded away from zero."""
     return Decimal(repr(float(value))).quantize(_unit(like), rounding)
 
@@ -107,43 +108,45 @@ def deviates(value: Cell, text: str) -> bool:
     """Whether a printed figure is not the exact value rounded to its digits. Words and ranges never
     deviate.
     """
-    printed = figure(text)
+    printed = parse_decimal(text)
     if isinstance(value, (int, float)):
         if printed is not None:
-            return rounded(value, printed) != printed
-        exact = rational(text)
+            return round_like(value, printed) != printed
+        exact = parse_fraction(text)
         return exact is not None and abs(value - exact) > 1e-12 * abs(exact)
-    exact, fraction = rational(value), rational(text)
+    exact, fraction = parse_fraction(value), parse_fraction(text)
     return exact is not None and fraction is not None and exact != fraction
 
 
-def explained(value: Cell, text: str) -> str | None:
+def explain_figure(value: Cell, text: str) -> str | None:
     """How this value leads to the printed figure: "" by rounding, ", truncated", ...; None if it
     does not.
     """
-    printed = figure(text)
+    printed = parse_decimal(text)
     if printed is None or not isinstance(value, (int, float)):
         return None
-    if rounded(value, printed) == printed:
+    if round_like(value, printed) == printed:
         return ""
-    if rounded(value, printed, ROUND_DOWN) == printed:
+    if round_like(value, printed, ROUND_DOWN) == printed:
         return ", truncated"
-    return ", digits transposed" if _transposed(rounded(value, printed), printed) else None
+    return ", digits transposed" if _transposed(round_like(value, printed), printed) else None
 
 
 def _plain_kind(value: Cell, text: str) -> str:
     """The kind of an erratum by its digits alone."""
-    printed = figure(text)
+    printed = parse_decimal(text)
     if printed is None or not isinstance(value, (int, float)):
         return "misprint"
-    exact = rounded(value, printed)
+    exact = round_like(value, printed)
     if abs(exact - printed) > _unit(printed):
         return "misprint, digits transposed" if _transposed(exact, printed) else "misprint"
     tie = abs(Decimal(repr(float(value))) - (exact + printed) / 2)
     if tie <= NEAR_A_TIE * _unit(printed):
         return "last digit, near a tie"
     return (
-        "last digit, truncated" if rounded(value, printed, ROUND_DOWN) == printed else "last digit"
+        "last digit, truncated"
+        if round_like(value, printed, ROUND_DOWN) == printed
+        else "last digit"
     )
 
 

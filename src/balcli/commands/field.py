@@ -1,0 +1,86 @@
+"""`balcli field`"""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..errors import BalcliError, Exit, say
+from ..render.formats import Format
+from .options import FormatOption, Output
+from .output import show, write_file
+from .overwrite_guard import refuse_overwriting
+
+
+class Smallest(StrEnum):
+    """What is made smallest of the readings."""
+
+    SQUARES = "squares"
+    MAX = "max"
+
+
+def field(
+    path: Annotated[
+        str,
+        typer.Argument(
+            metavar="RUNS",
+            help="Readings of all runs (TOML); - reads standard input.",
+            show_default=False,
+        ),
+    ],
+    minimise: Annotated[
+        Smallest,
+        typer.Option(help="squares: least sum of squared readings; max: smallest largest reading."),
+    ] = Smallest.SQUARES,
+    without: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="PLANE", show_default=False, help="Leave this plane out; may be given again."
+        ),
+    ] = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            show_default=False,
+            help="Draw readings and weights in polar form; .svg, .png or .pdf.",
+        ),
+    ] = None,
+    check: Annotated[
+        bool,
+        typer.Option(
+            "--check", help="Exit status 1 unless every plane is within the file's grade."
+        ),
+    ] = False,
+    form: FormatOption = Format.TABLE,
+    output: Output = None,
+) -> None:
+    """Balance a rotor on the machine or in its bearings: from readings with trial weights to
+    correction weights, places or drill holes, and what is left.
+
+    `balcli new field runs.toml` writes a file to start from: planes, then a run as found and one
+    with a trial weight in each plane.
+    """
+    from ..enginefile.toml_text import name_file
+
+    refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
+    from ..field_balancing.balance import balance_rotor, find_doubts
+    from ..field_balancing.read import read_runs
+    from ..render import field_balancing as renderer
+
+    file, name = read_runs(path), name_file(path)
+    if check and file.grade is None:
+        raise BalcliError(f"{name}: --check needs a grade, such as grade = 6.3, and mass and speed")
+    result = balance_rotor(file, minimise.value, without or (), name)
+    for doubt in find_doubts(result):
+        say(f"warning: {name}: {doubt}")
+    if plot is not None:
+        from ..render.plot.field_balancing import draw_field  # brings matplotlib
+
+        write_file(draw_field(result, plot), plot)
+    show([result], renderer, form, output)
+    if check and not result.reached:
+        raise typer.Exit(Exit.DIFFERENCE)

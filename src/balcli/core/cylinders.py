@@ -1,0 +1,91 @@
+"""What moves in an engine: its cylinders, one row each, and its balancing devices. SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .phasors import Array, Complex, Figure
+
+if TYPE_CHECKING:
+    from .mechanisms.linkage import Linkage
+
+
+@dataclass(frozen=True, eq=False)
+class Cylinders:
+    """All cylinders of an engine, sorted by bank: bank b has the rows from `starts[b]` on.
+
+    Attributes:
+        axis_deg: shape (banks, *trailing), cylinder axes from x.
+        pin_deg: shape (cylinders, *trailing), crank pins from cylinder 1's pin, in the sense of
+        rotation.
+        starts: shape (banks,).
+        first: bank of cylinder 1.
+        z: shape (cylinders, *trailing), m.
+        radius: crank radius, m.
+        lam, eps: shape (cylinders or 1, *trailing), crank radius and offset over rod length.
+        reciprocating, rotating: masses at the piston pin and at the crank pin, kg.
+        couple: `H` of the rods, kg m2 (docs/theory.md: what two point masses lack of the rod's
+        moment of inertia, with the sign changed).
+        linkage: of cylinders that are more than slider-cranks; its masses come on top of these.
+    """
+
+    axis_deg: Array
+    pin_deg: Array
+    starts: NDArray[np.intp]
+    first: int
+    z: Array
+    radius: Array
+    lam: Array
+    eps: Array
+    reciprocating: Array
+    rotating: Array
+    couple: Array
+    linkage: Linkage | None = None
+
+    @property
+    def count(self) -> int:
+        """How many there are."""
+        return len(self.pin_deg)
+
+    @property
+    def axis_of_each_deg(self) -> Array:
+        """Axis of each cylinder from x, deg, shape (cylinders, *trailing)."""
+        return np.repeat(self.axis_deg, np.diff([*self.starts, self.count]), axis=0)
+
+    @property
+    def angle_deg(self) -> Array:
+        """Each cylinder's own crank angle at crank angle 0 (`phi` in docs/theory.md), deg, shape
+        (cylinders, *trailing).
+        """
+        return np.asarray(self.axis_deg[self.first] + self.pin_deg - self.axis_of_each_deg)
+
+    @property
+    def offset(self) -> Array:
+        """Offset of the piston-pin path, m."""
+        return self.eps * self.radius / self.lam
+
+
+class Device(NamedTuple):
+    """Counterweight, balancer shaft or slider: mass x radius that turns at an order of the crank.
+
+    Figures are numbers, or arrays of variants.
+
+    Attributes:
+        order: turns for each of the crank.
+        forward, backward: mass x radius that turns with the crank, and against it, kg m.
+        place: x + iy of its axis, m.
+        z: m.
+        rank: devices are summed in this order: 0 counterweights, 1 shafts, 2 sliders, as an
+            engine file has them.
+    """
+
+    order: int
+    forward: complex | Complex
+    backward: complex | Complex
+    place: complex | Complex
+    z: Figure
+    rank: int = 3

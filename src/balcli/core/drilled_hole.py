@@ -1,0 +1,30 @@
+"""How deep a radial hole must be to remove a given unbalance: the shop's arithmetic for
+counterweights and for rotors on a machine.
+"""
+
+from __future__ import annotations
+
+import math
+
+STEEL = 7850.0  # kg/m3, plain carbon steel
+
+
+def find_drill_depth(unbalance: float, rim: float, drill: float) -> float:
+    """Depth of a radial hole from the rim (radius, m) inwards whose removed steel had this
+    unbalance; nan if none is deep enough.
+
+    `m r = density pi d^2/4 (rim h - h^2/2)`, the hole ending at the axis at the latest.
+
+    Args:
+        unbalance: kg m. drill: diameter, m.
+    """
+    unbalance_per_square = STEEL * math.pi / 4 * drill**2  # kg m of a depth of 1 m at 1 m
+    share = unbalance / unbalance_per_square / rim**2  # = h/rim - (h/rim)^2 / 2, at most 1/2
+    return rim * 2 * share / (1 + math.sqrt(1 - 2 * share)) if share <= 0.5 else math.nan
+
+
+def find_drilled_unbalance(depth: float, rim: float, drill: float) -> float:
+    """Unbalance (kg m) that a radial hole of this depth from the rim inwards removes: the inverse
+    of `find_drill_depth`. All lengths in m, the depth at most the rim's radius.
+    """
+    return STEEL * math.pi / 4 * drill**2 * depth * (rim - depth / 2)

@@ -1,0 +1,209 @@
+"""Where the cylinders' vectors point, order by order, and their sums: geometry alone.
+
+Cylinder i of bank b has its pin at `pin_i` (degrees after cylinder 1's pin) and its axis at
+`axis_b`. A local harmonic `Re c e^{i n psi}`, `psi = theta + axis_1 + pin_i - axis_b`, of a force
+along the axis gives
+
+    forward_n  = 1/2 sum_b e^{i (axis_b - n (axis_b - axis_1))} S_b
+    backward_n = 1/2 sum_b e^{i (axis_b + n (axis_b - axis_1))} conj(S_b)
+
+with `S_b` the sum over its cylinders of `c_i e^{i n pin_i}`. So each bank is summed once, and what
+variants have in common is not computed again. Arrays: order first, cylinder (or bank) next, then
+any trailing axes; an axis along which nothing varies has length 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from itertools import groupby
+from typing import NamedTuple
+
+import numpy as np
+
+from .cylinders import Cylinders
+from .mechanisms.fourier import Series
+from .phasors import EPS, Array, Complex, Phasors, unit
+
+SUM = 8 * EPS  # rounding error of a sum, per term and size of the terms
+_TURN = np.pi * EPS  # of an angle in the file (half an ulp of 360 deg), which order n multiplies
+_ALL = slice(None)
+
+
+class Vectors(NamedTuple):
+    """A rotating vector of each cylinder in its own frame, x along its axis.
+
+    Attributes:
+        forward: shape (orders, cylinders or 1, *trailing); a single one stands for all cylinders.
+        mirrored: conjugates of the backward vectors, likewise.
+        error: rounding error of either, likewise.
+    """
+
+    forward: Array | Complex
+    mirrored: Array | Complex
+    error: Array
+
+
+class Phases:
+    """The phases of an engine's cylinders for some orders, which sum what cylinders do.
+
+    Attributes:
+        orders: shape (orders,).
+        n: the same as a column before cylinders and trailing axes.
+        count: how many cylinders there are.
+        rounding: bound of the error of a sum over cylinders relative to its terms, shape as `n`.
+    """
+
+    def __init__(self, cylinders: Cylinders, orders: Array) -> None:
+        axis, pin = cylinders.axis_deg, cylinders.pin_deg
+        self.orders = orders
+        self.n = orders.reshape(-1, *(1,) * pin.ndim)
+        self.count = cylinders.count
+        self.rounding = self.count * SUM + _TURN * self.n
+        self._axis, self._turn = axis, self.n * (axis - axis[cylinders.first])
+        self._starts = cylinders.starts
+        self._moving: dict[int, Complex] = {}  # e^{i n pin} by cylinder, (orders, *trailing)
+        if pin.ndim == 1:
+            self._still = unit(self.n * pin)  # e^{i n pin}, (orders, cylinders, *1)
+        else:
+            self._part_variants(pin)
+
+    def _part_variants(self, pin: Array) -> None:
+        """Phases of pins that vary apart from those that do not: a sweep of one throw leaves the
+        others where they are. Those on one throw are computed once.
+        """
+        rows = [_narrow(row) for row in pin]
+        stays = np.array([row.size == 1 for row in rows]).reshape(-1, *(1,) * (pin.ndim - 1))
+        first = pin[(_ALL, *(slice(1),) * (pin.ndim - 1))]
+        self._still = unit(self.n * first) * stays
+        for k, row in enumerate(rows):
+            if row.size > 1:
+                twin = next((j for j in self._moving if np.array_equal(rows[j], row)), k)
+                self._moving[k] = unit(self.n[:, 0] * row) if twin == k else self._moving[twin]
+
+    # -------------------------------------------------------------- sums over the cylinders
+    def add_vectors(
+        self, vectors: Vectors, arms: Array | None = None, sizes: Array | None = None
+    ) -> Phasors:
+        """Sum of the cylinders' vectors, or of these (real) multiples of them.
+
+        Args:
+            arms: shape (cylinders, *trailing).
+            sizes: bounds of the arms that their rounding errors grow with, same shape.
+        """
+        forward, mirrored = self._add(self._planar, (vectors.forward, vectors.mirrored), arms)
+        noise = self.add_figures(vectors.error, sizes)
+        return Phasors(self.orders, forward, mirrored.conj(), noise)
+
+    def add_scalars(self, series: Series) -> Phasors:
+        """Sum of what the cylinders do about z."""
+        error = self.rounding * np.abs(series.c) + series.noise
+        (total,) = self._add(self._scalar, (series.c,), None)
+        return Phasors.from_scalar(self.orders, total, self.add_figures(error))
+
+    def add_figures(self, values: Array, sizes: Array | None = None) -> Array:
+        """Sum over the cylinders of `values * sizes`, shape (orders, *trailing).
+
+        Args:
+            values: shape (orders, cylinders or 1, *trailing).
+            sizes: shape (cylinders, *trailing); 1 if not given.
+        """
+        if values.shape[1] > 1:
+            return np.add.reduce(values if sizes is None else values * sizes, axis=1)
+        return values[:, 0] * (self.count if sizes is None else np.add.reduce(sizes, axis=0))
+
+    def nothing(self) -> Phasors:
+        """A sum of nothing."""
+        zero: Complex = np.zeros(self._sum_shape, np.complex128)
+        return Phasors(self.orders, zero, zero, zero.real)
+
+    @property
+    def _sum_shape(self) -> tuple[int, ...]:
+        return self.n.shape[:1] + self.n.shape[2:]
+
+    def _add(
+        self, turns: Complex, sides: Sequence[Array | Complex], arms: Array | None
+    ) -> list[Complex]:
+        """`sum over banks of turns * sum over its cylinders of arms * vectors * e^{i n pin}`.
+
+        Args:
+            turns: shape (sides, orders, banks, *trailing).
+            sides: the vectors, each of shape (orders, cylinders or 1, *trailing).
+
+        Returns: for each side, shape (orders, *trailing).
+        """
+        found = []
+        equal = None  # the sums without vectors: equal ones are taken out of them
+        for k, vectors in enumerate(sides):
+            if vectors.shape[1] > 1:
+                factors = vectors if arms is None else arms * vectors
+                found += self._add_turned(turns[k : k + 1], factors)
+            else:
+                if equal is None:
+                    equal = self._add_turned(turns, (self._ones if arms is None else arms)[None])
+                found.append(vectors[:, 0] * equal[k])
+        return found
+
+    def _add_turned(self, turns: Complex, factors: Array | Complex) -> list[Complex]:
+        """The same for factors of shape (1 or orders, cylinders, *trailing)."""
+        of_banks = np.add.reduceat(factors * self._still, self._starts, axis=1)
+        totals: list[Complex] = list(np.add.reduce(turns * of_banks, axis=2))
+        for bank, rows in groupby(self._moving, self._bank):
+            moving = sum(factors[:, k] * self._moving[k] for k in rows)
+            for k, turn in enumerate(turns):
+                totals[k] = totals[k] + turn[:, bank] * moving
+        return totals
+
+    @cached_property
+    def _ones(self) -> Array:
+        """A 1 for each cylinder, shape (cylinders, *1)."""
+        return np.ones((self.count, *(1,) * (self.n.ndim - 2)))
+
+    def _bank(self, cylinder: int) -> int:
+        return int(np.searchsorted(self._starts, cylinder, "right")) - 1
+
+    @cached_property
+    def _planar(self) -> Complex:
+        """Turns of each bank's forward vectors and of the conjugates of its backward ones:
+        `e^{i (n (axis_1 - axis) +- axis)}`, shape (2, orders, banks, *trailing).
+        """
+        turns = unit(np.array((self._axis - self._turn, self._axis + self._turn)))
+        np.conjugate(turns[1], out=turns[1])
+        return turns
+
+    @cached_property
+    def _scalar(self) -> Complex:
+        """Turns of each bank's scalars: `e^{i n (axis_1 - axis)}`, shape as of one side."""
+        return unit(-self._turn[None])
+
+
+class SeparatePhases(Phases):
+    """Not summed: what each cylinder does by itself, shape (orders, cylinders).
+
+    For engines without trailing axes.
+    """
+
+    def add_figures(self, values: Array, sizes: Array | None = None) -> Array:
+        """The terms of this sum."""
+        return values * (self._ones if sizes is None else sizes)
+
+    @property
+    def _sum_shape(self) -> tuple[int, ...]:
+        return len(self.orders), self.count
+
+    def _add(
+        self, turns: Complex, sides: Sequence[Array | Complex], arms: Array | None
+    ) -> list[Complex]:
+        """The terms of this sum, each of shape (orders, cylinders)."""
+        counts = np.diff([*self._starts, self.count])
+        arms = self._ones if arms is None else arms
+        each = zip(np.repeat(turns, counts, axis=2), sides, strict=True)
+        return [turn * (arms * vectors * self._still) for turn, vectors in each]
+
+
+def _narrow(values: Array) -> Array:
+    """The same without repetition: axes along which nothing changes get length 1."""
+    for axis, length in enumerate(values.shape):
+        if length > 1 and (values == (first := values.take([0], axis))).all():
+            values = first
+    return values

@@ -1,0 +1,83 @@
+"""A file of TOML, as it is read before anyone knows what it says: within limits, and whatever is
+wrong becomes an error with the name of the file.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from ..errors import BalcliError, InputError, Problem
+from ..limits import DEEPEST_KEY, LARGEST_FILE_BYTES, MOST_TOML_MARKS
+
+_KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
+_DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
+
+
+def read_bytes(source: str | Path) -> bytes:
+    """The content of a file, or of standard input for "-", as far as it may be long.
+
+    Raises:
+        BalcliError: it cannot be read.
+    """
+    try:
+        if str(source) == "-":
+            return sys.stdin.buffer.read(LARGEST_FILE_BYTES + 1)
+        with Path(source).open("rb") as stream:
+            return stream.read(LARGEST_FILE_BYTES + 1)
+    except IsADirectoryError:
+        raise BalcliError(f"{source}: is a folder; name an engine file in it") from None
+    except FileNotFoundError:
+        raise BalcliError(f"{source}: no such file") from None
+    except (OSError, ValueError) as error:  # ValueError: a zero byte in the name
+        reason = error.strerror if isinstance(error, OSError) else error
+        name = "standard input" if str(source) == "-" else repr(str(source)[:200])
+        raise BalcliError(f"{name}: cannot be read ({reason})") from None
+
+
+def name_file(source: str | Path) -> str:
+    """What messages call a file; "-" is standard input."""
+    return "standard input" if str(source) == "-" else str(source)
+
+
+def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
+    """TOML -> nested dicts; whatever tomllib raises becomes an InputError for this file."""
+    if len(text) > LARGEST_FILE_BYTES:
+        megabytes = LARGEST_FILE_BYTES // 1_000_000
+        message = f"has more than {megabytes} MB; no engine file needs that"
+        raise InputError([Problem("", message)], file)
+    try:
+        return _load_toml(text.decode("utf-8-sig") if isinstance(text, bytes) else text)
+    except tomllib.TOMLDecodeError as error:
+        message = f"is not valid TOML: {str(error)[:300]}"
+    except OverflowError as error:
+        message = str(error)
+    except RecursionError:
+        message = (
+            "lists or tables are nested too deeply; an engine file needs no more than four levels"
+        )
+    except UnicodeDecodeError as error:
+        line = error.object[: error.start].count(b"\n") + 1
+        message = f"is not UTF-8 text (line {line}); save it as UTF-8"
+    except ValueError as error:  # int() of very many digits
+        message = f"a number cannot be read: {str(error).split(';')[0][:300]}"
+    raise InputError([Problem("", message)], file)
+
+
+def _load_toml(text: str) -> dict[str, Any]:
+    """The text as nested dicts, unless tomllib would take too much memory for it.
+
+    Raises:
+        RecursionError: a key has too many parts.
+        OverflowError: there are too many values.
+    """
+    if _DEEP_KEY.search(text):
+        raise RecursionError
+    if sum(map(text.count, "[{.,=")) > MOST_TOML_MARKS:
+        raise OverflowError(
+            f"has more than {MOST_TOML_MARKS} keys, lists and values; no engine file needs that"
+        )
+    return tomllib.loads(text)

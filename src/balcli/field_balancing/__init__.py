@@ -1,0 +1,1 @@
+"""Readings of a rotor on a machine in, correction weights and what they leave out."""

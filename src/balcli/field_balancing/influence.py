@@ -1,0 +1,198 @@
+"""What a unit of weight in each plane does to each reading, from runs with trial weights.
+
+All complex numbers here turn in the sense in which phases of readings are counted. Every speed is a
+series of runs of its own: a weight that stays on counts in the later runs at that speed.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.least_squares import solve
+from ..errors import InputError, Problem
+from .model import Run, RunsFile
+
+Complex = NDArray[np.complex128]
+
+_ROUNDING = 1e-13  # share of the largest reading below which a change is none
+
+
+class Influence(NamedTuple):
+    """Readings of all speeds, one speed after the other, and what weights do to them.
+
+    Attributes:
+        speeds_rpm: of every reading; None where the file gives none. Length: readings.
+        sensors: of every reading, its place in the file's list.
+        coefficients: change of each reading by one unit of weight, shape (readings, planes); 0 for
+            planes that are left out.
+        found: readings of the rotor without weights.
+        now: readings of the last run with a correction in; as found where there is none.
+        now_on: weights that were on at each of these readings, shape (readings, planes).
+        trimmed: name of the last run with a correction in; empty if there is none.
+    """
+
+    speeds_rpm: tuple[float | None, ...]
+    sensors: tuple[int, ...]
+    coefficients: Complex
+    found: Complex
+    now: Complex
+    now_on: Complex
+    trimmed: str
+
+
+class _Series(NamedTuple):
+    """The runs at one speed: their numbers in the file (from 1), readings (runs, sensors) and all
+    weights that are on (runs, planes).
+    """
+
+    numbers: list[int]
+    readings: Complex
+    on: Complex
+
+
+def find_influence(file: RunsFile, left_out: frozenset[str], name: str = "") -> Influence:
+    """Influence coefficients: those of the file, or by least squares over all runs at each speed
+    (`change of a reading over weight` where there are just enough).
+
+    A run that comes after the coefficients are determined has a correction in: they are made better
+    by it, and balancing goes on from there.
+
+    Raises:
+        InputError: planes whose trial weight is missing, or cannot be told from another.
+    """
+    used = [k for k, plane in enumerate(file.planes) if plane not in left_out]
+    speeds = list(dict.fromkeys(run.speed for run in file.run))
+    series = [_collect_runs(file, speed) for speed in speeds]
+    sensors = series[0].readings.shape[1]
+    blocks, trimmed = [], ""
+    for k, (speed, runs) in enumerate(zip(speeds, series, strict=True)):
+        if file.influence is None:
+            trial_count = _count_trials(file, runs, used, speed, name)
+            states = _fit(runs, used)
+        else:
+            trial_count = 1
+            rows = file.influence[k * sensors : (k + 1) * sensors]
+            states = _take_given(np.array(rows, dtype=complex), runs)
+        coefficients, found = states
+        last = len(runs.numbers) - 1
+        now, on = (runs.readings[last], runs.on[last]) if last >= trial_count else (found, 0.0)
+        if last >= trial_count:
+            trimmed = file.run[runs.numbers[last] - 1].name or f"run {runs.numbers[last]}"
+        blocks.append((coefficients, found, now, np.zeros_like(coefficients) + on))
+    coefficients, found, now, now_on = (
+        np.concatenate(parts) for parts in zip(*blocks, strict=True)
+    )
+    keep = np.isin(np.arange(len(file.planes)), used)
+    return Influence(
+        tuple(speed for speed in speeds for _ in range(sensors)),
+        tuple(range(sensors)) * len(speeds),
+        coefficients * keep,
+        found,
+        now,
+        now_on,
+        trimmed,
+    )
+
+
+def has_opposite_senses(file: RunsFile) -> bool:
+    """Whether angles of weights count the other way round than phases of readings."""
+    return file.weights is not None and (file.weights == "with") != (file.rotation == "lead")
+
+
+def _collect_runs(file: RunsFile, speed: float | None) -> _Series:
+    numbers = [k for k, run in enumerate(file.run, 1) if run.speed == speed]
+    runs = [file.run[k - 1] for k in numbers]
+    kept = np.zeros(len(file.planes), dtype=complex)
+    states = []
+    for run in runs:
+        on = kept + _put_on(file, run)
+        states.append(on)
+        kept = on if run.keep_trial else kept
+    on = np.array(states)
+    readings = np.array([run.readings for run in runs], dtype=complex)
+    return _Series(numbers, readings, np.conj(on) if has_opposite_senses(file) else on)
+
+
+def _put_on(file: RunsFile, run: Run) -> Complex:
+    return np.array([run.weights.get(plane, 0j) for plane in file.planes], dtype=complex)
+
+
+def _count_trials(
+    file: RunsFile, runs: _Series, used: list[int], speed: float | None, name: str
+) -> int:
+    """How many runs, from the first, determine the rotor as found and all coefficients.
+
+    Raises:
+        InputError: if not even all of them do.
+    """
+    design = _design(runs, used)
+    wanted = design.shape[1]
+    for count in range(1, len(design) + 1):
+        if np.linalg.matrix_rank(design[:count]) == wanted:
+            return count
+    at = "" if speed is None else f" at {speed:g} rpm"
+    if bool(runs.on.any(axis=1).all()):
+        problem = Problem(
+            f"run.{runs.numbers[0]}",
+            f"has weights, and so has every other run{at}; give the readings of the rotor as "
+            "found, in a run without weights",
+        )
+        raise InputError([problem], name)
+    bare = [file.planes[k] for k in used if not runs.on[:, k].any()]
+    if bare:
+        problem = Problem(
+            "run",
+            f"there is no trial weight in {_join_words(bare)}{at}; add a run with one, such as "
+            f'weights = {{ {bare[0]} = "10 @ 0" }}, give influence, or leave the plane out with '
+            f"--without {bare[0]}",
+        )
+    else:
+        names = [file.planes[k] for k in range(len(file.planes)) if runs.on[:, k].any()]
+        problem = Problem(
+            "run",
+            f"the trial weights in {_join_words(names)} are never apart{at}, so what each does "
+            f"cannot be told; of {len(runs.numbers)} runs here, {wanted} that differ are needed: "
+            "one as found, and one for each plane",
+        )
+    raise InputError([problem], name)
+
+
+def _join_words(names: list[str]) -> str:
+    *front, last = names
+    return f"{', '.join(front)} and {last}" if front else last
+
+
+def _design(runs: _Series, used: list[int]) -> Complex:
+    """What each run's reading is made of: one of the rotor itself, and the weights on it in units
+    of the largest; planes that are not used count only where a weight was on.
+    """
+    there = [k for k in range(runs.on.shape[1]) if k in used or runs.on[:, k].any()]
+    largest = np.abs(runs.on).max() or 1.0
+    return np.concatenate([np.ones((len(runs.on), 1)), runs.on[:, there] / largest], axis=1)
+
+
+def _fit(runs: _Series, used: list[int]) -> tuple[Complex, Complex]:
+    """Coefficients (sensors, planes), and readings as found."""
+    planes = runs.on.shape[1]
+    there = [k for k in range(planes) if k in used or runs.on[:, k].any()]
+    design, largest = _design(runs, used), np.abs(runs.on).max() or 1.0
+    fitted = np.array([solve(design, column).x for column in runs.readings.T])
+    changes = fitted[:, 1:]
+    unmoved = np.abs(changes) <= _ROUNDING * np.abs(runs.readings).max(axis=0)[:, None]
+    coefficients = np.zeros((len(fitted), planes), dtype=complex)
+    coefficients[:, there] = np.where(unmoved, 0, changes) / largest
+    return coefficients, _find_measured(runs, fitted[:, 0])
+
+
+def _take_given(coefficients: Complex, runs: _Series) -> tuple[Complex, Complex]:
+    before = runs.readings[0] - coefficients @ runs.on[0]
+    return coefficients, _find_measured(runs, before)
+
+
+def _find_measured(runs: _Series, fitted: Complex) -> Complex:
+    """Readings as found: those of the first run without weights, or fitted if there is none."""
+    bare = np.flatnonzero(~runs.on.any(axis=1))
+    return np.asarray(runs.readings[bare[0]]) if len(bare) else fitted

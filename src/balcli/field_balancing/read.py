@@ -1,0 +1,235 @@
+"""A file of runs -> model: every mistake at once, each by its path in the file and with what would
+be right.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+from pydantic import ValidationError
+
+from ..enginefile.fields import counted, nearest, printable, shorten
+from ..enginefile.messages import describe_finding, is_miscounted, join_path
+from ..enginefile.model import Table
+from ..enginefile.toml_text import name_file, parse_toml, read_bytes
+from ..enginefile.units import MASS
+from ..errors import InputError, Problem
+from ..limits import MOST_MISTAKES_SHOWN, MOST_RUNS
+from .model import Run, RunsFile, read_amount_unit
+
+T = TypeVar("T", bound=Table)
+BY_PLANE = ("radius", "most", "places", "drill", "deepest", "shares")
+_NEEDED = {
+    "planes": 'is missing; name the planes that take weights, such as planes = ["front", "rear"]',
+    "run": "is missing; write [[run]] for every run, the rotor as found first",
+}
+
+
+def read_runs(source: str | Path) -> RunsFile:
+    """The runs in a file, or on standard input for "-".
+
+    Raises BalcliError if there is nothing to read, InputError with every mistake of the text.
+    """
+    return parse_runs(read_bytes(source), name_file(source))
+
+
+def parse_runs(text: str | bytes, file: str = "") -> RunsFile:
+    """The runs that a TOML text describes; `file` is its name in messages. Raises InputError with
+    every mistake.
+    """
+    data = parse_toml(text, file)
+    problems: list[Problem] = []
+    head = {key: value for key, value in data.items() if key != "run"}
+    model = _read_table("", head, RunsFile, problems)
+    runs = _read_list_of_runs(data.get("run"), problems)
+    if not problems and model is not None:
+        model = model.model_copy(update={"run": tuple(run for run in runs if run is not None)})
+    if model is not None:
+        numbered = [(k, run) for k, run in enumerate(runs, 1) if run is not None]
+        problems += _find_misfits(model, numbered)
+    if problems or model is None:
+        more = max(len(problems) - MOST_MISTAKES_SHOWN, 0)
+        raise InputError(problems[:MOST_MISTAKES_SHOWN], file, more)
+    return model
+
+
+def _read_list_of_runs(value: object, problems: list[Problem]) -> list[Run | None]:
+    if value is None:
+        problems.append(Problem("run", _NEEDED["run"]))
+        return []
+    if not isinstance(value, list):
+        problems.append(Problem("run", "is one of several; write [[run]] in double brackets"))
+        return []
+    if len(value) > MOST_RUNS:
+        problems.append(Problem("run", f"stands {len(value)} times; at most {MOST_RUNS} are taken"))
+        return []
+    return [_read_table(f"run.{k}", run, Run, problems) for k, run in enumerate(value, 1)]
+
+
+def _read_table(path: str, value: object, table: type[T], problems: list[Problem]) -> T | None:
+    """The table, or None with its mistakes added to the problems."""
+    if not isinstance(value, Mapping):
+        problems.append(Problem(path, f"{shorten(value)} is not a table; write [[run]] above it"))
+        return None
+    known = {key: part for key, part in value.items() if key in table.model_fields}
+    unknown = [key for key in value if key not in known]
+    found = [_refuse_key(path, key, table) for key in unknown]
+    meant = {nearest(key, table.model_fields) for key in unknown}
+    if table is RunsFile:  # its runs are read one by one
+        known["run"] = [Run.model_construct(readings=(0j,))]
+    try:
+        read = table.model_validate(known)
+    except ValidationError as error:
+        read = None
+        found += [
+            _translate(path, finding, table)
+            for finding in error.errors(include_url=False)
+            if not is_miscounted(finding)
+            and not (finding["type"] == "missing" and finding["loc"][-1] in meant)
+        ]
+    problems += found
+    return read
+
+
+def _refuse_key(path: str, key: str, table: type[Table]) -> Problem:
+    place = "of [[run]]" if path else "of a file of runs"
+    near = nearest(key, table.model_fields)
+    hint = f"did you mean {near}?" if near else f"it has {', '.join(table.model_fields)}"
+    return Problem(_join(path, printable(key)), f"is no key {place}; {hint}")
+
+
+def _translate(path: str, finding: Mapping[str, Any], table: type[Table]) -> Problem:
+    if finding["type"] == "missing" and str(finding["loc"][-1]) in _NEEDED:
+        return Problem(str(finding["loc"][-1]), _NEEDED[str(finding["loc"][-1])])
+    if finding["type"] == "dict_type":
+        text = '{value} is not a table; write it like {{ front = "1.15 @ 0" }}'
+        return Problem(
+            _join(path, *map(str, finding["loc"])), text.format(value=shorten(finding["input"]))
+        )
+    problem = describe_finding(path, finding, table)
+    return problem._replace(path=problem.path.lstrip("."))
+
+
+def _join(*parts: str) -> str:
+    return join_path("", parts).strip(".") if parts[0] == "" else join_path(parts[0], parts[1:])
+
+
+# ------------------------------------------------------------------ what does not fit together
+def _find_misfits(file: RunsFile, runs: list[tuple[int, Run]]) -> Iterator[Problem]:
+    yield from _check_names(file)
+    yield from _check_lists(file)
+    yield from _check_permitted(file)
+    yield from _check_shop(file)
+    yield from _check_runs(file, runs)
+
+
+def _check_names(file: RunsFile) -> Iterator[Problem]:
+    for key in ("planes", "sensors"):
+        names = getattr(file, key) or ()
+        twice = sorted({name for name in names if names.count(name) > 1})
+        if twice:
+            yield Problem(key, f"names {shorten(twice[0])} twice; each needs a name of its own")
+
+
+def _check_lists(file: RunsFile) -> Iterator[Problem]:
+    for key in BY_PLANE:
+        values = getattr(file, key)
+        if values is not None and len(values) != len(file.planes):
+            yield Problem(
+                key,
+                f"has {counted(len(values), 'value')}, but there are "
+                f"{counted(len(file.planes), 'plane')}; give one for each, in their order",
+            )
+
+
+def _check_permitted(file: RunsFile) -> Iterator[Problem]:
+    if file.grade is not None:
+        for key, example in (("mass", "120"), ("speed", "3000")):
+            if getattr(file, key) is None:
+                yield Problem(
+                    key,
+                    f"is missing; a grade permits an unbalance by it, such as {key} = {example}",
+                )
+        if file.radius is None and is_mass(file):
+            yield Problem(
+                "radius",
+                "is missing; a grade permits an unbalance, which is weight times radius: give the "
+                "radius of every plane, such as radius = [200, 200], or the weights as unbalances, "
+                'with weight_unit = "g mm"',
+            )
+
+
+def _check_shop(file: RunsFile) -> Iterator[Problem]:
+    if file.drill is not None and file.radius is None:
+        yield Problem("radius", "is missing; a drill needs the radius of the rim, in every plane")
+    if file.deepest is not None and file.drill is None:
+        yield Problem("drill", "is missing; deepest belongs to holes, which have a diameter")
+    if file.deepest and file.radius and len(file.deepest) == len(file.radius):
+        for k, (depth, rim) in enumerate(zip(file.deepest, file.radius, strict=True), 1):
+            if depth > rim:
+                yield Problem(
+                    "deepest", f"hole {k} of {depth:g} mm passes the axis, {rim:g} mm below the rim"
+                )
+
+
+def is_mass(file: RunsFile) -> bool:
+    """Whether weights are given as masses, not as unbalances."""
+    return read_amount_unit(file.weight_unit).powers == MASS.powers
+
+
+def _check_runs(file: RunsFile, runs: list[tuple[int, Run]]) -> Iterator[Problem]:
+    if not runs:
+        return
+    first, pattern = runs[0]
+    wanted = len(file.sensors) if file.sensors else len(pattern.readings)
+    whose = "sensors names" if file.sensors else f"run.{first} has"
+    spoken = [k for k, run in runs if run.speed is not None]
+    for k, run in runs:
+        if len(run.readings) != wanted:
+            yield Problem(
+                f"run.{k}.readings",
+                f"has {counted(len(run.readings), 'reading')}, but {whose} {wanted}; give one for "
+                "each sensor, in the same order in every run",
+            )
+        for name in run.weights:
+            if name not in file.planes:
+                near = nearest(name, file.planes)
+                hint = f"did you mean {near}?" if near else f"there are {', '.join(file.planes)}"
+                yield Problem(
+                    f"run.{k}.weights.{printable(name)}",
+                    f"is no plane; {hint[:200]}",
+                )
+        if spoken and run.speed is None:
+            yield Problem(
+                f"run.{k}.speed",
+                f"is missing; run.{spoken[0]} gives its speed, so every run must",
+            )
+    yield from _check_factors(file, runs, wanted)
+
+
+def _check_factors(file: RunsFile, runs: list[tuple[int, Run]], sensors: int) -> Iterator[Problem]:
+    speeds = len({run.speed for _, run in runs})
+    if file.reading_weights and len(file.reading_weights) != sensors:
+        yield Problem(
+            "reading_weights",
+            f"has {counted(len(file.reading_weights), 'value')}, but there are "
+            f"{counted(sensors, 'reading')} in a run; give one for each",
+        )
+    if file.influence is None:
+        return
+    if len(file.influence) != sensors * speeds:
+        at = f" at {counted(speeds, 'speed')}" if speeds > 1 else ""
+        yield Problem(
+            "influence",
+            f"has {counted(len(file.influence), 'row')}, but there are "
+            f"{counted(sensors, 'reading')}{at}; give one row for each reading",
+        )
+    for k, row in enumerate(file.influence, 1):
+        if len(row) != len(file.planes):
+            yield Problem(
+                f"influence.{k}",
+                f"has {counted(len(row), 'coefficient')}, but there are "
+                f"{counted(len(file.planes), 'plane')}; give one for each, in their order",
+            )

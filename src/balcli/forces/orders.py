@@ -1,0 +1,81 @@
+"""Which orders there are, and which of them an engine has worth computing or showing.
+
+An order is how often something happens in a revolution of the crankshaft. Pistons, rods and devices
+repeat themselves after each revolution, so that all orders are whole; here alone this is taken for
+granted of what a user asks for, and of what is computed unasked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.mechanisms import harmonics
+from ..core.phasors import Array, Phasors
+from ..engine.build import Engine
+from ..errors import BalcliError
+from ..limits import HIGHEST_ORDER, HIGHEST_ORDER_UNASKED
+from .spectrum import Spectra
+
+SHOWN = 1e-6  # share of a quantity's largest order below which an order is not worth showing
+
+
+def is_order(number: float) -> bool:
+    """Whether a number is an order that may be asked for: whole, from 0 to HIGHEST_ORDER."""
+    return 0 <= number <= HIGHEST_ORDER and number % 1 == 0
+
+
+def check_orders(orders: Iterable[float]) -> Array:
+    """Orders that were asked for, ascending, each once.
+
+    Raises:
+        BalcliError: there are none, or some are no orders.
+    """
+    asked = sorted(set(orders))
+    if not asked or not all(map(is_order, asked)):
+        named = ", ".join(f"{n:g}" for n in asked[:8]) or "none"
+        raise BalcliError(f"orders must be whole numbers from 0 to {HIGHEST_ORDER}, not {named}")
+    return np.array(asked, float)
+
+
+def parse_order(text: str) -> int | None:
+    """The order that a text names, such as `2`; None if it names none."""
+    digits = text.isascii() and text.isdigit() and len(text) <= len(str(HIGHEST_ORDER)) + 1
+    return int(text) if digits and is_order(int(text)) else None
+
+
+def find_relevant_orders(engine: Engine) -> Array:
+    """The orders 1 .. n (0 .. n at uneven speed) beyond which nothing exceeds rounding errors,
+    shape (orders,).
+    """
+    c = engine.cylinders
+    find_highest = c.linkage.find_highest_order if c.linkage else harmonics.find_highest_order
+    highest = max([find_highest(c.lam, c.eps), *(device.order for device in engine.devices)])
+    if not engine.ripple:
+        return np.arange(1.0, highest + 1)
+    return np.arange(0.0, highest + 2 * max(line.order for line in engine.ripple) + 1)
+
+
+def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:
+    """Orders in which something exceeds SHOWN of its own largest order, shape (orders,); none above
+    HIGHEST_ORDER_UNASKED.
+    """
+    sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1, initial=0)
+    large = sizes > SHOWN * sizes.max(initial=0)
+    return np.asarray(large & (phasors.orders <= HIGHEST_ORDER_UNASKED))
+
+
+def choose_orders(found: Spectra) -> Array:
+    """The orders worth showing: those to 2, and all in which some kind is considerable."""
+    due = found.orders <= 2
+    for _, phasors in found.items():
+        due |= mark_considerable(phasors)
+    return found.orders[due]
+
+
+def merge_orders(*several: Iterable[float]) -> Array:
+    """All orders of several, ascending, each once."""
+    # np.union1d would import masked arrays, which takes longer than all the rest
+    return np.array(sorted({float(order) for orders in several for order in orders}))

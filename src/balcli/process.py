@@ -1,0 +1,51 @@
+"""What the system does to the process: signals that end it, and standard streams that are closed.
+
+Little is imported here, for until `end_on_signals` has been called, Ctrl-C is a traceback.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from contextlib import suppress
+
+unfinished: set[str] = set()  # temporary files, which nobody finds there once the process has ended
+
+
+def end_on_signals() -> None:
+    """Let Ctrl-C, SIGTERM and SIGHUP end the process without a word, at any instant: exit status
+    128 and the signal's number, as in a shell. What was ignored from the start (`nohup`) still is.
+    """
+    for name in ("SIGINT", "SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)  # Windows has no SIGHUP
+        if number is not None and signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, _end)
+
+
+def _end(number: int, _frame: object) -> None:
+    """Not by an exception: what is being imported, or deleted, would swallow or wrap it."""
+    for path in tuple(unfinished):
+        with suppress(OSError):  # not made yet, or in its place already
+            os.unlink(path)
+    os._exit(128 + number)
+
+
+def open_closed_streams() -> None:
+    """Put something in the place of standard streams that are closed (`>&-`), which Python has as
+    None: where reading or writing fails with an OSError, as it does for every other program.
+
+    No file that is opened later gets the number of a standard stream either.
+    """
+    for number, name, ways in (
+        (0, "stdin", (os.O_WRONLY, "r")),
+        (1, "stdout", (os.O_RDONLY, "w")),
+        (2, "stderr", (os.O_RDWR, "w")),  # what cannot be said is not
+    ):
+        if getattr(sys, name) is None:
+            found = os.open(os.devnull, ways[0])
+            if found != number:
+                os.dup2(found, number)
+                os.close(found)
+            stream = open(number, ways[1], encoding="utf-8", closefd=False)  # noqa: SIM115 (stays)
+            setattr(sys, name, stream)

@@ -1,0 +1,340 @@
+"""What a person reads of field balancing: how angles count, corrections, what the shop does, and
+the readings before and after.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from ..field_balancing.balance import (
+    FieldBalance,
+    Piece,
+    PlaneCorrection,
+    find_angle_deg,
+    find_eccentricity,
+)
+from .csv import Rows
+from .figures import clean
+from .sheet import Facts, Grid, Sheet, Text, degrees, number
+from .units import System
+
+_HEADER = ("part", "speed_rpm", "name", "figure", "value", "unit")
+_WAY = {"with": "the way the rotor turns", "against": "against the way the rotor turns"}
+
+
+def sheet(result: FieldBalance, system: System) -> Sheet:
+    """Everything, the corrections first; units are those of the file, not of a system."""
+    file = result.file
+    parts: list[Grid | Facts | Text] = [_angles(result), _corrections(result)]
+    if file.places or file.drill:
+        parts.append(_work(result))
+    if file.grade is not None:
+        parts.append(_permitted(result))
+    parts += [_readings(result), _influence(result)]
+    title = f"{file.name or 'rotor without a name'}: field balancing"
+    return Sheet(title, tuple(parts))
+
+
+def find_senses(result: FieldBalance) -> tuple[str, str]:
+    """Whether phases of readings and angles of weights count "with" or "against" rotation."""
+    phases = "against" if result.file.rotation == "lag" else "with"
+    return phases, result.file.weights or phases
+
+
+def _angles(result: FieldBalance) -> Text:
+    phases, weights = find_senses(result)
+    same = "as phases do" if phases == weights else "the other way round than phases"
+    senses = (
+        f"Phases of readings {result.file.rotation}: they count {phases} rotation. Angles of "
+        f"weights count {weights} rotation, {same}:"
+    )
+    picture = f"a weight at 30 deg stands 30 deg on from the 0 mark, going {_WAY[weights]}."
+    return Text("How angles count", (senses, picture))
+
+
+def _corrections(result: FieldBalance) -> Grid:
+    file, trimmed = result.file, result.influence.trimmed
+    heads = ["plane", f"weight, {file.weight_unit}", "at, deg"]
+    if trimmed:
+        heads += [f"add now, {file.weight_unit}", "at, deg"]
+    moments = all(p.unbalance is not None for p in result.planes) and file.radius is not None
+    if moments:
+        heads += ["radius, mm", "unbalance, g·mm"]
+    heads += ["own effect"]
+
+    def row(p: PlaneCorrection) -> tuple[str, ...]:
+        cells = [p.plane, *_polar(p.total)]
+        if trimmed:
+            cells += _polar(p.step)
+        if moments and file.radius is not None and p.unbalance is not None:
+            radius = file.radius[file.planes.index(p.plane)]
+            cells += [number(radius, 4), number(p.unbalance, 4)]
+        return (*cells, f"{p.own:.0%}{', at its limit' if p.limited else ''}")
+
+    marked = {(k, 1) for k, p in enumerate(result.planes) if p.limited}
+    note = "Weights to add, counted from the rotor as found, all trial weights off. "
+    if trimmed:
+        note += f"Add now: on top of what was on in '{trimmed}'. "
+    note += f"Own effect: what no other plane can do; condition {number(result.condition, 3)}."
+    left_out = [plane for plane in file.planes if plane not in {p.plane for p in result.planes}]
+    if left_out:
+        note += f" Left out: {', '.join(left_out)}."
+    return Grid(
+        "Corrections", tuple(heads), tuple(map(row, result.planes)), note, frozenset(marked)
+    )
+
+
+def _polar(value: complex, size: int = 4) -> tuple[str, str]:
+    return number(abs(value), size), degrees(find_angle_deg(value)) if value else "–"
+
+
+def _work(result: FieldBalance) -> Grid:
+    file = result.file
+    drilled = file.drill is not None
+    heads = ["plane", "hole" if drilled else "place", "at, deg", f"weight, {file.weight_unit}"]
+    if drilled:
+        heads += ["drill, mm", "depth, mm"]
+    rows: list[tuple[str, ...]] = []
+    marked: set[tuple[int, int]] = set()
+    for p in result.planes:
+        if p.work.pieces is None:
+            marked.add((len(rows), 3))
+            reach = f"only {number(p.work.reach, 4)} of {number(abs(p.step), 4)} fit here"
+            rows.append((p.plane, "–", "–", reach, *["–"] * (2 * drilled)))
+        for k, piece in enumerate(p.work.pieces or (), 1):
+            cells = [p.plane, str(k), degrees(piece.angle_deg), number(piece.weight, 4)]
+            if file.drill is not None:
+                cells += [f"{file.drill[file.planes.index(p.plane)]:g}", _depth(piece)]
+            rows.append(tuple(cells))
+    what = "Holes to drill" if drilled else "Weights to put on"
+    when = f", on top of '{result.influence.trimmed}'" if result.influence.trimmed else ""
+    note = (
+        "Radial holes in steel, from the rim inwards; each removes this weight, opposite to where "
+        "one would be added."
+        if drilled
+        else "Together they do what the corrections would."
+    )
+    return Grid(f"{what}{when}", tuple(heads), tuple(rows), note, frozenset(marked))
+
+
+def _depth(piece: Piece) -> str:
+    if piece.depth_mm is None or math.isnan(piece.depth_mm):
+        return "too small"
+    return number(piece.depth_mm, 3)
+
+
+def _permitted(result: FieldBalance) -> Grid:
+    file = result.file
+    rows, marked = [], set()
+    for k, p in enumerate(result.planes):
+        if p.permitted is not None:
+            rows.append(
+                (
+                    p.plane,
+                    number(p.permitted.permitted, 4),
+                    number(p.permitted.present, 4),
+                    "reached" if p.permitted.reached else "not reached",
+                )
+            )
+            if not p.permitted.reached:
+                marked.add((k, 3))
+    trimmed = result.influence.trimmed
+    state = f"in '{trimmed}'" if trimmed else "in the rotor as found"
+    eccentricity = number(1e3 * (find_eccentricity(file) or 0.0), 4)
+    return Grid(
+        f"Permitted residual unbalance, ISO 21940-11, G {file.grade:g}",
+        ("plane", "permitted, g·mm", "there now, g·mm", ""),
+        tuple(rows),
+        f"{file.mass:g} kg at {file.speed:g} rpm: {eccentricity} µm. There now: {state}, by its "
+        "readings.",
+        frozenset(marked),
+        words=(0, 3),
+    )
+
+
+def find_label(result: FieldBalance, k: int) -> str:
+    """Name of a reading: its sensor, and its speed where there are several."""
+    influence = result.influence
+    sensor = influence.sensors[k]
+    name = result.file.sensors[sensor] if result.file.sensors else f"sensor {sensor + 1}"
+    several = len(set(influence.speeds_rpm)) > 1
+    return f"{name}, {influence.speeds_rpm[k]:g} rpm" if several else name
+
+
+def _readings(result: FieldBalance) -> Grid:
+    influence, trimmed = result.influence, result.influence.trimmed
+    unit = f", {result.file.unit}" if result.file.unit else ""
+    states = [("as found", influence.found)]
+    if trimmed:
+        states.append((trimmed, influence.now))
+    states.append(("after", result.after))
+    heads = ["reading", *(head for name, _ in states for head in (f"{name}{unit}", "at, deg"))]
+    rows = [
+        (
+            find_label(result, k),
+            *(cell for _, values in states for cell in _polar(complex(values[k]))),
+        )
+        for k in range(len(result.after))
+    ]
+    weighted = " weighted" if result.file.reading_weights else ""
+    note = f"Largest{weighted} after: {number(result.largest, 4)}, rms {number(result.rms, 4)}. "
+    if not result.after.any():
+        note = "All readings are cancelled."
+    elif result.minimise == "max":
+        note += f"No weights leave less than {number(result.bound, 4)} as the largest."
+    else:
+        note += "The sum of their squares is the least possible."
+    return Grid("Readings, predicted after the corrections", tuple(heads), tuple(rows), note)
+
+
+def _influence(result: FieldBalance) -> Grid:
+    planes = [result.file.planes.index(p.plane) for p in result.planes]
+    heads = ["reading"]
+    for p in result.planes:
+        heads += [p.plane, "at, deg"]
+    rows = [
+        (find_label(result, k), *(cell for j in planes for cell in _polar(complex(row[j]), 5)))
+        for k, row in enumerate(result.influence.coefficients)
+    ]
+    note = f"Change of a reading by 1 {result.file.weight_unit} in the plane."
+    if result.influence.trimmed and result.file.influence is None:
+        note += " By least squares over all runs."
+    return Grid("Influence coefficients", tuple(heads), tuple(rows), note)
+
+
+# ------------------------------------------------------------------ for programs
+def document(result: FieldBalance) -> dict[str, Any]:
+    """`balcli.field/1`: readings and weights in the units of the file."""
+    file, influence = result.file, result.influence
+    found: dict[str, Any] = {
+        "format": "balcli.field/1",
+        "name": file.name,
+        "unit": file.unit,
+        "weight_unit": file.weight_unit,
+        "phases": find_senses(result)[0],
+        "weights": find_senses(result)[1],
+        "minimise": result.minimise,
+        "readings": [_reading(result, k) for k in range(len(result.after))],
+        "influence": [
+            [_figures(complex(value)) for value in row] for row in influence.coefficients
+        ],
+        "corrections": [_correction(p, bool(influence.trimmed)) for p in result.planes],
+        "before": [_figures(complex(value)) for value in influence.now],
+        "residual": [_figures(complex(value)) for value in result.after],
+        "largest": clean(result.largest),
+        "rms": clean(result.rms),
+        "condition": _finite(result.condition),
+    }
+    if result.minimise == "max":
+        found["bound"] = clean(result.bound)
+    if influence.trimmed:
+        found["trimmed"] = influence.trimmed
+    eccentricity = find_eccentricity(file)
+    if eccentricity is not None and file.mass is not None:
+        found["permitted"] = {
+            "specific_mm": clean(eccentricity),
+            "unbalance_g_mm": clean(1e3 * file.mass * eccentricity),
+            "planes": [
+                {
+                    "plane": p.plane,
+                    "permitted_g_mm": clean(p.permitted.permitted),
+                    "present_g_mm": clean(p.permitted.present),
+                    "reached": p.permitted.reached,
+                }
+                for p in result.planes
+                if p.permitted is not None
+            ],
+            "reached": result.reached,
+        }
+    return found
+
+
+def _finite(value: float) -> float | None:
+    return clean(value) if math.isfinite(value) else None
+
+
+def _reading(result: FieldBalance, k: int) -> dict[str, Any]:
+    sensor, speed = result.influence.sensors[k], result.influence.speeds_rpm[k]
+    name = result.file.sensors[sensor] if result.file.sensors else f"sensor {sensor + 1}"
+    return {"sensor": name, "speed_rpm": None if speed is None else clean(speed)}
+
+
+def _figures(value: complex) -> dict[str, float | None]:
+    return {
+        "amplitude": clean(abs(value)),
+        "phase_deg": clean(find_angle_deg(value)) if value else None,
+    }
+
+
+def _weight(value: complex) -> dict[str, float | None]:
+    return {
+        "weight": clean(abs(value)),
+        "angle_deg": clean(find_angle_deg(value)) if value else None,
+    }
+
+
+def _correction(p: PlaneCorrection, trimmed: bool) -> dict[str, Any]:
+    found: dict[str, Any] = {"plane": p.plane, **_weight(p.total)}
+    if trimmed:
+        found["add"] = _weight(p.step)
+    if p.unbalance is not None:
+        found["unbalance_g_mm"] = clean(p.unbalance)
+    found |= {"own_effect": clean(p.own), "at_limit": p.limited}
+    if p.work.pieces is None:
+        found["reach"] = _finite(p.work.reach)
+    found["pieces"] = [_piece(piece) for piece in p.work.pieces or ()]
+    return found
+
+
+def _piece(piece: Piece) -> dict[str, float | None]:
+    found = {"weight": clean(piece.weight), "angle_deg": clean(piece.angle_deg)}
+    return found if piece.depth_mm is None else found | {"depth_mm": clean(piece.depth_mm)}
+
+
+def rows(result: FieldBalance, system: System) -> Rows:
+    """Every figure of the document a row, in the units of the file."""
+    return Rows(_HEADER, _lines(result))
+
+
+def _lines(result: FieldBalance) -> Iterator[tuple[Any, ...]]:
+    said = document(result)
+    for p in said["corrections"]:
+        plane = p.pop("plane")
+        yield from _list("correction", None, plane, p, result.file.weight_unit)
+    for kind in ("before", "residual"):
+        for reading, figures in zip(said["readings"], said[kind], strict=True):
+            where = (kind, reading["speed_rpm"], reading["sensor"])
+            yield from _list(*where, figures, result.file.unit or "")
+    for reading, row in zip(said["readings"], said["influence"], strict=True):
+        for plane, figures in zip(result.file.planes, row, strict=True):
+            name = f"{reading['sensor']} by {plane}"
+            yield from _list("influence", reading["speed_rpm"], name, figures, "")
+    for p in said.get("permitted", {}).get("planes", ()):
+        plane = p.pop("plane")
+        yield from _list("permitted", None, plane, p, "")
+    for name in ("condition", "largest", "rms", "bound"):
+        if name in said:
+            yield ("details", None, "", name, said[name], "")
+
+
+def _list(
+    part: str, speed: float | None, name: str, figures: dict[str, Any], unit: str, path: str = ""
+) -> Iterator[tuple[Any, ...]]:
+    for key, value in figures.items():
+        if isinstance(value, dict):
+            yield from _list(part, speed, name, value, unit, f"{path}{key}.")
+        elif isinstance(value, list):
+            for k, item in enumerate(value, 1):
+                yield from _list(part, speed, name, item, unit, f"{path}{key}.{k}.")
+        else:
+            own = {"weight": unit, "amplitude": unit, "reach": unit}.get(key, _unit_of(key))
+            yield part, speed, name, f"{path}{key}", value, own
+
+
+def _unit_of(key: str) -> str:
+    return next((unit for end, unit in _UNITS.items() if key.endswith(end)), "")
+
+
+_UNITS = {"_deg": "deg", "_g_mm": "g mm", "_mm": "mm"}

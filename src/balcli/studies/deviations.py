@@ -1,0 +1,151 @@
+"""Engines of one file whose masses, rod lengths and throw angles deviate, as one engine with the
+samples as its trailing axis.
+
+Every piston, rod and throw deviates by itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from ..core.phasors import Array, Phasors
+from ..engine.build import Engine, build
+from ..engine.layout import plan_cylinders
+from ..enginefile.model import EngineFile
+from ..forces.quantity import Quantity
+from ..forces.spectrum import compute_spectra
+
+What = Literal["piston mass", "rod mass", "throw mass", "rod length", "throw angle"]
+STEP = 1e-3  # of a tolerance, for derivatives; masses act linearly, so that theirs are exact
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    """Largest deviations: of masses and rod lengths relative to themselves, of throw angles in
+    degrees.
+    """
+
+    mass: float = 0.0
+    length: float = 0.0
+    angle_deg: float = 0.0
+
+
+class Source(NamedTuple):
+    """One thing that deviates: what, of which cylinder or throw (counted from 1), and by how
+    much.
+    """
+
+    what: What
+    number: int
+    tolerance: float
+
+    @property
+    def name(self) -> str:
+        """As tables have it: `piston mass 3`."""
+        return f"{self.what} {self.number}"
+
+
+class DeviatingEngine:
+    """An engine file and what may deviate from it.
+
+    Attributes:
+        sources: what deviates; tolerances of 0 and parts without mass are left out.
+    """
+
+    def __init__(self, model: EngineFile, tolerances: Tolerances) -> None:
+        self._engine = build(model, rank=1)
+        cells = {cell.number: cell for cell in plan_cylinders(model.crank, model.layout).cells}
+        self._throws = [cells[number].throw + 1 for number in self._engine.numbers]
+        c = self._engine.cylinders
+        without_pistons = build(_without_pistons(model), rank=1).cylinders
+        without_throws = build(_without_throws(model), rank=1).cylinders
+        self._pistons = self._of_each(c.reciprocating - without_pistons.reciprocating)
+        self._webs = self._of_each(c.rotating - without_throws.rotating)
+        self._small_ends = self._of_each(c.reciprocating) - self._pistons
+        self._big_ends = self._of_each(c.rotating) - self._webs
+        self.sources = tuple(self._find_sources(tolerances))
+
+    def _of_each(self, rows: Array) -> Array:
+        """One row a cylinder, shape (cylinders, 1)."""
+        return np.broadcast_to(rows, (len(self._throws), rows.shape[1]))
+
+    def _find_sources(self, tolerances: Tolerances) -> Iterator[Source]:
+        cylinders = sorted(self._engine.numbers)
+        throws = range(1, max(self._throws) + 1)
+        if mass := tolerances.mass:
+            if self._pistons.any():
+                yield from _of_all("piston mass", cylinders, mass)
+            if self._small_ends.any() or self._big_ends.any():
+                yield from _of_all("rod mass", cylinders, mass)
+            if self._webs.any():
+                yield from _of_all("throw mass", throws, mass)
+        if tolerances.length:
+            yield from _of_all("rod length", cylinders, tolerances.length)
+        if tolerances.angle_deg:
+            yield from _of_all("throw angle", throws, tolerances.angle_deg)
+
+    def deviate(self, deviations: Array) -> Engine:
+        """Engines with deviations of the sources, shape (sources, samples); masses and lengths
+        relative, angles in degrees.
+        """
+        c = self._engine.cylinders
+        rod = self._of_cylinders("rod mass", deviations)
+        piston = self._of_cylinders("piston mass", deviations) * self._pistons
+        web = self._of_cylinders("throw mass", deviations) * self._webs
+        length = 1 + self._of_cylinders("rod length", deviations)
+        cylinders = replace(
+            c,
+            reciprocating=c.reciprocating + piston + rod * self._small_ends,
+            rotating=c.rotating + web + rod * self._big_ends,
+            couple=c.couple * (1 + rod),
+            lam=c.lam / length,
+            eps=c.eps / length,
+            pin_deg=c.pin_deg + self._of_cylinders("throw angle", deviations),
+            linkage=c.linkage and replace(c.linkage, mass=c.linkage.mass * (1 + rod)),
+        )
+        return replace(self._engine, cylinders=cylinders)
+
+    def _of_cylinders(self, what: What, deviations: Array) -> Array:
+        """Deviations as the cylinders have them, shape (cylinders, samples); a single 0 where this
+        does not deviate.
+        """
+        rows = {source.number: k for k, source in enumerate(self.sources) if source.what == what}
+        if not rows:
+            return np.zeros((1, 1))
+        owners = self._throws if what.startswith("throw") else self._engine.numbers
+        return deviations[[rows[owner] for owner in owners]]
+
+    def find_slopes(self, quantity: Quantity) -> tuple[Phasors, Phasors]:
+        """The nominal vectors of a quantity's order, shape (1, 1), and their changes by each
+        source's tolerance, shape (1, sources).
+        """
+        steps = np.diag([STEP * source.tolerance for source in self.sources])
+        up, down, nominal = (
+            compute_spectra(self.deviate(d), [quantity.order], [quantity.kind])[quantity.kind]
+            for d in (steps, -steps, 0 * steps[:, :1])
+        )
+        return nominal, (1 / (2 * STEP)) * (up - down)
+
+
+def _of_all(what: What, numbers: Iterable[int], tolerance: float) -> Iterator[Source]:
+    return (Source(what, number, tolerance) for number in numbers)
+
+
+def _without_pistons(model: EngineFile) -> EngineFile:
+    """The file with all pistons weightless."""
+    overrides = {
+        number: own if own.piston_mass is None else own.model_copy(update={"piston_mass": 0.0})
+        for number, own in model.cylinder.items()
+    }
+    piston = model.piston.model_copy(update={"mass": 0.0})
+    return model.model_copy(update={"piston": piston, "cylinder": overrides})
+
+
+def _without_throws(model: EngineFile) -> EngineFile:
+    """The file with all throws weightless."""
+    crank = model.crank.model_copy(update={"throw_mass": 0.0})
+    return model.model_copy(update={"crank": crank})

@@ -1,0 +1,67 @@
+"""Which designs of an engine fire evenly, and at which angles they do."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.phasors import Array
+from ...engine.build import Engine
+from ...engine.firing import TOLERANCE_DEG
+from ...engine.layout import TURN, cycle_deg
+from ...enginefile.model import EngineFile
+from .angles import Span, neaten
+from .designs import build_candidates
+
+
+def fires_evenly(engine: Engine, model: EngineFile) -> NDArray[np.bool_]:
+    """Whether the cylinders reach top dead centre in turn at even distances (within TOLERANCE_DEG),
+    shape (candidates,).
+    """
+    ready = np.sort(np.mod(_find_top_dead_centres(engine, model) + TOLERANCE_DEG, TURN), axis=0)
+    even = np.sort(np.mod(_list_slots(len(ready), model), TURN))
+    even = even.reshape(-1, *(1,) * (ready.ndim - 1))
+    fits: NDArray[np.bool_] = (np.abs(ready - TOLERANCE_DEG - even) <= TOLERANCE_DEG).all(axis=0)
+    return fits
+
+
+def find_even_angles(
+    model: EngineFile, key: Literal["bank_angle", "splay"], span: Span
+) -> Array | None:
+    """The angles in a span at which the cylinders fire evenly, deg; None if they do at any angle.
+
+    Where the crank stands at a cylinder's top dead centre depends on the angle in proportion: that
+    of one cylinder that moves against cylinder 1 has to be at one of the slots of the cycle_deg.
+    """
+    two = build_candidates(model, {key: np.array([0.0, 1.0])})
+    ready = _find_top_dead_centres(two, model)
+    speeds = np.round(ready[:, 1] - ready[:, 0], 9)
+    moving = np.flatnonzero(speeds)
+    if not len(moving):
+        return None if fires_evenly(two, model).all() else np.empty(0)
+    row = moving[0]
+    turns = TURN * np.arange(-len(ready), len(ready) + 1)
+    places = (_list_slots(len(ready), model) + turns[:, None] - ready[row, 0]) / speeds[row]
+    places = neaten(places[(span.low <= places) & (places <= span.high)])
+    angles = np.unique(span.bring_inside(places))
+    if not len(angles):
+        return angles
+    return angles[fires_evenly(build_candidates(model, {key: angles}), model)]
+
+
+def _list_slots(count: int, model: EngineFile) -> Array:
+    """Where the crank stands at each of so many even firings, deg after the first."""
+    return cycle_deg(model.layout) * np.arange(count) / count
+
+
+def _find_top_dead_centres(engine: Engine, model: EngineFile) -> Array:
+    """Where the crank stands at each cylinder's top dead centre, deg after cylinder 1's, shape
+    (cylinders, *candidates).
+    """
+    c = engine.cylinders
+    # of plain slider-cranks, see engine.tops; the pins of articulated ones are set for their lead
+    late = 0.0 if model.articulation else np.degrees(np.arcsin(c.eps / (1 + c.lam)))
+    ready = c.axis_of_each_deg + late - c.pin_deg
+    return np.asarray(ready - ready[engine.numbers.index(1)])

@@ -1,0 +1,319 @@
+"""Pistons, measured diagrams and gas torque: against geometry, closed forms and 50 digits."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import mpmath as mp
+import numpy as np
+import pytest
+from oracle import gas
+
+from balcli import load
+from balcli.core.combustion import Wiebe
+from balcli.core.cylinder_pressure import (
+    CylinderPressure,
+    GasError,
+    PressureOnPiston,
+    crank_torque,
+    pistons,
+    slider_crank_piston,
+)
+from balcli.core.gas_cycle import Goal, Process, gas_cycle
+from balcli.core.mechanisms import harmonics
+from balcli.core.piecewise import polyline
+from balcli.core.pressure_diagram import PressureDiagram, mistakes, pressure_diagram
+from balcli.core.tangential_force import tangential_torque
+
+ENGINES = Path(__file__).parents[2] / "engines"
+OF_THE_LARGEST = 1e-13
+HALVES = np.arange(49)
+LENGTHS = 0.045, 0.15, 0.086  # radius, rod, bore
+
+
+# ---------------------------------------------------------------- pistons
+@pytest.mark.parametrize("offset", [0.0, 0.02, -0.05])
+def test_an_offset_mechanism_has_its_own_dead_centres(offset):
+    piston = slider_crank_piston(*LENGTHS, offset)
+    with mp.workdps(30):
+        exact = gas.Mechanism(*(mp.mpf(length) for length in (*LENGTHS, offset)))
+        assert piston.top == pytest.approx(float(exact.top), abs=1e-15)
+        assert piston.bottom == pytest.approx(float(exact.bottom), abs=1e-15)
+        assert piston.swept == pytest.approx(float(exact.swept), rel=1e-14)
+        for angle in (0.1, 1.0, 3.0, 5.0, 7.0, -2.0):
+            at = np.array(angle)
+            assert float(piston.travel(at)) == pytest.approx(float(exact.travel(angle)), rel=1e-13)
+            assert float(piston.rate(at)) == pytest.approx(float(exact.rate(angle)), rel=1e-12)
+            volume = float(exact.volume(mp.mpf(angle), 9))
+            assert float(piston.volume(at, 9.0)) == pytest.approx(volume, rel=1e-14)
+    assert piston.clearance(9.0) == pytest.approx(piston.swept / 8, rel=1e-15)
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.03])
+def test_the_angle_of_a_travel(offset):
+    piston = slider_crank_piston(*LENGTHS, offset)
+    for travel in np.linspace(0, piston.stroke, 7):
+        down, up = piston.angle_of(travel), piston.angle_of(travel, upward=True)
+        assert 0 <= down <= piston.bottom <= up <= 2 * np.pi
+        assert piston.travel(np.array([down, up])) == pytest.approx([travel, travel], abs=1e-16)
+
+
+def hung_on_a_master_rod(psi, lead, crank=60.0, rod=240.0, knuckle=52.0, slave=188.0):
+    """Pin path (mm) of an articulated cylinder `lead` deg after its master, the knuckle pin at that
+    angle on the master rod, at its own crank angles psi.
+    """
+    pin = crank * np.exp(1j * (psi + np.radians(lead)))  # in the master's frame
+    foot = pin.real + np.sqrt(rod**2 - pin.imag**2)
+    knuckle_pin = pin + knuckle * np.exp(1j * np.radians(lead)) * (foot - pin) / rod
+    seen = knuckle_pin * np.exp(-1j * np.radians(lead))
+    return seen.real + np.sqrt(slave**2 - seen.imag**2)
+
+
+def test_pistons_of_a_radial_with_a_master_rod():
+    cylinders = load(ENGINES / "radial7_articulated.toml").cylinders
+    found = pistons(cylinders, 0.01)
+    angle = np.linspace(0, 2 * np.pi, 721)
+    leads = np.arange(7) * 360 / 7
+    strokes = []
+    for piston, lead in zip(found, leads, strict=True):
+        if lead == 0:
+            place = lambda c: 60 * np.cos(c) + np.sqrt(240**2 - (60 * np.sin(c)) ** 2)  # noqa: E731
+        else:
+            place = lambda psi, lead=lead: hung_on_a_master_rod(psi, lead)  # noqa: E731
+        top = place(np.array(piston.top))
+        expected = (top - place(angle + piston.top)) / 1e3
+        np.testing.assert_allclose(piston.travel(angle), expected, rtol=0, atol=1e-15)
+        step = 1e-5
+        slope = (place(angle + piston.top - step) - place(angle + piston.top + step)) / 2e3 / step
+        np.testing.assert_allclose(piston.rate(angle), slope, rtol=0, atol=1e-11)
+        assert expected.min() > -1e-15
+        assert piston.stroke == pytest.approx(expected.max(), rel=1e-5)
+        at = np.array([0.0, piston.bottom])
+        assert piston.travel(at) == pytest.approx([0, piston.stroke], abs=1e-15)
+        assert piston.rate(at) == pytest.approx([0, 0], abs=1e-15)
+        strokes.append(piston.stroke)
+    assert np.ptp(strokes) > 4e-4
+
+
+def test_pistons_of_a_rotary_engine_move_as_in_one_that_stands():
+    cylinders = load(ENGINES / "rotary9.toml").cylinders
+    assert cylinders.linkage is not None
+    piston, *others = pistons(cylinders, 0.01)
+    plain = slider_crank_piston(cylinders.radius, cylinders.radius / float(cylinders.lam[0]), 0.1)
+    angle = np.linspace(0, 6, 50)
+    assert len(others) == 8
+    np.testing.assert_allclose(piston.travel(angle), plain.travel(angle), rtol=1e-14)
+
+
+def test_pistons_of_unlike_cylinders_have_their_own_bores():
+    cylinders = load(ENGINES / "vtwin45.toml").cylinders
+    first, second = pistons(cylinders, [0.01, 0.02])
+    assert second.swept == 2 * first.swept
+
+
+# ---------------------------------------------------------------- closed forms
+def steady(pressure, strokes=4):
+    return PressureDiagram(polyline([0, strokes * np.pi], [pressure, pressure]))
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.03])
+def test_a_constant_pressure_has_the_harmonics_of_the_piston(offset):
+    """-s''/r is Re sum c_n e^{i n psi}, so -s' is r Re sum c_n/(i n) e^{i n psi}."""
+    radius, rod, bore = LENGTHS
+    piston = slider_crank_piston(*LENGTHS, offset)
+    found = PressureOnPiston(piston, steady(7e5), crankcase=1e5).harmonics(HALVES)
+    n = np.arange(1, 25)
+    mechanism = harmonics.find_harmonics(n, np.array([radius / rod]), np.array([offset / rod]))
+    turned = mechanism.piston.c[:, 0] / (1j * n) * np.exp(1j * n * piston.top)
+    expected = 6e5 * np.pi / 4 * bore**2 * radius * turned
+    assert np.abs(found[2::2] - expected).max() <= OF_THE_LARGEST * np.abs(expected).max()
+    assert np.abs(found[1::2]).max() <= OF_THE_LARGEST * np.abs(expected).max()
+
+
+CYCLE = gas_cycle(slider_crank_piston(*LENGTHS), Process(10.5), Wiebe(-15, 50), Goal("imep", 10e5))
+TORQUE = PressureOnPiston(slider_crank_piston(*LENGTHS), CYCLE)
+
+
+@pytest.mark.parametrize("fires", [0.3, 5.0, -2.0, 30.0])
+def test_a_cylinder_that_fires_later_has_its_harmonics_turned_back(fires):
+    found = crank_torque([(TORQUE, fires, 1.0)]).harmonics(48)
+    expected = TORQUE.harmonics(HALVES) * np.exp(-0.5j * HALVES * fires)
+    assert np.abs(found - expected).max() <= OF_THE_LARGEST * np.abs(expected).max()
+
+
+def test_even_firing_leaves_the_orders_of_the_firing_frequency_added_up():
+    found = crank_torque([(TORQUE, np.pi * k, 1.0) for k in range(4)]).harmonics(48)
+    one = TORQUE.harmonics(HALVES)
+    left = np.where(HALVES % 4 == 0, 4 * one, 0)
+    assert np.abs(found - left).max() <= OF_THE_LARGEST * np.abs(one).max()
+
+
+def test_a_share_and_what_else_acts_on_the_crank():
+    parts = [(TORQUE, np.pi * k, share) for k, share in enumerate((1.0, 0.0, 0.5, 1.0))]
+    total = crank_torque(parts, lambda angle: 40 * np.sin(2 * angle))
+    angle = np.linspace(0.001, 12.5, 400)
+    expected = sum(share * TORQUE.at(angle - fires) for _, fires, share in parts)
+    expected += 40 * np.sin(2 * angle)
+    np.testing.assert_allclose(total.at(angle), expected, rtol=0, atol=1e-10)
+    assert total.integral == pytest.approx(2.5 * TORQUE.work, rel=1e-12)
+
+
+def test_force_and_torque_of_both_sides_of_a_jump():
+    opens = np.radians(360.0)
+    area = TORQUE.piston.area
+    assert TORQUE.force(opens, before=True) == pytest.approx(0.05e5 * area, rel=1e-9)
+    assert TORQUE.force(opens) == pytest.approx(0, abs=1e-9)
+    angle = np.radians([20.0, 90.0, 450.0])
+    psi = angle
+    lean = np.arcsin(0.3 * np.sin(psi))
+    tangential = np.sin(psi + lean) / np.cos(lean) * 0.045
+    assert TORQUE.at(angle) == pytest.approx(TORQUE.force(angle) * tangential, rel=1e-12)
+
+
+class Rounded(CylinderPressure):
+    """A pressure whose top lies before a corner by a rounding error."""
+
+    breaks = np.array([-np.pi, 0.0, np.pi])
+
+    def at(self, angle, *, before=False):
+        return 1e5 * np.cos(np.asarray(angle) + 1e-10)
+
+
+def test_the_highest_pressure_beside_a_corner_is_at_the_corner():
+    assert Rounded().highest() == (0.0, 1e5)
+
+
+# ---------------------------------------------------------------- measured diagrams
+ROWS = np.array([-180, -90, -40, -12, 0, 7, 15, 40, 90, 130, 165, 200, 300, 359, 420, 500])
+BAR = np.array(
+    [1.1, 1.9, 6.4, 22.7, 34.9, 51.3, 47.0, 20.2, 6.1, 3.9, 2.2, 1.3, 1.1, 1.1, 0.9, 1.0]
+)
+
+
+@pytest.mark.parametrize("offset", [0.0, -0.03])
+@pytest.mark.parametrize("strokes", [4, 2])
+def test_harmonics_of_a_measured_diagram(strokes, offset):
+    rows, bar = (ROWS, BAR) if strokes == 4 else (ROWS[:11], BAR[:11])
+    diagram = pressure_diagram(rows, bar * 1e5, strokes=strokes)
+    found = PressureOnPiston(slider_crank_piston(*LENGTHS, offset), diagram).harmonics(HALVES)
+    halves = HALVES[:: 4 if strokes == 4 else 8]
+    with mp.workdps(gas.DIGITS):
+        corners = [mp.radians(mp.mpf(int(a))) for a in (*rows, rows[0] + 180 * strokes)]
+        values = [mp.mpf(float(b * 1e5)) for b in (*bar, bar[0])]
+        points = []
+        for a, b, p, q in zip(corners, corners[1:], values, values[1:], strict=False):
+            points += gas.law(lambda c, a=a, b=b, p=p, q=q: p + (q - p) * (c - a) / (b - a), a, b)
+        mechanism = gas.Mechanism(*(mp.mpf(length) for length in (*LENGTHS, offset)))
+        exact = gas.Sampled(mechanism, points, strokes * mp.pi)
+        expected = np.array([complex(exact.harmonic(int(h), mp.mpf(1e5))) for h in halves])
+    assert np.abs(found[halves] - expected).max() <= OF_THE_LARGEST * np.abs(found).max()
+
+
+def test_a_fine_diagram_of_a_known_pressure():
+    """A tenth of a degree from row to row; straight lines for the curve err by their sagitta."""
+    rows = np.arange(0, 720, 0.1)
+    diagram = pressure_diagram(rows, CYCLE.at(np.radians(rows)))
+    found = PressureOnPiston(TORQUE.piston, diagram)
+    error = np.abs(found.harmonics(HALVES) - TORQUE.harmonics(HALVES)).max()
+    assert error < 3e-4 * np.abs(TORQUE.harmonics(HALVES)).max()
+    assert found.harmonics([0])[0].real == pytest.approx(
+        found.imep * found.piston.swept / (4 * np.pi)
+    )
+    assert found.pressure.highest().value == CYCLE.at(np.radians(rows)).max()
+
+
+def test_where_a_diagram_begins_does_not_matter():
+    rising = np.argsort(ROWS % 720)
+    turned = pressure_diagram((ROWS % 720)[rising], BAR[rising] * 1e5)
+    first = pressure_diagram(ROWS, BAR * 1e5)
+    angle = np.radians(np.linspace(-800, 800, 333))
+    np.testing.assert_allclose(turned.at(angle), first.at(angle), rtol=1e-12)
+
+
+@pytest.mark.parametrize("firing", [360.0, -3.0])
+def test_a_diagram_that_counts_from_elsewhere(firing):
+    shifted = pressure_diagram(ROWS + firing, BAR * 1e5, firing_deg=firing)
+    first = pressure_diagram(ROWS, BAR * 1e5)
+    assert shifted.breaks == pytest.approx(first.breaks)
+    assert shifted.highest() == (pytest.approx(np.radians(7)), 51.3e5)
+
+
+def test_the_first_of_two_rows_at_the_ends_of_the_period_holds():
+    diagram = pressure_diagram([*ROWS, 540], [*BAR * 1e5, 1.5e5])
+    assert diagram.closing_step == pytest.approx(0.4e5)
+    np.testing.assert_array_equal(diagram.breaks, pressure_diagram(ROWS, BAR * 1e5).breaks)
+    assert diagram.at(np.radians([540.0, -180.0])).tolist() == [1.1e5, 1.1e5]
+    before = float(diagram.at(np.radians(540.0), before=True))
+    assert before == 1.1e5
+    assert pressure_diagram(ROWS, BAR).closing_step == 0
+
+
+WRONG = {
+    "too few": ([0], [1e5], [(None, "has 1 rows; a cycle of 720° needs more")]),
+    "pressure": (
+        ROWS,
+        np.where(BAR == 6.1, -0.2, BAR) * 1e5,
+        [(8, "the absolute pressure is -0.2 bar: give 0 or more")],
+    ),
+    "falling": (
+        np.where(ROWS == 7, -5, ROWS),
+        BAR,
+        [(5, "the angle -5° does not exceed the 0° before it")],
+    ),
+    "too long": (
+        np.arange(0, 760, 20),
+        np.ones(38),
+        [(None, "covers 740°; a cycle of 4 strokes has 720°")],
+    ),
+    "gap": (
+        np.delete(np.arange(0, 720, 20), [4, 5]),
+        np.ones(34),
+        [(4, "lies 60° after the row before it: give rows at most 30° apart")],
+    ),
+    "gap at the end": (
+        np.arange(0, 660, 20),
+        np.ones(33),
+        [(None, "covers 640° of 720°, a gap of 80° at its end: give rows at most 30° apart")],
+    ),
+    "nothing": (np.arange(0, 721, 20), np.ones(37), []),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_mistakes_of_a_diagram(case):
+    angle, pressure, expected = WRONG[case]
+    found = [tuple(mistake) for mistake in mistakes(angle, pressure)]
+    if case == "pressure":
+        found = [mistake for mistake in found if "apart" not in mistake[1]]
+    assert found == expected
+
+
+# ---------------------------------------------------------------- builders' tables
+def test_a_table_of_tangential_pressures():
+    given = tangential_torque(
+        [0, 0.5, 1, 4], [2e5, 1e5, -3e4, 0], [7.0, 2e5, 1e4, 5e3], area=0.005, radius=0.04
+    )
+    assert given.harmonics([0, 1, 2, 3, 8]) == pytest.approx(
+        0.005 * 0.04 * np.array([2e5, 1e5 - 2e5j, -3e4 - 1e4j, 0, -5e3j])
+    )
+    angle = np.linspace(0, 12, 31)
+    table = 2e5 + 1e5 * np.cos(angle / 2) + 2e5 * np.sin(angle / 2)
+    table += -3e4 * np.cos(angle) + 1e4 * np.sin(angle) + 5e3 * np.sin(4 * angle)
+    np.testing.assert_allclose(given.at(angle), 2e-4 * table, rtol=1e-12)
+    assert given.work == pytest.approx(2e-4 * 2e5 * 4 * np.pi)
+    assert given.curve.integral == pytest.approx(given.work)
+    np.testing.assert_allclose(given.curve.harmonics(8), given.harmonics(np.arange(9)), atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("order", "strokes", "text"),
+    [
+        (0.3, 4, "has order 0.3: a cycle of 4 strokes has multiples of 0.5"),
+        (1.5, 2, "has order 1.5: a cycle of 2 strokes has multiples of 1"),
+        (-1.0, 4, "has order -1: a cycle of 4 strokes has multiples of 0.5"),
+    ],
+)
+def test_orders_that_a_cycle_does_not_have(order, strokes, text):
+    with pytest.raises(GasError, match=f"^{text}$") as refused:
+        tangential_torque([0, order], [1, 1], [0, 0], area=1, radius=1, strokes=strokes)
+    assert refused.value.field == "harmonics"

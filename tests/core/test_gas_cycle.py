@@ -1,0 +1,334 @@
+"""Computed cycles against arithmetic of 50 digits (`oracle/gas.py`), and what they refuse."""
+
+from __future__ import annotations
+
+import mpmath as mp
+import numpy as np
+import pytest
+from oracle import gas
+
+from balcli.core.combustion import Diesel, Dual, Otto, Wiebe
+from balcli.core.cylinder_pressure import GasError, PressureOnPiston, slider_crank_piston
+from balcli.core.gas_cycle import Goal, Process, gas_cycle, mistakes
+
+OF_THE_LARGEST = 1e-13  # harmonics
+RELATIVE = 1e-13  # imep
+LENGTHS = 0.045, 0.15, 0.086  # radius, rod, bore
+HALVES = [0, 1, 2, 3, 8, 31, 48]
+SPARK, DIESEL = {"compression_ratio": 10.5}, {"compression_ratio": 17.0}
+LATE = {"exhaust_opens_deg": 140.0, "intake_closes_deg": 580.0}
+PORTS = {"exhaust_opens_deg": 110.0, "strokes": 2}
+
+
+@pytest.fixture(autouse=True)
+def _digits():
+    with mp.workdps(gas.DIGITS):
+        yield
+
+
+def reference(process, burn, heat, offset):
+    p, angle = process, lambda degrees: mp.radians(mp.mpf(degrees))
+    match burn:
+        case Wiebe(start, duration, shape):
+            kind = ("wiebe", angle(start), angle(duration), mp.mpf(shape))
+        case Otto():
+            kind = ("otto",)
+        case _:
+            pressure = getattr(burn, "max_pressure", None)
+            kind = ("limited", pressure and mp.mpf(pressure))
+    valves = {
+        name: angle(value)
+        for name, value in (("opens", p.exhaust_opens_deg), ("closes", p.intake_closes_deg))
+        if value is not None
+    }
+    return gas.computed(
+        gas.Mechanism(*(mp.mpf(length) for length in LENGTHS), mp.mpf(offset)),
+        kind,
+        mp.mpf(heat),
+        strokes=p.strokes,
+        ratio=mp.mpf(p.compression_ratio),
+        nc=mp.mpf(p.compression_index),
+        ne=mp.mpf(p.expansion_index),
+        intake=mp.mpf(p.intake),
+        exhaust=mp.mpf(p.exhaust),
+        **valves,
+    )
+
+
+CASES = {
+    "otto": (SPARK, Otto(), ("imep", 10e5), 0.0),
+    "otto two-stroke": (SPARK | PORTS, Otto(), ("max_pressure", 55e5), 0.012),
+    "diesel": (DIESEL | LATE, Diesel(), ("imep", 8e5), 0.0),
+    "dual": (DIESEL | LATE, Dual(90e5), ("imep", 12e5), 0.01),
+    "wiebe": (SPARK | LATE, Wiebe(-15, 50), ("imep", 10e5), 0.0),
+    "wiebe with an offset": (SPARK, Wiebe(-15, 50), ("max_pressure", 60e5), -0.02),
+    "wiebe two-stroke": (DIESEL | PORTS, Wiebe(-8, 45, 0.5), ("heat", 900.0), 0.0),
+    "wiebe after the dead centre": (SPARK, Wiebe(4, 60, 1.5), ("imep", 6e5), 0.0),
+    "wiebe before the dead centre": (SPARK, Wiebe(-60, 50, 0), ("max_pressure", 70e5), 0.0),
+    "wiebe, steep": (
+        SPARK | {"compression_index": 1.0, "expansion_index": 1.4},
+        Wiebe(-15, 50, 9),
+        ("imep", 10e5),
+        0.0,
+    ),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_harmonics_and_imep(case):
+    given, burn, goal, offset = CASES[case]
+    process = Process(**given)
+    cycle = gas_cycle(slider_crank_piston(*LENGTHS, offset), process, burn, Goal(*goal))
+    torque = PressureOnPiston(slider_crank_piston(*LENGTHS, offset), cycle, crankcase=0.9e5)
+    exact = reference(process, burn, cycle.heat, offset)
+    expected = np.array([complex(exact.harmonic(h, mp.mpf(0.9e5))) for h in HALVES])
+    if process.strokes == 2:
+        expected[np.array(HALVES) % 2 == 1] = 0
+    error = np.abs(torque.harmonics(HALVES) - expected).max()
+    assert error <= OF_THE_LARGEST * np.abs(expected).max()
+    assert cycle.imep == pytest.approx(float(exact.imep), rel=RELATIVE)
+    assert torque.imep == pytest.approx(float(exact.imep), rel=RELATIVE)
+    mean = torque.harmonics([0])[0].real
+    work = cycle.imep * torque.piston.swept
+    assert mean * 2 * np.pi * process.strokes / 2 == pytest.approx(work, rel=1e-12)
+    if goal[0] == "imep":
+        assert cycle.imep == pytest.approx(goal[1], rel=RELATIVE)
+    if goal[0] == "max_pressure":
+        assert cycle.highest().value == pytest.approx(goal[1], rel=1e-12)
+
+
+# ---------------------------------------------------------------- pressures
+PISTON = slider_crank_piston(*LENGTHS)
+
+
+def cycle_of(burn, name, value, **given):
+    return gas_cycle(
+        PISTON, Process(**({"compression_ratio": 10.0} | given)), burn, Goal(name, value)
+    )
+
+
+def test_pressures_of_an_otto_cycle():
+    cycle = cycle_of(Otto(), "max_pressure", 60e5, **LATE)
+    at = np.radians([-140.0, 0.0, 140.0, 360.0, 580.0, 719.999999])
+    ratio = PISTON.volume(at, 10.0) / PISTON.clearance(10.0)
+    compressed = 1e5 * ratio[0] ** 1.32
+    after, before = cycle.at(at), cycle.at(at, before=True)
+    expected = [1e5, 60e5, 1.05e5, 1e5, 1e5, compressed]
+    assert after == pytest.approx(expected, rel=1e-12)
+    expected = [1e5, compressed, 60e5 / ratio[2] ** 1.28, 1.05e5, 1e5, compressed]
+    assert before == pytest.approx(expected, rel=1e-12)
+    assert cycle.highest() == (0.0, pytest.approx(60e5, rel=1e-14))
+
+
+@pytest.mark.parametrize("strokes", [4, 2])
+@pytest.mark.parametrize("ratio", [10.0, 14.0, 16.0, 20.0])
+def test_a_diesel_cycle_has_its_highest_pressure_from_the_dead_centre_on(ratio, strokes):
+    """From the dead centre itself, not from a rounding error before it."""
+    piston = slider_crank_piston(0.04, 0.14, 0.08)
+    process = Process(ratio, strokes=strokes)
+    cycle = gas_cycle(piston, process, Diesel(), Goal("imep", 8e5))
+    assert cycle.highest() == (0.0, pytest.approx(1e5 * ratio**1.32, rel=1e-12))
+
+
+def test_the_ports_of_a_two_stroke_close_where_the_piston_stands_as_when_they_opened():
+    cycle = cycle_of(Otto(), "max_pressure", 60e5, strokes=2, exhaust_opens_deg=110.0, intake=1.2e5)
+    assert np.degrees(cycle.breaks) == pytest.approx([-110, 0, 110, 250])
+    assert cycle.at(np.radians([111, 180, 249])) == pytest.approx(np.full(3, 1.2e5))
+
+
+def test_without_a_valve_time_the_lower_dead_centre():
+    piston = slider_crank_piston(*LENGTHS, 0.02)
+    cycle = gas_cycle(piston, Process(10.0), Otto(), Goal("heat", 500.0))
+    lower = np.degrees(piston.bottom)
+    assert lower != pytest.approx(180, abs=1)
+    assert np.degrees(cycle.breaks) == pytest.approx([lower - 360, 0, lower, 360, lower + 360])
+
+
+@pytest.mark.parametrize(
+    ("burn", "given"),
+    [
+        (Otto(), {"max_pressure", "heat", "imep"}),
+        (Diesel(), {"cut_off", "heat", "imep"}),
+        (Dual(70e5), {"cut_off", "heat", "imep"}),
+        (Wiebe(-15, 50), {"max_pressure", "heat", "imep"}),
+    ],
+)
+def test_every_goal_leads_to_the_same_cycle(burn, given):
+    first = cycle_of(burn, "imep", 9e5, compression_ratio=16.0)
+    top = first.highest().value
+    width = PISTON.volume(first.breaks[2], 16.0) / PISTON.clearance(16.0)
+    known = {"imep": 9e5, "heat": first.heat, "max_pressure": top, "cut_off": float(width)}
+    assert set(burn.goals) == given
+    for name in burn.goals:
+        again = cycle_of(burn, name, known[name], compression_ratio=16.0)
+        assert again.heat == pytest.approx(first.heat, rel=1e-11)
+        assert again.imep == pytest.approx(9e5, rel=1e-11)
+
+
+def test_without_heat_a_cycle_only_pumps():
+    motored = cycle_of(Otto(), "heat", 0.0, compression_index=1.3, expansion_index=1.3)
+    assert motored.imep == pytest.approx(-0.05e5, rel=1e-10)
+
+
+def test_a_burn_that_ends_before_the_dead_centre_has_its_highest_pressure_there():
+    cycle = cycle_of(Wiebe(-60, 50), "max_pressure", 80e5)
+    assert cycle.highest() == (pytest.approx(0, abs=1e-7), pytest.approx(80e5, rel=1e-12))
+
+
+# ---------------------------------------------------------------- what is refused
+REFUSED = {
+    "goal": (
+        {},
+        Diesel(),
+        ("max_pressure", 60e5),
+        "max_pressure: does not make a diesel cycle: give imep, heat or cut_off",
+    ),
+    "ratio": (
+        {"compression_ratio": 0.9},
+        Otto(),
+        ("imep", 10e5),
+        "compression_ratio: is 0.9: give more than 1",
+    ),
+    "compression index": (
+        {"compression_index": 0.5},
+        Otto(),
+        ("imep", 10e5),
+        "compression_index: is 0.5: give 1 or more",
+    ),
+    "expansion index": (
+        {"expansion_index": 1.0},
+        Otto(),
+        ("imep", 10e5),
+        "expansion_index: is 1: give more than 1",
+    ),
+    "exhaust": (
+        {"exhaust_opens_deg": 400.0},
+        Wiebe(-15, 50),
+        ("imep", 10e5),
+        "exhaust_opens: is 400°: give a cycle angle above 0° and up to 360°, the gas-exchange dead centre",
+    ),
+    "exhaust of a two-stroke": (
+        {"exhaust_opens_deg": 190.0, "strokes": 2},
+        Otto(),
+        ("imep", 10e5),
+        "exhaust_opens: is 190°: give a cycle angle above 0° and up to 180°, the lower dead centre",
+    ),
+    "intake": (
+        {"intake_closes_deg": 220.0},
+        Otto(),
+        ("imep", 10e5),
+        "intake_closes: is 220°: give a cycle angle from 360°, the gas-exchange dead centre, to below 720°",
+    ),
+    "intake of a two-stroke": (
+        {"intake_closes_deg": 240.0, "strokes": 2},
+        Otto(),
+        ("imep", 10e5),
+        "intake_closes: has no meaning in a two-stroke cycle, whose ports close where the exhaust opened: "
+        "leave it out",
+    ),
+    "a burn past the exhaust": (
+        {"exhaust_opens_deg": 110.0},
+        Wiebe(10, 120),
+        ("imep", 10e5),
+        "burn_duration: a burn over 120° from 10° ends at 130°, past 110°, where the exhaust opens",
+    ),
+    "a burn before compression": (
+        {"intake_closes_deg": 600.0},
+        Wiebe(-130, 100),
+        ("imep", 10e5),
+        "burn_start: is -130°, before -120°, where compression begins",
+    ),
+    "no duration": (
+        {},
+        Wiebe(-10, 0),
+        ("imep", 10e5),
+        "burn_duration: is 0°: give more than 0°",
+    ),
+    "shape": (
+        {},
+        Wiebe(-10, 50, -0.5),
+        ("imep", 10e5),
+        "burn_shape: is -0.5: give 0 or more",
+    ),
+    "imep too low": (
+        {},
+        Otto(),
+        ("imep", -1e5),
+        "imep: is -1 bar: with the least heat the cycle has 0.1075 bar",
+    ),
+    "imep too high": (
+        {},
+        Diesel(),
+        ("imep", 40e5),
+        "imep: is 40 bar: with the most heat the cycle has 17.06 bar",
+    ),
+    "pressure too low": (
+        {},
+        Otto(),
+        ("max_pressure", 15e5),
+        "max_pressure: is 15 bar, below the 20.89 bar of compression alone",
+    ),
+    "pressure of a gradual burn too low": (
+        {},
+        Wiebe(-15, 50),
+        ("max_pressure", 15e5),
+        "max_pressure: is 15 bar, below the 20.74 bar of compression alone",
+    ),
+    "pressure of a late burn below that of compression": (
+        {},
+        Wiebe(20, 50),
+        ("max_pressure", 20e5),
+        "max_pressure: is 20 bar, below the 20.89 bar of compression alone",
+    ),
+    "limit too low": (
+        {},
+        Dual(15e5),
+        ("imep", 10e5),
+        "max_pressure: is 15 bar, below the 20.89 bar of compression alone",
+    ),
+    "heat too little": (
+        {},
+        Dual(60e5),
+        ("heat", 100.0),
+        "heat: is 100: this cycle needs 811.3 or more",
+    ),
+    "negative heat": ({}, Otto(), ("heat", -1.0), "heat: is -1: this cycle needs 0 or more"),
+    "cut-off too small": (
+        {},
+        Diesel(),
+        ("cut_off", 0.5),
+        "cut_off: is 0.5: this cycle needs 1 or more",
+    ),
+    "cut-off too large": (
+        {"exhaust_opens_deg": 110.0},
+        Diesel(),
+        ("cut_off", 12.0),
+        "cut_off: is 12: with more than 7.647 the exhaust opens during the burn",
+    ),
+    "heat too much": (
+        {"exhaust_opens_deg": 110.0},
+        Diesel(),
+        ("heat", 9000.0),
+        "heat: is 9000: with more than 3688 the exhaust opens during the burn",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_cannot_be_is_refused_by_the_name_of_the_value(case):
+    given, burn, goal, text = REFUSED[case]
+    with pytest.raises(GasError) as refused:
+        cycle_of(burn, *goal, **given)
+    assert f"{refused.value.field}: {refused.value}" == text
+
+
+def test_all_mistakes_at_once():
+    process = Process(0.5, expansion_index=0.9, exhaust_opens_deg=-3.0, intake_closes_deg=900.0)
+    found = mistakes(PISTON, process, Otto(), Goal("cut_off", 2.0))
+    assert [mistake.field for mistake in found] == [
+        "cut_off",
+        "compression_ratio",
+        "expansion_index",
+        "exhaust_opens",
+        "intake_closes",
+    ]

@@ -1,0 +1,174 @@
+"""Piecewise curves against closed forms and against mpmath."""
+
+from __future__ import annotations
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+from balcli.core import piecewise
+from balcli.core.piecewise import PiecewiseCurve, gauss, merged_breaks, polyline, resolved
+
+EPS = float(np.finfo(float).eps)
+RELATIVE = 1e-13
+TURN = 2 * np.pi
+
+
+@pytest.mark.parametrize("count", [1, 2, 5, 16, 40])
+def test_gauss_nodes_and_weights_are_those_of_the_legendre_polynomial(count):
+    nodes, weights = gauss(count)
+    with mp.workdps(40):
+        exact = [mp.findroot(lambda x: mp.legendre(count, x), x) for x in nodes.tolist()]
+        slopes = [mp.diff(lambda x: mp.legendre(count, x), x) for x in exact]
+        rule = [2 / ((1 - x * x) * d * d) for x, d in zip(exact, slopes, strict=True)]
+    assert nodes == pytest.approx([float(x) for x in exact], abs=4 * EPS)
+    assert weights == pytest.approx([float(w) for w in rule], rel=1e-13)
+    assert np.all(np.diff(nodes) > 0)
+
+
+# ---------------------------------------------------------------- smooth functions
+def smooth(angle):
+    """Its Fourier coefficients are 2 I_k(1), those of e^{cos x}."""
+    return np.exp(np.cos(angle))
+
+
+def bessel(k):
+    return float(mp.besseli(k, 1))
+
+
+@pytest.mark.parametrize("breaks", [[0, TURN], [-1.0, 0.3, 2.0, TURN - 1.0]])
+def test_harmonics_of_a_smooth_function(breaks):
+    found = resolved(smooth, breaks).harmonics(60)
+    assert found[0] == pytest.approx(bessel(0), rel=RELATIVE)
+    expected = np.array([2 * bessel(k) for k in range(1, 61)])
+    np.testing.assert_allclose(found[1:], expected, rtol=0, atol=1e-14)
+
+
+def test_harmonics_so_high_that_a_panel_holds_many_waves_of_them():
+    """|sin x| has 4/(pi (1 - k^2)) in the even k, and nothing in the odd ones."""
+    curve = resolved(lambda x: np.abs(np.sin(x)), [0, np.pi, TURN])
+    found, k = curve.harmonics(801), np.arange(2, 801, 2)
+    np.testing.assert_allclose(found[2::2], 4 / (np.pi * (1 - k**2.0)), rtol=0, atol=2e-14)
+    assert np.abs(found[1::2]).max() < 2e-14
+
+
+def test_values_mean_and_integral():
+    curve, angle = resolved(smooth, [0, 1, TURN]), np.linspace(-20, 20, 501).reshape(3, 167)
+    np.testing.assert_allclose(curve.at(angle), smooth(angle), rtol=1e-13)
+    np.testing.assert_allclose(curve.at(angle, before=True), smooth(angle), rtol=1e-13)
+    assert curve.period == pytest.approx(TURN)
+    assert curve.mean == pytest.approx(bessel(0), rel=RELATIVE)
+    assert curve.integral == pytest.approx(TURN * bessel(0), rel=RELATIVE)
+    assert curve.plus(3.0).mean == pytest.approx(bessel(0) + 3, rel=RELATIVE)
+    assert curve.at(0.0).shape == ()
+
+
+def test_the_integral_from_the_first_breakpoint_on():
+    done = resolved(lambda x: np.cos(3 * x), [0.5, 2.0, TURN + 0.5]).antiderivative()
+    angle = np.linspace(0.5, TURN + 0.49, 200)
+    exact = (np.sin(3 * angle) - np.sin(1.5)) / 3
+    np.testing.assert_allclose(done.at(angle), exact, rtol=0, atol=3e-14)
+
+
+@pytest.mark.parametrize("power", [0.5, 1.3, 2.5])
+def test_a_branch_point_at_a_breakpoint(power):
+    """Panels are halved towards it until nothing is missing."""
+    curve = resolved(lambda x: x**power, [0.0, 1.0])
+    assert curve.integral == pytest.approx(1 / (power + 1), rel=1e-13)
+    angle = np.geomspace(1e-6, 0.999, 60)
+    np.testing.assert_allclose(curve.at(angle), angle**power, rtol=0, atol=1e-13)
+
+
+def test_panels_end_where_the_function_is_no_better_than_its_own_noise():
+    noise = np.random.default_rng(1)
+    rough = resolved(lambda x: np.sin(x) + 1e-11 * noise.uniform(-1, 1, x.shape), [0, TURN])
+    assert len(rough.breaks) < 400
+    np.testing.assert_allclose(rough.harmonics(3), [0, -1j, 0, 0], rtol=0, atol=1e-10)
+
+
+def test_many_pieces_have_few_terms_and_lose_nothing():
+    breaks = np.linspace(0, TURN, 1001)
+    curve = resolved(smooth, breaks)
+    assert len(curve.series) == piecewise._FEW_TERMS
+    np.testing.assert_allclose(
+        curve.harmonics(24)[1:], [2 * bessel(k) for k in range(1, 25)], rtol=0, atol=1e-14
+    )
+
+
+# ---------------------------------------------------------------- extremes
+def test_extremes_are_found_between_the_nodes():
+    lowest, highest = resolved(lambda x: np.sin(x) + 0.3 * np.cos(2 * x), [0, TURN]).extremes()
+    assert lowest.angle == pytest.approx(3 * np.pi / 2, abs=1e-12)
+    assert lowest.value == pytest.approx(-1.3, rel=1e-14)
+    assert np.sin(highest.angle) == pytest.approx(1 / 1.2, rel=1e-12)
+    assert highest.value == pytest.approx(1 / 1.2 + 0.3 * (1 - 2 / 1.44), rel=1e-14)
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.1, 2.0])
+def test_of_equal_extremes_the_first(shift):
+    lowest, highest = resolved(lambda x: np.cos(4 * (x - shift)), [0, TURN]).extremes()
+    assert highest.angle == pytest.approx(shift % (np.pi / 2), abs=1e-7)
+    assert lowest.angle == pytest.approx((shift + np.pi / 4) % (np.pi / 2), abs=1e-7)
+
+
+def test_an_extreme_in_the_middle_of_a_panel():
+    """Where a node is, and the derivative exactly 0."""
+    curve = PiecewiseCurve(np.array([0.0, 2.0]), np.array([[0.0], [0.0], [-1.0]]))
+    lowest, highest = curve.extremes()
+    assert highest == (1.0, 0.5)
+    assert lowest == (0.0, -1.0)
+
+
+def test_a_jump_has_its_extremes_at_both_sides():
+    curve = polyline([0, 1, 1, 2, 3], [0, 4, -3, 1, 0])
+    lowest, highest = curve.extremes()
+    assert highest == (1.0, 4.0)
+    assert lowest == (1.0, -3.0)
+
+
+def test_reversals_are_changes_of_sign_jumps_included_and_rounding_errors_not():
+    assert resolved(lambda x: np.cos(3 * x), [0, TURN]).reversals() == 6
+    assert resolved(lambda x: np.cos(3 * x) + 1.01, [0, TURN]).reversals() == 0
+    assert polyline([0, 1, 1, 2], [1, 1, -1, -1]).reversals() == 2
+    noise = np.random.default_rng(2)
+    flat = resolved(
+        lambda x: np.where(x < np.pi, np.sin(x), 1e-13 * noise.uniform(-1, 1, x.shape)),
+        [0, np.pi, TURN],
+    )
+    assert flat.reversals() == 0
+
+
+# ---------------------------------------------------------------- polylines
+def test_a_polyline_is_exact():
+    curve = polyline([0, 1, 1, 3, 4], [0, 2, 5, 1, 0])
+    assert curve.integral == 1 + 6 + 0.5
+    assert [float(curve.at(a)) for a in (0.5, 1, 2, 3.5, 4)] == [1, 5, 3, 0.5, 0]
+    assert [float(curve.at(a, before=True)) for a in (0.5, 1, 2, 4)] == [1, 2, 3, 0]
+    assert [float(curve.at(a + 8, before=True)) for a in (0.5, 1, 2)] == [1, 2, 3]
+    done = curve.antiderivative()
+    assert [float(done.at(a)) for a in (0.5, 1, 2)] == pytest.approx([0.25, 1, 5], rel=1e-15)
+    assert done.extremes()[1].value == pytest.approx(7.5, rel=1e-15)
+
+
+def test_harmonics_of_a_triangle_wave():
+    found = polyline([0, np.pi, TURN], [1, -1, 1]).harmonics(9)
+    expected = [8 / (np.pi * k) ** 2 if k % 2 else 0 for k in range(10)]
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-15)
+
+
+# ---------------------------------------------------------------- breakpoints
+@pytest.mark.parametrize("turns", [-3, 0, 1, 7])
+def test_a_breakpoint_is_itself_however_many_turns_off_and_however_rounded(turns):
+    breaks = np.radians([-180.0, 0.0, 140.0, 360.0, 540.0])
+    curve = polyline(np.repeat(breaks, 2)[1:-1], [1, 1, 2, 2, 3, 3, 4, 4])
+    angle = np.radians(np.array([-180.0, 0.0, 140.0, 360.0]) + 720 * turns)
+    assert curve.at(angle).tolist() == [1, 2, 3, 4]
+    assert curve.at(angle, before=True).tolist() == [4, 1, 2, 3]
+
+
+def test_breakpoints_of_a_sum():
+    a, b = np.array([-1.0, 0.0, 2.0, 3.0]), np.array([0.0, 1.0, 4.0])
+    assert merged_breaks([(a, 0.0)], 4.0).tolist() == [0, 2, 3, 4]
+    assert merged_breaks([(a, 0.5), (b, 1e-13), (b, 3.0)], 4.0) == pytest.approx(
+        [0, 0.5, 1, 2.5, 3, 3.5, 4]
+    )

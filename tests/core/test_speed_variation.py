@@ -1,0 +1,176 @@
+"""Speed of a shaft from energy, against 50 digits and against the equation of motion."""
+
+from __future__ import annotations
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+from balcli.core.piecewise import polyline, resolved
+from balcli.core.speed_variation import (
+    StallError,
+    energy,
+    needed_inertia,
+    small_fluctuation,
+    speed_variation,
+    surplus,
+)
+
+TURN = 2 * np.pi
+MEAN = 30.0  # rad/s
+
+
+def torque(angle):
+    """Its integral, for the 50 digits, is WORK."""
+    return 20 + 300 * np.sin(angle) + 200 * np.cos(2 * angle)
+
+
+def work(angle):
+    return 300 * (1 - mp.cos(angle)) + 100 * mp.sin(2 * angle)
+
+
+TORQUE = resolved(torque, [0, TURN])
+
+
+# ---------------------------------------------------------------- energy
+def test_surplus_energy_is_between_the_extremes_of_the_running_sum():
+    """Slowest at 270 deg; fastest where sin x = (3 + sqrt 41)/8 > 1, so at 90 deg."""
+    found = surplus(resolved(lambda x: np.cos(x) * (3 + np.sin(x)) + 5, [0, TURN]))
+    assert found.energy == pytest.approx(6, rel=1e-14)
+    assert np.degrees(found.start) == pytest.approx(270, abs=1e-9)
+    assert np.degrees(found.end) == pytest.approx(90, abs=1e-9)
+    assert found.work == pytest.approx(5 * TURN, rel=1e-14)
+
+
+def test_surplus_is_no_single_loop_and_no_work_of_a_cycle():
+    """Two loops of 2 and 3 with a dip of 1 between them make 4, not 3 and not the sum of gains."""
+    loops = polyline([0, 1, 1, 2, 2, 3, 3, 5], [2, 2, -1, -1, 3, 3, -2, -2])
+    found = surplus(loops)
+    assert found == (
+        pytest.approx(4),
+        pytest.approx(0),
+        pytest.approx(3),
+        pytest.approx(0, abs=1e-15),
+    )
+
+
+def test_of_equal_extremes_the_first():
+    found = surplus(resolved(lambda x: np.sin(4 * x), [0, TURN]))
+    assert (found.start, found.end) == (pytest.approx(0, abs=1e-7), pytest.approx(np.pi / 4))
+
+
+def test_running_energy_returns_after_a_period():
+    done = energy(TORQUE)
+    assert float(done.at(TURN, before=True)) == pytest.approx(0, abs=1e-11)
+
+
+# ---------------------------------------------------------------- speed
+@pytest.mark.parametrize("inertia", [50.0, 4.0, 0.95, 0.7])
+def test_exact_fluctuation_of_a_constant_inertia(inertia):
+    """From 0.015 to 1.3; the extremes are where 300 sin x + 200 cos 2x = 0."""
+    with mp.workdps(30):
+        sine = (3 - mp.sqrt(41)) / 8
+        still = [mp.pi - mp.asin(sine), 2 * mp.pi + mp.asin(sine)]
+        parts = [mp.mpf(0), 1, 2, still[0], 4, 5, still[1], 2 * mp.pi]
+
+        def speed(constant, angle):
+            return mp.sqrt((constant + 2 * work(angle)) / inertia)
+
+        def excess(constant):
+            return mp.quad(lambda a: speed(constant, a), parts) / (2 * mp.pi) - MEAN
+
+        found = speed_variation(TORQUE, inertia, MEAN)
+        guess = inertia * mp.mpf(found.highest.value) ** 2 - 2 * work(still[0])
+        constant = mp.findroot(excess, (guess, guess * (1 + mp.mpf("1e-9"))))
+        highest, lowest = (float(speed(constant, a)) for a in still)
+    assert found.fluctuation == pytest.approx((highest - lowest) / MEAN, rel=1e-11)
+    assert found.highest == pytest.approx((float(still[0]), highest), rel=1e-10)
+    assert found.lowest == pytest.approx((float(still[1]), lowest), rel=1e-8)
+    assert found.speed.mean == pytest.approx(MEAN, rel=1e-13)
+
+
+def moving(angle):
+    """Inertia of a piston and of what turns."""
+    return 1.5 + 0.4 * np.cos(2 * angle) + 0.1 * np.sin(angle)
+
+
+def test_a_varying_inertia_against_the_equation_of_motion():
+    """d(omega^2)/dtheta = (2 (T - T_load) - I' omega^2)/I in steps of Runge and Kutta."""
+    found = speed_variation(TORQUE, moving, MEAN)
+    steps = 4000
+    width = TURN / steps
+
+    def rate(angle, square):
+        slope = -0.8 * np.sin(2 * angle) + 0.1 * np.cos(angle)
+        return (2 * (torque(angle) - 20) - slope * square) / moving(angle)
+
+    square = [float(found.speed.at(0.0)) ** 2]
+    for k in range(steps):
+        angle, now = k * width, square[-1]
+        first = rate(angle, now)
+        second = rate(angle + width / 2, now + width / 2 * first)
+        third = rate(angle + width / 2, now + width / 2 * second)
+        last = rate(angle + width, now + width * third)
+        square.append(now + width / 6 * (first + 2 * second + 2 * third + last))
+    omega = np.sqrt(square)
+    assert omega[-1] == pytest.approx(omega[0], rel=1e-10)
+    assert omega[:-1].mean() == pytest.approx(MEAN, rel=1e-10)
+    assert np.ptp(omega) / MEAN == pytest.approx(found.fluctuation, rel=1e-5)
+    assert np.ptp(omega) / MEAN <= found.fluctuation * (1 + 1e-10)
+    assert omega.argmax() * width == pytest.approx(found.highest.angle, abs=width)
+    assert omega.argmin() * width == pytest.approx(found.lowest.angle, abs=width)
+
+
+def test_small_fluctuations_are_those_of_the_textbooks():
+    exact = speed_variation(TORQUE, 5000.0, MEAN).fluctuation
+    small = small_fluctuation(surplus(TORQUE).energy, 5000.0, MEAN)
+    assert exact == pytest.approx(small, rel=1e-4)
+    exact = speed_variation(TORQUE, 1.0, MEAN).fluctuation
+    assert small_fluctuation(surplus(TORQUE).energy, 1.0, MEAN) < 0.95 * exact
+
+
+def test_an_even_torque_leaves_an_even_speed():
+    still = speed_variation(polyline([0, TURN], [50.0, 50.0]), 3.0, MEAN)
+    assert still.fluctuation == pytest.approx(0, abs=1e-15)
+    assert still.highest.value == pytest.approx(MEAN, rel=1e-15)
+
+
+# ---------------------------------------------------------------- flywheels
+@pytest.mark.parametrize("fluctuation", [1e-4, 0.005, 0.2, 0.9])
+def test_the_needed_inertia_has_the_fluctuation(fluctuation):
+    inertia = needed_inertia(TORQUE, MEAN, fluctuation)
+    found = speed_variation(TORQUE, inertia, MEAN).fluctuation
+    assert found == pytest.approx(fluctuation, rel=1e-10)
+
+
+def test_moving_parts_are_part_of_it():
+    inertia = needed_inertia(TORQUE, MEAN, 0.1, moving)
+    found = speed_variation(TORQUE, lambda angle: inertia + moving(angle), MEAN)
+    assert found.fluctuation == pytest.approx(0.1, rel=1e-10)
+
+
+def test_moving_parts_that_do_better_alone():
+    assert needed_inertia(TORQUE, MEAN, 0.1, 50.0) == pytest.approx(
+        needed_inertia(TORQUE, MEAN, 0.1) - 50, rel=1e-10
+    )
+    assert needed_inertia(TORQUE, MEAN, 0.1, 50.0) < 0
+    assert needed_inertia(polyline([0, TURN], [9.0, 9.0]), MEAN, 0.1, 2.0) == pytest.approx(-2)
+
+
+@pytest.mark.parametrize("fluctuation", [1.6, 1.75, 1.9, 2.0, 5.0])
+def test_a_fluctuation_beyond_the_stall_needs_what_does_not_stall(fluctuation):
+    inertia = needed_inertia(TORQUE, MEAN, fluctuation)
+    assert speed_variation(TORQUE, inertia, MEAN).fluctuation < fluctuation
+    with pytest.raises(StallError):
+        speed_variation(TORQUE, inertia * (1 - 1e-9), MEAN)
+
+
+def test_a_shaft_stalls_where_it_is_slowest():
+    with pytest.raises(StallError) as stalled:
+        speed_variation(TORQUE, 0.5, MEAN)
+    assert np.degrees(stalled.value.angle) == pytest.approx(334.8246, abs=1e-3)
+    assert str(stalled.value) == (
+        "the shaft stalls at 334.8°: with this inertia it needs a mean speed above 327.7 rpm"
+    )
+    barely = stalled.value.least * (1 + 1e-9)
+    assert speed_variation(TORQUE, 0.5, barely).lowest.value < 0.01 * barely

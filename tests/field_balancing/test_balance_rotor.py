@@ -1,0 +1,276 @@
+"""Planted unbalance is found: with trial weights on and off, at several speeds, in either sense of
+angles, with a correction in; and what cannot be found is refused.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from support.rotors import head, names, polar, random_rotor, run, table, three_runs
+
+from balcli.core.drilled_hole import STEEL
+from balcli.errors import BalcliError
+from balcli.field_balancing.balance import balance_rotor, find_doubts
+from balcli.field_balancing.read import parse_runs
+
+RELATIVE = 1e-12
+
+
+def totals(text: str, **options):
+    return np.array([p.total for p in balance_rotor(parse_runs(text), **options).planes])
+
+
+def agree(found, planted, coefficients) -> bool:
+    """Within rounding errors, which the condition makes larger."""
+    condition = np.linalg.cond(coefficients)
+    return np.abs(found - planted).max() <= RELATIVE * condition * np.abs(planted).max()
+
+
+SIZES = [(p, r) for p in range(2, 7) for r in (2, 4, 7, 12, 24) if r >= p]
+
+
+@pytest.mark.parametrize(("planes", "readings"), SIZES)
+@pytest.mark.parametrize("keep", [False, True])
+def test_planted_unbalance_is_found(planes, readings, keep):
+    """Runs with one trial weight each, taken off or left in."""
+    alpha, excess = random_rotor(planes * 100 + readings, readings, planes)
+    trials = np.exp(1j * np.arange(planes)) * 0.7
+    text, on = head(planes), np.zeros(planes, dtype=complex)
+    text += run(alpha @ excess)
+    for k, name in enumerate(names(planes)):
+        on = on if keep else np.zeros(planes, dtype=complex)
+        on[k] += trials[k]
+        text += run(alpha @ (excess + on), [(name, trials[k])], f"keep_trial = {str(keep).lower()}")
+    assert agree(totals(text), -excess, alpha)
+    assert agree(totals(text, minimise="max"), -excess, alpha)
+
+
+def test_two_speeds_are_solved_together():
+    """Two planes at two speeds, one sensor at each: neither speed alone tells both weights."""
+    alpha, excess = random_rotor(1, 2, 2)
+    text = head(2)
+    for states in ([], [("p1", 0.5)], [("p2", 0.5j)]):
+        on = np.array([dict(states).get(name, 0) for name in names(2)])
+        for speed, row in ((1500, 0), (3000, 1)):
+            text += run([alpha[row] @ (excess + on)], states, f"speed = {speed}")
+    assert agree(totals(text), -excess, alpha)
+
+
+@pytest.mark.parametrize("rotation", ["lag", "lead"])
+@pytest.mark.parametrize("sense", ["with", "against"])
+def test_senses_of_angles(rotation, sense):
+    """Of a rotor in real angles with rotation; what is read and written counts as the file says."""
+    alpha, excess = random_rotor(2, 3, 2)
+    readings = np.conj if rotation == "lag" else np.asarray
+    weights = np.conj if sense == "against" else np.asarray
+    trial = np.array([0.4 + 0.3j, -0.2 + 0.5j])
+    text = head(2, f'rotation = "{rotation}"\nweights = "{sense}"') + run(readings(alpha @ excess))
+    for k, name in enumerate(names(2)):
+        on = np.where(np.arange(2) == k, trial, 0)
+        text += run(readings(alpha @ (excess + on)), [(name, complex(weights(trial)[k]))])
+    assert agree(totals(text), weights(-excess), alpha)
+
+
+def test_without_a_sense_of_weights_they_count_as_phases_do():
+    same = three_runs('rotation = "lag"')
+    assert np.array_equal(totals(same), totals(three_runs('rotation = "lag"\nweights = "against"')))
+    assert np.array_equal(totals(same), totals(three_runs('rotation = "lead"\nweights = "with"')))
+
+
+def test_a_run_with_the_correction_in_makes_it_better():
+    """An exact rotor: the trim cancels what the first, misread correction left."""
+    alpha, excess = random_rotor(3, 4, 2)
+    first = -excess * 1.1 + 0.05
+    text = head(2) + run(alpha @ excess)
+    for k, name in enumerate(names(2)):
+        text += run(alpha @ (excess + np.eye(2)[k]), [(name, 1.0)])
+    text += run(alpha @ (excess + first), list(zip(names(2), first, strict=True)), 'name = "in"')
+    result = balance_rotor(parse_runs(text))
+    assert result.influence.trimmed == "in"
+    assert agree(np.array([p.step for p in result.planes]), -excess - first, alpha)
+    assert agree(np.array([p.total for p in result.planes]), -excess, alpha)
+
+
+def test_coefficients_after_a_correction_are_least_squares_over_all_runs():
+    """One plane, one sensor, by hand: readings 4, 5, 1 at weights 0, 1, -2; the slope of the
+    regression line is 19/14, and the correction goes on from 1 at -2.
+    """
+    text = head(1) + run([4]) + run([5], [("p1", 1)]) + run([1], [("p1", -2)])
+    result = balance_rotor(parse_runs(text))
+    assert result.influence.coefficients[0, 0] == pytest.approx(19 / 14, rel=1e-13)
+    assert result.planes[0].step == pytest.approx(-14 / 19, rel=1e-13)
+    assert result.planes[0].total == pytest.approx(-2 - 14 / 19, rel=1e-13)
+
+
+def test_weights_of_readings():
+    """One plane: the mean of what two sensors want, weighted by the squares."""
+    text = 'planes = ["p1"]\ninfluence = [["1 @ 0"], ["1 @ 0"]]\n'
+    runs = run([1, 4])
+    assert totals(text + runs)[0] == pytest.approx(-2.5, rel=1e-13)
+    assert totals(text + "reading_weights = [1, 2]\n" + runs)[0] == pytest.approx(
+        -17 / 5, rel=1e-13
+    )
+
+
+def test_a_plane_that_is_left_out():
+    alpha, excess = random_rotor(4, 5, 3)
+    text = head(3, f"influence = [{', '.join(map(table, alpha))}]") + run(alpha @ excess)
+    expected = np.linalg.lstsq(alpha[:, [0, 2]], -alpha @ excess, rcond=None)[0]
+    assert totals(text, without=["p2"]) == pytest.approx(expected, rel=1e-11)
+
+
+def test_the_largest_weight_of_a_plane():
+    free = totals(three_runs())
+    result = balance_rotor(parse_runs(three_runs("most = [1.5, 5]")))
+    assert abs(result.planes[0].total) == pytest.approx(1.5, rel=1e-10)
+    assert [p.limited for p in result.planes] == [True, False]
+    assert abs(free[0]) > 1.5
+    assert result.rms > 1
+
+
+# ------------------------------------------------------------------ the shop
+def test_drilled_holes_remove_what_weights_would_add():
+    """The steel of all holes, from the rim inwards, has the unbalance of the correction."""
+    text = three_runs(
+        "radius = [90, 80]\nplaces = [12, [0, 60, 120, 180, 240, 300]]\n"
+        "drill = [6, 8]\ndeepest = [12, 20]"
+    )
+    for p, rim, drill in zip(balance_rotor(parse_runs(text)).planes, (90, 80), (6, 8), strict=True):
+        removed = 0
+        for piece in p.work.pieces:
+            area, depth = math.pi * (drill / 2e3) ** 2, piece.depth_mm / 1e3
+            unbalance = STEEL * area * depth * (rim / 1e3 - depth / 2)
+            removed += unbalance * np.exp(1j * np.radians(piece.angle_deg))
+        assert -removed == pytest.approx(p.total * 1e-3 * rim / 1e3, rel=1e-9)
+
+
+def test_holes_no_deeper_than_allowed_need_more_of_them():
+    one = "radius = [90, 90]\nplaces = [24, 24]\ndrill = [6, 6]"
+    free = balance_rotor(parse_runs(three_runs(one))).planes[0]
+    shallow = balance_rotor(parse_runs(three_runs(one + "\ndeepest = [3, 3]"))).planes[0]
+    assert len(free.work.pieces) == 2
+    assert len(shallow.work.pieces) > 2
+    assert max(piece.depth_mm for piece in shallow.work.pieces) <= 3 * (1 + 1e-9)
+
+
+def test_what_does_not_fit_says_how_much_would():
+    work = balance_rotor(parse_runs(three_runs("places = [4, 4]\nmost = [1, 5]"))).planes[0].work
+    assert work.pieces is None
+    assert 0.9 < work.reach < 1.98
+
+
+def test_unbalances_instead_of_weights():
+    """230 g mm is 1.15 g at 200 mm; grades permit the same."""
+    grade = "grade = 6.3\nmass = 120\nspeed = 3000\nshares = [1, 3]\n"
+    grams = balance_rotor(parse_runs(three_runs(grade + "radius = [200, 200]")))
+    text = three_runs(grade + 'weight_unit = "g mm"').replace("1.15 @", "230 @")
+    moments = balance_rotor(parse_runs(text))
+    whole = 120e3 * 6.3 / (100 * math.pi)
+    for one, other, share in zip(grams.planes, moments.planes, (1 / 4, 3 / 4), strict=True):
+        assert one.unbalance == pytest.approx(other.unbalance, rel=1e-12)
+        assert one.unbalance == pytest.approx(200 * abs(one.total), rel=1e-12)
+        assert one.permitted.permitted == pytest.approx(whole * share, rel=1e-12)
+        assert one.permitted.present == pytest.approx(other.permitted.present, rel=1e-12)
+    assert grams.reached
+
+
+def test_ounces():
+    ounces = balance_rotor(parse_runs(three_runs('weight_unit = "oz"\nradius = [100, 100]')))
+    assert ounces.planes[0].unbalance == pytest.approx(28.349523125 * 100 * 1.97946764, rel=1e-8)
+
+
+# ------------------------------------------------------------------ doubts and refusals
+def test_doubts():
+    text = head(2) + run([10, 10]) + run([10.5, 10], [("p1", 1)]) + run([10.5, 10.1], [("p2", 1)])
+    small, far, *_ = find_doubts(balance_rotor(parse_runs(text)))[-4:]
+    assert small == (
+        "the trial weight in p1 changes no reading by more than 0.5, 5% of the largest; a heavier "
+        "one tells more"
+    )
+    assert far == (
+        "the correction of 80 g in p1 is 80 times the largest weight tried there; put it on, read "
+        "again, and add that run to the file"
+    )
+    assert find_doubts(balance_rotor(parse_runs(three_runs()))) == []
+
+
+def test_planes_that_are_nearly_alike_are_doubted():
+    text = head(2, 'influence = [["1 @ 0", "1 @ 0"], ["1 @ 0", "1.1 @ 0"]]') + run([1, 2])
+    (doubt,) = find_doubts(balance_rotor(parse_runs(text)))
+    assert doubt.startswith(
+        "planes p1 and p2 act nearly alike: only 4.8% of what one does is its own"
+    )
+    assert doubt.endswith("try --without p1")
+
+
+def refused(text: str, **options) -> str:
+    with pytest.raises(BalcliError) as caught:
+        balance_rotor(parse_runs(text), name="runs.toml", **options)
+    return str(caught.value)
+
+
+REFUSED = [
+    (
+        head(2) + run([1, 2]) + run([2, 2], [("p1", 1)]),
+        "runs.toml: run: there is no trial weight in p2; add a run with one, such as weights = { p2 "
+        '= "10 @ 0" }, give influence, or leave the plane out with --without p2',
+    ),
+    (
+        head(2) + run([1, 2], [("p2", 1)]) + run([2, 2], [("p1", 1)]),
+        "runs.toml: run.1: has weights, and so has every other run; give the readings of the rotor "
+        "as found, in a run without weights",
+    ),
+    (
+        head(2)
+        + run([1, 2])
+        + run([2, 2], [("p1", 1), ("p2", 1)])
+        + run([2, 2], [("p1", 2), ("p2", 2)]),
+        "runs.toml: run: the trial weights in p1 and p2 are never apart, so what each does cannot be "
+        "told; of 3 runs here, 3 that differ are needed: one as found, and one for each plane",
+    ),
+    (
+        head(2) + run([1]) + run([2], [("p1", 1)]) + run([3], [("p2", 1)]),
+        "runs.toml: planes: 2 planes cannot be told apart by 1 reading; add sensors or speeds, or "
+        "leave 1 plane out with --without",
+    ),
+    (
+        head(2) + run([1, 2]) + run([2, 3], [("p1", 1)]) + run([3, 4], [("p2", 1)]),
+        "runs.toml: planes: p1 and p2 depend on one another: what one does, the others do as well, at "
+        "every sensor and speed; leave one out, such as --without p2",
+    ),
+    (
+        head(2) + run([1, 2]) + run([1, 2], [("p1", 1)]) + run([3, 4], [("p2", 1)]),
+        "runs.toml: planes: a weight in p1 changes no reading, so none can be found for it; use a "
+        "heavier trial weight, or --without p1",
+    ),
+]
+
+
+@pytest.mark.parametrize(("text", "message"), REFUSED)
+def test_runs_that_do_not_tell_are_refused(text, message):
+    assert refused(text) == message
+
+
+def test_planes_to_leave_out_must_be_there():
+    assert refused(three_runs(), without=["reer"]) == (
+        '--without "reer": is no plane; there are front, rear. Did you mean rear?'
+    )
+    assert refused(three_runs(), without=["rear", "front"]) == (
+        "--without: leaves no plane to put a weight in"
+    )
+
+
+def test_a_rotor_without_unbalance_needs_nothing():
+    text = head(1, 'influence = [["1 @ 0"]]') + run([0])
+    for minimise in ("squares", "max"):
+        result = balance_rotor(parse_runs(text), minimise)
+        assert result.planes[0].total == 0
+        assert result.largest == 0
+
+
+def test_polar_of_the_tests_is_read_back():
+    (one,) = parse_runs(head(1) + run([3 - 4j])).run[0].readings
+    assert one == pytest.approx(3 - 4j, rel=1e-15)
+    assert polar(5j) == "5 @ 90"

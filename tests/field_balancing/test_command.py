@@ -1,0 +1,194 @@
+"""`balcli field`: every format says the same figures; files to start from, the schema, pictures and
+exit statuses.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+import tomllib
+from io import StringIO
+
+import pytest
+from support.commands import refusal, run_here
+from support.rotors import three_runs
+
+from balcli.field_balancing.read import parse_runs
+from balcli.field_balancing.starting_file import read_starting_file
+
+SHOP = """
+name = "fan"
+unit = "um"
+weights = "with"
+radius = [200, 200]
+places = [12, [0, 90]]
+drill = [4, 4]
+deepest = [20, 3]
+grade = 6.3
+mass = 120
+speed = 3000
+"""
+
+
+@pytest.fixture
+def runs(tmp_path):
+    path = tmp_path / "runs.toml"
+    path.write_text(three_runs(SHOP), encoding="utf-8")
+    return path
+
+
+def test_the_sheet_says_how_angles_count_and_what_to_do(runs):
+    status, out, err = run_here("field", runs)
+    assert (status, err) == (0, "")
+    assert (
+        "a weight at 30 deg stands 30 deg on from the 0 mark, going the way the rotor turns." in out
+    )
+    assert re.search(r"^front +1\.979 +123\.8 +200 +395\.9 +86%$", out, re.MULTILINE)
+    assert re.search(r"^rear +– +– +only [\d.]+ of 1\.071 fit here", out, re.MULTILINE)
+    assert re.search(r"^sensor 1 +170 +112\.0 +0 +–$", out, re.MULTILINE)
+
+
+def test_senses_are_said_the_other_way_round_too(tmp_path):
+    path = tmp_path / "runs.toml"
+    path.write_text(three_runs('weights = "against"'), encoding="utf-8")
+    assert (
+        "30 deg on from the 0 mark, going against the way the rotor turns."
+        in run_here("field", path).out
+    )
+
+
+def test_json_is_what_it_promises(runs):
+    said = json.loads(run_here("field", runs, "-f", "json").out)
+    assert said["format"] == "balcli.field/1"
+    front, rear = said["corrections"]
+    assert (front["plane"], front["weight"]) == ("front", pytest.approx(1.979467642, rel=1e-9))
+    assert front["angle_deg"] == pytest.approx(360 - 236.1703733, rel=1e-9)
+    assert front["pieces"][0].keys() == {"weight", "angle_deg", "depth_mm"}
+    assert rear["pieces"] == []
+    assert rear["reach"] < rear["weight"]
+    assert said["influence"][0][0] == {
+        "amplitude": pytest.approx(78.43258624, rel=1e-9),
+        "phase_deg": pytest.approx(58.37900733, rel=1e-9),
+    }
+    assert said["residual"] == [{"amplitude": 0, "phase_deg": None}] * 2
+    assert said["permitted"]["unbalance_g_mm"] == pytest.approx(2406.42, rel=1e-5)
+    assert said["permitted"]["reached"] is True
+    assert "bound" not in said
+    best = json.loads(run_here("field", runs, "-f", "json", "--minimise", "max").out)
+    assert best["bound"] == 0
+
+
+def test_csv_has_every_figure_of_json(runs):
+    said = json.loads(run_here("field", runs, "-f", "json").out)
+    lines = list(csv.DictReader(StringIO(run_here("field", runs, "-f", "csv").out)))
+    found = {(r["part"], r["name"], r["figure"]): (r["value"], r["unit"]) for r in lines}
+    front = said["corrections"][0]
+    assert found["correction", "front", "weight"] == (str(front["weight"]), "g")
+    depth = front["pieces"][1]["depth_mm"]
+    assert found["correction", "front", "pieces.2.depth_mm"] == (str(depth), "mm")
+    assert found["before", "sensor 2", "phase_deg"] == (str(said["before"][1]["phase_deg"]), "deg")
+    assert found["permitted", "rear", "reached"] == ("true", "")
+    assert found["influence", "sensor 1 by rear", "amplitude"][0] == str(
+        said["influence"][0][1]["amplitude"]
+    )
+
+
+def test_a_trim_is_shown_beside_the_total(tmp_path):
+    path = tmp_path / "runs.toml"
+    last = '[[run]]\nname = "in"\nweights = { front = "2 @ 236", rear = "1 @ 122" }\nreadings = ["9 @ 40", "6 @ 310"]'
+    path.write_text(three_runs(last=last), encoding="utf-8")
+    out = run_here("field", path, "-f", "markdown").out
+    assert "add now, g" in out
+    assert "on top of what was on in 'in'" in out
+    said = json.loads(run_here("field", path, "-f", "json").out)
+    assert said["trimmed"] == "in"
+    assert said["corrections"][0]["add"]["weight"] < 1
+
+
+def test_check(runs, tmp_path):
+    assert run_here("field", runs, "--check").status == 0
+    strict = tmp_path / "strict.toml"
+    strict.write_text(three_runs(SHOP).replace("6.3", "0.4"), encoding="utf-8")
+    status, out, _ = run_here("field", strict, "--check")
+    assert status == 1
+    assert "not reached" in out
+    plain = tmp_path / "plain.toml"
+    plain.write_text(three_runs(), encoding="utf-8")
+    assert refusal("field", plain, "--check") == (
+        f"{plain}: --check needs a grade, such as grade = 6.3, and mass and speed"
+    )
+
+
+@pytest.mark.parametrize("form", ["svg", "png", "pdf"])
+def test_picture(runs, tmp_path, form):
+    picture = tmp_path / f"polar.{form}"
+    assert run_here("field", runs, "--plot", picture).status == 0
+    begin = {"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF"}[form]
+    content = picture.read_bytes()
+    assert content.startswith(begin)
+    if form == "svg":
+        for words in (
+            "phases count against rotation",
+            "angles count with rotation",
+            "sensor 1: 170",
+        ):
+            assert words.encode() in content
+
+
+def test_pictures_have_no_other_form(runs, tmp_path):
+    message = refusal("field", runs, "--plot", tmp_path / "x.gif")
+    assert "a picture is written as .svg, .png or .pdf" in message
+    assert "stays as it is" in refusal("field", runs, "-o", runs)
+
+
+def test_mistakes_of_the_file_and_standard_input(runs, tmp_path):
+    text = runs.read_text(encoding="utf-8")
+    assert run_here("field", "-", stdin=text).out == run_here("field", runs).out
+    assert refusal("field", tmp_path / "none.toml").endswith("none.toml: no such file")
+    bad = text.replace("53 @ 78", "53")
+    assert refusal("field", "-", stdin=bad).startswith(
+        "standard input: run.1.readings: the 2nd value"
+    )
+
+
+def test_doubts_are_warnings(tmp_path):
+    path = tmp_path / "runs.toml"
+    path.write_text(three_runs().replace("235 @ 94", "171 @ 112").replace("58 @ 68", "53 @ 78"))
+    status, _, err = run_here("field", path)
+    assert status == 0
+    assert err.startswith(f"warning: {path}: the trial weight in front changes no reading")
+
+
+# ------------------------------------------------------------------ to start from
+OPTION = re.compile(r"^# *(\[\[run\]\]|[a-z_]+ *= .*)", re.MULTILINE)
+
+
+def test_the_starting_file_balances_and_all_its_options_can_be_switched_on(tmp_path):
+    path = tmp_path / "runs.toml"
+    assert run_here("new", "field", path) == (0, "", "")
+    status, _, err = run_here("field", path)
+    assert (status, err) == (0, "")
+    text = read_starting_file()
+    assert path.read_text(encoding="utf-8") == text
+    keys = tomllib.loads(OPTION.sub(r"\1", text).replace("speed  = 2900", ""))
+    assert len(keys["run"]) == 4
+    assert {"places", "drill", "deepest", "most", "shares", "reading_weights"} <= keys.keys()
+    everything = (
+        OPTION.sub(r"\1", text).replace("speed  = 2900", "").replace("keep_trial = true", "")
+    )
+    assert parse_runs(everything).run[3].name == "correction in"
+
+
+def test_the_starting_file_is_short_enough_for_a_screen():
+    assert max(map(len, read_starting_file().splitlines())) <= 130
+
+
+def test_the_schema_names_every_key():
+    described = json.loads(run_here("schema", "field").out)
+    assert described["title"] == "balcli file of runs"
+    example = tomllib.loads(read_starting_file())
+    assert set(example) <= set(described["properties"])
+    assert all(key.get("description") for key in described["properties"].values())
+    assert described["required"] == ["planes", "run"]
+    assert json.loads(run_here("schema").out)["title"] == "balcli engine file"

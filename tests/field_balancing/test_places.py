@@ -1,0 +1,78 @@
+"""A weight spread over places: it adds up, is the lightest, and what cannot be is said."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from balcli.field_balancing.places import find_reach, split_weight
+
+
+def total(placed):
+    return sum(p.weight * np.exp(1j * np.radians(p.angle_deg)) for p in placed)
+
+
+def test_two_neighbours_share_by_the_law_of_sines():
+    """30 deg between holes at 0 and 90: cos 30 and sin 30."""
+    at = split_weight(10 * np.exp(1j * np.pi / 6), np.array([0.0, 90, 180, 270]), np.inf)
+    assert [p.angle_deg for p in at] == [0, 90]
+    assert [p.weight for p in at] == pytest.approx([10 * np.sqrt(0.75), 5], rel=1e-12)
+
+
+def test_a_place_that_is_just_right_takes_all():
+    (one,) = split_weight(-3j, np.arange(0.0, 360, 30), 5)
+    assert one.angle_deg == 270
+    assert one.weight == pytest.approx(3, rel=1e-12)
+
+
+def lightest(wanted, angles, most):
+    """The least total of all basic solutions: two places free, every other empty or full."""
+    unit, best = np.exp(1j * np.radians(angles)), np.inf
+    for i, j in combinations(range(len(angles)), 2):
+        others = [k for k in range(len(angles)) if k not in (i, j)]
+        system = np.array([[unit[i].real, unit[j].real], [unit[i].imag, unit[j].imag]])
+        if abs(np.linalg.det(system)) < 1e-9:
+            continue
+        for filled in range(2 ** len(others)):
+            full = [k for n, k in enumerate(others) if filled >> n & 1]
+            rest = wanted - most * unit[full].sum()
+            free = np.linalg.solve(system, [rest.real, rest.imag])
+            if free.min() >= -1e-9 and free.max() <= most * (1 + 1e-9):
+                best = min(best, most * len(full) + free.sum())
+    return best
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_it_is_the_lightest_within_the_limit(seed):
+    rng = np.random.default_rng(seed)
+    angles = rng.uniform(0, 360, 7)
+    wanted, most = complex(*rng.normal(size=2)), float(rng.uniform(0.2, 1))
+    placed, best = split_weight(wanted, angles, most), lightest(wanted, angles, most)
+    if placed is None:
+        assert best == np.inf
+        assert find_reach(wanted, angles, most) < abs(wanted)
+        return
+    assert total(placed) == pytest.approx(wanted, rel=1e-9)
+    assert max(p.weight for p in placed) <= most * (1 + 1e-9)
+    assert sum(p.weight for p in placed) == pytest.approx(best, rel=1e-9)
+
+
+def test_reach():
+    square = np.array([0.0, 90, 180, 270])
+    assert split_weight(3 + 0j, square, 2) is None
+    assert find_reach(3 + 0j, square, 2) == pytest.approx(2, rel=1e-8)
+    assert find_reach(3 + 3j, square, 2) == pytest.approx(2 * np.sqrt(2), rel=1e-8)
+    assert find_reach(-1 + 0j, np.array([-60.0, 0, 60]), np.inf) == 0
+    assert split_weight(0j, square, 1) == ()
+
+
+def test_many_places_of_small_weights():
+    """720 of them, of which an arc is full: quick, and right."""
+    angles = np.arange(720) / 2
+    placed = split_weight(100j, angles, 0.6)
+    assert total(placed) == pytest.approx(100j, rel=1e-9)
+    assert len(placed) > 150
+    polygon = 0.6 / np.sin(np.radians(0.25))  # all places of half a turn: a chord of the polygon
+    assert find_reach(1j, angles, 0.6) == pytest.approx(polygon, rel=1e-5)

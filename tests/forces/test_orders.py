@@ -1,0 +1,67 @@
+"""Which orders there are."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from balcli.core.phasors import Phasors
+from balcli.forces.orders import (
+    choose_orders,
+    is_order,
+    mark_considerable,
+    merge_orders,
+    parse_order,
+)
+from balcli.forces.spectrum import Spectra
+
+
+@pytest.mark.parametrize(
+    ("text", "order"),
+    [
+        ("0", 0),
+        ("2", 2),
+        ("4096", 4096),
+        ("4097", None),
+        ("0.5", None),
+        ("-1", None),
+        ("", None),
+        ("²", None),
+        ("99999999999999999999", None),
+    ],
+)
+def test_the_order_that_a_text_names(text: str, order: int | None) -> None:
+    assert parse_order(text) == order
+
+
+def test_orders_are_whole_numbers() -> None:
+    wanted = {0: True, 4096: True, 4097: False, -1: False, 1.5: False, float("nan"): False}
+    assert {number: is_order(number) for number in wanted} == wanted
+
+
+def test_orders_of_several_ascend_each_once() -> None:
+    assert merge_orders([3, 1], np.array([2.0, 1.0]), ()).tolist() == [1, 2, 3]
+
+
+def curve(orders: list[float], sizes: list[float]) -> Phasors:
+    forward = np.array(sizes, complex)
+    return Phasors(np.array(orders), forward, 0 * forward, np.zeros(len(orders)))
+
+
+def test_an_order_is_considerable_beside_the_largest_unless_it_is_very_high() -> None:
+    phasors = curve([1, 2, 3, 512, 513], [5e6, 4.9, 5.1, 6, 5e6])
+    assert mark_considerable(phasors).tolist() == [True, False, True, True, False]
+
+
+def test_variants_make_an_order_considerable_together() -> None:
+    forward = np.array([[1e7, 1e7], [0, 0], [0, 20]], complex)
+    phasors = Phasors(np.array([1.0, 3.0, 5.0]), forward, 0 * forward, np.zeros((3, 1)))
+    assert mark_considerable(phasors).tolist() == [True, False, True]
+
+
+def test_orders_to_2_and_all_considerable_ones_are_shown() -> None:
+    orders = [1.0, 2.0, 3.0, 4.0]
+    found = Spectra(
+        np.array(orders), force=curve(orders, [0, 0, 1, 0]), couple=curve(orders, [1, 0, 0, 0])
+    )
+    assert choose_orders(found).tolist() == [1, 2, 3]

@@ -1,0 +1,56 @@
+"""`balance --grade --mass`: what ISO 21940-11 permits beside each counterweight."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from io import StringIO
+
+import pytest
+from support.commands import refusal, run_here
+from support.paths import ENGINES
+
+V8 = ENGINES / "v8_crossplane.toml"
+ASKED = ("balance", V8, "--scheme", "counterweights", "--grade", 16, "--mass", 31, "--speed", 6000)
+WHOLE = 31e3 * 16 / (6000 * math.pi / 30)  # g mm
+
+
+def test_all_counterweights_share_what_is_permitted():
+    said = json.loads(run_here(*ASKED, "-f", "json").out)
+    count = len(said["counterweights"])
+    assert count == 2
+    assert said["permitted"] == {
+        "grade": 16,
+        "mass_kg": 31,
+        "each_g_mm": pytest.approx(WHOLE / count, rel=1e-12),
+    }
+    rows = csv.DictReader(StringIO(run_here(*ASKED, "-f", "csv").out))
+    figures = {row["figure"]: row["value"] for row in rows if row["part"] == "permitted"}
+    assert float(figures["each_g_mm"]) == pytest.approx(WHOLE / count, rel=1e-12)
+
+
+def test_it_is_shown_beside_each():
+    out = run_here(*ASKED).out
+    assert "Permitted residual unbalance, ISO 21940-11, G 16\n" in out
+    assert "A crankshaft of 31 kg at 6000 rpm; all counterweights share alike." in out
+    assert f"{WHOLE / 2:.1f}" in out
+    assert "oz·in" in run_here(*ASKED, "--units", "imperial").out
+
+
+def test_nothing_is_said_unasked():
+    said = json.loads(run_here("balance", V8, "-f", "json").out)
+    assert "permitted" not in said
+
+
+def test_refusals():
+    assert refusal("balance", V8, "--grade", 16) == (
+        "--grade and --mass belong together: a grade such as 16 permits an unbalance by the mass of "
+        "the crankshaft, in kg"
+    )
+    assert refusal("balance", V8, "--grade", 16, "--mass", -1) == (
+        "--grade 16 --mass -1: both must be positive numbers"
+    )
+    assert refusal("balance", ENGINES / "i4.toml", "--grade", 16, "--mass", 20).startswith(
+        "--grade: scheme auto fits no counterweights to the crankshaft"
+    )

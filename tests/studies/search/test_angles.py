@@ -1,0 +1,340 @@
+"""The best bank angle, splay or crank with limits and even firing, against dense sweeps and against
+engines that are made to fire evenly at one angle.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from balcli.engine.build import build
+from balcli.engine.load import parse as load
+from balcli.enginefile.model import EngineFile
+from balcli.errors import BalcliError
+from balcli.forces.quantity import evaluate_quantities
+from balcli.forces.symmetry import explain_symmetry
+from balcli.render.search import rows
+from balcli.render.units import SYSTEMS
+from balcli.studies.search.angles import Span, find_minima, neaten
+from balcli.studies.search.even_firing import fires_evenly
+from balcli.studies.search.objective import Objective, parse_objective
+from balcli.studies.search.search import search_arrangements
+from balcli.studies.search.write import write_design
+
+Array = NDArray[np.float64]
+PATHS = {"bank_angle": "layout.bank_angle", "splay": "crank.splay"}
+SPANS = {"bank_angle": (0.0, 180.0), "splay": (-180.0, 180.0)}
+TEXT = """\
+[crank]
+stroke = 80
+throws = {throws}
+spacing = {spacing}
+splay = {splay}
+throw_mass = {throw_mass}
+[rod]
+length = {length}
+mass = 0.5
+cg = 40
+[piston]
+mass = 0.5
+[layout]
+bank_angle = {bank}
+stagger = {stagger}
+[operation]
+speed = 3000
+"""
+
+
+def vee(**changes: object) -> EngineFile:
+    plain = {
+        "throws": [0],
+        "spacing": 100,
+        "splay": 0,
+        "throw_mass": 0,
+        "length": 150,
+        "bank": 90,
+        "stagger": 0,
+    }
+    return load(TEXT.format(**plain | changes))
+
+
+def in_line(throws: str) -> str:
+    return (
+        f"[crank]\nstroke = 80\nspacing = 100\nthrows = {throws}\n[rod]\nlength = 150\n"
+        "[piston]\nmass = 0.5\n"
+    )
+
+
+# ------------------------------------------------------------------ curves by formula
+def cosine(x: Array) -> Array:
+    return 2 + np.cos(np.radians(x))
+
+
+def hole(at: float) -> Callable[[Array], Array]:
+    """|sin| of the distance to one angle of a turn: 0 there."""
+    return lambda x: np.abs(np.sin(np.radians((x - at) / 2)))
+
+
+def test_minima_of_a_turn_and_of_a_stretch() -> None:
+    assert find_minima(cosine, [], Span(-180, 180), 1).tolist() == [180]
+    assert find_minima(cosine, [], Span(0, 90), 1).tolist() == [90]
+    assert find_minima(cosine, [], Span(-180, 90), 1).tolist() == [-180, 90]
+
+
+def test_a_limit_below_which_no_angle_of_the_grid_lies() -> None:
+    """A hundred-thousandth of a degree wide; the lower edge is the better."""
+    half = 1e-5
+    limit = float(hole(0.0)(np.array(half)))
+    found = find_minima(cosine, [(hole(33.3217), limit)], Span(-180, 180), 1)
+    assert found == pytest.approx([33.3217 + half], abs=1e-9)
+    assert hole(33.3217)(found)[0] < limit
+
+
+def test_two_limits_that_leave_a_sliver() -> None:
+    wide, wider = (float(hole(0.0)(np.array(half))) for half in (5.1, 5.10001))
+    limits = [(hole(20.0), wide), (hole(30.2), wider)]
+    found = find_minima(cosine, limits, Span(-180, 180), 1)
+    assert found == pytest.approx([25.1], abs=1e-9)
+    assert not len(find_minima(cosine, [limits[0], (hole(30.3), wider)], Span(0, 90), 1))
+
+
+def test_level_stretches_and_maxima_are_no_minima() -> None:
+    assert len(find_minima(lambda x: np.full_like(x, np.inf), [], Span(0, 180), 1)) == 0
+    assert len(find_minima(np.ones_like, [], Span(-180, 180), 1)) == 1
+    stairs = find_minima(lambda x: np.clip(x, 30, 60), [], Span(0, 90), 1)
+    assert len(stairs) == 1
+    assert stairs[0] <= 30
+
+
+def test_high_orders_have_a_finer_grid() -> None:
+    found = find_minima(lambda x: np.abs(np.sin(np.radians(500 * x))), [], Span(0, 1), 1000)
+    assert found == pytest.approx([0, 0.36, 0.72, 1], abs=1e-9)
+
+
+def test_angles_as_a_file_has_them() -> None:
+    found = neaten(np.array([0.1 + 0.2, 360 / 7 + 1e-13, 33.123456789012, 120.00000000000001]))
+    assert found.tolist() == [0.3, 360 / 7, 33.123456789012, 120]
+
+
+# ------------------------------------------------------------------ engines against dense sweeps
+def sweep(file: EngineFile, over: str, wanted: Objective, x: Array) -> Array:
+    engine = build(file, {PATHS[over]: x})
+    figures = evaluate_quantities(engine, wanted.quantities)
+    values = wanted.evaluate(dict(zip(wanted.quantities, figures, strict=True)).__getitem__)
+    return np.broadcast_to(values, x.shape)
+
+
+def found_by(file: EngineFile, over: str, wanted: Objective) -> tuple[Array, Array]:
+    try:
+        results = search_arrangements(file, over, wanted, 1000).results
+    except BalcliError:
+        return np.empty(0), np.empty(0)
+    return np.array([[r.design.given()[over], r.objective] for r in results]).T
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_no_angle_of_a_dense_sweep_is_better(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    over = ("bank_angle", "splay")[seed % 2]
+    throws = random.choice([0, 60, 90, 120, 180, 240, 270, 33.7], random.integers(2, 15)).tolist()
+    file = vee(
+        throws=throws,
+        splay=random.choice([0, -30, 18]),
+        bank=random.choice([45, 60, 72.4, 90]),
+        stagger=random.choice([0, 24]),
+        throw_mass=random.choice([0, 1.1]),
+    )
+    names = [
+        f"{kind}.{order}.{part}"
+        for kind, part in (("force", "major"), ("moment", "backward"), ("moment", "major"))
+        for order in (1, 2, 4)
+    ]
+    goal, *limited = random.choice([*names, "roll.2.amplitude"], 3, replace=False).tolist()
+    x = np.linspace(*SPANS[over], 9001 if over == "bank_angle" else 18001)
+    limits = []
+    for name in limited[: random.integers(1, 3)]:
+        values = sweep(file, over, parse_objective(name), x)
+        level = float(np.quantile(values, random.choice([0.001, 0.05, 0.5])))
+        if level > 1e-6:
+            limits.append(f"{name}<{level * 1.0001}")
+    wanted = parse_objective(goal, limits)
+    dense = sweep(file, over, wanted, x)
+    angles, values = found_by(file, over, wanted)
+    if np.isfinite(dense).any():
+        unlimited = sweep(file, over, parse_objective(goal), x).max()
+        assert values.min() <= dense.min() + 1e-9 * unlimited
+    if not len(angles):
+        return
+    for side in (-1e-3, 1e-3):
+        beside = angles + side
+        if over == "bank_angle":
+            beside = np.clip(beside, 0, 180)
+        assert (sweep(file, over, wanted, beside) >= values * (1 - 1e-9) - 1e-6).all()
+    assert len(np.unique(np.round(np.mod(angles, 360), 6))) == len(angles)
+
+
+@pytest.mark.parametrize(
+    ("file", "over", "goal", "limit", "angle"),
+    [
+        (vee(throws=[0, 180], spacing=110), "bank_angle", "moment.2.major", "moment.1.backward", 1),
+        (vee(throws=[0, 180, 180, 0]), "bank_angle", "roll.2.amplitude", "force.2.major", 30),
+    ],
+)
+def test_a_limit_met_by_hand(
+    file: EngineFile, over: str, goal: str, limit: str, angle: float
+) -> None:
+    """The limit is what the engine has at an angle that is on no grid."""
+    place = angle + 0.1234
+    bound = float(sweep(file, over, parse_objective(limit), np.array([place]))[0])
+    wanted = parse_objective(goal, [f"{limit}<{bound!r}"])
+    dense = sweep(file, over, wanted, np.linspace(0, 180, 18_001))
+    angles, values = found_by(file, over, wanted)
+    assert values.min() <= dense.min() * (1 + 1e-12)
+    assert len(angles)
+
+
+def test_a_turn_is_listed_once_and_no_maximum() -> None:
+    for goal in ("force.1.major", "force.1.forward", "force.2.major"):
+        angles, values = found_by(vee(), "splay", parse_objective(goal))
+        x = np.linspace(-180, 180, 3601)
+        dense = sweep(vee(), "splay", parse_objective(goal), x)
+        assert values.max() <= np.median(dense)
+        assert len(np.unique(np.mod(angles, 360))) == len(angles)
+
+
+# ------------------------------------------------------------------ even firing
+@pytest.mark.parametrize("pairs", range(2, 15))
+@pytest.mark.parametrize("over", ["bank_angle", "splay"])
+def test_the_angle_at_which_a_vee_fires_evenly(pairs: int, over: str) -> None:
+    """The throws of one bank fire evenly, two intervals apart; the other bank's have to stand
+    between them, or a turn away: a second way of counting says where.
+    """
+    bank = 72.4
+    interval = 720 / (2 * pairs)
+    throws = [-2 * k * interval for k in range(pairs)]
+    file = vee(throws=throws, bank=bank)
+    results = search_arrangements(
+        file, over, parse_objective("moment.1.major"), 100, even_firing=True
+    ).results
+    found = [r.design.given()[over] for r in results]
+    for angle in found:
+        engine = build(file, {PATHS[over]: angle})
+        assert bool(fires_evenly(engine, file))
+    slots = np.mod(np.arange(2 * pairs) * interval, 360)
+    expected = {
+        round(float(angle), 6)
+        for slot, turn in itertools.product(np.unique(np.round(slots, 9)), (-720, -360, 0, 360))
+        for angle in ((slot + turn) if over == "bank_angle" else bank - slot - turn,)
+        if (0 <= angle <= 180 if over == "bank_angle" else -180 < angle <= 180)
+        and _even(angle if over == "bank_angle" else bank - angle, throws, interval)
+    }
+    assert {round(a, 6) for a in found} == expected
+    assert expected
+
+
+def _even(second: float, throws: list[float], interval: float) -> bool:
+    """Whether firings at minus the pins, of the second bank `second` later, are even."""
+    ready = sorted(round(v % 360, 6) % 360 for t in throws for v in (-t, -t + second))
+    even = sorted(round(k * interval % 360, 6) % 360 for k in range(2 * len(throws)))
+    return bool(np.allclose(ready, even, atol=1e-5))
+
+
+def test_uneven_throws_fire_evenly_at_no_angle() -> None:
+    file = vee(throws=[0, 100, 190])
+    for over in PATHS:
+        with pytest.raises(BalcliError, match="fires evenly"):
+            search_arrangements(file, over, parse_objective("moment.1.major"), even_firing=True)
+
+
+def test_even_firing_and_a_limit() -> None:
+    """V6 of 72.4 degrees: splays of -47.6, -167.6 and 72.4 fire evenly; the limit leaves two."""
+    file = vee(throws=[0, 240, 120], bank=72.4)
+    free = search_arrangements(
+        file, "splay", parse_objective("moment.1.major"), even_firing=True
+    ).results
+    assert sorted(r.design.splay for r in free) == [-167.6, -47.6, 72.4]
+    limit = f"moment.1.major<{free[-1].objective!r}"
+    kept = search_arrangements(
+        file, "splay", parse_objective("moment.1.major", [limit]), even_firing=True
+    ).results
+    assert sorted(r.design.splay for r in kept) == [-167.6, -47.6]
+
+
+@pytest.mark.parametrize("cylinders", range(4, 29, 2))
+def test_four_strokes_of_any_even_number_have_firing_orders(cylinders: int) -> None:
+    """In line: each throw twice, 720/n apart; as a vee: each pin once, the banks 720/n apart."""
+    interval = 720 / cylinders
+    half = cylinders // 2
+    once = [k * interval for k in range(half)]
+    found = search_arrangements(
+        load(in_line(str([*once, *reversed(once)]))),
+        "firing_order",
+        parse_objective("moment.1.major"),
+        1,
+    ).results
+    assert sorted(found[0].design.firing_order) == list(range(1, cylinders + 1))
+    twice = [2 * interval * k for k in range(half)]
+    file = vee(throws=twice, bank=interval % 360)
+    (best, *_) = search_arrangements(
+        file, "firing_order", parse_objective("moment.1.major"), 1
+    ).results
+    ordered = file.layout.model_copy(update={"firing_order": tuple(best.design.firing_order)})
+    built = build(file.model_copy(update={"layout": ordered}))
+    fires = np.sort(np.mod([float(v) for v in built.fires_deg.values()], 720))
+    assert np.diff(fires) == pytest.approx(interval, abs=1e-6)
+
+
+# ------------------------------------------------------------------ angles as the file gave them
+def test_sevenths_of_a_turn_stay_such() -> None:
+    turns = [f"{k}/7 turn" for k in range(7)]
+    text = in_line(str(turns).replace("'", '"'))
+    (best, *_) = search_arrangements(
+        load(text), "throws", parse_objective("moment.1.major"), 1
+    ).results
+    assert sorted(best.design.throws) == [k * 360 / 7 for k in range(7)]
+    written = build(load(write_design(text.encode(), best.design)))
+    found = search_arrangements(load(text), "throws", parse_objective("moment.1.major"), 1)
+    (line,) = rows(found, SYSTEMS["si"]).lines
+    assert list(map(float, line[0].split("-"))) == list(best.design.throws)
+    verdicts = [reason.verdict for reason in explain_symmetry(written, [1, 2], ["force"]).reasons]
+    assert verdicts == ["exact", "exact"]
+
+
+def test_firing_orders_bring_cranks_of_exact_fractions() -> None:
+    text = in_line("[0]").replace("throws = [0]\n", "") + "[layout]\nfiring_order = [1,2,3,4,5,6,7]"
+    results = search_arrangements(
+        load(text), "firing_order", parse_objective("force.1.major"), 3
+    ).results
+    for one in results:
+        assert sorted(one.design.throws) == [k * 360 / 7 for k in range(7)]
+
+
+# ------------------------------------------------------------------ throws and firing orders
+@pytest.mark.parametrize("seed", range(12))
+def test_no_permutation_of_throws_is_better(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    count = int(random.integers(3, 6))
+    given = random.choice([0, 72, 90, 120, 144, 180, 240, 300], count).tolist()
+    file = vee(throws=given, bank=72.4, stagger=24, throw_mass=1.1)
+    every = np.array(sorted(set(itertools.permutations(given))), float)
+    engine = build(file, {f"crank.throws.{k + 1}": row for k, row in enumerate(every.T)})
+
+    def values(wanted: Objective) -> Array:
+        figures = evaluate_quantities(engine, wanted.quantities)
+        found = wanted.evaluate(dict(zip(wanted.quantities, figures, strict=True)).__getitem__)
+        return np.broadcast_to(found, len(every))
+
+    goal, limited = random.permutation(
+        ["moment.1.major", "moment.2.backward", "force.2.major", "moment.1.forward"]
+    )[:2].tolist()
+    bound = (
+        float(np.quantile(values(parse_objective(limited)), random.choice([0.2, 0.6]))) * 1.001
+        + 1e-3
+    )
+    wanted = parse_objective(goal, [f"{limited}<{bound!r}"])
+    angles = search_arrangements(file, "throws", wanted, 1).results
+    assert angles[0].objective == pytest.approx(float(values(wanted).min()), rel=1e-9, abs=1e-7)
