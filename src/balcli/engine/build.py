@@ -23,7 +23,7 @@ from . import articulation
 from .arrays import column, shared
 from .devices import devices
 from .layout import Plan, plan
-from .positions import pins, places, reference, share_axes, strangers
+from .positions import are_places_known, pins, places, reference, share_axes, strangers
 from .rods import Parts, mistakes, own_or, rod_of
 
 if TYPE_CHECKING:
@@ -70,6 +70,8 @@ class Engine:
         reference_m: point about which moments are taken.
         weighed: masses behind each row of `cylinders`.
         devices: counterweights, shafts and sliders of the file, in this order.
+        places_known: whether the file says where its throws stand along the crank; if not, they
+            count as standing in one plane, and what is said of moments means nothing.
     """
 
     name: str
@@ -85,6 +87,7 @@ class Engine:
     reference_m: tuple[Any, Any, Any]
     devices: tuple[Device, ...]
     weighed: tuple[Weighed, ...]
+    places_known: bool = True
 
     @property
     def omega(self) -> Any:
@@ -162,6 +165,7 @@ def build(file: EngineFile, rank: int = 0) -> Engine:
             _weighed(file, layout, {c.number: c.throw for c in layout.cells}[n], rods[n])
             for n in numbers
         ),
+        places_known=are_places_known(file, layout),
     )
 
 

@@ -79,6 +79,20 @@ def places(file: EngineFile, layout: Plan, rank: int) -> tuple[dict[int, Any], N
     return place, column(throws, rank)
 
 
+MOMENTS_UNKNOWN = (
+    "moments are not known, because crank.spacing is missing: give it (or crank.positions); 0 says "
+    "that all throws stand in one plane"
+)
+
+
+def are_places_known(file: EngineFile, layout: Plan) -> bool:
+    """Whether the file says where the throws stand along the crank (of one throw it need not)."""
+    crank = file.crank
+    said = crank.spacing is not None or crank.positions is not None
+    own = any(cylinder.position is not None for cylinder in file.cylinder.values())
+    return layout.throws == 1 or said or own
+
+
 def reference(file: EngineFile, throws: NDArray[np.float64]) -> tuple[Any, Any, Any]:
     """x, y, z (m) of the point of moments: the file's, or on the crank axis half-way between the
     first and the last throw.

@@ -67,6 +67,16 @@ class Spectra:
         """The same without all other kinds."""
         return Spectra(self.orders, **{k.name: p for k, p in self.items() if k.name in kinds})
 
+    def without_moment(self) -> Spectra:
+        """The same with a moment that is not known: nan, if it was asked for at all."""
+        if self.moment is None:
+            return self
+        p = self.moment
+        unknown = Phasors(
+            p.orders, np.full_like(p.forward, np.nan), np.full_like(p.backward, np.nan), p.noise
+        )
+        return replace(self, moment=unknown)
+
     def select_orders(self, orders: ArrayLike) -> Spectra:
         """The same without all other orders."""
         if orders is self.orders:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..core.peaks import Peak
+from ..engine.positions import MOMENTS_UNKNOWN
 from ..forces.kinds import FORCE, MOMENT, ROLL
 from ..results.balance import Balance
 from ..sizing.sizing import Remedy
@@ -16,8 +17,8 @@ from . import figures
 from .analysis import brief_document
 from .csv import Rows
 from .devices import device_entries, device_grid, device_rows, practical_entry
-from .figures import clean, order_number
-from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number
+from .figures import assumptions, clean, order_number
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, capitalized, degrees, number
 from .units import System, Unit
 
 _UNITS = {"N": "force", "Nm": "moment", "kg_m": "unbalance", "mm": "length"}
@@ -35,7 +36,7 @@ _CARD = (
 
 def sheet(result: Balance, system: System) -> Sheet:
     """Why and what, the workshop's figures, and both analyses side by side."""
-    remedy = result.remedy
+    remedy, known = result.remedy, result.before.moments_known
     order = "" if remedy.order is None else f", order {remedy.order}"
     parts: list[Grid | Facts | Text] = []
     if remedy.reasons and not remedy.devices and not remedy.beyond:
@@ -47,12 +48,14 @@ def sheet(result: Balance, system: System) -> Sheet:
         parts.append(
             Text(
                 "Nothing is fitted",
-                () if "note" in remedy.details else ("Orders 1 and 2 are balanced.",),
+                () if "note" in remedy.details or not known else ("Orders 1 and 2 are balanced.",),
             )
         )
     if "note" in remedy.details:
         parts.append(Text("Note", (str(remedy.details["note"]),)))
-    parts += _details(remedy.details, system)
+    if not known:
+        parts.append(Text("Forces alone", (capitalized(f"{MOMENTS_UNKNOWN}."),)))
+    parts += _details(remedy.details if known else _without_moments(remedy.details), system)
     parts += _permitted(result, system)
     parts += [_orders(result, system), _peaks(result, system)]
     return Sheet(
@@ -139,6 +142,9 @@ def _orders(result: Balance, system: System) -> Grid:
             unit = system.unit(kind)
             for analysis in (result.before, result.after):
                 phasors = analysis.spectra[kind.name]
+                if kind is MOMENT and not analysis.moments_known:
+                    cells.append("–")
+                    continue
                 cells.append(
                     "balanced"
                     if phasors.balanced[k]
@@ -160,7 +166,9 @@ def _peaks(result: Balance, system: System) -> Grid:
     rows = []
     for (kind, before), (_, after) in zip(result.before.peaks, result.after.peaks, strict=True):
         unit = system.unit(kind)
-        rows.append((f"{kind.name}, {unit.name}", *_peak(before, unit), *_peak(after, unit)))
+        told = kind is not MOMENT or result.before.moments_known
+        cells = (*_peak(before, unit), *_peak(after, unit)) if told else ("–",) * 4
+        rows.append((f"{kind.name}, {unit.name}", *cells))
     note = (
         "Sized for steady mean speed; both columns are those of the uneven speed."
         if result.before.engine.ripple
@@ -181,6 +189,18 @@ def _peak(peak: Peak, unit: Unit) -> tuple[str, str]:
 
 
 # ------------------------------------------------------------------ details
+def _without_moments(details: Any) -> Any:
+    """The same with nan for every moment, which is not known."""
+    if isinstance(details, list):
+        return [_without_moments(part) for part in details]
+    if not isinstance(details, Mapping):
+        return details
+    return {
+        key: math.nan if "moment" in key or "couple" in key else _without_moments(value)
+        for key, value in details.items()
+    }
+
+
 def _details(details: Mapping[str, Any], system: System) -> Iterator[Grid | Facts | Text]:
     """Figures of a scheme that are no device."""
     plain = [
@@ -298,6 +318,7 @@ def document(result: Balance) -> dict[str, Any]:
         "reasons": list(remedy.reasons),
         "practical": [practical_entry(p) for p in result.practical],
         "details": details_document(remedy),
+        **assumptions(result.before),
         "before": brief_document(result.before),
         "after": brief_document(result.after),
     }

@@ -9,8 +9,9 @@ from math import nan
 from ..core.phasors import Array
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..forces.kinds import Kind
+from ..forces.kinds import MOMENT, Kind
 from ..forces.orders import merge_orders
+from ..forces.spectrum import Spectra
 from .analysis import QUANTITIES, Analysis, analyze
 
 
@@ -21,7 +22,7 @@ class Line:
     Attributes:
         kind: of force or moment.
         order: None for the peak.
-        values: one an engine.
+        values: one an engine; nan for moments that are not known.
     """
 
     kind: Kind
@@ -72,7 +73,7 @@ def compare_engines(
 
 def _compare_orders(analyses: Sequence[Analysis], orders: Array) -> Iterator[Line]:
     for kind, _ in analyses[0].spectra.items():
-        sizes = [one.spectra[kind.name].major for one in analyses]
+        sizes = [_known(one)[kind.name].major for one in analyses]
         for order, *values in zip(orders, *sizes, strict=True):
             if order <= 2 or any(values):
                 yield Line(kind, float(order), tuple(map(float, values)))
@@ -81,4 +82,10 @@ def _compare_orders(analyses: Sequence[Analysis], orders: Array) -> Iterator[Lin
 def _compare_peaks(analyses: Sequence[Analysis]) -> Iterator[Line]:
     for same in zip(*(one.peaks for one in analyses), strict=True):
         kind, _ = same[0]
-        yield Line(kind, None, tuple(peak.value for _, peak in same))
+        known = [one.moments_known or kind is not MOMENT for one in analyses]
+        peaks = (peak.value for _, peak in same)
+        yield Line(kind, None, tuple(v if k else nan for v, k in zip(peaks, known, strict=True)))
+
+
+def _known(one: Analysis) -> Spectra:
+    return one.spectra if one.moments_known else one.spectra.without_moment()

@@ -63,7 +63,7 @@ def steady(engine: Engine) -> Engine:
 
 
 def rest(engine: Engine, order: int) -> Rest:
-    """What is left to cancel at one order."""
+    """What is left to cancel at one order; of forces alone where moments are not known."""
     found = compute_spectra(steady(engine), [order], ("force", "moment", "roll"))
     newton = order**2 * float(engine.omega) ** 2
     x, y, z = engine.reference_m
@@ -71,7 +71,8 @@ def rest(engine: Engine, order: int) -> Rest:
     for quantity, per in (("force", 1), ("moment", 1j)):
         phasors = getattr(found, quantity)
         for sense, vector in ((1, phasors.forward), (-1, phasors.backward)):
-            parts[Part(quantity, sense)] = complex(vector[0]) / per / newton
+            known = quantity == "force" or engine.places_known
+            parts[Part(quantity, sense)] = complex(vector[0]) / per / newton if known else 0j
             noise[Part(quantity, sense)] = (
                 float(np.broadcast_to(phasors.noise, vector.shape)[0]) / newton
             )

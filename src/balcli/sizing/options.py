@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ..engine.build import Engine
+from ..engine.positions import MOMENTS_UNKNOWN
 from ..errors import BalcliError
 from ..limits import HIGHEST_ORDER_SOUGHT, HIGHEST_SHAFT_ORDER
 from .effects import Rest, rest
@@ -56,7 +57,10 @@ class Wish(NamedTuple):
 
 
 def lowest(engine: Engine, quantity: str, senses: Sequence[int]) -> Rest:
-    """The lowest order at which a free force (or moment) is left; NoNeedError if there is none."""
+    """The lowest order at which a free force (or moment) is left; NoNeedError if there is none,
+    BalcliError for moments that are not known.
+    """
+    _check_known(engine, quantity)
     for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
         found = rest(engine, order)
         if any(found.at(quantity, sense) for sense in senses):
@@ -67,6 +71,11 @@ def lowest(engine: Engine, quantity: str, senses: Sequence[int]) -> Rest:
     )
 
 
+def _check_known(engine: Engine, quantity: str) -> None:
+    if quantity == "moment" and not engine.places_known:
+        raise BalcliError(MOMENTS_UNKNOWN)
+
+
 def _turning(senses: Sequence[int]) -> str:
     return " turning against the crank" if tuple(senses) == (-1,) else ""
 
@@ -75,6 +84,7 @@ def chosen(engine: Engine, wish: Wish, quantity: str, senses: Sequence[int] = (1
     """What is left of the order asked for, or of the lowest that has something; NoNeedError if
     there is nothing.
     """
+    _check_known(engine, quantity)
     if wish.order is None:
         return lowest(engine, quantity, senses)
     found = rest(engine, wish.order)

@@ -21,7 +21,7 @@ from ..engine import load as enginefile
 from ..engine.build import Engine, build
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError, InputError
-from ..forces.quantity import Quantity, evaluate_quantities, parse_quantity_list
+from ..forces.quantity import Quantity, evaluate_quantities, parse_quantity_list, refuse_unknown
 from ..limits import MOST_PICTURE_VARIANTS
 from .parameters import Parameter, parse, varied
 
@@ -106,11 +106,13 @@ def check_corners(sweep: Sweep) -> None:
 
     Raises:
         InputError: one of them cannot be.
+        BalcliError: a moment is asked for, and the file does not say where the throws stand.
     """
     corners = tuple(
         Parameter(p.path, np.array([p.values.min(), p.values.max()])) for p in sweep.parameters
     )
-    Sweep(sweep.file, corners, (), sweep.name).engine((slice(None),) * len(corners))
+    engine = Sweep(sweep.file, corners, (), sweep.name).engine((slice(None),) * len(corners))
+    refuse_unknown(engine, sweep.quantities)
 
 
 def evaluate_box(sweep: Sweep, box: Box) -> list[Array]:
