@@ -64,7 +64,7 @@ def steady(scalar=False):
 
 @pytest.mark.parametrize("lines", LINES.values(), ids=LINES.keys())
 def test_two_sided_coefficients_of_the_speed(lines):
-    w = ripple.speed(lines)
+    w = ripple.find_speed(lines)
     highest = len(w) // 2
     found = sum(c * np.exp(1j * (k - highest) * THETA) for k, c in enumerate(w))
     assert found == pytest.approx(speed(lines, THETA) + 0j, abs=1e-14)
@@ -74,7 +74,7 @@ def test_two_sided_coefficients_of_the_speed(lines):
 def test_force(lines):
     """-W (W G)'."""
     want = -speed(lines, THETA) * rate(lambda t: speed(lines, t) * momentum(t), THETA)
-    found = ripple.force(steady(), ripple.speed(lines)).values(THETA)
+    found = ripple.apply_to_force(steady(), ripple.find_speed(lines)).values(THETA)
     assert np.abs(found - want).max() < RELATIVE * np.abs(want).max()
 
 
@@ -87,7 +87,7 @@ def test_couple_with_the_mean_moment_of_momentum_of_the_rotating_masses(lines):
         return mean + integral(theta)
 
     want = -speed(lines, THETA) * rate(lambda t: speed(lines, t) * h(t), THETA)
-    found = ripple.force(steady(scalar=True), ripple.speed(lines), mean).values(THETA)
+    found = ripple.apply_to_force(steady(scalar=True), ripple.find_speed(lines), mean).values(THETA)
     assert np.abs(found - want).max() < RELATIVE * np.abs(want).max()
 
 
@@ -100,10 +100,13 @@ def test_torque(lines):
         return mean / 2 + integral(theta)
 
     want = -rate(lambda t: half_inertia(t) * speed(lines, t) ** 2, THETA)
-    found = ripple.torque(steady(scalar=True), ripple.speed(lines), mean).values(THETA)
+    found = ripple.apply_to_torque(steady(scalar=True), ripple.find_speed(lines), mean).values(
+        THETA
+    )
     assert np.abs(found - want).max() < RELATIVE * np.abs(want).max()
     assert (
-        abs(ripple.torque(steady(scalar=True), ripple.speed(lines), mean).forward[0]) < 1e-14
+        abs(ripple.apply_to_torque(steady(scalar=True), ripple.find_speed(lines), mean).forward[0])
+        < 1e-14
     )  # T has no mean
 
 
@@ -117,7 +120,7 @@ def test_torque(lines):
 )
 def test_the_least_speed_is_that_of_a_dense_grid(lines):
     theta = np.linspace(0, 2 * np.pi, 400_001)
-    least, at = ripple.slowest(lines)
+    least, at = ripple.find_slowest(lines)
     grid = speed(lines, theta).min()
     bend = sum(n**2 * abs(a) for n, a, _ in lines)
     assert grid - bend * theta[1] ** 2 / 8 - 1e-14 <= least <= grid + 1e-14
@@ -167,14 +170,14 @@ def test_a_crank_that_stops_is_told_with_the_other_mistakes():
 
 
 def test_an_amplitude_of_zero_changes_nothing():
-    found = ripple.force(steady(), ripple.speed([(4, 0.0, 10.0)]))
+    found = ripple.apply_to_force(steady(), ripple.find_speed([(4, 0.0, 10.0)]))
     assert found.forward == pytest.approx(FORWARD, rel=1e-14)
     assert found.backward == pytest.approx(BACKWARD, rel=1e-14)
 
 
 def test_a_mean_force_is_a_mean_and_stands_in_forward_alone():
     """A first-order vector under a first-order ripple pushes to one side: the mean of -W W' G."""
-    found = ripple.force(steady(), ripple.speed(LINES["two"]))
+    found = ripple.apply_to_force(steady(), ripple.find_speed(LINES["two"]))
     theta = np.arange(64) * 2 * np.pi / 64
     assert found.backward[0] == 0
     assert found.forward[0] == pytest.approx(found.values(theta).mean(), rel=1e-12)
@@ -182,9 +185,9 @@ def test_a_mean_force_is_a_mean_and_stands_in_forward_alone():
 
 
 def test_the_rounding_error_grows_with_the_parts_and_never_vanishes_where_they_do_not():
-    w = ripple.speed(LINES["one"])
+    w = ripple.find_speed(LINES["one"])
     small, large = (
-        ripple.force(Phasors(ORDERS, FORWARD, BACKWARD, np.full(15, size)), w).noise
+        ripple.apply_to_force(Phasors(ORDERS, FORWARD, BACKWARD, np.full(15, size)), w).noise
         for size in (1e-16, 1e-14)
     )
     assert np.all(small > 0)
@@ -197,10 +200,13 @@ def test_the_bound_holds_for_errors_of_the_parts(lines, mean):
     """Errors of the size that the parts' noise tells, with signs as they come, move no order by
     more than the bound; and the bound knows of lines no more than their sizes.
     """
-    w, level = ripple.speed(lines), ripple.speed([(order, size, 0.0) for order, size, _ in lines])
+    w, level = (
+        ripple.find_speed(lines),
+        ripple.find_speed([(order, size, 0.0) for order, size, _ in lines]),
+    )
     random = np.random.default_rng(7)
-    for rule in (ripple.force, ripple.torque):
-        backward = np.conj(FORWARD) if rule is ripple.torque else BACKWARD
+    for rule in (ripple.apply_to_force, ripple.apply_to_torque):
+        backward = np.conj(FORWARD) if rule is ripple.apply_to_torque else BACKWARD
         noise = 1e-9 * random.uniform(1, 2, 15)
         found = rule(Phasors(ORDERS, FORWARD, backward, noise), w, mean)
         assert found.noise == pytest.approx(
@@ -211,7 +217,7 @@ def test_the_bound_holds_for_errors_of_the_parts(lines, mean):
                 noise * np.where(ORDERS > 0, np.exp(2j * np.pi * random.random(15)), 0)
                 for _ in range(2)
             ]
-            if rule is ripple.torque:
+            if rule is ripple.apply_to_torque:
                 errors[1] = np.conj(errors[0])
             moved = (
                 rule(Phasors(ORDERS, FORWARD + errors[0], backward + errors[1], noise), w, mean)
@@ -227,8 +233,8 @@ def test_a_mean_momentum_is_rounded_too(mean):
     rounding.
     """
     nothing = Phasors(ORDERS, np.zeros(15, complex), np.zeros(15, complex), np.zeros(15))
-    for rule in (ripple.force, ripple.torque):
-        found = rule(nothing, ripple.speed([(2, 0.3, 40.0)]), mean)
+    for rule in (ripple.apply_to_force, ripple.apply_to_torque):
+        found = rule(nothing, ripple.find_speed([(2, 0.3, 40.0)]), mean)
         assert np.abs(found.forward).max() > 10
         assert np.all(found.noise >= np.finfo(float).eps * np.abs(found.forward))
         assert np.all(found.noise <= 4 * np.finfo(float).eps * np.abs(found.forward).max())
@@ -241,8 +247,8 @@ def test_at_steady_speed_nothing_changes_not_even_the_bound():
     noise = 1e-16 * np.arange(1.0, 16.0)
     steady = Phasors(ORDERS, FORWARD.astype(complex), BACKWARD.astype(complex), noise)
     for rule in (
-        ripple.force(steady, np.ones(1, complex)),
-        ripple.torque(steady, np.ones(1, complex), 0.0),
+        ripple.apply_to_force(steady, np.ones(1, complex)),
+        ripple.apply_to_torque(steady, np.ones(1, complex), 0.0),
     ):
         assert rule.forward == pytest.approx(FORWARD, rel=1e-14)
         assert rule.noise[1:] == pytest.approx(noise[1:], rel=1e-12, abs=0)
@@ -250,15 +256,15 @@ def test_at_steady_speed_nothing_changes_not_even_the_bound():
 
 def test_variants_side_by_side_are_what_each_is_alone():
     """Trailing axes, as sweeps have them, of the series and of the mean."""
-    w = ripple.speed(LINES["two"])[:, None, None]
+    w = ripple.find_speed(LINES["two"])[:, None, None]
     scales, means = (
         np.array([[1.0, -2.0, 0.5], [3.0, 1.5, 7.0]]),
         np.array([[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]]),
     )
     many = [v[:, None, None] * scales for v in (FORWARD, BACKWARD)]
-    whole = ripple.force(Phasors(ORDERS, *many, np.zeros(1)), w, means)
+    whole = ripple.apply_to_force(Phasors(ORDERS, *many, np.zeros(1)), w, means)
     for i, j in np.ndindex(scales.shape):
-        one = ripple.force(
+        one = ripple.apply_to_force(
             Phasors(ORDERS, FORWARD * scales[i, j], BACKWARD * scales[i, j], np.zeros(1)),
             w[:, 0, 0],
             means[i, j],

@@ -13,7 +13,7 @@ import pytest
 from oracle import momentum
 from support.engines import RADIAL
 
-from balcli.core.strokes import travel
+from balcli.core.strokes import find_travel
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
 from balcli.errors import InputError
@@ -147,7 +147,7 @@ def test_strokes_and_dead_centres_against_fine_sampling(offset):
     """Places straight from docs/theory.md, on a grid of 0.001 degrees."""
     psi = np.radians(np.arange(0, 360, 0.001))
     lean = np.arcsin((60 * np.sin(psi) - offset) / 240)
-    found = travel(built(("mass = 1.3", f"mass = 1.3\noffset = {offset}")).cylinders)
+    found = find_travel(built(("mass = 1.3", f"mass = 1.3\noffset = {offset}")).cylinders)
     for k in range(7):
         bank = 2 * math.pi * k / 7
         knuckle = (60 * np.exp(1j * psi) + 52 * (k > 0) * np.exp(1j * (bank - lean))) * np.exp(
@@ -165,7 +165,7 @@ def test_an_offset_slider_crank_has_its_stroke_in_closed_form():
     line.
     """
     text = "[crank]\nstroke = 80\n[rod]\nlength = 140\n[piston]\nmass = 1\noffset = 10\n"
-    found = travel(engine.build(enginefile.parse(text)).cylinders)
+    found = find_travel(engine.build(enginefile.parse(text)).cylinders)
     assert found.stroke[0] * 1e3 == pytest.approx(
         math.sqrt(180**2 - 100) - math.sqrt(100**2 - 100), rel=1e-14
     )

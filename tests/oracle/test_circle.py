@@ -57,7 +57,7 @@ def smallest_of_points(points: np.ndarray) -> float:
 @given(st.lists(VECTORS, min_size=3, max_size=12, unique=True))
 def test_points(points):
     points = np.array(points)
-    centre, radius, fixing = circle.around(points)
+    centre, radius, fixing = circle.enclose_points(points)
     assert np.all(np.abs(points - centre) <= radius * (1 + 1e-9) + 1e-12)
     assert radius == pytest.approx(smallest_of_points(points), rel=1e-9, abs=1e-12)
     assert len(fixing) <= 3
@@ -68,9 +68,9 @@ def test_the_lower_bound_is_one_about_any_centre(points, centre):
     """However badly the centre is guessed; about the true one it is the radius itself."""
     points = np.array(points)
     radius = smallest_of_points(points)
-    assert circle._bound(points, centre) <= radius * (1 + 1e-9) + 1e-9
-    true, _, fixing = circle.around(points)
-    assert circle._bound(points[fixing], true) == pytest.approx(radius, rel=1e-6, abs=1e-9)
+    assert circle._lower_bound(points, centre) <= radius * (1 + 1e-9) + 1e-9
+    true, _, fixing = circle.enclose_points(points)
+    assert circle._lower_bound(points[fixing], true) == pytest.approx(radius, rel=1e-6, abs=1e-9)
 
 
 @pytest.mark.parametrize("offset", [0, 4, -15])
@@ -79,7 +79,7 @@ def test_single_cylinder_at_high_precision(lam, offset):
     """mpmath finds where the curve is farthest from the centre; three such points, solved to 30
     digits, are the true optimum.
     """
-    found = circle.enclosing(
+    found = circle.enclose_curve(
         force(rod=f"ratio = {lam}", piston=f"mass = 1\noffset = {offset}", operation="speed = 1000")
     )
     with mpmath.workdps(30):
@@ -133,7 +133,7 @@ def test_nothing_near_is_better(tables):
     the radius.
     """
     curve = force(**tables)
-    found = circle.enclosing(curve)
+    found = circle.enclose_curve(curve)
     samples = seen(curve, np.linspace(0, 2 * np.pi, 20001))
     assert np.abs(samples - found.centre).max() <= found.radius * (1 + 1e-13)
     assert np.abs(seen(curve, found.theta) - found.centre) == pytest.approx(
@@ -142,30 +142,32 @@ def test_nothing_near_is_better(tables):
     for step in (1e-3, 1e-5):
         for direction in np.exp(1j * np.linspace(0, 2 * np.pi, 24)):
             other = found.centre + step * found.radius * direction
-            assert circle._around(curve, other, found.theta).radius >= found.radius * (1 - 1e-13)
+            assert circle._enclose_from(curve, other, found.theta).radius >= found.radius * (
+                1 - 1e-13
+            )
     assert found.excess <= TRUE * found.radius
 
 
 def test_curves_that_are_points_and_circles():
     zero = Phasors(np.array([1.0, 2.0]), np.zeros(2, complex), np.zeros(2, complex), np.zeros(1))
-    assert circle.enclosing(zero)[:2] == (0j, 0.0)
+    assert circle.enclose_curve(zero)[:2] == (0j, 0.0)
     still = Phasors(np.array([1.0]), np.array([3 + 4j]), np.zeros(1, complex), np.zeros(1))
-    assert circle.enclosing(still)[:2] == (3 + 4j, 0.0)
+    assert circle.enclose_curve(still)[:2] == (3 + 4j, 0.0)
     round_ = Phasors(np.array([1.0]), np.array([3 + 4j]), np.array([2j]), np.zeros(1))
-    found = circle.enclosing(round_)
+    found = circle.enclose_curve(round_)
     assert found.centre == pytest.approx(3 + 4j, abs=1e-14)
     assert found.radius == pytest.approx(2, rel=1e-14)
 
 
 def test_angles_are_those_at_which_the_circle_is_touched():
     curve = force()
-    found = circle.enclosing(curve)
+    found = circle.enclose_curve(curve)
     assert np.abs(seen(curve, found.theta) - found.centre) == pytest.approx(found.radius, rel=1e-12)
     assert len(found.theta) == 3
 
 
 def test_no_force_is_a_circle_without_points():
-    nothing = circle.enclosing(
+    nothing = circle.enclose_curve(
         Phasors(np.array([1.0, 2.0]), np.zeros(2, complex), np.zeros(2, complex), np.zeros(1))
     )
     assert (nothing.centre, nothing.radius, nothing.theta.tolist(), nothing.excess) == (0, 0, [], 0)
@@ -188,7 +190,7 @@ def test_cardioids_and_a_deltoid(forward, backward, centre, radius, touching, fi
     """
     orders = np.arange(4.0)
     whole = np.array(forward, complex) + np.where(orders == 1, first, 0)
-    found = circle.enclosing(Phasors(orders, whole, np.array(backward, complex), np.zeros(1)))
+    found = circle.enclose_curve(Phasors(orders, whole, np.array(backward, complex), np.zeros(1)))
     assert found.centre == pytest.approx(first + centre, abs=1e-14)
     assert found.radius == pytest.approx(radius, rel=1e-14)
     assert sorted((np.degrees(found.theta) + 1) % 360 - 1) == pytest.approx(touching, abs=1e-5)
@@ -196,8 +198,11 @@ def test_cardioids_and_a_deltoid(forward, backward, centre, radius, touching, fi
 
 
 def test_angles_on_both_sides_of_0_are_one():
-    assert circle._distinct(np.array([1e-5, 3, 2 * np.pi - 1e-5])).tolist() == [3, 2 * np.pi - 1e-5]
-    assert len(circle._distinct(np.array([0.1, 3, 2 * np.pi - 0.1]))) == 3
+    assert circle._drop_near(np.array([1e-5, 3, 2 * np.pi - 1e-5])).tolist() == [
+        3,
+        2 * np.pi - 1e-5,
+    ]
+    assert len(circle._drop_near(np.array([0.1, 3, 2 * np.pi - 0.1]))) == 3
 
 
 @pytest.mark.parametrize("scale", [1e-9, 1e-3, 1e6])
@@ -209,13 +214,13 @@ def test_a_curve_of_any_size_is_treated_alike(scale):
     small = Phasors(
         curve.orders, scale * curve.forward, scale * curve.backward, scale * np.asarray(curve.noise)
     )
-    whole, found = circle.enclosing(curve), circle.enclosing(small)
+    whole, found = circle.enclose_curve(curve), circle.enclose_curve(small)
     assert found.centre / scale == pytest.approx(whole.centre, rel=1e-12)
     assert found.radius / scale == pytest.approx(whole.radius, rel=1e-13)
     assert found.theta == pytest.approx(whole.theta, abs=1e-7)
     assert 0 <= found.excess <= 1e-13 * found.radius
     points = scale * np.array([1, 1j, -1, 0.2 + 0.1j])
-    centre, radius, fixing = circle.around(points)
+    centre, radius, fixing = circle.enclose_points(points)
     assert (abs(centre) / scale, radius / scale) == pytest.approx((0, 1), abs=1e-12)
     assert len(fixing) >= 2
 
@@ -229,7 +234,7 @@ def test_a_small_circle_beside_a_large_first_order_is_touched_wherever_it_is_but
         np.array([0, eight, 0]) + 0j,
         np.zeros(1),
     )
-    found = circle.enclosing(curve)
+    found = circle.enclose_curve(curve)
     assert found.radius == pytest.approx(eight + ten, rel=1e-9)
     assert len(found.theta) == 18
     assert found.excess == 0

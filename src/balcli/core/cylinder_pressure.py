@@ -101,7 +101,7 @@ def pistons(cylinders: Cylinders, area: ArrayLike) -> list[Piston]:
     c, linkage, radius = cylinders, _articulation(cylinders.linkage), float(cylinders.radius)
     areas, lam, eps = (np.broadcast_to(a, (c.count,)) for a in (area, c.lam, c.eps))
     on_crank = [linkage is None or linkage.master[row] == row for row in range(c.count)]
-    travel = None if all(on_crank) else strokes.travel(c)
+    travel = None if all(on_crank) else strokes.find_travel(c)
     found = []
     for row, plain in enumerate(on_crank):
         if plain or linkage is None or travel is None:

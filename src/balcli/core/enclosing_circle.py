@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .peaks import candidates, climb
+from .peaks import climb_peaks, find_candidates
 from .phasors import EPS, Array, Complex, Phasors
 
 _SAME = 8 * EPS  # points no farther outside than this, relative, are on the circle
@@ -39,7 +39,7 @@ class Circle(NamedTuple):
     noise: float = 0.0
 
 
-def enclosing(curve: Phasors) -> Circle:
+def enclose_curve(curve: Phasors) -> Circle:
     """Smallest circle around `F e^{-i theta}` for phasors of whole orders, 1 among them, without
     trailing axes.
     """
@@ -47,19 +47,19 @@ def enclosing(curve: Phasors) -> Circle:
     if not np.any(curve.major):
         return Circle(0j, 0.0, np.zeros(0), 0.0)
     curve = Phasors(curve.orders[there], curve.forward[there], curve.backward[there], np.zeros(1))
-    best = _around(curve, complex(curve.forward[curve.orders == 1].sum()), np.zeros(0))
+    best = _enclose_from(curve, complex(curve.forward[curve.orders == 1].sum()), np.zeros(0))
     theta, lower = best.theta, 0.0
     for _ in range(_ROUNDS):
         points = _seen(curve, theta)
-        centre, _, fixing = around(points)
+        centre, _, fixing = enclose_points(points)
         theta = theta[fixing]
-        lower = max(lower, _bound(points[fixing], centre))
-        trials = [_around(curve, c, theta) for c in (centre, _newton(curve, theta, centre))]
+        lower = max(lower, _lower_bound(points[fixing], centre))
+        trials = [_enclose_from(curve, c, theta) for c in (centre, _newton(curve, theta, centre))]
         best = min(best, *trials, key=lambda circle: circle.radius)
         if best.radius - lower <= _SAME * best.radius:
             break
-        theta = _distinct(np.concatenate([theta, *(circle.theta for circle in trials)]), _SAME)
-    fine = _around(curve, _newton(curve, theta, best.centre), theta)
+        theta = _drop_near(np.concatenate([theta, *(circle.theta for circle in trials)]), _SAME)
+    fine = _enclose_from(curve, _newton(curve, theta, best.centre), theta)
     best = fine if fine.radius <= best.radius * (1 + _SAME) else best
     noise = _SAME * float(curve.major.sum())
     on = np.abs(_seen(curve, best.theta) - best.centre) >= best.radius * (1 - _TOUCHING) - noise
@@ -69,7 +69,7 @@ def enclosing(curve: Phasors) -> Circle:
     )
 
 
-def around(points: Complex) -> tuple[complex, float, list[int]]:
+def enclose_points(points: Complex) -> tuple[complex, float, list[int]]:
     """Smallest circle around some points: centre, radius, and the (at most three) points that fix
     it.
 
@@ -105,7 +105,7 @@ def _through(points: Complex, fixed: Sequence[int]) -> tuple[complex, float, lis
     return a + middle, abs(middle), list(fixed)
 
 
-def _bound(points: Complex, centre: complex) -> float:
+def _lower_bound(points: Complex, centre: complex) -> float:
     """A lower bound of the radius, by the weights with which the points balance about the
     centre.
     """
@@ -118,14 +118,14 @@ def _bound(points: Complex, centre: complex) -> float:
     return float(np.sqrt(max(weights @ np.abs(arms) ** 2 - abs(weights @ arms) ** 2, 0.0)))
 
 
-def _around(curve: Phasors, centre: complex, theta: Array) -> Circle:
+def _enclose_from(curve: Phasors, centre: complex, theta: Array) -> Circle:
     """The smallest circle with this centre; its angles are those of the highest peaks, and of those
     beside the angles given.
     """
     forward = np.where(curve.orders == 1, curve.forward - centre, curve.forward)
     shifted = Phasors(curve.orders, forward, curve.backward, curve.noise)
-    start = np.concatenate([candidates(shifted), theta])
-    found = _distinct(climb(shifted, start, np.pi / (8 * curve.orders[-1])))
+    start = np.concatenate([find_candidates(shifted), theta])
+    found = _drop_near(climb_peaks(shifted, start, np.pi / (8 * curve.orders[-1])))
     return Circle(centre, float(np.abs(shifted.values(found)).max()), found, np.inf)
 
 
@@ -133,7 +133,7 @@ def _newton(curve: Phasors, theta: Array, centre: complex) -> complex:
     """The centre of the circle through the points that fix it once each is where the curve is
     farthest from that centre.
     """
-    theta = _distinct(theta)
+    theta = _drop_near(theta)
     if len(theta) < 2:
         return centre
 
@@ -152,7 +152,7 @@ def _newton(curve: Phasors, theta: Array, centre: complex) -> complex:
     return slopes(theta)[1]
 
 
-def _distinct(theta: Array, apart: float = _APART) -> Array:
+def _drop_near(theta: Array, apart: float = _APART) -> Array:
     """Angles in [0, 2 pi), ascending, of several that lie together the first."""
     theta = np.sort(theta % (2 * np.pi))
     first = np.diff(theta, prepend=theta[-1:] - 2 * np.pi) > apart

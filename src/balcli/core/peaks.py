@@ -42,10 +42,10 @@ def peak(curve: Phasors) -> Peak:
     if not len(there):
         return Peak(0.0, 0.0)
     curve = Phasors(curve.orders[there], curve.forward[there], curve.backward[there], np.zeros(1))
-    theta = candidates(curve)
+    theta = find_candidates(curve)
     step = np.pi / (8 * max(curve.orders[-1], 1))
     theta = np.concatenate(
-        [[0.0], climb(curve, theta, step)]
+        [[0.0], climb_peaks(curve, theta, step)]
     )  # 0 is the first place of a peak beside it, and of a level curve
     values, turned = np.abs(curve.values(theta)), theta % (2 * np.pi)
     equal = np.flatnonzero(
@@ -55,7 +55,7 @@ def peak(curve: Phasors) -> Peak:
     return Peak(float(values.max()), float(turned[best]))
 
 
-def candidates(curve: Phasors, most: int = 64) -> Array:
+def find_candidates(curve: Phasors, most: int = 64) -> Array:
     """Angles of the samples that may lie beside the highest peak, at most so many: where there are
     more, those of the highest peaks but for 1e-8, of equal ones the first.
     """
@@ -98,7 +98,7 @@ def _evaluate_each(series: Complex, x: Array) -> Complex:
     return np.asarray(polynomial.polyval(x, series, tensor=False), complex)
 
 
-def climb(curve: Phasors, theta: Array, step: float, rounds: int = 12) -> Array:
+def climb_peaks(curve: Phasors, theta: Array, step: float, rounds: int = 12) -> Array:
     """Newton's method for the maxima of |F|^2 beside the given angles, in steps of at most
     `step`.
     """

@@ -22,15 +22,12 @@ Line: TypeAlias = tuple[int, Figure, Figure]  # order, amplitude, angle in degre
 Number = TypeVar("Number", np.float64, np.complex128)
 
 
-def speed(lines: Iterable[Line]) -> Complex:
-    """Two-sided coefficients of W for lines (order, amplitude, angle in degrees), orders -k .. k,
-    before any trailing axes.
-    """
+def find_speed(lines: Iterable[Line]) -> Complex:
+    """Coefficients of W for both signs of the order, shape (2 k + 1, *trailing): orders -k .. k."""
     halves = [(order, amplitude / 2 * unit(-angle)) for order, amplitude, angle in lines]
     highest = max(order for order, _ in halves)
-    w: Complex = np.zeros(
-        (2 * highest + 1, *np.broadcast_shapes(*(half.shape for _, half in halves))), complex
-    )
+    trailing = np.broadcast_shapes(*(half.shape for _, half in halves))
+    w: Complex = np.zeros((2 * highest + 1, *trailing), complex)
     w[highest] = 1
     for order, half in halves:
         w[highest + order] += half
@@ -38,23 +35,27 @@ def speed(lines: Iterable[Line]) -> Complex:
     return w
 
 
-def slowest(lines: Sequence[tuple[int, float, float]]) -> Peak:
-    """The least W over a revolution, to rounding, and a crank angle (rad) at which it is reached,
-    for lines as of `speed`.
+def find_slowest(lines: Sequence[tuple[int, float, float]]) -> Peak:
+    """The least W over a revolution, to rounding, and a crank angle (rad) at which it is reached.
 
     It is where `sum |amplitude| + 1 - W`, which is nowhere negative, has its peak.
     """
-    w, size = speed(lines), sum(abs(amplitude) for _, amplitude, _ in lines)
+    w, size = find_speed(lines), sum(abs(amplitude) for _, amplitude, _ in lines)
     orders = np.arange(len(w) // 2 + 1.0)
     rest = np.where(orders, -w[len(w) // 2 :], size)
     top = peak(Phasors(orders, rest, np.where(orders, rest.conj(), 0), np.zeros(1)))
     return Peak(1 + size - top.value, top.theta)
 
 
-def force(steady: Phasors, w: Complex, mean: Figure = 0.0) -> Phasors:
-    """Force (or moment, or couple) under W, from that at steady speed for the dense orders 0 .. n;
-    correct up to order n - 2k. `mean` is the mean momentum (for the couple: of the rotating
-    masses), which a steady speed does not show.
+def apply_to_force(steady: Phasors, w: Complex, mean: Figure = 0.0) -> Phasors:
+    """Force, moment or couple under W.
+
+    Args:
+        steady: the same at a steady speed, for the orders 0, 1 .. n without a gap.
+        w: from `find_speed`, up to order k.
+        mean: mean momentum (for the couple: of what turns), which a steady speed does not show.
+
+    Returns: for the same orders, correct up to n - 2k.
     """
 
     def shake(momentum: Complex, w: Complex, rate: Complex) -> Complex:
@@ -63,8 +64,10 @@ def force(steady: Phasors, w: Complex, mean: Figure = 0.0) -> Phasors:
     return _transformed(steady, w, mean, shake)
 
 
-def torque(steady: Phasors, w: Complex, mean: Figure) -> Phasors:
-    """Inertia torque under W likewise; `mean` is the mean inertia I_0 (kg m2)."""
+def apply_to_torque(steady: Phasors, w: Complex, mean: Figure) -> Phasors:
+    """Inertia torque under W, as `apply_to_force`; `mean` is the mean inertia times the square of
+    the mean speed, N m.
+    """
 
     def shake(momentum: Complex, w: Complex, rate: Complex) -> Complex:
         return -rate * _convolved(_convolved(momentum, w), w)

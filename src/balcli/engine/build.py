@@ -206,7 +206,7 @@ def _stopped(file: EngineFile) -> Iterator[Problem]:
     for variant in zip(*map(np.ravel, figures), strict=True):
         if sum(map(abs, variant[::2])) < 1 - STANDSTILL:
             continue
-        least, theta = ripple.slowest(
+        least, theta = ripple.find_slowest(
             [
                 (line.order, *own)
                 for line, *own in zip(lines, variant[::2], variant[1::2], strict=True)

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..core.mechanisms import slidercrank as sc
 from ..core.phasors import EPS, Array, Complex, unit
-from ..core.strokes import travel as dead_centres
+from ..core.strokes import find_travel
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import FINEST_STEP_DEG
@@ -197,7 +197,7 @@ class _Motion:
         c = self.cylinders
         if c.linkage is None or self.linked is None:
             return sc.displacement(self.psi, self.lam, self.eps)
-        top = np.radians(dead_centres(c).top_deg).reshape(-1, 1)
+        top = np.radians(find_travel(c).top_deg).reshape(-1, 1)
         highest = c.linkage.motion(top, np.ravel(c.lam), np.ravel(c.eps)).place
         return np.asarray(highest - self.linked.place)
 

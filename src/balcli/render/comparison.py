@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ..forces.kinds import TORQUE
-from .csv import Rows
+from .csv import Rows, name_cell
 from .figures import order_number
 from .sheet import Grid, Sheet, capitalized, number
 
@@ -39,7 +39,7 @@ def _key(line: Line) -> str:
 
 def rows(result: Comparison, system: System) -> Rows:
     """CSV: a figure a line, a column an engine."""
-    header = ("quantity", "order", "unit", *result.names)
+    header = ("quantity", "order", "unit", *map(name_cell, result.names))
     return Rows(header, [_csv_line(line, system) for line in result.lines])
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core.peaks import Peak, peak
 from ..core.phasors import Array
-from ..core.strokes import Travel, travel
+from ..core.strokes import Travel, find_travel
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..forces.crankshaft import InnerLoads, compute_inner_loads
@@ -28,8 +28,8 @@ from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
 from ..forces.symmetry import Symmetry, explain_symmetry
 from ..forces.textbook import TextbookUnits, find_textbook_units
 from ..limits import HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
-from ..sizing.auto import auto
-from ..sizing.sizing import Remedy, fitted
+from ..sizing.auto import size_auto
+from ..sizing.remedy import Remedy, fit_devices
 
 QUANTITIES = (*KINDS, "peak", "sizing")
 EXTRAS = ("inner", "guide")  # computed only when they are named
@@ -157,7 +157,7 @@ def analyze(
         why=explain_symmetry(engine, above_0, provable) if reasons else None,
         inner=compute_inner_loads(engine, asked) if "inner" in wanted else None,
         guide=compute_guide_moments(engine, asked, guide_height_m) if "guide" in wanted else None,
-        travel=None if engine.cylinders.linkage is None else travel(engine.cylinders),
+        travel=None if engine.cylinders.linkage is None else find_travel(engine.cylinders),
     )
 
 
@@ -196,6 +196,6 @@ def _analyze_cylinders(
 
 
 def _size_and_analyze(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizing:
-    remedy = auto(engine)
+    remedy = size_auto(engine)
     left = {*wanted, "force", "moment", "peak"} - {"sizing"}
-    return Sizing(remedy, analyze(fitted(engine, remedy), asked, left))
+    return Sizing(remedy, analyze(fit_devices(engine, remedy), asked, left))

@@ -10,7 +10,7 @@ parameter fastest.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -22,7 +22,6 @@ from ..engine.build import Engine, build
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError, InputError
 from ..forces.quantity import Quantity, evaluate_quantities, parse_quantity_list, refuse_unknown
-from ..limits import MOST_PICTURE_VARIANTS
 from .parameters import Parameter, parse, varied
 
 Array = NDArray[np.float64]
@@ -157,16 +156,9 @@ def list_columns(sweep: Sweep, chunk: Chunk) -> list[Array]:
     return [*(axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")), *chunk.values]
 
 
-def evaluate_grid(sweep: Sweep) -> list[Array]:
-    """Each quantity on the whole grid, shape (values of the first parameter, of the second ...).
-
-    Raises:
-        BalcliError: too many variants to be kept in memory.
+def join_chunks(sweep: Sweep, chunks: Iterable[Chunk]) -> list[Array]:
+    """Each quantity on the whole grid, from all its chunks in the order of rows: shape (values of
+    the first parameter, of the second ...).
     """
-    if sweep.variants > MOST_PICTURE_VARIANTS:
-        raise BalcliError(
-            f"{sweep.variants} variants are too many for one picture; "
-            f"{MOST_PICTURE_VARIANTS} are allowed"
-        )
-    found = zip(*(chunk.values for chunk in evaluate_chunks(sweep)), strict=True)
+    found = zip(*(chunk.values for chunk in chunks), strict=True)
     return [np.concatenate(parts).reshape(sweep.shape) for parts in found]

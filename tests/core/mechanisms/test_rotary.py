@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support.engines import GNOME, rotary_engine
 
-from balcli.core.strokes import travel
+from balcli.core.strokes import find_travel
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
 from balcli.errors import BalcliError, InputError
@@ -59,7 +59,7 @@ def test_the_throw_stands_still():
 def test_strokes_and_dead_centres_are_those_of_the_same_engine_with_a_turning_crank():
     text = GNOME.format(layout="radial = 5", offset=9)
     turning, still = (
-        travel(engine.build(enginefile.parse(text.replace("rotary = true", flag))).cylinders)
+        find_travel(engine.build(enginefile.parse(text.replace("rotary = true", flag))).cylinders)
         for flag in ("", "rotary = true")
     )
     assert still.stroke == pytest.approx(turning.stroke, rel=1e-12)
