@@ -178,3 +178,10 @@ def test_a_report_draws_no_moments(balcli, twin, tmp_path):
 def test_the_guide_moment_of_the_x_type_is_not_known_either(balcli, twin):
     found = json.loads(balcli("analyze", twin, "--only", "guide", "--format", "json")[1])
     assert "x_Nm" not in found["guide"]["orders"][0]
+
+
+def test_the_shops_factor_leaves_a_force_and_says_nothing_of_the_moment(balcli, twin):
+    factors = ["--scheme", "factor", "--factor", "0:1:0.5"]
+    out = balcli("balance", twin, *factors)[1]
+    swept = out.partition("Largest values by factor")[2].splitlines()
+    assert [line.split()[-1] for line in swept if line[:2] in ("0 ", "0.", "1 ")][:3] == ["–"] * 3
