@@ -432,10 +432,10 @@ def test_rows_of_several_engines_can_be_told_apart(balcli, good, tmp_path):
 
 @pytest.mark.parametrize("form", Format)
 def test_into_a_file(balcli, good, tmp_path, form):
-    target = tmp_path / "out.txt"
+    target = tmp_path / "out"
     assert balcli("analyze", good, "--format", form, "-o", target) == (0, "", "")
     assert target.read_text(encoding="utf-8") == balcli("analyze", good, "--format", form)[1]
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["good.toml", "out.txt"]
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["good.toml", "out"]
 
 
 @pytest.mark.parametrize("files", [["bad"], ["good", "bad"]])

@@ -18,6 +18,8 @@ def main() -> NoReturn:
     open_closed_streams()
     gc.set_threshold(100_000)  # start-up makes many objects, but no garbage
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")  # looking for them takes 20 ms
+    if not sys.stdout.isatty():  # help, too, has no escapes there, whatever FORCE_COLOR says
+        os.environ["_TYPER_FORCE_DISABLE_TERMINAL"] = "1"
     status: int = Exit.INTERNAL
     try:
         from .cli import main as run  # after that, for it imports what heeds it

@@ -231,6 +231,40 @@ def test_a_cluster_that_does_not_answer(monkeypatch):
         pass
 
 
+class KilledError(Exception):
+    """As distributed.KilledWorker."""
+
+
+class Lost:
+    """A client whose workers are all killed; what it is given is what a task brings with it."""
+
+    def __init__(self):
+        self.given = []
+
+    def nthreads(self):
+        return {"one": 1}
+
+    def submit(self, work, sweep, batch, **options):
+        self.given.append((sweep, options["retries"] > 0))
+        return self
+
+    def result(self):
+        raise KilledError("task")
+
+
+def test_workers_that_are_all_killed_are_a_message(monkeypatch, four):
+    from balcli.studies import dask_cluster as cluster
+    from balcli.studies.sweep import read_sweep
+
+    monkeypatch.setitem(sys.modules, "distributed", dask(KilledWorker=KilledError))
+    sweep, client = read_sweep(str(four), ["crank.stroke=80,90"], "force.2.major"), Lost()
+    with pytest.raises(
+        BalcliError, match=r"--dask: the cluster has lost its workers \(KilledError\)"
+    ):
+        list(cluster.evaluate_on_cluster(sweep, client))
+    assert client.given == [(sweep, True)]
+
+
 def test_a_cluster_of_our_own_and_one_by_address(monkeypatch):
     from balcli.studies import dask_cluster as cluster
 

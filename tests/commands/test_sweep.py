@@ -94,8 +94,9 @@ def until(happened: Callable[[], bool]) -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
-def test_ctrl_c_leaves_a_valid_part(engine: str, tmp_path: Path) -> None:
+def test_ctrl_c_leaves_a_valid_part_beside_the_older_file(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "x.json"
+    target.write_text("old")
     process = start_command(
         *("sweep", engine, "-q", "force.2.major", "-f", "json", "-o", target),
         *("--vary", "rod.ratio=0.2:0.3:0.00001", "--vary", "crank.stroke=80:90:0.001"),
@@ -111,9 +112,13 @@ def test_ctrl_c_leaves_a_valid_part(engine: str, tmp_path: Path) -> None:
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=HANGS)
     assert process.returncode == 130
-    rows = json.loads(target.read_text())["rows"]
-    assert errors == f"balcli: stopped after {len(rows)} of 100020001 variants\n"
+    part = tmp_path / "x.json.part"
+    rows = json.loads(part.read_text())["rows"]
+    assert errors == (
+        f"balcli: stopped after {len(rows)} of 100020001 variants; they are in {part}\n"
+    )
     assert len(rows) > 0
+    assert target.read_text() == "old"
 
 
 def test_parquet_and_pictures(engine: str, tmp_path: Path) -> None:

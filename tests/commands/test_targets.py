@@ -181,19 +181,22 @@ def _partly(self: Path, data: bytes) -> int:
 
 @pytest.mark.parametrize(
     "command",
-    [["analyze", "-o"], ["balance", "--write"], ["curves", "-o"], ["report", "-o"]],
+    [
+        *(["analyze", "-o", "out.txt"], ["balance", "--write", "out.toml"]),
+        *(["curves", "-o", "out.csv"], ["report", "-o", "out.html"]),
+    ],
     ids=" ".join,
 )
 def test_a_disk_that_fills_up_midway(balcli, good, monkeypatch, command):
-    Path("out.x").write_text("old")
+    name, option, target = command
+    Path(target).write_text("old")
     before = contents()
     monkeypatch.setattr(Path, "write_bytes", _partly)
-    name, option = command
-    status, out, err = balcli(name, good, option, "out.x")
+    status, out, err = balcli(name, good, option, target)
     assert (status, out, err) == (
         2,
         "",
-        "balcli: out.x: cannot be written (No space left on device)\n",
+        f"balcli: {target}: cannot be written (No space left on device)\n",
     )
     assert contents() == before
 

@@ -138,7 +138,7 @@ def test_picture(runs, tmp_path, form):
 
 def test_pictures_have_no_other_form(runs, tmp_path):
     message = refusal("field", runs, "--plot", tmp_path / "x.gif")
-    assert "a picture is written as .svg, .png or .pdf" in message
+    assert "give a name that ends in .svg, .png or .pdf" in message
     assert "stays as it is" in refusal("field", runs, "-o", runs)
 
 

@@ -16,9 +16,8 @@ from support.engines import GOOD, changed
 from balcli.commands.plot import What
 from balcli.engine.build import build
 from balcli.engine.load import parse
-from balcli.errors import BalcliError
 from balcli.render.plot import draw, style
-from balcli.render.plot.pages import PAGES, Subject, form_of, picture
+from balcli.render.plot.pages import PAGES, Subject, picture
 from balcli.render.units import IMPERIAL, SI
 from balcli.results.analysis import analyze
 
@@ -93,15 +92,6 @@ def test_matplotlib_is_imported_for_pictures_only():
 
 def test_the_command_offers_every_page():
     assert list(What) == list(PAGES)
-
-
-def test_forms_by_name(tmp_path):
-    assert [form_of(tmp_path / f"x.{s}") for s in ("svg", "PNG", "pdf")] == ["svg", "png", "pdf"]
-    with pytest.raises(
-        BalcliError,
-        match=r"x\.jpg: a picture is written as \.svg, \.png or \.pdf; give a name that ends so",
-    ):
-        form_of(tmp_path.parent / "x.jpg")
 
 
 # ------------------------------------------------------------------ what is drawn

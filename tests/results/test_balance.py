@@ -18,7 +18,10 @@ from balcli.engine.load import parse
 from balcli.enginefile.model import Counterweight, Slider
 from balcli.errors import BalcliError
 from balcli.results.balance import balance
-from balcli.sizing.sizing import SCHEMES, Remedy, Tools, Wish, practical
+from balcli.sizing.options import SchemeOptions
+from balcli.sizing.remedy import Remedy
+from balcli.sizing.schemes import SCHEMES
+from balcli.sizing.workshop import Tools, find_practical
 
 SINGLE = changed(
     ("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4")
@@ -235,7 +238,7 @@ def engine():
 
 
 def test_practical_figures_follow_from_their_definitions():
-    result = balance(engine(), "single-shaft", Wish(), tools=Tools(radius=0.06, disc=0.05))
+    result = balance(engine(), "single-shaft", SchemeOptions(), tools=Tools(radius=0.06, disc=0.05))
     weight, shaft = result.practical
     omega = engine().omega
     assert weight.mass == pytest.approx(weight.unbalance / 0.06)
@@ -258,10 +261,10 @@ def test_shafts_turn_at_their_ratio():
 
 def test_given_thickness_sets_the_radius():
     remedy = balance(engine()).remedy
-    for p in practical(engine(), remedy, Tools(thickness=0.03)):
+    for p in find_practical(engine(), remedy, Tools(thickness=0.03)):
         assert p.disc_thickness == 0.03
         assert STEEL * 0.03 * 2 / 3 * p.disc_radius**3 == pytest.approx(p.unbalance)
-    assert practical(engine(), Remedy("auto"), Tools()) == ()
+    assert find_practical(engine(), Remedy("auto"), Tools()) == ()
 
 
 def test_drill_depth_removes_the_unbalance():
@@ -283,7 +286,7 @@ def test_a_first_guess_of_a_device_in_steel():
             Counterweight(unbalance=7850 * 0.02 * 2 / 3 * 0.05**3 * 1e6, angle=0, position=0),
         ),
     )
-    (figures,) = practical(engine(), weight, Tools())
+    (figures,) = find_practical(engine(), weight, Tools())
     assert (figures.disc_radius, figures.disc_thickness) == pytest.approx((0.05, 0.02), rel=1e-14)
     assert (figures.radius, figures.mass) == (0.045, pytest.approx(figures.unbalance / 0.045))
     assert figures.depth is None
@@ -293,7 +296,7 @@ def test_a_first_guess_of_a_device_in_steel():
 @pytest.mark.parametrize("length", [0.0, -1e-3, math.inf, math.nan])
 def test_lengths_of_tools_are_positive(name, length):
     with pytest.raises(BalcliError, match="must be positive lengths in mm"):
-        practical(engine(), Remedy(""), Tools(**{name: length}))
+        find_practical(engine(), Remedy(""), Tools(**{name: length}))
 
 
 def test_a_hole_ends_at_the_axis():
@@ -308,7 +311,7 @@ def test_a_hole_ends_at_the_axis():
 def test_sliders_move_at_their_order():
     """n times the crank's speed, n^2 times the force."""
     remedy = Remedy("", sliders=(Slider(order=3, unbalance=1e6, direction=0, angle=0),))
-    (figures,) = practical(engine(), remedy, Tools(radius=0.5, drill=1.0))
+    (figures,) = find_practical(engine(), remedy, Tools(radius=0.5, drill=1.0))
     assert (figures.mass, figures.speed_rpm) == (2, 9000)
     assert figures.force == pytest.approx((9000 * math.pi / 30) ** 2, rel=1e-14)
     assert STEEL * math.pi / 4 * (0.5**2 - (0.5 - figures.depth) ** 2) / 2 == pytest.approx(

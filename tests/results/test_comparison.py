@@ -46,3 +46,18 @@ def test_orders_of_every_engine_are_shown() -> None:
 def test_one_engine_is_refused() -> None:
     with pytest.raises(BalcliError, match="name at least two to compare"):
         compare_engines([build(parse(GOOD))], ["one"])
+
+
+def test_inner_guide_and_sizing_stand_side_by_side() -> None:
+    from balcli.results.analysis import analyze
+
+    engines = [build(parse(GOOD)), build(parse(changed(("stroke = 90", "stroke = 80"))))]
+    found = compare_engines(engines, ["a", "b"], None, ["inner", "guide", "sizing"])
+    lines = {(line.kind.name, line.order): line.values for line in found.lines}
+    alone = [analyze(engine, [2], ["inner", "guide", "sizing"]) for engine in engines]
+    bending = tuple(float(one.inner.bending.phasors.major[0].max()) for one in alone)
+    assert lines["bending", 2] == pytest.approx(bending, rel=1e-12)
+    assert lines["guide_h", 2] == pytest.approx([float(one.guide.h.major[0]) for one in alone])
+    left = [one.sizing.after.force.value for one in alone]
+    assert lines["force with devices", None] == pytest.approx(left)
+    assert {"shear", "bearing", "guide_x", "moment with devices"} <= {name for name, _ in lines}

@@ -10,8 +10,11 @@ from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.results.analysis import analyze
-from balcli.sizing.sizing import SCHEMES, Remedy, Wish, fitted, remedy_for
-from balcli.sizing.write import fit
+from balcli.sizing.options import SchemeOptions
+from balcli.sizing.remedy import Remedy, fit_devices
+from balcli.sizing.schemes import SCHEMES
+from balcli.sizing.sizing import size
+from balcli.sizing.write import insert_remedy
 
 SINGLE = changed(
     ("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4")
@@ -36,8 +39,10 @@ def figures(engine):
 def test_every_written_engine_reads_back_to_exactly_what_was_promised(path, scheme):
     text = path.read_bytes()
     engine = build(parse(text))
-    remedy = remedy_for(engine, scheme)
-    assert figures(build(parse(fit(text, remedy)))) == figures(fitted(engine, remedy))
+    remedy = size(engine, scheme)
+    assert figures(build(parse(insert_remedy(text, remedy)))) == figures(
+        fit_devices(engine, remedy)
+    )
 
 
 @pytest.mark.parametrize("scheme", ["auto", "minimax", "two-shaft", "slider", "factor"])
@@ -48,16 +53,16 @@ def test_devices_of_the_file_stay(scheme):
         "[[counterweight]]\nmass = 0.3\nradius = 50\n"
     )
     engine = build(parse(SINGLE + own))
-    remedy = remedy_for(engine, scheme)
-    assert figures(build(parse(fit((SINGLE + own).encode(), remedy)))) == figures(
-        fitted(engine, remedy)
+    remedy = size(engine, scheme)
+    assert figures(build(parse(insert_remedy((SINGLE + own).encode(), remedy)))) == figures(
+        fit_devices(engine, remedy)
     )
 
 
 def test_the_text_stays_and_reasons_stand_beside_the_devices():
     text = GOOD.rstrip("\n") + " # the last comment"
-    remedy = remedy_for(build(parse(text)), "auto")
-    new = fit(text.encode(), remedy)
+    remedy = size(build(parse(text)), "auto")
+    new = insert_remedy(text.encode(), remedy)
     assert new.startswith(
         text + "\n\n# fitted by balcli, scheme auto\n# Order 2 force turning with the crank: "
     )
@@ -70,27 +75,29 @@ def test_the_text_stays_and_reasons_stand_beside_the_devices():
 def test_marks_and_line_ends(dressed):
     text = dressed(SINGLE).encode()
     engine = build(parse(text))
-    remedy = remedy_for(engine, "auto")
-    assert figures(build(parse(fit(text, remedy)))) == figures(fitted(engine, remedy))
+    remedy = size(engine, "auto")
+    assert figures(build(parse(insert_remedy(text, remedy)))) == figures(
+        fit_devices(engine, remedy)
+    )
 
 
 def test_an_inline_list_of_devices_is_written_anew():
     text = "counterweight = [{ unbalance = 500, angle = 180 }]  # by hand\n" + SINGLE
     engine = build(parse(text))
-    remedy = remedy_for(engine, "auto")
-    new = fit(text.encode(), remedy)
+    remedy = size(engine, "auto")
+    new = insert_remedy(text.encode(), remedy)
     assert new.startswith("# Comments and lay-out of the original could not be kept")
-    assert figures(build(parse(new))) == figures(fitted(engine, remedy))
+    assert figures(build(parse(new))) == figures(fit_devices(engine, remedy))
 
 
 def test_nothing_to_fit_leaves_the_text():
-    assert fit(GOOD.encode(), Remedy("auto")) == GOOD
+    assert insert_remedy(GOOD.encode(), Remedy("auto")) == GOOD
 
 
 @pytest.mark.parametrize("scheme", ["eccentric-slider", "oldham"])
 def test_what_no_file_can_describe_is_not_written(scheme):
-    remedy = remedy_for(build(parse(SINGLE)), scheme, Wish())
+    remedy = size(build(parse(SINGLE)), scheme, SchemeOptions())
     with pytest.raises(
         BalcliError, match=f"scheme {scheme}: no engine file can describe its devices"
     ):
-        fit(SINGLE.encode(), remedy)
+        insert_remedy(SINGLE.encode(), remedy)

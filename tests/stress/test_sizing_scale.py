@@ -11,13 +11,17 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 from support.engines import engine_text
+from support.remedies import figures
 
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
-from balcli.sizing.auto import auto
-from balcli.sizing.sizing import SCHEMES, Wish, fitted, remedy_for
+from balcli.sizing.auto import size_auto
+from balcli.sizing.options import SchemeOptions
+from balcli.sizing.remedy import fit_devices
+from balcli.sizing.schemes import SCHEMES
+from balcli.sizing.sizing import size
 
 LEFT = 1e-12
 
@@ -72,7 +76,7 @@ def random_engine(seed: int) -> Engine:
 @example(33446)
 def test_auto_leaves_nothing_in_any_engine(seed):
     engine = random_engine(seed)
-    after = compute_spectra(fitted(engine, auto(engine)), [1, 2], ("force", "moment"))
+    after = compute_spectra(fit_devices(engine, size_auto(engine)), [1, 2], ("force", "moment"))
     assert after.force.balanced.all()
     assert after.moment.balanced.all()
 
@@ -80,10 +84,10 @@ def test_auto_leaves_nothing_in_any_engine(seed):
 @given(st.integers(0, 2**32))
 def test_pairs_add_no_roll_in_any_engine(seed):
     engine = random_engine(seed)
-    remedy = remedy_for(engine, "two-shaft", Wish(order=2, at=(0.05 - 0.03j,)))
+    remedy = size(engine, "two-shaft", SchemeOptions(order=2, at=(0.05 - 0.03j,)))
     before, after = (
         compute_spectra(e, [2], ("force", "roll", "torque", "couple"))
-        for e in (engine, fitted(engine, remedy))
+        for e in (engine, fit_devices(engine, remedy))
     )
     assert after.force.balanced.all()
     x, y, _ = engine.reference_m  # no roll is added about the crank axis
@@ -111,22 +115,22 @@ def test_pairs_add_no_roll_in_any_engine(seed):
 )
 def test_no_scheme_breaks(seed, scheme):
     engine = random_engine(seed)
-    wish = Wish(planes=(-0.21, 0.3)) if scheme == "couple-shaft" else Wish()
-    remedy = remedy_for(engine, scheme, wish)
+    options = SchemeOptions(planes=(-0.21, 0.3)) if scheme == "couple-shaft" else SchemeOptions()
+    remedy = size(engine, scheme, options)
     assert all(d.unbalance >= 0 and np.isfinite(d.unbalance) for d in remedy.devices)
     assert len(remedy.reasons) == len(remedy.devices)
-    after = compute_spectra(fitted(engine, remedy), [1, 2], ("force", "moment"))
+    after = compute_spectra(fit_devices(engine, remedy), [1, 2], ("force", "moment"))
     if scheme == "four-shaft":
         assert after.force.balanced.all()
     if scheme == "counterweights":
         assert after.force.forward[0] == after.moment.forward[0] == 0
     if scheme == "slider":
         assert compute_spectra(
-            fitted(engine, remedy), [remedy.order], ("force",)
+            fit_devices(engine, remedy), [remedy.order], ("force",)
         ).force.balanced.all()
     if scheme == "couple-shaft":
         assert compute_spectra(
-            fitted(engine, remedy), [remedy.order], ("moment",)
+            fit_devices(engine, remedy), [remedy.order], ("moment",)
         ).moment.balanced.all()
 
 
@@ -139,7 +143,7 @@ def test_a_gram_next_to_a_hundred_tonnes(light):
             + f"[cylinder.2]\npiston_mass = {light}\n"
         )
     )
-    assert share_left(engine, fitted(engine, auto(engine))) <= LEFT
+    assert share_left(engine, fit_devices(engine, size_auto(engine))) <= LEFT
     alone = build(
         parse(
             engine_text(
@@ -147,7 +151,7 @@ def test_a_gram_next_to_a_hundred_tonnes(light):
             )
         )
     )
-    assert share_left(alone, fitted(alone, auto(alone))) <= LEFT
+    assert share_left(alone, fit_devices(alone, size_auto(alone))) <= LEFT
 
 
 @pytest.mark.parametrize("apart", [100, 1, 0.1])
@@ -160,14 +164,14 @@ def test_planes_next_to_each_other(apart):
             engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nthrow_mass = 2")
         )
     )
-    remedy = remedy_for(engine, "counterweights", Wish(planes=(0.05, 0.05 + apart / 1e3)))
+    remedy = size(engine, "counterweights", SchemeOptions(planes=(0.05, 0.05 + apart / 1e3)))
     before, after = (
-        compute_spectra(e, [1], ("force", "moment")) for e in (engine, fitted(engine, remedy))
+        compute_spectra(e, [1], ("force", "moment")) for e in (engine, fit_devices(engine, remedy))
     )
     assert abs(after.moment.forward[0]) <= LEFT * before.moment.major[0]
     assert abs(after.force.forward[0]) * 0.1 <= LEFT * before.moment.major[0]
     system = [[1, 1], [0.05 / (0.05 + apart / 1e3), 1]]  # force, and moment by the longest arm
-    assert remedy.details["condition_number"] == pytest.approx(np.linalg.cond(system), rel=1e-6)
+    assert figures(remedy)["condition number"] == pytest.approx(np.linalg.cond(system), rel=1e-6)
 
 
 @pytest.mark.parametrize("apart", [1e-9, 1e-6])
@@ -175,7 +179,7 @@ def test_hopeless_planes_are_refused_with_their_condition_number(apart):
     """A nanometre, or a micrometre: rounding alone would leave more than the promised 1e-12."""
     engine = build(parse(engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100")))
     with pytest.raises(BalcliError) as caught:
-        remedy_for(engine, "counterweights", Wish(planes=(0.05, 0.05 + apart)))
+        size(engine, "counterweights", SchemeOptions(planes=(0.05, 0.05 + apart)))
     told = re.search(r"condition number ([0-9.e+]+)\)", str(caught.value))
     assert told is not None
     assert float(told[1]) == pytest.approx(
@@ -190,7 +194,7 @@ def test_remedies_grow_with_the_masses(scale):
     def weights(mass):
         crank = f"stroke = 100\nthrows = [0, 90, 250]\nspacing = 100\nthrow_mass = {2 * mass!r}"
         text = engine_text(crank=crank, piston=f"mass = {mass!r}")
-        return np.array([d.unbalance for d in auto(build(parse(text))).devices])
+        return np.array([d.unbalance for d in size_auto(build(parse(text))).devices])
 
     assert weights(scale) == pytest.approx(scale * weights(1.0), rel=1e-12)
 

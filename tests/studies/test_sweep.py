@@ -14,13 +14,14 @@ from balcli.engine.load import parse as load
 from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
 from balcli.render.sweep import csv_text, json_text
+from balcli.render.sweep_plot import check_drawable
 from balcli.studies.parameters import parse
 from balcli.studies.sweep import (
     Sweep,
     check_corners,
     divide_grid,
     evaluate_chunks,
-    evaluate_grid,
+    join_chunks,
     list_columns,
 )
 
@@ -88,7 +89,7 @@ def asked(engine: str, *vary: str, of: str = "") -> Sweep:
 )
 def test_every_variant_is_the_engine_alone(engine: str, vary: tuple[str, ...]) -> None:
     sweep = asked(engine, *vary)
-    found = evaluate_grid(sweep)
+    found = join_chunks(sweep, evaluate_chunks(sweep))
     paths = [p.path for p in sweep.parameters]
     variants = [
         dict(zip(paths, values, strict=True))
@@ -150,7 +151,7 @@ def test_chunks_do_not_change_figures() -> None:
     assert len(several) == 2
     every = np.concatenate([np.stack(list_columns(sweep, chunk)) for chunk in several], axis=1)
     assert every.shape == (4, 36_000)
-    whole = np.stack(evaluate_grid(sweep)).reshape(2, -1)
+    whole = np.stack(join_chunks(sweep, evaluate_chunks(sweep))).reshape(2, -1)
     assert np.array_equal(every[2:], whole)
     assert every[:2, [0, 1, 200, -1]].T.tolist() == [[0, 0.2], [0, 0.201], [1, 0.2], [179, 0.399]]
 
@@ -158,7 +159,7 @@ def test_chunks_do_not_change_figures() -> None:
 def test_csv_is_exact_and_an_axis_that_is_none_an_empty_cell() -> None:
     sweep = asked(GOOD, "piston.mass=0.1,0.5", of="force.2.major,force.2.axis,force.1.axis")
     text = "".join(csv_text(sweep, evaluate_chunks(sweep)))
-    force = [repr(float(v)) for v in evaluate_grid(sweep)[0]]
+    force = [repr(float(v)) for v in join_chunks(sweep, evaluate_chunks(sweep))[0]]
     assert (
         text
         == f"piston.mass,force.2.major,force.2.axis,force.1.axis\n0.1,{force[0]},0.0,\n0.5,{force[1]},0.0,\n"
@@ -183,7 +184,7 @@ def test_a_variant_that_cannot_turn_is_found_before_anything_is_computed() -> No
 
 def test_a_picture_of_too_many_variants_is_refused() -> None:
     with pytest.raises(BalcliError, match="4004001 variants are too many for one picture"):
-        evaluate_grid(asked(GOOD, "piston.mass=0:2:0.001", "crank.stroke=80:100:0.01"))
+        check_drawable(asked(GOOD, "piston.mass=0:2:0.001", "crank.stroke=80:100:0.01"))
 
 
 def test_cluster_gives_identical_rows() -> None:

@@ -10,6 +10,7 @@ import math
 import numpy as np
 import pytest
 from support.engines import engine_text
+from support.remedies import figures
 
 from balcli.core.mechanisms import closed_form
 from balcli.engine.build import Engine, build
@@ -17,8 +18,10 @@ from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
 from balcli.results.analysis import analyze
-from balcli.sizing.auto import auto
-from balcli.sizing.sizing import Wish, fitted, remedy_for
+from balcli.sizing.auto import size_auto
+from balcli.sizing.options import SchemeOptions
+from balcli.sizing.remedy import fit_devices
+from balcli.sizing.sizing import size
 
 M, R, LAM = 1.0, 0.05, 0.25
 A2 = float(closed_form.piston([2], LAM)[0])
@@ -48,23 +51,23 @@ def sizes(tables) -> list[float]:
 def test_v_twin_at_90_degrees_needs_a_counterweight_alone():
     """Half of both pistons: one reciprocating mass opposite the pin, with the rotating mass."""
     e = engine([0], layout="bank_angle = 90")
-    (weight,) = auto(e).counterweights
+    (weight,) = size_auto(e).counterweights
     assert weight.unbalance / 1e6 == pytest.approx((M + 1) * R, rel=1e-14)
     assert weight.angle == 180
-    assert left(fitted(e, auto(e)), [1]).force.balanced.all()
+    assert left(fit_devices(e, size_auto(e)), [1]).force.balanced.all()
 
 
 def test_cross_plane_v8_needs_counterweights_alone():
     """Each throw acts like a rotating mass m_rec + m_rot (Cadillac 1923); end weights take the
     couple of `sqrt 10` throw distances.
     """
-    remedy = auto(CROSS_V8)
+    remedy = size_auto(CROSS_V8)
     assert not remedy.shafts
     assert not remedy.sliders
     assert sizes(remedy.counterweights) == pytest.approx(
         [math.sqrt(10) / 3 * (M + 1) * R] * 2, rel=1e-14
     )
-    after = left(fitted(CROSS_V8, remedy))
+    after = left(fit_devices(CROSS_V8, remedy))
     assert after.force.balanced.all()
     assert after.moment.balanced.all()
 
@@ -73,14 +76,16 @@ def test_cross_plane_v8_needs_counterweights_alone():
 def test_radial_engines_need_a_counterweight_alone(cylinders):
     """R = (m_a/2 + m_b) i r omega^2 (Kvasnikov)."""
     e = engine([0], layout=f"radial = {cylinders}")
-    (weight,) = remedy_for(e, "counterweights").counterweights
+    (weight,) = size(e, "counterweights").counterweights
     assert weight.unbalance / 1e6 == pytest.approx((cylinders * M / 2 + 1) * R, rel=1e-13)
-    assert left(fitted(e, remedy_for(e, "counterweights")), [1]).force.balanced.all()
+    assert left(fit_devices(e, size(e, "counterweights")), [1]).force.balanced.all()
 
 
 @pytest.mark.parametrize("planes", ["ends", "throws", (-0.22, 0.19), (-0.3, -0.1, 0.2)])
 def test_counterweights_in_any_planes(planes):
-    after = left(fitted(INLINE_3, remedy_for(INLINE_3, "counterweights", Wish(planes=planes))), [1])
+    after = left(
+        fit_devices(INLINE_3, size(INLINE_3, "counterweights", SchemeOptions(planes=planes))), [1]
+    )
     assert (after.force.forward[0], after.moment.forward[0]) == (0, 0)
     assert abs(after.moment.backward[0]) == pytest.approx(
         abs(left(INLINE_3, [1]).moment.backward[0]), rel=1e-14
@@ -89,9 +94,9 @@ def test_counterweights_in_any_planes(planes):
 
 def test_a_single_plane_does_what_it_can():
     e = engine([0], layout="bank_angle = 60\nstagger = 20")
-    remedy = remedy_for(e, "counterweights", Wish(planes=(0.0,)))
-    assert remedy.details["left_force_N"] == 0
-    assert remedy.details["left_moment_Nm"] == pytest.approx(
+    remedy = size(e, "counterweights", SchemeOptions(planes=(0.0,)))
+    assert figures(remedy)["left force"] == 0
+    assert figures(remedy)["left moment"] == pytest.approx(
         abs(left(e, [1]).moment.forward[0]), rel=1e-14
     )
 
@@ -100,7 +105,7 @@ def test_a_single_plane_does_what_it_can():
 def test_factor_leaves_what_it_does_not_take():
     e = engine([0])
     for share in (0, 0.4, 0.5, 0.66, 1):
-        after = left(fitted(e, remedy_for(e, "factor", Wish(factor=(share,)))), [1]).force
+        after = left(fit_devices(e, size(e, "factor", SchemeOptions(factor=(share,)))), [1]).force
         unit = M * R * e.omega**2
         assert after.forward[0].real == pytest.approx((0.5 - share) * unit, abs=1e-13 * unit)
         assert after.backward[0] == pytest.approx(unit / 2, rel=1e-14)
@@ -118,12 +123,12 @@ def test_bobweight_card_of_a_cross_plane_v8():
         piston="mass = 0.7",
         bobweight="rod_bearing = 0.047\noil = 0.004",
     )
-    card = remedy_for(e, "factor").details["card"]
-    assert [entry["cylinders"] for entry in card] == [[1, 5], [2, 6], [3, 7], [4, 8]]
-    assert [entry["rotating_g"] for entry in card] == pytest.approx([2 * (430 + 47 + 4)] * 4)
-    assert [entry["reciprocating_g"] for entry in card] == pytest.approx([2 * (700 + 170)] * 4)
-    assert [entry["bobweight_g"] for entry in card] == pytest.approx([962 + 870] * 4)
-    assert left(fitted(e, remedy_for(e, "factor")), [1]).moment.balanced.all()
+    card = size(e, "factor").card
+    assert [entry.cylinders for entry in card] == [(1, 5), (2, 6), (3, 7), (4, 8)]
+    assert [entry.rotating_g for entry in card] == pytest.approx([2 * (430 + 47 + 4)] * 4)
+    assert [entry.reciprocating_g for entry in card] == pytest.approx([2 * (700 + 170)] * 4)
+    assert [entry.bobweight_g for entry in card] == pytest.approx([962 + 870] * 4)
+    assert left(fit_devices(e, size(e, "factor")), [1]).moment.balanced.all()
 
 
 def test_split_pins_have_a_card_each():
@@ -136,14 +141,12 @@ def test_split_pins_have_a_card_each():
             )
         )
     )
-    assert [len(entry["cylinders"]) for entry in remedy_for(e, "factor").details["card"]] == [
+    assert [len(entry.cylinders) for entry in size(e, "factor").card] == [
         2,
         2,
         2,
     ]
-    assert [len(entry["cylinders"]) for entry in remedy_for(split, "factor").details["card"]] == [
-        1
-    ] * 6
+    assert [len(entry.cylinders) for entry in size(split, "factor").card] == [1] * 6
 
 
 def test_factor_sweep_trades_along_for_across():
@@ -151,16 +154,14 @@ def test_factor_sweep_trades_along_for_across():
     units of m r omega^2.
     """
     e = build(parse(engine_text(rod="ratio = 1e-7")))
-    rows = remedy_for(e, "factor", Wish(factor=(0.0, 0.25, 0.5, 0.75, 1.0))).details["sweep"]
+    remedy = size(e, "factor", SchemeOptions(factor=(0.0, 0.25, 0.5, 0.75, 1.0)))
     unit = M * R * e.omega**2
-    for row in rows:
-        share = row["factor"]
-        assert row["along_N"] == pytest.approx((1 - share) * unit, abs=1e-6 * unit)
-        assert row["across_N"] == pytest.approx(share * unit, abs=1e-6 * unit)
-        assert row["peak_force_N"] == pytest.approx(max(share, 1 - share) * unit, abs=1e-6 * unit)
-    assert (
-        remedy_for(e, "factor", Wish(factor=(0.0, 0.25, 0.5, 0.75, 1.0))).details["factor"] == 0.5
-    )
+    for row in remedy.sweep:
+        share = row.factor
+        assert row.along == pytest.approx((1 - share) * unit, abs=1e-6 * unit)
+        assert row.across == pytest.approx(share * unit, abs=1e-6 * unit)
+        assert row.force == pytest.approx(max(share, 1 - share) * unit, abs=1e-6 * unit)
+    assert figures(remedy)["factor"] == 0.5
 
 
 # ------------------------------------------------------------------ shafts
@@ -168,7 +169,7 @@ def test_lanchester_shafts_of_an_inline_four():
     """Lanchester 1912: two shafts at twice crank speed, each A2 m r / 2 (of `4 A2 m r omega^2 = 2 U
     (2 omega)^2`).
     """
-    for remedy in (auto(INLINE_4), remedy_for(INLINE_4, "two-shaft")):
+    for remedy in (size_auto(INLINE_4), size(INLINE_4, "two-shaft")):
         assert sorted(s.ratio for s in remedy.shafts) == [-2, 2]
         assert sizes(remedy.shafts) == pytest.approx([A2 * M * R / 2] * 2, rel=1e-14)
         assert {s.angle for s in remedy.shafts} == {180.0}
@@ -183,23 +184,25 @@ def test_shafts_at_different_heights_take_the_roll():
     """
     inertia_torque = 4 * M * R**2 * abs(float(closed_form.kinetic([2], LAM)[0]))  # per omega^2
     height = inertia_torque / (4 * A2 * M * R / 2)  # force of one shaft
-    remedy = remedy_for(INLINE_4, "two-shaft", Wish(roll="zero"))
+    remedy = size(INLINE_4, "two-shaft", SchemeOptions(roll="zero"))
     place = {s.ratio: complex(*s.at) / 1e3 for s in remedy.shafts}
     assert place[2] - place[-2] == pytest.approx(height, rel=1e-13)
-    after = left(fitted(INLINE_4, remedy), [2])
+    after = left(fit_devices(INLINE_4, remedy), [2])
     assert abs(after.roll.forward[0]) <= 1e-14 * inertia_torque * INLINE_4.omega**2
     assert after.force.balanced.all()
-    halfway = remedy_for(INLINE_4, "two-shaft", Wish(at=(-height / 4 + 0.03j, height / 4 - 0.03j)))
-    assert halfway.details["order_2"]["roll_left_Nm"] == pytest.approx(
+    halfway = size(
+        INLINE_4, "two-shaft", SchemeOptions(at=(-height / 4 + 0.03j, height / 4 - 0.03j))
+    )
+    assert figures(halfway, "order 2")["roll left"] == pytest.approx(
         inertia_torque * INLINE_4.omega**2 / 2, rel=1e-12
     )
 
 
 def test_roll_vanishes_with_the_first_shaft_given_and_the_reference_elsewhere():
     e = engine([0, 180, 180, 0], more="[frame]\nreference = [30, -20, 0]\n")
-    remedy = remedy_for(e, "two-shaft", Wish(at=(-0.04 + 0.06j,), roll="zero"))
+    remedy = size(e, "two-shaft", SchemeOptions(at=(-0.04 + 0.06j,), roll="zero"))
     assert remedy.shafts[0].at == (-40.0, 60.0)
-    rolls = [abs(left(x, [2]).roll.forward[0]) for x in (e, fitted(e, remedy))]
+    rolls = [abs(left(x, [2]).roll.forward[0]) for x in (e, fit_devices(e, remedy))]
     assert rolls[1] <= 1e-13 * rolls[0]
 
 
@@ -207,16 +210,16 @@ def test_inline_three_needs_couples():
     """Order 1 backward couple `sqrt3/2 m r a omega^2`: two opposite eccentrics 2a apart (a the
     throw spacing).
     """
-    remedy = auto(INLINE_3)
+    remedy = size_auto(INLINE_3)
     at = {ratio: [s for s in remedy.shafts if s.ratio == ratio] for ratio in (-1, 2, -2)}
     assert sizes(at[-1]) == pytest.approx([math.sqrt(3) / 4 * M * R] * 2, rel=1e-13)
     assert sizes(at[2]) == pytest.approx([math.sqrt(3) / 4 * A2 * M * R / 4] * 2, rel=1e-13)
     a, b = (cmath.rect(s.unbalance, math.radians(s.angle)) for s in at[-1])
     assert abs(a + b) <= 1e-14 * abs(a)
-    after = left(fitted(INLINE_3, remedy))
+    after = left(fit_devices(INLINE_3, remedy))
     assert after.force.balanced.all()
     assert after.moment.balanced.all()
-    shafts = fitted(INLINE_3, remedy_for(INLINE_3, "couple-shaft"))
+    shafts = fit_devices(INLINE_3, size(INLINE_3, "couple-shaft"))
     assert left(shafts, [1]).moment.balanced.all()
 
 
@@ -229,22 +232,22 @@ def test_even_firing_v6_at_60_degrees_has_a_backward_second_order_couple_alone()
             )
         )
     )
-    assert {s.ratio for s in auto(e).shafts} <= {-2}
+    assert {s.ratio for s in size_auto(e).shafts} <= {-2}
 
 
 def test_single_shaft_on_an_inline_four_says_what_stays():
-    remedy = remedy_for(INLINE_4, "single-shaft")
+    remedy = size(INLINE_4, "single-shaft")
     assert remedy.order == 2
-    assert remedy.details["force_with_crank_left_N"] == pytest.approx(
+    assert figures(remedy)["force with crank left"] == pytest.approx(
         2 * A2 * M * R * INLINE_4.omega**2, rel=1e-14
     )
 
 
 def test_inline_six_needs_nothing():
     e = engine([0, 240, 120, 120, 240, 0])
-    assert not auto(e).devices
-    assert not remedy_for(e, "counterweights").devices
-    assert "no counterweight is needed" in remedy_for(e, "counterweights").details["note"]
+    assert not size_auto(e).devices
+    assert not size(e, "counterweights").devices
+    assert "no counterweight is needed" in size(e, "counterweights").note
 
 
 def test_eccentric_stands_where_the_force_acts():
@@ -252,70 +255,83 @@ def test_eccentric_stands_where_the_force_acts():
     the moment too.
     """
     e = engine([0, 180], more="[cylinder.2]\npiston_mass = 3\n")
-    at = {s.ratio: s for s in auto(e).shafts if abs(s.ratio) == 2}
+    at = {s.ratio: s for s in size_auto(e).shafts if abs(s.ratio) == 2}
     assert at[2].position == at[-2].position == pytest.approx((3 * 50 - 50) / 4, rel=1e-14)
-    after = left(fitted(e, auto(e)))
+    after = left(fit_devices(e, size_auto(e)))
     assert after.force.balanced.all()
     assert after.moment.balanced.all()
 
 
 # ------------------------------------------------------------------ refusals
 @pytest.mark.parametrize(
-    ("scheme", "wish", "reason"),
+    ("scheme", "options", "reason"),
     [
         (
             "counterweights",
-            Wish(order=2),
+            SchemeOptions(order=2),
             "order 2 cannot be cancelled by anything on the crankshaft",
         ),
-        ("counterweights", Wish(planes=(0.1, 0.1)), "planes at the same z, cannot take a moment"),
-        ("couple-shaft", Wish(planes=(0.1, 0.1)), "planes at the same z, cannot take a moment"),
-        ("couple-shaft", Wish(planes="throws"), "opposite eccentrics stand in two planes"),
         (
             "counterweights",
-            Wish(planes=(0.1, 0.1 + 1e-10)),
+            SchemeOptions(planes=(0.1, 0.1)),
+            "planes at the same z, cannot take a moment",
+        ),
+        (
+            "couple-shaft",
+            SchemeOptions(planes=(0.1, 0.1)),
+            "planes at the same z, cannot take a moment",
+        ),
+        ("couple-shaft", SchemeOptions(planes="throws"), "opposite eccentrics stand in two planes"),
+        (
+            "counterweights",
+            SchemeOptions(planes=(0.1, 0.1 + 1e-10)),
             r"too much alike: .*condition number .*e\+09",
         ),
-        ("two-shaft", Wish(order=0), "must be a whole number from 1 to 1000"),
-        ("auto", Wish(order=2), "scheme auto has no --order; it takes no options"),
+        ("two-shaft", SchemeOptions(order=0), "must be a whole number from 1 to 1000"),
+        ("auto", SchemeOptions(order=2), "scheme auto has no --order; it takes no options"),
         (
             "magic",
-            Wish(),
+            SchemeOptions(),
             "there is no scheme 'magic': choose from auto, counterweights, factor, minimax, "
             "single-shaft, two-shaft, four-shaft, "
             "couple-shaft, slider, eccentric-slider, oldham, knuckles",
         ),
-        ("knuckle", Wish(), "there is no scheme 'knuckle': did you mean knuckles\\? choose from"),
+        (
+            "knuckle",
+            SchemeOptions(),
+            "there is no scheme 'knuckle': did you mean knuckles\\? choose from",
+        ),
         (
             "knuckles",
-            Wish(),
+            SchemeOptions(),
             "scheme knuckles sizes no devices but changes the engine file: `balcli balance "
             "--scheme knuckles` does so",
         ),
-        ("mini-max", Wish(), "did you mean minimax"),
-        ("two-shaft", Wish(order=6, roll="nought"), 'only "zero" can be asked for'),
+        ("mini-max", SchemeOptions(), "did you mean minimax"),
+        ("two-shaft", SchemeOptions(order=6, roll="nought"), 'only "zero" can be asked for'),
         (
             "two-shaft",
-            Wish(order=3, roll="zero"),
+            SchemeOptions(order=3, roll="zero"),
             "order 3 has no free force.*shafts without unbalance can do nothing about the roll",
         ),
         (
             "two-shaft",
-            Wish(order=6, roll="zero", at=(0.1j, 0.2j)),
+            SchemeOptions(order=6, roll="zero", at=(0.1j, 0.2j)),
             "fixes the place of the second shaft",
         ),
-        ("factor", Wish(factor=(math.nan,)), "give a share of the reciprocating mass"),
+        ("factor", SchemeOptions(factor=(math.nan,)), "give a share of the reciprocating mass"),
     ],
 )
-def test_infeasible_wishes_are_told_why(scheme, wish, reason):
+def test_infeasible_options_are_told_why(scheme, options, reason):
     with pytest.raises(BalcliError, match=reason):
-        remedy_for(INLINE_3, scheme, wish)
+        size(INLINE_3, scheme, options)
 
 
 def test_sizing_is_for_steady_speed():
     ripple = "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.02 }]\n"
     uneven = engine([0, 180, 180, 0], more=ripple)
-    assert auto(uneven).shafts == auto(INLINE_4).shafts
+    assert size_auto(uneven).shafts == size_auto(INLINE_4).shafts
     assert np.any(
-        analyze(fitted(uneven, auto(uneven)), [1, 2, 4], ["force"]).spectra.force.major > 0
+        analyze(fit_devices(uneven, size_auto(uneven)), [1, 2, 4], ["force"]).spectra.force.major
+        > 0
     )

@@ -19,7 +19,9 @@ from balcli.core.mechanisms import closed_form
 from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
 from balcli.forces.spectrum import compute_spectra
-from balcli.sizing.sizing import Wish, fitted, remedy_for
+from balcli.sizing.options import SchemeOptions
+from balcli.sizing.remedy import fit_devices
+from balcli.sizing.sizing import size
 
 K = (
     4 * float(closed_form.piston([2], 0.25)[0]) * 1.0 * 0.05
@@ -38,10 +40,10 @@ def flat_plane(gamma: float) -> Engine:
     )
 
 
-def unbalances(engine: Engine, **wish: object) -> dict[int, complex]:
+def unbalances(engine: Engine, **options: object) -> dict[int, complex]:
     """Sum of the unbalances (kg m) at each ratio."""
     found: dict[int, complex] = {}
-    for s in remedy_for(engine, "two-shaft", Wish(order=2, **wish)).shafts:
+    for s in size(engine, "two-shaft", SchemeOptions(order=2, **options)).shafts:
         found[s.ratio] = found.get(s.ratio, 0j) + cmath.rect(
             s.unbalance / 1e6, math.radians(s.angle)
         )
@@ -57,7 +59,9 @@ def test_shafts_cancel_both_rotating_vectors_at_every_bank_angle(gamma):
     )  # (2 omega)^2 = 4 omega^2
     assert abs(found.get(-2, 0j)) * 4 == pytest.approx(K * abs(math.cos(3 * half)), abs=1e-13 * K)
     after = compute_spectra(
-        fitted(engine, remedy_for(engine, "two-shaft", Wish(order=2))), [2], ("force", "moment")
+        fit_devices(engine, size(engine, "two-shaft", SchemeOptions(order=2))),
+        [2],
+        ("force", "moment"),
     )
     assert after.force.balanced.all()
     assert after.moment.balanced.all()
@@ -66,7 +70,7 @@ def test_shafts_cancel_both_rotating_vectors_at_every_bank_angle(gamma):
 @pytest.mark.parametrize("gamma", [g for g in EVERY_ANGLE if g not in (60, 180)])
 def test_places_that_add_no_roll(gamma):
     engine, half = flat_plane(gamma), math.radians(gamma / 2)
-    remedy = remedy_for(engine, "two-shaft", Wish(order=2, at=(0.06 + 0.08j,)))
+    remedy = size(engine, "two-shaft", SchemeOptions(order=2, at=(0.06 + 0.08j,)))
     place = {s.ratio: complex(*s.at) for s in remedy.shafts}
     ratio = abs(place[2]) / abs(place[-2])
     assert ratio == pytest.approx(
@@ -79,19 +83,20 @@ def test_places_that_add_no_roll(gamma):
         round(between), abs=1e-12
     )  # (4.1); his x is our y: k odd and even swap
     rolls = [
-        compute_spectra(e, [2], ("roll",)).roll.forward[0] for e in (engine, fitted(engine, remedy))
+        compute_spectra(e, [2], ("roll",)).roll.forward[0]
+        for e in (engine, fit_devices(engine, remedy))
     ]
     assert abs(rolls[1] - rolls[0]) <= 1e-13 * K * engine.omega**2 * 0.1
 
 
 def test_sixty_degrees_needs_one_shaft_on_the_crank_axis_or_two_halves():
     engine = flat_plane(60)
-    (one,) = remedy_for(engine, "two-shaft", Wish(order=2)).shafts
+    (one,) = size(engine, "two-shaft", SchemeOptions(order=2)).shafts
     assert (one.ratio, one.at) == (2, (0.0, 0.0))
     assert 4 * one.unbalance / 1e6 == pytest.approx(
         2 * math.sqrt(3) * K / 4, rel=1e-14
     )  # 2 sqrt3 A2 m r omega^2
-    halves = remedy_for(engine, "two-shaft", Wish(order=2, at=(0.03 + 0.04j,))).shafts
+    halves = size(engine, "two-shaft", SchemeOptions(order=2, at=(0.03 + 0.04j,))).shafts
     assert sorted(h.at for h in halves) == [(-30.0, -40.0), (30.0, 40.0)]
     assert [h.unbalance for h in halves] == [one.unbalance / 2] * 2
 
@@ -103,7 +108,7 @@ def test_sliders(gamma):
     wanted = sorted(K / 4 * abs(math.cos(3 * half) + sign * math.cos(half)) for sign in (1, -1))
     found = {
         s.direction: s.unbalance / 1e6
-        for s in remedy_for(flat_plane(gamma), "slider", Wish(order=2)).sliders
+        for s in size(flat_plane(gamma), "slider", SchemeOptions(order=2)).sliders
     }
     sizes = sorted([0.0] * (2 - len(found)) + list(found.values()))
     assert sizes == pytest.approx(wanted, abs=1e-13 * K)
@@ -118,12 +123,12 @@ def test_largest_horizontal_slider():
     """|Z_x|max = 8/(3 sqrt3) at gamma = 2 arctan sqrt2."""
     gamma = math.degrees(2 * math.atan(math.sqrt(2)))
     sizes = [
-        s.unbalance / 1e6 for s in remedy_for(flat_plane(gamma), "slider", Wish(order=2)).sliders
+        s.unbalance / 1e6 for s in size(flat_plane(gamma), "slider", SchemeOptions(order=2)).sliders
     ]
     assert max(sizes) == pytest.approx(K / 4 * 8 / (3 * math.sqrt(3)), rel=1e-14)
     assert np.all(
         [
-            max(s.unbalance for s in remedy_for(flat_plane(g), "slider", Wish(order=2)).sliders)
+            max(s.unbalance for s in size(flat_plane(g), "slider", SchemeOptions(order=2)).sliders)
             / 1e6
             < max(sizes)
             for g in (gamma - 1, gamma + 1)

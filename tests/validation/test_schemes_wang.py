@@ -12,6 +12,7 @@ import math
 import numpy as np
 import pytest
 from support.engines import engine_text
+from support.remedies import figures
 
 from balcli.core.mechanisms import closed_form, slidercrank
 from balcli.engine.build import Engine, build
@@ -19,8 +20,10 @@ from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
 from balcli.results.analysis import analyze
-from balcli.sizing import eccentric_slider as eccentric
-from balcli.sizing.sizing import Wish, fitted, remedy_for
+from balcli.sizing.eccentric_slider import DESIGNS, find_optimum
+from balcli.sizing.options import SchemeOptions
+from balcli.sizing.remedy import fit_devices
+from balcli.sizing.sizing import size
 
 M, R = 1.0, 0.05
 
@@ -34,8 +37,8 @@ def single(lam: float = 0.25, more: str = "", **tables: str) -> Engine:
     )
 
 
-def after(engine: Engine, scheme: str, **wish: object):
-    return fitted(engine, remedy_for(engine, scheme, Wish(**wish)))
+def after(engine: Engine, scheme: str, **options: object):
+    return fit_devices(engine, size(engine, scheme, SchemeOptions(**options)))
 
 
 # lambda, design, criterion, force, k, mu, largest/J, mean/J to the digits of the independent search
@@ -62,7 +65,7 @@ MEANS = [
     ("lam", "design", "criterion", "force", "k", "mu", "largest", "mean"), OPTIMA
 )
 def test_eccentric_slider_smallest_peak(lam, design, criterion, force, k, mu, largest, mean):
-    found = eccentric.best(design, criterion, force, lam)
+    found = find_optimum(design, criterion, force, lam)
     assert (found.k, found.mu, found.largest, found.mean) == pytest.approx(
         (k, mu, largest, mean), abs=1.1e-6
     )
@@ -71,7 +74,7 @@ def test_eccentric_slider_smallest_peak(lam, design, criterion, force, k, mu, la
 @pytest.mark.parametrize(("lam", "design", "force", "k", "mu", "mean"), MEANS)
 def test_eccentric_slider_smallest_mean(lam, design, force, k, mu, mean):
     """k is flat here: the search gives it to three digits, and the mean to all six."""
-    found = eccentric.best(design, "mean", force, lam)
+    found = find_optimum(design, "mean", force, lam)
     assert found.mean == pytest.approx(mean, abs=6e-7)
     assert found.k == pytest.approx(k, abs=1e-3)
     assert found.mu == pytest.approx(mu, abs=1e-5)
@@ -83,13 +86,13 @@ def test_eccentric_slider_leading_order(design, residual):
     times better.
     """
     lam = 1e-3
-    found = eccentric.best(design, "largest", "orders 1+2", lam)
+    found = find_optimum(design, "largest", "orders 1+2", lam)
     assert found.k * lam / 2 == pytest.approx(1, abs=1e-5)
     assert found.mu == pytest.approx(0.5, abs=1e-6)
     assert found.largest / lam**2 == pytest.approx(residual, rel=1e-4)
 
 
-@pytest.mark.parametrize("design", eccentric.DESIGNS)
+@pytest.mark.parametrize("design", DESIGNS)
 def test_eccentric_slider_beats_its_neighbours(design):
     """Direct evaluation of the corrected (24) on a fine grid, with the angle of the linkage
     differentiated numerically.
@@ -111,7 +114,7 @@ def test_eccentric_slider_beats_its_neighbours(design):
         weights = 2 * mu * (rate**2 * np.cos(phi(theta)) + bend * np.sin(phi(theta)))
         return np.abs(np.cos(theta) + lam * np.cos(2 * theta) - weights).max()
 
-    best = eccentric.best(design, "largest", "orders 1+2", lam)
+    best = find_optimum(design, "largest", "orders 1+2", lam)
     assert largest(best.k, best.mu) == pytest.approx(best.largest, abs=2e-5)
     assert all(
         largest(best.k * (1 + dk), best.mu * (1 + dm)) > best.largest
@@ -125,7 +128,7 @@ def test_an_eccentric_slider_has_no_optimum_near_lambda_1(design, criterion, lam
     with pytest.raises(
         BalcliError, match=f"no optimum was found for design {design} at lambda = {lam}"
     ):
-        eccentric.best(design, criterion, "all orders", lam)
+        find_optimum(design, criterion, "all orders", lam)
 
 
 @pytest.mark.parametrize(
@@ -135,7 +138,7 @@ def test_eccentric_slider_says_the_largest_of_what_remains(design, criterion, la
     """Of either sign, by samples; the shafts' cosine from the triangle of disc centre, shaft and
     pin, differentiated by Fourier.
     """
-    best = eccentric.best(design, criterion, "all orders", lam)
+    best = find_optimum(design, criterion, "all orders", lam)
     theta = np.arange(4096) * (2 * np.pi / 4096)
     phi = theta + (
         np.arctan2(np.sin(theta), best.k - np.cos(theta))
@@ -154,8 +157,8 @@ def test_eccentric_slider_leaves_its_residual():
     beyond 1 and 2.
     """
     engine = single(0.25)
-    remedy = remedy_for(engine, "eccentric-slider")
-    left = compute_spectra(fitted(engine, remedy), np.arange(1.0, 12), ("force",)).force
+    remedy = size(engine, "eccentric-slider")
+    left = compute_spectra(fit_devices(engine, remedy), np.arange(1.0, 12), ("force",)).force
     theta = np.linspace(0, 2 * np.pi, 3601)
     force = left.values(theta).real / (M * R * engine.omega**2)
     exact = closed_form.piston(np.arange(1.0, 12), 0.25)
@@ -183,13 +186,13 @@ def test_eccentric_slider_of_any_mass_in_any_direction():
             )
         )
     )
-    remedy = remedy_for(other, "eccentric-slider")
+    remedy = size(other, "eccentric-slider")
     (weight,) = remedy.counterweights
     assert weight.unbalance / 1e6 == pytest.approx(0.7 * R, rel=1e-12)
     assert all(device.place == 0 for device in remedy.beyond)
     one, many = (
         compute_spectra(
-            fitted(e, remedy_for(e, "eccentric-slider")), np.arange(0.0, 12), ("force", "moment")
+            fit_devices(e, size(e, "eccentric-slider")), np.arange(0.0, 12), ("force", "moment")
         )
         for e in (plain, other)
     )
@@ -203,20 +206,17 @@ def test_eccentric_slider_of_any_mass_in_any_direction():
     )
     assert np.abs(many.moment.major).max() <= 1e-14 * unit[1]
     assert one.force.forward[0] == 0
-    assert remedy.details["unit_force_N"] == pytest.approx(unit[1], rel=1e-12)
-    used = remedy.details["fitted"]
-    assert (used["design"], used["criterion"], used["engine_force"], used["k"]) == (
+    optima = remedy.optima
+    assert optima.unit_force == pytest.approx(unit[1], rel=1e-12)
+    fitted = optima.found[0]
+    assert (fitted.design, fitted.criterion, fitted.engine_force, fitted.k) == (
         "a",
         "largest",
         "orders 1+2",
         pytest.approx(8.016007),
     )
-    assert used["unbalance_kg_m"] == pytest.approx(used["mu"] * mass * R, rel=1e-12)
-    assert used in remedy.details["optima"]
-    assert {
-        (found["design"], found["criterion"], found["engine_force"])
-        for found in remedy.details["optima"]
-    } == {
+    assert optima.find_unbalance(fitted) == pytest.approx(fitted.mu * mass * R, rel=1e-12)
+    assert {(found.design, found.criterion, found.engine_force) for found in optima.found} == {
         (design, by, of)
         for design in "ab"
         for by in ("largest", "mean")
@@ -228,18 +228,18 @@ def test_shafts_of_variable_speed_leave_only_what_turns_with_the_throw_to_the_co
     """Without a rotating mass no counterweight is fitted."""
     light = build(parse(engine_text(rod="ratio = 0.25")))
     for scheme in ("eccentric-slider", "oldham"):
-        assert not remedy_for(light, scheme).counterweights
+        assert not size(light, scheme).counterweights
 
 
 @pytest.mark.parametrize("bank", [0, 37, 90])
 def test_oldham_couplings_cancel_orders_1_and_2(bank):
     engine = single(0.3, layout=f"banks = [{bank}]")
-    remedy = remedy_for(engine, "oldham")
-    assert compute_spectra(fitted(engine, remedy), [1, 2], ("force",)).force.balanced.all()
+    remedy = size(engine, "oldham")
+    assert compute_spectra(fit_devices(engine, remedy), [1, 2], ("force",)).force.balanced.all()
     (weight,) = remedy.counterweights
     assert weight.unbalance / 1e6 == pytest.approx(0.7 * R, rel=1e-13)
-    assert remedy.details["first_order_kg_m"] == pytest.approx(M * R / 2, rel=1e-14)
-    assert remedy.details["block_kg_m"] == pytest.approx(
+    assert figures(remedy)["first order"] == pytest.approx(M * R / 2, rel=1e-14)
+    assert figures(remedy)["block"] == pytest.approx(
         float(closed_form.piston([2], 0.3)[0]) * M * R / 8, rel=1e-14
     )
     assert all(device.place == 0 for device in remedy.beyond)
@@ -249,7 +249,7 @@ def test_oldham_couplings_suit_an_offset_too():
     """The two vectors of an order then differ in phase."""
     engine = single(0.3, layout="banks = [20]", piston="mass = 1\noffset = 6")
     assert compute_spectra(
-        fitted(engine, remedy_for(engine, "oldham")), [1, 2], ("force",)
+        fit_devices(engine, size(engine, "oldham")), [1, 2], ("force",)
     ).force.balanced.all()
 
 
@@ -257,7 +257,7 @@ def test_two_and_four_shafts():
     """(2.1) m_b r_b = m r / 2 each (here with the rotating mass on the one that turns with the
     crank); (2.2) A2 m r / 8.
     """
-    shafts = {s.ratio: s.unbalance / 1e6 for s in remedy_for(single(), "four-shaft").shafts}
+    shafts = {s.ratio: s.unbalance / 1e6 for s in size(single(), "four-shaft").shafts}
     second = float(closed_form.piston([2], 0.25)[0]) * M * R / 8
     assert shafts == pytest.approx(
         {-1: M * R / 2, 1: M * R / 2 + 0.7 * R, -2: second, 2: second}, rel=1e-14
@@ -269,11 +269,11 @@ def test_single_shaft_leaves_a_couple():
     distance.
     """
     engine = single()
-    remedy = remedy_for(engine, "single-shaft", Wish(position=0.08))
+    remedy = size(engine, "single-shaft", SchemeOptions(position=0.08))
     couple = 0.08 * M * R / 2 * engine.omega**2
-    assert remedy.details["couple_left_Nm"] == pytest.approx(couple, rel=1e-14)
-    assert remedy.details["axial_distance_mm"] == pytest.approx(80)
-    left = compute_spectra(fitted(engine, remedy), [1], ("force", "moment"))
+    assert figures(remedy)["couple left"] == pytest.approx(couple, rel=1e-14)
+    assert figures(remedy)["axial distance"] == pytest.approx(0.08)
+    left = compute_spectra(fit_devices(engine, remedy), [1], ("force", "moment"))
     assert left.force.balanced.all()
     assert (abs(left.moment.backward[0]), left.moment.forward[0]) == (
         pytest.approx(couple, rel=1e-14),
@@ -299,7 +299,7 @@ def test_overbalance_optimum_of_both_orders(lam, peak, k):
     left out.
     """
     engine = single(lam)
-    (weight,) = remedy_for(engine, "minimax").counterweights
+    (weight,) = size(engine, "minimax").counterweights
     found = analyze(after(engine, "minimax"), only=["peak"]).force.value / (M * R * engine.omega**2)
     rest = sum(abs(float(a)) for a in closed_form.piston([4, 6, 8], lam)) + abs(
         float(closed_form.piston([2], lam)[0]) - lam
@@ -322,12 +322,12 @@ def test_only_for_single_cylinders(scheme):
     with pytest.raises(
         BalcliError, match=f"{scheme} is for a single cylinder; this engine has 2 cylinders"
     ):
-        remedy_for(engine, scheme)
+        size(engine, scheme)
 
 
 def test_eccentric_slider_refuses_an_offset():
     with pytest.raises(BalcliError, match="a piston offset of 3 mm"):
-        remedy_for(single(piston="mass = 1\noffset = 3"), "eccentric-slider")
+        size(single(piston="mass = 1\noffset = 3"), "eccentric-slider")
 
 
 def test_overbalance_figures_are_those_of_the_ellipse():

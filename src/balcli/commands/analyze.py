@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from ..render.formats import Format, Units
+from .file_names import text_format
 from .options import (
     EnginePaths,
     FormatOption,
@@ -27,7 +28,7 @@ from .overwrite_guard import refuse_overwriting
 
 def analyze(
     paths: EnginePaths,
-    form: FormatOption = Format.TABLE,
+    form: FormatOption = None,
     speed: Speed = None,
     orders: Orders = None,
     only: Only = None,
@@ -55,6 +56,7 @@ def analyze(
 ) -> None:
     """Free forces and moments by order, couple, torque and roll, peaks, and what balances them."""
     refuse_overwriting(reads=paths, writes={"--output": output})
+    form = text_format(output, form)
     from ..render import analyses
     from ..results.analysis import Analysis
     from ..results.analysis import analyze as analyze_engine
@@ -66,15 +68,14 @@ def analyze(
     height_m = check_guide_height(guide_height)
 
     def analyze_file(path: str) -> tuple[str, Analysis]:
-        engine = read_engine(path, rpm).engine
+        engine = read_engine(path, rpm, chosen).engine
         return path, analyze_engine(engine, asked, chosen, bool(by), why, height_m)
 
     found, errors = try_each(paths, analyze_file)
     if found and not (errors and output):  # a file gets all of them or is left as it was
         good, results = zip(*found, strict=True)
         names = distinct_names([result.engine.name for result in results], good)
-        pictures = plot and form is Format.TABLE and is_seen(output)
-        paired = zip(names, results, strict=True)
-        named = [analyses.NamedAnalysis(name, result, pictures) for name, result in paired]
+        drawn = [plot and form is Format.TABLE and is_seen(output)] * len(results)
+        named = list(map(analyses.NamedAnalysis, names, results, drawn))
         show(named, analyses, form, output, units)
     exit_on_errors(errors)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from ..render.formats import Format, Units
+from ..render.formats import Units
 from ..sizing.schemes import KNUCKLES
-from . import balance_options as wishes
+from . import balance_options
+from .file_names import require_ending, text_format
 from .options import (
     EnginePath,
     FormatOption,
@@ -21,43 +22,45 @@ from .overwrite_guard import refuse_overwriting
 
 def balance(
     path: EnginePath,
-    scheme: wishes.Scheme = "auto",
-    order: wishes.Order = None,
-    at: wishes.At = None,
-    position: wishes.Position = None,
-    planes: wishes.Planes = None,
-    factor: wishes.Factor = None,
-    roll: wishes.Roll = None,
-    radius: wishes.Radius = None,
-    thickness: wishes.Thickness = None,
-    disc: wishes.Disc = None,
-    drill: wishes.Drill = None,
-    even: wishes.Even = None,
-    grade: wishes.Grade = None,
-    mass: wishes.Mass = None,
-    write: wishes.Write = None,
+    scheme: balance_options.Scheme = "auto",
+    order: balance_options.Order = None,
+    at: balance_options.At = None,
+    position: balance_options.Position = None,
+    planes: balance_options.Planes = None,
+    factor: balance_options.Factor = None,
+    roll: balance_options.Roll = None,
+    radius: balance_options.Radius = None,
+    thickness: balance_options.Thickness = None,
+    disc: balance_options.Disc = None,
+    drill: balance_options.Drill = None,
+    even: balance_options.Even = None,
+    grade: balance_options.Grade = None,
+    mass: balance_options.Mass = None,
+    write: balance_options.Write = None,
     speed: Speed = None,
     orders: Orders = None,
-    form: FormatOption = Format.TABLE,
+    form: FormatOption = None,
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
     """Size counterweights, balancer shafts or sliders, and show what is left with them."""
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
+    form = text_format(output, form)
+    require_ending(write, ".toml", "--write")
     from ..render import balance as renderer
     from ..results.balance import balance as balance_engine
     from ..results.permitted_unbalance import permit_unbalance
     from .fitted_engine import write_fitted
     from .inputs import read_engine
 
-    wish = wishes.wish_of(order, at, position, planes, factor, roll)
-    tools = wishes.shop_tools(radius, thickness, disc, drill)
+    options = balance_options.parse_scheme_options(order, at, position, planes, factor, roll)
+    tools = balance_options.parse_tools(radius, thickness, disc, drill)
     asked, rpm = parse_orders(orders), check_speed(speed)
     text, model, engine = read_engine(path, rpm)
     if scheme == KNUCKLES or even is not None:
-        result = wishes.knuckles(scheme, wish, even, model, engine, asked)
+        result = balance_options.balance_knuckles(scheme, options, even, model, engine, asked)
     else:
-        result = balance_engine(engine, scheme, wish, asked, tools)
+        result = balance_engine(engine, scheme, options, asked, tools)
     result = permit_unbalance(result, grade, mass)
     if write is not None:
         write_fitted(path, text, result.remedy, write, rpm)

@@ -10,6 +10,7 @@ import typer
 
 from ..errors import BalcliError
 from ..limits import MOST_FACTORS
+from ..sizing.options import SchemeOptions
 from ..sizing.schemes import KNUCKLES, NAMES
 from .completion import complete_schemes
 from .options import parse_numbers
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from ..engine.build import Engine
     from ..enginefile.model import EngineFile
     from ..results.balance import Balance
-    from ..sizing.sizing import Tools, Wish
+    from ..sizing.workshop import Tools
 
 Scheme = Annotated[
     str,
@@ -149,98 +150,100 @@ Write = Annotated[
 ]
 
 
-def wish_of(
+def parse_scheme_options(
     order: int | None,
     at: Sequence[str] | None,
     position: str | None,
     planes: str | None,
     factor: str | None,
     roll: str | None,
-) -> Wish:
-    """The wish; BalcliError for a text that says nothing, with the text."""
-    from ..sizing.sizing import Wish
-
-    return Wish(
+) -> SchemeOptions:
+    """What a scheme is asked for, in SI; BalcliError for a text that says nothing, with the
+    text.
+    """
+    return SchemeOptions(
         order=order,
-        at=tuple(map(_place, at)) if at else None,
-        position=None
-        if position is None
-        else parse_numbers("--position", position, "one place along z in mm, such as 40", 1)[0]
-        / 1e3,
-        planes=None if planes is None else _planes(planes),
-        factor=None if factor is None else _factors(factor),
+        at=tuple(map(_parse_place, at)) if at else None,
+        position=None if position is None else _parse_position(position),
+        planes=None if planes is None else _parse_planes(planes),
+        factor=None if factor is None else _parse_factors(factor),
         roll=roll,
     )
 
 
-def knuckles(
+def parse_tools(
+    radius: float | None, thickness: float | None, disc: float | None, drill: float | None
+) -> Tools:
+    """What a workshop has, mm -> m."""
+    from ..sizing.workshop import Tools
+
+    lengths = (radius, thickness, disc, drill)
+    return Tools(*(None if length is None else length / 1e3 for length in lengths))
+
+
+def balance_knuckles(
     scheme: str,
-    wish: Wish,
+    options: SchemeOptions,
     even: str | None,
-    file: EngineFile,
+    model: EngineFile,
     engine: Engine,
     orders: list[int] | None,
 ) -> Balance:
-    """The scheme that changes knuckle angles; BalcliError for options that are not its own, or
-    --even with another scheme.
+    """The scheme that changes knuckle angles, at the engine's speed.
+
+    Raises BalcliError for options that are not its own, and for --even with another scheme.
     """
-    from ..results.knuckles import GOALS, balanced
-    from ..sizing.sizing import Wish
+    from ..results import knuckles
 
     if scheme != KNUCKLES:
         raise BalcliError(
             f"--even belongs to --scheme knuckles; scheme {scheme} has no such option"
         )
-    if wish != Wish():
+    if options != SchemeOptions():
         raise BalcliError("scheme knuckles: has no option but --even")
-    goal = next((known for known in GOALS if known == (even or GOALS[0])), None)
-    if goal is None:
-        raise BalcliError(f'--even "{str(even)[:60]}": choose from {", ".join(GOALS)}')
-    return balanced(file, goal, orders, engine.speed_rpm)
+    wanted = even or knuckles.GOALS[0]
+    for goal in knuckles.GOALS:
+        if goal == wanted:
+            return knuckles.balance_knuckles(model, goal, orders, float(engine.speed_rpm))
+    raise BalcliError(f'--even "{wanted[:60]}": choose from {", ".join(knuckles.GOALS)}')
 
 
-def shop_tools(
-    radius: float | None, thickness: float | None, disc: float | None, drill: float | None
-) -> Tools:
-    """mm -> m."""
-    from ..sizing.sizing import Tools
-
-    return Tools(
-        *(None if length is None else length / 1e3 for length in (radius, thickness, disc, drill))
-    )
-
-
-def _place(text: str) -> complex:
+def _parse_place(text: str) -> complex:
     x, y = parse_numbers("--at", text, "x,y of a shaft in mm, such as -40,60", 2)
     return complex(x / 1e3, y / 1e3)
 
 
-def _planes(text: str) -> str | tuple[float, ...]:
+def _parse_position(text: str) -> float:
+    (z,) = parse_numbers("--position", text, "one place along z in mm, such as 40", 1)
+    return z / 1e3
+
+
+def _parse_planes(text: str) -> str | tuple[float, ...]:
     if text in ("ends", "throws"):
         return text
-    return tuple(
-        z / 1e3
-        for z in parse_numbers(
-            "--planes", text, "ends, throws, or places along z in mm, such as -200,200"
-        )
-    )
+    wanted = "ends, throws, or places along z in mm, such as -200,200"
+    return tuple(z / 1e3 for z in parse_numbers("--planes", text, wanted))
 
 
-def _factors(text: str) -> tuple[float, ...]:
+def _parse_factors(text: str) -> tuple[float, ...]:
     """`0.5`, `0.4,0.5` or `0:1:0.1` (ends included)."""
     wanted = "a share of the reciprocating mass such as 0.5, or a range such as 0:1:0.1"
     if ":" not in text:
         return parse_numbers("--factor", text, wanted)
     parts = [parse_numbers("--factor", part, wanted, 1)[0] for part in text.split(":")]
-    if (
-        len(parts) != 3
-        or parts[2] <= 0
-        or parts[1] < parts[0]
-        or (parts[1] - parts[0]) / parts[2] > MOST_FACTORS
-    ):
+    if not _is_range(parts):
         raise BalcliError(
             f'--factor "{text}": a range is first:last:step, rising, with at most {MOST_FACTORS} '
             f"steps; give {wanted}"
         )
     first, last, step = parts
-    return tuple(round(first + k * step, 12) for k in range(int((last - first) / step + 1e-9) + 1))
+    steps = int((last - first) / step + 1e-9)
+    return tuple(round(first + k * step, 12) for k in range(steps + 1))
+
+
+def _is_range(parts: Sequence[float]) -> bool:
+    """Whether these are first, last and step of a range of no more than MOST_FACTORS steps."""
+    if len(parts) != 3:
+        return False
+    first, last, step = parts
+    return step > 0 and last >= first and (last - first) / step <= MOST_FACTORS

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from ..render.formats import Format, Units
+from ..render.formats import Units
+from .file_names import text_format
 from .options import (
     EnginePaths,
     FormatOption,
@@ -21,7 +22,7 @@ from .overwrite_guard import refuse_overwriting
 
 def compare(
     paths: EnginePaths,
-    form: FormatOption = Format.TABLE,
+    form: FormatOption = None,
     speed: Speed = None,
     orders: Orders = None,
     only: Only = None,
@@ -32,12 +33,13 @@ def compare(
     engine's.
     """
     refuse_overwriting(reads=paths, writes={"--output": output})
+    form = text_format(output, form)
     from ..render import comparison as renderer
     from ..results.comparison import compare_engines
     from .inputs import distinct_names, read_engine
 
-    rpm, asked = check_speed(speed), parse_orders(orders)
-    engines = [read_engine(path, rpm).engine for path in paths]
+    rpm, asked, chosen = check_speed(speed), parse_orders(orders), parse_quantities(only)
+    engines = [read_engine(path, rpm, chosen).engine for path in paths]
     names = distinct_names([engine.name for engine in engines], paths)
-    found = compare_engines(engines, names, asked, parse_quantities(only))
+    found = compare_engines(engines, names, asked, chosen)
     show([found], renderer, form, output, units)

@@ -8,7 +8,8 @@ import typer
 
 from ..render.csv import csv_text
 from ..render.json import json_text
-from .options import EnginePath, Output, SeriesFormat, Speed, check_speed
+from .file_names import SERIES, SeriesFormat, format_of
+from .options import EnginePath, Output, Speed, check_speed
 from .output import emit
 from .overwrite_guard import refuse_overwriting
 
@@ -22,7 +23,15 @@ Cylinder = Annotated[
     ),
 ]
 Step = Annotated[float, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
-Form = Annotated[SeriesFormat, typer.Option("--format", "-f", help="How to write the curves.")]
+Form = Annotated[
+    SeriesFormat | None,
+    typer.Option(
+        "--format",
+        "-f",
+        show_default=False,
+        help="How to write the curves; default: by the ending of -o, else csv.",
+    ),
+]
 
 
 def curves(
@@ -30,11 +39,12 @@ def curves(
     cylinder: Cylinder = None,
     step: Step = 1.0,
     speed: Speed = None,
-    form: Form = SeriesFormat.CSV,
+    form: Form = None,
     output: Output = None,
 ) -> None:
     """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston."""
     refuse_overwriting(reads=[path], writes={"--output": output})
+    form = format_of(output, form, SERIES, SeriesFormat.CSV)
     from ..forces.curves import compute_cylinder_curves, compute_engine_curves, divide_revolution
     from ..render import curves as renderer
     from .inputs import read_engine

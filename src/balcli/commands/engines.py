@@ -9,6 +9,7 @@ import typer
 
 from ..enginefile import examples
 from .completion import complete_examples
+from .file_names import parse_output, require_ending
 from .output import emit, refuse_existing
 
 
@@ -22,7 +23,10 @@ def engines(
         ),
     ] = None,
     path: Annotated[
-        Path | None, typer.Argument(metavar="FILE", help="Copy it here; default: standard output.")
+        Path | None,
+        typer.Argument(
+            metavar="FILE", callback=parse_output, help="Copy it here; default: standard output."
+        ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
 ) -> None:
@@ -33,5 +37,6 @@ def engines(
         emit("\n".join(f"{short:{width}}  {long}" for short, long in known.items()))
         return
     text = examples.text(name)
+    require_ending(path, ".toml", "FILE")
     refuse_existing(path, force)
     emit(text, path)

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from ..errors import BalcliError, Exit, say
-from ..render.formats import Format
+from .file_names import picture_form, text_format
 from .options import FormatOption, Output
 from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
@@ -55,7 +55,7 @@ def field(
             "--check", help="Exit status 1 unless every plane is within the file's grade."
         ),
     ] = False,
-    form: FormatOption = Format.TABLE,
+    form: FormatOption = None,
     output: Output = None,
 ) -> None:
     """Balance a rotor on the machine or in its bearings: from readings with trial weights to
@@ -67,6 +67,8 @@ def field(
     from ..enginefile.toml_text import name_file
 
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
+    form = text_format(output, form)
+    drawn = picture_form(plot, "--plot") if plot is not None else None
     from ..field_balancing.balance import balance_rotor, find_doubts
     from ..field_balancing.read import read_runs
     from ..render import field_balancing as renderer
@@ -77,10 +79,10 @@ def field(
     result = balance_rotor(file, minimise.value, without or (), name)
     for doubt in find_doubts(result):
         say(f"warning: {name}: {doubt}")
-    if plot is not None:
+    if plot is not None and drawn is not None:
         from ..render.plot.field_balancing import draw_field  # brings matplotlib
 
-        write_file(draw_field(result, plot), plot)
+        write_file(draw_field(result, drawn), plot)
     show([result], renderer, form, output)
     if check and not result.reached:
         raise typer.Exit(Exit.DIFFERENCE)

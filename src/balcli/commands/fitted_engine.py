@@ -6,9 +6,8 @@ from pathlib import Path
 
 from ..enginefile.edit import changed
 from ..enginefile.toml_text import name_file
-from ..sizing.schemes import KNUCKLES
-from ..sizing.sizing import Remedy
-from ..sizing.write import fit, fit_knuckles
+from ..sizing.remedy import Remedy
+from ..sizing.write import insert_remedy
 from .output import write_file
 
 
@@ -21,10 +20,7 @@ def write_fitted(
     Raises:
         BalcliError: the target cannot be written, or the devices cannot be described.
     """
-    if remedy.scheme == KNUCKLES:
-        new = fit_knuckles(text, tuple(remedy.details["knuckle_angles_deg"]), name_file(source))
-    else:
-        new = fit(text, remedy, name_file(source))
+    new = insert_remedy(text, remedy, name_file(source))
     if speed_rpm is not None:
         new = changed(new, "operation", {"speed": speed_rpm}, "as balanced by balcli")
     write_file(new, target)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple, TypeVar
@@ -12,6 +12,7 @@ import typer
 
 from ..engine.build import Engine
 from ..engine.load import build_named, parse
+from ..engine.positions import MOMENTS_UNKNOWN
 from ..enginefile.model import EngineFile
 from ..enginefile.suspicious import suspicious
 from ..enginefile.toml_text import name_file, read_bytes
@@ -29,23 +30,35 @@ class Source(NamedTuple):
     engine: Engine
 
 
-def read_engine(path: str, speed_rpm: float | None = None) -> Source:
+def read_engine(
+    path: str, speed_rpm: float | None = None, asked: Collection[str] | None = None
+) -> Source:
     """Read one file (`-`: standard input), with warnings about suspicious values on standard error.
 
     Args:
         speed_rpm: crank speed of the engine instead of the file's.
+        asked: names of quantities that a user asked for.
 
     Raises:
-        BalcliError: all mistakes of the file.
+        BalcliError: all mistakes of the file; a moment that was asked for and is not known.
     """
     text = read_bytes(path)
     model = parse(text, name_file(path))
     engine = build_named(model, path)
+    if not engine.places_known:
+        _tell_unknown(name_file(path), asked or ())
     for warning in suspicious(model):
         say(f"warning: {name_file(path)}: {warning}")
     return Source(
         text, model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)
     )
+
+
+def _tell_unknown(name: str, asked: Collection[str]) -> None:
+    """Warn that moments are not known; an error where a quantity that needs them was asked for."""
+    if by_name := [quantity for quantity in ("moment", "inner") if quantity in asked]:
+        raise BalcliError(f"{name}: {by_name[0]}: {MOMENTS_UNKNOWN}")
+    say(f"warning: {name}: {MOMENTS_UNKNOWN}")
 
 
 def try_each(paths: Sequence[P], work: Callable[[P], T]) -> tuple[list[T], list[str]]:

@@ -10,6 +10,7 @@ import typer
 from ..enginefile.templates import template
 from ..field_balancing.starting_file import KIND, read_starting_file
 from .completion import complete_kinds
+from .file_names import parse_output, require_ending
 from .output import emit, refuse_existing
 
 
@@ -26,12 +27,16 @@ def new(
     path: Annotated[
         Path | None,
         typer.Argument(
-            metavar="FILE", help="Where to write it; default: standard output.", show_default=False
+            metavar="FILE",
+            callback=parse_output,
+            help="Where to write it; default: standard output.",
+            show_default=False,
         ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
 ) -> None:
     """Write a commented, valid engine file (or file of runs, for `field`) to start from."""
     text = read_starting_file() if kind == KIND else template(kind)
+    require_ending(path, ".toml", "FILE")
     refuse_existing(path, force)
     emit(text, path)

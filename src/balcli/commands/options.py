@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -14,6 +13,7 @@ from ..forces.kinds import KINDS
 from ..limits import HIGHEST_ORDER
 from ..render.formats import Format, Units
 from .completion import complete_schemes
+from .file_names import parse_output
 
 EnginePath = Annotated[
     str,
@@ -27,23 +27,30 @@ EnginePaths = Annotated[
         metavar="FILE...", show_default=False, help="Engine files (TOML); - reads standard input."
     ),
 ]
-FormatOption = Annotated[Format, typer.Option("--format", "-f", help="How to write the result.")]
+FormatOption = Annotated[
+    Format | None,
+    typer.Option(
+        "--format",
+        "-f",
+        show_default=False,
+        help="How to write the result; default: by the ending of -o (.txt, .json, .csv, .md), "
+        "else table.",
+    ),
+]
 UnitsOption = Annotated[
     Units, typer.Option("--units", help="imperial: lbf, lbf·ft, oz·in; JSON stays SI.")
 ]
 Output = Annotated[
     Path | None,
     typer.Option(
-        "--output", "-o", metavar="FILE", help="Write into this file instead.", show_default=False
+        "--output",
+        "-o",
+        metavar="FILE",
+        callback=parse_output,
+        show_default=False,
+        help="Write into this file instead; its ending says the format. - is standard output.",
     ),
 ]
-
-
-class SeriesFormat(StrEnum):
-    """How long series of numbers are written."""
-
-    CSV = "csv"
-    JSON = "json"
 
 
 Speed = Annotated[

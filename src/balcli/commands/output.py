@@ -137,6 +137,8 @@ def replacing(target: Path) -> Iterator[Path]:
             raise OSError(errno.ELOOP, "a symbolic link that leads to itself")
         with _beside(real) as place:
             yield place
+            if not place.exists():  # it is only a part, and has been moved elsewhere
+                return
             if real.exists():
                 place.chmod(real.stat().st_mode & 0o777)
             place.replace(real)

@@ -1,5 +1,5 @@
 """What a command reads stays as it is: no result may go onto an engine file, or onto another
-result.
+result, and all results have a folder before one is written.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ STANDARD_INPUT = "-"
 
 
 def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | None]) -> None:
-    """Refuse to write onto a file that is read, or two results into one file.
+    """Refuse to write onto a file that is read, two results into one file, or one where there is no
+    folder; and to read standard input twice.
 
     Args:
         reads: paths of the engine files; `-` is standard input.
@@ -23,6 +24,8 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | None
     Raises:
         BalcliError: with the option and its path.
     """
+    if list(reads).count(STANDARD_INPUT) > 1:
+        raise BalcliError("standard input (-) is named twice, and can be read only once")
     sources = [path for path in reads if path != STANDARD_INPUT]
     targets = [(option, str(path)) for option, path in writes.items() if path is not None]
     for k, (option, target) in enumerate(targets):
@@ -35,6 +38,10 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | None
             raise BalcliError(
                 f"{option} {target}: another result goes there, too; choose another name"
             )
+        try:
+            os.stat(os.path.join(os.path.dirname(target) or ".", ""))
+        except OSError as error:
+            raise BalcliError(f"{target}: cannot be written ({error.strerror})") from None
 
 
 def _same_file(one: str, other: str) -> bool:

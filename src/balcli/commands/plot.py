@@ -10,6 +10,7 @@ import typer
 
 from ..render.formats import Units
 from ..render.units import SYSTEMS
+from .file_names import picture_form
 from .options import EnginePath, Orders, Scheme, Speed, UnitsOption, check_speed, parse_orders
 from .output import write_file
 from .overwrite_guard import refuse_overwriting
@@ -59,11 +60,12 @@ def plot(
     angle.
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
-    from ..render.plot.pages import Subject, form_of, picture
+    form = picture_form(output)
+    from ..render.plot.pages import Subject, picture
     from ..studies.pictures import compute_study
     from .inputs import read_engine
 
-    form, asked = form_of(output), parse_orders(orders)
+    asked = parse_orders(orders)
     engine = read_engine(path, check_speed(speed)).engine
     subject = Subject(system=SYSTEMS[units], **compute_study(engine, what, asked, scheme)._asdict())
     write_file(picture(subject, what, form), output)

@@ -10,6 +10,7 @@ import typer
 from ..forces.kinds import KINDS
 from ..render.formats import Units
 from ..render.units import SYSTEMS
+from .file_names import format_of, parse_output
 from .options import EnginePath, Orders, Scheme, Speed, UnitsOption, check_speed, parse_orders
 from .output import emit
 from .overwrite_guard import refuse_overwriting
@@ -17,7 +18,12 @@ from .overwrite_guard import refuse_overwriting
 Page = Annotated[
     Path,
     typer.Option(
-        "--output", "-o", metavar="FILE.html", help="Write the page here.", show_default=False
+        "--output",
+        "-o",
+        metavar="FILE.html",
+        callback=parse_output,
+        help="Write the page here; - is standard output.",
+        show_default=False,
     ),
 ]
 
@@ -34,6 +40,7 @@ def report(
     before and after.
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
+    format_of(output, None, {".html": "html", ".htm": "html"}, "html")
     from ..render.html import page
     from ..results.analysis import analyze
     from ..results.balance import balance

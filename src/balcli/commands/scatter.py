@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from ..forces.kinds import DEFAULT_QUANTITIES
-from ..render.formats import Format
+from .file_names import text_format
 from .options import EnginePath, FormatOption, Output
 from .output import show
 from .overwrite_guard import refuse_overwriting
@@ -64,13 +64,14 @@ def scatter(
             "--quantity", "-q", metavar="WHAT,...", help="As force.1.major, couple.4.amplitude."
         ),
     ] = DEFAULT_QUANTITIES,
-    form: FormatOption = Format.TABLE,
+    form: FormatOption = None,
     output: Output = None,
 ) -> None:
     """How free forces and moments spread when masses (rod lengths, throw angles) vary, and which
     tolerance matters most.
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
+    form = text_format(output, form)
     from ..forces.quantity import parse_quantity_list
     from ..render import tolerances as renderer
     from ..studies.tolerances import parse_tolerances, scatter_engine

@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from .file_names import require_ending
 from .options import Output
 from .output import emit
 
@@ -26,6 +27,7 @@ def schema(
     output: Output = None,
 ) -> None:
     """Print the JSON Schema of the engine file, or of a file of runs, for editors."""
+    require_ending(output, ".json")
     from ..enginefile.schema import schema as describe_engine_file  # pydantic
     from ..field_balancing.schema import describe_runs_file
 

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ..render.formats import Format
+from .file_names import require_ending, text_format
 from .options import EnginePath, FormatOption, Output
 from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
@@ -56,7 +56,7 @@ def search(
         ),
     ] = "",
     top: Annotated[int, typer.Option("--top", min=1, max=1000, help="How many to show.")] = 10,
-    form: FormatOption = Format.TABLE,
+    form: FormatOption = None,
     output: Output = None,
     write: Annotated[
         Path | None,
@@ -70,6 +70,8 @@ def search(
 ) -> None:
     """The best crank, firing order, bank angle or splay; mirror images and rotations once."""
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
+    form = text_format(output, form)
+    require_ending(write, ".toml", "--write")
     from ..engine.load import build_named, parse
     from ..enginefile.toml_text import name_file, read_bytes
     from ..render import search as renderer

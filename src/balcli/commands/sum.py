@@ -6,7 +6,8 @@ from typing import Annotated
 
 import typer
 
-from ..render.formats import Format, Units
+from ..render.formats import Units
+from .file_names import text_format
 from .options import (
     EnginePath,
     FormatOption,
@@ -47,12 +48,13 @@ def sum(  # noqa: A001 (the command's name)
     ] = "first",
     speed: Speed = None,
     orders: Orders = None,
-    form: FormatOption = Format.TABLE,
+    form: FormatOption = None,
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
     """Two engines on one frame, geared one to one: H, U and opposed-piston engines."""
     refuse_overwriting(reads=[first, second], writes={"--output": output})
+    form = text_format(output, form)
     from ..render import two_engines as renderer
     from ..results.two_engines import combine_engines
     from .arrangement_options import parse_arrangement

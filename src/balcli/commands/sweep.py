@@ -8,9 +8,9 @@ from typing import Annotated
 
 import typer
 
-from ..errors import Exit
 from ..forces.kinds import DEFAULT_QUANTITIES
-from .options import EnginePath, Output, SeriesFormat
+from .file_names import VARIANTS, VariantsFormat, format_of, picture_form
+from .options import EnginePath, Output
 from .output import write_file
 from .overwrite_guard import refuse_overwriting
 
@@ -44,8 +44,14 @@ def sweep(
         ),
     ] = DEFAULT_QUANTITIES,
     form: Annotated[
-        SeriesFormat, typer.Option("--format", "-f", help="How to write the variants.")
-    ] = SeriesFormat.CSV,
+        VariantsFormat | None,
+        typer.Option(
+            "--format",
+            "-f",
+            show_default=False,
+            help="How to write the variants; default: by the ending of -o, else csv.",
+        ),
+    ] = None,
     output: Output = None,
     progress: Annotated[
         bool, typer.Option("--progress", help="Show a bar on standard error.")
@@ -54,9 +60,12 @@ def sweep(
         Path | None,
         typer.Option(
             "--plot",
-            metavar="X.svg",
+            metavar="FILE",
             show_default=False,
-            help=("Also draw the quantities over one parameter (curves) or two (contours)."),
+            help=(
+                "Also draw the quantities over one parameter (curves) or two (contours); "
+                ".svg, .png or .pdf."
+            ),
         ),
     ] = None,
     dask: Annotated[
@@ -70,20 +79,24 @@ def sweep(
     the name of -o) Parquet.
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
-    from ..render.sweep_plot import draw
+    kind = format_of(output, form, VARIANTS, VariantsFormat.CSV)
+    drawn = picture_form(plot, "--plot") if plot is not None else None
+    from ..render.sweep_plot import check_drawable, draw
     from ..studies.dask_cluster import connect_cluster, evaluate_on_cluster
-    from ..studies.sweep import evaluate_chunks, evaluate_grid, read_sweep
-    from .sweep_output import noting_interrupt, showing_progress, until_interrupted, write_sweep
+    from ..studies.sweep import Chunk, evaluate_chunks, join_chunks, read_sweep
+    from . import sweep_output as out
 
     job = read_sweep(path, vary, quantity)
-    kind = "parquet" if output is not None and output.suffix == ".parquet" else form.value
+    if drawn is not None:
+        check_drawable(job)
+    kept: list[Chunk] = []
     cluster = connect_cluster(dask) if dask else nullcontext()
-    with noting_interrupt() as interrupt, cluster as workers:
+    with out.noting_interrupt() as interrupt, cluster as workers:
         chunks = evaluate_on_cluster(job, workers) if dask else evaluate_chunks(job)
-        shown = showing_progress(until_interrupted(chunks, interrupt), job.variants, progress)
-        write_sweep(job, shown, kind, output)
-    if interrupt.noted:
-        typer.echo(f"balcli: stopped after {interrupt.done} of {job.variants} variants", err=True)
-        raise typer.Exit(Exit.INTERRUPTED)
-    if plot:
-        write_file(draw(job, evaluate_grid(job)), plot)
+        counted = out.until_interrupted(chunks, interrupt)
+        shown = out.showing_progress(counted, job.variants, progress)
+        all_of_them = shown if drawn is None else out.keeping(shown, kept)
+        out.write_sweep(job, all_of_them, kind, output, interrupt)
+    out.exit_if_interrupted(interrupt, job.variants)
+    if plot is not None and drawn is not None:
+        write_file(draw(job, join_chunks(job, kept), drawn), plot)

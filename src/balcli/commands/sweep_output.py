@@ -14,8 +14,10 @@ from pathlib import Path
 from typing import TextIO
 
 import numpy as np
+import typer
 
-from ..errors import BalcliError
+from .. import __version__
+from ..errors import BalcliError, Exit, say
 from ..render.sweep import csv_text, json_text
 from ..studies.sweep import Array, Chunk, Sweep, list_columns
 from .output import replacing, standard_output
@@ -23,12 +25,28 @@ from .output import replacing, standard_output
 ROWS_A_GROUP = 1 << 20  # of a Parquet file
 
 
-def write_sweep(sweep: Sweep, chunks: Iterable[Chunk], kind: str, output: Path | None) -> None:
-    """Write all chunks as csv, json or parquet; a file takes its place when it is whole.
+@dataclass
+class Interrupt:
+    """Whether Ctrl-C has been pressed, how many variants were done by then, and the file that holds
+    them.
+    """
+
+    noted: bool = False
+    done: int = 0
+    part: Path | None = None
+
+
+def write_sweep(
+    sweep: Sweep, chunks: Iterable[Chunk], kind: str, output: Path | None, interrupt: Interrupt
+) -> None:
+    """Write all chunks as csv, json or parquet. A file takes its place when it is whole; what there
+    is of an interrupted one, a whole document of fewer rows, goes to `name.part` beside it.
 
     Raises:
-        BalcliError: the file cannot be written, or pyarrow is missing.
+        BalcliError: parquet without a file, the file cannot be written, or pyarrow is missing.
     """
+    if output is None and kind == "parquet":
+        raise BalcliError("parquet is written into a file: name one with -o")
     if output is None:
         with standard_output() as stream:
             _write_text(sweep, chunks, kind, stream)
@@ -39,6 +57,8 @@ def write_sweep(sweep: Sweep, chunks: Iterable[Chunk], kind: str, output: Path |
         else:
             with place.open("w", encoding="utf-8") as stream:
                 _write_text(sweep, chunks, kind, stream)
+        if interrupt.noted and place != output:  # a device has what it has
+            interrupt.part = place.replace(output.with_name(f"{output.name}.part"))
 
 
 def _write_text(sweep: Sweep, chunks: Iterable[Chunk], kind: str, stream: TextIO) -> None:
@@ -60,10 +80,22 @@ def _write_parquet(sweep: Sweep, chunks: Iterable[Chunk], place: Path) -> None:
         from pyarrow import parquet
     except ImportError:
         raise BalcliError("a .parquet file needs pyarrow: install balcli[scale]") from None
-    schema = pyarrow.schema([(name, pyarrow.float64()) for name in sweep.columns])
+    units = {quantity.name: {"unit": quantity.unit} for quantity in sweep.quantities}
+    schema = pyarrow.schema(
+        [
+            pyarrow.field(name, pyarrow.float64(), metadata=units.get(name))
+            for name in sweep.columns
+        ],
+        metadata={
+            "balcli.format": "balcli.sweep/1",
+            "balcli.version": __version__,
+            "balcli.engine": sweep.file.name,
+        },
+    )
     with parquet.ParquetWriter(place, schema) as writer:
         for columns in _row_groups(sweep, chunks):
-            writer.write_table(pyarrow.table(columns, schema=schema))
+            nulls = [pyarrow.array(column, from_pandas=True) for column in columns]  # for nan
+            writer.write_table(pyarrow.table(nulls, schema=schema))
 
 
 def _row_groups(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[list[Array]]:
@@ -76,14 +108,6 @@ def _row_groups(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[list[Array]]:
             waiting = []
     if waiting:
         yield [np.concatenate(parts) for parts in zip(*waiting, strict=True)]
-
-
-@dataclass
-class Interrupt:
-    """Whether Ctrl-C has been pressed, and how many variants were done by then."""
-
-    noted: bool = False
-    done: int = 0
 
 
 @contextmanager
@@ -111,6 +135,21 @@ def until_interrupted(chunks: Iterable[Chunk], interrupt: Interrupt) -> Iterator
         interrupt.done += len(chunk.values[0])
         if interrupt.noted:
             return
+
+
+def exit_if_interrupted(interrupt: Interrupt, variants: int) -> None:
+    """End with the status of an interruption, and say how far it has come, if there was one."""
+    if interrupt.noted:
+        place = f"; they are in {interrupt.part}" if interrupt.part is not None else ""
+        say(f"balcli: stopped after {interrupt.done} of {variants} variants{place}")
+        raise typer.Exit(Exit.INTERRUPTED)
+
+
+def keeping(chunks: Iterable[Chunk], kept: list[Chunk]) -> Iterator[Chunk]:
+    """The chunks, each of which is kept, too."""
+    for chunk in chunks:
+        kept.append(chunk)
+        yield chunk
 
 
 def showing_progress(chunks: Iterable[Chunk], total: int, wanted: bool) -> Iterator[Chunk]:

@@ -6,8 +6,8 @@ from typing import Annotated
 
 import typer
 
-from ..render.formats import Format
 from .completion import complete_tables
+from .file_names import text_format
 from .options import FormatOption, Output
 from .output import show
 
@@ -60,12 +60,13 @@ def tables(
     angle: Angle = None,
     power: Power = None,
     digits: Digits = None,
-    form: FormatOption = Format.TABLE,
+    form: FormatOption = None,
     output: Output = None,
 ) -> None:
     """The printed coefficient tables of five books and papers, recomputed, and every misprint in
     them.
     """
+    form = text_format(output, form)
     from ..render import errata as errata_renderer
     from ..render import printed_table, table_list
     from ..tables.registry import select_tables

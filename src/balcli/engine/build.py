@@ -15,6 +15,7 @@ from ..enginefile.model import EngineFile
 from ..errors import InputError
 from .assembly import Assembly, Ripple
 from .devices import build_devices
+from .positions import are_places_known
 from .rules import find_contradictions
 
 
@@ -61,6 +62,8 @@ class Engine:
         reference_m: x, y, z of the point about which moments are taken.
         devices: counterweights, shafts and sliders of the file, in this order.
         weighed: masses behind each row of `cylinders`.
+        places_known: whether the file says where its throws stand along the crank; if not, they
+            count as standing in one plane, and what is said of moments means nothing.
     """
 
     name: str
@@ -76,6 +79,7 @@ class Engine:
     reference_m: tuple[Figure, Figure, Figure]
     devices: tuple[Device, ...]
     weighed: tuple[Weighed, ...]
+    places_known: bool = True
 
     @property
     def omega(self) -> Figure:
@@ -147,6 +151,7 @@ def build(
         reference_m=parts.reference_m,
         devices=tuple(build_devices(model, parts.figures, parts.axes_deg[1])),
         weighed=_weigh_cylinders(parts),
+        places_known=are_places_known(model, parts.plan),
     )
 
 

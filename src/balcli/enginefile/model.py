@@ -81,7 +81,10 @@ class Crank(Table):
         "firing_order fixes them",
     )
     spacing: Distance | None = Field(
-        None, description="axial distance of neighbouring throws", examples=[100]
+        None,
+        description="axial distance of neighbouring throws; without it (or positions) moments of "
+        "several throws are not known",
+        examples=[100],
     )
     positions: Lengths | None = Field(
         None,

@@ -22,7 +22,6 @@ from ..errors import BalcliError
 from ..limits import MOST_LOADS_APART
 from .kinds import KINDS, Kind
 
-_ALL = slice(None)
 # orders x cylinders that are computed together, which bounds the memory: about 16 complex arrays
 _AT_ONCE = 1 << 18
 
@@ -67,6 +66,16 @@ class Spectra:
     def only(self, kinds: Collection[str]) -> Spectra:
         """The same without all other kinds."""
         return Spectra(self.orders, **{k.name: p for k, p in self.items() if k.name in kinds})
+
+    def without_moment(self) -> Spectra:
+        """The same with a moment that is not known: nan, if it was asked for at all."""
+        if self.moment is None:
+            return self
+        p = self.moment
+        unknown = Phasors(
+            p.orders, np.full_like(p.forward, np.nan), np.full_like(p.backward, np.nan), p.noise
+        )
+        return replace(self, moment=unknown)
 
     def select_orders(self, orders: ArrayLike) -> Spectra:
         """The same without all other orders."""
@@ -134,7 +143,7 @@ def compute_device_force(engine: Engine, device: Device, orders: Array) -> Phaso
     """Force of one device of an engine without trailing axes, N, for these orders."""
     if not engine.ripple:
         return find_device_force(device, orders, engine.omega**2).settled()
-    w, dense = _uneven_speed(engine, orders)
+    w, dense = _mix_orders(engine, orders)
     steady = find_device_force(device, dense, engine.omega**2).settled()
     return ripple.apply_to_force(steady, w).select_orders(orders).settled()
 
@@ -143,9 +152,9 @@ def _compute(engine: Engine, orders: ArrayLike, kinds: Collection[str], *, apart
     wanted = np.asarray(orders, float)
     parts = {part for name in kinds for part in KINDS[name].parts}
     if engine.ripple:
-        found = _uneven(engine, wanted, parts, apart)
+        found = _compute_uneven(engine, wanted, parts, apart)
     else:
-        found, _ = _steady(engine, wanted, parts, apart)
+        found, _ = _compute_steady(engine, wanted, parts, apart)
     return Spectra(wanted, **{name: add_parts(KINDS[name], found).settled() for name in kinds})
 
 
@@ -180,44 +189,43 @@ def with_only(engine: Engine, moving: ArrayLike) -> Engine:
     return replace(engine, cylinders=cylinders, devices=())
 
 
-def _steady(
+def _compute_steady(
     engine: Engine, orders: Array, parts: Collection[str], apart: bool
 ) -> tuple[dict[str, Phasors], Loads]:
-    """Phasors at a steady speed, and the loads of the lowest orders."""
+    """Phasors of some parts by name at a steady speed, and the loads of the lowest orders."""
     c, (x, y, z) = engine.cylinders, engine.reference_m
     names = [name for name in KINDS if name in parts]
     find = c.linkage.find_distinct_harmonics if c.linkage else harmonics.find_distinct_harmonics
     about_crank = any(not KINDS[name].vector for name in parts)
     rod = about_crank and bool(np.count_nonzero(c.couple))
     few, which = find(orders, c.lam, c.eps, rod=rod, energy="torque" in parts)
-
-    def loads(block: slice) -> Loads:
-        own = few if block == _ALL else few.select_orders(block)
-        phases = (SeparatePhases if apart else Phases)(c, orders[block])
-        square = engine.omega**2
-        return Loads(
-            c, engine.devices, place_in_plane(x, y), z, phases, own.select_cylinders(which), square
-        )
-
     most = max(_AT_ONCE // c.count, 1)
-    blocks = (
-        [slice(k, k + most) for k in range(0, len(orders), most)] if len(orders) > most else [_ALL]
-    )
-    lowest = loads(blocks[0])
-    found = [{name: getattr(lowest, name) for name in names}]
-    for block in blocks[1:]:
-        these = loads(block)
-        found.append({name: getattr(these, name) for name in names})
-    if len(found) == 1:
-        return found[0], lowest
-    return {name: join_orders([block[name] for block in found]) for name in names}, lowest
+
+    def make_loads(block: slice) -> Loads:
+        own = few if len(orders) <= most else few.select_orders(block)
+        own = own.select_cylinders(which)
+        phases = (SeparatePhases if apart else Phases)(c, orders[block])
+        return Loads(c, engine.devices, place_in_plane(x, y), z, phases, own, engine.omega**2)
+
+    lowest = make_loads(slice(most))
+    found = {name: [getattr(lowest, name)] for name in names}
+    for start in range(most, len(orders), most):
+        loads = make_loads(slice(start, start + most))
+        for name in names:
+            found[name].append(getattr(loads, name))
+    return {name: _join(blocks) for name, blocks in found.items()}, lowest
 
 
-def _uneven(
+def _join(blocks: list[Phasors]) -> Phasors:
+    return blocks[0] if len(blocks) == 1 else join_orders(blocks)
+
+
+def _compute_uneven(
     engine: Engine, orders: Array, parts: Collection[str], apart: bool
 ) -> dict[str, Phasors]:
-    w, dense = _uneven_speed(engine, orders)
-    steady, loads = _steady(engine, dense, parts, apart)
+    """Phasors of some parts by name at an uneven speed."""
+    w, dense = _mix_orders(engine, orders)
+    steady, loads = _compute_steady(engine, dense, parts, apart)
     found = {name: phasors.settled() for name, phasors in steady.items()}
     for name, phasors in found.items():
         if name == "torque":
@@ -229,7 +237,7 @@ def _uneven(
     return found
 
 
-def _uneven_speed(engine: Engine, orders: Array) -> tuple[Complex, Array]:
+def _mix_orders(engine: Engine, orders: Array) -> tuple[Complex, Array]:
     """Coefficients of the speed (`ripple.find_speed`), and the dense orders it mixes into these."""
     w = ripple.find_speed((line.order, line.amplitude, line.angle_deg) for line in engine.ripple)
     return w, np.arange(0.0, orders.max(initial=0) + len(w))

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from ..results.analysis import Analysis
 from . import analysis
-from .csv import Rows
+from .csv import Rows, name_cell
 from .sheet import Sheet
 from .units import System
 
@@ -37,4 +37,4 @@ def document(one: NamedAnalysis) -> dict[str, Any]:
 def rows(one: NamedAnalysis, system: System) -> Rows:
     """CSV: the rows of the analysis, each after the engine's name."""
     header, lines = analysis.rows(one.result, system)
-    return Rows(("engine", *header), ((one.name, *line) for line in lines))
+    return Rows(("engine", *header), ((name_cell(one.name), *line) for line in lines))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -12,6 +13,7 @@ import numpy as np
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
+from ..engine.positions import MOMENTS_UNKNOWN
 from ..forces.kinds import FORCE, MOMENT, ROLL, Kind
 from ..forces.spectrum import Spectra
 from ..forces.textbook import TextbookUnits
@@ -20,7 +22,16 @@ from ..results.analysis import Analysis, Sizing
 from . import crankshaft, figures, guide_moments, strokes, symmetry
 from .csv import Rows
 from .devices import device_entries, device_grid
-from .figures import Result, clean, order_entries, order_number, peak_deg, peaks, phase_deg
+from .figures import (
+    Result,
+    assumptions,
+    clean,
+    order_entries,
+    order_number,
+    peak_deg,
+    peaks,
+    phase_deg,
+)
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, capitalized, degrees, number
 from .terminal_plot import sketches
 from .units import System, Unit
@@ -31,29 +42,44 @@ def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
     """The whole analysis: what the engine is, what it does order by order, peaks, verdict, sizing;
     pictures of characters.
     """
-    engine, spectra = result.engine, result.spectra
+    engine, known = result.engine, result.moments_known
+    spectra = result.spectra if known else result.spectra.without_moment()
     parts: list[Grid | Facts | Text] = [facts(result, system)]
     parts += order_by_order(spectra, system)
     if spectra.vectors():
-        parts += _textbook(spectra, result.textbook, system)
+        told = spectra if known else replace(spectra, moment=None)
+        parts += _textbook(told, result.textbook, system)
     if result.peaks:
         parts.append(largest(result, system, "Largest over a revolution, all orders"))
-    parts += [_share(n, share, system) for n, share in result.cylinders]
+    parts += [
+        _share(n, share if known else share.without_moment(), system)
+        for n, share in result.cylinders
+    ]
     if result.travel is not None:
         parts += strokes.sheet_parts(result.travel, engine.numbers, system)
     if result.inner is not None:
         parts += crankshaft.sheet_parts(result.inner, system)
     if result.guide is not None:
         parts += guide_moments.sheet_parts(result.guide, system)
-    if found := verdict(spectra, system, result.of_one_cylinder):
+    if found := _judge(result, system):
         parts.append(Text("Verdict", found))
     if result.why is not None:
         parts += symmetry.sheet_parts(result.why)
     if result.sizing is not None:
         parts += _sizing(result.sizing, system)
     if pictures:
-        parts += sketches(result, system)
+        drawn = result if known else replace(result, spectra=replace(spectra, moment=None))
+        parts += sketches(drawn, system)
     return Sheet(engine.name or NAMELESS, tuple(parts))
+
+
+def _judge(result: Analysis, system: System) -> tuple[str, ...]:
+    """The verdict; of forces alone where moments are not known, which it then says."""
+    spectra = result.spectra
+    if result.moments_known:
+        return verdict(spectra, system, result.of_one_cylinder)
+    forces = verdict(replace(spectra, moment=None), system, result.of_one_cylinder)
+    return (*forces, capitalized(f"{MOMENTS_UNKNOWN}.")) if spectra.vectors() else ()
 
 
 def document(result: Analysis) -> dict[str, Any]:
@@ -69,6 +95,7 @@ def document(result: Analysis) -> dict[str, Any]:
         "speed_rpm": clean(engine.speed_rpm),
         "reference_mm": [clean(v * 1e3) for v in engine.reference_m],
         "orders": order_entries(result.spectra),
+        **assumptions(result),
     }
     if largest_values := peaks(result):
         found["peak"] = largest_values
@@ -161,7 +188,12 @@ def facts(result: Analysis, system: System) -> Facts:
         ),
         ("masses", masses + unequal),
         ("orders", higher),
-        ("reference", f"moments about x, y, z = {about} {length.name}"),
+        (
+            "reference",
+            f"moments about x, y, z = {about} {length.name}"
+            if result.moments_known
+            else "moments are not known: crank.spacing is missing",
+        ),
         ("devices", _counted(engine)),
         ("source", engine.source),
     ]
@@ -238,6 +270,8 @@ def _vectors(kind: Kind, phasors: Phasors, unit: Unit) -> Grid:
         name = f"{order_number(phasors.orders[k])}"
         if phasors.balanced[k]:
             return name, "balanced", "", "", "", ""
+        if np.isnan(phasors.forward[k]):
+            return name, "–", "–", "–", "–", "–"
         sizes = (
             phasors.major[k],
             phasors.minor[k],
@@ -357,7 +391,13 @@ def _multiples(kind: Kind, phasors: Phasors, units: TextbookUnits, note: str) ->
 def largest(result: Result, system: System, title: str) -> Facts:
     """The peaks."""
     return Facts(
-        tuple((kind.name, _peak(peak, system.unit(kind))) for kind, peak in result.peaks), title
+        tuple(
+            (kind.name, _peak(peak, system.unit(kind)))
+            if kind is not MOMENT or result.moments_known
+            else (kind.name, "–")
+            for kind, peak in result.peaks
+        ),
+        title,
     )
 
 
@@ -404,10 +444,20 @@ def _share(cylinder: int, share: Spectra, system: System) -> Grid:
 def _sizing(sizing: Sizing, system: System) -> Iterator[Grid | Text | Facts]:
     remedy, after = sizing.remedy, sizing.after
     if not (remedy.counterweights or remedy.shafts or remedy.sliders):
-        yield Text("Sizing", ("Orders 1 and 2 need no counterweight and no shaft.",))
+        needs = "no counterweight and no shaft"
+        yield Text(
+            "Sizing",
+            (
+                f"Orders 1 and 2 need {needs}."
+                if after.moments_known
+                else f"The forces of orders 1 and 2 need {needs}; moments are not known.",
+            ),
+        )
         return
     yield Text(
-        "Sizing: what leaves no free force or moment of orders 1 and 2",
+        "Sizing: what leaves no free force or moment of orders 1 and 2"
+        if after.moments_known
+        else "Sizing: what leaves no free force of orders 1 and 2 (moments are not known)",
         tuple(dict.fromkeys(remedy.reasons)),
     )
     yield device_grid(remedy, system)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ..forces.kinds import TORQUE
-from .csv import Rows
+from .csv import Rows, name_cell
 from .figures import order_number
 from .sheet import Grid, Sheet, capitalized, number
 
@@ -25,7 +25,7 @@ def document(result: Comparison) -> dict[str, Any]:
             {
                 "quantity": _key(line),
                 "order": None if line.order is None else order_number(line.order),
-                "values": list(line.values),
+                "values": [v if v == v else None for v in line.values],
                 "ratios": [r if r == r else None for r in line.ratios],
             }
             for line in result.lines
@@ -39,7 +39,7 @@ def _key(line: Line) -> str:
 
 def rows(result: Comparison, system: System) -> Rows:
     """CSV: a figure a line, a column an engine."""
-    header = ("quantity", "order", "unit", *result.names)
+    header = ("quantity", "order", "unit", *map(name_cell, result.names))
     return Rows(header, [_csv_line(line, system) for line in result.lines])
 
 

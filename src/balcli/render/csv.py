@@ -7,6 +7,9 @@ from collections.abc import Iterable, Sequence
 from io import StringIO
 from typing import Any, NamedTuple
 
+# Beginnings of what is run, in full width as in small.
+FORMULA = ("=", "+", "-", "@", "\t", "\r", "\uff1d", "\uff0b", "\uff0d", "\uff20")
+
 
 class Rows(NamedTuple):
     """What CSV says of a result: names of the columns, and lines of as many cells."""
@@ -23,6 +26,13 @@ def csv_text(results: Sequence[Rows]) -> str:
     for rows in results:
         writer.writerows([_cell(value) for value in line] for line in rows.lines)
     return buffer.getvalue()
+
+
+def name_cell(name: str) -> str:
+    """A name that a user has given, with an apostrophe before it where a spreadsheet would take it
+    for a formula and run it.
+    """
+    return f"'{name}" if name.startswith(FORMULA) else name
 
 
 def _cell(value: Any) -> Any:

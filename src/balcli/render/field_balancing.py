@@ -15,7 +15,7 @@ from ..field_balancing.balance import (
     find_angle_deg,
     find_eccentricity,
 )
-from .csv import Rows
+from .csv import Rows, name_cell
 from .figures import clean
 from .sheet import Facts, Grid, Sheet, Text, degrees, number
 from .units import System
@@ -330,7 +330,7 @@ def _list(
                 yield from _list(part, speed, name, item, unit, f"{path}{key}.{k}.")
         else:
             own = {"weight": unit, "amplitude": unit, "reach": unit}.get(key, _unit_of(key))
-            yield part, speed, name, f"{path}{key}", value, own
+            yield part, speed, name_cell(name), f"{path}{key}", value, name_cell(own)
 
 
 def _unit_of(key: str) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.peaks import Peak
 from ..core.phasors import Phasors
-from ..forces.kinds import Kind
+from ..forces.kinds import KINDS, MOMENT, Kind
 from ..forces.spectrum import Spectra
 from .units import System, Unit
 
@@ -26,6 +26,9 @@ class Result(Protocol):
     @property
     def cylinders(self) -> tuple[tuple[int, Spectra], ...]: ...
 
+    @property
+    def moments_known(self) -> bool: ...
+
 
 class Row(NamedTuple):
     """One figure of a result; `cylinder` 0 is the engine, order None the whole curve."""
@@ -36,6 +39,11 @@ class Row(NamedTuple):
     figure: str
     value: float | bool | str | None
     unit: str
+
+
+def assumptions(analysis: Result) -> dict[str, list[str]]:
+    """What JSON says of figures that rest on what the engine file does not say."""
+    return {} if analysis.moments_known else {"assumed": ["crank.spacing = 0"]}
 
 
 def order_number(order: float) -> int | float:
@@ -130,13 +138,16 @@ def peaks(analysis: Result) -> dict[str, float | None]:
 
 # ------------------------------------------------------------------ as a list
 def rows(analysis: Result, system: System) -> Iterator[Row]:
-    """Every figure of an analysis, one a row."""
+    """Every figure of an analysis, one a row; none of moments that are not known."""
+    told = [kind.name for kind in KINDS.values() if analysis.moments_known or kind is not MOMENT]
     for cylinder, spectra in ((0, analysis.spectra), *analysis.cylinders):
         for k, order in enumerate(spectra.orders):
             for kind, phasors in spectra.items():
+                if kind.name not in told:
+                    continue
                 entry = figures(kind, phasors, k)
                 yield from order_rows(kind.name, order, entry, system.unit(kind), cylinder)
-    for kind, peak in analysis.peaks:
+    for kind, peak in [each for each in analysis.peaks if each[0].name in told]:
         yield from peak_rows(kind.name, peak, system.unit(kind))
 
 

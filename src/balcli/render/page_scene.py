@@ -79,7 +79,9 @@ def _variant(label: str, result: Analysis, system: System) -> dict[str, Any]:
         "label": label,
         "devices": [_device(d) for d in result.engine.devices],
         "force": [] if force is None else _rows(force, system.force),
-        "moment": [] if moment is None else _rows(moment, system.moment),
+        "moment": []
+        if moment is None or not result.moments_known
+        else _rows(moment, system.moment),
     }
 
 

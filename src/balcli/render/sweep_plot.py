@@ -6,35 +6,55 @@ from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 from ..errors import BalcliError
+from ..limits import MOST_PICTURE_VARIANTS
 from .plot import style
 
 if TYPE_CHECKING:
+    from ..studies.parameters import Parameter
     from ..studies.sweep import Array, Sweep
 
 LEVELS = 12
 
 
-def draw(sweep: Sweep, values: list[Array]) -> bytes:
-    """SVG.
+def check_drawable(sweep: Sweep) -> None:
+    """See that there can be a picture, before anything is computed for it.
 
     Raises:
-        BalcliError: more than two parameters, or fewer than two values of one.
+        BalcliError: more than two parameters, fewer than two values of one, or too many variants.
     """
-    several = [p for p in sweep.parameters if len(p) > 1]
-    if not 0 < len(several) <= 2:
+    several = len(_several(sweep))
+    if not 0 < several <= 2:
         raise BalcliError(
-            f"--plot draws one or two parameters with several values each, not {len(several)}"
+            f"--plot draws one or two parameters with several values each, not {several}"
         )
+    if sweep.variants > MOST_PICTURE_VARIANTS:
+        raise BalcliError(
+            f"{sweep.variants} variants are too many for one picture; "
+            f"{MOST_PICTURE_VARIANTS} are allowed"
+        )
+
+
+def _several(sweep: Sweep) -> list[Parameter]:
+    return [p for p in sweep.parameters if len(p) > 1]
+
+
+def draw(sweep: Sweep, values: list[Array], form: style.Form) -> bytes:
+    """A picture of a sweep that can be drawn, in this form.
+
+    Args:
+        values: each quantity on the whole grid.
+    """
+    several = _several(sweep)
     if len(several) == 1:
-        with style.figure(7, 4.2, "svg") as page:
+        with style.figure(7, 4.2, form) as page:
             _curves(page.subplots(), sweep, values)
-            return style.saved(page, "svg")
-    with style.figure(6 * len(values), 4.8, "svg") as page:
+            return style.saved(page, form)
+    with style.figure(6 * len(values), 4.8, form) as page:
         for axes, quantity, value in zip(
             page.subplots(1, len(values), squeeze=False)[0], sweep.quantities, values, strict=True
         ):
             _contours(page, axes, several, value.squeeze(), f"{quantity.name}, {quantity.unit}")
-        return style.saved(page, "svg")
+        return style.saved(page, form)
 
 
 def _curves(axes: Any, sweep: Sweep, values: list[Array]) -> None:

@@ -36,7 +36,9 @@ def terminal(sheets: list[Sheet], *, seen: bool = False) -> str:
         emoji=False,
         markup=False,
         soft_wrap=not seen,
-        **({"force_terminal": True} if seen else {"width": UNLIMITED, "no_color": True}),
+        force_terminal=seen,  # whatever FORCE_COLOR says
+        width=None if seen else UNLIMITED,
+        no_color=None if seen else True,
     )
     for sheet in sheets:
         console.print(Line(legible(sheet.title), style="bold"))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from . import figures
 from .analysis import largest, order_by_order
 from .csv import Rows
-from .figures import clean, order_entries, peaks
+from .figures import assumptions, clean, order_entries, peaks
 from .sheet import Facts, Sheet, number
 
 if TYPE_CHECKING:
@@ -45,6 +45,7 @@ def document(result: Combined) -> dict[str, Any]:
         "speed_rpm": clean(first.speed_rpm),
         "reference_mm": [clean(v * 1e3) for v in first.reference_m],
         "orders": order_entries(result.spectra),
+        **assumptions(result),
         "peak": peaks(result),
     }
 
@@ -80,13 +81,20 @@ def sheet(result: Combined, system: System) -> Sheet:
             ),
         ),
         ("speed", f"{number(float(first.speed_rpm), 6)} rpm, both"),
-        ("reference", f"moments about {place(first.reference_m)}"),
+        (
+            "reference",
+            f"moments about {place(first.reference_m)}"
+            if result.moments_known
+            else "moments are not known: crank.spacing is missing",
+        ),
     )
+    known = result.moments_known
+    spectra = result.spectra if known else result.spectra.without_moment()
     return Sheet(
         " and ".join(names),
         (
             Facts(pairs),
-            *order_by_order(result.spectra, system, _ROLL[how.load] if how.reverse else ""),
+            *order_by_order(spectra, system, _ROLL[how.load] if how.reverse else ""),
             largest(result, system, "Largest over a revolution, all orders"),
         ),
     )

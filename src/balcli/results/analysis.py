@@ -28,8 +28,8 @@ from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
 from ..forces.symmetry import Symmetry, explain_symmetry
 from ..forces.textbook import TextbookUnits, find_textbook_units
 from ..limits import HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
-from ..sizing.auto import auto
-from ..sizing.sizing import Remedy, fitted
+from ..sizing.auto import size_auto
+from ..sizing.remedy import Remedy, fit_devices
 
 QUANTITIES = (*KINDS, "peak", "sizing")
 EXTRAS = ("inner", "guide")  # computed only when they are named
@@ -81,6 +81,13 @@ class Analysis:
         """Each kind whose peak was asked for, with its peak."""
         found = [(kind, getattr(self, kind.name)) for kind in VECTORS]
         return [(kind, peak) for kind, peak in found if peak is not None]
+
+    @property
+    def moments_known(self) -> bool:
+        """Whether the engine file says where the throws stand; else moments are of coincident
+        ones.
+        """
+        return self.engine.places_known
 
     @property
     def has_higher_orders(self) -> bool:
@@ -138,6 +145,7 @@ def analyze(
     visible = everything.only(shown)
     visible = visible.select_orders(choose_orders(visible) if asked is None else asked)
     above_0 = visible.orders[visible.orders > 0]
+    provable = shown if engine.places_known else shown - {"moment"}
     cylinders = _analyze_cylinders(engine, visible.orders, shown) if by_cylinder else ()
     return Analysis(
         engine,
@@ -146,7 +154,7 @@ def analyze(
         peak(everything["moment"]) if peaked else None,
         sizing=_size_and_analyze(engine, asked, wanted) if "sizing" in wanted else None,
         cylinders=cylinders,
-        why=explain_symmetry(engine, above_0, shown) if reasons else None,
+        why=explain_symmetry(engine, above_0, provable) if reasons else None,
         inner=compute_inner_loads(engine, asked) if "inner" in wanted else None,
         guide=compute_guide_moments(engine, asked, guide_height_m) if "guide" in wanted else None,
         travel=None if engine.cylinders.linkage is None else find_travel(engine.cylinders),
@@ -188,6 +196,6 @@ def _analyze_cylinders(
 
 
 def _size_and_analyze(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizing:
-    remedy = auto(engine)
+    remedy = size_auto(engine)
     left = {*wanted, "force", "moment", "peak"} - {"sizing"}
-    return Sizing(remedy, analyze(fitted(engine, remedy), asked, left))
+    return Sizing(remedy, analyze(fit_devices(engine, remedy), asked, left))

@@ -9,9 +9,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ..engine.build import Engine
-from ..sizing.sizing import Practical, Remedy, Tools, Wish, fitted, practical, remedy_for
+from ..sizing.options import SchemeOptions
+from ..sizing.remedy import Remedy, fit_devices
+from ..sizing.sizing import size
+from ..sizing.workshop import Practical, Tools, find_practical
 from .analysis import QUANTITIES, Analysis, analyze
 
+SHOWN = frozenset(QUANTITIES) - {"sizing"}  # of a balance, without and with the remedy
 _UNEVEN = "sized for steady mean speed; before and after are those of the uneven one"
 
 
@@ -30,21 +34,27 @@ class PermittedUnbalance(NamedTuple):
 
 @dataclass(frozen=True)
 class Balance:
-    """A remedy, what the engine does without and with it (same orders), and the workshop's figures
-    of its devices; what a grade permits, if one was asked for.
+    """A remedy, and what the engine does without and with it.
+
+    Attributes:
+        before, after: analyses of the same orders.
+        practical: the workshop's figures of each device, in the order of `remedy.devices`.
+        speed_note: how remedy and analyses differ in speed; empty if they do not.
+        permitted: what a grade permits, if one was asked for.
     """
 
     remedy: Remedy
     before: Analysis
     after: Analysis
-    practical: tuple[Practical, ...]
+    practical: tuple[Practical, ...] = ()
+    speed_note: str = ""
     permitted: PermittedUnbalance | None = None
 
 
 def balance(
     engine: Engine,
     scheme: str = "auto",
-    wish: Wish | None = None,
+    options: SchemeOptions | None = None,
     orders: Iterable[float] | None = None,
     tools: Tools | None = None,
 ) -> Balance:
@@ -54,22 +64,19 @@ def balance(
 
     Args:
         engine: without trailing axes.
-        scheme: one of `sizing.SCHEMES`.
-        wish: options of the scheme.
+        scheme: one of `sizing.schemes.SCHEMES`.
+        options: of the scheme.
         orders: which to show; default: 1 and 2 and all that are not negligible before or after.
         tools: for the workshop's figures.
 
     Raises:
-        BalcliError: an unknown scheme, or a wish that cannot be met, with the reason.
+        BalcliError: an unknown scheme, or options that cannot be met, with the reason.
     """
-    remedy = remedy_for(engine, scheme, wish)
-    if engine.ripple:
-        remedy = remedy._replace(details={**remedy.details, "speed": _UNEVEN})
-    figures = practical(engine, remedy, tools or Tools())
-    new = fitted(engine, remedy)
-    shown = set(QUANTITIES) - {"sizing"}
-    before, after = (analyze(e, orders, shown) for e in (engine, new))
+    remedy = size(engine, scheme, options)
+    practical = find_practical(engine, remedy, tools or Tools())
+    balanced = fit_devices(engine, remedy)
+    before, after = analyze(engine, orders, SHOWN), analyze(balanced, orders, SHOWN)
     if orders is None and not np.array_equal(before.orders, after.orders):
         both = np.union1d(before.orders, after.orders)
-        before, after = (analyze(e, both, shown) for e in (engine, new))
-    return Balance(remedy, before, after, figures)
+        before, after = analyze(engine, both, SHOWN), analyze(balanced, both, SHOWN)
+    return Balance(remedy, before, after, practical, _UNEVEN if engine.ripple else "")

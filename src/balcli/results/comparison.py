@@ -6,12 +6,28 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import nan
 
+from ..core.peaks import Peak
 from ..core.phasors import Array
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..forces.kinds import Kind
+from ..forces.kinds import MOMENT, VECTORS, Kind
 from ..forces.orders import merge_orders
+from ..forces.spectrum import Spectra
 from .analysis import QUANTITIES, Analysis, analyze
+
+SHEAR = Kind("shear", "shear force in the crankshaft", "Q", "shear_N", True, "force")
+BENDING = Kind("bending", "bending moment in the crankshaft", "M_b", "bending_Nm", True, "moment")
+BEARING = Kind("bearing", "load of a main bearing", "R", "bearing_N", True, "force")
+GUIDE_H = Kind("guide_h", "H-type guide moment", "M_H", "guide_h_Nm", False, "moment")
+GUIDE_X = Kind("guide_x", "X-type guide moment", "M_X", "guide_x_Nm", False, "moment")
+LEFT = {
+    kind: kind._replace(
+        name=f"{kind.name} with devices",
+        label=f"{kind.label} with the devices of auto",
+        key=f"with_devices_{kind.key}",
+    )
+    for kind in VECTORS
+}
 
 
 @dataclass(frozen=True)
@@ -21,7 +37,7 @@ class Line:
     Attributes:
         kind: of force or moment.
         order: None for the peak.
-        values: one an engine.
+        values: one an engine; nan for moments that are not known.
     """
 
     kind: Kind
@@ -55,24 +71,40 @@ def compare_engines(
         engines: without trailing axes, at least two.
         names: what to call them.
         orders: default: all that `analyze` shows for one of them.
-        only: as in `analyze`; sizing is never computed.
+        only: as in `analyze`; of sizing, the peaks that are left with the devices; default: all
+            but sizing, inner and guide.
 
     Raises:
         BalcliError: fewer than two engines.
     """
     if len(engines) < 2:
         raise BalcliError("there is one engine; name at least two to compare")
-    wanted = set(only or QUANTITIES) - {"sizing"}
+    wanted = set(QUANTITIES) - {"sizing"} if only is None else set(only)
     analyses = [analyze(engine, orders, wanted) for engine in engines]
-    every = merge_orders(*(one.orders for one in analyses))
+    every = merge_orders(*(orders for one in analyses for orders in _list_orders(one)))
     if orders is None:
         analyses = [analyze(engine, every, wanted) for engine in engines]
-    return Comparison(tuple(names), (*_compare_orders(analyses, every), *_compare_peaks(analyses)))
+    lines = (
+        *_compare_orders(analyses, every),
+        *_compare_peaks(analyses),
+        *_compare_inner(analyses),
+        *_compare_guide(analyses),
+        *_compare_sizing(analyses),
+    )
+    return Comparison(tuple(names), lines)
+
+
+def _list_orders(one: Analysis) -> Iterator[Array]:
+    yield one.orders
+    if one.inner is not None:
+        yield one.inner.bending.phasors.orders
+    if one.guide is not None:
+        yield one.guide.h.orders
 
 
 def _compare_orders(analyses: Sequence[Analysis], orders: Array) -> Iterator[Line]:
     for kind, _ in analyses[0].spectra.items():
-        sizes = [one.spectra[kind.name].major for one in analyses]
+        sizes = [_known(one)[kind.name].major for one in analyses]
         for order, *values in zip(orders, *sizes, strict=True):
             if order <= 2 or any(values):
                 yield Line(kind, float(order), tuple(map(float, values)))
@@ -81,4 +113,50 @@ def _compare_orders(analyses: Sequence[Analysis], orders: Array) -> Iterator[Lin
 def _compare_peaks(analyses: Sequence[Analysis]) -> Iterator[Line]:
     for same in zip(*(one.peaks for one in analyses), strict=True):
         kind, _ = same[0]
-        yield Line(kind, None, tuple(peak.value for _, peak in same))
+        yield Line(kind, None, tuple(_known_values(kind, same, analyses)))
+
+
+def _known(one: Analysis) -> Spectra:
+    return one.spectra if one.moments_known else one.spectra.without_moment()
+
+
+def _known_values(
+    kind: Kind, peaks: Iterable[tuple[Kind, Peak]], analyses: Sequence[Analysis]
+) -> Iterator[float]:
+    for (_, peak), one in zip(peaks, analyses, strict=True):
+        yield peak.value if one.moments_known or kind is not MOMENT else nan
+
+
+def _compare_inner(analyses: Sequence[Analysis]) -> Iterator[Line]:
+    """The largest along the crank, by order and of all orders."""
+    found = [one.inner for one in analyses if one.inner is not None]
+    for kind, several in (
+        (SHEAR, [one.shear for one in found]),
+        (BENDING, [one.bending for one in found]),
+        (BEARING, [one.bearings for one in found]),
+    ):
+        there = [along for along in several if along is not None]
+        if not there or len(there) < len(analyses):
+            continue  # a crank with one throw has no bearings that are known
+        sizes = [along.phasors.major.max(axis=1) for along in there]
+        for order, *values in zip(there[0].phasors.orders, *sizes, strict=True):
+            yield Line(kind, float(order), tuple(map(float, values)))
+        peaks = (max(peak.value for peak in along.peaks) for along in there)
+        yield Line(kind, None, tuple(map(float, peaks)))
+
+
+def _compare_guide(analyses: Sequence[Analysis]) -> Iterator[Line]:
+    found = [one.guide for one in analyses if one.guide is not None]
+    for kind, several in ((GUIDE_H, [g.h for g in found]), (GUIDE_X, [g.x for g in found])):
+        there = [moment for moment in several if moment is not None]
+        if there and len(there) == len(analyses):
+            sizes = [moment.major for moment in there]
+            for order, *values in zip(there[0].orders, *sizes, strict=True):
+                yield Line(kind, float(order), tuple(map(float, values)))
+
+
+def _compare_sizing(analyses: Sequence[Analysis]) -> Iterator[Line]:
+    left = [one.sizing.after for one in analyses if one.sizing is not None]
+    for same in zip(*(one.peaks for one in left), strict=True):
+        kind, _ = same[0]
+        yield Line(LEFT[kind], None, tuple(_known_values(kind, same, left)))

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,38 +19,39 @@ from ..engine.build import build
 from ..engine.layout import plan_cylinders
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
+from ..sizing.details import Detail, Range
+from ..sizing.remedy import Remedy
 from ..sizing.schemes import KNUCKLES
-from ..sizing.sizing import Remedy
-from .analysis import QUANTITIES, analyze
-from .balance import Balance
+from .analysis import analyze
+from .balance import SHOWN, Balance
 
 Goal = Literal["dead-centres", "strokes"]
 GOALS: tuple[Goal, ...] = ("dead-centres", "strokes")
-_STEP = 1e-3  # degrees, for the slope
-_FAR = 30.0  # degrees: a knuckle pin that would have to move farther is no answer
+_STEP_DEG = 1e-3  # for the slope
+_FARTHEST_DEG = 30.0  # a knuckle pin that would have to move farther is no answer
 _CLOSE = {"dead-centres": 1e-9, "strokes": 1e-12}  # degrees; metres
 
 
 @dataclass(frozen=True)
 class Knuckles:
-    """What was found.
+    """Knuckle angles that make an engine even.
 
     Attributes:
-        file: the engine file with the new `articulation.knuckle_angles`.
+        model: the engine file with the new `articulation.knuckle_angles`.
         angles_deg: the angle of each bank's knuckle pin.
         before, after: strokes and dead centres of all cylinders.
         reasons: what was done, and for which banks nothing can be.
     """
 
     goal: Goal
-    file: EngineFile
+    model: EngineFile
     angles_deg: tuple[float, ...]
     before: Travel
     after: Travel
     reasons: tuple[str, ...]
 
 
-def even_knuckles(file: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
+def even_knuckles(model: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
     """Turn each knuckle pin about the crank pin, at the radius of the file, until its cylinders are
     even.
 
@@ -63,117 +64,124 @@ def even_knuckles(file: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
         BalcliError: the engine has no articulated rods.
         InputError: it cannot be built.
     """
-    engine = build(file)
+    engine = build(model)
     c, linkage = engine.cylinders, engine.cylinders.linkage
-    if file.articulation is not None and file.layout.rotary:
+    if model.articulation is not None and model.layout.rotary:
         raise BalcliError(
             "knuckles: this engine is rotary; even knuckle angles are looked for where the crank "
             "turns only"
         )
-    if file.articulation is None or not isinstance(linkage, Articulated):
+    if model.articulation is None or not isinstance(linkage, Articulated):
         raise BalcliError(
             "knuckles: this engine has no articulated rods; an engine file says so with "
             "[articulation]"
         )
     hung = linkage.master != np.arange(c.count)
-    turn, done = _solved(
-        lambda angle: np.where(hung, _error(_turned(c, linkage, angle), linkage, goal), 0.0),
-        c.count,
-        _CLOSE[goal],
-    )
-    rows = _first_rows(file, engine.numbers)
-    angles = np.degrees(np.angle(linkage.knuckle[rows])) + np.where(done, turn, 0.0)[rows]
-    angles = np.where(hung[rows], angles % 360, 0.0)
-    found = tuple(map(float, angles))
-    table = file.articulation.model_copy(update={"knuckle_angles": found})
-    better = file.model_copy(update={"articulation": table})
+
+    def find_error(turn_deg: Array) -> Array:
+        error = _measure_error(_turn_knuckles(c, linkage, turn_deg), linkage, goal)
+        return np.where(hung, error, 0.0)
+
+    turn_deg, done = _solve(find_error, c.count, _CLOSE[goal])
+    rows = _find_first_rows(model, engine.numbers)
+    old_deg = np.degrees(np.angle(linkage.knuckle[rows]))
+    new_deg = (old_deg + np.where(done, turn_deg, 0.0)[rows]) % 360
+    angles_deg = tuple(map(float, np.where(hung[rows], new_deg, 0.0)))
+    table = model.articulation.model_copy(update={"knuckle_angles": angles_deg})
+    better = model.model_copy(update={"articulation": table})
     return Knuckles(
         goal,
         better,
-        found,
-        find_travel(c),
-        find_travel(build(better).cylinders),
-        _reasons(goal, hung[rows], done[rows], turn[rows]),
+        angles_deg,
+        before=find_travel(c),
+        after=find_travel(build(better).cylinders),
+        reasons=_explain(goal, hung[rows], done[rows], turn_deg[rows]),
     )
 
 
-def balanced(
-    file: EngineFile,
+def balance_knuckles(
+    model: EngineFile,
     goal: Goal = "dead-centres",
     orders: Iterable[float] | None = None,
-    speed_rpm: Any = None,
+    speed_rpm: float | None = None,
 ) -> Balance:
-    """The same as a scheme of `balance`: the engine before and after, at the speed of the file or
+    """Even knuckles as a remedy, and the engine before and after, at the speed of the file or
     another.
 
     Raises as `even_knuckles` does.
     """
-    found = even_knuckles(file, goal)
-    details = {
-        "even": goal,
-        "knuckle_angles_deg": list(found.angles_deg),
-        "stroke_mm": _range(found.after.stroke * 1e3),
-        "top_deg": _range(found.after.top_deg),
-    }
-    shown = set(QUANTITIES) - {"sizing"}
-    old, new = (
-        build(f) if speed_rpm is None else replace(build(f), speed_rpm=speed_rpm)
-        for f in (file, found.file)
+    found = even_knuckles(model, goal)
+    remedy = Remedy(
+        KNUCKLES,
+        reasons=found.reasons,
+        details=(
+            Detail("even", "", goal),
+            Detail("knuckle angles", "angle", found.angles_deg),
+            Detail("stroke", "length", _find_range(found.after.stroke)),
+            Detail("top", "angle", _find_range(found.after.top_deg)),
+        ),
+        knuckle_angles_deg=found.angles_deg,
     )
-    before = analyze(old, orders, shown)
-    after = analyze(new, before.orders, shown)
-    return Balance(Remedy(KNUCKLES, reasons=found.reasons, details=details), before, after, ())
+    old, new = build(model), build(found.model)
+    if speed_rpm is not None:
+        old, new = replace(old, speed_rpm=speed_rpm), replace(new, speed_rpm=speed_rpm)
+    before = analyze(old, orders, SHOWN)
+    return Balance(remedy, before, after=analyze(new, before.orders, SHOWN))
 
 
-def _range(values: Array) -> dict[str, float]:
-    return {"least": float(values.min()), "largest": float(values.max())}
+def _find_range(values: Array) -> Range:
+    return Range(float(values.min()), float(values.max()))
 
 
-def _turned(c: Cylinders, linkage: Articulated, angle_deg: Array) -> Travel:
-    turned = replace(linkage, knuckle=linkage.knuckle * unit(angle_deg))
+def _turn_knuckles(c: Cylinders, linkage: Articulated, turn_deg: Array) -> Travel:
+    """Strokes and dead centres with the knuckle pin of each cylinder turned so far."""
+    turned = replace(linkage, knuckle=linkage.knuckle * unit(turn_deg))
     return find_travel(replace(c, linkage=turned))
 
 
-def _error(found: Travel, linkage: Articulated, goal: Goal) -> Array:
-    """How far each cylinder is from its master: degrees or metres."""
+def _measure_error(found: Travel, linkage: Articulated, goal: Goal) -> Array:
+    """How far each cylinder is from its master, degrees or metres."""
     values = found.top_deg if goal == "dead-centres" else found.stroke
     return np.asarray(values - values[linkage.master])
 
 
-def _solved(
-    error: Callable[[Array], Array], count: int, close: float
+def _solve(
+    find_error: Callable[[Array], Array], count: int, close: float
 ) -> tuple[Array, NDArray[np.bool_]]:
-    """Newton's method, for all cylinders at once; and where it has arrived."""
-    angle = np.zeros(count)
+    """The turn of each cylinder's knuckle pin in degrees at which its error vanishes, and whether
+    it does: Newton's method, for all at once.
+    """
+    turn_deg = np.zeros(count)
     for _ in range(20):
-        here = error(angle)
-        slope = (error(angle + _STEP) - error(angle - _STEP)) / (2 * _STEP)
-        move = -here / np.where(slope, slope, 1.0)
-        angle = np.clip(angle + np.clip(move, -5, 5), -_FAR, _FAR)
+        error = find_error(turn_deg)
+        rise = find_error(turn_deg + _STEP_DEG) - find_error(turn_deg - _STEP_DEG)
+        slope = rise / (2 * _STEP_DEG)
+        move = -error / np.where(slope, slope, 1.0)
+        turn_deg = np.clip(turn_deg + np.clip(move, -5, 5), -_FARTHEST_DEG, _FARTHEST_DEG)
         if np.max(np.abs(move)) < 1e-12:
             break
-    return angle, np.abs(error(angle)) <= close
+    return turn_deg, np.abs(find_error(turn_deg)) <= close
 
 
-def _first_rows(file: EngineFile, numbers: tuple[int, ...]) -> list[int]:
+def _find_first_rows(model: EngineFile, numbers: tuple[int, ...]) -> list[int]:
     """Row of the first cylinder of each bank."""
-    cells = plan_cylinders(file.crank, file.layout).cells
-    first = {c.bank: c.number for c in sorted(cells, key=lambda c: -c.throw)}
+    cells = plan_cylinders(model.crank, model.layout).cells
+    first = {cell.bank: cell.number for cell in sorted(cells, key=lambda cell: -cell.throw)}
     return [numbers.index(first[bank]) for bank in sorted(first)]
 
 
-def _reasons(
-    goal: Goal, hung: NDArray[np.bool_], done: NDArray[np.bool_], turn: Array
+def _explain(
+    goal: Goal, hung: NDArray[np.bool_], done: NDArray[np.bool_], turn_deg: Array
 ) -> tuple[str, ...]:
-    what = (
-        "top dead centres as even as the master's"
-        if goal == "dead-centres"
-        else "strokes equal to the master's"
-    )
-    largest = float(np.abs(np.where(hung & done, turn, 0)).max(initial=0.0))
-    told = [f"knuckle pins turned by up to {largest:.3g} deg: {what}"]
+    """What was done, and for which banks nothing can be; all arrays by banks."""
+    if goal == "dead-centres":
+        result = "top dead centres as even as the master's"
+    else:
+        result = "strokes equal to the master's"
+    largest = float(np.abs(np.where(hung & done, turn_deg, 0)).max(initial=0.0))
+    reasons = [f"knuckle pins turned by up to {largest:.3g} deg: {result}"]
     if left := [str(bank + 1) for bank in np.flatnonzero(hung & ~done)]:
-        told.append(
+        reasons.append(
             f"no angle makes bank {', '.join(left)} even: the knuckle pin stays where it is"
         )
-    return tuple(told)
+    return tuple(reasons)

@@ -69,6 +69,11 @@ class Combined:
     cylinders: tuple[tuple[int, Spectra], ...] = ()
 
     @property
+    def moments_known(self) -> bool:
+        """Whether both engine files say where their throws stand."""
+        return all(engine.places_known for engine in self.engines)
+
+    @property
     def peaks(self) -> list[tuple[Kind, Peak]]:
         """Force and moment, with their peaks."""
         return list(zip(VECTORS, (self.force, self.moment), strict=True))

@@ -5,21 +5,26 @@ Two shafts, symmetric to the cylinder axis, turn by phi(theta); their force alon
 r_b omega^2 (phi'^2 cos phi + phi'' sin phi) = -2 m_b r_b omega^2 (cos phi)''` (the sign of the
 second term is misprinted in the source). In units of m r omega^2 what remains is `P = f(theta) - 2
 mu g(theta; k)`, an even function; k and mu are sought.
+
+Below, `c` holds cosine coefficients of an even function, shape (orders,), and `x` the two unknowns
+k and mu, shape (2,).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
 from itertools import combinations, product
-from typing import Any
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.mechanisms import closed_form
-from ..core.phasors import Array
 from ..errors import BalcliError
+from .details import Optimum
+
+Floats: TypeAlias = NDArray[np.float64]
 
 DESIGNS = ("a", "b")  # pin on the shaft, slot in the disc; pin on the disc, slot on the shaft
 CRITERIA = ("largest", "mean")
@@ -30,170 +35,175 @@ _ORDERS = np.arange(_COUNT // 4)
 _ROUNDS = 60
 _NOISE = 5e-16  # of the transform; squares of the orders would multiply it
 _SETTLED = 1e-10  # relative
+_NEWTON_STEPS = 8  # from the middle of a cell of the grid to a root, to rounding
 
 
-@dataclass(frozen=True)
-class Optimum:
-    """Best k = r_b/e and mu = m_b r_b/(m r), and the largest and mean absolute force that remain,
-    in units of m r omega^2.
+def find_optimum(design: str, criterion: str, engine_force: str, lam: float) -> Optimum:
+    """The best k and mu of one design by one criterion.
+
+    Args:
+        design, criterion, engine_force: of DESIGNS, CRITERIA, FORCES.
+        lam: crank radius over rod length.
+
+    Raises BalcliError where lambda is so large that the search does not settle.
     """
-
-    design: str
-    criterion: str
-    force: str
-    k: float
-    mu: float
-    largest: float
-    mean: float
-
-
-def best(design: str, criterion: str, force: str, lam: float) -> Optimum:
-    """The optimum of one design by one criterion; BalcliError where lambda is so large that the
-    search does not settle.
-    """
-    engine = _engine_force(force, lam)
+    engine = _expand_engine_force(engine_force, lam)
     try:
-        x = _smallest_peak(design, engine, np.array([2 / lam, 0.5]))
+        x = _minimise_peak(design, engine, np.array([2 / lam, 0.5]))
         if criterion == "mean":
-            x = _smallest_mean(design, engine, x)
+            x = _minimise_mean(design, engine, x)
     except (np.linalg.LinAlgError, ArithmeticError):
         raise BalcliError(
             f"eccentric-slider: no optimum was found for design {design} at lambda = {lam:g}: the "
-            "second order is too strong "
-            "for an eccentric smaller than its pin radius"
+            "second order is too strong for an eccentric smaller than its pin radius"
         ) from None
-    rest = _remaining(design, engine, x)
-    zeros = _zeros(rest)
-    primitive = _values(rest, zeros, -1)
-    mean = float(np.abs(np.diff(primitive)).sum()) / np.pi
+    remaining = _find_remaining(design, engine, x)
+    primitive = _evaluate(remaining, _find_zeros(remaining), -1)
     return Optimum(
         design,
         criterion,
-        force,
-        float(x[0]),
-        float(x[1]),
-        float(np.abs(_values(rest, _extrema(rest))).max()),
-        mean,
+        engine_force,
+        k=float(x[0]),
+        mu=float(x[1]),
+        largest=float(np.abs(_evaluate(remaining, _find_extremes(remaining))).max()),
+        mean=float(np.abs(np.diff(primitive)).sum()) / np.pi,
     )
 
 
-def settled(lam: float) -> list[Optimum]:
-    """All optima that there are; at lambda above 0.6 some search does not settle, as k would fall
-    below 1.
+def find_optima(lam: float) -> tuple[Optimum, ...]:
+    """The optima of both designs by both criteria for both forces: first the smallest peak of
+    design a for orders 1 and 2.
+
+    At lambda above 0.6 some searches do not settle, as k would fall below 1: their optima are left
+    out. Raises BalcliError if the first one does not settle.
     """
-    found = []
-    for force, design, criterion in product(FORCES, DESIGNS, CRITERIA):
+    (force, design, criterion), *others = product(FORCES, DESIGNS, CRITERIA)
+    optima = [find_optimum(design, criterion, force, lam)]
+    for force, design, criterion in others:
         with suppress(BalcliError):
-            found.append(best(design, criterion, force, lam))
-    return found
+            optima.append(find_optimum(design, criterion, force, lam))
+    return tuple(optima)
 
 
-def shafts(design: str, k: Any) -> tuple[Array, Array]:
-    """Cosine coefficients of `g m^-2 = cos phi` up to sign, i.e. of cos phi, and of its derivative
-    by k.
-    """
-    theta = np.arange(_COUNT, dtype=np.float64) * (2 * np.pi / _COUNT)
+def expand_shaft_wave(design: str, k: float) -> tuple[Floats, Floats]:
+    """Cosine coefficients of cos phi over the crank angle, and their derivatives by k."""
+    theta = np.arange(_COUNT) * np.float64(2 * np.pi / _COUNT)
     step = 1e-30  # complex step: the derivative to rounding
-    wave = _cos_phi(design, theta, k + 1j * step)
-    return _cosines(wave.real), _cosines(wave.imag / step)
+    wave = _find_cos_phi(design, theta, k + 1j * step)
+    return _find_cosines(wave.real), _find_cosines(wave.imag / step)
 
 
-def _cos_phi(design: str, theta: Array, k: Any) -> Any:
+def _find_cos_phi(design: str, theta: Floats, k: complex) -> NDArray[np.complex128]:
+    """cos phi at crank angles theta, same shape; phi is the angle of the shafts."""
+    wave: NDArray[np.complex128]
     if design == "a":
-        return (np.cos(theta) * np.sqrt(k**2 - np.sin(theta) ** 2) - np.sin(theta) ** 2) / k
-    return (k * np.cos(theta) - 1) / np.sqrt(1 + k**2 - 2 * k * np.cos(theta))
+        wave = (np.cos(theta) * np.sqrt(k**2 - np.sin(theta) ** 2) - np.sin(theta) ** 2) / k
+    else:
+        wave = (k * np.cos(theta) - 1) / np.sqrt(1 + k**2 - 2 * k * np.cos(theta))
+    return wave
 
 
-def _cosines(samples: Array) -> Array:
-    c: Array = np.fft.rfft(samples).real / _COUNT * 2
+def _find_cosines(samples: Floats) -> Floats:
+    """Cosine coefficients of an even function from samples of one revolution."""
+    c = np.fft.rfft(samples).real / _COUNT * 2
     return np.where(np.abs(c) > _NOISE, c, 0)[: len(_ORDERS)]
 
 
-def _engine_force(force: str, lam: float) -> Array:
-    if force == "all orders":
+def _expand_engine_force(engine_force: str, lam: float) -> Floats:
+    """Cosine coefficients of the force of the piston in units of m r omega^2."""
+    if engine_force == "all orders":
         return closed_form.piston(_ORDERS, lam)
     return np.where(_ORDERS == 1, 1.0, np.where(_ORDERS == 2, lam, 0.0))
 
 
-def _remaining(design: str, engine: Array, x: Array) -> Array:
-    """Cosine coefficients of what remains."""
+def _find_remaining(design: str, engine: Floats, x: Floats) -> Floats:
+    """Cosine coefficients of P, what remains of the engine's force."""
     if not (1.2 < x[0] < 1e12):
         raise ArithmeticError("k must stay above 1")
-    return engine - 2 * x[1] * _ORDERS**2 * shafts(design, x[0])[0]
+    return engine - 2 * x[1] * _ORDERS**2 * expand_shaft_wave(design, x[0])[0]
 
 
-def _slopes(design: str, x: Array) -> Array:
-    """Its derivatives by k and mu, shape (2, orders)."""
-    wave, by_k = shafts(design, x[0])
+def _find_slopes(design: str, x: Floats) -> Floats:
+    """Derivatives of the coefficients of P by k and by mu, shape (2, orders)."""
+    wave, by_k = expand_shaft_wave(design, x[0])
     return -2 * _ORDERS**2 * np.stack([x[1] * by_k, wave])
 
 
-def _values(c: Array, theta: Array, derivative: int = 0) -> Array:
-    """The even series at some angles, differentiated (or integrated, -1) so many times."""
+# ------------------------------------------------------------------ even series
+def _evaluate(c: Floats, theta: Floats, derivative: int = 0) -> Floats:
+    """Values at some angles, shape (angles,), or (angles, 2) for two series in rows; differentiated
+    so many times, or integrated (-1).
+    """
     rate = (np.where(_ORDERS, _ORDERS, np.inf) if derivative < 0 else _ORDERS) ** float(derivative)
     angle = np.multiply.outer(theta, _ORDERS) + derivative * np.pi / 2
-    values: Array = np.cos(angle) @ (rate * c).T
+    values: Floats = np.cos(angle) @ (rate * c).T
     return values
 
 
-def _extrema(c: Array) -> Array:
-    """Angles in [0, pi] of the extremes of an even series."""
-    slope = _values(c, _GRID, 1)
-    inside = _root(
-        lambda t: _values(c, t, 1),
-        lambda t: _values(c, t, 2),
+def _find_extremes(c: Floats) -> Floats:
+    """Angles in [0, pi] of the extremes, the two ends among them."""
+    slope = _evaluate(c, _GRID, 1)
+    inside = _find_roots(
+        lambda theta: _evaluate(c, theta, 1),
+        lambda theta: _evaluate(c, theta, 2),
         np.flatnonzero(slope[1:-2] * slope[2:-1] < 0) + 1,
     )
     return np.concatenate([[0.0], inside, [np.pi]])
 
 
-def _zeros(c: Array) -> Array:
-    """0, the zeros of an even series in between, and pi."""
-    values = _values(c, _GRID)
-    inside = _root(
-        lambda t: _values(c, t),
-        lambda t: _values(c, t, 1),
+def _find_zeros(c: Floats) -> Floats:
+    """0, the zeros in between, and pi."""
+    values = _evaluate(c, _GRID)
+    inside = _find_roots(
+        lambda theta: _evaluate(c, theta),
+        lambda theta: _evaluate(c, theta, 1),
         np.flatnonzero(values[:-1] * values[1:] < 0),
     )
     return np.concatenate([[0.0], inside, [np.pi]])
 
 
-def _root(f: Callable[[Array], Array], df: Callable[[Array], Array], cells: Any) -> Array:
-    """Roots in these cells of the grid, by Newton's method kept inside."""
+def _find_roots(
+    f: Callable[[Floats], Floats], slope: Callable[[Floats], Floats], cells: NDArray[np.intp]
+) -> Floats:
+    """The root in each of these cells of the grid, by Newton's method kept inside."""
     low, high = _GRID[cells], _GRID[cells + 1]
     theta = (low + high) / 2
-    for _ in range(8):
-        theta = np.clip(theta - f(theta) / df(theta), low, high)
+    for _ in range(_NEWTON_STEPS):
+        theta = np.clip(theta - f(theta) / slope(theta), low, high)
     return theta
 
 
-def _smallest_peak(design: str, engine: Array, x: Array) -> Array:
+# ------------------------------------------------------------------ the two criteria
+def _minimise_peak(design: str, engine: Floats, x: Floats) -> Floats:
     """Exchange: the linearised problem over the extremes of P, whose solution three of them fix,
     until nothing moves.
     """
     for _ in range(_ROUNDS):
-        rest = _remaining(design, engine, x)
-        theta = _extrema(rest)
-        values = _values(rest, theta)
-        rows = np.sign(values)[:, None] * _values(_slopes(design, x), theta)
-        move = _exchange(np.abs(values), rows)
-        x = x + move * min(1.0, 0.25 * x[0] / max(abs(move[0]), 1e-300))
+        remaining = _find_remaining(design, engine, x)
+        theta = _find_extremes(remaining)
+        values = _evaluate(remaining, theta)
+        slopes = np.sign(values)[:, None] * _evaluate(_find_slopes(design, x), theta)
+        move = _exchange(np.abs(values), slopes)
+        x = _move(x, move, 0.25)
         if np.all(np.abs(move) <= _SETTLED * np.abs(x)):
             return x
     raise ArithmeticError("no convergence")
 
 
-def _exchange(values: Array, rows: Array) -> Array:
-    """The step d that makes the largest of `values + rows d` smallest: that of the triple whose
+def _exchange(values: Floats, slopes: Floats) -> Floats:
+    """The step d that makes the largest of `values + slopes d` smallest: that of the triple whose
     bound is highest (de la Vallee-Poussin).
+
+    Args:
+        values, slopes: shapes (extremes,) and (extremes, 2).
     """
     top, best = -np.inf, None
-    for triple in combinations(range(len(values)), 3):
-        system = np.column_stack([rows[list(triple)], -np.ones(3)])
+    for triple in map(list, combinations(range(len(values)), 3)):
+        system = np.column_stack([slopes[triple], -np.ones(3)])
         if abs(np.linalg.det(system)) < 1e-14:
             continue
         weights = np.linalg.solve(system.T, [0, 0, -1.0])
-        solution = np.linalg.solve(system, -values[list(triple)])
+        solution = np.linalg.solve(system, -values[triple])
         if np.all(weights >= -1e-12) and solution[2] > top:
             top, best = solution[2], solution[:2]
     if best is None:
@@ -201,25 +211,31 @@ def _exchange(values: Array, rows: Array) -> Array:
     return np.asarray(best)
 
 
-def _smallest_mean(design: str, engine: Array, x: Array) -> Array:
+def _minimise_mean(design: str, engine: Floats, x: Floats) -> Floats:
     """Newton's method on the gradient of the integral of |P|, which the zeros of P give in closed
     form.
     """
 
-    def gradient(x: Array) -> Array:
-        rest = _remaining(design, engine, x)
-        zeros = _zeros(rest)
-        signs = np.sign(_values(rest, (zeros[:-1] + zeros[1:]) / 2))
-        found: Array = signs @ np.diff(_values(_slopes(design, x), zeros, -1), axis=0)
-        return found
+    def find_gradient(x: Floats) -> Floats:
+        remaining = _find_remaining(design, engine, x)
+        zeros = _find_zeros(remaining)
+        signs = np.sign(_evaluate(remaining, (zeros[:-1] + zeros[1:]) / 2))
+        gradient: Floats = signs @ np.diff(_evaluate(_find_slopes(design, x), zeros, -1), axis=0)
+        return gradient
 
     for _ in range(_ROUNDS):
-        steps = np.diag(1e-6 * x)
-        jacobian = np.column_stack(
-            [(gradient(x + h) - gradient(x - h)) / (2 * h.sum()) for h in steps]
-        )
-        move = -np.linalg.solve(jacobian, gradient(x))
-        x = x + move * min(1.0, 0.1 * x[0] / max(abs(move[0]), 1e-300))
+        columns = [
+            (find_gradient(x + step) - find_gradient(x - step)) / (2 * step.sum())
+            for step in np.diag(1e-6 * x)
+        ]
+        move = -np.linalg.solve(np.column_stack(columns), find_gradient(x))
+        x = _move(x, move, 0.1)
         if np.all(np.abs(move) <= _SETTLED * np.abs(x)):
             return x
     raise ArithmeticError("no convergence")
+
+
+def _move(x: Floats, move: Floats, share: float) -> Floats:
+    """The unknowns moved so far that k changes by this share of itself at most."""
+    farthest: float = share * x[0] / max(abs(move[0]), 1e-300)
+    return x + move * min(1.0, farthest)

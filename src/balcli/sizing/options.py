@@ -1,32 +1,25 @@
-"""What a user may ask of a scheme, and which scheme takes which of it."""
+"""What a user may ask of a scheme."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
-from ..engine.build import Engine
 from ..errors import BalcliError
-from ..limits import HIGHEST_ORDER_SOUGHT, HIGHEST_SHAFT_ORDER
-from .effects import Rest, rest
+from ..limits import HIGHEST_SHAFT_ORDER
 from .schemes import KNUCKLES, NAMES, SCHEMES
 
 
-class NoNeedError(Exception):
-    """There is nothing to balance, as its text says: a scheme then fits no device."""
-
-
-class Wish(NamedTuple):
-    """Options of the schemes; what is None was not asked for. Lengths in m.
+class SchemeOptions(NamedTuple):
+    """Options of the schemes, lengths in m; None is an option that was not given.
 
     Attributes:
-        order: the order that is to be balanced.
-        at: places x + iy of shafts or sliders; of a pair, first the one that turns against the
-        crank.
-        position: z of new shafts.
-        planes: "ends", "throws", or places along z.
+        order: the order to balance.
+        at: places x + iy of shafts or sliders; of a pair, first that of the shaft turning against
+            the crank.
+        position: z of new devices.
+        planes: "ends", "throws", or places z of new devices.
         factor: shares of the reciprocating mass.
-        roll: "zero": the second shaft is placed such that the roll of this order vanishes, too.
+        roll: "zero": two shafts are placed such that the roll of this order vanishes, too.
     """
 
     order: int | None = None
@@ -36,15 +29,17 @@ class Wish(NamedTuple):
     factor: tuple[float, ...] | None = None
     roll: str | None = None
 
-    def check(self, scheme: str, accepted: Sequence[str]) -> None:
-        """BalcliError for an option that the scheme does not have, or a value that none has."""
+    def check(self, scheme: str) -> None:
+        """Refuse what the scheme does not know.
+
+        Raises BalcliError for an unknown scheme, an option that the scheme does not take, and an
+        order or a roll that no scheme takes.
+        """
+        taken = find_taken(scheme)
         given = [name for name, value in self._asdict().items() if value is not None]
-        if strangers := [name for name in given if name not in accepted]:
-            has = (
-                f"it takes {', '.join('--' + a for a in accepted)}"
-                if accepted
-                else "it takes no options"
-            )
+        if strangers := [name for name in given if name not in taken]:
+            names = ", ".join(f"--{name}" for name in taken)
+            has = f"it takes {names}" if taken else "it takes no options"
             raise BalcliError(f"scheme {scheme} has no --{strangers[0]}; {has}")
         if self.order is not None and not 1 <= self.order <= HIGHEST_SHAFT_ORDER:
             raise BalcliError(
@@ -54,58 +49,27 @@ class Wish(NamedTuple):
         if self.roll not in (None, "zero"):
             raise BalcliError(f'--roll "{self.roll}": only "zero" can be asked for')
 
-
-def lowest(engine: Engine, quantity: str, senses: Sequence[int]) -> Rest:
-    """The lowest order at which a free force (or moment) is left; NoNeedError if there is none."""
-    for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
-        found = rest(engine, order)
-        if any(found.at(quantity, sense) for sense in senses):
-            return found
-    raise NoNeedError(
-        f"there is no free {quantity}{_turning(senses)} of orders 1 to {HIGHEST_ORDER_SOUGHT}: "
-        "nothing to balance; --order names a higher one"
-    )
+    def read_place(self) -> complex:
+        """The one place asked for, or else 0, the crank axis; BalcliError if there are more."""
+        at = self.at or (0j,)
+        if len(at) > 1:
+            raise BalcliError("--at: this scheme has one place; give it once")
+        return at[0]
 
 
-def _turning(senses: Sequence[int]) -> str:
-    return " turning against the crank" if tuple(senses) == (-1,) else ""
+def find_taken(scheme: str) -> tuple[str, ...]:
+    """The options that a scheme takes.
 
-
-def chosen(engine: Engine, wish: Wish, quantity: str, senses: Sequence[int] = (1, -1)) -> Rest:
-    """What is left of the order asked for, or of the lowest that has something; NoNeedError if
-    there is nothing.
-    """
-    if wish.order is None:
-        return lowest(engine, quantity, senses)
-    found = rest(engine, wish.order)
-    if any(found.at(quantity, sense) for sense in senses):
-        return found
-    other = next(
-        (q for q in ("force", "moment") if q != quantity and any(found.at(q, s) for s in senses)),
-        None,
-    )
-    hint = {
-        "moment": "; it has a free moment: couple-shaft",
-        "force": "; it has a free force: two-shaft",
-        None: "",
-    }[other]
-    raise NoNeedError(
-        f"order {wish.order} has no free {quantity}{_turning(senses)}: nothing to balance{hint}"
-    )
-
-
-def options(scheme: str) -> Sequence[str]:
-    """What a scheme takes; BalcliError if there is no such scheme, with the nearest name, or if it
-    sizes no devices.
+    Raises BalcliError, with the nearest name, if there is no such scheme or it sizes no devices.
     """
     if scheme in SCHEMES:
-        return SCHEMES[scheme].options
+        return SCHEMES[scheme]
     if scheme == KNUCKLES:
         raise BalcliError(
             "scheme knuckles sizes no devices but changes the engine file: `balcli balance "
             "--scheme knuckles` does so"
         )
-    from ..enginefile.fields import nearest
+    from ..enginefile.fields import nearest  # for this message alone
 
     near = nearest(scheme, NAMES)
     meant = f"did you mean {near}? " if near else ""

@@ -2,65 +2,124 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..engine.build import Engine
-from .effects import Part, Rest
+from ..errors import BalcliError
+from .options import SchemeOptions
+from .residual import Part, Residual
+
+SAME_PLACE = (
+    "one plane, or planes at the same z, cannot take a moment; choose two planes with some "
+    "distance between them"
+)
 
 
-def ends(engine: Engine) -> tuple[float, float]:
-    """First and last throw; where all stand in one plane, the outermost cylinders, or else
-    devices.
+def find_ends(engine: Engine) -> tuple[float, float]:
+    """z of the first and the last throw; where all stand in one plane, of the outermost cylinders,
+    or else devices; m.
     """
-    reaches = [
-        _reach(engine.throws_m),
-        _reach(engine.cylinders.z),
-        _reach([*engine.throws_m, *(float(d.z) for d in engine.devices)]),
-    ]
-    return next((r for r in reaches if r[0] < r[1]), reaches[0])
+    throws = _find_reach(engine.throws_m)
+    cylinders = _find_reach(engine.cylinders.z)
+    devices = _find_reach([*engine.throws_m, *(float(device.z) for device in engine.devices)])
+    wide = [reach for reach in (throws, cylinders, devices) if reach[0] < reach[1]]
+    return wide[0] if wide else throws
 
 
-def length(engine: Engine) -> tuple[float, float]:
-    """From the outermost throw or cylinder to the other."""
-    return _reach([*engine.throws_m, *np.ravel(engine.cylinders.z)])
+def find_length(engine: Engine) -> tuple[float, float]:
+    """z of the first and the last throw or cylinder, m."""
+    return _find_reach([*engine.throws_m, *np.ravel(engine.cylinders.z)])
 
 
-def middle(engine: Engine) -> float:
-    """Half-way between the first and the last throw."""
-    low, high = _reach(engine.throws_m)
+def find_middle(engine: Engine) -> float:
+    """z half-way between the first and the last throw, m."""
+    low, high = _find_reach(engine.throws_m)
     return (low + high) / 2
 
 
-def single(wish: Rest, sense: int, within: tuple[float, float]) -> float | None:
-    """The z at which one device takes force and moment together, `z_ref + Re(M / iV)`; None if
-    there is none within those bounds.
+def locate_force(residual: Residual, sense: int) -> float:
+    """z at which the force turning in this sense acts if it is to make as much of the moment as it
+    can, `z_ref + Re(M / iV)`; m. There must be a force.
     """
-    force, moment = wish.at("force", sense), wish.at("moment", sense)
-    if force == 0:
+    return residual.reference.z + (residual.moment(sense) / residual.force(sense)).real
+
+
+def find_single_plane(residual: Residual, sense: int, within: tuple[float, float]) -> float | None:
+    """z at which one device takes force and moment together; None if there is none within these
+    bounds (m).
+    """
+    if residual.force(sense) == 0:
         return None
-    z = wish.arm[1] + (moment / force).real
     low, high = within
-    near = min(max(z, low), high)
-    for place in (
-        round(near, 12),
-        near,
-    ):  # a thousandth of a nanometre: figures that people can read
-        arm = place - wish.arm[1]
-        if abs(moment - arm * force) <= wish.noise[Part("moment", sense)]:
-            return place
+    near = min(max(locate_force(residual, sense), low), high)
+    legible = round(near, 12)  # m: to a thousandth of a nanometre, figures that people can read
+    for z in (legible, near):
+        left = residual.moment(sense) - (z - residual.reference.z) * residual.force(sense)
+        if abs(left) <= residual.noise[Part("moment", sense)]:
+            return z
     return None
 
 
-def of_part(engine: Engine, wish: Rest, sense: int) -> tuple[float, ...]:
-    """One plane if that takes force and moment, else both ends; none where nothing is left."""
-    if wish.at("force", sense) == 0 == wish.at("moment", sense):
+def choose_plane(engine: Engine, options: SchemeOptions, residual: Residual, sense: int) -> float:
+    """z asked for, or else where the force turning in this sense acts, as near as the engine's
+    length allows; m.
+    """
+    if options.position is not None:
+        return options.position
+    low, high = find_length(engine)
+    z = find_single_plane(residual, sense, (low, high))
+    return round(min(max(locate_force(residual, sense), low), high), 9) if z is None else z
+
+
+def find_planes(engine: Engine, residual: Residual, sense: int) -> tuple[float, ...]:
+    """The fewest planes (z, m) in which devices take all that turns in this sense: one if that
+    takes force and moment, else both ends, none where nothing is left.
+    """
+    if residual.force(sense) == 0 == residual.moment(sense):
         return ()
-    one = single(wish, sense, length(engine))
-    return ends(engine) if one is None else (one,)
+    one = find_single_plane(residual, sense, find_length(engine))
+    return find_ends(engine) if one is None else (one,)
 
 
-def _reach(places: Sequence[float] | np.ndarray) -> tuple[float, float]:
+def find_counterweight_planes(engine: Engine, residual: Residual) -> tuple[float, ...]:
+    """Planes (z, m) of counterweights for the part of order 1 that turns with the crank: both ends
+    of the crankshaft, but the fewest if all throws stand in one plane; none where nothing is left.
+    """
+    planes = find_planes(engine, residual, 1)
+    return find_ends(engine) if planes and len(set(engine.throws_m)) > 1 else planes
+
+
+def read_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
+    """Planes (z, m) as asked for by `--planes`; BalcliError if that says nothing."""
+    if options.planes == "ends":
+        return tuple(dict.fromkeys(find_ends(engine)))
+    if options.planes == "throws":
+        return tuple(dict.fromkeys(float(z) for z in engine.throws_m))
+    if isinstance(options.planes, tuple):
+        return options.planes
+    raise BalcliError(
+        f'--planes "{options.planes}": give ends, throws, or places along z in mm, such as -200,200'
+    )
+
+
+def read_two_planes(engine: Engine, options: SchemeOptions) -> tuple[float, float]:
+    """The two planes (z, m) asked for, or else the ends; BalcliError if they are not two."""
+    if options.planes is None or options.planes == "ends":
+        low, high = find_ends(engine)
+    elif isinstance(options.planes, tuple) and len(options.planes) == 2:
+        low, high = options.planes
+    else:
+        raise BalcliError(
+            "--planes: opposite eccentrics stand in two planes; give ends, or two places along z "
+            "in mm, such as -200,200"
+        )
+    if low == high:
+        raise BalcliError(f"--planes: {SAME_PLACE}")
+    return low, high
+
+
+def _find_reach(places: ArrayLike) -> tuple[float, float]:
+    """The least and the largest."""
     flat = np.ravel(places)
     return float(flat.min()), float(flat.max())

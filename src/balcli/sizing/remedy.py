@@ -1,30 +1,34 @@
-"""Remedy: the devices that a scheme fits, as tables of the engine file, so that what is written is
-exactly what is analysed.
-"""
+"""Remedy: what a scheme fits to an engine, and why."""
 
 from __future__ import annotations
 
-import cmath
-import math
-from collections.abc import Mapping
+from collections.abc import Iterable
 from dataclasses import replace
-from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypeVar
 
 from ..core.cylinders import Device
-from ..core.phasors import EPS, reduced
 from ..engine.build import Engine
 from ..engine.devices import build_device
 from ..enginefile.model import Counterweight, Shaft, Slider
+from .details import Bobweight, Detail, FactorPeaks, Optima
+from .device_tables import KINDS, DeviceTable
+
+T = TypeVar("T")
 
 
 class Remedy(NamedTuple):
-    """New devices, in the units of the engine file (g mm, deg, mm), each with its reason in plain
-    words.
+    """New devices as tables of the engine file, and what there is to say of them.
 
     Attributes:
-        order: the order that it is for, where the scheme has one.
-        details: figures of the scheme that are no device, SI with the unit in their names.
+        order: the order that is balanced, where the scheme has one.
+        reasons: why each device is fitted, in the order of `devices`; of a remedy without devices,
+            what else is changed and why.
+        details: figures of the scheme that are no device.
+        note: what to know besides, such as why nothing is fitted.
+        card: bobweights of all crank pins (scheme factor).
+        sweep: what each of several factors leaves (scheme factor).
+        optima: best shafts of variable speed (scheme eccentric-slider).
+        knuckle_angles_deg: new `articulation.knuckle_angles` (scheme knuckles).
         beyond: devices that no engine file can describe, SI.
     """
 
@@ -34,15 +38,41 @@ class Remedy(NamedTuple):
     shafts: tuple[Shaft, ...] = ()
     sliders: tuple[Slider, ...] = ()
     reasons: tuple[str, ...] = ()
-    details: Mapping[str, Any] = MappingProxyType({})
+    details: tuple[Detail, ...] = ()
+    note: str = ""
+    card: tuple[Bobweight, ...] = ()
+    sweep: tuple[FactorPeaks, ...] = ()
+    optima: Optima | None = None
+    knuckle_angles_deg: tuple[float, ...] = ()
     beyond: tuple[Device, ...] = ()
 
     @property
-    def devices(self) -> tuple[Counterweight | Shaft | Slider, ...]:
+    def devices(self) -> tuple[DeviceTable, ...]:
+        """Counterweights, shafts and sliders, in this order."""
         return (*self.counterweights, *self.shafts, *self.sliders)
 
+    def add_devices(self, added: Iterable[DeviceTable], reason: str) -> Remedy:
+        """The remedy with further devices, all for the same reason."""
+        pairs = [
+            *zip(self.devices, self.reasons, strict=True),
+            *((device, reason) for device in added),
+        ]
+        pairs.sort(key=lambda pair: KINDS.index(type(pair[0])))
+        tables = [device for device, _ in pairs]
+        return self._replace(
+            counterweights=_of_kind(Counterweight, tables),
+            shafts=_of_kind(Shaft, tables),
+            sliders=_of_kind(Slider, tables),
+            reasons=tuple(reason for _, reason in pairs),
+        )
 
-def fitted(engine: Engine, remedy: Remedy) -> Engine:
+    def add_details(self, *added: Detail) -> Remedy:
+        """The remedy with further details; one of the same group and label is replaced."""
+        details = {(d.group, d.label): d for d in (*self.details, *added)}
+        return self._replace(details=tuple(details.values()))
+
+
+def fit_devices(engine: Engine, remedy: Remedy) -> Engine:
     """The engine with the devices of a remedy added to its own, in the order in which its file
     would have them.
     """
@@ -51,60 +81,5 @@ def fitted(engine: Engine, remedy: Remedy) -> Engine:
     return replace(engine, devices=tuple(sorted(everything, key=lambda device: device.rank)))
 
 
-# ------------------------------------------------------------------ unbalance (kg m, complex) ->
-# table
-def counterweight(unbalance: complex, z: float, first_axis_deg: float) -> Counterweight:
-    """A weight on the crankshaft; its angle counts from cylinder 1's pin."""
-    size, angle = _polar(unbalance, first_axis_deg)
-    return Counterweight.model_construct(unbalance=size, angle=angle, position=_millimetres(z))
-
-
-def shaft(unbalance: complex, ratio: int, z: float, place: complex) -> Shaft:
-    """An eccentric of a balancer shaft; its angle counts from x."""
-    size, angle = _polar(unbalance)
-    return Shaft.model_construct(
-        ratio=ratio, unbalance=size, angle=angle, at=_at(place), position=_millimetres(z)
-    )
-
-
-def slider(
-    amplitude: complex, order: int, direction_deg: float, z: float, place: complex
-) -> Slider:
-    """A reciprocating mass whose displacement is the real part of `amplitude e^{i n theta}` along
-    its direction.
-    """
-    size, angle = _polar(amplitude)
-    return Slider.model_construct(
-        order=order,
-        unbalance=size,
-        direction=direction_deg,
-        angle=angle,
-        at=_at(place),
-        position=_millimetres(z),
-    )
-
-
-def degrees(vector: complex, origin_deg: float = 0.0) -> float:
-    """Direction of a vector from `origin_deg`, in (-180, 180]."""
-    return _plain(float(reduced(math.degrees(cmath.phase(vector)) - origin_deg, 360)), 360)
-
-
-def _polar(vector: complex, origin_deg: float = 0.0) -> tuple[float, float]:
-    """g mm and degrees."""
-    return abs(vector) * 1e6, degrees(vector, origin_deg)
-
-
-def _at(place: complex) -> tuple[float, float]:
-    return _millimetres(place.real), _millimetres(place.imag)
-
-
-def _millimetres(metres: float) -> float:
-    return _plain(metres * 1e3, abs(metres * 1e3))
-
-
-def _plain(figure: float, size: float) -> float:
-    """The figure with nine decimals, as people would write it, where that is the same to an ulp of
-    `size`.
-    """
-    short = round(figure, 9) + 0.0
-    return short if abs(figure - short) <= size * EPS else figure
+def _of_kind(kind: type[T], tables: Iterable[DeviceTable]) -> tuple[T, ...]:
+    return tuple(table for table in tables if isinstance(table, kind))

@@ -4,124 +4,125 @@ Oldham couplings (Wang).
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ..core.cylinders import Device
 from ..core.phasors import unit
 from ..engine.build import Engine
 from ..errors import BalcliError
-from . import eccentric_slider as eccentric
+from .details import Detail, Optima, Optimum
+from .eccentric_slider import expand_shaft_wave, find_optima
 from .effects import Slot
 from .fitting import Fitting
-from .options import Wish
+from .options import SchemeOptions
 from .remedy import Remedy
+from .residual import FORWARD_FORCE
 
-_DEFINITION = (
-    "k = r_b/e, mu = m_b r_b/(m r) of each of the two shafts; forces in units of m r omega^2 (m "
-    "reciprocates); "
-    "design a: pin on the shaft, slot in the disc; b: pin on the disc, slot on the shaft; "
-    "criteria: largest and mean force"
-)
 _SMALLEST = 1e-17  # harmonics of the shafts below this share are left out
+_ECCENTRIC_SLIDER = (
+    "k = r_b/e, mu = m_b r_b/(m r) of each of the two shafts; forces in units of m r omega^2 (m "
+    "reciprocates); design a: pin on the shaft, slot in the disc; b: pin on the disc, slot on the "
+    "shaft; criteria: largest and mean force"
+)
+_OLDHAM = (
+    "a side: first-order weight = m r/2 opposite the piston's motion, block mass x e = A2 m r/8, "
+    "e half the distance of the coupling's shafts; m the reciprocating mass"
+)
 
 
-def eccentric_slider(engine: Engine, wish: Wish) -> Remedy:
+def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
     """Two shafts, symmetric to the cylinder axis, that a slider on an eccentric disc turns
     unevenly; a weight takes the rotating mass.
 
-    The details have the best k = r_b/e and mu = m_b r_b/(m r) of both designs by both criteria, for
-    the force of orders 1 and 2 in Wang's two terms and for that of all orders. Fitted is design a
-    with the smallest peak for orders 1 and 2.
+    Fitted is design a with the smallest peak for orders 1 and 2 (Wang's two terms); the remedy has
+    the optima of both designs.
+
+    Raises BalcliError for several cylinders, a piston offset, or a rod too short for an optimum.
     """
-    _one_cylinder(engine, "eccentric-slider")
+    _require_one_cylinder(engine, "eccentric-slider")
     c = engine.cylinders
     if np.any(c.eps):
         raise BalcliError(
             "eccentric-slider: two shafts symmetric to the cylinder axis suit a centred mechanism "
-            "alone; this one has "
-            f"a piston offset of {float(c.offset[0]) * 1e3:g} mm"
+            f"alone; this one has a piston offset of {float(c.offset[0]) * 1e3:g} mm"
         )
-    lam, mass, radius = (float(np.ravel(v)[0]) for v in (c.lam, c.reciprocating, c.radius))
-    used = eccentric.best("a", "largest", "orders 1+2", lam)
-    optima = eccentric.settled(lam)
-    fitting = _rotating_mass(Fitting.of(engine, "eccentric-slider"))
-    axis, z = complex(unit(float(c.axis_deg[0]))), float(c.z[0])
-    wave = eccentric.shafts(used.design, used.k)[0]
-    devices = tuple(
-        Device(m, u := -used.mu * mass * radius * float(a) * axis, u, 0j, z)
-        for m, a in enumerate(wave)
-        if m and abs(a) > _SMALLEST
+    mass, radius = _find_piston(engine)
+    optima = Optima(
+        unit_force=mass * radius * float(engine.omega) ** 2,
+        unit_unbalance=mass * radius,
+        found=find_optima(float(np.ravel(c.lam)[0])),
     )
-    return (
-        fitting._replace(beyond=devices)
-        .note(
-            unit_force_N=mass * radius * float(engine.omega) ** 2,
-            fitted=_figures(used, mass * radius),
-            optima=[_figures(optimum, mass * radius) for optimum in optima],
-            definition=_DEFINITION,
-        )
-        .remedy
-    )
+    fitting = _balance_rotating_mass(Fitting.start(engine, "eccentric-slider"))
+    fitting = fitting.note(Detail("definition", "", _ECCENTRIC_SLIDER))
+    return fitting.remedy._replace(optima=optima, beyond=_make_shafts(engine, optima.found[0]))
 
 
-def _figures(optimum: eccentric.Optimum, unit_unbalance: float) -> dict[str, Any]:
-    return {
-        "design": optimum.design,
-        "criterion": optimum.criterion,
-        "engine_force": optimum.force,
-        "k": optimum.k,
-        "mu": optimum.mu,
-        "unbalance_kg_m": optimum.mu * unit_unbalance,
-        "largest": optimum.largest,
-        "mean": optimum.mean,
+def _make_shafts(engine: Engine, fitted: Optimum) -> tuple[Device, ...]:
+    """Both shafts together: a device for each order of their motion, which shakes along the
+    cylinder axis.
+    """
+    mass, radius = _find_piston(engine)
+    axis = complex(unit(float(engine.cylinders.axis_deg[0])))
+    z = float(engine.cylinders.z[0])
+    wave, _ = expand_shaft_wave(fitted.design, fitted.k)
+    halves = {
+        order: -fitted.mu * mass * radius * float(amplitude) * axis
+        for order, amplitude in enumerate(wave)
+        if order and abs(amplitude) > _SMALLEST
     }
+    return tuple(Device(order, half, half, 0j, z) for order, half in halves.items())
 
 
-def oldham(engine: Engine, wish: Wish) -> Remedy:
+def _find_piston(engine: Engine) -> tuple[float, float]:
+    """Reciprocating mass (kg) and crank radius (m) of the first cylinder."""
+    c = engine.cylinders
+    return float(np.ravel(c.reciprocating)[0]), float(np.ravel(c.radius)[0])
+
+
+def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
     """Two Oldham couplings, one turning with and one against the crank: first-order weights m r/2,
     and blocks whose centres go round at twice the speed, A2 m r/8 a side; a counterweight takes the
     rotating mass.
+
+    Raises BalcliError for several cylinders.
     """
-    _one_cylinder(engine, "oldham")
-    fitting = _rotating_mass(Fitting.of(engine, "oldham"))
+    _require_one_cylinder(engine, "oldham")
+    fitting = _balance_rotating_mass(Fitting.start(engine, "oldham"))
     z = float(engine.cylinders.z[0])
-    devices, sides = [], {}
-    for order, name in ((1, "first_order_kg_m"), (2, "block_kg_m")):
-        left = fitting.rest(order)
-        pair = left.at("force", 1), left.at("force", -1)
-        devices += [Device(order, -pair[0], 0j, 0j, z), Device(order, 0j, -pair[1], 0j, z)]
-        sides[name] = abs(pair[1])
-    return (
-        fitting._replace(beyond=tuple(devices))
-        .note(
-            **sides,
-            definition="a side: first-order weight = m r/2 opposite the piston's motion, block "
-            "mass x e = A2 m r/8, "
-            "e half the distance of the coupling's shafts; m the reciprocating mass",
+    first, second = (fitting.find_residual(order) for order in (1, 2))
+    devices = [
+        device
+        for residual in (first, second)
+        for device in (
+            Device(residual.order, -residual.force(1), 0j, 0j, z),
+            Device(residual.order, 0j, -residual.force(-1), 0j, z),
         )
-        .remedy
+    ]
+    fitting = fitting.note(
+        Detail("first order", "unbalance", abs(first.force(-1))),
+        Detail("block", "unbalance", abs(second.force(-1))),
+        Detail("definition", "", _OLDHAM),
     )
+    return fitting.remedy._replace(beyond=tuple(devices))
 
 
-def _one_cylinder(engine: Engine, scheme: str) -> None:
+def _require_one_cylinder(engine: Engine, scheme: str) -> None:
     if engine.cylinders.count != 1:
         raise BalcliError(
             f"{scheme} is for a single cylinder; this engine has {engine.cylinders.count} cylinders"
         )
 
 
-def _rotating_mass(fitting: Fitting) -> Fitting:
+def _balance_rotating_mass(fitting: Fitting) -> Fitting:
     """With a counterweight for whatever turns with the crank beyond the half of the piston's
     straight motion.
     """
-    left = fitting.rest(1)
+    residual = fitting.find_residual(1)
     axis = complex(unit(float(fitting.engine.cylinders.axis_deg[0])))
-    excess = left.at("force", 1) - axis**2 * left.at("force", -1).conjugate()
-    slot = Slot("counterweight", 1, 1, float(fitting.engine.cylinders.z[0]))
-    if abs(excess) <= 4 * left.noise[next(p for p in left.noise if p.quantity == "force")]:
+    excess = residual.force(1) - axis**2 * residual.force(-1).conjugate()
+    if abs(excess) <= 4 * residual.noise[FORWARD_FORCE]:
         return fitting
+    slot = Slot("counterweight", 1, 1, float(fitting.engine.cylinders.z[0]))
     return fitting.add(
         [slot],
         [-excess],

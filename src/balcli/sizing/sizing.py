@@ -4,41 +4,49 @@ one least squares.
 
 from __future__ import annotations
 
-from importlib import import_module
+from collections.abc import Callable
 
 from ..engine.build import Engine
-from .auto import auto
-from .options import NoNeedError, Wish, options
-from .remedy import Remedy, fitted
-from .schemes import SCHEMES
-from .workshop import Practical, Tools, practical
+from .auto import size_auto
+from .balance_factor import size_by_factor
+from .counterweights import size_counterweights
+from .minimax import size_minimax
+from .options import SchemeOptions
+from .remedy import Remedy
+from .residual import NothingToBalanceError
+from .shaft_pair import size_four_shaft, size_two_shaft
+from .shafts import size_couple_shaft, size_single_shaft
+from .single_cylinder import size_eccentric_slider, size_oldham
+from .sliders import size_sliders
 
-__all__ = [
-    "SCHEMES",
-    "Practical",
-    "Remedy",
-    "Tools",
-    "Wish",
-    "auto",
-    "fitted",
-    "practical",
-    "remedy_for",
-]
+SIZE: dict[str, Callable[[Engine, SchemeOptions], Remedy]] = {
+    "auto": size_auto,
+    "counterweights": size_counterweights,
+    "factor": size_by_factor,
+    "minimax": size_minimax,
+    "single-shaft": size_single_shaft,
+    "two-shaft": size_two_shaft,
+    "four-shaft": size_four_shaft,
+    "couple-shaft": size_couple_shaft,
+    "slider": size_sliders,
+    "eccentric-slider": size_eccentric_slider,
+    "oldham": size_oldham,
+}
 
 
-def remedy_for(engine: Engine, scheme: str = "auto", wish: Wish | None = None) -> Remedy:
-    """The devices that a scheme fits; none, with a note in the details, where there is nothing to
+def size(engine: Engine, scheme: str = "auto", options: SchemeOptions | None = None) -> Remedy:
+    """The devices that a scheme fits to an engine; none, with a note, where there is nothing to
     balance.
 
-    Raises:
-        BalcliError: an unknown scheme, an option that it does not have, or a wish that cannot be
-        met, with the reason.
+    Args:
+        engine: without trailing axes. scheme: of `SCHEMES`.
+
+    Raises BalcliError, with the reason, for an unknown scheme, an option that it does not take, and
+    options that cannot be met.
     """
-    asked = wish or Wish()
-    asked.check(scheme, options(scheme))
-    size = getattr(import_module(f"balcli.sizing.{SCHEMES[scheme].room}"), scheme.replace("-", "_"))
+    asked = options or SchemeOptions()
+    asked.check(scheme)
     try:
-        remedy: Remedy = size(engine, asked)
-    except NoNeedError as reason:
-        return Remedy(scheme, asked.order, details={"note": str(reason)})
-    return remedy
+        return SIZE[scheme](engine, asked)
+    except NothingToBalanceError as reason:
+        return Remedy(scheme, asked.order, note=str(reason))

@@ -1,6 +1,4 @@
-"""The engine file with the devices of a remedy: its text as it was, comments and all, with their
-tables after it.
-"""
+"""A remedy written into the text of an engine file, which stays as it was, comments and all."""
 
 from __future__ import annotations
 
@@ -11,59 +9,57 @@ from typing import Any
 from ..engine.build import build
 from ..engine.load import parse
 from ..enginefile.edit import anew, changed, written
-from ..enginefile.model import Counterweight, Shaft, Slider
 from ..errors import BalcliError, InputError
-from .sizing import Remedy, fitted
-
-_KEYS: dict[type, tuple[str, ...]] = {
-    Counterweight: ("unbalance", "angle", "position"),
-    Shaft: ("ratio", "unbalance", "angle", "at", "position"),
-    Slider: ("order", "unbalance", "direction", "angle", "at", "position"),
-}
+from .device_tables import FIELDS, DeviceTable, name_kind
+from .remedy import Remedy, fit_devices
 
 
-def fit(text: bytes, remedy: Remedy, file: str = "") -> str:
-    """The text of an engine file with these devices fitted; read back, it is exactly the engine
-    that was analysed with them.
+def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
+    """The text of an engine file with the devices of a remedy after it, or with its knuckle angles
+    in place of older ones.
 
-    Where the file has its devices as an inline list, which cannot be added to, it is written anew,
-    without its comments.
+    Args:
+        text: of the file, UTF-8. file: its name in messages.
 
-    Raises:
-        BalcliError: the remedy has devices that no engine file can describe.
+    Raises BalcliError if no engine file can describe the remedy.
     """
+    old = text.decode("utf-8-sig")
+    if remedy.knuckle_angles_deg:
+        return _insert_knuckle_angles(old, remedy.knuckle_angles_deg, file)
     if remedy.beyond:
         raise BalcliError(
             f"scheme {remedy.scheme}: no engine file can describe its devices (shafts of variable "
-            "speed, couplings), "
-            "so that they cannot be written; balance shows what they leave"
+            "speed, couplings), so that they cannot be written; balance shows what they leave"
         )
-    old = text.decode("utf-8-sig")
-    new = old + ("" if old.endswith("\n") or not old else "\n") + "".join(_tables(remedy))
-    try:
-        parse(new)
-    except InputError:
-        new = _rewritten(old, remedy)
-    if build(parse(new, file)).devices != fitted(build(parse(text, file)), remedy).devices:
+    new = _insert_devices(old, remedy)
+    if build(parse(new, file)).devices != fit_devices(build(parse(text, file)), remedy).devices:
         raise BalcliError(
             f"{file}: the devices do not read back as they were sized; please report this file"
         )
     return new
 
 
-def fit_knuckles(text: bytes, angles_deg: tuple[float, ...], file: str = "") -> str:
-    """The text of an engine file with these knuckle angles, in place of older ones."""
-    new = changed(
-        text.decode("utf-8-sig"),
-        "articulation",
-        {"knuckle_angles": list(angles_deg)},
-        "even, by balcli",
-    )
+def _insert_knuckle_angles(text: str, angles_deg: tuple[float, ...], file: str) -> str:
+    new = changed(text, "articulation", {"knuckle_angles": list(angles_deg)}, "even, by balcli")
     parse(new, file)
     return new
 
 
-def _tables(remedy: Remedy) -> Iterator[str]:
+def _insert_devices(text: str, remedy: Remedy) -> str:
+    """With the tables at the end; where the file has its devices as an inline list, which cannot be
+    added to, it is written anew, without its comments.
+    """
+    end_of_line = "" if text.endswith("\n") or not text else "\n"
+    new = text + end_of_line + "".join(_write_tables(remedy))
+    try:
+        parse(new)
+    except InputError:
+        return _rewrite(text, remedy)
+    return new
+
+
+def _write_tables(remedy: Remedy) -> Iterator[str]:
+    """The tables, each reason as a comment above the first device that it is told of."""
     if not remedy.devices:
         return
     yield f"\n# fitted by balcli, scheme {remedy.scheme}\n"
@@ -71,20 +67,23 @@ def _tables(remedy: Remedy) -> Iterator[str]:
     for device, reason in zip(remedy.devices, remedy.reasons, strict=True):
         head = "" if reason == told else f"# {reason}\n"
         told = reason
-        lines = "".join(f"{key} = {written(value)}\n" for key, value in _entries(device).items())
-        yield f"{head}[[{type(device).__name__.lower()}]]\n{lines}\n"
+        entries = _list_entries(device)
+        lines = "".join(f"{key} = {written(value)}\n" for key, value in entries.items())
+        yield f"{head}[[{name_kind(device)}]]\n{lines}\n"
 
 
-def _entries(device: Counterweight | Shaft | Slider) -> dict[str, Any]:
-    values = {key: getattr(device, key) for key in _KEYS[type(device)]}
+def _list_entries(device: DeviceTable) -> dict[str, Any]:
+    """Keys and values of a device as TOML has them."""
+    values = {key: getattr(device, key) for key in FIELDS[type(device)]}
     return {
         key: list(value) if isinstance(value, tuple) else value for key, value in values.items()
     }
 
 
-def _rewritten(text: str, remedy: Remedy) -> str:
+def _rewrite(text: str, remedy: Remedy) -> str:
+    """The whole file written anew with the devices."""
     data = tomllib.loads(text)
     for device in remedy.devices:
-        key = type(device).__name__.lower()
-        data[key] = [*data.get(key, []), _entries(device)]
+        kind = name_kind(device)
+        data[kind] = [*data.get(kind, []), _list_entries(device)]
     return anew(data, "it has devices in one list, to which TOML lets nothing be added")

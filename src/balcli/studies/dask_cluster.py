@@ -6,7 +6,8 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator
-from contextlib import contextmanager
+from concurrent.futures import CancelledError
+from contextlib import ExitStack, contextmanager
 from itertools import islice
 from typing import Any
 
@@ -14,6 +15,7 @@ from ..errors import BalcliError
 from .sweep import Box, Chunk, Sweep, divide_grid, evaluate_box
 
 BATCH = 16  # boxes that a worker computes at a time
+RETRIES = 3  # of a batch that a worker has not finished
 AHEAD = 4  # batches for each thread that may wait to be fetched
 
 
@@ -30,35 +32,45 @@ def connect_cluster(address: str) -> Iterator[Any]:
     except ImportError:
         raise BalcliError("--dask needs dask: install balcli[scale]") from None
     dask: Any = distributed
-    try:
-        if address == "local":
-            with (
-                dask.LocalCluster(threads_per_worker=1, dashboard_address=None) as cluster,
-                dask.Client(cluster) as client,
-            ):
-                yield client
-        else:
-            with dask.Client(address, timeout=10) as client:
-                yield client
-    except (OSError, ValueError) as error:
-        raise BalcliError(f"--dask {address}: no cluster answers there ({error})") from None
+    with ExitStack() as ends:
+        try:
+            if address == "local":
+                own = dask.LocalCluster(threads_per_worker=1, dashboard_address=None)
+                client = ends.enter_context(dask.Client(ends.enter_context(own)))
+            else:
+                client = ends.enter_context(dask.Client(address, timeout=10))
+        except (OSError, ValueError) as error:
+            raise BalcliError(f"--dask {address}: no cluster answers there ({error})") from None
+        yield client
 
 
 def evaluate_on_cluster(sweep: Sweep, client: Any) -> Iterator[Chunk]:
     """All variants, computed by the workers of a client's cluster, in the order of rows; a bounded
-    number of batches is under way at a time.
+    number of batches is under way at a time. The sweep goes with each of them, so that one whose
+    worker is lost can be given to another.
+
+    Raises:
+        BalcliError: all workers are lost, again and again.
     """
+    from distributed import KilledWorker  # an extra
+
     batches = _group(divide_grid(sweep.shape))
     most = AHEAD * max(sum(client.nthreads().values()), 1)
-    job = client.scatter(sweep, broadcast=True)
 
     def submit(count: int) -> Iterator[Any]:
         for batch in islice(batches, count):
-            yield client.submit(_evaluate_batch, job, batch, pure=False)
+            yield client.submit(_evaluate_batch, sweep, batch, pure=False, retries=RETRIES)
 
     waiting = deque(submit(most))
     while waiting:
-        yield from waiting.popleft().result()
+        try:
+            found = waiting.popleft().result()
+        except (KilledWorker, CancelledError) as error:
+            raise BalcliError(
+                f"--dask: the cluster has lost its workers ({type(error).__name__}), and what they "
+                "computed; start it again, or leave --dask out"
+            ) from None
+        yield from found
         waiting.extend(submit(1))
 
 

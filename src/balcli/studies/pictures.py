@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,7 +18,9 @@ from ..forces.kinds import KINDS
 from ..forces.spectrum import compute_spectra
 from ..results.analysis import Analysis, analyze
 from ..results.balance import balance
-from ..sizing.sizing import Wish, remedy_for
+from ..sizing.details import FactorPeaks
+from ..sizing.options import SchemeOptions
+from ..sizing.sizing import size
 
 FACTORS = tuple(k / 20 for k in range(21))
 _ALONE = ("factor", "bank")  # studies of the engine as it is
@@ -51,7 +53,7 @@ class Study(NamedTuple):
 
     now: Analysis
     before: Analysis | None = None
-    factors: Sequence[dict[str, float]] = ()
+    factors: Sequence[FactorPeaks] = ()
     banks: Banks | None = None
     bent: tuple[InnerLoads, ...] = ()
 
@@ -84,8 +86,7 @@ def compute_study(
     if what == "inner":
         return Study(now, bent=(compute_inner_loads(engine),))
     if what == "factor":
-        details: Any = remedy_for(engine, "factor", Wish(factor=FACTORS)).details
-        return Study(now, factors=details["sweep"])
+        return Study(now, factors=size(engine, "factor", SchemeOptions(factor=FACTORS)).sweep)
     return (
         Study(now, banks=swing_banks(engine, _find_lowest(now) if orders is None else orders[0]))
         if what == "bank"

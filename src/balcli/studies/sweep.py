@@ -10,7 +10,7 @@ parameter fastest.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -22,8 +22,7 @@ from ..engine.load import read
 from ..enginefile.model import EngineFile
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, InputError
-from ..forces.quantity import Quantity, evaluate_quantities, parse_quantity_list
-from ..limits import MOST_PICTURE_VARIANTS
+from ..forces.quantity import Quantity, evaluate_quantities, parse_quantity_list, refuse_unknown
 from .parameters import Parameter, parse
 
 Array = NDArray[np.float64]
@@ -107,11 +106,13 @@ def check_corners(sweep: Sweep) -> None:
 
     Raises:
         InputError: one of them cannot be.
+        BalcliError: a moment is asked for, and the file does not say where the throws stand.
     """
     corners = tuple(
         Parameter(p.path, np.array([p.values.min(), p.values.max()])) for p in sweep.parameters
     )
-    Sweep(sweep.file, corners, (), sweep.name).engine((slice(None),) * len(corners))
+    engine = Sweep(sweep.file, corners, (), sweep.name).engine((slice(None),) * len(corners))
+    refuse_unknown(engine, sweep.quantities)
 
 
 def evaluate_box(sweep: Sweep, box: Box) -> list[Array]:
@@ -156,16 +157,9 @@ def list_columns(sweep: Sweep, chunk: Chunk) -> list[Array]:
     return [*(axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")), *chunk.values]
 
 
-def evaluate_grid(sweep: Sweep) -> list[Array]:
-    """Each quantity on the whole grid, shape (values of the first parameter, of the second ...).
-
-    Raises:
-        BalcliError: too many variants to be kept in memory.
+def join_chunks(sweep: Sweep, chunks: Iterable[Chunk]) -> list[Array]:
+    """Each quantity on the whole grid, from all its chunks in the order of rows: shape (values of
+    the first parameter, of the second ...).
     """
-    if sweep.variants > MOST_PICTURE_VARIANTS:
-        raise BalcliError(
-            f"{sweep.variants} variants are too many for one picture; "
-            f"{MOST_PICTURE_VARIANTS} are allowed"
-        )
-    found = zip(*(chunk.values for chunk in evaluate_chunks(sweep)), strict=True)
+    found = zip(*(chunk.values for chunk in chunks), strict=True)
     return [np.concatenate(parts).reshape(sweep.shape) for parts in found]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
@@ -11,8 +10,7 @@ import numpy as np
 from ...field_balancing.balance import FieldBalance, PlaneCorrection, find_angle_deg
 from ..field_balancing import find_label, find_senses
 from ..sheet import number
-from .pages import form_of
-from .style import BLUE, GREEN, INK, PAPER, RED, SOFT, figure, plain, saved
+from .style import BLUE, GREEN, INK, PAPER, RED, SOFT, Form, figure, plain, saved
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -24,9 +22,8 @@ _MOST_LABELLED = 8  # readings; more names would lie on one another
 _SIZE = (11.0, 6.2)
 
 
-def draw_field(result: FieldBalance, file: Path) -> bytes:
-    """The picture in the form that the name of the file asks for, BalcliError if it is none."""
-    form = form_of(file)
+def draw_field(result: FieldBalance, form: Form) -> bytes:
+    """The picture in this form."""
     phases, weights = find_senses(result)
     with figure(*_SIZE, form) as fig:
         fig.set_layout_engine("none")

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...core.phasors import Phasors
-from ...errors import BalcliError
 from ...forces.crankshaft import InnerLoads
 from ...forces.kinds import KINDS, VECTORS
 from ...results.analysis import Analysis
+from ...sizing.details import FactorPeaks
 from ...studies.pictures import Banks
 from ..sheet import NAMELESS
 from ..units import SI, System, Unit
 from . import draw, studied
-from .style import FORMS, Form, figure, inline, plain, saved
+from .style import Form, figure, inline, plain, saved
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -35,7 +34,7 @@ class Subject:
     now: Analysis
     before: Analysis | None = None
     system: System = SI
-    factors: Sequence[dict[str, float]] = ()
+    factors: Sequence[FactorPeaks] = ()
     banks: Banks | None = None
     bent: tuple[InnerLoads, ...] = ()
 
@@ -49,20 +48,6 @@ class Subject:
     @property
     def scalars(self) -> dict[str, Phasors]:
         return {kind.label: phasors for kind, phasors in self.now.spectra.scalars()}
-
-
-def form_of(file: Path) -> Form:
-    """The form that a file's name asks for.
-
-    Raises:
-        BalcliError: none that can be drawn.
-    """
-    for form in FORMS:
-        if file.suffix.lower() == f".{form}":
-            return form
-    raise BalcliError(
-        f"{file}: a picture is written as .svg, .png or .pdf; give a name that ends so"
-    )
 
 
 def picture(subject: Subject, what: str, form: Form) -> bytes:

@@ -4,7 +4,7 @@ crankshaft.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +12,7 @@ import numpy as np
 
 from ...core.phasors import Phasors
 from ...forces.crankshaft import AlongCrank
+from ...sizing.details import FactorPeaks
 from ...studies.pictures import Banks
 from ..units import Unit
 from .draw import FINE, LOOKS, legend_above, plane, scale
@@ -21,35 +22,35 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def factors(ax: Axes, rows: Sequence[Mapping[str, float]], force: Unit, moment: Unit) -> None:
+def factors(ax: Axes, rows: Sequence[FactorPeaks], force: Unit, moment: Unit) -> None:
     """Largest force and its components over the balance factor; the moment on an axis of its own
     where there is one.
     """
-    share = [row["factor"] for row in rows]
-    s = scale(force, max(row["peak_force_N"] for row in rows))
+    share = [row.factor for row in rows]
+    s = scale(force, max(row.force for row in rows))
     lines = (
-        ("peak_force_N", "force"),
-        ("along_N", "along the first bank"),
-        ("across_N", "across it"),
+        ([row.force for row in rows], "force"),
+        ([row.along for row in rows], "along the first bank"),
+        ([row.across for row in rows], "across it"),
     )
-    for (key, label), look in zip(lines, LOOKS, strict=True):
+    for (values, label), look in zip(lines, LOOKS, strict=True):
         ax.plot(
             share,
-            [row[key] / s.size for row in rows],
+            np.array(values) / s.size,
             color=look[0],
             linestyle=look[1],
             label=label,
         )
-    best = min(rows, key=lambda row: (round(row["peak_force_N"], 6), row["peak_moment_Nm"]))
-    ax.plot(best["factor"], best["peak_force_N"] / s.size, "o", color=BLUE)
+    best = min(rows, key=lambda row: (round(row.force, 6), row.moment))
+    ax.plot(best.factor, best.force / s.size, "o", color=BLUE)
     ax.set(
         xlabel="balance factor: share of the reciprocating mass in the counterweights",
         ylabel=f"largest over a revolution, {s.name}",
         xlim=(share[0], share[-1]),
     )
     ax.set_ylim(bottom=0)
-    ax.set_title(f"Largest free force over the balance factor; best at {best['factor']:g}")
-    moments = np.array([row["peak_moment_Nm"] for row in rows])
+    ax.set_title(f"Largest free force over the balance factor; best at {best.factor:g}")
+    moments = np.array([row.moment for row in rows])
     if moments.max() > 0:
         t = scale(moment, float(moments.max()))
         right = ax.twinx()

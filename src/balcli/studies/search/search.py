@@ -16,7 +16,7 @@ from ...engine.layout import cycle_deg, plan_cylinders
 from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
-from ...forces.quantity import Quantity
+from ...forces.quantity import Quantity, refuse_unknown
 from ...forces.textbook import TextbookUnits, find_textbook_units
 from .angles import Curve, Span, find_minima
 from .designs import Found, build_candidates, evaluate_engine, rank_candidates
@@ -68,10 +68,12 @@ def search_arrangements(
         even_firing: only arrangements that can fire evenly.
 
     Raises:
-        BalcliError: an engine that has nothing to arrange, or no arrangement that keeps the limits.
+        BalcliError: an engine that has nothing to arrange, or no arrangement that keeps the limits,
+        a moment of an engine whose file does not say where its throws stand.
     """
     what = _parse_over(over)
     engine = build(model)
+    refuse_unknown(engine, objective.quantities)
     candidates = _SEARCHES[what](_Task(model, objective, count, even_firing))
     found = tuple(islice(drop_mirror_images(candidates, model), count))
     if not found:

@@ -1,0 +1,116 @@
+"""What the name of a file says: `-` is standard output, and its ending is the format of what is
+written into it. Nowhere else is an ending read.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeVar
+
+from ..errors import BalcliError
+from ..render.formats import Format
+
+if TYPE_CHECKING:
+    from ..render.plot.style import Form
+
+F = TypeVar("F", bound=str)
+
+TEXTS = {
+    ".txt": Format.TABLE,
+    ".json": Format.JSON,
+    ".csv": Format.CSV,
+    ".md": Format.MARKDOWN,
+}
+PICTURES: dict[str, Form] = {".svg": "svg", ".png": "png", ".pdf": "pdf"}
+# What nobody takes for anything else, so that no --format can make it so.
+KNOWN = {*TEXTS, *PICTURES, ".html", ".htm", ".toml", ".parquet", ".xlsx", ".jpg", ".jpeg"}
+
+
+class SeriesFormat(StrEnum):
+    """How long series of numbers are written."""
+
+    CSV = "csv"
+    JSON = "json"
+
+
+class VariantsFormat(StrEnum):
+    """How the variants of a sweep are written."""
+
+    CSV = "csv"
+    JSON = "json"
+    PARQUET = "parquet"
+
+
+SERIES = {".csv": SeriesFormat.CSV, ".json": SeriesFormat.JSON}
+VARIANTS = {f".{form}": form for form in VariantsFormat}
+
+
+def parse_output(path: Path | None) -> Path | None:
+    """Where to write, None for standard output."""
+    return None if str(path) in ("-", "/dev/stdout", "/dev/fd/1") else path
+
+
+def text_format(output: Path | None, asked: Format | None) -> Format:
+    """How to write what people read; a table by default. Errors as `format_of`."""
+    return format_of(output, asked, TEXTS, Format.TABLE)
+
+
+def format_of(
+    output: Path | None,
+    asked: F | None,
+    endings: Mapping[str, F],
+    default: F | None = None,
+    option: str = "--output",
+) -> F:
+    """The format in which to write into a file: the ending says it, and `--format` where there is
+    no ending that is known.
+
+    Args:
+        output: the file; None: standard output.
+        asked: the format of `--format`, if it was given.
+        endings: small letters, with the point, and the format of each that can be written.
+        default: of standard output, and of a file without an ending; None: there is none.
+        option: by which the file was given, for messages.
+
+    Raises:
+        BalcliError: format and ending contradict each other, or the ending is none of these.
+    """
+    ending = "" if output is None else output.suffix.lower()
+    written = endings.get(ending)
+    if written is not None:
+        if asked not in (None, written):
+            raise BalcliError(
+                f"{option} {output}: {ending} is {written}, but --format says {asked}; leave one "
+                "of them out"
+            )
+        return written
+    usual = asked or default
+    if usual is not None and (not ending or (asked is not None and ending not in KNOWN)):
+        return usual
+    can = _listed(list(endings))
+    said = f"{ending} cannot be written here" if ending else "has no ending that says its format"
+    raise BalcliError(f"{option} {output}: {said}; give a name that ends in {can}")
+
+
+def picture_form(output: Path, option: str = "--output") -> Form:
+    """svg, png or pdf.
+
+    Raises:
+        BalcliError: another ending.
+    """
+    return format_of(output, None, PICTURES, option=option)
+
+
+def require_ending(output: Path | None, ending: str, option: str = "--output") -> None:
+    """Refuse a file whose ending promises anything but this one format.
+
+    Raises:
+        BalcliError: with what it must be.
+    """
+    format_of(output, None, {ending: ending}, ending, option)
+
+
+def _listed(words: Sequence[str]) -> str:
+    return " or ".join(filter(None, (", ".join(words[:-1]), words[-1])))

@@ -1,0 +1,59 @@
+"""The bobweight card: what a balancing shop hangs on each crank pin for rods and pistons."""
+
+from __future__ import annotations
+
+from itertools import groupby
+
+from ..engine.build import Engine
+from .details import Bobweight
+
+DEFINITION = (
+    "bobweight of a crank pin = rotating mass + factor x reciprocating mass of the rods on that "
+    "pin; rotating: rod big ends, rod bearings, oil; reciprocating: pistons with rings, pins and "
+    "clips, rod small ends"
+)
+
+
+def fill_card(engine: Engine, factor: float) -> tuple[Bobweight, ...]:
+    """The bobweight of each crank pin for this share of the reciprocating mass."""
+    return tuple(_weigh(engine, rows, factor) for rows in group_by_pin(engine))
+
+
+def group_by_pin(engine: Engine) -> list[list[int]]:
+    """Rows of the cylinders on each crank pin, in the order of the throws; split pins are
+    several.
+    """
+
+    def find_pin(row: int) -> tuple[int, float]:
+        return engine.weighed[row].throw, float(engine.cylinders.pin_deg[row]) % 360
+
+    rows = range(len(engine.numbers))
+    in_order = sorted(rows, key=lambda row: (*find_pin(row), engine.numbers[row]))
+    return [list(group) for _, group in groupby(in_order, key=find_pin)]
+
+
+def _weigh(engine: Engine, rows: list[int], factor: float) -> Bobweight:
+    """The bobweight of the pin of these cylinders."""
+    masses = [engine.weighed[row] for row in rows]
+    piston, small_end, big_end, rod_bearing, oil = (
+        1e3 * sum(float(mass) for mass in of_each)
+        for of_each in zip(
+            *((m.piston, m.small_end, m.big_end, m.rod_bearing, m.oil) for m in masses),
+            strict=True,
+        )
+    )
+    rotating = big_end + rod_bearing + oil
+    reciprocating = piston + small_end
+    return Bobweight(
+        throw=masses[0].throw + 1,
+        cylinders=tuple(engine.numbers[row] for row in rows),
+        piston_g=piston,
+        small_end_g=small_end,
+        big_end_g=big_end,
+        rod_bearing_g=rod_bearing,
+        oil_g=oil,
+        rotating_g=rotating,
+        reciprocating_g=reciprocating,
+        factor=factor,
+        bobweight_g=rotating + factor * reciprocating,
+    )

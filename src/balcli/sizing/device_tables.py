@@ -1,0 +1,105 @@
+"""Devices as tables of the engine file (g mm, degrees, mm), made from SI: what is written is
+exactly what is analysed.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import TypeAlias
+
+from ..core.phasors import EPS, reduced
+from ..enginefile.model import Counterweight, Shaft, Slider
+
+DeviceTable: TypeAlias = Counterweight | Shaft | Slider
+
+# what describes a new device of each kind: the kinds and their fields in the order of the file
+FIELDS: dict[type[DeviceTable], tuple[str, ...]] = {
+    Counterweight: ("unbalance", "angle", "position"),
+    Shaft: ("ratio", "unbalance", "angle", "at", "position"),
+    Slider: ("order", "unbalance", "direction", "angle", "at", "position"),
+}
+KINDS = tuple(FIELDS)
+
+
+def name_kind(device: DeviceTable) -> str:
+    """The name of its table in an engine file: "counterweight", "shaft" or "slider"."""
+    return type(device).__name__.lower()
+
+
+def find_unbalance(device: DeviceTable) -> float:
+    """Unbalance of a device that a scheme made, kg m."""
+    return (device.unbalance or 0.0) / 1e6
+
+
+def make_counterweight(unbalance: complex, z: float, first_axis_deg: float) -> Counterweight:
+    """A weight on the crankshaft.
+
+    Args:
+        unbalance: kg m, its direction at crank angle 0 counting from x.
+        z: m.
+        first_axis_deg: direction of cylinder 1's crank pin, from which the file's angle counts.
+    """
+    size, angle = _polar(unbalance, first_axis_deg)
+    return Counterweight.model_construct(unbalance=size, angle=angle, position=_millimetres(z))
+
+
+def make_shaft(unbalance: complex, ratio: int, z: float, place: complex) -> Shaft:
+    """An eccentric of a balancer shaft.
+
+    Args:
+        unbalance: kg m, its direction at crank angle 0.
+        ratio: times crank speed, negative if it turns against the crank.
+        z, place: m, x + iy.
+    """
+    size, angle = _polar(unbalance)
+    return Shaft.model_construct(
+        ratio=ratio, unbalance=size, angle=angle, at=_at(place), position=_millimetres(z)
+    )
+
+
+def make_slider(
+    unbalance: complex, order: int, direction_deg: float, z: float, place: complex
+) -> Slider:
+    """A reciprocating mass.
+
+    Args:
+        unbalance: kg m; mass times displacement is the real part of `unbalance e^{i order theta}`.
+        direction_deg: of its path, from x.
+        z, place: m, x + iy.
+    """
+    size, angle = _polar(unbalance)
+    return Slider.model_construct(
+        order=order,
+        unbalance=size,
+        direction=direction_deg,
+        angle=angle,
+        at=_at(place),
+        position=_millimetres(z),
+    )
+
+
+def measure_direction(vector: complex, origin_deg: float = 0.0) -> float:
+    """Direction of a vector, degrees from `origin_deg`, in (-180, 180]."""
+    return _plain(float(reduced(math.degrees(cmath.phase(vector)) - origin_deg, 360)), 360)
+
+
+def _polar(unbalance: complex, origin_deg: float = 0.0) -> tuple[float, float]:
+    """kg m -> g mm and degrees."""
+    return abs(unbalance) * 1e6, measure_direction(unbalance, origin_deg)
+
+
+def _at(place: complex) -> tuple[float, float]:
+    return _millimetres(place.real), _millimetres(place.imag)
+
+
+def _millimetres(metres: float) -> float:
+    return _plain(metres * 1e3, abs(metres * 1e3))
+
+
+def _plain(figure: float, size: float) -> float:
+    """The figure with nine decimals, as people would write it, where that is the same to an ulp of
+    `size`.
+    """
+    short = round(figure, 9) + 0.0
+    return short if abs(figure - short) <= size * EPS else figure

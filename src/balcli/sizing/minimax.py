@@ -1,0 +1,100 @@
+"""The scheme `minimax`: the counterweight with which the largest force over a revolution is as
+small as a weight on the crankshaft can make it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core import enclosing_circle
+from ..engine.build import Engine
+from ..errors import BalcliError
+from .balance_factor import find_curve, find_factor_peaks
+from .details import Detail
+from .effects import Slot, solve
+from .fitting import Fitting
+from .options import SchemeOptions
+from .planes import SAME_PLACE, find_middle, read_planes
+from .remedy import Remedy
+from .residual import FORWARD, FORWARD_FORCE, NothingToBalanceError
+
+
+def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
+    """The counterweight that moves the centre of the smallest circle around `F e^{-i theta}` to the
+    origin (docs/theory.md).
+
+    One weight in the middle of the throws, or in the planes asked for such that the moment turning
+    with the crank vanishes too.
+
+    Raises:
+        BalcliError: the planes asked for cannot take the moment.
+        NothingToBalanceError: no weight makes the largest force smaller.
+    """
+    fitting = Fitting.start(engine, "minimax", 1)
+    circle = enclosing_circle.enclose_curve(find_curve(fitting.engine, "force"))
+    newtons_per_kg_m = float(engine.omega) ** 2
+    noise = fitting.find_residual(1).noise[FORWARD_FORCE] * newtons_per_kg_m
+    centred = abs(circle.centre) <= max(noise, circle.noise)
+    nothing_gained = (
+        "no counterweight makes the largest force smaller than it is: "
+        f"{circle.radius:.5g} N, which has no part of order 1 turning with the crank"
+    )
+    if centred and options.planes is None:
+        raise NothingToBalanceError(nothing_gained)
+    unbalance = 0j if centred else -circle.centre / newtons_per_kg_m
+    slots, unbalances = _split(engine, options, fitting, unbalance)
+    reason = (
+        f"The largest force over a revolution, all orders, becomes {circle.radius:.5g} N: no "
+        "weight on the crankshaft can make it smaller (smallest circle around the force as seen "
+        "from the crank)"
+    )
+    fitting = fitting.add(slots, unbalances, reason)
+    half = _find_peak_of_half(fitting.engine)
+    remedy = fitting.remedy.add_details(
+        Detail("peak force", "force", circle.radius),
+        Detail("reached", "angle", _as_degrees(circle.theta)),
+        Detail("relative error bound", "", circle.excess / circle.radius if circle.radius else 0.0),
+        Detail("factor half peak", "force", half),
+        Detail("improvement", "", _find_gain(circle, half)),
+    )
+    return remedy if remedy.devices else remedy._replace(note=nothing_gained)
+
+
+def _split(
+    engine: Engine, options: SchemeOptions, fitting: Fitting, unbalance: complex
+) -> tuple[Sequence[Slot], Sequence[complex]]:
+    """Slots and unbalances (kg m) that add up to this one: in one plane, or in the planes asked for
+    such that no moment of order 1 turning with the crank is left.
+    """
+    if options.planes is None:
+        z = find_middle(engine) if options.position is None else options.position
+        return [Slot("counterweight", 1, 1, z)], [unbalance]
+    slots = [Slot("counterweight", 1, 1, z) for z in read_planes(engine, options)]
+    residual = fitting.find_residual(1)
+    wanted = residual._replace(parts={**residual.parts, FORWARD_FORCE: -unbalance})
+    fit = solve(slots, wanted, FORWARD)
+    if fit.left > 1e-9:
+        raise BalcliError(f"--planes: {SAME_PLACE}")
+    return slots, fit.unbalances
+
+
+def _find_peak_of_half(engine: Engine) -> float:
+    """Largest force with the weights of factor 0.5 instead of the engine's own, N."""
+    off_crank = tuple(device for device in engine.devices if device.rank)
+    return find_factor_peaks(replace(engine, devices=off_crank), 0.5).force
+
+
+def _as_degrees(theta: ArrayLike) -> tuple[float, ...]:
+    """Crank angles in [0, 360), ascending."""
+    return tuple(sorted(round(float(degrees), 9) % 360 for degrees in np.degrees(theta)))
+
+
+def _find_gain(circle: enclosing_circle.Circle, half: float) -> float:
+    """The share by which the circle is smaller than the force `half`; 0 where they differ by
+    rounding.
+    """
+    return 1 - circle.radius / half if abs(half - circle.radius) > circle.noise else 0.0

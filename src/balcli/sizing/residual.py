@@ -1,0 +1,160 @@
+"""What an engine shakes at one order: what is left for a scheme to cancel."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from ..core.phasors import Phasors
+from ..engine.build import Engine
+from ..engine.positions import MOMENTS_UNKNOWN
+from ..errors import BalcliError
+from ..forces.spectrum import compute_spectra
+from ..limits import HIGHEST_ORDER_SOUGHT
+from .options import SchemeOptions
+
+Quantity = Literal["force", "moment", "roll"]
+
+
+class Part(NamedTuple):
+    """One part of what shakes an engine at an order.
+
+    Attributes:
+        quantity: "force", "moment" or "roll".
+        sense: 1 turns with the crank, -1 against it; 0 for the roll, which does not turn.
+    """
+
+    quantity: Quantity
+    sense: int
+
+
+FORWARD_FORCE, FORWARD_MOMENT = FORWARD = (Part("force", 1), Part("moment", 1))
+BACKWARD_FORCE, BACKWARD_MOMENT = BACKWARD = (Part("force", -1), Part("moment", -1))
+ROLL = Part("roll", 0)
+
+
+class Point(NamedTuple):
+    """A point about which moments are taken: x + iy and z, m."""
+
+    place: complex
+    z: float
+
+
+class Residual(NamedTuple):
+    """What is left to cancel at one order, as the unbalance that would make it.
+
+    Attributes:
+        order: n, times crank speed.
+        parts: complex amplitude over `n^2 omega^2` of each part: force in kg m, moment (over i)
+            and roll in kg m^2.
+        noise: rounding error of each part, in the same units.
+        reference: moments and roll are taken about it.
+        newtons_per_kg_m: `n^2 omega^2`, in N/(kg m).
+    """
+
+    order: int
+    parts: dict[Part, complex]
+    noise: dict[Part, float]
+    reference: Point
+    newtons_per_kg_m: float
+
+    def force(self, sense: int) -> complex:
+        """Force turning in this sense (1 with the crank, -1 against it), kg m."""
+        return self.parts[Part("force", sense)]
+
+    def moment(self, sense: int) -> complex:
+        """Moment over i turning in this sense (1 with the crank, -1 against it), kg m^2."""
+        return self.parts[Part("moment", sense)]
+
+    @property
+    def roll(self) -> complex:
+        """Amplitude of the roll, kg m^2."""
+        return self.parts[ROLL]
+
+    def has(self, quantity: Quantity, senses: Sequence[int]) -> bool:
+        """Whether anything of a quantity turns in one of these senses."""
+        return any(self.parts[Part(quantity, sense)] for sense in senses)
+
+    def size(self, *parts: Part) -> float:
+        """Sum of the amplitudes of these parts at the engine's speed, N or N m."""
+        return sum(abs(self.parts[part]) for part in parts) * self.newtons_per_kg_m
+
+
+class NothingToBalanceError(Exception):
+    """There is nothing to balance, as its text says: a scheme then fits no device."""
+
+
+def hold_steady(engine: Engine) -> Engine:
+    """The engine at its mean speed, without speed ripple: devices are sized for that."""
+    return replace(engine, ripple=())
+
+
+def find_residual(engine: Engine, order: int) -> Residual:
+    """What the engine, with the devices it has, shakes at one order at its mean speed; of
+    forces alone where moments are not known.
+    """
+    found = compute_spectra(hold_steady(engine), [order], ("force", "moment", "roll"))
+    newtons_per_kg_m = order**2 * float(engine.omega) ** 2
+    x, y, z = engine.reference_m
+    parts: dict[Part, complex] = {}
+    noise: dict[Part, float] = {}
+    for part in (*FORWARD, *BACKWARD):
+        phasors: Phasors = getattr(found, part.quantity)
+        vector = phasors.forward if part.sense > 0 else phasors.backward
+        per = 1j if part.quantity == "moment" else 1
+        known = part.quantity == "force" or engine.places_known
+        parts[part] = complex(vector[0]) / per / newtons_per_kg_m if known else 0j
+        noise[part] = float(np.broadcast_to(phasors.noise, vector.shape)[0]) / newtons_per_kg_m
+    parts[ROLL] = 2 * complex(found.roll.forward[0]) / newtons_per_kg_m if found.roll else 0j
+    return Residual(order, parts, noise, Point(complex(x, y), float(z)), newtons_per_kg_m)
+
+
+def choose_residual(
+    engine: Engine,
+    options: SchemeOptions,
+    quantity: Literal["force", "moment"],
+    senses: Sequence[int] = (1, -1),
+) -> Residual:
+    """What is left at the order asked for, or else at the lowest where this quantity is not
+    balanced.
+
+    Args:
+        senses: of rotation that count: 1 with the crank, -1 against it.
+
+    Raises NothingToBalanceError if nothing of the quantity is left, BalcliError for a moment that
+    is not known.
+    """
+    if quantity == "moment" and not engine.places_known:
+        raise BalcliError(MOMENTS_UNKNOWN)
+    if options.order is None:
+        return _find_lowest(engine, quantity, senses)
+    residual = find_residual(engine, options.order)
+    if residual.has(quantity, senses):
+        return residual
+    hint = ""
+    if quantity == "force" and residual.has("moment", senses):
+        hint = "; it has a free moment: couple-shaft"
+    if quantity == "moment" and residual.has("force", senses):
+        hint = "; it has a free force: two-shaft"
+    raise NothingToBalanceError(
+        f"order {options.order} has no free {quantity}{_turning(senses)}: nothing to balance{hint}"
+    )
+
+
+def _find_lowest(engine: Engine, quantity: Quantity, senses: Sequence[int]) -> Residual:
+    """That of the lowest order at which something of this quantity is left."""
+    for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
+        residual = find_residual(engine, order)
+        if residual.has(quantity, senses):
+            return residual
+    raise NothingToBalanceError(
+        f"there is no free {quantity}{_turning(senses)} of orders 1 to {HIGHEST_ORDER_SOUGHT}: "
+        "nothing to balance; --order names a higher one"
+    )
+
+
+def _turning(senses: Sequence[int]) -> str:
+    return " turning against the crank" if tuple(senses) == (-1,) else ""

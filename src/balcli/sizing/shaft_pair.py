@@ -1,0 +1,171 @@
+"""The schemes `two-shaft` and `four-shaft`: pairs of shafts that turn against each other.
+
+A stands for the shaft that turns against the crank, B for the one that turns with it; V- and V+ are
+the two parts of the force of their order, p_A and p_B places x + iy from the crank axis. The shafts
+make a roll `Re c e^{in theta}` with `c = i conj(p_B) V+ - i p_A conj(V-)`.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+from ..engine.build import Engine
+from ..errors import BalcliError
+from .details import Detail
+from .effects import Slot
+from .fitting import Fitting
+from .options import SchemeOptions
+from .planes import choose_plane
+from .reasons import explain_halves, explain_shaft
+from .remedy import Remedy
+from .residual import (
+    BACKWARD_MOMENT,
+    FORWARD_MOMENT,
+    ROLL,
+    NothingToBalanceError,
+    Residual,
+    choose_residual,
+)
+
+Places = dict[int, tuple[complex, ...]]  # x + iy (m) of the shafts that turn in each sense
+
+
+def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
+    """Shafts at +N and -N for the force of order N, placed such that no roll is added, or such that
+    none is left (option `roll`).
+    """
+    try:
+        residual = choose_residual(engine, options, "force")
+    except NothingToBalanceError as reason:
+        if options.roll:
+            raise BalcliError(
+                f"{reason}; shafts without unbalance can do nothing about the roll"
+            ) from None
+        raise
+    fitting = Fitting.start(engine, "two-shaft", residual.order)
+    return _add_pair(fitting, residual, options).remedy
+
+
+def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
+    """Shafts at +1, -1, +2 and -2 for the forces of orders 1 and 2."""
+    fitting = Fitting.start(engine, "four-shaft")
+    residuals = [fitting.find_residual(order) for order in (1, 2)]
+    forces = [residual for residual in residuals if residual.has("force", (1, -1))]
+    if not forces:
+        raise NothingToBalanceError(
+            "there is no free force of orders 1 and 2: nothing to balance; couple-shaft takes "
+            "moments"
+        )
+    for residual in forces:
+        fitting = _add_pair(fitting, residual, options)
+    return fitting.remedy
+
+
+def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> Fitting:
+    """With shafts at +N and -N for the force of this order; where one part of it is missing, with
+    one shaft, or two halves of it.
+    """
+    places = _choose_places(residual, options)
+    for sense, standing in places.items():
+        z = choose_plane(fitting.engine, options, residual, sense)
+        slots = [Slot("shaft", residual.order, sense, z, place) for place in standing]
+        share = 1 / len(slots)
+        unbalances = [-residual.force(sense) * share for _ in slots]
+        if len(slots) == 1:
+            reason = explain_shaft(residual, sense, 1)
+        else:
+            reason = explain_halves(residual, sense)
+        fitting = fitting.add(slots, unbalances, reason)
+    left = fitting.find_residual(residual.order)
+    group = f"order {residual.order}"
+    return fitting.note(
+        *_describe_places(places, group),
+        Detail("moment left", "moment", left.size(FORWARD_MOMENT, BACKWARD_MOMENT), group),
+        Detail("roll left", "moment", left.size(ROLL), group),
+        Detail("roll before", "moment", residual.size(ROLL), group),
+    )
+
+
+def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
+    """Where the shafts of each sense stand: as asked for; what is not said, such that the pair adds
+    no roll, or with `roll` such that none is left.
+    """
+    at = options.at or ()
+    if len(at) > 2:
+        raise BalcliError(
+            "--at: a pair of shafts has two places, first that of the shaft turning against the "
+            "crank"
+        )
+    if not (residual.force(1) and residual.force(-1)):
+        return _choose_place_of_one(residual, options)
+    if len(at) == 2 and options.roll:
+        raise BalcliError(
+            "--roll zero fixes the place of the second shaft; give one --at, or two without --roll"
+        )
+    if len(at) == 2:
+        return {-1: (at[0],), 1: (at[1],)}
+    if options.roll and not at:
+        return _find_nearest_places(residual, _find_roll_about_crank(residual))
+    first = at[0] if at else 0j
+    roll = _find_roll_about_crank(residual) if options.roll else 0j
+    return {-1: (first,), 1: (_find_second_place(first, residual, roll),)}
+
+
+def _choose_place_of_one(residual: Residual, options: SchemeOptions) -> Places:
+    """Of a force that turns in one sense alone: one shaft on the crank axis, or two halves at the
+    place asked for and opposite to it.
+    """
+    sense = 1 if residual.force(1) else -1
+    if options.roll:
+        raise BalcliError(
+            f"order {residual.order}: its force turns {'with' if sense > 0 else 'against'} the "
+            "crank alone, so that one shaft takes it and none is left to be placed for the roll; "
+            "leave out --roll"
+        )
+    place = options.at[0] if options.at else 0j
+    return {sense: (place, -place) if place else (0j,)}
+
+
+def _find_second_place(first: complex, residual: Residual, roll: complex) -> complex:
+    """p_B for p_A = `first`, such that the pair makes minus this roll (kg m^2); without a roll it
+    is `conj(p_A) V-/conj(V+)` (docs/theory.md).
+    """
+    forward, backward = residual.force(1), residual.force(-1)
+    return ((1j * roll + first * backward.conjugate()) / forward).conjugate()
+
+
+def _find_nearest_places(residual: Residual, roll: complex) -> Places:
+    """Of all places at which the pair makes minus this roll (kg m^2), those nearest to the crank:
+    least squares of `conj(p_B) V+ - p_A conj(V-) = i roll` in conj(p_B) and p_A.
+    """
+    forward, backward = residual.force(1), residual.force(-1)
+    wanted = 1j * roll
+    size = abs(forward) ** 2 + abs(backward) ** 2
+    against = -wanted * backward / size
+    with_crank = (wanted * forward.conjugate() / size).conjugate()
+    return {-1: (against,), 1: (with_crank,)}
+
+
+def _find_roll_about_crank(residual: Residual) -> complex:
+    """The roll taken about the crank axis instead of the point of reference, kg m^2."""
+    place = residual.reference.place
+    moved = place.conjugate() * residual.force(1) - place * residual.force(-1).conjugate()
+    return residual.roll - 1j * moved
+
+
+def _describe_places(places: Places, group: str) -> list[Detail]:
+    """Distance from the crank axis and direction of the shafts of each sense, and the ratio of the
+    distances (with the crank : against it).
+    """
+    details = []
+    for sense, name in ((1, "with crank"), (-1, "against crank")):
+        for place in places.get(sense, ())[:1]:
+            direction = math.degrees(cmath.phase(place))
+            details += [
+                Detail(f"radius {name}", "length", abs(place), group),
+                Detail(f"direction {name}", "angle", direction, group),
+            ]
+    if len(places) == 2 and (against := abs(places[-1][0])):
+        details.append(Detail("radius ratio", "", abs(places[1][0]) / against, group))
+    return details

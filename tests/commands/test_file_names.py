@@ -1,0 +1,253 @@
+"""The ending of a file's name says what is written into it; `-` is standard output."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from support.commands import refusal, run_command, run_here
+from support.engines import GOOD, changed
+
+from balcli import __version__
+from balcli.studies import sweep as studies
+
+unix = pytest.mark.skipif(sys.platform == "win32", reason="needs /dev/stdout")
+VARY = ("--vary", "crank.stroke=80,90")
+SEARCH = ("--over", "throws", "--minimise", "moment.1.major")
+
+
+@pytest.fixture(autouse=True)
+def good(tmp_path, monkeypatch):
+    """A folder with good.toml, in which commands run."""
+    monkeypatch.chdir(tmp_path)
+    Path("good.toml").write_text(GOOD)
+
+
+def written(*args: object) -> bytes:
+    """What the last argument, a new file, then contains."""
+    *_, name = args
+    assert run_here(*args)[0] == 0
+    return Path(str(name)).read_bytes()
+
+
+TEXTS = {"txt": "table", "json": "json", "csv": "csv", "md": "markdown"}
+SERIES = {"csv": "csv", "json": "json"}
+COMMANDS = [
+    *(("analyze", TEXTS), ("balance", TEXTS), ("curves --step 90", SERIES)),
+    *((f"sweep {' '.join(VARY)}", SERIES), (f"search {' '.join(SEARCH)}", TEXTS)),
+    ("scatter --samples 9 --seed 1", TEXTS),
+]
+
+
+@pytest.mark.parametrize(("command", "formats"), COMMANDS, ids=lambda v: str(v).split()[0])
+def test_the_ending_chooses_the_format(command, formats):
+    name, *rest = command.split()
+    for ending, form in formats.items():
+        printed = run_here(name, "good.toml", *rest, "--format", form)[1].encode()
+        for target in (f"x.{ending}", f"X.{ending.upper()}"):
+            assert written(name, "good.toml", *rest, "-o", target) == printed
+
+
+@pytest.mark.parametrize("name", ["results", "results.2024"])
+def test_a_format_that_is_said_needs_no_ending_that_is_known(name):
+    printed = run_here("analyze", "good.toml", "-f", "json")[1].encode()
+    assert written("analyze", "good.toml", "-f", "json", "-o", name) == printed
+
+
+PICTURES = ".svg, .png or .pdf"
+
+
+@pytest.mark.parametrize(
+    ("args", "can"),
+    [
+        (("analyze", "-o", "r.pdf"), ".txt, .json, .csv or .md"),
+        (("analyze", "-f", "csv", "-o", "r.PDF"), ".txt, .json, .csv or .md"),
+        (("analyze", "-o", "r.xyz"), ".txt, .json, .csv or .md"),
+        (("curves", "-o", "r.md"), ".csv or .json"),
+        (("sweep", *VARY, "-o", "r.png"), ".csv, .json or .parquet"),
+        (("sweep", *VARY, "--plot", "r.csv"), PICTURES),
+        (("plot", "-o", "r.jpg"), PICTURES),
+        (("report", "-o", "r.pdf"), ".html or .htm"),
+        (("balance", "--write", "r.json"), ".toml"),
+        (("search", *SEARCH, "--write", "r.csv"), ".toml"),
+    ],
+    ids=lambda v: " ".join(v) if type(v) is tuple else "",
+)
+def test_an_ending_that_cannot_be_is_refused(args, can):
+    name, *rest = args
+    option, target = {"-o": "--output"}.get(rest[-2], rest[-2]), rest[-1]
+    assert refusal(name, "good.toml", *rest) == (
+        f"{option} {target}: {Path(target).suffix.lower()} cannot be written here; give a name "
+        f"that ends in {can}"
+    )
+    assert os.listdir() == ["good.toml"]
+
+
+@pytest.mark.parametrize(
+    ("args", "said"),
+    [
+        (("analyze", "-f", "csv", "-o", "r.json"), ".json is json, but --format says csv"),
+        (("analyze", "-f", "table", "-o", "r.md"), ".md is markdown, but --format says table"),
+        (("curves", "-f", "json", "-o", "r.csv"), ".csv is csv, but --format says json"),
+        (
+            ("sweep", *VARY, "-f", "json", "-o", "r.PARQUET"),
+            ".parquet is parquet, but --format says json",
+        ),
+    ],
+)
+def test_a_contradiction_is_refused(args, said):
+    name, *rest = args
+    assert refusal(name, "good.toml", *rest) == (
+        f"--output {rest[-1]}: {said}; leave one of them out"
+    )
+    assert os.listdir() == ["good.toml"]
+
+
+@pytest.mark.parametrize("name", ["new", "engines"])
+def test_an_engine_file_is_toml(name):
+    kind = {"new": "inline", "engines": "i4"}[name]
+    assert refusal(name, kind, "x.csv") == (
+        "FILE x.csv: .csv cannot be written here; give a name that ends in .toml"
+    )
+    assert run_here(name, kind, "-") == run_here(name, kind)
+    assert os.listdir() == ["good.toml"]
+
+
+def test_the_schema_is_json():
+    assert "ends in .json" in refusal("schema", "-o", "x.toml")
+
+
+@pytest.mark.parametrize(
+    ("name", "begins"), [("p.svg", b"<?xml"), ("p.PNG", b"\x89PNG"), ("p.pdf", b"%PDF")]
+)
+def test_pictures_of_a_sweep_have_the_forms_of_all_pictures(name, begins):
+    assert written("sweep", "good.toml", *VARY, "-o", "x.csv", "--plot", name).startswith(begins)
+
+
+# ------------------------------------------------------------------ standard output and input
+@pytest.mark.parametrize("command", ["analyze good.toml", "curves good.toml", "tables layouts"])
+def test_a_dash_is_standard_output(command):
+    assert run_here(*command.split(), "-o", "-") == run_here(*command.split())
+    assert os.listdir() == ["good.toml"]
+
+
+def test_a_page_goes_to_standard_output_and_a_picture_does_not():
+    assert run_here("report", "good.toml", "-o", "-")[1].startswith("<!doctype html>")
+    assert "has no ending" in refusal("plot", "good.toml", "-o", "-")
+
+
+@unix
+@pytest.mark.parametrize("form", ["table", "json"])
+def test_the_device_of_standard_output_into_a_pipe(form):
+    done = run_command("analyze", "good.toml", "-o", "/dev/stdout", "-f", form)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == run_here("analyze", "good.toml", "-f", form)[1]
+
+
+@unix
+def test_a_pipe_that_has_no_name():
+    """As a shell's `>(…)` is: what it points to is no path."""
+    reading, writing = os.pipe()
+    done = run_command(
+        *("curves", "good.toml", "--step", "90", "-f", "csv", "-o", f"/dev/fd/{writing}"),
+        pass_fds=[writing],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+    )
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (0, "")
+    with os.fdopen(reading, encoding="utf-8") as stream:
+        assert stream.read() == run_here("curves", "good.toml", "--step", "90")[1]
+
+
+@pytest.mark.parametrize("args", [("analyze", "-", "-"), ("compare", "-", "-"), ("sum", "-", "-")])
+def test_standard_input_is_read_once(args):
+    assert refusal(*args, stdin=GOOD) == (
+        "standard input (-) is named twice, and can be read only once"
+    )
+
+
+def test_nothing_is_written_where_one_of_two_results_has_no_folder():
+    assert refusal("balance", "good.toml", "--write", "a.toml", "-o", "none/x.txt") == (
+        "none/x.txt: cannot be written (No such file or directory)"
+    )
+    assert os.listdir() == ["good.toml"]
+
+
+# ------------------------------------------------------------------ pictures of sweeps
+def test_a_picture_that_cannot_be_is_refused_before_the_sweep(monkeypatch):
+    def computed(*_: object) -> None:
+        raise AssertionError
+
+    monkeypatch.setattr(studies, "evaluate_box", computed)
+    large = ("--vary", "piston.mass=0:2:0.001", "--vary", "crank.stroke=80:100:0.01")
+    options = ("-o", "x.csv", "--plot", "x.svg")
+    message = refusal("sweep", "good.toml", *large, *options)
+    assert message.startswith("4004001 variants are too many for one picture")
+    message = refusal("sweep", "good.toml", "--vary", "crank.stroke=80", *options)
+    assert message.startswith("--plot draws one or two parameters")
+    assert os.listdir() == ["good.toml"]
+
+
+def test_a_picture_takes_the_figures_that_are_written(monkeypatch):
+    boxes, compute = [], studies.evaluate_box
+
+    def counted(sweep, box):
+        boxes.append(box)
+        return compute(sweep, box)
+
+    monkeypatch.setattr(studies, "evaluate_box", counted)
+    assert run_here("sweep", "good.toml", *VARY, "-o", "x.csv", "--plot", "x.svg")[0] == 0
+    assert len(boxes) == 1
+
+
+# ------------------------------------------------------------------ spreadsheets
+DANGERS = ["=1+1", "+1", "-1", "@SUM(A1)", "\uff1d1+1"]
+
+
+@pytest.mark.parametrize("name", DANGERS)
+def test_a_spreadsheet_takes_no_name_for_a_formula(name):
+    for file in ("a.toml", "b.toml"):
+        Path(file).write_text(changed(('"in-line four"', json.dumps(name + file))))
+    text = run_here("analyze", "a.toml", "-f", "csv")[1]
+    lines = list(csv.DictReader(io.StringIO(text)))
+    assert {line["engine"] for line in lines} == {f"'{name}a.toml"}
+    assert any(line["value"].startswith("-") for line in lines)  # numbers stay numbers
+    heads = next(csv.reader(io.StringIO(run_here("compare", "a.toml", "b.toml", "-f", "csv")[1])))
+    assert heads[3:] == [f"'{name}a.toml", f"'{name}b.toml"]
+
+
+def test_a_spreadsheet_takes_no_file_for_a_formula():
+    for file in ("=a.toml", "=b.toml"):
+        Path(file).write_text(GOOD)
+    text = run_here("analyze", "=a.toml", "=b.toml", "-f", "csv")[1]
+    names = {line["engine"] for line in csv.DictReader(io.StringIO(text))}
+    assert names == {"'=a.toml", "'=b.toml"}
+
+
+# ------------------------------------------------------------------ colours
+@pytest.mark.parametrize("args", [("analyze", "good.toml"), ("--help",), ("analyze", "--help")])
+@pytest.mark.parametrize("variable", ["FORCE_COLOR", "TTY_COMPATIBLE", "GITHUB_ACTIONS"])
+def test_no_variable_puts_escapes_into_a_pipe(args, variable):
+    done = run_command(*args, env={variable: "1"})
+    assert done.stdout == run_command(*args).stdout
+    assert not {"\x1b", "?[1m"} & {done.stdout[k : k + n] for n in (1, 4) for k in range(4000)}
+
+
+# ------------------------------------------------------------------ Parquet
+def test_parquet_says_nothing_where_there_is_nothing_and_what_it_is():
+    parquet = pytest.importorskip("pyarrow.parquet")
+    asked = ("-q", "force.1.major,force.1.axis", "-o", "x.parquet")
+    assert run_here("sweep", "good.toml", *VARY, *asked) == (0, "", "")
+    table = parquet.read_table("x.parquet")
+    assert table["force.1.axis"].null_count == 2  # order 1 is balanced and has none
+    assert table["crank.stroke"].to_pylist() == [80, 90]
+    assert table.schema.field("force.1.major").metadata == {b"unit": b"N"}
+    assert table.schema.metadata[b"balcli.engine"] == b"in-line four"
+    assert table.schema.metadata[b"balcli.version"] == __version__.encode()

@@ -1,0 +1,86 @@
+"""Results can be kept, sent to other processes and copied: they come back equal."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+from support.engines import engine_text
+
+from balcli import analyze, balance, load
+from balcli.engine.build import build
+from balcli.engine.load import parse
+from balcli.results.knuckles import balance_knuckles
+from balcli.sizing.schemes import SCHEMES
+
+ENGINES = Path(__file__).parents[2] / "engines"
+EVERYTHING = ["force", "moment", "couple", "torque", "roll", "peak", "sizing", "inner", "guide"]
+WAYS = {
+    "pickle": lambda result: pickle.loads(pickle.dumps(result)),
+    "deepcopy": copy.deepcopy,
+}
+
+
+def difference(one: object, other: object, path: str = "result") -> str:
+    """Where two results differ; empty if nowhere."""
+    if type(one) is not type(other):
+        return f"{path}: {type(one).__name__} is not {type(other).__name__}"
+    members: list[tuple[str, object, object]] = []
+    if isinstance(one, np.ndarray):
+        same = one.dtype == other.dtype and np.array_equal(one, other, equal_nan=one.dtype != "O")
+        return "" if same else f"{path}: {one} is not {other}"
+    if is_dataclass(one):
+        members = [
+            (field.name, getattr(one, field.name), getattr(other, field.name))
+            for field in fields(one)
+        ]
+    elif isinstance(one, dict):
+        if one.keys() != other.keys():
+            return f"{path}: other keys"
+        members = [(f"[{key}]", one[key], other[key]) for key in one]
+    elif isinstance(one, (tuple, list)):
+        if len(one) != len(other):
+            return f"{path}: other length"
+        members = [(f"[{k}]", *pair) for k, pair in enumerate(zip(one, other, strict=True))]
+    else:
+        same = one == other or (one != one and other != other)
+        return "" if same else f"{path}: {one} is not {other}"
+    found = (difference(a, b, f"{path}.{name}") for name, a, b in members)
+    return next(filter(None, found), "")
+
+
+def test_differences_are_found():
+    engine = load(ENGINES / "i3.toml")
+    assert "orders" in difference(analyze(engine), analyze(engine, orders=[1]))
+    one, other = (balance(engine, scheme) for scheme in ("auto", "couple-shaft"))
+    assert difference(one, other) == "result.remedy.[0]: auto is not couple-shaft"
+    again = balance(engine)
+    again.after.spectra.force.forward[0] += 1e-12
+    assert difference(one, again).startswith("result.after.spectra.force.forward:")
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("name", ["i3", "v8_crossplane", "radial7_articulated", "rotary9"])
+def test_an_analysis_comes_back_equal(name, way):
+    result = analyze(
+        load(ENGINES / f"{name}.toml"), only=EVERYTHING, by_cylinder=True, reasons=True
+    )
+    assert difference(result, WAYS[way](result)) == ""
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_a_balance_comes_back_equal(scheme, way):
+    result = balance(build(parse(engine_text(operation="speed = 3000"))), scheme)
+    assert difference(result, WAYS[way](result)) == ""
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_even_knuckles_come_back_equal(way):
+    model = parse((ENGINES / "radial7_articulated.toml").read_bytes())
+    result = balance_knuckles(model)
+    assert difference(result, WAYS[way](result)) == ""
