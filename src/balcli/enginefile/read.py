@@ -145,7 +145,8 @@ class _Reader:
             code = f"U+{ord(strange[0]):04X}"
             self.add(
                 key,
-                f"has the control character {code}, which could command a terminal; leave it out",
+                f"has the control character {code}, which could command a terminal or disguise "
+                "what it shows; leave it out",
             )
         elif key == "name" and len(value) > LONGEST_NAME:
             self.add(
