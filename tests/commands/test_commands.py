@@ -453,12 +453,12 @@ def test_a_minimax_weight_in_two_planes_leaves_the_moment_that_turns_with_the_cr
 def test_mistakes_of_a_built_model_name_its_file():
     import tomli_w
 
-    from balcli.engine.load import built, parse
+    from balcli.engine.load import build_named, parse
 
     model = parse(tomli_w.dumps(tables(crank={"throws": [0, 180], "spacing": 100})))
     broken = model.model_copy(update={"rod": model.rod.model_copy(update={"length": 40.0})})
     with pytest.raises(InputError, match=r"^x\.toml: "):
-        built(broken, "x.toml")
+        build_named(broken, "x.toml")
 
 
 def test_more_devices_than_any_engine_has():

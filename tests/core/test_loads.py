@@ -16,7 +16,6 @@ from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.forces.spectrum import compute_spectra
 from balcli.studies.parameters import parse as parameter
-from balcli.studies.parameters import varied
 from balcli.studies.sweep import Sweep
 
 QUANTITIES = ("force", "moment", "couple", "torque", "roll")
@@ -119,9 +118,7 @@ def test_variants_side_by_side_are_what_each_is_alone(vary):
     shape = [len(p.values) for p in sweep.parameters]
     for place in np.ndindex(*shape):
         values = {p.path: float(p.values[k]) for p, k in zip(sweep.parameters, place, strict=True)}
-        for quantity, single in compute_spectra(
-            build(varied(file, values)), LOW, QUANTITIES
-        ).items():
+        for quantity, single in compute_spectra(build(file, values), LOW, QUANTITIES).items():
             found = together[quantity.name]
             for name in ("forward", "backward", "noise"):
                 whole = np.broadcast_to(getattr(found, name), (len(LOW), *shape))[

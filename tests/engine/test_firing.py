@@ -7,7 +7,8 @@ import math
 import pytest
 from support.engines import engine, refused
 
-from balcli.engine.firing import disagreement, from_pins
+from balcli.engine.firing import check_firing, find_intervals
+from balcli.errors import InputError
 
 TIGHT = 1e-9  # deg
 
@@ -215,15 +216,16 @@ def test_the_first_cylinder_that_cannot_fire_in_time_is_named():
     + 350 + 210 deg.
     """
     pin = {1: 0.0, 2: -170.0, 3: -160.0, 4: -150.0}
-    found = from_pins([1, 2, 3, 4], pin, dict.fromkeys(pin, 0.0), 720.0)
-    assert (
+    message = (
         "1-2-3-4 would take 1080 deg with these throws, a cycle has 720; firing evenly, every 180 "
-        "deg, cylinder 2 is the" in str(found)
+        "deg, cylinder 2 is the"
     )
+    with pytest.raises(InputError, match=message):
+        find_intervals([1, 2, 3, 4], pin, dict.fromkeys(pin, 0.0), 720.0)
 
 
 def test_a_pin_a_rounding_error_short_of_a_turn_is_at_its_place():
-    assert disagreement({1: 0.0, 2: 0.0}, {1: 0.0, 2: 360 - 1e-12}, {1: 0.0, 2: 0.0}) is None
-    assert "cylinder 2 is not at top dead centre" in str(
-        disagreement({1: 0.0, 2: 0.0}, {1: 0.0, 2: 340.0}, {1: 0.0, 2: 0.0})
-    )
+    both = {1: 0.0, 2: 0.0}
+    assert list(check_firing(both, {1: 0.0, 2: 360 - 1e-12}, both)) == []
+    (problem,) = check_firing(both, {1: 0.0, 2: 340.0}, both)
+    assert problem.message.startswith("cylinder 2 is not at top dead centre")

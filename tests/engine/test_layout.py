@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 from support.engines import engine, refused
 
-from balcli.engine.layout import bank_angles, cycle, plan
+from balcli.engine.figures import Figures
+from balcli.engine.layout import bank_angles, cycle_deg, plan_cylinders
 from balcli.enginefile.model import Crank, Layout
 
 
 def planned(throws=None, **layout):
-    return plan(Crank(stroke=100, throws=throws), Layout(**layout))
+    return plan_cylinders(Crank(stroke=100, throws=throws), Layout(**layout))
 
 
 def where(found):
@@ -33,11 +34,11 @@ def where(found):
     ],
 )
 def test_bank_angles(layout, angles):
-    assert bank_angles(Layout(**layout)) == angles
+    assert bank_angles(Layout(**layout), Figures()) == angles
 
 
 def test_cycle():
-    assert (cycle(Layout()), cycle(Layout(strokes=2))) == (720, 360)
+    assert (cycle_deg(Layout()), cycle_deg(Layout(strokes=2))) == (720, 360)
 
 
 # ------------------------------------------------------------------ numbering

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import numpy as np
 import pytest
 from support.engines import GOOD, changed
 
 from balcli.engine.load import parse as load
 from balcli.errors import BalcliError
-from balcli.studies.parameters import ladder, numeric, parse, varied
+from balcli.studies.parameters import find_numbers, ladder, parse
 
 DEVICES = """
 [[shaft]]
@@ -117,45 +116,12 @@ def test_mistakes_in_words(text: str, message: str) -> None:
     assert str(caught.value).startswith(message)
 
 
-def test_replaced_in_a_copy() -> None:
-    file = load(GOOD + DEVICES)
-    array = np.array([1.0, 2.0])
-    new = varied(
-        file, {"crank.throws.2": array, "shaft.1.at.1": 5.0, "cylinder.2.piston_mass": 0.7}
-    )
-    assert new.crank.throws is not None
-    assert new.crank.throws[1] is array
-    assert new.shaft[0].at == (5.0, 60)
-    assert (new.cylinder[2].piston_mass, new.cylinder[3].piston_mass) == (0.7, 0.51)
-    assert file.crank.throws == (0, 180, 180, 0)
-
-
-def test_what_says_the_same_gives_way() -> None:
-    new = varied(load(GOOD), {"rod.ratio": 0.3})
-    assert (new.rod.ratio, new.rod.length) == (0.3, None)
-
-
-def test_half_of_an_alternative_is_refused() -> None:
-    with pytest.raises(BalcliError, match=r"rod\.small_end: the file gives mass and cg instead"):
-        varied(load(GOOD), {"rod.small_end": 0.2})
-
-
 def test_a_bank_angle_is_that_of_a_vee() -> None:
     """An in-line four would become a V8, a W9 a V6."""
     vee = changed(("firing_order = [1, 3, 4, 2]", "banks = [-30, 60]"))
-    assert "layout.bank_angle" in numeric(load(vee))
+    assert "layout.bank_angle" in find_numbers(load(vee))
     for other in (GOOD, changed(("firing_order = [1, 3, 4, 2]", "banks = [-60, 0, 60]"))):
         with pytest.raises(
             BalcliError, match=r"^layout\.bank_angle is no number of this engine file"
         ):
             parse("layout.bank_angle=0:90:10", load(other))
-
-
-def test_a_firing_order_beside_throws_is_left_out() -> None:
-    assert varied(load(GOOD), {}).layout.firing_order is None
-    assert varied(load(changed(("throws = [0, 180, 180, 0]\n", ""))), {}).layout.firing_order == (
-        1,
-        3,
-        4,
-        2,
-    )

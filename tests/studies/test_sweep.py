@@ -15,7 +15,7 @@ from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
 from balcli.render.sweep import csv_text, json_text
 from balcli.render.sweep_plot import check_drawable
-from balcli.studies.parameters import parse, varied
+from balcli.studies.parameters import parse
 from balcli.studies.sweep import (
     Sweep,
     check_corners,
@@ -96,7 +96,7 @@ def test_every_variant_is_the_engine_alone(engine: str, vary: tuple[str, ...]) -
         for values in product(*(p.values.tolist() for p in sweep.parameters))
     ]
     alone = [
-        [float(v) for v in evaluate_quantities(build(varied(sweep.file, one)), EVERYTHING)]
+        [float(v) for v in evaluate_quantities(build(sweep.file, one), EVERYTHING)]
         for one in variants
     ]
     for quantity, values, expected in zip(EVERYTHING, found, np.array(alone).T, strict=True):

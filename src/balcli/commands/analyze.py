@@ -68,7 +68,7 @@ def analyze(
     height_m = check_guide_height(guide_height)
 
     def analyze_file(path: str) -> tuple[str, Analysis]:
-        engine = read_engine(path, rpm).engine
+        engine = read_engine(path, rpm, chosen).engine
         return path, analyze_engine(engine, asked, chosen, bool(by), why, height_m)
 
     found, errors = try_each(paths, analyze_file)

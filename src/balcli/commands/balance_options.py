@@ -204,7 +204,7 @@ def balance_knuckles(
     wanted = even or knuckles.GOALS[0]
     for goal in knuckles.GOALS:
         if goal == wanted:
-            return knuckles.balance_knuckles(model, goal, orders, engine.speed_rpm)
+            return knuckles.balance_knuckles(model, goal, orders, float(engine.speed_rpm))
     raise BalcliError(f'--even "{wanted[:60]}": choose from {", ".join(knuckles.GOALS)}')
 
 

@@ -38,8 +38,8 @@ def compare(
     from ..results.comparison import compare_engines
     from .inputs import distinct_names, read_engine
 
-    rpm, asked = check_speed(speed), parse_orders(orders)
-    engines = [read_engine(path, rpm).engine for path in paths]
+    rpm, asked, chosen = check_speed(speed), parse_orders(orders), parse_quantities(only)
+    engines = [read_engine(path, rpm, chosen).engine for path in paths]
     names = distinct_names([engine.name for engine in engines], paths)
-    found = compare_engines(engines, names, asked, parse_quantities(only))
+    found = compare_engines(engines, names, asked, chosen)
     show([found], renderer, form, output, units)

@@ -8,7 +8,6 @@ from typing import Annotated
 
 import typer
 
-from ..enginefile.toml_text import name_of
 from ..errors import BalcliError, Exit, say
 from .file_names import picture_form, text_format
 from .options import FormatOption, Output
@@ -65,6 +64,8 @@ def field(
     `balcli new field runs.toml` writes a file to start from: planes, then a run as found and one
     with a trial weight in each plane.
     """
+    from ..enginefile.toml_text import name_file
+
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     form = text_format(output, form)
     drawn = picture_form(plot, "--plot") if plot is not None else None
@@ -72,7 +73,7 @@ def field(
     from ..field_balancing.read import read_runs
     from ..render import field_balancing as renderer
 
-    file, name = read_runs(path), name_of(path)
+    file, name = read_runs(path), name_file(path)
     if check and file.grade is None:
         raise BalcliError(f"{name}: --check needs a grade, such as grade = 6.3, and mass and speed")
     result = balance_rotor(file, minimise.value, without or (), name)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..engine.load import name_of
 from ..enginefile.edit import changed
+from ..enginefile.toml_text import name_file
 from ..sizing.remedy import Remedy
 from ..sizing.write import insert_remedy
 from .output import write_file
@@ -20,7 +20,7 @@ def write_fitted(
     Raises:
         BalcliError: the target cannot be written, or the devices cannot be described.
     """
-    new = insert_remedy(text, remedy, name_of(source))
+    new = insert_remedy(text, remedy, name_file(source))
     if speed_rpm is not None:
         new = changed(new, "operation", {"speed": speed_rpm}, "as balanced by balcli")
     write_file(new, target)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple, TypeVar
@@ -11,9 +11,11 @@ from typing import NamedTuple, TypeVar
 import typer
 
 from ..engine.build import Engine
-from ..engine.load import built, name_of, parse, text_of
+from ..engine.load import build_named, parse
+from ..engine.positions import MOMENTS_UNKNOWN
 from ..enginefile.model import EngineFile
 from ..enginefile.suspicious import suspicious
+from ..enginefile.toml_text import name_file, read_bytes
 from ..errors import BalcliError, Exit, legible, say
 
 P = TypeVar("P")
@@ -28,23 +30,35 @@ class Source(NamedTuple):
     engine: Engine
 
 
-def read_engine(path: str, speed_rpm: float | None = None) -> Source:
+def read_engine(
+    path: str, speed_rpm: float | None = None, asked: Collection[str] | None = None
+) -> Source:
     """Read one file (`-`: standard input), with warnings about suspicious values on standard error.
 
     Args:
         speed_rpm: crank speed of the engine instead of the file's.
+        asked: names of quantities that a user asked for.
 
     Raises:
-        BalcliError: all mistakes of the file.
+        BalcliError: all mistakes of the file; a moment that was asked for and is not known.
     """
-    text = text_of(path)
-    model = parse(text, name_of(path))
-    engine = built(model, path)
+    text = read_bytes(path)
+    model = parse(text, name_file(path))
+    engine = build_named(model, path)
+    if not engine.places_known:
+        _tell_unknown(name_file(path), asked or ())
     for warning in suspicious(model):
-        say(f"warning: {name_of(path)}: {warning}")
+        say(f"warning: {name_file(path)}: {warning}")
     return Source(
         text, model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)
     )
+
+
+def _tell_unknown(name: str, asked: Collection[str]) -> None:
+    """Warn that moments are not known; an error where a quantity that needs them was asked for."""
+    if by_name := [quantity for quantity in ("moment", "inner") if quantity in asked]:
+        raise BalcliError(f"{name}: {by_name[0]}: {MOMENTS_UNKNOWN}")
+    say(f"warning: {name}: {MOMENTS_UNKNOWN}")
 
 
 def try_each(paths: Sequence[P], work: Callable[[P], T]) -> tuple[list[T], list[str]]:
@@ -86,7 +100,7 @@ def find_engine_files(paths: Sequence[Path]) -> list[Path]:
 
 def named_by_file(engine: Engine, path: str) -> Engine:
     """The engine, called by its file where it has no name."""
-    return engine if engine.name else replace(engine, name=legible(Path(name_of(path)).stem))
+    return engine if engine.name else replace(engine, name=legible(Path(name_file(path)).stem))
 
 
 def distinct_names(names: Sequence[str], paths: Sequence[str]) -> list[str]:
@@ -94,6 +108,6 @@ def distinct_names(names: Sequence[str], paths: Sequence[str]) -> list[str]:
     stands for several.
     """
     return [
-        name if name and names.count(name) == 1 else legible(name_of(path))
+        name if name and names.count(name) == 1 else legible(name_file(path))
         for name, path in zip(names, paths, strict=True)
     ]

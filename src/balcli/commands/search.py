@@ -73,7 +73,8 @@ def search(
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     form = text_format(output, form)
     require_ending(write, ".toml", "--write")
-    from ..engine.load import built, name_of, parse, text_of
+    from ..engine.load import build_named, parse
+    from ..enginefile.toml_text import name_file, read_bytes
     from ..studies.search.objective import parse_objective
     from ..studies.search.search import search_arrangements
     from ..studies.search.write import write_design
@@ -82,9 +83,9 @@ def search(
         raise typer.BadParameter(
             f'"{require}": only even-firing can be required', param_hint="--require"
         )
-    text, name = text_of(path), name_of(path)
+    text, name = read_bytes(path), name_file(path)
     model = parse(text, name)
-    built(model, name)  # what is wrong with the file itself is told with its name
+    build_named(model, name)  # what is wrong with the file itself is told with its name
     goal = parse_objective(minimise, limit or ())
     found = search_arrangements(model, over, goal, top, bool(require))
     show([found], renderer, form, output)

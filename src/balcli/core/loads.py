@@ -33,8 +33,8 @@ class Loads:
 
     cylinders: Cylinders
     devices: tuple[Device, ...]
-    place: complex
-    z: float
+    place: complex | Complex
+    z: Figure
     phases: Phases
     harmonics: Harmonics
     square: Figure

@@ -1,22 +1,36 @@
-"""Values of cylinders as arrays: one row each, before any axes of variants."""
+"""Figures that may vary, and their values for all cylinders as arrays: one row a cylinder, before
+any axes of variants.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from ..core.phasors import Array, Complex, Figure
 
 
-def column(values: Sequence[Any], rank: int) -> NDArray[Any]:
-    """One row each, shape (len(values), *trailing); scalars get trailing axes of length 1."""
-    rows = np.broadcast_arrays(*(np.asarray(v) for v in values))
-    stacked = np.stack(rows) + 0.0
-    return stacked.reshape(len(values), *stacked.shape[1:] or (1,) * rank)
+def place_in_plane(x: Figure, y: Figure) -> complex | Complex:
+    """x + iy."""
+    return cast("complex | Complex", x + 1j * y)
 
 
-def ranked(values: ArrayLike) -> NDArray[np.float64]:
+def column(values: Sequence[Figure], rank: int) -> Array:
+    """One row for each of the values, shape (len(values), *trailing).
+
+    The values broadcast against each other; plain numbers get `rank` trailing axes of length 1.
+    """
+    if any(isinstance(value, np.ndarray) for value in values):
+        rows: Array = np.stack(np.broadcast_arrays(*values)) + 0.0  # in place: -0.0 becomes 0.0
+    else:
+        rows = np.array(values) + 0.0
+    return rows.reshape(len(values), *rows.shape[1:] or (1,) * rank)
+
+
+def ranked(values: ArrayLike) -> Array:
     """The values to ten digits, any shape, to put them in order by: those that differ by rounding
     alone are equal.
     """
@@ -24,7 +38,7 @@ def ranked(values: ArrayLike) -> NDArray[np.float64]:
     return np.ldexp(np.round(mantissa, 10), exponent)
 
 
-def shared(values: Sequence[Any], rank: int) -> NDArray[Any]:
-    """The same, or a single row where all are equal."""
+def shared_column(values: Sequence[Figure], rank: int) -> Array:
+    """The same, or a single row, shape (1, *trailing), where all values are equal."""
     rows = column(values, rank)
     return rows[:1] if (rows == rows[:1]).all() else rows

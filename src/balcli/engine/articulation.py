@@ -1,19 +1,19 @@
-"""Articulated rods of an engine file: which cylinders hang on which master rod, where their knuckle
-pins are.
+"""Articulated rods: which cylinders hang on which master rod, where their knuckle pins are, and
+what does not fit together in [articulation].
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, cast
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import NamedTuple, cast
 
 import numpy as np
 
 from ..core.cylinders import Cylinders
 from ..core.mechanisms.articulated import Articulated
-from ..core.mechanisms.linkage import STEPS, revolution
+from ..core.mechanisms.linkage import STEPS, Linkage, revolution
 from ..core.mechanisms.rotary import Rotary
-from ..core.phasors import unit
+from ..core.phasors import Array, Figure, unit
 from ..enginefile.fields import counted
 from ..enginefile.model import Articulation, EngineFile
 from ..errors import Problem
@@ -21,39 +21,93 @@ from ..limits import NEAREST_TO_LOCK
 from .arrays import column
 from .layout import Plan
 
-if TYPE_CHECKING:
-    from ..core.mechanisms.articulated import Articulated
+
+class Knuckles(NamedTuple):
+    """Knuckle pins of the articulated cylinders.
+
+    Attributes:
+        ratio: knuckle radius over crank radius.
+        angles_deg: of the knuckle pin, from the master rod's axis, by number of the cylinder.
+        master: number of the cylinder with the master rod, by number of the articulated one.
+    """
+
+    ratio: Figure
+    angles_deg: Mapping[int, Figure]
+    master: Mapping[int, int]
 
 
-def masters(file: EngineFile, layout: Plan) -> dict[int, int]:
+def find_masters(articulation: Articulation | None, plan: Plan) -> dict[int, int]:
     """Number of the cylinder with the master rod, by number of each articulated cylinder; empty
     without the table.
     """
-    if file.articulation is None:
+    if articulation is None:
         return {}
-    chief = {c.throw: c.number for c in layout.cells if c.bank == file.articulation.master - 1}
-    return {
-        c.number: chief[c.throw] for c in layout.cells if chief.get(c.throw, c.number) != c.number
-    }
+    of_throw = {c.throw: c.number for c in plan.cells if c.bank == articulation.master - 1}
+    on_throw = [(c.number, of_throw.get(c.throw, c.number)) for c in plan.cells]
+    return {number: master for number, master in on_throw if number != master}
 
 
-def mistakes(file: EngineFile, layout: Plan) -> Iterator[Problem]:
-    """What does not fit together in [articulation] and the tables that it concerns."""
-    if file.articulation is None:
-        return
-    fault = _no_place(file.articulation.master, layout)
+def build_linkage(
+    knuckles: Knuckles,
+    numbers: Sequence[int],
+    axes_deg: Mapping[int, Figure],
+    on_knuckle: Sequence[Figure],
+    sense: int,
+    rank: int,
+) -> Articulated:
+    """The mechanism of master and articulated rods.
+
+    Args:
+        knuckles: where the rods hang.
+        numbers: cylinder of each row.
+        axes_deg: of each cylinder, from x.
+        on_knuckle: what the lower end of each row's rod weighs, kg.
+        sense: -1 seen from turning cylinders, where all angles are in the mirror (core.rotary).
+        rank: trailing axes, as in `engine.build`.
+    """
+    master = knuckles.master
+    hung = [n in master for n in numbers]
+    pins_deg = column([sense * knuckles.angles_deg.get(n, 0.0) for n in numbers], rank)
+    ratio = column([knuckles.ratio if here else 0.0 for here in hung], rank)
+    leads_deg = [sense * (axes_deg[n] - axes_deg[master.get(n, n)]) for n in numbers]
+    return Articulated(
+        mass=column([m if here else 0.0 for here, m in zip(hung, on_knuckle, strict=True)], rank),
+        master=np.array([numbers.index(master.get(n, n)) for n in numbers]),
+        knuckle=ratio * unit(pins_deg),
+        lead_deg=column(leads_deg, rank),
+    )
+
+
+# ------------------------------------------------------------------ what does not fit together
+def check_articulation(
+    articulation: Articulation,
+    plan: Plan,
+    angles_deg: Sequence[Figure] | None,
+    splay_deg: Figure,
+    with_own_throw: Collection[int],
+) -> Iterator[Problem]:
+    """What contradicts [articulation].
+
+    Args:
+        articulation: the table; its knuckle angles are in `angles_deg`.
+        plan: the cylinders.
+        splay_deg: lead of split pins.
+        with_own_throw: cylinders that have a crank pin of their own.
+    """
+    fault = _find_no_place(articulation.master, plan)
     if fault:
         yield fault
         return
-    yield from _wrong_angles(file.articulation, len(layout.banks))
-    if np.any(np.asarray(file.crank.splay) != 0):
+    if angles_deg is not None:
+        yield from _check_angles(angles_deg, articulation.master - 1, plan.banks)
+    if np.any(np.asarray(splay_deg) != 0):
         yield Problem(
             "crank.splay",
             "articulated rods hang on the master rod and have no crank pins to split: "
             "leave splay out, or [articulation]",
         )
-    for number in masters(file, layout):
-        if (own := file.cylinder.get(number)) is not None and own.throw is not None:
+    for number in find_masters(articulation, plan):
+        if number in with_own_throw:
             yield Problem(
                 f"cylinder.{number}.throw",
                 f"cylinder {number} has an articulated rod, which hangs on the "
@@ -61,19 +115,17 @@ def mistakes(file: EngineFile, layout: Plan) -> Iterator[Problem]:
             )
 
 
-def _no_place(master: int, layout: Plan) -> Problem | None:
-    banks = len(layout.banks)
+def _find_no_place(master: int, plan: Plan) -> Problem | None:
+    """Why there is no throw for a master rod and others, or no such bank."""
+    banks = plan.banks
+    needs = "needs a throw that carries the rods of several banks; this engine has"
     if banks < 2:
+        return Problem("articulation", f"{needs} 1 bank: give bank_angle, banks or radial")
+    if plan.rods_on_throw < banks:
         return Problem(
             "articulation",
-            "needs a throw that carries the rods of several banks; this engine has 1 bank: "
-            "give bank_angle, banks or radial",
-        )
-    if layout.rods_on_throw < banks:
-        return Problem(
-            "articulation",
-            f"needs a throw that carries the rods of several banks; this engine has {banks} "
-            'banks with rods = "alternating", one rod a throw: give rods = "shared"',
+            f'{needs} {banks} banks with rods = "alternating", one rod a throw: give rods = '
+            '"shared"',
         )
     if master > banks:
         return Problem(
@@ -82,92 +134,63 @@ def _no_place(master: int, layout: Plan) -> Problem | None:
     return None
 
 
-def _wrong_angles(table: Articulation, banks: int) -> Iterator[Problem]:
-    path, angles, own = "articulation.knuckle_angles", table.knuckle_angles, table.master - 1
-    if angles is not None and len(angles) != banks:
+def _check_angles(angles_deg: Sequence[Figure], master: int, banks: int) -> Iterator[Problem]:
+    path = "articulation.knuckle_angles"
+    if len(angles_deg) != banks:
         yield Problem(
             path,
-            f"has {counted(len(angles), 'angle')} for {counted(banks, 'bank')}: give one for "
+            f"has {counted(len(angles_deg), 'angle')} for {counted(banks, 'bank')}: give one for "
             "each, the master's own is 0",
         )
-    elif angles is not None and np.any(np.asarray(angles[own]) != 0):
-        angle = max(np.ravel(angles[own]), key=abs)
+    elif np.any(np.asarray(angles_deg[master]) != 0):
+        angle = max(np.ravel(angles_deg[master]), key=abs)
         yield Problem(
-            path, f"has {angle:g} for bank {own + 1}, which carries the master rod: its own is 0"
+            path, f"has {angle:g} for bank {master + 1}, which carries the master rod: its own is 0"
         )
 
 
-def linkage(
-    file: EngineFile,
-    layout: Plan,
-    numbers: Sequence[int],
-    axis: Mapping[int, Any],
-    on_knuckle: Sequence[Any],
-    rank: int = 0,
-) -> Articulated | None:
-    """The mechanism, with a row for each of `numbers`; `on_knuckle`: what the lower end of each rod
-    weighs, kg; `rank` as in `engine.build`.
+def check_knuckles(
+    model: EngineFile, cylinders: Cylinders, numbers: Sequence[int]
+) -> Iterator[Problem]:
+    """Articulated cylinders whose rod cannot follow its knuckle pin all the way round.
+
+    Args:
+        model: the file of an engine with articulated rods, for the place of the figure.
+        cylinders, numbers: of that engine; of variants the worst counts.
     """
-    table = file.articulation
-    if table is None:
-        return None
-    chief = masters(file, layout)
-    sense = (
-        -1 if file.layout.rotary else 1
-    )  # seen from turning cylinders, all angles are in the mirror (core.rotary)
-    bank = {c.number: c.bank for c in layout.cells}
-
-    def pin(n: int) -> Any:
-        if n not in chief:
-            return 0j
-        angle = table.knuckle_angles[bank[n]] if table.knuckle_angles else axis[n] - axis[chief[n]]
-        return table.knuckle_radius / (file.crank.stroke / 2) * unit(sense * angle)
-
-    return Articulated(
-        mass=column(
-            [m if n in chief else 0.0 for n, m in zip(numbers, on_knuckle, strict=True)], rank
-        ),
-        master=np.array([numbers.index(chief.get(n, n)) for n in numbers]),
-        knuckle=column([pin(n) for n in numbers], rank),
-        lead_deg=column([sense * (axis[n] - axis[chief.get(n, n)]) for n in numbers], rank),
-    )
-
-
-def locked(file: EngineFile, c: Cylinders, numbers: Sequence[int]) -> Iterator[Problem]:
-    """Articulated cylinders whose rod cannot follow its knuckle pin all the way round."""
-    if file.articulation is None or c.linkage is None:
-        return
-    linkage = c.linkage
+    linkage = cast(Linkage, cylinders.linkage)
     hung = cast(Articulated, linkage.hung if isinstance(linkage, Rotary) else linkage)
     with np.errstate(invalid="ignore"):  # beyond 1 there is no angle
-        leans = (
-            np.abs(linkage.sample(lambda motion: motion.lean, revolution(STEPS), c.lam, c.eps))
-            .reshape(len(numbers), -1, STEPS)
-            .max(axis=1)
+        leans = np.abs(
+            linkage.sample(
+                lambda motion: motion.lean, revolution(STEPS), cylinders.lam, cylinders.eps
+            )
         )
-    turned = c.angle_deg.reshape(len(numbers), -1)[:, 0]
+    leans = leans.reshape(len(numbers), -1, STEPS).max(axis=1)
+    turned = cylinders.angle_deg.reshape(len(numbers), -1)[:, 0]
     for row, number in enumerate(numbers):
         worst = int(leans[row].argmax())
-        lean = leans[row, worst] + _rise(leans[row], worst)
+        lean = leans[row, worst] + _rise_above(leans[row], worst)
         if hung.master[row] != row and lean > 1 - NEAREST_TO_LOCK:
-            yield _lock(file, number, lean, (360 / STEPS * worst - turned[row]) % 360)
+            yield _lock(model, number, lean, (360 / STEPS * worst - turned[row]) % 360)
 
 
-def _lock(file: EngineFile, number: int, lean: float, crank: float) -> Problem:
-    own = file.cylinder.get(number)
+def _lock(model: EngineFile, number: int, lean: float, crank_deg: float) -> Problem:
+    own = model.cylinder.get(number)
     general = own is None or own.rod_length is None is own.rod_ratio
     return Problem(
         "articulation.rod.length" if general else f"cylinder.{number}.rod_length",
-        f"the crank cannot turn: at crank angle {crank:.4g} deg the knuckle pin of cylinder "
-        f"{number} stands "
-        f"{lean:.9g} rod lengths beside the path of its piston pin; at most 1 - "
-        f"{NEAREST_TO_LOCK:g} is "
-        "allowed: make the articulated rod longer or the knuckle radius smaller",
+        f"the crank cannot turn: at crank angle {crank_deg:.4g} deg the knuckle pin of cylinder "
+        f"{number} stands {lean:.9g} rod lengths beside the path of its piston pin; at most 1 - "
+        f"{NEAREST_TO_LOCK:g} is allowed: make the articulated rod longer or the knuckle radius "
+        "smaller",
     )
 
 
-def _rise(values: Any, top: int) -> float:
-    """How far a parabola through a sampled maximum and its neighbours rises above it."""
+def _rise_above(values: Array, top: int) -> float:
+    """How far a parabola through a sampled maximum (at index `top`) and its neighbours rises above
+    it.
+    """
     before, at, after = values[top - 1], values[top], values[(top + 1) % len(values)]
     bend = 2 * at - before - after
     return float((after - before) ** 2 / (8 * bend)) if bend > 0 else 0.0

@@ -4,64 +4,90 @@ radius.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from typing import Any
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from ..core.cylinders import Device
-from ..core.phasors import unit
-from ..enginefile.model import Counterweight, Shaft, Slider
+from ..core.phasors import Complex, Figure, unit
+from ..enginefile.model import Counterweight, EngineFile, Shaft, Slider
+from .arrays import place_in_plane
+from .figures import AS_GIVEN, Figures, or_nothing
 
 
-def devices(
-    tables: Iterable[Counterweight | Shaft | Slider], first_axis_deg: Any
-) -> Iterator[Device]:
-    """What the tables of a file describe; a counterweight's angle counts from cylinder 1's pin,
-    others from x.
+def build_devices(model: EngineFile, figures: Figures, first_axis_deg: Figure) -> Iterator[Device]:
+    """The devices of a file: its counterweights, shafts and sliders, in this order."""
+    for path, table in model.tables():
+        if isinstance(table, (Counterweight, Shaft, Slider)):
+            yield build_device(table, first_axis_deg, figures, path)
+
+
+def build_device(
+    table: Counterweight | Shaft | Slider,
+    first_axis_deg: Figure,
+    figures: Figures = AS_GIVEN,
+    path: str = "",
+) -> Device:
+    """One device, SI.
+
+    Args:
+        table: what an engine file says, or would say, of it.
+        first_axis_deg: from which the angle of a counterweight counts: where cylinder 1's pin
+            points at crank angle 0. Those of others count from x.
+        figures, path: what varies, and the name of the table.
     """
-    for table in tables:
-        match table:
-            case Counterweight():
-                yield _counterweight(table, first_axis_deg)
-            case Shaft():
-                yield _shaft(table)
-            case Slider():
-                yield _slider(table)
+    match table:
+        case Counterweight():
+            return _counterweight(figures, path, table, first_axis_deg)
+        case Shaft():
+            return _shaft(figures, path, table)
+        case Slider():
+            return _slider(figures, path, table)
 
 
-def _counterweight(d: Counterweight, first_axis_deg: Any) -> Device:
-    return Device(1, _unbalance(d) * unit(d.angle + first_axis_deg), 0j, 0j, d.position / 1e3, 0)
+def _counterweight(
+    figures: Figures, path: str, weight: Counterweight, first_axis_deg: Figure
+) -> Device:
+    angle = figures.take(f"{path}.angle", weight.angle)
+    forward = _unbalance(figures, path, weight) * unit(angle + first_axis_deg)
+    return Device(1, forward, 0j, 0j, _position(figures, path, weight), 0)
 
 
-def _shaft(d: Shaft) -> Device:
-    turning = _unbalance(d) * unit(d.angle)
-    forward, backward = (turning, 0j) if d.ratio > 0 else (0j, turning)
-    return Device(abs(d.ratio), forward, backward, _place(d.at), d.position / 1e3, 1)
+def _shaft(figures: Figures, path: str, shaft: Shaft) -> Device:
+    angle = figures.take(f"{path}.angle", shaft.angle)
+    turning = _unbalance(figures, path, shaft) * unit(angle)
+    forward, backward = (turning, 0j) if shaft.ratio > 0 else (0j, turning)
+    place, z = _place(figures, path, shaft.at), _position(figures, path, shaft)
+    return Device(abs(shaft.ratio), forward, backward, place, z, 1)
 
 
-def _slider(d: Slider) -> Device:
+def _slider(figures: Figures, path: str, slider: Slider) -> Device:
     """Its displacement `U cos(n theta + angle)` is two vectors of half the size, turning against
     each other.
     """
-    half, direction, phase = _unbalance(d) / 2, unit(d.direction), unit(d.angle)
-    return Device(
-        d.order,
-        half * direction * phase,
-        half * direction * np.conj(phase),
-        _place(d.at),
-        d.position / 1e3,
-        2,
-    )
+    half = _unbalance(figures, path, slider) / 2
+    direction = unit(figures.take(f"{path}.direction", slider.direction))
+    phase = unit(figures.take(f"{path}.angle", slider.angle))
+    forward, backward = half * direction * phase, half * direction * np.conj(phase)
+    place, z = _place(figures, path, slider.at), _position(figures, path, slider)
+    return Device(slider.order, forward, backward, place, z, 2)
 
 
-def _unbalance(d: Counterweight | Shaft | Slider) -> Any:
-    """kg m"""
-    if d.unbalance is not None:
-        return d.unbalance / 1e6
-    mass, radius = (0.0 if figure is None else figure for figure in (d.mass, d.radius))
-    return mass * radius / 1e3
+def _unbalance(figures: Figures, path: str, device: Counterweight | Shaft | Slider) -> Figure:
+    """Mass x radius, kg m."""
+    unbalance = figures.take_optional(f"{path}.unbalance", device.unbalance)
+    if unbalance is not None:
+        return unbalance / 1e6
+    mass = or_nothing(figures.take_optional(f"{path}.mass", device.mass))
+    return mass * or_nothing(figures.take_optional(f"{path}.radius", device.radius)) / 1e3
 
 
-def _place(at: Sequence[Any]) -> Any:
-    return at[0] / 1e3 + 1j * (at[1] / 1e3)
+def _place(figures: Figures, path: str, at: Sequence[float]) -> complex | Complex:
+    """x + iy of the device's axis, m."""
+    x, y = figures.take_each(f"{path}.at", at)
+    return place_in_plane(x / 1e3, y / 1e3)
+
+
+def _position(figures: Figures, path: str, device: Counterweight | Shaft | Slider) -> Figure:
+    """z, m."""
+    return figures.take(f"{path}.position", device.position) / 1e3

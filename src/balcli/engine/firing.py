@@ -2,139 +2,134 @@
 
 Cylinder i is at top dead centre when its crank angle is `tau_i`, `sin tau_i = e_i / (r + l_i)`;
 firing at `f_i` after cylinder 1 it needs its crank pin at `g_i - g_1 + tau_i - tau_1 - f_i`. Angles
-in degrees; they may be arrays of variants.
+in degrees; they may be arrays of variants. By number of the cylinder: `fires` when each fires,
+`pins` where its crank pin stands, `tops` where the pin stands when it is at top dead centre, `g_i +
+tau_i`. `sense` is -1 where the cylinders turn and the pins stand still, and `tops` then `g_i -
+tau_i`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import accumulate
-from typing import Any
 
 import numpy as np
 
-from ..errors import Problem
+from ..core.phasors import Array, Figure
+from ..errors import InputError, Problem
 
-TOLERANCE = (
-    1.0  # deg; real files round offsets, angles and intervals, real mistakes are tens of degrees
-)
+# deg; real files round offsets, angles and intervals, real mistakes are tens of degrees
+TOLERANCE_DEG = 1.0
 
 
-def instants(order: Sequence[int], intervals: Sequence[Any] | None, cycle: float) -> dict[int, Any]:
-    """Angle at which each cylinder fires, after the first of the order; evenly if no intervals are
-    given.
+def find_instants(
+    order: Sequence[int], intervals: Sequence[Figure] | None, cycle: float
+) -> dict[int, Figure]:
+    """Angle at which each cylinder of a firing order fires, after the first; evenly over the cycle
+    if no intervals (from each firing to the next) are given.
     """
-    angles = (
-        accumulate(intervals, initial=0.0)
-        if intervals
-        else (cycle * k / len(order) for k in range(len(order)))
-    )
-    return dict(zip(order, angles, strict=False))
+    if intervals is None:
+        return {number: cycle * k / len(order) for k, number in enumerate(order)}
+    return dict(zip(order, accumulate(intervals, initial=0.0), strict=False))
 
 
-def pins(fires: Mapping[int, Any], top: Mapping[int, Any], sense: int = 1) -> dict[int, Any]:
-    """Crank pin that each cylinder needs, after cylinder 1's; `top` is `g_i + tau_i` by cylinder.
-
-    `sense` is -1 where the cylinders turn and the pins stand still, and `top` then `g_i - tau_i`.
-    """
+def find_pins(
+    fires: Mapping[int, Figure], tops: Mapping[int, Figure], sense: int
+) -> dict[int, Array]:
+    """Crank pin that each cylinder needs, after cylinder 1's, in [0, 360)."""
     return {
-        i: np.remainder((top[i] - top[1]) - sense * (f - fires[1]), 360.0) for i, f in fires.items()
+        i: np.remainder((tops[i] - tops[1]) - sense * (f - fires[1]), 360.0)
+        for i, f in fires.items()
     }
 
 
-def from_pins(
+def find_intervals(
     order: Sequence[int],
-    pin: Mapping[int, Any],
-    top: Mapping[int, Any],
+    pins: Mapping[int, float],
+    tops: Mapping[int, float],
     cycle: float,
     sense: int = 1,
-) -> list[float] | Problem:
+) -> list[float]:
     """Intervals of a firing order on a given crank: from each firing to the next, the shortest that
-    the pins allow.
+    the pins (after cylinder 1's) allow.
 
     Turns that are left over (an even parallel twin fires after 360 and 360 degrees, its pins only
-    say 0) go to the intervals that become the least uneven by them, of equal ones to the last. A
-    Problem if the order takes more than a cycle.
+    say 0) go to the intervals that become the least uneven by them, of equal ones to the last.
+
+    Raises:
+        InputError: the order takes more than a cycle.
     """
-    ready = {
-        i: float(np.remainder(sense * ((top[i] - top[1]) - pin[i]), 360.0)) for i in order
-    }  # at top dead centre, modulo a turn
+    ready = {  # when each is at top dead centre, modulo a turn
+        i: float(np.remainder(sense * ((tops[i] - tops[1]) - pins[i]), 360.0)) for i in order
+    }
     following = [*order[1:], order[0]]
-    intervals = [_positive(ready[b] - ready[a]) for a, b in zip(order, following, strict=True)]
+    intervals = [_to_whole_turn(ready[b] - ready[a]) for a, b in zip(order, following, strict=True)]
     total = round(sum(intervals) / 360) * 360
     if total > cycle:
-        return _impossible(order, ready, total, cycle)
+        raise InputError([_impossible(order, ready, total, cycle)])
     for _ in range(int(cycle - total) // 360):
         shortest = min(reversed(range(len(intervals))), key=intervals.__getitem__)
         intervals[shortest] += 360.0
     return intervals
 
 
-def disagreement(
-    fires: Mapping[int, Any],
-    pin: Mapping[int, Any],
-    top: Mapping[int, Any],
+def check_firing(
+    fires: Mapping[int, Figure],
+    pins: Mapping[int, Figure],
+    tops: Mapping[int, Figure],
     sense: int = 1,
     *,
     throws_given: bool = True,
-) -> Problem | None:
+) -> Iterator[Problem]:
     """The first cylinder that is not at top dead centre when it fires; pins are counted from
     cylinder 1's.
 
     Without `throws_given` the pins follow from the firing order, and two rods on one throw ask for
     different ones.
     """
-    wanted = pins(fires, top, sense)
-    remedy = (
-        "change crank.throws, crank.splay, firing_order or firing_intervals, or leave "
-        "crank.throws out"
-        if throws_given
-        else "change crank.splay, firing_order or firing_intervals, or give crank.throws and no "
-        "firing_order"
-    )
-    for i in fires:
-        off = float(np.max(np.abs(_centred(pin[i] - wanted[i]))))
-        if off > TOLERANCE:
-            return Problem(
+    remedy = "change crank.splay, firing_order or firing_intervals, or give crank.throws and no "
+    remedy += "firing_order"
+    if throws_given:
+        remedy = "change crank.throws, crank.splay, firing_order or firing_intervals, or leave "
+        remedy += "crank.throws out"
+    for i, wanted in find_pins(fires, tops, sense).items():
+        off = float(np.max(np.abs(_centred(pins[i] - wanted))))
+        if off > TOLERANCE_DEG:
+            yield Problem(
                 "layout.firing_order",
                 f"cylinder {i} is not at top dead centre when it fires: its crank pin stands "
-                f"{float(np.ravel(pin[i])[0]) % 360:.6g} deg ahead of cylinder 1's, and would "
-                "have to stand at "
-                f"{float(np.ravel(wanted[i])[0]):.6g} deg (allowed difference {TOLERANCE:g} deg); "
-                f"{remedy}",
+                f"{float(np.ravel(pins[i])[0]) % 360:.6g} deg ahead of cylinder 1's, and would "
+                f"have to stand at {float(np.ravel(wanted)[0]):.6g} deg (allowed difference "
+                f"{TOLERANCE_DEG:g} deg); {remedy}",
             )
-    return None
+            return
 
 
 def _impossible(
     order: Sequence[int], ready: Mapping[int, float], total: float, cycle: float
 ) -> Problem:
+    """A firing order that takes longer than a cycle, and the first cylinder that would be late if
+    it fired evenly.
+    """
     interval = cycle / len(order)
-    culprit = next(
-        (
-            i
-            for k, i in enumerate(order)
-            if abs(_centred(ready[i] - ready[order[0]] - k * interval)) > TOLERANCE
-        ),
-        order[-1],
-    )
+    off = np.array([ready[i] - ready[order[0]] - k * interval for k, i in enumerate(order)])
+    late = np.flatnonzero(np.abs(_centred(off)) > TOLERANCE_DEG)
+    culprit = order[late[0] if len(late) else -1]
     return Problem(
         "layout.firing_order",
         f"{'-'.join(map(str, order))} would take {total:g} deg with these throws, a cycle has "
-        f"{cycle:g}; "
-        f"firing evenly, every {interval:g} deg, cylinder {culprit} is the first that is not at "
-        "top dead centre when it fires "
-        f"(allowed difference {TOLERANCE:g} deg): change firing_order or crank.throws, or leave "
-        "crank.throws out",
+        f"{cycle:g}; firing evenly, every {interval:g} deg, cylinder {culprit} is the first that "
+        f"is not at top dead centre when it fires (allowed difference {TOLERANCE_DEG:g} deg): "
+        "change firing_order or crank.throws, or leave crank.throws out",
     )
 
 
-def _positive(angle: float) -> float:
+def _to_whole_turn(angle: float) -> float:
     """The same angle in (0, 360]; what is within the tolerance of 0 is a whole turn."""
     turned = angle % 360
-    return turned if turned > TOLERANCE else turned + 360
+    return turned if turned > TOLERANCE_DEG else turned + 360
 
 
-def _centred(angle: Any) -> Any:
+def _centred(angle: Figure) -> Figure:
     """The same angle in [-180, 180)."""
     return np.remainder(angle + 180.0, 360.0) - 180.0

@@ -1,18 +1,17 @@
-"""Which cylinders an engine has: banks x throws -> numbered cylinders, and their crank pins.
-
-Angles are degrees and positions mm, as in the file; any of them may be an array of variants.
-"""
+"""Which cylinders an engine has: banks x throws -> numbered cylinders."""
 
 from __future__ import annotations
 
 from collections import Counter
-from itertools import count
-from typing import Any, NamedTuple
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
+from ..core.phasors import Figure
 from ..enginefile.fields import counted
 from ..enginefile.model import Crank, Layout
 from ..errors import InputError, Problem
 from ..limits import MOST_PARTS
+from .figures import Figures
 
 TURN = 360.0
 
@@ -26,9 +25,16 @@ class Cell(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """All cylinders, sorted by bank and throw."""
+    """All cylinders.
 
-    banks: tuple[Any, ...]  # angle of each bank, deg
+    Attributes:
+        banks: how many there are.
+        throws: how many the crank has.
+        cells: the cylinders, sorted by bank and throw.
+        rods_on_throw: how many each throw carries.
+    """
+
+    banks: int
     throws: int
     cells: tuple[Cell, ...]
     rods_on_throw: int
@@ -38,141 +44,138 @@ class Plan(NamedTuple):
         return tuple(cell.number for cell in self.cells)
 
 
-def plan(crank: Crank, layout: Layout) -> Plan:
+def plan_cylinders(crank: Crank, layout: Layout) -> Plan:
     """The cylinders of an engine.
 
     Raises:
         InputError: all of: positions, numbering or firing order that do not fit the throws and
         banks.
     """
-    banks = bank_angles(layout)
-    shared = layout.rods == "shared" or len(banks) == 1
-    throws, problems = _throws(crank, layout, len(banks) if shared else 1)
-    problems = problems or _too_many(throws, len(banks), shared)
-    if problems:  # all else counts throws
-        raise InputError(problems)
-    places = [
-        (b, t) for b in range(len(banks)) for t in range(throws) if shared or t % len(banks) == b
-    ]
-    numbers, misnumbered = _numbers(layout, places, len(banks))
-    problems += misnumbered + _positions(crank, throws)
-    if not shared and throws < len(banks):
+    banks = count_banks(layout)
+    shared = layout.rods == "shared" or banks == 1
+    throws = _count_throws(crank, layout, banks if shared else 1)
+    _refuse_too_many(throws, banks, shared)
+    all_places = ((bank, throw) for bank in range(banks) for throw in range(throws))
+    places = [(bank, throw) for bank, throw in all_places if shared or throw % banks == bank]
+    numbers, problems = _number_cylinders(layout, places, banks)
+    problems += _check_positions(crank, throws)
+    if not shared and throws < banks:
         problems.append(
             Problem(
                 "layout.rods",
-                f'"alternating" gives every throw one rod, but there are {len(banks)} banks and '
-                "only "
+                f'"alternating" gives every throw one rod, but there are {banks} banks and only '
                 f'{counted(throws, "throw")}: give more throws, or "shared"',
             )
         )
-    problems += _firing(layout, sorted(numbers))
+    problems += _check_firing_order(layout, sorted(numbers))
     if problems:
         raise InputError(problems)
-    cells = tuple(Cell(b, t, number) for (b, t), number in zip(places, numbers, strict=True))
-    return Plan(banks, throws, cells, len(banks) if shared else 1)
+    cells = tuple(Cell(*place, number) for place, number in zip(places, numbers, strict=True))
+    return Plan(banks, throws, cells, banks if shared else 1)
 
 
-def bank_angles(layout: Layout) -> tuple[Any, ...]:
-    """Angle of each bank from x: a vee lies symmetrical to x, a radial begins on it."""
+def count_banks(layout: Layout) -> int:
+    """How many banks there are."""
     if layout.bank_angle is not None:
-        return -layout.bank_angle / 2, layout.bank_angle / 2
+        return 2
+    return layout.radial or len(layout.banks or (0.0,))
+
+
+def bank_angles(layout: Layout, figures: Figures) -> tuple[Figure, ...]:
+    """Angle of each bank from x, deg: a vee lies symmetrical to x, a radial begins on it."""
+    angle = figures.take_optional("layout.bank_angle", layout.bank_angle)
+    if angle is not None:
+        return -angle / 2, angle / 2
     if layout.radial is not None:
         return tuple(TURN * k / layout.radial for k in range(layout.radial))
-    return tuple(layout.banks) if layout.banks is not None else (0.0,)
+    return figures.take_each("layout.banks", layout.banks or (0.0,))
 
 
-def cycle(layout: Layout) -> float:
+def cycle_deg(layout: Layout) -> float:
     """Degrees from one firing of a cylinder to its next."""
     return TURN * layout.strokes / 2
 
 
-def _throws(crank: Crank, layout: Layout, rods: int) -> tuple[int, list[Problem]]:
-    """Number of throws: those given, or as many as the firing order needs."""
+def _count_throws(crank: Crank, layout: Layout, rods: int) -> int:
+    """Number of throws, with so many rods on each: those given, or as many as the firing order
+    needs.
+    """
     if crank.throws is not None:
-        return len(crank.throws), []
+        return len(crank.throws)
     cylinders = len(layout.firing_order or ())
     if cylinders % rods:
-        return 1, [
-            Problem(
-                "layout.firing_order",
-                f"has {cylinders} cylinders, which {rods} banks cannot share evenly: "
-                f"give crank.throws, or a multiple of {rods} cylinders",
-            )
-        ]
-    return max(cylinders // rods, 1), []
+        message = (
+            f"has {cylinders} cylinders, which {rods} banks cannot share evenly: "
+            f"give crank.throws, or a multiple of {rods} cylinders"
+        )
+        raise InputError([Problem("layout.firing_order", message)])
+    return max(cylinders // rods, 1)
 
 
-def _too_many(throws: int, banks: int, shared: bool) -> list[Problem]:
+def _refuse_too_many(throws: int, banks: int, shared: bool) -> None:
     """Banks x throws of a short file can be more cylinders than there is memory for."""
     if max(banks, throws, throws * banks * shared) <= MOST_PARTS:
-        return []
-    return [
-        Problem(
-            "layout" if banks > 1 else "crank.throws",
-            f"{counted(banks, 'bank')} on {counted(throws, 'throw')} are too many; "
-            f"no engine has more than {MOST_PARTS} cylinders",
-        )
-    ]
+        return
+    message = (
+        f"{counted(banks, 'bank')} on {counted(throws, 'throw')} are too many; "
+        f"no engine has more than {MOST_PARTS} cylinders"
+    )
+    raise InputError([Problem("layout" if banks > 1 else "crank.throws", message)])
 
 
-def _positions(crank: Crank, throws: int) -> list[Problem]:
-    if crank.positions is None or len(crank.positions) == throws:
-        return []
-    return [
-        Problem(
+def _check_positions(crank: Crank, throws: int) -> Iterator[Problem]:
+    if crank.positions is not None and len(crank.positions) != throws:
+        yield Problem(
             "crank.positions",
             f"has {counted(len(crank.positions), 'value')} for {counted(throws, 'throw')}: "
             "give one position a throw",
         )
-    ]
 
 
-def _numbers(
-    layout: Layout, places: list[tuple[int, int]], banks: int
+def _number_cylinders(
+    layout: Layout, places: Sequence[tuple[int, int]], banks: int
 ) -> tuple[list[int], list[Problem]]:
-    """Number of the cylinder at each place, as given per bank or counted through."""
-    default = [number for number, _ in zip(count(1), places, strict=False)]
+    """Number of the cylinder at each place (bank, throw), as given for each bank or counted
+    through; and what is wrong with those given.
+    """
+    default = list(range(1, len(places) + 1))
     if layout.numbering is None:
         return default, []
-    sizes = [sum(b == bank for b, _ in places) for bank in range(banks)]
-    found = [len(row) for row in layout.numbering]
-    if found != sizes:
-        return default, [
-            Problem(
-                "layout.numbering",
-                f"has rows of {_words(found)}, but the banks have {_words(sizes)} cylinders: "
-                "give one row a bank, from the free end to the flywheel end",
-            )
-        ]
+    on_bank = Counter(bank for bank, _ in places)
+    sizes = [on_bank[bank] for bank in range(banks)]
+    given = [len(row) for row in layout.numbering]
+    if given != sizes:
+        message = (
+            f"has rows of {_join(given)}, but the banks have {_join(sizes)} cylinders: "
+            "give one row a bank, from the free end to the flywheel end"
+        )
+        return default, [Problem("layout.numbering", message)]
     numbers = [number for row in layout.numbering for number in row]
     if sorted(numbers) != default:
-        return default, [Problem("layout.numbering", _not_once(numbers, default))]
+        return default, [Problem("layout.numbering", _describe_not_once(numbers, default))]
     return numbers, []
 
 
-def _firing(layout: Layout, numbers: list[int]) -> list[Problem]:
-    if layout.firing_order is None or sorted(layout.firing_order) == numbers:
-        return []
-    return [Problem("layout.firing_order", _not_once(list(layout.firing_order), numbers))]
+def _check_firing_order(layout: Layout, numbers: Sequence[int]) -> Iterator[Problem]:
+    order = layout.firing_order
+    if order is not None and sorted(order) != numbers:
+        yield Problem("layout.firing_order", _describe_not_once(order, numbers))
 
 
-def _not_once(found: list[int], wanted: list[int]) -> str:
-    """Which numbers are missing, doubled or unknown."""
-    times = Counter(found)
-    parts = [
-        f"cylinder {n} stands {times[n]} times"
-        for n in sorted(times)
-        if times[n] > 1 and n in wanted
-    ]
+def _describe_not_once(given: Sequence[int], wanted: Sequence[int]) -> str:
+    """Which of the numbers wanted are missing or doubled, and which are unknown."""
+    times = Counter(given)
+    doubled = [n for n in sorted(times) if times[n] > 1 and n in wanted]
+    parts = [f"cylinder {n} stands {times[n]} times" for n in doubled]
     parts += [f"there is no cylinder {n}" for n in sorted(times) if n not in wanted]
-    if missing := [n for n in wanted if n not in times]:
-        parts.append(
-            f"cylinder {_words(missing)} is missing"
-            if len(missing) == 1
-            else f"cylinders {_words(missing)} are missing"
-        )
+    missing = [n for n in wanted if n not in times]
+    if len(missing) == 1:
+        parts.append(f"cylinder {missing[0]} is missing")
+    elif missing:
+        parts.append(f"cylinders {_join(missing)} are missing")
     return f"{', '.join(parts)}: each of the cylinders 1 to {len(wanted)} must stand once"
 
 
-def _words(numbers: list[int]) -> str:
+def _join(numbers: Sequence[int]) -> str:
+    """`1 and 2`, `1, 2, 3`."""
     return " and ".join(map(str, numbers)) if len(numbers) < 3 else ", ".join(map(str, numbers))

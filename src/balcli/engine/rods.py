@@ -1,189 +1,157 @@
-"""Pistons and rods of an engine file: masses, lengths and moments of inertia of one cylinder, SI
-(docs/theory.md).
+"""Piston and rod of one cylinder: masses, lengths and moment of inertia from what a file says of
+them (docs/theory.md).
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
-from ..enginefile.model import ArticulatedRod, EngineFile, Rod
+from ..core.phasors import Figure
+from ..enginefile.model import describe_quick_period
 from ..enginefile.units import STANDARD_GRAVITY
 from ..errors import Problem
 from ..limits import NEAREST_TO_LOCK
+from .figures import RodFigures, Swing, or_nothing
 
 ENDS = ("small_end", "big_end")
-_GROUPS = (
-    ({"length"}, {"ratio"}),
-    ({"mass", "cg"}, {"small_end", "big_end"}),
-    ({"inertia"}, {"pendulum"}),
-)
 
 
-class Parts(NamedTuple):
-    """Piston and rod of one cylinder, SI: `spin` is the rod's moment of inertia about its centre of
-    mass, `couple` is H.
+class RunningGear(NamedTuple):
+    """Piston and rod of one cylinder, SI.
+
+    Attributes:
+        length: of the rod, m.
+        offset: of the path of the piston pin, m.
+        piston: mass, kg.
+        small_end, big_end: the rod as two masses at its ends, kg.
+        spin: its moment of inertia about its centre of mass, kg m2.
+        couple: `H`, what the two masses have more than that, kg m2.
     """
 
-    length: Any
-    offset: Any
-    piston: Any
-    small_end: Any
-    big_end: Any
-    spin: Any
-    couple: Any
+    length: Figure
+    offset: Figure
+    piston: Figure
+    small_end: Figure
+    big_end: Figure
+    spin: Figure
+    couple: Figure
 
-    def top_deg(self, radius: Any) -> Any:
-        """Crank angle of top dead centre."""
+    def top_deg(self, radius: Figure) -> Figure:
+        """Crank angle of top dead centre, from the cylinder's axis."""
         return np.degrees(np.arcsin(self.offset / (radius + self.length)))
 
 
-def rod_of(file: EngineFile, number: int, articulated: bool) -> Parts:
-    """Piston and rod of a cylinder: the engine's, with what its own table says otherwise
-    (docs/theory.md); an end of which nothing is said, a mistake, counts as weightless here.
+def weigh_rod(
+    rod: RodFigures, length: Figure, offset: Figure = 0.0, piston: Figure = 0.0
+) -> RunningGear:
+    """A rod of this length (m), with its piston (kg) on a path at this offset (m).
+
+    An end of which nothing is said beside the other, a mistake, counts as weightless here.
     """
-    figures = _figures(file, number, articulated)
-    length = (
-        figures["length"] / 1e3
-        if "length" in figures
-        else file.crank.stroke / 2e3 / figures["ratio"]
-    )
-    if figures.keys() & ENDS:
-        small, big = (figures.get(end, 0.0) for end in ENDS)
+    if rod.small_end is not None or rod.big_end is not None:
+        small, big = or_nothing(rod.small_end), or_nothing(rod.big_end)
     else:
-        mass, from_big_end = figures.get("mass", 0.0), figures.get("cg", 0.0) / 1e3
+        mass, from_big_end = or_nothing(rod.mass), or_nothing(rod.cg)
         small, big = mass * (from_big_end / length), mass * ((length - from_big_end) / length)
     whole = small + big
     share = small / np.where(whole == 0, 1.0, whole)  # s_b / l
-    if "inertia" in figures:
-        spin = figures["inertia"] / 1e6
-    elif "pendulum" in figures:
-        swing = figures["pendulum"]
-        arm = length * (share if swing.pivot == "big_end" else 1 - share)
-        spin = whole * arm * (STANDARD_GRAVITY * (swing.period / (2 * math.pi)) ** 2 - arm)
+    two_masses = whole * share * (1 - share) * length**2
+    if rod.inertia is not None:
+        spin = rod.inertia
+    elif rod.pendulum is not None:
+        arm = length * (share if rod.pendulum.pivot == "big_end" else 1 - share)
+        swing = STANDARD_GRAVITY * (rod.pendulum.period / (2 * math.pi)) ** 2
+        spin = whole * arm * (swing - arm)
     else:
-        spin = whole * share * (1 - share) * length**2
-    return Parts(
-        length,
-        own_or(file, number, "piston_offset", file.piston.offset) / 1e3,
-        own_or(file, number, "piston_mass", file.piston.mass),
-        small,
-        big,
-        spin,
-        whole * share * (1 - share) * length**2 - spin,
-    )
+        spin = two_masses
+    return RunningGear(length, offset, piston, small, big, spin, two_masses - spin)
 
 
-def own_or(file: EngineFile, number: int, key: str, default: Any) -> Any:
-    """What `[cylinder.N]` says under this key, or else the engine's figure."""
-    own = file.cylinder.get(number)
-    value = None if own is None else getattr(own, key)
-    return default if value is None else value
+# ------------------------------------------------------------------ what cannot be
+class RodPlace(NamedTuple):
+    """Where the figures of a cylinder's rod stand in the file.
 
-
-def _figures(file: EngineFile, number: int, articulated: bool) -> dict[str, Any]:
-    """Figures of a rod; a figure of the cylinder's own displaces those of the engine that say the
-    same otherwise.
+    Attributes:
+        number: of the cylinder; 0 for what holds for all.
+        articulated: whether it hangs on a master rod.
+        rod: what is said of the rod, in one place or the other.
+        own: what the cylinder's own table says.
+        general: what holds for all rods of its kind.
     """
-    rod, own = _given(file, articulated), file.cylinder.get(number)
-    figures = {
-        key: value for key in type(rod).model_fields if (value := getattr(rod, key)) is not None
-    }
-    if own is None:
-        return figures
-    mine = {
-        key: value for key in Rod.model_fields if (value := getattr(own, f"rod_{key}")) is not None
-    }
-    for ways in _GROUPS:
-        for way in ways:
-            if way & mine.keys():
-                for key in set().union(*ways) - way:
-                    figures.pop(key, None)
-    return figures | mine
+
+    number: int
+    articulated: bool
+    rod: RodFigures
+    own: RodFigures
+    general: RodFigures
+
+    def path(self, *keys: str) -> str:
+        """Where one of these figures is given, or where the first might be."""
+        for key in keys:
+            if key in self.own.given:
+                return f"cylinder.{self.number}.rod_{key}"
+        key = next((key for key in keys if key in self.general.given), keys[0])
+        return f"{'articulation.' if self.articulated else ''}rod.{key}"
 
 
-def mistakes(
-    file: EngineFile, number: int, rod: Parts, radius: Any, articulated: bool
-) -> list[Problem]:
-    """What keeps a mechanism from turning, or a rod from being one."""
-    found = _half_weighed(file, number, articulated)
-    if not found and not np.all(rod.spin >= 0):
-        found = [_no_rod(file, number, rod, articulated)]
-    lam, eps = np.max(radius / rod.length), np.max(np.abs(rod.offset / rod.length))
-    if (
-        articulated or lam + eps <= 1 - NEAREST_TO_LOCK
-    ):  # what an articulated rod can do depends on its master
-        return found
-    aside = np.max(np.abs(rod.offset)) * 1e3
-    offset = (
-        f", with the piston offset of {aside:g} mm lambda + |offset|/length = {lam + eps:.9g}"
-        if eps
-        else ""
-    )
-    return [
-        *found,
-        Problem(
-            _path(file, number, "length", "ratio"),
-            f"the crank cannot turn: crank radius {np.max(radius) * 1e3:g} mm over rod length "
-            f"{np.min(rod.length) * 1e3:g} mm is lambda = {lam:.9g}{offset}; at most 1 - "
-            f"{NEAREST_TO_LOCK:g} is allowed: "
-            f"make the rod longer{' or the offset smaller' if eps else ''}",
-        ),
-    ]
+def check_ends(place: RodPlace) -> Iterator[Problem]:
+    """A rod that is weighed at one end alone."""
+    ends = [end for end in ENDS if end in place.rod.given]
+    if len(ends) == 1:
+        path, missing = place.path(*ends), next(end for end in ENDS if end not in ends)
+        beside = f"rod_{missing}" if path.startswith("cylinder") else missing
+        yield Problem(path, f"needs {beside} beside it: weigh the rod at both ends")
 
 
-def _half_weighed(file: EngineFile, number: int, articulated: bool) -> list[Problem]:
-    """A rod weighed at one end only: a cylinder's own where the engine's does not give the other,
-    or the engine's (in a sweep).
-    """
-    given = [end for end in ENDS if end in _figures(file, number, articulated)]
-    if len(given) != 1:
-        return []
-    (here,), (missing,) = given, set(ENDS).difference(given)
-    path = _path(file, number, here, articulated=articulated)
-    return [
-        Problem(
-            path,
-            f"needs {'rod_' * path.startswith('cylinder')}{missing} beside it: weigh the rod at "
-            "both ends",
-        )
-    ]
-
-
-def _no_rod(file: EngineFile, number: int, rod: Parts, articulated: bool) -> Problem:
+def check_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
     """A rod whose moment of inertia would be negative: by its pendulum test, or as two masses at
-    its ends.
+    its ends. Of variants the one counts that is least a rod.
     """
-    figures = _figures(file, number, articulated)
-    if "pendulum" in figures:
-        return Problem(
-            _path(file, number, "pendulum"),
-            "the period is too quick for the distance of its pivot from the centre of mass: the "
-            "moment of inertia about "
-            f"it would be {np.min(rod.spin) * 1e6:g} kg mm2 (period: a full swing, s)",
-        )
-    length = np.min(rod.length) * 1e3
-    return Problem(
-        _path(file, number, "cg", articulated=articulated),
-        f"{float(np.max(figures['cg'])):g} mm is outside the rod of {length:g} mm, and two masses "
-        "at its ends cannot stand for "
-        f"such a rod, one would be negative: give a cg from 0 to {length:g} mm, or the rod's "
-        "inertia",
+    if np.all(gear.spin >= 0):
+        return
+    if (pendulum := place.rod.pendulum) is not None:
+        yield Problem(place.path("pendulum"), _describe_pendulum(pendulum, gear))
+        return
+    length_mm = np.min(gear.length) * 1e3
+    cg_mm = np.max(or_nothing(place.rod.cg)) * 1e3
+    yield Problem(
+        place.path("cg"),
+        f"{cg_mm:g} mm is outside the rod of {length_mm:g} mm, and two masses at its ends cannot "
+        f"stand for such a rod, one would be negative: give a cg from 0 to {length_mm:g} mm, or "
+        "the rod's inertia",
     )
 
 
-def _path(file: EngineFile, number: int, *keys: str, articulated: bool = False) -> str:
-    """Where one of these figures of a cylinder's rod is given, or the first might be."""
-    own, general = file.cylinder.get(number), _given(file, articulated)
-    for key in keys:
-        if own is not None and getattr(own, f"rod_{key}") is not None:
-            return f"cylinder.{number}.rod_{key}"
-    key = next((key for key in keys if getattr(general, key, None) is not None), keys[0])
-    return f"{'articulation.' if articulated else ''}rod.{key}"
+def _describe_pendulum(pendulum: Swing, gear: RunningGear) -> str:
+    whole = gear.small_end + gear.big_end
+    from_big_end = gear.length * gear.small_end / whole
+    arm = from_big_end if pendulum.pivot == "big_end" else gear.length - from_big_end
+    spin, period, arm = np.broadcast_arrays(gear.spin, pendulum.period, arm)
+    worst = spin.argmin()
+    return describe_quick_period(float(period.flat[worst]), 1e3 * float(arm.flat[worst]))
 
 
-def _given(file: EngineFile, articulated: bool) -> Rod | ArticulatedRod:
-    """What the file says of the rods of a kind."""
-    return file.articulation.rod if articulated and file.articulation else file.rod
+def check_turning(place: RodPlace, gear: RunningGear, radius: Figure) -> Iterator[Problem]:
+    """A slider-crank of this crank radius (m) that cannot turn: lambda + |offset| / rod length must
+    stay below 1. Of variants the worst counts.
+    """
+    lam, eps = np.max(radius / gear.length), np.max(np.abs(gear.offset / gear.length))
+    if lam + eps <= 1 - NEAREST_TO_LOCK:
+        return
+    with_offset, or_offset = "", ""
+    if eps:
+        aside = np.max(np.abs(gear.offset)) * 1e3
+        with_offset = (
+            f", with the piston offset of {aside:g} mm lambda + |offset|/length = {lam + eps:.9g}"
+        )
+        or_offset = " or the offset smaller"
+    yield Problem(
+        place.path("length", "ratio"),
+        f"the crank cannot turn: crank radius {np.max(radius) * 1e3:g} mm over rod length "
+        f"{np.min(gear.length) * 1e3:g} mm is lambda = {lam:.9g}{with_offset}; at most 1 - "
+        f"{NEAREST_TO_LOCK:g} is allowed: make the rod longer{or_offset}",
+    )

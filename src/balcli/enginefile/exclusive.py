@@ -8,38 +8,53 @@ from typing import NamedTuple
 
 
 class Choice(NamedTuple):
-    """Groups of keys that exclude each other."""
+    """Groups of keys that exclude each other.
+
+    Attributes:
+        groups: of these one may be given.
+        required: one must be given.
+        complete: a group that is begun must be finished.
+    """
 
     groups: tuple[tuple[str, ...], ...]
-    required: bool = False  # one group must be given
-    complete: bool = False  # a group that is begun must be finished
+    required: bool = False
+    complete: bool = False
 
     def mistakes(self, given: Collection[str]) -> Iterator[str]:
         """What is wrong with these keys, in words that a table's name can stand before."""
         begun = [(group, [key for key in group if key in given]) for group in self.groups]
         chosen = [(group, keys) for group, keys in begun if keys]
         if len(chosen) > 1:
-            yield f"has {words([key for _, keys in chosen for key in keys])}; {self._wanted()}"
+            keys = [key for _, some in chosen for key in some]
+            yield f"has {join_words(keys)}; {self._wanted()}"
         elif not chosen and self.required:
-            yield f"has neither {' nor '.join(map(words, self.groups))}; {self._wanted()}"
+            yield f"has neither {' nor '.join(map(join_words, self.groups))}; {self._wanted()}"
         elif chosen and self.complete and len(chosen[0][1]) < len(chosen[0][0]):
             group, keys = chosen[0]
-            yield (
-                f"has {words(keys)} without {words([key for key in group if key not in keys])}; "
-                f"{self._wanted()}"
-            )
+            missing = [key for key in group if key not in keys]
+            yield f"has {join_words(keys)} without {join_words(missing)}; {self._wanted()}"
+
+    def rivals(self, key: str) -> tuple[str, ...]:
+        """The keys that must not be given beside this one; none for a key of no group."""
+        if not any(key in group for group in self.groups):
+            return ()
+        return tuple(other for group in self.groups if key not in group for other in group)
+
+    def for_overrides(self, prefix: str) -> Choice:
+        """The same choice among keys with this prefix, none of which must be given."""
+        return Choice(tuple(tuple(prefix + key for key in group) for group in self.groups))
 
     def _wanted(self) -> str:
-        return f"give either {' or '.join(map(words, self.groups))}"
+        return f"give either {' or '.join(map(join_words, self.groups))}"
 
 
-def words(keys: Collection[str]) -> str:
-    """a, b and c"""
-    *front, last = keys
+def join_words(words: Collection[str]) -> str:
+    """Words as they are counted up in a sentence: `a, b and c`."""
+    *front, last = words
     return f"{', '.join(front)} and {last}" if front else last
 
 
-def repeated(numbers: Iterable[int]) -> str:
+def find_repeated(numbers: Iterable[int]) -> str:
     """The numbers that occur more than once, in words (the first five); empty if none does."""
-    twice = [str(number) for number, times in Counter(numbers).items() if times > 1]
-    return words(twice[:5]) if twice else ""
+    repeated = [str(number) for number, times in Counter(numbers).items() if times > 1]
+    return join_words(repeated[:5]) if repeated else ""

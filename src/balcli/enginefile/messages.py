@@ -5,12 +5,12 @@ probably meant.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..errors import Problem
 from ..limits import MOST_LIST_VALUES
 from . import model
-from .fields import nearest, printable, shorten
+from .fields import counted, nearest, printable, shorten
 
 TEXTS = ("name", "source")
 TABLES: dict[str, type[model.Table]] = {
@@ -41,94 +41,98 @@ WORDS = {
     "model_type": "{value} is not a table; write it in braces with its keys",
     "model_attributes_type": "{value} is not a table; write it in braces with its keys",
 }
+OTHER = "{value} does not fit here"
 
 
-def path_of(start: str, loc: Iterable[int | str]) -> str:
+class UnknownKey(NamedTuple):
+    """A key that there is not.
+
+    Attributes:
+        path: of the table in which it stands; empty for the file itself.
+        key: as it is written.
+        table: what may stand in that table; None for the file itself.
+    """
+
+    path: str
+    key: str
+    table: type[model.Table] | None
+
+
+def join_path(start: str, parts: Iterable[int | str]) -> str:
     """`operation`, ("speed_ripple", 0, "order") -> `operation.speed_ripple.1.order`: people count
     from 1.
     """
-    return ".".join(
-        [start, *(str(part + 1) if isinstance(part, int) else printable(part) for part in loc)]
-    )
+    names = (str(part + 1) if isinstance(part, int) else printable(part) for part in parts)
+    return ".".join([start, *names])
 
 
-def miscounted(finding: Mapping[str, Any]) -> bool:
+def is_miscounted(finding: Mapping[str, Any]) -> bool:
     """Whether a list is called too short only because members of it, which have findings of their
     own, were not counted.
     """
     return finding["type"] == "too_short" and len(finding["input"]) >= finding["ctx"]["min_length"]
 
 
-def plain(path: str, finding: Mapping[str, Any], table: type[model.Table]) -> Problem:
+def describe_finding(path: str, finding: Mapping[str, Any], table: type[model.Table]) -> Problem:
     """One finding of pydantic in the table at `path`; a member of a list is named in words (`the
     2nd value`).
     """
-    value, kind, loc, context = (
-        finding["input"],
-        finding["type"],
-        finding["loc"],
-        finding.get("ctx", {}),
-    )
+    kind, loc = finding["type"], finding["loc"]
+    value, context = finding["input"], finding.get("ctx", {})
     if kind == "value_error":
         message = str(context["error"])
     elif kind == "missing":
-        message = _missing(table, loc)
+        message = _describe_missing(table, loc)
     elif kind in ("too_short", "too_long"):
-        message = _wrong_length(value, context)
+        message = _describe_length(value, context)
     else:
-        message = WORDS.get(kind, "{value} does not fit here").format(value=shorten(value))
+        message = WORDS.get(kind, OTHER).format(value=shorten(value))
     if loc and isinstance(loc[-1], int):
-        return Problem(path_of(path, loc[:-1]), f"the {_ordinal(loc[-1] + 1)} value {message}")
-    return Problem(path_of(path, loc), message)
+        return Problem(join_path(path, loc[:-1]), f"the {_ordinal(loc[-1] + 1)} value {message}")
+    return Problem(join_path(path, loc), message)
 
 
-def _missing(table: type[model.Table], loc: Sequence[str | int]) -> str:
+def _describe_missing(table: type[model.Table], loc: Sequence[str | int]) -> str:
     """With an example of the key, which may stand in a table within the table."""
     *parents, key = loc
     inner = next((INNER[str(part)] for part in reversed(parents) if part in INNER), table)
     examples = inner.model_fields[str(key)].examples
-    return (
-        f"is missing; give it, such as {key} = "
-        f"{shorten(examples[0]) if examples else '{ length = 200 }'}"
-    )
+    example = shorten(examples[0]) if examples else "{ length = 200 }"
+    return f"is missing; give it, such as {key} = {example}"
 
 
-def _wrong_length(value: list[Any], context: Mapping[str, Any]) -> str:
+def _describe_length(value: list[Any], context: Mapping[str, Any]) -> str:
     wanted = context.get("min_length") or context.get("max_length")
     if not value:
         return "is an empty list; give at least one value, or leave the key out"
     if len(value) > MOST_LIST_VALUES:
         return f"has more than {MOST_LIST_VALUES} values"
-    return (
-        f"{shorten(value)} has {len(value)} value{'s' * (len(value) != 1)} where {wanted} are "
-        "wanted"
-    )
+    return f"{shorten(value)} has {counted(len(value), 'value')} where {wanted} are wanted"
 
 
 def _ordinal(number: int) -> str:
-    suffix = (
-        "th" if number % 100 in (11, 12, 13) else {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
-    )
+    """1st, 2nd, 3rd, 4th ..."""
+    if number % 100 in (11, 12, 13):
+        return f"{number}th"
+    suffix = {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
     return f"{number}{suffix}"
 
 
-def unknown_key(path: str, key: str, table: type[model.Table] | None) -> tuple[Problem, str]:
-    """An unknown key in a table (None: the file itself), and the path of the key probably meant, or
-    "".
-    """
+def describe_unknown_key(unknown: UnknownKey) -> tuple[Problem, str]:
+    """An unknown key in words, and the path of the key that was probably meant, or ""."""
+    path, key, table = unknown
     own = list(table.model_fields) if table else KNOWN
     place = f"of [{path.partition('.')[0]}]" if path else "of an engine file"
-    full = f"{path}.{printable(key)}" if path else printable(key)
+    start = f"{path}." if path else ""
+    full = start + printable(key)
     if near := nearest(key, own):
-        return Problem(
-            full, f"is no key {place}; did you mean {near}?"
-        ), f"{path}.{near}" if path else near
-    hint = next(_homes(key), f"it has {', '.join(own)}")
+        return Problem(full, f"is no key {place}; did you mean {near}?"), start + near
+    hint = next(_tables_with(key), f"it has {', '.join(own)}")
     return Problem(full, f"is no key {place}; {hint}"), ""
 
 
-def _homes(key: str) -> Iterator[str]:
-    """The tables of the file to which a key may belong: exactly first, then nearly."""
+def _tables_with(key: str) -> Iterator[str]:
+    """The tables of the file to which a key may belong, in words: exactly first, then nearly."""
     tables = {f"[{name}]": table for name, table in TABLES.items()}
     tables |= {f"[[{name}]]": table for name, table in DEVICES.items()}
     for name, table in tables.items():

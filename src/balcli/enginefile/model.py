@@ -2,8 +2,8 @@
 mm^2, g mm, s).
 
 The tables check and never derive: what follows from the figures (rod length from its ratio, inertia
-from a pendulum) is the business of `engine.py`. A validator is built only for a table that a file
-has.
+from a pendulum) is the business of the package `engine`. A validator is built only for a table that
+a file has.
 """
 
 import math
@@ -14,12 +14,13 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
-from .exclusive import Choice, repeated
+from .exclusive import Choice, find_repeated
 from .fields import Flag, Number, OneOf, Whole, counted
 from .units import ANGLE, INERTIA, LENGTH, MASS, PLAIN, SPEED, STANDARD_GRAVITY, TIME, UNBALANCE
 
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
 
+# Bounds of figures are far beyond every engine; products and powers of them overflow nothing.
 Length = Annotated[float, Number(LENGTH, most=1e9)]
 Distance = Annotated[float, Number(LENGTH, least=0, most=1e9)]
 Size = Annotated[float, Number(LENGTH, above=0, most=1e9)]
@@ -80,7 +81,10 @@ class Crank(Table):
         "firing_order fixes them",
     )
     spacing: Distance | None = Field(
-        None, description="axial distance of neighbouring throws", examples=[100]
+        None,
+        description="axial distance of neighbouring throws; without it (or positions) moments of "
+        "several throws are not known",
+        examples=[100],
     )
     positions: Lengths | None = Field(
         None,
@@ -151,30 +155,33 @@ class Rod(Table):
     pendulum: Pendulum | None = Field(None, description="a pendulum test, instead of inertia")
 
     def contradictions(self) -> Iterator[str]:
-        ends, length, pendulum = (self.small_end, self.big_end), self.length, self.pendulum
+        ends = (self.small_end, self.big_end)
         if None in ends and ends != (None, None) and self.mass is self.cg is None:
-            there, missing = (
-                ("big_end", "small_end") if self.small_end is None else ("small_end", "big_end")
-            )
+            there, missing = "small_end", "big_end"
+            if self.small_end is None:
+                there, missing = missing, there
             yield f"has {there} without {missing}; weigh the rod at both ends, or give mass and cg"
-        if pendulum and length is not None:
+        if self.pendulum and self.length is not None:
             total = sum(end or 0.0 for end in ends)
-            cg = length * (self.small_end or 0.0) / total if total else self.cg or 0.0
-            yield from too_quick(pendulum, length, cg)
+            cg = self.length * (self.small_end or 0.0) / total if total else self.cg or 0.0
+            arm = cg if self.pendulum.pivot == "big_end" else self.length - cg
+            if self.pendulum.period <= shortest_period(arm):
+                yield f"pendulum.{describe_quick_period(self.pendulum.period, arm)}"
 
 
-def too_quick(pendulum: Pendulum, length: float, cg: float) -> Iterator[str]:
-    """A period no longer than that of a point mass at the centre of mass (lengths in mm): no
-    inertia would be left.
+def shortest_period(arm_mm: float) -> float:
+    """Period (s) of a point mass at this distance from the pivot; that of every rod is longer."""
+    return 2 * math.pi * math.sqrt(max(arm_mm, 0.0) * 1e-3 / STANDARD_GRAVITY)
+
+
+def describe_quick_period(period: float, arm_mm: float) -> str:
+    """What is wrong with a pendulum test that leaves no moment of inertia; `arm_mm` is the distance
+    of the centre of mass from the pivot.
     """
-    arm = cg if pendulum.pivot == "big_end" else length - cg
-    shortest = 2 * math.pi * math.sqrt(max(arm, 0.0) * 1e-3 / STANDARD_GRAVITY)
-    if pendulum.period <= shortest:
-        yield (
-            f"pendulum.period {pendulum.period:g} s is too quick: with the centre of mass {arm:g} "
-            "mm from the pivot "
-            f"a full swing takes more than {shortest:.4g} s"
-        )
+    return (
+        f"period {period:g} s is too quick: with the centre of mass {arm_mm:g} mm from the pivot "
+        f"a full swing takes more than {shortest_period(arm_mm):.4g} s"
+    )
 
 
 class Piston(Table):
@@ -238,7 +245,7 @@ class Layout(Table):
             ("firing_order", self.firing_order or ()),
             ("numbering", chain(*self.numbering or ())),
         ):
-            if twice := repeated(numbers):
+            if twice := find_repeated(numbers):
                 yield f"{key} has cylinder {twice} more than once; name every cylinder once"
         if self.firing_intervals:
             yield from self._intervals(self.firing_intervals)
@@ -341,11 +348,7 @@ class Articulation(Table):
 class Override(Table):
     """What differs in one cylinder."""
 
-    choices = (
-        Choice((("rod_length",), ("rod_ratio",))),
-        Choice((("rod_mass", "rod_cg"), ("rod_small_end", "rod_big_end"))),
-        Choice((("rod_inertia",), ("rod_pendulum",))),
-    )
+    choices = tuple(choice.for_overrides("rod_") for choice in Rod.choices)
 
     piston_mass: Mass | None = Field(None, description="as piston.mass", examples=[0.502])
     piston_offset: Length | None = Field(None, description="as piston.offset", examples=[0.8])
@@ -435,3 +438,15 @@ class EngineFile(Table):
     )
     shaft: tuple[Shaft, ...] = Field((), description="balancer shafts")
     slider: tuple[Slider, ...] = Field((), description="reciprocating balance masses")
+
+    def tables(self) -> Iterator[tuple[str, Table]]:
+        """Every table with its dotted name (`crank`, `shaft.1`, `cylinder.3`), as far as the file
+        has it or it has defaults; not the tables within tables.
+        """
+        for key, part in self:
+            if isinstance(part, Table):
+                yield key, part
+            elif isinstance(part, tuple):
+                yield from ((f"{key}.{number}", table) for number, table in enumerate(part, 1))
+            elif isinstance(part, dict):
+                yield from ((f"{key}.{number}", table) for number, table in part.items())

@@ -17,8 +17,12 @@ _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
 _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
 
 
-def text_of(source: str | Path) -> bytes:
-    """The text of a file (or of standard input) as it is; BalcliError if it cannot be read."""
+def read_bytes(source: str | Path) -> bytes:
+    """The content of a file, or of standard input for "-", as far as it may be long.
+
+    Raises:
+        BalcliError: it cannot be read.
+    """
     try:
         if str(source) == "-":
             return sys.stdin.buffer.read(LARGEST_FILE_BYTES + 1)
@@ -34,19 +38,19 @@ def text_of(source: str | Path) -> bytes:
         raise BalcliError(f"{name}: cannot be read ({reason})") from None
 
 
-def name_of(source: str | Path) -> str:
-    """What messages call it."""
+def name_file(source: str | Path) -> str:
+    """What messages call a file; "-" is standard input."""
     return "standard input" if str(source) == "-" else str(source)
 
 
 def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
-    """TOML -> nested dicts; whatever tomllib raises becomes an InputError."""
+    """TOML -> nested dicts; whatever tomllib raises becomes an InputError for this file."""
     if len(text) > LARGEST_FILE_BYTES:
         megabytes = LARGEST_FILE_BYTES // 1_000_000
         message = f"has more than {megabytes} MB; no engine file needs that"
         raise InputError([Problem("", message)], file)
     try:
-        return _decode(text)
+        return _load_toml(text.decode("utf-8-sig") if isinstance(text, bytes) else text)
     except tomllib.TOMLDecodeError as error:
         message = f"is not valid TOML: {str(error)[:300]}"
     except OverflowError as error:
@@ -63,9 +67,13 @@ def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
     raise InputError([Problem("", message)], file)
 
 
-def _decode(text: str | bytes) -> dict[str, Any]:
-    if isinstance(text, bytes):
-        text = text.decode("utf-8-sig")
+def _load_toml(text: str) -> dict[str, Any]:
+    """The text as nested dicts, unless tomllib would take too much memory for it.
+
+    Raises:
+        RecursionError: a key has too many parts.
+        OverflowError: there are too many values.
+    """
     if _DEEP_KEY.search(text):
         raise RecursionError
     if sum(map(text.count, "[{.,=")) > MOST_TOML_MARKS:

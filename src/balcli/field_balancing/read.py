@@ -11,9 +11,9 @@ from typing import Any, TypeVar
 from pydantic import ValidationError
 
 from ..enginefile.fields import counted, nearest, printable, shorten
-from ..enginefile.messages import miscounted, path_of, plain
+from ..enginefile.messages import describe_finding, is_miscounted, join_path
 from ..enginefile.model import Table
-from ..enginefile.toml_text import name_of, parse_toml, text_of
+from ..enginefile.toml_text import name_file, parse_toml, read_bytes
 from ..enginefile.units import MASS
 from ..errors import InputError, Problem
 from ..limits import MOST_MISTAKES_SHOWN, MOST_RUNS
@@ -32,7 +32,7 @@ def read_runs(source: str | Path) -> RunsFile:
 
     Raises BalcliError if there is nothing to read, InputError with every mistake of the text.
     """
-    return parse_runs(text_of(source), name_of(source))
+    return parse_runs(read_bytes(source), name_file(source))
 
 
 def parse_runs(text: str | bytes, file: str = "") -> RunsFile:
@@ -86,7 +86,7 @@ def _read_table(path: str, value: object, table: type[T], problems: list[Problem
         found += [
             _translate(path, finding, table)
             for finding in error.errors(include_url=False)
-            if not miscounted(finding)
+            if not is_miscounted(finding)
             and not (finding["type"] == "missing" and finding["loc"][-1] in meant)
         ]
     problems += found
@@ -108,12 +108,12 @@ def _translate(path: str, finding: Mapping[str, Any], table: type[Table]) -> Pro
         return Problem(
             _join(path, *map(str, finding["loc"])), text.format(value=shorten(finding["input"]))
         )
-    problem = plain(path, finding, table)
+    problem = describe_finding(path, finding, table)
     return problem._replace(path=problem.path.lstrip("."))
 
 
 def _join(*parts: str) -> str:
-    return path_of("", parts).strip(".") if parts[0] == "" else path_of(parts[0], parts[1:])
+    return join_path("", parts).strip(".") if parts[0] == "" else join_path(parts[0], parts[1:])
 
 
 # ------------------------------------------------------------------ what does not fit together

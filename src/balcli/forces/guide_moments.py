@@ -19,7 +19,7 @@ class GuideMoments:
     Attributes:
         h: H-type, their sum.
         x: X-type, the moment of the guides' side forces: `sum roll_i (z_i - z_ref) / L_i`; None
-            where all cylinders stand at one place.
+            where all cylinders stand at one place, or it is not known where they stand.
         height_m: L of each row of `engine.numbers`, from the crankshaft to the middle of the
             guide, shape (cylinders,).
     """
@@ -52,7 +52,7 @@ def compute_guide_moments(
     due = mark_considerable(h)
     height = _rod_lengths(engine) if height_m is None else np.full(len(z), height_m)
     x = None
-    if np.ptp(z):
+    if np.ptp(z) and engine.places_known:
         x = _sum_weighted(rolls, (z - z_ref) / height)
         due |= mark_considerable(x)
     if orders is None:

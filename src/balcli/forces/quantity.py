@@ -12,6 +12,7 @@ import numpy as np
 from ..core.peaks import peak
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
+from ..engine.positions import MOMENTS_UNKNOWN
 from ..enginefile.fields import nearest
 from ..errors import BalcliError
 from ..limits import HIGHEST_ORDER
@@ -109,6 +110,20 @@ def _parse_quantity(text: str) -> Quantity:
             f"{text} is no quantity: after the order comes one of {', '.join(allowed)}"
         )
     return Quantity(kind, order, part)
+
+
+def refuse_unknown(engine: Engine, quantities: Iterable[Quantity]) -> None:
+    """Nothing, unless one of these is a moment of an engine whose file does not say where its
+    throws stand.
+
+    Raises:
+        BalcliError: the quantity, and what the file has to say.
+    """
+    if engine.places_known:
+        return
+    for q in quantities:
+        if q.kind == "moment":
+            raise BalcliError(f"{q.name}: {MOMENTS_UNKNOWN}")
 
 
 def evaluate_quantities(engine: Engine, quantities: Sequence[Quantity]) -> list[Array]:

@@ -16,6 +16,7 @@ from ..core.loads import Loads, find_device_force
 from ..core.mechanisms import harmonics
 from ..core.phases import Phases, SeparatePhases
 from ..core.phasors import Array, Complex, Phasors, join_orders
+from ..engine.arrays import place_in_plane
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import MOST_LOADS_APART
@@ -65,6 +66,16 @@ class Spectra:
     def only(self, kinds: Collection[str]) -> Spectra:
         """The same without all other kinds."""
         return Spectra(self.orders, **{k.name: p for k, p in self.items() if k.name in kinds})
+
+    def without_moment(self) -> Spectra:
+        """The same with a moment that is not known: nan, if it was asked for at all."""
+        if self.moment is None:
+            return self
+        p = self.moment
+        unknown = Phasors(
+            p.orders, np.full_like(p.forward, np.nan), np.full_like(p.backward, np.nan), p.noise
+        )
+        return replace(self, moment=unknown)
 
     def select_orders(self, orders: ArrayLike) -> Spectra:
         """The same without all other orders."""
@@ -194,7 +205,7 @@ def _compute_steady(
         own = few if len(orders) <= most else few.select_orders(block)
         own = own.select_cylinders(which)
         phases = (SeparatePhases if apart else Phases)(c, orders[block])
-        return Loads(c, engine.devices, x + 1j * y, z, phases, own, engine.omega**2)
+        return Loads(c, engine.devices, place_in_plane(x, y), z, phases, own, engine.omega**2)
 
     lowest = make_loads(slice(most))
     found = {name: [getattr(lowest, name)] for name in names}

@@ -9,21 +9,32 @@ from typing import Any
 import numpy as np
 
 from ..core.peaks import Peak
+from ..engine.positions import MOMENTS_UNKNOWN
 from ..forces.kinds import FORCE, MOMENT, ROLL
 from ..results.balance import Balance
 from ..sizing.device_tables import name_kind
 from .analysis import brief_document
 from .csv import Rows
 from .devices import device_entries, device_grid, device_rows, practical_entry, practical_grid
-from .figures import figure_rows
+from .figures import assumptions, figure_rows
 from .scheme_details import details_document, details_parts
-from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number, order_number
+from .sheet import (
+    NAMELESS,
+    Facts,
+    Grid,
+    Sheet,
+    Text,
+    capitalized,
+    degrees,
+    number,
+    order_number,
+)
 from .units import System, Unit
 
 
 def sheet(result: Balance, system: System) -> Sheet:
     """Why and what, the workshop's figures, and both analyses side by side."""
-    remedy = result.remedy
+    remedy, known = result.remedy, result.before.moments_known
     order = "" if remedy.order is None else f", order {remedy.order}"
     parts: list[Grid | Facts | Text] = []
     if remedy.reasons and not remedy.devices and not remedy.beyond:
@@ -32,10 +43,12 @@ def sheet(result: Balance, system: System) -> Sheet:
         parts.append(Text("What is fitted, and why", tuple(dict.fromkeys(remedy.reasons))))
         parts += [device_grid(remedy, system), practical_grid(result.practical, system)]
     else:
-        why = () if remedy.note else ("Orders 1 and 2 are balanced.",)
+        why = () if remedy.note or not known else ("Orders 1 and 2 are balanced.",)
         parts.append(Text("Nothing is fitted", why))
     if remedy.note:
         parts.append(Text("Note", (remedy.note,)))
+    if not known:
+        parts.append(Text("Forces alone", (capitalized(f"{MOMENTS_UNKNOWN}."),)))
     parts += details_parts(result, system)
     parts += _permitted(result, system)
     parts += [_orders(result, system), _peaks(result, system)]
@@ -78,6 +91,9 @@ def _orders(result: Balance, system: System) -> Grid:
             unit = system.unit(kind)
             for analysis in (result.before, result.after):
                 phasors = analysis.spectra[kind.name]
+                if kind is MOMENT and not analysis.moments_known:
+                    cells.append("–")
+                    continue
                 cells.append(
                     "balanced"
                     if phasors.balanced[k]
@@ -99,7 +115,9 @@ def _peaks(result: Balance, system: System) -> Grid:
     rows = []
     for (kind, before), (_, after) in zip(result.before.peaks, result.after.peaks, strict=True):
         unit = system.unit(kind)
-        rows.append((f"{kind.name}, {unit.name}", *_peak(before, unit), *_peak(after, unit)))
+        told = kind is not MOMENT or result.before.moments_known
+        cells = (*_peak(before, unit), *_peak(after, unit)) if told else ("–",) * 4
+        rows.append((f"{kind.name}, {unit.name}", *cells))
     note = (
         "Sized for steady mean speed; both columns are those of the uneven speed."
         if result.before.engine.ripple
@@ -131,6 +149,7 @@ def document(result: Balance) -> dict[str, Any]:
         "reasons": list(remedy.reasons),
         "practical": [practical_entry(p) for p in result.practical],
         "details": details_document(result),
+        **assumptions(result.before),
         "before": brief_document(result.before),
         "after": brief_document(result.after),
     }

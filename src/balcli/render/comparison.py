@@ -24,7 +24,7 @@ def document(result: Comparison) -> dict[str, Any]:
             {
                 "quantity": _key(line),
                 "order": None if line.order is None else order_number(line.order),
-                "values": list(line.values),
+                "values": [v if v == v else None for v in line.values],
                 "ratios": [r if r == r else None for r in line.ratios],
             }
             for line in result.lines

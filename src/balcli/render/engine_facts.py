@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from itertools import pairwise
 
 import numpy as np
@@ -22,6 +23,9 @@ def engine_facts(engine: Engine, system: System, *, higher: bool) -> Facts:
         higher: whether there may be orders above those that are shown unless they are asked for.
     """
     about = ", ".join(number(system.length.of(float(v))) for v in engine.reference_m)
+    reference = f"moments about x, y, z = {about} {system.length.name}"
+    if not engine.places_known:
+        reference = "moments are not known: crank.spacing is missing"
     uneven = ", uneven: figures are those of the uneven speed" if engine.ripple else ""
     orders = f"to {HIGHEST_ORDER_UNASKED}; --orders asks for higher ones" if higher else ""
     devices = f"{len(engine.devices)} of the file are included" if engine.devices else ""
@@ -30,10 +34,10 @@ def engine_facts(engine: Engine, system: System, *, higher: bool) -> Facts:
         ("cylinders", cylinders),
         ("crank", _crank(engine, system)),
         ("firing", _firing(engine)),
-        ("speed", f"{number(engine.speed_rpm, 6)} rpm{uneven}"),
+        ("speed", f"{number(float(engine.speed_rpm), 6)} rpm{uneven}"),
         ("masses", _masses(engine, system)),
         ("orders", orders),
-        ("reference", f"moments about x, y, z = {about} {system.length.name}"),
+        ("reference", reference),
         ("devices", devices),
         ("source", engine.source),
     )
@@ -52,11 +56,12 @@ def _banks(engine: Engine) -> str:
 
 def _bore(engine: Engine, system: System) -> str:
     """Bore, stroke and displacement, where the file gives the bore."""
-    if engine.bore_m != engine.bore_m:
+    bore_m = float(engine.bore_m)
+    if math.isnan(bore_m):
         return ""
-    bore = number(system.length.of(engine.bore_m))
+    bore = number(system.length.of(bore_m))
     stroke = number(system.length.of(2 * float(engine.cylinders.radius)))
-    volume = number(system.volume.of(engine.displacement_m3), 4)
+    volume = number(system.volume.of(float(engine.displacement_m3)), 4)
     return f", bore × stroke {bore} × {stroke} {system.length.name}, {volume} {system.volume.name}"
 
 
@@ -75,8 +80,8 @@ def _crank(engine: Engine, system: System) -> str:
 def _masses(engine: Engine, system: System) -> str:
     """Masses that go to and fro and that turn, of cylinder 1."""
     weighed, unit = engine.weighed[engine.numbers.index(1)], system.mass
-    reciprocating = number(unit.of(weighed.piston + weighed.small_end), 4)
-    rotating = number(unit.of(weighed.big_end + weighed.share), 4)
+    reciprocating = number(unit.of(float(weighed.piston + weighed.small_end)), 4)
+    rotating = number(unit.of(float(weighed.big_end + weighed.share)), 4)
     text = f"reciprocating {reciprocating} {unit.name} a cylinder (piston, rod's share at its pin)"
     linkage = engine.cylinders.linkage
     if linkage is None or not linkage.turning:  # else the pins stand still

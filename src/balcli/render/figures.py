@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.peaks import Peak
 from ..core.phasors import Phasors
-from ..forces.kinds import Kind
+from ..forces.kinds import KINDS, MOMENT, Kind
 from ..forces.spectrum import Spectra
 from .sheet import order_number
 from .units import System, Unit
@@ -27,6 +27,9 @@ class Result(Protocol):
     @property
     def cylinders(self) -> tuple[tuple[int, Spectra], ...]: ...
 
+    @property
+    def moments_known(self) -> bool: ...
+
 
 class FigureRow(NamedTuple):
     """One figure of a result; `cylinder` 0 is the engine, order None the whole curve."""
@@ -37,6 +40,11 @@ class FigureRow(NamedTuple):
     figure: str
     value: float | bool | str | None
     unit: str
+
+
+def assumptions(analysis: Result) -> dict[str, list[str]]:
+    """What JSON says of figures that rest on what the engine file does not say."""
+    return {} if analysis.moments_known else {"assumed": ["crank.spacing = 0"]}
 
 
 def clean(value: Any) -> float | None:
@@ -136,14 +144,16 @@ def peak_angle_deg(peak: Peak) -> float | None:
 
 # ------------------------------------------------------------------ as a list
 def figure_rows(result: Result, system: System) -> Iterator[FigureRow]:
-    """Every figure of the orders and the peaks, one a row."""
+    """Every figure of the orders and the peaks, one a row; none of moments that are not known."""
+    told = [kind for kind in KINDS.values() if result.moments_known or kind is not MOMENT]
     for cylinder, spectra in ((0, result.spectra), *result.cylinders):
-        columns = [(kind, kind_entries(kind, phasors)) for kind, phasors in spectra.items()]
+        known = [(kind, phasors) for kind, phasors in spectra.items() if kind in told]
+        columns = [(kind, kind_entries(kind, phasors)) for kind, phasors in known]
         for k, order in enumerate(spectra.orders):
             for kind, entries in columns:
                 unit = system.unit(kind)
                 yield from order_rows(kind.name, order, entries[k], unit, cylinder)
-    for kind, peak in result.peaks:
+    for kind, peak in [each for each in result.peaks if each[0] in told]:
         yield from peak_rows(kind.name, peak, system.unit(kind))
 
 

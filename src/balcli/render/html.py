@@ -37,7 +37,9 @@ def page(result: Analysis, balanced: Balance, system: System) -> str:
     from markupsafe import Markup
 
     own, remedy = analysis.sheet(result, system), balance.sheet(balanced, system)
+    told = ("force", "about", *(["moment"] if result.moments_known else []))
     fitted = bool(balanced.remedy.reasons)
+    compared = _COMPARED if fitted else ()
     now, after = Subject(result, None, system), Subject(balanced.after, balanced.before, system)
     return _template().render(
         title=own.title,
@@ -48,8 +50,8 @@ def page(result: Analysis, balanced: Balance, system: System) -> str:
         remedy=remedy.parts,
         fitted=fitted,
         scene=scene(result, balanced.after if fitted else None, system),
-        pictures=[Markup(draw_panel(now, *each)) for each in _PICTURES],
-        compared=[Markup(draw_panel(after, *each)) for each in _COMPARED] if fitted else [],
+        pictures=[Markup(draw_panel(now, *each)) for each in _PICTURES if each[1] in told],
+        compared=[Markup(draw_panel(after, *each)) for each in compared if each[1] in told],
         style=Markup((FOLDER / "report.css").read_text(encoding="utf-8")),
         script=Markup((FOLDER / "report.js").read_text(encoding="utf-8")),
     )

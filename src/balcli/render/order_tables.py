@@ -75,7 +75,10 @@ def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
 
 def peak_facts(result: Result, system: System, title: str) -> Facts:
     """The largest values over a revolution that were asked for."""
-    pairs = [(kind.name, _peak(peak, system.unit(kind))) for kind, peak in result.peaks]
+    pairs = []
+    for kind, peak in result.peaks:
+        known = kind is not MOMENT or result.moments_known
+        pairs.append((kind.name, _peak(peak, system.unit(kind)) if known else "–"))
     return Facts(tuple(pairs), title)
 
 
@@ -95,6 +98,8 @@ def _vector_table(kind: Kind, phasors: Phasors, unit: Unit) -> Grid:
         name = str(order_number(phasors.orders[k]))
         if phasors.balanced[k]:
             return name, "balanced", "", "", "", ""
+        if np.isnan(phasors.forward[k]):
+            return name, "–", "–", "–", "–", "–"
         values = (phasors.major, phasors.minor, abs(phasors.forward), abs(phasors.backward))
         largest, smallest, ahead, against = (number(unit.of(float(v[k]))) for v in values)
         return name, largest, smallest, degrees(float(phasors.axis_deg[k]), 180), ahead, against

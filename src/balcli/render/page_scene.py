@@ -80,7 +80,9 @@ def _variant_entry(label: str, result: Analysis, system: System) -> dict[str, An
         "label": label,
         "devices": [_device_entry(d) for d in result.engine.devices],
         "force": [] if force is None else _vector_rows(force, system.force),
-        "moment": [] if moment is None else _vector_rows(moment, system.moment),
+        "moment": []
+        if moment is None or not result.moments_known
+        else _vector_rows(moment, system.moment),
     }
 
 

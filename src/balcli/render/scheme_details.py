@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from math import nan
 from typing import Any
 
 from ..results.balance import Balance
@@ -96,13 +97,17 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
         details = [Detail("unit force", "force", remedy.optima.unit_force), *fitted, *details]
     if result.speed_note:
         details.append(Detail("speed", "", result.speed_note))
+    if not result.before.moments_known:
+        details = [d._replace(value=nan) if d.dimension == "moment" else d for d in details]
     if details:
         pairs = tuple(pair for detail in details for pair in _list_facts(detail, system))
         yield Facts(pairs, "Details")
     if remedy.card:
         yield _card_grid(remedy.card)
     if remedy.sweep:
-        yield _sweep_grid(remedy.sweep, system)
+        known = result.before.moments_known
+        peaks = remedy.sweep if known else tuple(p._replace(moment=nan) for p in remedy.sweep)
+        yield _sweep_grid(peaks, system)
     if remedy.optima:
         yield _optima_grid(remedy.optima)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .csv import Rows
-from .figures import clean, figure_rows, order_entries, peak_entries
+from .figures import assumptions, clean, figure_rows, order_entries, peak_entries
 from .order_tables import order_tables, peak_facts
 from .sheet import Facts, Sheet, number
 
@@ -44,6 +44,7 @@ def document(result: Combined) -> dict[str, Any]:
         "speed_rpm": clean(first.speed_rpm),
         "reference_mm": [clean(v * 1e3) for v in first.reference_m],
         "orders": order_entries(result.spectra),
+        **assumptions(result),
         "peak": peak_entries(result),
     }
 
@@ -78,14 +79,21 @@ def sheet(result: Combined, system: System) -> Sheet:
                 f"{', and turns against the first' if how.reverse else ''}"
             ),
         ),
-        ("speed", f"{number(first.speed_rpm, 6)} rpm, both"),
-        ("reference", f"moments about {place(first.reference_m)}"),
+        ("speed", f"{number(float(first.speed_rpm), 6)} rpm, both"),
+        (
+            "reference",
+            f"moments about {place(first.reference_m)}"
+            if result.moments_known
+            else "moments are not known: crank.spacing is missing",
+        ),
     )
+    known = result.moments_known
+    spectra = result.spectra if known else result.spectra.without_moment()
     return Sheet(
         " and ".join(names),
         (
             Facts(pairs),
-            *order_tables(result.spectra, system, _ROLL[how.load] if how.reverse else ""),
+            *order_tables(spectra, system, _ROLL[how.load] if how.reverse else ""),
             peak_facts(result, system, "Largest over a revolution, all orders"),
         ),
     )

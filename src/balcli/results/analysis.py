@@ -83,6 +83,13 @@ class Analysis:
         return [(kind, peak) for kind, peak in found if peak is not None]
 
     @property
+    def moments_known(self) -> bool:
+        """Whether the engine file says where the throws stand; else moments are of coincident
+        ones.
+        """
+        return self.engine.places_known
+
+    @property
     def has_higher_orders(self) -> bool:
         """Whether there may be orders above those that are shown unless they are asked for."""
         return bool(find_relevant_orders(self.engine)[-1] > HIGHEST_ORDER_UNASKED)
@@ -138,6 +145,7 @@ def analyze(
     visible = everything.only(shown)
     visible = visible.select_orders(choose_orders(visible) if asked is None else asked)
     above_0 = visible.orders[visible.orders > 0]
+    provable = shown if engine.places_known else shown - {"moment"}
     cylinders = _analyze_cylinders(engine, visible.orders, shown) if by_cylinder else ()
     return Analysis(
         engine,
@@ -146,7 +154,7 @@ def analyze(
         peak(everything["moment"]) if peaked else None,
         sizing=_size_and_analyze(engine, asked, wanted) if "sizing" in wanted else None,
         cylinders=cylinders,
-        why=explain_symmetry(engine, above_0, shown) if reasons else None,
+        why=explain_symmetry(engine, above_0, provable) if reasons else None,
         inner=compute_inner_loads(engine, asked) if "inner" in wanted else None,
         guide=compute_guide_moments(engine, asked, guide_height_m) if "guide" in wanted else None,
         travel=None if engine.cylinders.linkage is None else find_travel(engine.cylinders),

@@ -6,11 +6,13 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import nan
 
+from ..core.peaks import Peak
 from ..core.phasors import Array
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..forces.kinds import VECTORS, Kind
+from ..forces.kinds import MOMENT, VECTORS, Kind
 from ..forces.orders import merge_orders
+from ..forces.spectrum import Spectra
 from .analysis import QUANTITIES, Analysis, analyze
 
 SHEAR = Kind("shear", "shear force in the crankshaft", "Q", "shear_N", True, "force")
@@ -35,7 +37,7 @@ class Line:
     Attributes:
         kind: of force or moment.
         order: None for the peak.
-        values: one an engine.
+        values: one an engine; nan for moments that are not known.
     """
 
     kind: Kind
@@ -102,7 +104,7 @@ def _list_orders(one: Analysis) -> Iterator[Array]:
 
 def _compare_orders(analyses: Sequence[Analysis], orders: Array) -> Iterator[Line]:
     for kind, _ in analyses[0].spectra.items():
-        sizes = [one.spectra[kind.name].major for one in analyses]
+        sizes = [_known(one)[kind.name].major for one in analyses]
         for order, *values in zip(orders, *sizes, strict=True):
             if order <= 2 or any(values):
                 yield Line(kind, float(order), tuple(map(float, values)))
@@ -111,7 +113,18 @@ def _compare_orders(analyses: Sequence[Analysis], orders: Array) -> Iterator[Lin
 def _compare_peaks(analyses: Sequence[Analysis]) -> Iterator[Line]:
     for same in zip(*(one.peaks for one in analyses), strict=True):
         kind, _ = same[0]
-        yield Line(kind, None, tuple(peak.value for _, peak in same))
+        yield Line(kind, None, tuple(_known_values(kind, same, analyses)))
+
+
+def _known(one: Analysis) -> Spectra:
+    return one.spectra if one.moments_known else one.spectra.without_moment()
+
+
+def _known_values(
+    kind: Kind, peaks: Iterable[tuple[Kind, Peak]], analyses: Sequence[Analysis]
+) -> Iterator[float]:
+    for (_, peak), one in zip(peaks, analyses, strict=True):
+        yield peak.value if one.moments_known or kind is not MOMENT else nan
 
 
 def _compare_inner(analyses: Sequence[Analysis]) -> Iterator[Line]:
@@ -146,4 +159,4 @@ def _compare_sizing(analyses: Sequence[Analysis]) -> Iterator[Line]:
     left = [one.sizing.after for one in analyses if one.sizing is not None]
     for same in zip(*(one.peaks for one in left), strict=True):
         kind, _ = same[0]
-        yield Line(LEFT[kind], None, tuple(peak.value for _, peak in same))
+        yield Line(LEFT[kind], None, tuple(_known_values(kind, same, left)))

@@ -16,7 +16,7 @@ from ..core.mechanisms.articulated import Articulated
 from ..core.phasors import Array, unit
 from ..core.strokes import Travel, find_travel
 from ..engine.build import build
-from ..engine.layout import plan
+from ..engine.layout import plan_cylinders
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
 from ..sizing.details import Detail, Range
@@ -165,7 +165,7 @@ def _solve(
 
 def _find_first_rows(model: EngineFile, numbers: tuple[int, ...]) -> list[int]:
     """Row of the first cylinder of each bank."""
-    cells = plan(model.crank, model.layout).cells
+    cells = plan_cylinders(model.crank, model.layout).cells
     first = {cell.bank: cell.number for cell in sorted(cells, key=lambda cell: -cell.throw)}
     return [numbers.index(first[bank]) for bank in sorted(first)]
 

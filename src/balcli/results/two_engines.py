@@ -11,8 +11,9 @@ from typing import Literal
 import numpy as np
 
 from ..core.peaks import Peak, peak
-from ..core.phasors import Complex, Phasors, unit
-from ..engine.build import Engine, Ripple
+from ..core.phasors import Complex, Figure, Phasors, unit
+from ..engine.assembly import Ripple
+from ..engine.build import Engine
 from ..forces.kinds import KINDS, VECTORS, Kind
 from ..forces.orders import check_orders, choose_orders, find_relevant_orders, merge_orders
 from ..forces.spectrum import Spectra, add_parts, compute_spectra
@@ -68,6 +69,11 @@ class Combined:
     cylinders: tuple[tuple[int, Spectra], ...] = ()
 
     @property
+    def moments_known(self) -> bool:
+        """Whether both engine files say where their throws stand."""
+        return all(engine.places_known for engine in self.engines)
+
+    @property
     def peaks(self) -> list[tuple[Kind, Peak]]:
         """Force and moment, with their peaks."""
         return list(zip(VECTORS, (self.force, self.moment), strict=True))
@@ -116,7 +122,7 @@ def gear_to(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
 
 
 def place_spectra(
-    own: Spectra, arrangement: Arrangement, reference_m: tuple[float, float, float]
+    own: Spectra, arrangement: Arrangement, reference_m: tuple[Figure, Figure, Figure]
 ) -> Spectra:
     """Phasors of an engine where it stands, by the crank angle of the engine that it is geared to.
 
@@ -126,7 +132,8 @@ def place_spectra(
         reference_m: point of reference of the result, in the other engine's axes.
     """
     n = own.orders
-    x, y, z = (place - point for place, point in zip(arrangement.at_m, reference_m, strict=True))
+    places = zip(arrangement.at_m, reference_m, strict=True)
+    x, y, z = (place - float(point) for place, point in places)
     lead = unit(n * arrangement.phase_deg)
     parts = {kind.name: _advance(phasors, lead) for kind, phasors in own.items()}
     if arrangement.reverse:

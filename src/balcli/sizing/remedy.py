@@ -8,7 +8,7 @@ from typing import NamedTuple, TypeVar
 
 from ..core.cylinders import Device
 from ..engine.build import Engine
-from ..engine.devices import devices
+from ..engine.devices import build_device
 from ..enginefile.model import Counterweight, Shaft, Slider
 from .details import Bobweight, Detail, FactorPeaks, Optima
 from .device_tables import KINDS, DeviceTable
@@ -76,7 +76,8 @@ def fit_devices(engine: Engine, remedy: Remedy) -> Engine:
     """The engine with the devices of a remedy added to its own, in the order in which its file
     would have them.
     """
-    everything = (*engine.devices, *devices(remedy.devices, engine.first_axis_deg), *remedy.beyond)
+    new = (build_device(table, engine.first_axis_deg) for table in remedy.devices)
+    everything = (*engine.devices, *new, *remedy.beyond)
     return replace(engine, devices=tuple(sorted(everything, key=lambda device: device.rank)))
 
 

@@ -10,6 +10,8 @@ import numpy as np
 
 from ..core.phasors import Phasors
 from ..engine.build import Engine
+from ..engine.positions import MOMENTS_UNKNOWN
+from ..errors import BalcliError
 from ..forces.spectrum import compute_spectra
 from ..limits import HIGHEST_ORDER_SOUGHT
 from .options import SchemeOptions
@@ -91,7 +93,9 @@ def hold_steady(engine: Engine) -> Engine:
 
 
 def find_residual(engine: Engine, order: int) -> Residual:
-    """What the engine, with the devices it has, shakes at one order at its mean speed."""
+    """What the engine, with the devices it has, shakes at one order at its mean speed; of
+    forces alone where moments are not known.
+    """
     found = compute_spectra(hold_steady(engine), [order], ("force", "moment", "roll"))
     newtons_per_kg_m = order**2 * float(engine.omega) ** 2
     x, y, z = engine.reference_m
@@ -101,7 +105,8 @@ def find_residual(engine: Engine, order: int) -> Residual:
         phasors: Phasors = getattr(found, part.quantity)
         vector = phasors.forward if part.sense > 0 else phasors.backward
         per = 1j if part.quantity == "moment" else 1
-        parts[part] = complex(vector[0]) / per / newtons_per_kg_m
+        known = part.quantity == "force" or engine.places_known
+        parts[part] = complex(vector[0]) / per / newtons_per_kg_m if known else 0j
         noise[part] = float(np.broadcast_to(phasors.noise, vector.shape)[0]) / newtons_per_kg_m
     parts[ROLL] = 2 * complex(found.roll.forward[0]) / newtons_per_kg_m if found.roll else 0j
     return Residual(order, parts, noise, Point(complex(x, y), float(z)), newtons_per_kg_m)
@@ -119,8 +124,11 @@ def choose_residual(
     Args:
         senses: of rotation that count: 1 with the crank, -1 against it.
 
-    Raises NothingToBalanceError if nothing of the quantity is left.
+    Raises NothingToBalanceError if nothing of the quantity is left, BalcliError for a moment that
+    is not known.
     """
+    if quantity == "moment" and not engine.places_known:
+        raise BalcliError(MOMENTS_UNKNOWN)
     if options.order is None:
         return _find_lowest(engine, quantity, senses)
     residual = find_residual(engine, options.order)

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine, build
-from ..engine.layout import plan
+from ..engine.layout import plan_cylinders
 from ..enginefile.model import EngineFile
 from ..forces.quantity import Quantity
 from ..forces.spectrum import compute_spectra
@@ -57,12 +57,12 @@ class DeviatingEngine:
     """
 
     def __init__(self, model: EngineFile, tolerances: Tolerances) -> None:
-        self._engine = build(model, 1)
-        cells = {cell.number: cell for cell in plan(model.crank, model.layout).cells}
+        self._engine = build(model, rank=1)
+        cells = {cell.number: cell for cell in plan_cylinders(model.crank, model.layout).cells}
         self._throws = [cells[number].throw + 1 for number in self._engine.numbers]
         c = self._engine.cylinders
-        without_pistons = build(_without_pistons(model), 1).cylinders
-        without_throws = build(_without_throws(model), 1).cylinders
+        without_pistons = build(_without_pistons(model), rank=1).cylinders
+        without_throws = build(_without_throws(model), rank=1).cylinders
         self._pistons = self._of_each(c.reciprocating - without_pistons.reciprocating)
         self._webs = self._of_each(c.rotating - without_throws.rotating)
         self._small_ends = self._of_each(c.reciprocating) - self._pistons

@@ -17,12 +17,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..engine import load as enginefile
 from ..engine.build import Engine, build
+from ..engine.load import read
 from ..enginefile.model import EngineFile
+from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, InputError
-from ..forces.quantity import Quantity, evaluate_quantities, parse_quantity_list
-from .parameters import Parameter, parse, varied
+from ..forces.quantity import Quantity, evaluate_quantities, parse_quantity_list, refuse_unknown
+from .parameters import Parameter, parse
 
 Array = NDArray[np.float64]
 Box = tuple[slice, ...]
@@ -76,7 +77,7 @@ class Sweep:
             for path, values in axes.items()
         }
         try:
-            return build(varied(self.file, arrays), rank)
+            return build(self.file, arrays, rank=rank)
         except InputError as error:
             raise InputError(error.problems, self.name) from None
 
@@ -88,12 +89,12 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str) -> Sweep:
         BalcliError: what is wrong with the file, a parameter or a quantity, or if one of the
         variants cannot be.
     """
-    model = enginefile.read(file)
+    model = read(file)
     parameters = tuple(parse(text, model) for text in vary)
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
-    sweep = Sweep(model, parameters, parse_quantity_list(quantities), enginefile.name_of(file))
+    sweep = Sweep(model, parameters, parse_quantity_list(quantities), name_file(file))
     check_corners(sweep)
     return sweep
 
@@ -105,11 +106,13 @@ def check_corners(sweep: Sweep) -> None:
 
     Raises:
         InputError: one of them cannot be.
+        BalcliError: a moment is asked for, and the file does not say where the throws stand.
     """
     corners = tuple(
         Parameter(p.path, np.array([p.values.min(), p.values.max()])) for p in sweep.parameters
     )
-    Sweep(sweep.file, corners, (), sweep.name).engine((slice(None),) * len(corners))
+    engine = Sweep(sweep.file, corners, (), sweep.name).engine((slice(None),) * len(corners))
+    refuse_unknown(engine, sweep.quantities)
 
 
 def evaluate_box(sweep: Sweep, box: Box) -> list[Array]:

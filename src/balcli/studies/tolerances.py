@@ -12,11 +12,12 @@ from typing import Literal
 import numpy as np
 
 from ..core.phasors import Array, Complex, Phasors
+from ..engine.build import build
 from ..enginefile.fields import Number
 from ..enginefile.model import EngineFile
 from ..enginefile.units import ANGLE
 from ..errors import BalcliError
-from ..forces.quantity import Quantity, evaluate_quantities
+from ..forces.quantity import Quantity, evaluate_quantities, refuse_unknown
 from ..limits import MOST_TOLERANCE_SAMPLES
 from .deviations import DeviatingEngine, Source, Tolerances
 
@@ -119,6 +120,7 @@ def scatter_engine(
             "there is no scatter of rotary engines, whose masses move on curves: vary single "
             "masses with sweep"
         )
+    refuse_unknown(build(model), quantities)
     engines = DeviatingEngine(model, tolerances)
     if not engines.sources:
         raise BalcliError("nothing deviates; give a tolerance, such as --mass-scatter 0.5%")

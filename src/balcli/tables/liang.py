@@ -87,7 +87,7 @@ def _acceleration(omega: float | None = None) -> float:
         float(compute_cylinder_curves(engine, 1, np.zeros(1)).values["acceleration_m_per_s2"][0])
         / FOOT
     )
-    return greatest if omega is None else greatest * (omega / engine.omega) ** 2
+    return greatest if omega is None else greatest * (omega / float(engine.omega)) ** 2
 
 
 def _second(gravity: float = STANDARD_GRAVITY) -> Row:

@@ -19,7 +19,6 @@ from balcli.forces.quantity import evaluate_quantities
 from balcli.forces.symmetry import explain_symmetry
 from balcli.render.search import rows
 from balcli.render.units import SYSTEMS
-from balcli.studies.parameters import varied
 from balcli.studies.search.angles import Span, find_minima, neaten
 from balcli.studies.search.even_firing import fires_evenly
 from balcli.studies.search.objective import Objective, parse_objective
@@ -123,7 +122,7 @@ def test_angles_as_a_file_has_them() -> None:
 
 # ------------------------------------------------------------------ engines against dense sweeps
 def sweep(file: EngineFile, over: str, wanted: Objective, x: Array) -> Array:
-    engine = build(varied(file, {PATHS[over]: x}), 1)
+    engine = build(file, {PATHS[over]: x})
     figures = evaluate_quantities(engine, wanted.quantities)
     values = wanted.evaluate(dict(zip(wanted.quantities, figures, strict=True)).__getitem__)
     return np.broadcast_to(values, x.shape)
@@ -223,7 +222,7 @@ def test_the_angle_at_which_a_vee_fires_evenly(pairs: int, over: str) -> None:
     ).results
     found = [r.design.given()[over] for r in results]
     for angle in found:
-        engine = build(varied(file, {PATHS[over]: angle}))
+        engine = build(file, {PATHS[over]: angle})
         assert bool(fires_evenly(engine, file))
     slots = np.mod(np.arange(2 * pairs) * interval, 360)
     expected = {
@@ -322,7 +321,7 @@ def test_no_permutation_of_throws_is_better(seed: int) -> None:
     given = random.choice([0, 72, 90, 120, 144, 180, 240, 300], count).tolist()
     file = vee(throws=given, bank=72.4, stagger=24, throw_mass=1.1)
     every = np.array(sorted(set(itertools.permutations(given))), float)
-    engine = build(varied(file, {f"crank.throws.{k + 1}": row for k, row in enumerate(every.T)}), 1)
+    engine = build(file, {f"crank.throws.{k + 1}": row for k, row in enumerate(every.T)})
 
     def values(wanted: Objective) -> Array:
         figures = evaluate_quantities(engine, wanted.quantities)

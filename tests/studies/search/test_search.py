@@ -9,12 +9,11 @@ import pytest
 from support.engines import GOOD, changed, engine_text
 
 from balcli.engine.build import build
-from balcli.engine.layout import plan
+from balcli.engine.layout import plan_cylinders
 from balcli.engine.load import parse as load
 from balcli.enginefile.model import EngineFile
 from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
-from balcli.studies.parameters import varied
 from balcli.studies.search.designs import Design
 from balcli.studies.search.even_firing import fires_evenly
 from balcli.studies.search.objective import parse_objective
@@ -68,9 +67,7 @@ def test_branch_and_bound_finds_what_trying_all_finds(throws: list[float], layou
         if len(every) < 1000
         else every[np.random.default_rng(1).choice(len(every), 1000, replace=False)]
     )
-    whole = build(
-        varied(file, {f"crank.throws.{t + 1}": column for t, column in enumerate(sample.T)}), 1
-    )
+    whole = build(file, {f"crank.throws.{t + 1}": column for t, column in enumerate(sample.T)})
     values = dict(
         zip(wanted.quantities, evaluate_quantities(whole, wanted.quantities), strict=True)
     )
@@ -194,7 +191,7 @@ def test_firing_orders_are_those_that_an_engine_file_may_have(layout: str, splay
 
 
 def _images(order: tuple[int, ...], file: EngineFile) -> list[tuple[int, ...]]:
-    cells = {(c.bank, c.throw): c.number for c in plan(file.crank, file.layout).cells}
+    cells = {(c.bank, c.throw): c.number for c in plan_cylinders(file.crank, file.layout).cells}
     last = max(throw for _, throw in cells)
     other_end = {n: cells.get((bank, last - throw), n) for (bank, throw), n in cells.items()}
     ends = [order, tuple(other_end[n] for n in order)]

@@ -10,10 +10,9 @@ import numpy as np
 from ...core.phasors import Array
 from ...engine.arrays import ranked
 from ...engine.build import Engine, build
-from ...engine.layout import plan
+from ...engine.layout import plan_cylinders
 from ...enginefile.model import EngineFile
 from ...forces.quantity import Quantity, evaluate_quantities
-from ..parameters import varied
 from .objective import Objective
 
 # One column by its key of the engine file: `throws`, shape (candidates, throws), or `bank_angle` or
@@ -60,12 +59,12 @@ def build_candidates(model: EngineFile, candidates: Candidates) -> Engine:
         paths["layout.bank_angle"] = candidates["bank_angle"]
     if "splay" in candidates:
         paths["crank.splay"] = candidates["splay"]
-    return build(varied(model, paths), 1)
+    return build(model, paths)
 
 
 def _without_firing_order(model: EngineFile) -> EngineFile:
     """With throws of some kind and no firing order, so that any throws can be tried."""
-    throws = model.crank.throws or (0.0,) * plan(model.crank, model.layout).throws
+    throws = model.crank.throws or (0.0,) * plan_cylinders(model.crank, model.layout).throws
     crank = model.crank.model_copy(update={"throws": throws})
     layout = model.layout.model_copy(update={"firing_order": None, "firing_intervals": None})
     return model.model_copy(update={"crank": crank, "layout": layout})

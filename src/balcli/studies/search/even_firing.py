@@ -9,21 +9,21 @@ from numpy.typing import NDArray
 
 from ...core.phasors import Array
 from ...engine.build import Engine
-from ...engine.firing import TOLERANCE
-from ...engine.layout import TURN, cycle
+from ...engine.firing import TOLERANCE_DEG
+from ...engine.layout import TURN, cycle_deg
 from ...enginefile.model import EngineFile
 from .angles import Span, neaten
 from .designs import build_candidates
 
 
 def fires_evenly(engine: Engine, model: EngineFile) -> NDArray[np.bool_]:
-    """Whether the cylinders reach top dead centre in turn at even distances (within TOLERANCE),
+    """Whether the cylinders reach top dead centre in turn at even distances (within TOLERANCE_DEG),
     shape (candidates,).
     """
-    ready = np.sort(np.mod(_find_top_dead_centres(engine, model) + TOLERANCE, TURN), axis=0)
+    ready = np.sort(np.mod(_find_top_dead_centres(engine, model) + TOLERANCE_DEG, TURN), axis=0)
     even = np.sort(np.mod(_list_slots(len(ready), model), TURN))
     even = even.reshape(-1, *(1,) * (ready.ndim - 1))
-    fits: NDArray[np.bool_] = (np.abs(ready - TOLERANCE - even) <= TOLERANCE).all(axis=0)
+    fits: NDArray[np.bool_] = (np.abs(ready - TOLERANCE_DEG - even) <= TOLERANCE_DEG).all(axis=0)
     return fits
 
 
@@ -33,7 +33,7 @@ def find_even_angles(
     """The angles in a span at which the cylinders fire evenly, deg; None if they do at any angle.
 
     Where the crank stands at a cylinder's top dead centre depends on the angle in proportion: that
-    of one cylinder that moves against cylinder 1 has to be at one of the slots of the cycle.
+    of one cylinder that moves against cylinder 1 has to be at one of the slots of the cycle_deg.
     """
     two = build_candidates(model, {key: np.array([0.0, 1.0])})
     ready = _find_top_dead_centres(two, model)
@@ -53,7 +53,7 @@ def find_even_angles(
 
 def _list_slots(count: int, model: EngineFile) -> Array:
     """Where the crank stands at each of so many even firings, deg after the first."""
-    return cycle(model.layout) * np.arange(count) / count
+    return cycle_deg(model.layout) * np.arange(count) / count
 
 
 def _find_top_dead_centres(engine: Engine, model: EngineFile) -> Array:

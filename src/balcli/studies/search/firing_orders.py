@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice
 
-from ...engine.firing import TOLERANCE
+from ...engine.firing import TOLERANCE_DEG
 from ...engine.layout import Cell
 from ...errors import BalcliError
 from ...limits import MOST_CYLINDERS_FIRED, MOST_EVEN_CRANKS
@@ -116,5 +116,5 @@ class Slots:
         ready = self.sense * (self.top[cell.number] - self.top[1] - throw)
         nearest = round(ready / grain)
         slot = nearest % (2 * len(self.cells))
-        fires = abs(ready - nearest * grain) <= TOLERANCE and slot in self._slots
+        fires = abs(ready - nearest * grain) <= TOLERANCE_DEG and slot in self._slots
         return slot if fires else -1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from ...engine.layout import plan
+from ...engine.layout import plan_cylinders
 from ...enginefile.model import EngineFile
 from .designs import Design, Found
 
@@ -26,7 +26,7 @@ def drop_mirror_images(found: Iterable[Found], model: EngineFile) -> Iterator[Fo
 
 def _find_other_end(model: EngineFile) -> dict[int, int]:
     """Which cylinder stands where each one would, seen from the other end."""
-    cells = plan(model.crank, model.layout).cells
+    cells = plan_cylinders(model.crank, model.layout).cells
     numbers = {(cell.bank, cell.throw): cell.number for cell in cells}
     last = max(cell.throw for cell in cells)
     return {c.number: numbers.get((c.bank, last - c.throw), c.number) for c in cells}

@@ -11,12 +11,12 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from ...core.phasors import Array
-from ...engine.build import build, tops
-from ...engine.layout import cycle, plan
+from ...engine.build import assemble, build
+from ...engine.layout import cycle_deg, plan_cylinders
 from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
-from ...forces.quantity import Quantity
+from ...forces.quantity import Quantity, refuse_unknown
 from ...forces.textbook import TextbookUnits, find_textbook_units
 from .angles import Curve, Span, find_minima
 from .designs import Found, build_candidates, evaluate_engine, rank_candidates
@@ -68,10 +68,12 @@ def search_arrangements(
         even_firing: only arrangements that can fire evenly.
 
     Raises:
-        BalcliError: an engine that has nothing to arrange, or no arrangement that keeps the limits.
+        BalcliError: an engine that has nothing to arrange, or no arrangement that keeps the limits,
+        a moment of an engine whose file does not say where its throws stand.
     """
     what = _parse_over(over)
     engine = build(model)
+    refuse_unknown(engine, objective.quantities)
     candidates = _SEARCHES[what](_Task(model, objective, count, even_firing))
     found = tuple(islice(drop_mirror_images(candidates, model), count))
     if not found:
@@ -115,8 +117,8 @@ def _search_throws(task: _Task) -> Iterator[Found]:
 
 
 def _search_firing_order(task: _Task) -> Iterator[Found]:
-    model, layout = task.model, plan(task.model.crank, task.model.layout)
-    top_deg = tops(model)
+    model, layout = task.model, plan_cylinders(task.model.crank, task.model.layout)
+    top_deg = assemble(model).tops_deg
     if any(own.throw is not None for own in model.cylinder.values()):
         raise BalcliError(
             "cylinders with throws of their own leave no firing order to look for: give "
@@ -127,7 +129,7 @@ def _search_firing_order(task: _Task) -> Iterator[Found]:
         for cell in layout.cells
     }
     sense = -1 if model.layout.rotary else 1
-    slots = Slots(layout.cells, at_throw, cycle(model.layout), sense)
+    slots = Slots(layout.cells, at_throw, cycle_deg(model.layout), sense)
     possible = [model.crank.throws] if model.crank.throws else slots.find_cranks()
     if not possible or next(slots.find_orders(possible[0]), None) is None:
         raise BalcliError("these throws allow no even firing order")
@@ -143,7 +145,7 @@ def _search_firing_order(task: _Task) -> Iterator[Found]:
 def _search_angle(key: Angle, span: Span, task: _Task) -> Iterator[Found]:
     """Over an angle of the engine file."""
     model, objective, name = task.model, task.objective, key.replace("_", " ")
-    one_bank = len(plan(model.crank, model.layout).banks) < 2
+    one_bank = plan_cylinders(model.crank, model.layout).banks < 2
     if one_bank or (key == "bank_angle" and model.layout.bank_angle is None):
         raise BalcliError(
             f"there is no {name} to look for: the engine is no vee (give layout.bank_angle)"

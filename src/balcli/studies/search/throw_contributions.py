@@ -12,11 +12,10 @@ from numpy.typing import NDArray
 
 from ...core.phasors import Array, Complex, Phasors
 from ...engine.build import build
-from ...engine.layout import plan
+from ...engine.layout import plan_cylinders
 from ...enginefile.model import EngineFile
 from ...forces.quantity import Quantity
 from ...forces.spectrum import compute_spectra, with_only
-from ..parameters import varied
 
 Key = tuple[str, int]  # name of a kind of force or moment, and order
 ROUNDING = 1e-12  # sums below this share of the size of their parts are 0
@@ -65,10 +64,10 @@ def tabulate_contributions(
     """All kinds and orders that the quantities need; throw `fixed` (cylinder 1's) stands at 0, the
     others at any of `angles` (deg).
     """
-    throw_of = {c.number: c.throw for c in plan(model.crank, model.layout).cells}
+    throw_of = {c.number: c.throw for c in plan_cylinders(model.crank, model.layout).cells}
     count = 1 + max(throw_of.values())
     paths = {f"crank.throws.{t + 1}": 0.0 if t == fixed else angles for t in range(count)}
-    engine = build(varied(model, paths), 1)
+    engine = build(model, paths)
     own_throw = np.array([throw_of[number] for number in engine.numbers])
     orders, kinds = sorted({q.order for q in quantities}), {q.kind for q in quantities}
     each = [

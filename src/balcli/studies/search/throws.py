@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ...core.phasors import Array, Complex
 from ...engine.arrays import ranked
-from ...engine.layout import TURN, plan
+from ...engine.layout import TURN, plan_cylinders
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
 from ...forces.quantity import Quantity
@@ -51,7 +51,7 @@ def find_best_throws(
             f"crank.throws: {len(given)} throws can be arranged in more than "
             f"{MOST_ARRANGEMENTS:g} ways, too many to search"
         )
-    fixed = next(c.throw for c in plan(model.crank, model.layout).cells if c.number == 1)
+    fixed = next(c.throw for c in plan_cylinders(model.crank, model.layout).cells if c.number == 1)
     free = [t for t in range(len(given)) if t != fixed]
     best = _BestSoFar(count)
     for angles in _turn_to_cylinder_1(given):

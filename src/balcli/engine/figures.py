@@ -1,0 +1,216 @@
+"""The figures of an engine file, some of which arrays of variants take the place of.
+
+The model of a file stays what the file says. Whatever needs one of its figures asks here for it, by
+its dotted name (`crank.stroke`, `shaft.1.at.2`, `cylinder.3.rod_ratio`), and gets what the file
+says or what varies in its place, in the unit of the file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, NamedTuple, cast
+
+from ..core.phasors import Figure
+from ..enginefile.model import ArticulatedRod, EngineFile, Override, Pendulum, Rod, Table
+from ..errors import BalcliError
+
+
+class Figures:
+    """What to take for each figure of a file.
+
+    Args:
+        varied: by dotted name, what takes the place of a figure. What the same table says otherwise
+            (`rod.length` beside `rod.ratio`) then counts as not given.
+        model: the file, if something varies.
+
+    Raises:
+        BalcliError: two figures vary that say the same; or only a part of what has to be given
+            together (a mass, where the file gives an unbalance).
+    """
+
+    def __init__(
+        self, varied: Mapping[str, Figure] = MappingProxyType({}), model: EngineFile | None = None
+    ) -> None:
+        self._varied = varied
+        self._displaced = set(self._find_displaced(model)) if varied and model else set[str]()
+
+    def take(self, path: str, given: float) -> Figure:
+        """A figure that is always there."""
+        return self._varied.get(path, given)
+
+    def take_optional(self, path: str, given: float | None) -> Figure | None:
+        """A figure that may not be there."""
+        return None if path in self._displaced else self._varied.get(path, given)
+
+    def take_each(self, path: str, given: Sequence[float]) -> tuple[Figure, ...]:
+        """All members of a list, which vary one by one (`crank.throws.2`)."""
+        return tuple(self._varied.get(f"{path}.{k}", value) for k, value in enumerate(given, 1))
+
+    def is_displaced(self, path: str) -> bool:
+        """Whether a figure, list or table of the file counts as not given."""
+        return path in self._displaced
+
+    def cylinder_tables(self, model: EngineFile) -> dict[int, Override]:
+        """Tables of single cylinders, with an empty one where only variants say something."""
+        if not self._varied:
+            return model.cylinder
+        parts = [path.split(".") for path in self._varied]
+        numbers = {int(part[1]) for part in parts if part[0] == "cylinder"}
+        return dict.fromkeys(numbers, Override.model_construct()) | model.cylinder
+
+    def _find_displaced(self, model: EngineFile) -> Iterator[str]:
+        cylinders = self.cylinder_tables(model)
+        tables = dict(model.tables()) | {f"cylinder.{n}": own for n, own in cylinders.items()}
+        for path in self._varied:
+            start, _, key = path.rpartition(".")
+            if start in tables:
+                yield from _find_rivals(start, key, tables[start], self._varied)
+
+
+def _find_rivals(start: str, key: str, table: Table, varied: Mapping[str, Figure]) -> Iterator[str]:
+    """Names of what else a table (at `start`) gives that says the same as its figure `key`, which
+    varies.
+    """
+    given = [other for other, value in table if value is not None]
+    for choice in table.choices:
+        rivals = choice.rivals(key)
+        for other in varied:
+            if any(f"{other}.".startswith(f"{start}.{rival}.") for rival in rivals):
+                raise BalcliError(f"{start}.{key} and {other} say the same; vary one of them")
+        displaced = [other for other in given if other in rivals]
+        group = [other for group in choice.groups if key in group for other in group]
+        if displaced and not {*group} <= {key, *given}:
+            raise BalcliError(
+                f"{start}.{key}: the file gives {' and '.join(displaced)} instead; vary that, or "
+                f"give {' and '.join(group)} in the file"
+            )
+        yield from (f"{start}.{other}" for other in displaced)
+
+
+AS_GIVEN = Figures()  # nothing varies
+
+
+# ------------------------------------------------------------------ rods and single cylinders
+class Swing(NamedTuple):
+    """A pendulum test of a rod: the bore about which it swings, and the period, s."""
+
+    pivot: str
+    period: Figure
+
+
+class RodFigures(NamedTuple):
+    """What is said of a rod, m, kg, kg m2; None: nothing. The fields are the keys of [rod]."""
+
+    length: Figure | None = None
+    ratio: Figure | None = None
+    mass: Figure | None = None
+    cg: Figure | None = None
+    small_end: Figure | None = None
+    big_end: Figure | None = None
+    inertia: Figure | None = None
+    pendulum: Swing | None = None
+
+    @property
+    def given(self) -> dict[str, Figure | Swing]:
+        """What is said, by key."""
+        return {key: value for key, value in self._asdict().items() if value is not None}
+
+    def length_for(self, radius: Figure) -> Figure:
+        """Its length, m: as given, or by its ratio to the crank radius; one of them there always
+        is.
+        """
+        return self.length if self.length is not None else radius / cast(Figure, self.ratio)
+
+    def with_own(self, own: RodFigures) -> RodFigures:
+        """With what is said of one cylinder's rod; that displaces what says the same otherwise."""
+        if not (said := own.given):
+            return self
+        rivals = {rival for choice in Rod.choices for key in said for rival in choice.rivals(key)}
+        changes: dict[str, Any] = dict.fromkeys(rivals) | said
+        return self._replace(**changes)
+
+
+class OwnFigures(NamedTuple):
+    """What is said of one cylinder alone: kg, m, deg, and its place along the crank in mm; None:
+    nothing.
+    """
+
+    piston_mass: Figure | None = None
+    piston_offset: Figure | None = None
+    rod: RodFigures = RodFigures()
+    bank_deg: Figure | None = None
+    throw_deg: Figure | None = None
+    position_mm: Figure | None = None
+
+
+NOTHING = OwnFigures()
+
+
+def either(own: Figure | None, general: Figure) -> Figure:
+    """What is said of one cylinder, or else what holds for all."""
+    return general if own is None else own
+
+
+def or_nothing(figure: Figure | None) -> Figure:
+    """A figure, or 0 where nothing is said of it."""
+    return 0.0 if figure is None else figure
+
+
+def over(figure: Figure | None, divisor: float) -> Figure | None:
+    """A figure in another unit, if there is one."""
+    return None if figure is None else figure / divisor
+
+
+def rod_figures(figures: Figures, rod: Rod) -> RodFigures:
+    """What [rod] says."""
+    take = figures.take_optional
+    return RodFigures(
+        length=over(take("rod.length", rod.length), 1e3),
+        ratio=take("rod.ratio", rod.ratio),
+        mass=take("rod.mass", rod.mass),
+        cg=over(take("rod.cg", rod.cg), 1e3),
+        small_end=take("rod.small_end", rod.small_end),
+        big_end=take("rod.big_end", rod.big_end),
+        inertia=over(take("rod.inertia", rod.inertia), 1e6),
+        pendulum=_swing(figures, "rod.pendulum", rod.pendulum),
+    )
+
+
+def articulated_rod_figures(figures: Figures, rod: ArticulatedRod) -> RodFigures:
+    """What [articulation] says of the rods that hang on the master rod."""
+    return RodFigures(
+        length=figures.take("articulation.rod.length", rod.length) / 1e3,
+        mass=figures.take("articulation.rod.mass", rod.mass),
+        cg=figures.take("articulation.rod.cg", rod.cg) / 1e3,
+        inertia=over(figures.take_optional("articulation.rod.inertia", rod.inertia), 1e6),
+    )
+
+
+def own_figures(figures: Figures, number: int, own: Override) -> OwnFigures:
+    """What the table of one cylinder says."""
+    path, take = f"cylinder.{number}", figures.take_optional
+    rod = RodFigures(
+        length=over(take(f"{path}.rod_length", own.rod_length), 1e3),
+        ratio=take(f"{path}.rod_ratio", own.rod_ratio),
+        mass=take(f"{path}.rod_mass", own.rod_mass),
+        cg=over(take(f"{path}.rod_cg", own.rod_cg), 1e3),
+        small_end=take(f"{path}.rod_small_end", own.rod_small_end),
+        big_end=take(f"{path}.rod_big_end", own.rod_big_end),
+        inertia=over(take(f"{path}.rod_inertia", own.rod_inertia), 1e6),
+        pendulum=_swing(figures, f"{path}.rod_pendulum", own.rod_pendulum),
+    )
+    return OwnFigures(
+        piston_mass=take(f"{path}.piston_mass", own.piston_mass),
+        piston_offset=over(take(f"{path}.piston_offset", own.piston_offset), 1e3),
+        rod=rod,
+        bank_deg=take(f"{path}.bank", own.bank),
+        throw_deg=take(f"{path}.throw", own.throw),
+        position_mm=take(f"{path}.position", own.position),
+    )
+
+
+def _swing(figures: Figures, path: str, pendulum: Pendulum | None) -> Swing | None:
+    if pendulum is None or figures.is_displaced(path):
+        return None
+    return Swing(pendulum.pivot, figures.take(f"{path}.period", pendulum.period))

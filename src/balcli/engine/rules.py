@@ -1,0 +1,207 @@
+"""What does not fit together in an engine file: rules, each of which tells its mistakes by path.
+
+A rule looks at an engine as far as it is put together, and names the tables that it needs. So the
+mistakes of a file of which some tables cannot be read are found by the same rules.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core import speed_ripple
+from ..core.mechanisms import harmonics
+from ..errors import InputError, Problem
+from ..limits import MOST_SAMPLES
+from .articulation import check_articulation, check_knuckles
+from .assembly import Assembly
+from .firing import check_firing
+from .rods import (
+    RodPlace,
+    RunningGear,
+    check_ends,
+    check_inertia,
+    check_turning,
+    weigh_rod,
+)
+
+STANDSTILL = 1e-12  # of the mean speed: rounding
+
+
+class Rule(NamedTuple):
+    """What must hold, and the keys of the file without which nothing can be said of it."""
+
+    check: Callable[[Assembly], Iterator[Problem]]
+    needs: frozenset[str]
+
+
+def find_contradictions(parts: Assembly) -> list[Problem]:
+    """What the tables of a file say against each other, as far as they could be read.
+
+    All that the first rules that find something find, each mistake once: the others are about
+    engines of which those hold.
+    """
+    for rules in RULES:
+        applicable = [rule for rule in rules if rule.needs <= parts.legible]
+        problems = [problem for rule in applicable for problem in _apply(rule, parts)]
+        if problems:
+            return list(dict.fromkeys(problems))
+    return []
+
+
+def _apply(rule: Rule, parts: Assembly) -> Iterator[Problem]:
+    """The mistakes that a rule finds, or those for which what it looks at cannot be worked out."""
+    try:
+        yield from rule.check(parts)
+    except InputError as error:
+        yield from error.problems
+
+
+def check_cylinders(parts: Assembly) -> Iterator[Problem]:
+    """Throws and banks make an engine, and tables of single cylinders are of those that it has."""
+    count = len(parts.plan.cells)
+    made = (
+        f"crank.throws and layout make {count} cylinder{'s' * (count > 1)}; give every throw its "
+        "angle in crank.throws"
+    )
+    for number in parts.model.cylinder:
+        if number not in parts.plan.numbers:
+            yield Problem(f"cylinder.{number}", f"there is no cylinder {number}: {made}")
+
+
+def check_masters(parts: Assembly) -> Iterator[Problem]:
+    """Articulated rods have a master rod on their throw, and knuckle pins that fit."""
+    if parts.model.articulation is None:
+        return
+    with_own_throw = {number for number, own in parts.own.items() if own.throw_deg is not None}
+    yield from check_articulation(
+        parts.model.articulation,
+        parts.plan,
+        parts.knuckle_angles_deg,
+        parts.splay_deg,
+        with_own_throw,
+    )
+
+
+def check_rods(parts: Assembly) -> Iterator[Problem]:
+    """Every rod has a moment of inertia, and lets its crank turn.
+
+    How far an articulated rod can follow depends on its master: `check_knuckle_pins`.
+    """
+    looked_at = set()
+    for number, articulated in _list_rods(parts):
+        rod = (number if number in parts.own else 0, articulated)
+        if rod not in looked_at:
+            looked_at.add(rod)
+            yield from _check_rod(parts, parts.rod_place(number, articulated))
+
+
+def _list_rods(parts: Assembly) -> list[tuple[int, bool]]:
+    """Cylinders, and whether their rods are articulated; number 0 stands for what holds for all
+    where it is not known which cylinders there are.
+    """
+    if not parts.legible >= {"crank", "layout", "articulation"}:
+        return [(0, False)]
+    try:
+        return [(number, number in parts.masters) for number in parts.plan.numbers]
+    except InputError:
+        own = () if parts.model.articulation else parts.own
+        return [(number, False) for number in (0, *own)]
+
+
+def _check_rod(parts: Assembly, place: RodPlace) -> Iterator[Problem]:
+    one_end = list(check_ends(place))
+    yield from one_end
+    gear = _weigh_rod(parts, place)
+    if gear is None:
+        return
+    if not one_end:
+        yield from check_inertia(place, gear)
+    if "crank" in parts.legible and not place.articulated:
+        yield from check_turning(place, gear, parts.radius)
+
+
+def _weigh_rod(parts: Assembly, place: RodPlace) -> RunningGear | None:
+    """A rod with its piston, or without where that is not known; None where its length is not."""
+    if parts.legible >= {"crank", "piston"}:
+        return parts.gear_of(place)
+    if "crank" in parts.legible:
+        return weigh_rod(place.rod, place.rod.length_for(parts.radius))
+    return None if place.rod.length is None else weigh_rod(place.rod, place.rod.length)
+
+
+def check_speed(parts: Assembly) -> Iterator[Problem]:
+    """An uneven speed stays above 0."""
+    if not parts.ripple:
+        return
+    orders = [line.order for line in parts.ripple]
+    figures = [figure for line in parts.ripple for figure in (line.amplitude, line.angle_deg)]
+    columns = map(np.ravel, np.broadcast_arrays(*figures))
+    for variant in zip(*columns, strict=True):
+        amplitudes, angles = variant[::2], variant[1::2]
+        if sum(map(abs, amplitudes)) < 1 - STANDSTILL:
+            continue
+        least, theta = speed_ripple.find_slowest(list(zip(orders, amplitudes, angles, strict=True)))
+        if least <= STANDSTILL:
+            yield Problem("operation.speed_ripple", _describe_standstill(least, theta))
+            return
+
+
+def _describe_standstill(least: float, theta: float) -> str:
+    """What is wrong with an uneven speed whose least value, of its mean, is at this crank angle."""
+    stops = "turn back" if least < -STANDSTILL else "stop"
+    share = least if abs(least) > STANDSTILL else 0.0
+    return (
+        f"the crank would {stops}: at crank angle {math.degrees(theta):.4g} deg its speed is "
+        f"{share:.4g} of the mean; it must stay above 0: make the amplitudes smaller, they are "
+        "shares of the mean speed (0.01 is one per cent)"
+    )
+
+
+def check_dead_centres(parts: Assembly) -> Iterator[Problem]:
+    """Cylinders fire when they are at top dead centre."""
+    if parts.order is None:
+        return
+    throws_given = parts.model.crank.throws is not None
+    yield from check_firing(
+        parts.fires_deg, parts.leads_deg, parts.tops_deg, parts.sense, throws_given=throws_given
+    )
+
+
+def check_knuckle_pins(parts: Assembly) -> Iterator[Problem]:
+    """Articulated rods can follow their knuckle pins all the way round."""
+    if parts.model.articulation is not None:
+        yield from check_knuckles(parts.model, parts.cylinders, parts.numbers)
+
+
+def check_samples(parts: Assembly) -> Iterator[Problem]:
+    """Not too many mechanisms differ and are near their lock: they would take minutes."""
+    c = parts.cylinders
+    if parts.rank or c.count * harmonics.HARDEST <= MOST_SAMPLES:
+        return
+    count = c.linkage.count_all_samples if c.linkage else harmonics.count_all_samples
+    different, samples = count(c.lam, c.eps)
+    if samples > MOST_SAMPLES:
+        yield Problem(
+            "cylinder",
+            f"the cylinders have {different} different mechanisms, some so near their lock that "
+            f"all of them need {samples} samples of a revolution; at most {MOST_SAMPLES} are "
+            "taken: make these rods longer, or more of them equal",
+        )
+
+
+_WHOLE = frozenset({"crank", "rod", "piston", "layout", "articulation", "cylinder"})
+RULES = (
+    (
+        Rule(check_cylinders, frozenset({"crank", "layout"})),
+        Rule(check_masters, frozenset({"crank", "layout", "articulation"})),
+        Rule(check_rods, frozenset({"rod"})),
+        Rule(check_speed, frozenset({"operation"})),
+    ),
+    (Rule(check_dead_centres, _WHOLE),),
+    (Rule(check_knuckle_pins, _WHOLE),),
+    (Rule(check_samples, _WHOLE),),
+)

@@ -1,0 +1,239 @@
+"""Text of an engine file -> its tables, and every mistake that the text has, each by its path.
+
+What the tables say against each other is not looked at here: that takes an engine (`engine.rules`).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+from pydantic import ValidationError
+
+from ..errors import DISGUISES, InputError, Problem
+from ..limits import (
+    LONGEST_NAME,
+    MOST_KEY_VALUES,
+    MOST_MISTAKES_SHOWN,
+    MOST_PARTS,
+)
+from .fields import printable, shorten
+from .messages import (
+    DEVICES,
+    INNER,
+    KNOWN,
+    TABLES,
+    TEXTS,
+    UnknownKey,
+    describe_finding,
+    describe_unknown_key,
+    is_miscounted,
+    join_path,
+)
+from .model import EngineFile, Override, Table, mistakes_of_choice
+from .toml_text import parse_toml
+
+REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5"}
+CONTROL_CHARACTERS = {
+    "name": re.compile(rf"[\x00-\x1f\x7f-\x9f{DISGUISES}]"),
+    "source": re.compile(rf"[\x00-\x08\x0b-\x1f\x7f-\x9f{DISGUISES}]"),  # may have lines
+}
+T = TypeVar("T", bound=Table)
+
+
+@dataclass(frozen=True)
+class Draft:
+    """What could be read of an engine file.
+
+    Attributes:
+        model: the file. Where there are mistakes, tables that could not be read are left out of it:
+            their defaults stand there, or nothing where there is none.
+        legible: keys of the file that can be relied on: what they say, or do not say, was read.
+        problems: mistakes of the text.
+        unknown: keys that an engine file does not have.
+    """
+
+    model: EngineFile
+    legible: frozenset[str]
+    problems: tuple[Problem, ...]
+    unknown: tuple[UnknownKey, ...]
+
+    @property
+    def has_mistakes(self) -> bool:
+        return bool(self.problems or self.unknown)
+
+    def refusal(self, contradictions: Iterable[Problem], name: str) -> InputError:
+        """All mistakes as one error: unknown keys, those of the text, and what the tables say
+        against each other.
+
+        The first are listed, of the others there is the number. A key that is missing is not told
+        where it is there, misspelt.
+        """
+        described = [describe_unknown_key(key) for key in self.unknown[:MOST_MISTAKES_SHOWN]]
+        meant = {path for _, path in described if path}
+        others = [
+            problem
+            for problem in (*self.problems, *contradictions)
+            if not (problem.path in meant and problem.message.startswith("is missing"))
+        ]
+        listed = [*(problem for problem, _ in described), *others][:MOST_MISTAKES_SHOWN]
+        more = len(self.unknown) + len(others) - MOST_MISTAKES_SHOWN
+        return InputError(listed, name, max(more, 0))
+
+
+def read_tables(text: str | bytes, name: str = "") -> Draft:
+    """What a TOML text says of an engine; `name` is that of its file, for messages.
+
+    Tables that the text does not have are not even compiled by pydantic.
+
+    Raises:
+        InputError: it is no TOML.
+    """
+    data = parse_toml(text, name)
+    reader = _Reader()
+    reader.unknown += [UnknownKey("", key, None) for key in data if key not in KNOWN]
+    for key, example in REQUIRED.items():
+        if key not in data:
+            hint = f'such as "[{key}]" and "{example}" below it'
+            reader.add(key, f"is missing; an engine needs it, {hint}")
+    parts: dict[str, Any] = {key: reader.read_text(key, data[key]) for key in TEXTS if key in data}
+    for key, table in TABLES.items():
+        if key in data:
+            parts[key] = reader.read_table(key, data[key], table)
+    for key, table in DEVICES.items():
+        if key in data:
+            parts[key] = reader.read_devices(key, data[key], table)
+    if "cylinder" in data:
+        parts["cylinder"] = reader.read_cylinders(data["cylinder"])
+    return reader.draft(parts)
+
+
+class _Reader:
+    """Reads the tables of a file one by one and collects the mistakes; None: could not be read."""
+
+    def __init__(self) -> None:
+        self.problems: list[Problem] = []
+        self.unknown: list[UnknownKey] = []
+
+    def add(self, path: str, message: str) -> None:
+        self.problems.append(Problem(path, message))
+
+    def draft(self, parts: Mapping[str, Any]) -> Draft:
+        """What was read, from the parts of the file by their keys."""
+        cylinders: dict[int, Override | None] = parts.get("cylinder", {})
+        broken = {key for key in REQUIRED if key not in parts}
+        broken |= {key for key, part in parts.items() if part is None}
+        broken |= {key for key in DEVICES if None in (parts.get(key) or ())}
+        read = {key: part for key, part in parts.items() if key not in broken}
+        if None in cylinders.values():
+            broken.add("cylinder")
+            read["cylinder"] = {n: own for n, own in cylinders.items() if own is not None}
+        return Draft(
+            EngineFile.model_construct(set(read), **read),
+            frozenset(KNOWN) - broken,
+            tuple(self.problems),
+            tuple(self.unknown),
+        )
+
+    def read_text(self, key: str, value: object) -> str | None:
+        if not isinstance(value, str):
+            self.add(key, f"{shorten(value)} is not text; write it in quotes")
+            return None
+        if strange := CONTROL_CHARACTERS[key].search(value):
+            code = f"U+{ord(strange[0]):04X}"
+            self.add(
+                key,
+                f"has the control character {code}, which could command a terminal or disguise "
+                "what it shows; leave it out",
+            )
+        elif key == "name" and len(value) > LONGEST_NAME:
+            self.add(
+                key,
+                f"has {len(value)} characters; it stands in every line of a CSV, at most "
+                f"{LONGEST_NAME} are taken",
+            )
+        return value
+
+    def read_table(self, path: str, value: object, table: type[T]) -> T | None:
+        if not isinstance(value, Mapping):
+            self.add(
+                path,
+                f"{shorten(value)} stands where a table belongs; write [{path}] and its keys "
+                "below it",
+            )
+            return None
+        fields = table.model_fields
+        self.unknown += [UnknownKey(path, key, table) for key in value if key not in fields]
+        known = {key: part for key, part in value.items() if key in fields}
+        if self._refuse_huge(path, known):
+            return None
+        try:
+            return table.model_validate(known)
+        except ValidationError as error:
+            self._translate(path, error, known, table)
+            return None
+
+    def read_devices(self, key: str, value: object, table: type[T]) -> tuple[T | None, ...] | None:
+        if not isinstance(value, list):
+            self.add(
+                key, f"is one of several; write [[{key}]] in double brackets, once for each {key}"
+            )
+            return None
+        if len(value) > MOST_PARTS:
+            self.add(key, f"stands {len(value)} times; no engine has more than {MOST_PARTS}")
+            return None
+        return tuple(
+            self.read_table(f"{key}.{number}", item, table) for number, item in enumerate(value, 1)
+        )
+
+    def read_cylinders(self, value: object) -> dict[int, Override | None]:
+        if not isinstance(value, Mapping):
+            value = {"": value}
+        cylinders: dict[int, Override | None] = {}
+        for key, part in value.items():
+            if re.fullmatch(r"[1-9][0-9]{0,4}", key):
+                cylinders[int(key)] = self.read_table(f"cylinder.{key}", part, Override)
+            else:
+                self.add(
+                    f"cylinder.{printable(key)}".rstrip("."),
+                    "does not name a cylinder; write [cylinder.3] for what differs in cylinder 3",
+                )
+        return cylinders
+
+    def _refuse_huge(self, path: str, known: Mapping[str, object]) -> bool:
+        """Whether a key holds more values than pydantic should look at one by one."""
+        counts = {key: _count_values(part) for key, part in known.items()}
+        huge = {key: count for key, count in counts.items() if count > MOST_KEY_VALUES}
+        for key, count in huge.items():
+            self.add(
+                f"{path}.{key}",
+                f"holds {count} values; no engine needs more than {MOST_KEY_VALUES}",
+            )
+        return bool(huge)
+
+    def _translate(
+        self, path: str, error: ValidationError, value: Mapping[str, Any], table: type[Table]
+    ) -> None:
+        """Collect pydantic's findings, and the keys that exclude each other, at which it looks only
+        where all else is right.
+        """
+        findings = error.errors(include_url=False)
+        if any(finding["loc"] for finding in findings):
+            for mistake in mistakes_of_choice(table, value):
+                self.add(path, mistake)
+        for finding in findings:
+            if finding["type"] == "extra_forbidden":  # in a table within the table
+                *parents, last = finding["loc"]
+                inner = INNER[str(parents[0])]
+                self.unknown.append(UnknownKey(join_path(path, parents), str(last), inner))
+            elif not is_miscounted(finding):
+                self.problems.append(describe_finding(path, finding, table))
+
+
+def _count_values(value: object) -> int:
+    """How many values a value holds, itself included."""
+    if isinstance(value, Mapping):
+        return 1 + sum(map(_count_values, value.values()))
+    return 1 + sum(map(_count_values, value)) if isinstance(value, list) else 1

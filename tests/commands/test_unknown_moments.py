@@ -1,0 +1,187 @@
+"""A file that does not say where its throws stand: their moments are not known, and nobody may take
+them for balanced.
+"""
+
+import csv
+import io
+import json
+
+import pytest
+from support.engines import GOOD, changed
+
+UNKNOWN = (
+    "moments are not known, because crank.spacing is missing: give it (or crank.positions); 0 says "
+    "that all throws stand in one plane"
+)
+FLAT_CRANK = ("throws = [0, 180, 180, 0]", "throws = [0, 180]")
+NO_ORDER = ("firing_order = [1, 3, 4, 2]", "")
+NO_SPACING = ("spacing = 100\n", "")
+
+
+@pytest.fixture
+def twin(tmp_path):
+    """A 180-degree twin, whose large moment the file leaves open."""
+    file = tmp_path / "twin.toml"
+    file.write_text(changed(FLAT_CRANK, NO_ORDER, NO_SPACING))
+    return file
+
+
+def warning(file):
+    return f"warning: {file}: {UNKNOWN}\n"
+
+
+def test_a_table_has_dashes_and_the_verdict_judges_forces_alone(balcli, twin):
+    status, out, err = balcli("analyze", twin)
+    assert (status, err) == (0, warning(twin))
+    moments = out.partition("Free moment by order")[2].partition("About the crank axis")[0]
+    assert [line.split() for line in moments.splitlines() if line[:1] in "12"][:2] == [
+        ["1", "–", "–", "–", "–", "–"],
+        ["2", "–", "–", "–", "–", "–"],
+    ]
+    assert "Free moment in textbook units" not in out
+    assert "moment  –" in out
+    told = " ".join(out.partition("\nVerdict\n")[2].split())
+    assert "First order: free of force. Second order: force of" in told
+    assert UNKNOWN[1:] in told
+    assert "free of moment" not in told
+    assert "no moment" not in told
+    assert "no free force of orders 1 and 2 (moments are not known)" in told
+
+
+def test_sizing_that_fits_nothing_promises_nothing_of_moments(balcli, tmp_path):
+    file = tmp_path / "six.toml"
+    six = ("throws = [0, 180, 180, 0]", "throws = [0, 120, 240, 0, 120, 240]")
+    file.write_text(changed(six, NO_ORDER, NO_SPACING))
+    told = " ".join(balcli("analyze", file)[1].split())
+    assert "The forces of orders 1 and 2 need no counterweight and no shaft; moments are" in told
+    told = " ".join(balcli("balance", file)[1].split())
+    assert f"Nothing is fitted Forces alone M{UNKNOWN[1:]}." in told
+    assert "are balanced" not in told
+
+
+def test_by_symmetry_nothing_is_said_of_moments(balcli, twin):
+    why = json.loads(balcli("analyze", twin, "--why", "--format", "json")[1])["why"]
+    assert "force" in str(why)
+    assert "moment" not in str(why)
+
+
+def test_json_keeps_the_figures_of_one_plane_and_says_so(balcli, twin, tmp_path):
+    said = tmp_path / "said.toml"
+    said.write_text(twin.read_text().replace("[rod]", "spacing = 0\n[rod]"))
+    for command in ("analyze", "balance"):
+        status, out, err = balcli(command, said, "--format", "json")
+        assert (status, err) == (0, "")
+        known, found = json.loads(out), json.loads(balcli(command, twin, "--format", "json")[1])
+        assert "assumed" not in known
+        assert found == known | {"assumed": ["crank.spacing = 0"]}
+
+
+def test_csv_has_no_moments(balcli, twin):
+    for command in ("analyze", "balance"):
+        rows = list(csv.DictReader(io.StringIO(balcli(command, twin, "--format", "csv")[1])))
+        assert {"force", "roll"} <= {row["quantity"] for row in rows}
+        assert "moment" not in {row["quantity"] for row in rows}
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        "spacing = 0",
+        "positions = [0, 0]",
+        "spacing = 100",
+    ],
+)
+def test_what_is_said_on_purpose_is_known(balcli, twin, more):
+    twin.write_text(twin.read_text().replace("[rod]", f"{more}\n[rod]"))
+    status, out, err = balcli("analyze", twin, "--only", "moment")
+    assert (status, err) == (0, "")
+    assert ("First order: free of moment." in out) == ("100" not in more)
+
+
+def test_cylinders_with_places_and_a_single_throw_are_known(balcli, twin, tmp_path):
+    twin.write_text(twin.read_text() + "[cylinder.1]\nposition = -50\n[cylinder.2]\nposition = 50")
+    assert balcli("analyze", twin, "--only", "moment")[::2] == (0, "")
+    single = tmp_path / "single.toml"
+    single.write_text(changed(("throws = [0, 180, 180, 0]", "throws = [0]"), NO_ORDER, NO_SPACING))
+    assert balcli("analyze", single, "--only", "moment")[::2] == (0, "")
+
+
+@pytest.mark.parametrize(
+    ("command", "args", "message"),
+    [
+        ("analyze", ["--only", "force,moment"], "{file}: moment: "),
+        ("analyze", ["--only", "inner"], "{file}: inner: "),
+        ("compare", ["{file}", "--only", "moment"], "{file}: moment: "),
+        (
+            "search",
+            ["--over", "throws", "--minimise", "force.1.major,moment.1.major"],
+            "moment.1.major: ",
+        ),
+        (
+            "search",
+            ["--over", "throws", "--minimise", "force.1.major", "--limit", "moment.2.major<9"],
+            "moment.2.major: ",
+        ),
+        ("sweep", ["--vary", "rod.length=150,160", "-q", "peak.moment"], "peak.moment: "),
+    ],
+)
+def test_a_moment_by_name_is_an_error(balcli, twin, command, args, message):
+    asked = [arg.format(file=twin) for arg in args]
+    expected = f"balcli: {message.format(file=twin)}{UNKNOWN}\n"
+    assert balcli(command, twin, *asked) == (2, "", expected)
+
+
+@pytest.mark.parametrize(
+    ("command", "args"),
+    [
+        ("balance", ["--scheme", "couple-shaft"]),
+        ("balance", ["--scheme", "couple-shaft", "--order", "1"]),
+        ("scatter", ["-q", "moment.1.major"]),
+    ],
+)
+def test_so_is_what_is_sized_or_scattered_by_moments(balcli, twin, command, args):
+    status, out, err = balcli(command, twin, *args)
+    assert (status, out) == (2, "")
+    assert err.startswith(warning(twin))
+    assert err.endswith(f"{UNKNOWN}\n")
+
+
+def test_forces_are_swept_and_a_spacing_that_is_varied_is_known(balcli, twin):
+    swept = balcli("sweep", twin, "--vary", "rod.length=150,160", "-q", "force.2.major")
+    assert swept[::2] == (0, "")
+
+
+def test_compare_and_sum_have_dashes_beside_what_is_known(balcli, twin, tmp_path):
+    known = tmp_path / "known.toml"
+    known.write_text(GOOD)
+    out = balcli("compare", twin, known)[1]
+    moments = out.partition("Free moment, N·m")[2]
+    assert moments.partition("order 1 ")[2].split()[0] == "–"
+    figures = json.loads(balcli("compare", twin, known, "--format", "json")[1])["figures"]
+    assert {figure["values"][0] for figure in figures if "moment" in figure["quantity"]} == {None}
+    out = balcli("sum", known, twin)[1]
+    assert "reference  moments are not known" in out
+    assert "moment  –" in out
+    assert json.loads(balcli("sum", known, twin, "--format", "json")[1])["assumed"] == [
+        "crank.spacing = 0"
+    ]
+
+
+def test_a_report_draws_no_moments(balcli, twin, tmp_path):
+    page = tmp_path / "page.html"
+    assert balcli("report", twin, "-o", page)[::2] == (0, warning(twin))
+    text = page.read_text(encoding="utf-8")
+    assert UNKNOWN[1:] in text
+    assert '"moment":[]' in text
+
+
+def test_the_guide_moment_of_the_x_type_is_not_known_either(balcli, twin):
+    found = json.loads(balcli("analyze", twin, "--only", "guide", "--format", "json")[1])
+    assert "x_Nm" not in found["guide"]["orders"][0]
+
+
+def test_the_shops_factor_leaves_a_force_and_says_nothing_of_the_moment(balcli, twin):
+    factors = ["--scheme", "factor", "--factor", "0:1:0.5"]
+    out = balcli("balance", twin, *factors)[1]
+    swept = out.partition("Largest values by factor")[2].splitlines()
+    assert [line.split()[-1] for line in swept if line[:2] in ("0 ", "0.", "1 ")][:3] == ["–"] * 3
