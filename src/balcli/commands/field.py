@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, Exit, say
 from .file_names import picture_form, text_format
 from .options import FormatOption, Output
@@ -64,8 +65,6 @@ def field(
     `balcli new field runs.toml` writes a file to start from: planes, then a run as found and one
     with a trial weight in each plane.
     """
-    from ..enginefile.toml_text import name_file
-
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     form = text_format(output, form)
     drawn = picture_form(plot, "--plot") if plot is not None else None

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from ..enginefile.toml_text import name_file, read_bytes
 from ..render import search as renderer
 from .file_names import require_ending, text_format
 from .options import EnginePath, FormatOption, Output
@@ -74,7 +75,6 @@ def search(
     form = text_format(output, form)
     require_ending(write, ".toml", "--write")
     from ..engine.load import build_named, parse
-    from ..enginefile.toml_text import name_file, read_bytes
     from ..studies.search.objective import parse_objective
     from ..studies.search.search import search_arrangements
     from ..studies.search.write import write_design
