@@ -6,6 +6,7 @@ import atexit
 import gc
 import os
 import sys
+from contextlib import suppress
 from typing import NoReturn
 
 from .errors import Exit, say
@@ -52,6 +53,8 @@ def _end_at_once(status: int) -> NoReturn:
     registered for its end is done.
     """
     atexit._run_exitfuncs()
+    with suppress(OSError):
+        sys.stderr.flush()  # nobody reads it: nothing is left to say
     try:
         sys.stdout.flush()
     except OSError as error:

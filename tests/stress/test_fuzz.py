@@ -242,8 +242,8 @@ def test_many_orders_along_the_crank_take_work_in_proportion(place, monkeypatch)
     assert 0 < work[1] <= 4 * work[0]
 
 
-MANY = body(f"throws = {listed(k * 137.1 % 360 for k in range(1000))}").encode()
-DISTINCT = body(f"throws = {listed(range(0, 345, 15))}").encode()
+MANY = body(f"throws = {listed(k * 137.1 % 360 for k in range(1000))}\nspacing = 100").encode()
+DISTINCT = body(f"throws = {listed(range(0, 345, 15))}\nspacing = 100").encode()
 
 
 @pytest.mark.parametrize(
