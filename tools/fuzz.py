@@ -2,8 +2,8 @@
 line.
 
 Every case must end as a result or as a message: no traceback, no hang, no half-written file, no
-control character on the terminal, and a message that names the file or the option. `python -m
-tests.stress.fuzz --cases 20000 --seed 1` runs many.
+control character on the terminal, and a message that names the file or the option. `python
+tools/fuzz.py --cases 20000 --seed 1` runs many.
 """
 
 from __future__ import annotations

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from itertools import chain
 
 from ..errors import legible
 from .sheet import Facts, Grid, Sheet, Text
@@ -13,12 +14,7 @@ _SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~])")
 
 def markdown(sheets: list[Sheet]) -> str:
     """All sheets as Markdown, one after the other."""
-    blocks = [
-        block
-        for sheet in sheets
-        for block in (f"# {escape(sheet.title)}", *map(_part, sheet.parts))
-    ]
-    return "\n\n".join(blocks) + "\n"
+    return "\n\n".join(chain.from_iterable(map(_blocks, sheets))) + "\n"
 
 
 def escape(text: str) -> str:
