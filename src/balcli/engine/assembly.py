@@ -39,7 +39,7 @@ class Ripple(NamedTuple):
     angle))`.
     """
 
-    order: int
+    order: float
     amplitude: Figure
     angle_deg: Figure
 

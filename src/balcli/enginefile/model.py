@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
 from .exclusive import Choice, find_repeated
-from .fields import Flag, Number, OneOf, Whole, counted
+from .fields import Flag, Halves, Number, OneOf, Whole, counted
 from .units import ANGLE, INERTIA, LENGTH, MASS, PLAIN, SPEED, STANDARD_GRAVITY, TIME, UNBALANCE
 
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
@@ -34,7 +34,7 @@ Period = Annotated[float, Number(TIME, above=0, most=1e6)]
 RodRatio = Annotated[float, Number(PLAIN, above=0, below=1)]
 Share = Annotated[float, Number(PLAIN, least=-1, most=1)]
 Count = Annotated[int, Whole(least=1, most=MOST_LIST_VALUES)]
-RippleOrder = Annotated[int, Whole(least=1, most=HIGHEST_RIPPLE_ORDER)]
+RippleOrder = Annotated[float, Halves(most=HIGHEST_RIPPLE_ORDER)]
 ShaftRatio = Annotated[int, Whole(least=-HIGHEST_SHAFT_ORDER, most=HIGHEST_SHAFT_ORDER, zero=False)]
 Angles = Annotated[tuple[Angle, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
 Lengths = Annotated[tuple[Length, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
@@ -290,7 +290,10 @@ class Operation(Table):
     """How the engine runs."""
 
     speed: Speed = Field(1000.0, description="crank speed (mean over the angle)", examples=[3000])
-    speed_ripple: tuple[Ripple, ...] = Field((), description="uneven crank speed, by whole orders")
+    speed_ripple: tuple[Ripple, ...] = Field(
+        (),
+        description="uneven crank speed, by orders: whole ones, or halves of a four-stroke engine",
+    )
 
     def contradictions(self) -> Iterator[str]:
         if len(self.speed_ripple) > MOST_RIPPLES:

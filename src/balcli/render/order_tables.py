@@ -9,7 +9,7 @@ import numpy as np
 
 from ..forces.kinds import FORCE, MOMENT, ROLL, Kind
 from .figures import peak_deg, phase_deg
-from .sheet import Facts, Grid, capitalized, degrees, number, order_number
+from .sheet import Facts, Grid, capitalized, degrees, number, order_name
 
 if TYPE_CHECKING:
     from ..core.peaks import Peak
@@ -59,7 +59,7 @@ def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
     vectors = [(phasors, system.unit(kind)) for kind, phasors in share.vectors()]
 
     def cells(k: int) -> Iterator[str]:
-        yield str(order_number(share.orders[k]))
+        yield order_name(share.orders[k])
         for phasors, unit in vectors:
             yield _size_and_angle(phasors.forward[k], unit)
             yield _size_and_angle(phasors.backward[k], unit)
@@ -95,7 +95,7 @@ def _shown_rows(
 
 def _vector_table(kind: Kind, phasors: Phasors, unit: Unit) -> Grid:
     def cells(k: int) -> Cells:
-        name = str(order_number(phasors.orders[k]))
+        name = order_name(phasors.orders[k])
         if phasors.balanced[k]:
             return name, "balanced", "", "", "", ""
         if np.isnan(phasors.forward[k]):
@@ -116,7 +116,7 @@ def _scalar_table(spectra: Spectra, unit: Unit, roll: str) -> Grid:
 
     def cells(k: int) -> Cells:
         pairs = (_amplitude(phasors.x[k], spectra.orders[k], unit) for _, phasors in scalars)
-        return (str(order_number(spectra.orders[k])), *(cell for pair in pairs for cell in pair))
+        return (order_name(spectra.orders[k]), *(cell for pair in pairs for cell in pair))
 
     labels = [ROLL.name if roll and kind == ROLL else kind.label for kind, _ in scalars]
     heads = [head for label in labels for head in (label, "peak, deg")]
@@ -141,7 +141,7 @@ def _direction_table(spectra: Spectra, system: System) -> Grid:
     vectors = [(phasors, system.unit(kind)) for kind, phasors in spectra.vectors()]
 
     def cells(k: int) -> Iterator[str]:
-        yield str(order_number(spectra.orders[k]))
+        yield order_name(spectra.orders[k])
         for phasors, unit in vectors:
             for c in (phasors.x[k], phasors.y[k]):
                 yield number(unit.of(abs(c)), 4) if c else "0"
@@ -166,7 +166,7 @@ def _textbook_table(kind: Kind, phasors: Phasors, units: TextbookUnits, note: st
         largest, ahead, against = (float(v) for v in values)
         own = size * ratios[k] if ratios[k] > 1e-12 else 0.0
         return (
-            str(order_number(phasors.orders[k])),
+            order_name(phasors.orders[k]),
             *(_ratio(value, size) for value in (largest, ahead, against)),
             _ratio(largest, own),
         )
