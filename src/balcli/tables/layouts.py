@@ -72,6 +72,7 @@ def _bare(file: EngineFile) -> EngineFile:
             "rod": rod,
             "piston": file.piston.model_copy(update={"offset": 0.0}),
             "layout": file.layout.model_copy(update={"stagger": 0.0}),
+            "bobweight": Bobweight.model_construct(),
             "counterweight": (),
             "shaft": (),
             "slider": (),
