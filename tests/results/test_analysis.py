@@ -89,7 +89,8 @@ def test_exactly_the_orders_asked_for_are_shown(orders):
 
 
 @pytest.mark.parametrize(
-    ("orders", "told"), [([-1], "-1"), ([HIGHEST_ORDER + 1], "4097"), ([], "none"), ([1.25], "1.25")]
+    ("orders", "told"),
+    [([-1], "-1"), ([HIGHEST_ORDER + 1], "4097"), ([], "none"), ([1.25], "1.25")],
 )
 def test_orders_that_cannot_be(orders, told):
     with pytest.raises(BalcliError) as caught:
