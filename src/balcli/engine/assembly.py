@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from itertools import chain
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -34,6 +34,9 @@ from .layout import Plan, bank_angles, cycle_deg, plan_cylinders
 from .rods import RodPlace, RunningGear, weigh_rod
 
 PISTON_PARTS = ("mass", "piston", "pin", "rings", "locks")  # keys of [piston] that are masses
+
+if TYPE_CHECKING:
+    from .gas import EngineGas
 
 
 class Ripple(NamedTuple):
@@ -68,6 +71,7 @@ class Assembly:
     ) -> None:
         self.model = model
         self.figures = Figures(varied or {}, model)
+        self.varies = bool(varied) or rank > 0
         self.rank = max(rank, *map(np.ndim, (varied or {}).values()), 0)
         self.legible = frozenset(legible)
         self._gears: dict[tuple[int, bool], RunningGear] = {}
@@ -387,6 +391,16 @@ class Assembly:
         knuckles = Knuckles(radius_mm / (stroke_mm / 2), angles, masters)
         big_ends = [self.gears[n].big_end for n in self.numbers]
         return build_linkage(knuckles, self.numbers, axes, big_ends, self.sense, self.rank)
+
+    # ------------------------------------------------------------------ gas
+    @cached_property
+    def gas(self) -> EngineGas | None:
+        """Gas of the cylinders; None without [gas], and for variants, whose figures are arrays."""
+        if self.model.gas is None or self.varies:
+            return None
+        from .gas import build_gas  # files without [gas] do not pay for it
+
+        return build_gas(self)
 
 
 def _share_axes(axes_deg: Mapping[int, Figure]) -> list[list[int]]:

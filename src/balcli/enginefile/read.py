@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, TypeVar
 
 from pydantic import ValidationError
@@ -21,6 +22,7 @@ from ..limits import (
 )
 from .fields import printable, shorten
 from .messages import (
+    CHAPTERS,
     DEVICES,
     INNER,
     KNOWN,
@@ -29,6 +31,7 @@ from .messages import (
     UnknownKey,
     describe_finding,
     describe_unknown_key,
+    import_table,
     is_miscounted,
     join_path,
 )
@@ -102,12 +105,15 @@ def read_tables(text: str | bytes, name: str = "") -> Draft:
     for key, table in TABLES.items():
         if key in data:
             parts[key] = reader.read_table(key, data[key], table)
+    for key in CHAPTERS:
+        if key in data:
+            parts[key] = reader.read_table(key, data[key], import_table(key))
     for key, table in DEVICES.items():
         if key in data:
             parts[key] = reader.read_devices(key, data[key], table)
     if "cylinder" in data:
         parts["cylinder"] = reader.read_cylinders(data["cylinder"])
-    return reader.draft(parts)
+    return reader.draft(parts, Path(name).parent)
 
 
 class _Reader:
@@ -120,8 +126,8 @@ class _Reader:
     def add(self, path: str, message: str) -> None:
         self.problems.append(Problem(path, message))
 
-    def draft(self, parts: Mapping[str, Any]) -> Draft:
-        """What was read, from the parts of the file by their keys."""
+    def draft(self, parts: Mapping[str, Any], folder: Path) -> Draft:
+        """What was read, from the parts of the file by their keys; the file stands in `folder`."""
         cylinders: dict[int, Override | None] = parts.get("cylinder", {})
         broken = {key for key in REQUIRED if key not in parts}
         broken |= {key for key, part in parts.items() if part is None}
@@ -130,8 +136,10 @@ class _Reader:
         if None in cylinders.values():
             broken.add("cylinder")
             read["cylinder"] = {n: own for n, own in cylinders.items() if own is not None}
+        model = EngineFile.model_construct(set(read), **read)
+        model._folder = folder
         return Draft(
-            EngineFile.model_construct(set(read), **read),
+            model,
             frozenset(KNOWN) - broken,
             tuple(self.problems),
             tuple(self.unknown),

@@ -48,6 +48,7 @@ class Dimension(NamedTuple):
 
 _FOREIGN = Powers(99)  # ampere, kelvin: known, but no field has such a dimension
 _LENGTH, _MASS, _TIME, _ANGLE = Powers(length=1), Powers(mass=1), Powers(time=1), Powers(angle=1)
+_PRESSURE, _ENERGY = Powers(-1, 1, -2), Powers(2, 1, -2)
 # By definition: the international inch and pound (1959), standard gravity (CGPM 1901).
 INCH = Fraction(254, 10_000)  # m
 POUND = Fraction(45_359_237, 100_000_000)  # kg
@@ -71,6 +72,9 @@ COMMON = {
     "°": Unit(Fraction(1, 360), _ANGLE),
     "rad": Unit(1 / (2 * PI), _ANGLE),
     "rpm": Unit(Fraction(1, 60), Powers(time=-1, angle=1)),
+    "bar": Unit(Fraction(100_000), _PRESSURE),
+    "MPa": Unit(Fraction(1_000_000), _PRESSURE),
+    "J": Unit(Fraction(1), _ENERGY),
 }
 
 AMBIGUOUS = {"gr": "g, or grain (65 mg)?", "gm": "g, or gigametre?"}
@@ -89,8 +93,10 @@ UNBALANCE = Dimension(
 )
 SPEED = Dimension("rpm", "a speed of rotation", Powers(time=-1, angle=1), ("6000 rpm", "300 rad/s"))
 TIME = Dimension("s", "a time", _TIME, ("0.82 s", "820 ms"))
+PRESSURE = Dimension("bar", "a pressure", _PRESSURE, ("9.5 bar", "1.2 MPa", "150 psi"))
+ENERGY = Dimension("J", "an energy", _ENERGY, ("1400 J", "1.4 kJ"))
 PLAIN = Dimension("", "a plain number", Powers(), ())
-_DIMENSIONS = (LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PLAIN)
+_DIMENSIONS = (LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PRESSURE, ENERGY, PLAIN)
 
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
 _FACTOR = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[²³])?"
