@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core.phasors import Array, Phasors
 from ..units import Unit
-from .axes import FINE, LOOKS, choose_scale, put_legend_above
+from .axes import FINE, LOOKS, put_legend_above
 from .style import SOFT
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def _draw_lines(
     ax: Axes, lines: Mapping[str, Array], what: str, unit: Unit, before: Array | None
 ) -> None:
     everything = [*lines.values(), *([] if before is None else [before])]
-    s = choose_scale(unit, max(float(np.abs(v).max()) for v in everything))
+    s = unit.fit(max(float(np.abs(v).max()) for v in everything))
     crank = np.degrees(FINE)
     if before is not None:
         ax.plot(
