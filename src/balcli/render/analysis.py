@@ -9,7 +9,6 @@ from typing import Any, NamedTuple, TypeAlias
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..forces.kinds import KINDS, VECTORS
 from ..forces.spectrum import Spectra
-from ..forces.textbook import find_textbook_units
 from ..results.analysis import Analysis, Sizing
 from . import crankshaft, guide_moments, strokes, symmetry
 from .csv import Rows
@@ -113,7 +112,8 @@ def _all_order_parts(result: Analysis, system: System) -> Iterator[Part]:
     spectra = _shown_spectra(result)
     yield from order_tables(spectra, system)
     yield from direction_tables(spectra, system)
-    yield from textbook_tables(_known_spectra(result), result.textbook, system)
+    if spectra.vectors():
+        yield from textbook_tables(result.textbook, system)
     yield from _peaks(result, system)
 
 
@@ -132,8 +132,7 @@ def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterato
     if "xy" in view.parts:
         tables += direction_tables(spectra, system)
     if "textbook" in view.parts:
-        known = _known_spectra(result).select_orders(spectra.orders)
-        tables += textbook_tables(known, find_textbook_units(result.engine, known.orders), system)
+        tables += textbook_tables(replace(result, spectra=spectra).textbook, system)
     yield from tables
     if tables and others:
         yield Text("", (others,))
