@@ -10,7 +10,7 @@ import numpy as np
 
 from ..forces.kinds import FORCE, MOMENT, ROLL, Kind
 from .figures import peak_deg, phase_deg
-from .sheet import Facts, Grid, capitalized, degrees, number, order_number
+from .sheet import Facts, Grid, capitalized, degrees, number, order_name, order_number
 
 if TYPE_CHECKING:
     from ..core.peaks import Peak
@@ -73,7 +73,7 @@ def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
     vectors = [(phasors, system.unit(kind)) for kind, phasors in share.vectors()]
 
     def cells(k: int) -> Iterator[str]:
-        yield str(order_number(share.orders[k]))
+        yield order_name(share.orders[k])
         for phasors, unit in vectors:
             yield _size_and_angle(phasors.forward[k], unit)
             yield _size_and_angle(phasors.backward[k], unit)
@@ -118,7 +118,7 @@ def _vector_table(kind: Kind, phasors: Phasors, unit: Unit) -> Grid:
     unit = _fit(unit, phasors)
 
     def cells(k: int) -> Cells:
-        name = str(order_number(phasors.orders[k]))
+        name = order_name(phasors.orders[k])
         if phasors.balanced[k]:
             return name, NOTHING, "", "", "", ""
         if np.isnan(phasors.forward[k]):
@@ -140,7 +140,7 @@ def _scalar_table(spectra: Spectra, unit: Unit, roll: str) -> Grid:
 
     def cells(k: int) -> Cells:
         pairs = (_amplitude(phasors.x[k], spectra.orders[k], unit) for _, phasors in scalars)
-        return (str(order_number(spectra.orders[k])), *(cell for pair in pairs for cell in pair))
+        return (order_name(spectra.orders[k]), *(cell for pair in pairs for cell in pair))
 
     labels = [ROLL.name if roll and kind == ROLL else kind.label for kind, _ in scalars]
     heads = [head for label in labels for head in (label, "peak, deg")]
@@ -181,7 +181,7 @@ def _direction_table(spectra: Spectra, system: System) -> Grid:
     vectors = [(phasors, _fit(system.unit(kind), phasors)) for kind, phasors in spectra.vectors()]
 
     def cells(k: int) -> Iterator[str]:
-        yield str(order_number(spectra.orders[k]))
+        yield order_name(spectra.orders[k])
         for phasors, unit in vectors:
             for c in (phasors.x[k], phasors.y[k]):
                 yield number(unit.of(abs(c)), 4) if c else NOTHING
@@ -205,7 +205,7 @@ def _textbook_table(kind: Kind, book: Textbook, note: str) -> Grid:
         order = order_number(built.orders[k])
         size = book.units.size(kind, order)
         values = (alone.major[k], abs(alone.forward[k]), abs(alone.backward[k]), built.major[k])
-        return str(order), *(_ratio(float(value), size) for value in values)
+        return order_name(order), *(_ratio(float(value), size) for value in values)
 
     unit = book.units.name(kind)
     heads = ("order", f"largest, {unit}", "with crank", "against", "as built")
