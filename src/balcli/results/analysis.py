@@ -26,7 +26,7 @@ from ..forces.orders import (
 )
 from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
 from ..forces.symmetry import Symmetry, explain_symmetry
-from ..forces.textbook import TextbookUnits, find_textbook_units
+from ..forces.textbook import Textbook, find_textbook
 from ..limits import HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
 from ..sizing.auto import size_auto
 from ..sizing.remedy import Remedy, fit_devices
@@ -95,9 +95,11 @@ class Analysis:
         return bool(find_relevant_orders(self.engine)[-1] > HIGHEST_ORDER_UNASKED)
 
     @property
-    def textbook(self) -> TextbookUnits:
-        """What textbooks measure forces and moments by, for the orders shown."""
-        return find_textbook_units(self.engine, self.orders)
+    def textbook(self) -> Textbook:
+        """Force and moment, as far as they were asked for and are known, as textbooks have them."""
+        asked = [kind.name for kind, _ in self.spectra.vectors()]
+        known = [name for name in asked if name != "moment" or self.moments_known]
+        return find_textbook(self.engine, self.orders, known)
 
     @property
     def of_one_cylinder(self) -> dict[str, float]:
