@@ -17,7 +17,7 @@ from ..engine.build import Engine
 from ..errors import BalcliError
 from ..forces.crankshaft import InnerLoads, compute_inner_loads
 from ..forces.guide_moments import GuideMoments, compute_guide_moments
-from ..forces.kinds import KINDS, VECTORS, Kind
+from ..forces.kinds import KINDS, SCALARS, VECTORS, Kind
 from ..forces.orders import (
     check_orders,
     choose_orders,
@@ -26,7 +26,7 @@ from ..forces.orders import (
 )
 from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
 from ..forces.symmetry import Symmetry, explain_symmetry
-from ..forces.textbook import TextbookUnits, find_textbook_units
+from ..forces.textbook import Textbook, find_textbook
 from ..limits import HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
 from ..sizing.auto import size_auto
 from ..sizing.remedy import Remedy, fit_devices
@@ -95,21 +95,29 @@ class Analysis:
         return bool(find_relevant_orders(self.engine)[-1] > HIGHEST_ORDER_UNASKED)
 
     @property
-    def textbook(self) -> TextbookUnits:
-        """What textbooks measure forces and moments by, for the orders shown."""
-        return find_textbook_units(self.engine, self.orders)
+    def textbook(self) -> Textbook:
+        """Force and moment, as far as they were asked for and are known, as textbooks have them."""
+        asked = [kind.name for kind, _ in self.spectra.vectors()]
+        known = [name for name in asked if name != "moment" or self.moments_known]
+        return find_textbook(self.engine, self.orders, known)
 
     @property
     def of_one_cylinder(self) -> dict[str, float]:
-        """Force of cylinder 1's piston and rod end, `m r omega^2` (N), and its moment over the
-        length of the crank (N m): what is small beside them is small.
+        """Force of cylinder 1's piston and rod end, `m r omega^2` (N), its moment over the length
+        of the crank and its torque at the radius of the crank (N m), by kind: what is small beside
+        them is small.
         """
         engine = self.engine
         masses = engine.weighed[engine.numbers.index(1)]
         force = float(
             (masses.piston + masses.small_end) * engine.cylinders.radius * engine.omega**2
         )
-        return {"force": force, "moment": force * float(np.ptp(engine.throws_m))}
+        torque = force * float(engine.cylinders.radius)
+        return {
+            "force": force,
+            "moment": force * float(np.ptp(engine.throws_m)),
+            **{kind.name: torque for kind in SCALARS},
+        }
 
 
 def analyze(
