@@ -17,10 +17,10 @@ from .options import (
     Output,
     Speed,
     UnitsOption,
-    check_guide_height,
-    check_speed,
+    parse_guide_height,
     parse_orders,
     parse_quantities,
+    parse_speed,
 )
 from .output import is_seen, show
 from .overwrite_guard import refuse_overwriting
@@ -64,8 +64,8 @@ def analyze(
 
     if by not in ("", "cylinder"):
         raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")
-    asked, chosen, rpm = parse_orders(orders), parse_quantities(only), check_speed(speed)
-    height_m = check_guide_height(guide_height)
+    asked, chosen, rpm = parse_orders(orders), parse_quantities(only), parse_speed(speed)
+    height_m = parse_guide_height(guide_height, units)
 
     def analyze_file(path: str) -> tuple[str, Analysis]:
         engine = read_engine(path, rpm, chosen).engine

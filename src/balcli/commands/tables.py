@@ -70,7 +70,10 @@ def tables(
     """
     form = text_format(output, form)
     from ..tables.registry import select_tables
+    from .amounts import as_bare_angles
 
+    if angle:
+        angle = as_bare_angles("--angle", angle)
     chosen = select_tables(name, lam, angle, power)
     if errata:
         show([chosen], errata_renderer, form, output)
