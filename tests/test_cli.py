@@ -125,7 +125,7 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         ),
         (
             ["analyze", V8, "--orders", "0x"],
-            '--orders "0x": give whole numbers such as 1-8 or 1,2,4',
+            '--orders "0x": give orders such as 1-8, 1,2,4 or 0.5-8',
         ),
         (
             ["analyze", V8, "--orders", "8-1"],
@@ -135,10 +135,10 @@ def test_bad_usage_that_the_parser_words(balcli, args):
             ["analyze", V8, "--orders", "1,5000"],
             '--orders "1,5000": 5000 must rise and end at 4096 at most',
         ),
-        (["analyze", V8, "--orders", ""], '--orders "": give whole numbers such as 1-8 or 1,2,4'),
+        (["analyze", V8, "--orders", ""], '--orders "": give orders such as 1-8, 1,2,4 or 0.5-8'),
         (
             ["analyze", V8, "--orders", "-1"],
-            '--orders "-1": give whole numbers such as 1-8 or 1,2,4',
+            '--orders "-1": give orders such as 1-8, 1,2,4 or 0.5-8',
         ),
         (
             ["analyze", V8, "--speed", "0"],
@@ -572,6 +572,7 @@ def test_any_locale_gets_utf_8():
     done = run_command(
         "analyze",
         V8,
+        "--all",
         env={
             "LC_ALL": "C",
             "PYTHONUTF8": "0",

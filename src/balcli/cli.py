@@ -37,6 +37,7 @@ COMMANDS = (
     "compare",
     "sum",
     "field",
+    "torsion",
     "engines",
     "bench",
 )

@@ -10,11 +10,12 @@ from ..enginefile import examples
 from ..enginefile.templates import KINDS
 from ..field_balancing.starting_file import KIND as FIELD
 from ..sizing.schemes import NAMES
+from ..torsion.starting_file import KIND as TORSION
 
 
 def complete_kinds(incomplete: str) -> list[str]:
     """Kinds of files, of `balcli new`."""
-    return _beginning_with(incomplete, (*KINDS, FIELD))
+    return _beginning_with(incomplete, (*KINDS, FIELD, TORSION))
 
 
 def complete_schemes(incomplete: str) -> list[str]:

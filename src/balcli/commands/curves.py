@@ -50,8 +50,8 @@ def curves(
     from ..render import curves as renderer
     from .inputs import read_engine
 
-    angles = divide_revolution(read_angle("--step", step))
     engine = read_engine(path, parse_speed(speed)).engine
+    angles = divide_revolution(read_angle("--step", step), engine.period_revolutions)
     if cylinder is None:
         found = compute_engine_curves(engine, angles)
     else:

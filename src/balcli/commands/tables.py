@@ -8,6 +8,7 @@ import typer
 
 from ..render import errata as errata_renderer
 from ..render import printed_table, table_list
+from .amounts import as_bare_angles
 from .completion import complete_tables
 from .file_names import text_format
 from .options import FormatOption, Output
@@ -70,7 +71,6 @@ def tables(
     """
     form = text_format(output, form)
     from ..tables.registry import select_tables
-    from .amounts import as_bare_angles
 
     if angle:
         angle = as_bare_angles("--angle", angle)

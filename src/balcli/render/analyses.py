@@ -16,17 +16,17 @@ class NamedAnalysis(NamedTuple):
 
     Attributes:
         name: of the engine, by which its rows are told from those of the others.
-        pictures: whether a sheet has pictures made of characters, too.
+        view: what of it a sheet shows.
     """
 
     name: str
     result: Analysis
-    pictures: bool = False
+    view: analysis.View = analysis.IN_BRIEF
 
 
 def sheet(one: NamedAnalysis, system: System) -> Sheet:
     """What a person reads of it."""
-    return analysis.sheet(one.result, system, pictures=one.pictures)
+    return analysis.sheet(one.result, system, one.view)
 
 
 def document(one: NamedAnalysis) -> dict[str, Any]:
