@@ -7,19 +7,25 @@ from __future__ import annotations
 import csv
 import json
 from io import StringIO
+from types import SimpleNamespace
 
 import pytest
 from support.engines import RADIAL, build_text, inline_engine, rotary_engine
 
 from balcli.errors import BalcliError
-from balcli.render import analysis
+from balcli.render import analysis, analysis_data
 from balcli.render.formats import Format, render
 from balcli.render.units import SYSTEMS
 from balcli.results.analysis import analyze
 
 
+RENDERER = SimpleNamespace(
+    sheet=analysis.sheet, document=analysis_data.document, rows=analysis_data.rows
+)
+
+
 def rendered(form, subject, system="si", **options):
-    return render([analyze(subject, **options)], analysis, form, SYSTEMS[system])
+    return render([analyze(subject, **options)], RENDERER, form, SYSTEMS[system])
 
 
 def document(subject, **options):
