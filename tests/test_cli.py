@@ -126,7 +126,7 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         ),
         (
             ["analyze", V8, "--orders", "0x"],
-            '--orders "0x": give whole numbers such as 1-8 or 1,2,4',
+            '--orders "0x": give orders such as 1-8, 1,2,4 or 0.5-8',
         ),
         (
             ["analyze", V8, "--orders", "8-1"],
@@ -136,10 +136,10 @@ def test_bad_usage_that_the_parser_words(balcli, args):
             ["analyze", V8, "--orders", "1,5000"],
             '--orders "1,5000": 5000 must rise and end at 4096 at most',
         ),
-        (["analyze", V8, "--orders", ""], '--orders "": give whole numbers such as 1-8 or 1,2,4'),
+        (["analyze", V8, "--orders", ""], '--orders "": give orders such as 1-8, 1,2,4 or 0.5-8'),
         (
             ["analyze", V8, "--orders", "-1"],
-            '--orders "-1": give whole numbers such as 1-8 or 1,2,4',
+            '--orders "-1": give orders such as 1-8, 1,2,4 or 0.5-8',
         ),
         (
             ["analyze", V8, "--speed", "0"],

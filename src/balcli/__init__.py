@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from .engine.build import Engine
     from .engine.load import load
     from .errors import BalcliError, InputError
+    from .field_balancing.balance import FieldBalance, balance_rotor
+    from .field_balancing.read import parse_runs, read_runs
     from .results.analysis import Analysis, analyze
     from .results.balance import Balance, balance
 
@@ -24,11 +26,15 @@ __all__ = [
     "Balance",
     "BalcliError",
     "Engine",
+    "FieldBalance",
     "InputError",
     "__version__",
     "analyze",
     "balance",
+    "balance_rotor",
     "load",
+    "parse_runs",
+    "read_runs",
 ]
 
 _ROOMS = {
@@ -40,6 +46,10 @@ _ROOMS = {
     "load": "engine.load",
     "BalcliError": "errors",
     "InputError": "errors",
+    "FieldBalance": "field_balancing.balance",
+    "balance_rotor": "field_balancing.balance",
+    "parse_runs": "field_balancing.read",
+    "read_runs": "field_balancing.read",
 }
 
 

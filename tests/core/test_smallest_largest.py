@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from balcli.core.least_squares import solve
-from balcli.core.smallest_largest import find_limited, minimise_largest, minimise_squares_within
+from balcli.core.smallest_largest import ANYWHERE, make_disc, minimise_largest, minimise_squares
+from balcli.field_balancing.places import find_region
 
 RELATIVE = 1e-9
 
@@ -88,11 +89,11 @@ def test_limits_of_the_largest(case):
     """The bound holds within the limits: no random point inside is better, and it is reached."""
     matrix, target, weights = problem(*case)
     free = minimise_largest(matrix, target, weights)
-    most = np.full(matrix.shape[1], np.inf)
-    most[0] = 0.5 * abs(free.x[0])
-    found = minimise_largest(matrix, target, weights, most)
-    assert abs(found.x[0]) <= most[0] * (1 + 1e-12)
-    assert find_limited(found.x, most) == [0]
+    most = 0.5 * abs(free.x[0])
+    disc = make_disc(most)
+    found = minimise_largest(matrix, target, weights, [disc, *[ANYWHERE] * (matrix.shape[1] - 1)])
+    assert abs(found.x[0]) <= most * (1 + 1e-12)
+    assert disc.has_at_edge(found.x[0], 1e-7 * most)
     assert found.largest > free.largest
     assert found.bound == pytest.approx(found.largest, rel=1e-11)
 
@@ -101,13 +102,13 @@ def test_limits_of_the_largest(case):
 def test_least_squares_within_limits_meets_the_conditions_of_the_optimum(case):
     """With a price p >= 0 on a limited unknown: column^H residual = p x, 0 for the others."""
     matrix, target, weights = problem(*case)
-    most = 0.6 * np.abs(solve(matrix, target, weights).x)
-    most[1:] = np.inf
-    found = minimise_squares_within(matrix, target, weights, most)
+    most = 0.6 * abs(solve(matrix, target, weights).x[0])
+    regions = [make_disc(most), *[ANYWHERE] * (matrix.shape[1] - 1)]
+    found = minimise_squares(matrix, target, weights, regions)
     pull = matrix.conj().T @ (weights**2 * found.residual)
     price = pull[0] / found.x[0]
     size = np.abs(matrix.T) @ (weights**2 * np.abs(target))
-    assert abs(found.x[0]) == pytest.approx(most[0], rel=1e-10)
+    assert abs(found.x[0]) == pytest.approx(most, rel=1e-10)
     assert price.real > 0
     assert abs(price.imag) < 1e-9 * price.real
     assert np.all(np.abs(pull[1:]) < 1e-9 * size[1:])
@@ -116,5 +117,65 @@ def test_least_squares_within_limits_meets_the_conditions_of_the_optimum(case):
 def test_limits_that_do_not_bind_change_nothing():
     matrix, target, weights = problem(9, 8, 2)
     free = solve(matrix, target, weights).x
-    found = minimise_squares_within(matrix, target, weights, 1.01 * np.abs(free))
+    regions = [make_disc(1.01 * abs(x)) for x in free]
+    found = minimise_squares(matrix, target, weights, regions)
     assert found.x == pytest.approx(free, rel=1e-13)
+
+
+# ------------------------------------------------------------------ regions with corners
+def reach(generators, most, direction):
+    """How far rays from 0 to `most`, added up, go in a direction."""
+    return most * np.maximum((np.conj(direction) * generators).real, 0).sum()
+
+
+def regions_of(rng, sizes):
+    """Of two to five places each: polygons; one is a line, one a disc."""
+    angles = [rng.uniform(0, 360, count) for count in rng.integers(2, 6, len(sizes))]
+    angles[0] = np.array([20.0, 200.0])
+    most = rng.uniform(0.1, 0.6) * sizes
+    places = [find_region(a, m) for a, m in zip(angles, most, strict=True)]
+    return [np.exp(1j * np.radians(a)) for a in angles], most, places
+
+
+@pytest.mark.parametrize("case", [c for c in CASES if c[2] > 1])
+def test_least_squares_in_polygons(case):
+    """The optimum of a convex function: no point of any region is farther along its pull."""
+    matrix, target, weights = problem(*case)
+    free = np.abs(solve(matrix, target, weights).x)
+    generators, most, regions = regions_of(np.random.default_rng(case[0]), free)
+    found = minimise_squares(matrix, target, weights, regions)
+    pull = matrix.conj().T @ (weights**2 * found.residual)
+    assert found.residual == pytest.approx(target - matrix @ found.x)
+    for k, (region, x) in enumerate(zip(regions, found.x, strict=True)):
+        assert region.has(x, 1e-10 * most[k])
+        best = reach(generators[k], most[k], pull[k])
+        size = np.abs(matrix[:, k]) @ (weights**2 * np.abs(target)) * most[k]
+        assert (np.conj(pull[k]) * x).real == pytest.approx(best, abs=1e-7 * size)
+    assert any(r.has_at_edge(x, 1e-6 * m) for r, x, m in zip(regions, found.x, most, strict=True))
+
+
+@pytest.mark.parametrize("case", [c for c in CASES if c[2] > 1])
+def test_largest_in_polygons(case):
+    """The bound is reached within the regions, and no random point of them is better."""
+    matrix, target, weights = problem(*case)
+    rng = np.random.default_rng(case[0])
+    generators, most, regions = regions_of(rng, np.abs(solve(matrix, target, weights).x))
+    found = minimise_largest(matrix, target, weights, regions)
+    assert all(r.has(x, 1e-9 * m) for r, x, m in zip(regions, found.x, most, strict=True))
+    assert found.bound == pytest.approx(found.largest, rel=1e-7)
+    assert found.bound <= found.largest * (1 + 1e-12)
+    for _ in range(200):
+        amounts = [m * rng.uniform(0, 1, len(g)) for g, m in zip(generators, most, strict=True)]
+        x = np.array([a @ g for a, g in zip(amounts, generators, strict=True)])
+        near = found.x + rng.uniform(0, 1) ** 4 * (x - found.x)
+        assert (weights * np.abs(target - matrix @ near)).max() >= found.bound * (1 - 1e-12)
+
+
+def test_one_unknown_in_a_wedge():
+    """By hand: -1 is nearest to 0 among all weights at 0 and 60 deg, 1j to its edge at 60 deg."""
+    wedge, one = [find_region(np.array([0.0, 60]), np.inf)], np.ones(1)
+    matrix = np.ones((1, 1), dtype=complex)
+    for fit in (minimise_squares, minimise_largest):
+        assert fit(matrix, np.array([-1 + 0j]), one, wedge).x == pytest.approx(0, abs=1e-9)
+        edge = np.cos(np.pi / 6) * np.exp(1j * np.pi / 3)
+        assert fit(matrix, np.array([1j]), one, wedge).x == pytest.approx(edge, abs=1e-9)

@@ -139,7 +139,7 @@ def test_drilled_holes_remove_what_weights_would_add():
     )
     for p, rim, drill in zip(balance_rotor(parse_runs(text)).planes, (90, 80), (6, 8), strict=True):
         removed = 0
-        for piece in p.work.pieces:
+        for piece in p.pieces:
             area, depth = math.pi * (drill / 2e3) ** 2, piece.depth_mm / 1e3
             unbalance = STEEL * area * depth * (rim / 1e3 - depth / 2)
             removed += unbalance * np.exp(1j * np.radians(piece.angle_deg))
@@ -150,15 +150,79 @@ def test_holes_no_deeper_than_allowed_need_more_of_them():
     one = "radius = [90, 90]\nplaces = [24, 24]\ndrill = [6, 6]"
     free = balance_rotor(parse_runs(three_runs(one))).planes[0]
     shallow = balance_rotor(parse_runs(three_runs(one + "\ndeepest = [3, 3]"))).planes[0]
-    assert len(free.work.pieces) == 2
-    assert len(shallow.work.pieces) > 2
-    assert max(piece.depth_mm for piece in shallow.work.pieces) <= 3 * (1 + 1e-9)
+    assert len(free.pieces) == 2
+    assert len(shallow.pieces) > 2
+    assert max(piece.depth_mm for piece in shallow.pieces) <= 3 * (1 + 1e-9)
 
 
-def test_what_does_not_fit_says_how_much_would():
-    work = balance_rotor(parse_runs(three_runs("places = [4, 4]\nmost = [1, 5]"))).planes[0].work
-    assert work.pieces is None
-    assert 0.9 < work.reach < 1.98
+def put_on(planes, drilled=False):
+    """What the shop's pieces are together, in each plane."""
+    pieces = [[p.weight * np.exp(1j * np.radians(p.angle_deg)) for p in q.pieces] for q in planes]
+    return (-1 if drilled else 1) * np.array([sum(piece) for piece in pieces])
+
+
+LIMITS = [
+    "places = [[0, 40, 80], 4]",
+    "places = [[10], [50, 230]]",
+    'places = ["free", [100, 160]]\nmost = [1.5, 0.4]',
+    "places = [4, 4]\nmost = [1, 5]",
+    "most = [1.5, 0.3]",
+    "radius = [90, 80]\nplaces = [12, [0, 60]]\ndrill = [6, 8]\ndeepest = [3, 20]",
+    'radius = [90, 80]\ndrill = [6, 8]\ndeepest = [3, 2]\nplaces = ["free", "free"]',
+    "radius = [9, 8]\ndrill = [1, 1]",
+]
+
+
+@pytest.mark.parametrize("minimise", ["squares", "max"])
+@pytest.mark.parametrize("sense", ["with", "against"])
+@pytest.mark.parametrize("limits", LIMITS)
+def test_what_does_not_fit_leaves_what_it_says(limits, sense, minimise):
+    """The readings after are those of the pieces, and pieces a little otherwise leave more."""
+    last = run([60, 70j], [("front", 0.3), ("rear", 0.2j)]) if "drill" in limits else ""
+    text = three_runs(f'weights = "{sense}"\n{limits}', last)
+    result = balance_rotor(parse_runs(text), minimise)
+    on = put_on(result.planes, "drill" in limits)
+    assert on == pytest.approx([p.step for p in result.planes], rel=1e-8, abs=1e-9)
+    turn = np.conj if sense == "with" else np.asarray
+    after = result.influence.now + result.influence.coefficients @ turn(on)
+    assert result.after == pytest.approx(after, rel=1e-7, abs=1e-7)
+    assert result.limited
+    assert np.abs(result.after).max() > 1
+    free = balance_rotor(parse_runs(three_runs(f'weights = "{sense}"', last)), minimise)
+    wanted = [p.wanted for p in result.planes]
+    assert wanted == pytest.approx([p.step for p in free.planes], rel=1e-9)
+
+
+def test_a_plane_that_fits_makes_up_for_one_that_does_not():
+    """One sensor, by hand: 10 at 0 deg; what goes on at 90 deg only cannot help, the other can."""
+    text = head(
+        2, 'places = [[90], "free"]\ninfluence = [["1 @ 0", "1 @ 0"], ["0 @ 0", "0.1 @ 0"]]'
+    )
+    result = balance_rotor(parse_runs(text + run([10, 0])))
+    assert result.planes[0].pieces == ()
+    assert result.planes[1].step == pytest.approx(-10 / 1.01, rel=1e-9)
+    assert [p.limited for p in result.planes] == [True, False]
+
+
+def test_the_grade_judges_what_is_there_not_what_fits():
+    """Whatever the limits, the unbalance now is what would cancel the readings."""
+    grade = "grade = 6.3\nmass = 120\nspeed = 3000\nradius = [200, 200]\n"
+    free = balance_rotor(parse_runs(three_runs(grade)))
+    tight = balance_rotor(parse_runs(three_runs(grade + "most = [0.5, 0.5]")))
+    for one, other in zip(free.planes, tight.planes, strict=True):
+        assert one.permitted.present == pytest.approx(other.permitted.present, rel=1e-12)
+        assert one.permitted.after == 0
+        left = 200 * abs(other.wanted - other.step)
+        assert other.permitted.after == pytest.approx(left, rel=1e-12)
+
+
+def test_places_are_numbered_as_the_file_has_them():
+    text = head(
+        2, 'places = [8, [200, 90, 100]]\ninfluence = [["1 @ 0", "0 @ 0"], ["0 @ 0", "1 @ 0"]]'
+    )
+    first, second = balance_rotor(parse_runs(text + run([5j, -3j]))).planes
+    assert [(p.place, p.angle_deg) for p in first.pieces] == [(7, 270)]
+    assert [(p.place, p.angle_deg) for p in second.pieces] == [(2, 90)]
 
 
 def test_unbalances_instead_of_weights():

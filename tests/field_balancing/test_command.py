@@ -24,7 +24,7 @@ weights = "with"
 radius = [200, 200]
 places = [12, [0, 90]]
 drill = [4, 4]
-deepest = [20, 3]
+deepest = [20, 20]
 grade = 6.3
 mass = 120
 speed = 3000
@@ -45,8 +45,36 @@ def test_the_sheet_says_how_angles_count_and_what_to_do(runs):
         "a weight at 30 deg stands 30 deg on from the 0 mark, going the way the rotor turns." in out
     )
     assert re.search(r"^front +1\.979 +123\.8 +200 +395\.9 +86%$", out, re.MULTILINE)
-    assert re.search(r"^rear +– +– +only [\d.]+ of 1\.071 fit here", out, re.MULTILINE)
+    assert re.search(r"^front +\d+ of 12 ", out, re.MULTILINE)
     assert re.search(r"^sensor 1 +170 +112\.0 +0 +–$", out, re.MULTILINE)
+
+
+@pytest.mark.parametrize("minimise", ["squares", "max"])
+def test_what_does_not_fit_is_said_in_every_form(tmp_path, minimise):
+    """No form says that readings are cancelled; all have what is left, and what would be best."""
+    path = tmp_path / "runs.toml"
+    path.write_text(three_runs('name = "fan"\nplaces = [[0, 40, 80], "free"]'), encoding="utf-8")
+    out = run_here("field", path, "--minimise", minimise).out
+    assert "All readings are cancelled" not in out
+    assert re.search(r"^front +– +– +–$", out, re.MULTILINE)
+    assert "Without its limit, front would take 1.979 g at 236.2 deg." in " ".join(out.split())
+    said = json.loads(run_here("field", path, "--minimise", minimise, "-f", "json").out)
+    front, rear = said["corrections"]
+    assert (front["weight"], front["pieces"], front["at_limit"]) == (0, [], True)
+    assert front["wanted"]["weight"] == pytest.approx(1.979467642, rel=1e-9)
+    assert ("wanted" in rear, rear["at_limit"]) == (False, False)
+    largest = max(reading["amplitude"] for reading in said["residual"])
+    assert largest == pytest.approx(said["largest"], rel=1e-12)
+    assert largest > 100
+    assert f"{largest:.4g}" in out
+    assert f"{largest:.4g}" in run_here("field", path, "--minimise", minimise, "-f", "markdown").out
+    lines = list(csv.DictReader(StringIO(run_here("field", path, "-f", "csv").out)))
+    figures = {(r["part"], r["name"], r["figure"]): r["value"] for r in lines}
+    assert figures["correction", "front", "at_limit"] == "true"
+    assert float(figures["details", "", "largest"]) > 100
+    picture = tmp_path / "polar.svg"
+    assert run_here("field", path, "--plot", picture).status == 0
+    assert "wanted: 1.98 at 236.2 deg" in picture.read_text(encoding="utf-8")
 
 
 def test_senses_are_said_the_other_way_round_too(tmp_path):
@@ -64,9 +92,9 @@ def test_json_is_what_it_promises(runs):
     front, rear = said["corrections"]
     assert (front["plane"], front["weight"]) == ("front", pytest.approx(1.979467642, rel=1e-9))
     assert front["angle_deg"] == pytest.approx(360 - 236.1703733, rel=1e-9)
-    assert front["pieces"][0].keys() == {"weight", "angle_deg", "depth_mm"}
-    assert rear["pieces"] == []
-    assert rear["reach"] < rear["weight"]
+    assert front["pieces"][0].keys() == {"weight", "angle_deg", "place", "depth_mm"}
+    assert rear["at_limit"] is False
+    assert [piece["place"] for piece in rear["pieces"]] == [1, 2]
     assert said["influence"][0][0] == {
         "amplitude": pytest.approx(78.43258624, rel=1e-9),
         "phase_deg": pytest.approx(58.37900733, rel=1e-9),
@@ -192,3 +220,13 @@ def test_the_schema_names_every_key():
     assert all(key.get("description") for key in described["properties"].values())
     assert described["required"] == ["planes", "run"]
     assert json.loads(run_here("schema").out)["title"] == "balcli engine file"
+
+
+def test_the_library_offers_it(runs):
+    import balcli
+
+    file = balcli.read_runs(runs)
+    result = balcli.balance_rotor(file, "max")
+    assert isinstance(result, balcli.FieldBalance)
+    assert result.planes[0].total == balcli.balance_rotor(file).planes[0].total
+    assert balcli.parse_runs(runs.read_text(encoding="utf-8")) == file

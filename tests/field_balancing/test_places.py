@@ -7,7 +7,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from balcli.field_balancing.places import find_reach, split_weight
+from balcli.field_balancing.places import find_region, split_weight
 
 
 def total(placed):
@@ -52,20 +52,35 @@ def test_it_is_the_lightest_within_the_limit(seed):
     placed, best = split_weight(wanted, angles, most), lightest(wanted, angles, most)
     if placed is None:
         assert best == np.inf
-        assert find_reach(wanted, angles, most) < abs(wanted)
+        assert not find_region(angles, most).has(wanted, 1e-9)
         return
+    assert find_region(angles, most).has(wanted, 1e-12)
+    assert [angles[p.number - 1] for p in placed] == pytest.approx([p.angle_deg for p in placed])
     assert total(placed) == pytest.approx(wanted, rel=1e-9)
     assert max(p.weight for p in placed) <= most * (1 + 1e-9)
     assert sum(p.weight for p in placed) == pytest.approx(best, rel=1e-9)
 
 
-def test_reach():
-    square = np.array([0.0, 90, 180, 270])
-    assert split_weight(3 + 0j, square, 2) is None
-    assert find_reach(3 + 0j, square, 2) == pytest.approx(2, rel=1e-8)
-    assert find_reach(3 + 3j, square, 2) == pytest.approx(2 * np.sqrt(2), rel=1e-8)
-    assert find_reach(-1 + 0j, np.array([-60.0, 0, 60]), np.inf) == 0
-    assert split_weight(0j, square, 1) == ()
+def test_a_region_is_where_weights_reach():
+    square = find_region(np.array([0.0, 90, 180, 270]), 2)
+    assert split_weight(3 + 0j, np.array([0.0, 90, 180, 270]), 2) is None
+    assert (square.has(2, 1e-9), square.has(2.01, 1e-9)) == (True, False)
+    assert (square.has(2 + 2j, 1e-9), square.has(2 + 2.01j, 1e-9)) == (True, False)
+    wedge = find_region(np.array([-60.0, 0, 60]), np.inf)
+    assert (wedge.has(1e6, 0), wedge.has(-1, 1e-9), wedge.line) == (True, False, None)
+    assert wedge.has(np.exp(1j * np.pi / 3), 1e-9)
+    assert not wedge.has(np.exp(1j * np.pi / 2.9), 1e-9)
+    assert split_weight(0j, np.array([0.0]), 1) == ()
+
+
+@pytest.mark.parametrize("most", [2.0, np.inf])
+def test_regions_without_area(most):
+    """One place, and two that are opposite: a ray and a line."""
+    ray, line = find_region(np.array([90.0]), most), find_region(np.array([90.0, 270]), most)
+    assert (ray.has(1.9j, 1e-9), ray.has(-1j, 1e-9), ray.has(1, 1e-9)) == (True, False, False)
+    assert (line.has(1.9j, 1e-9), line.has(-1.9j, 1e-9), line.has(1, 1e-9)) == (True, True, False)
+    assert ray.has(2.1j, 1e-9) == (most == np.inf)
+    assert ray.line == pytest.approx(1j)
 
 
 def test_many_places_of_small_weights():
@@ -74,5 +89,9 @@ def test_many_places_of_small_weights():
     placed = split_weight(100j, angles, 0.6)
     assert total(placed) == pytest.approx(100j, rel=1e-9)
     assert len(placed) > 150
-    polygon = 0.6 / np.sin(np.radians(0.25))  # all places of half a turn: a chord of the polygon
-    assert find_reach(1j, angles, 0.6) == pytest.approx(polygon, rel=1e-5)
+    region, whole = (
+        find_region(angles, 0.6),
+        0.6 / np.sin(np.radians(0.25)),
+    )  # all places of half a turn: a chord of the polygon
+    assert region.has(1j * whole * 0.99999, 0)
+    assert not region.has(1j * whole * 1.00001, 0)

@@ -83,8 +83,12 @@ CASES = [
         "reading_weights: has 1 value, but there are 2 readings in a run; give one for each",
     ),
     (
+        three_runs("places = 8"),
+        "places: 8 is one value; give one for each plane, such as places = [8, 8]",
+    ),
+    (
         three_runs("places = [4, 0]"),
-        "places: the 2nd value 0 does not say where weights can go; give the number of places all round (up to 720), or a list of their angles",
+        'places: the 2nd value 0 does not say where weights can go; give the number of places all round (up to 720), a list of their angles, or "free" for any angle',
     ),
     (
         three_runs("influence = [['1 @ 0', '2 @ 0']]"),

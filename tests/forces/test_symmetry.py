@@ -44,7 +44,7 @@ def test_the_inline_four():
         "order 1 force: balanced exactly, by symmetry",
         "order 1 moment: balanced exactly, by symmetry",
         "order 1 couple, torque and roll: balanced exactly, by symmetry",
-        "order 2 force: free: 4 of one cylinder",
+        "order 2 force: free: 4 F2",
         "order 2 moment: balanced exactly, by symmetry",
         "order 2 couple, torque and roll: free: 4 of one cylinder",
         "firing: even, every 180 deg",
@@ -88,7 +88,7 @@ def test_the_middle_piston_as_heavy_as_both_others():
     more = "[cylinder.2]\npiston_mass = 1.0\n"
     found = sentences([0, 180, 0], more=more)
     assert found[0] == "order 1 force: balanced exactly, by symmetry"
-    assert found[3] == "order 2 force: free: 2 of one cylinder"
+    assert found[3] == "order 2 force: free: 4 F2"
 
 
 def test_two_banks_of_different_mechanisms_that_are_each_balanced():
@@ -161,8 +161,24 @@ def test_only_what_is_asked_and_as_json():
     document = json.loads(json_text(analysis_document(result)))
     assert document["why"] == {
         "reasons": [
-            {"order": 1, "quantity": "force", "verdict": "exact", "size": 0.0},
-            {"order": 2, "quantity": "force", "verdict": "free", "size": pytest.approx(2)},
+            {
+                "order": 1,
+                "quantity": "force",
+                "verdict": "exact",
+                "size": 0.0,
+                "reciprocating": 0.0,
+                "built": 0.0,
+                "unit": "F1",
+            },
+            {
+                "order": 2,
+                "quantity": "force",
+                "verdict": "free",
+                "size": pytest.approx(2),
+                "reciprocating": pytest.approx(2),
+                "built": pytest.approx(2),
+                "unit": "F2",
+            },
         ],
         "firing": "",
     }

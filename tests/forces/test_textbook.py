@@ -1,14 +1,94 @@
-"""The units of textbooks, by hand."""
+"""The units of textbooks, by hand, and the handbook's figures wherever balcli shows such."""
 
 from __future__ import annotations
 
+import csv
+import io
+import json
+import re
+from math import sqrt
+
 import numpy as np
 import pytest
+from support.commands import run_here
 from support.engines import engine
 
 from balcli.core.mechanisms import closed_form
+from balcli.enginefile.examples import folder
 from balcli.forces.kinds import FORCE, MOMENT
-from balcli.forces.textbook import TextbookUnits, find_textbook_units
+from balcli.forces.textbook import TextbookUnits, find_textbook, find_textbook_units
+
+# Bosch, Automotive Handbook, "Free forces and moments of the 1st and 2nd order, and ignition
+# intervals of the most common engine designs": sizes in F1 and F2, F1 a and F2 a. Engines not in
+# it (cross-plane four, V-twin) by the formulas of C. F. Taylor, The Internal-Combustion Engine in
+# Theory and Practice, vol. 2, ch. 8.
+HANDBOOK = {  # forces of order 1 and 2, moments of order 1 and 2
+    "twin180": (0, 2, 1, 0),
+    "i3": (0, 0, 1.732, 1.732),
+    "i4": (0, 4, 0, 0),
+    "i4_crossplane": (0, 0, sqrt(10), 0),
+    "i5": (0, 0, 0.449, 4.98),
+    "i6": (0, 0, 0, 0),
+    "vtwin90": (1, sqrt(2), 0, 0),
+    "v6_60": (0, 0, 1.5, 1.5),
+    "v6_90_common": (0, 0, 1.732, 2.449),
+    "v8_crossplane": (0, 0, sqrt(10), 0),
+    "v8_flatplane": (0, 4 * sqrt(2), 0, 0),
+    "boxer2": (0, 0, 1, 1),
+    "boxer4": (0, 0, 0, 2),
+    "boxer6": (0, 0, 0, 0),
+    "v12_60": (0, 0, 0, 0),
+}
+
+
+@pytest.mark.parametrize("name", HANDBOOK)
+def test_column_reasons_and_table_of_layouts_are_the_handbooks(name):
+    text = run_here("analyze", folder() / f"{name}.toml", "--why", "--orders", "1,2").out
+    columns = _columns(text)
+    reasons = _reasons(text)
+    layouts = _layouts()[name]
+    for place, printed in enumerate(HANDBOOK[name]):
+        kind, order = ("force", "moment")[place // 2], place % 2 + 1
+        assert columns.get((kind, order), 0) == pytest.approx(printed, abs=6e-4), (kind, order)
+        assert reasons[kind, order] == pytest.approx(printed, abs=6e-4), (kind, order)
+        assert layouts[kind, order] == pytest.approx(printed, abs=6e-4), (kind, order)
+
+
+def _columns(text: str) -> dict[tuple[str, int], float]:
+    """The first column of the textbook's tables, by kind and order."""
+    found = {}
+    for kind in ("force", "moment"):
+        _, _, table = text.partition(f"Free {kind} in textbook units\n")
+        for line in table.partition("\n\n")[0].splitlines():
+            if match := re.match(r"([12]) +([0-9.]+)", line):
+                found[kind, int(match[1])] = float(match[2])
+    return found
+
+
+def _reasons(text: str) -> dict[tuple[str, int], float]:
+    """What `--why` says is left, by kind and order."""
+    found = {}
+    for order, kind, told in re.findall(r"order (\d) (force|moment): (.*)", text):
+        left = re.match(rf"free: ([0-9.]+) F{order}(·a)?( |$)", told)
+        if kind == "moment" and told.endswith("of one cylinder"):  # one throw has no distance a
+            told = "no cylinder has any"
+        assert left or "balanced exactly" in told or "no cylinder has any" in told, told
+        found[kind, int(order)] = float(left[1]) if left else 0.0
+    return found
+
+
+def _layouts() -> dict[str, dict[tuple[str, int], float]]:
+    """Semi-major axes of `tables layouts`, by engine."""
+    found = csv.DictReader(io.StringIO(run_here("tables", "layouts", "--format", "csv").out))
+    return {
+        row["engine"]: {
+            (kind, order): float(row[f"{letter}{order}_major"])
+            for kind, letter in (("force", "F"), ("moment", "M"))
+            for order in (1, 2)
+        }
+        for row in found
+        if row["engine"] in HANDBOOK
+    }
 
 
 def test_textbook_units():
@@ -16,7 +96,7 @@ def test_textbook_units():
     units = find_textbook_units(e, np.array([1.0, 2.0, 3.0]))
     assert (units.force, units.arm, units.equal) == (
         pytest.approx(0.05 * (20 * np.pi) ** 2),
-        pytest.approx(0.1),
+        pytest.approx(0.08),
         True,
     )
     assert list(units.ratios) == list(closed_form.piston([1, 2, 3], 0.25))
@@ -33,6 +113,30 @@ def test_textbook_units_of_unequal_cylinders_are_cylinder_1s():
 
 
 def test_moments_are_multiples_of_a_force_times_the_distance_of_throws():
-    units = TextbookUnits(force=200.0, arm=0.1, ratios=np.ones(1), equal=True)
-    assert (units.size(FORCE), units.name(FORCE)) == (200.0, "F1")
-    assert (units.size(MOMENT), units.name(MOMENT)) == (20.0, "F1·a")
+    orders = np.array([1.0, 2.0, 3.0])
+    units = TextbookUnits(orders, 200.0, 0.1, ratios=np.array([1.0, 0.25, 0.0]), equal=True)
+    assert (units.size(FORCE, 1), units.name(FORCE, 1)) == (200.0, "F1")
+    assert (units.size(MOMENT, 2), units.name(MOMENT, 2)) == (5.0, "F2·a")
+    assert np.isnan(units.size(FORCE, 3))
+
+
+def test_rotating_masses_stagger_and_devices_are_left_out():
+    """A single throw of 1 kg beside a piston of 1 kg: 1 F1, and 2 F1 as built."""
+    e = engine(
+        crank={"throws": [0, 180], "spacing": 100, "throw_mass": 1.0},
+        layout={"bank_angle": 90, "stagger": 20},
+        counterweight=[{"unbalance": 12345, "angle": 10, "position": 50}],
+    )
+    book = find_textbook(e, np.array([1.0]), ["moment"])
+    size = book.units.size(MOMENT, 1)
+    assert abs(book.reciprocating.moment.forward[0]) / size == pytest.approx(1.0)
+    assert abs(book.built.moment.forward[0]) / size == pytest.approx(2.0)
+
+
+def test_json_says_the_same_beside_what_it_said():
+    told = run_here("analyze", folder() / "i5.toml", "--why", "--format", "json").out
+    found = json.loads(told)["why"]
+    first = next(r for r in found["reasons"] if (r["order"], r["quantity"]) == (1, "moment"))
+    assert first["size"] == pytest.approx(0.449 / 2, abs=5e-4)
+    assert (first["reciprocating"], first["unit"]) == (pytest.approx(0.449, abs=5e-4), "F1·a")
+    assert first["built"] == pytest.approx(1.333, abs=5e-4)

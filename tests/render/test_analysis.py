@@ -18,7 +18,6 @@ from balcli.render.formats import Format, render
 from balcli.render.units import SYSTEMS
 from balcli.results.analysis import analyze
 
-
 RENDERER = SimpleNamespace(
     sheet=analysis.sheet, document=analysis_data.document, rows=analysis_data.rows
 )

@@ -89,12 +89,13 @@ def test_exactly_the_orders_asked_for_are_shown(orders):
 
 
 @pytest.mark.parametrize(
-    ("orders", "told"), [([-1], "-1"), ([HIGHEST_ORDER + 1], "4097"), ([], "none"), ([1.5], "1.5")]
+    ("orders", "told"),
+    [([-1], "-1"), ([HIGHEST_ORDER + 1], "4097"), ([], "none"), ([1.25], "1.25")],
 )
 def test_orders_that_cannot_be(orders, told):
     with pytest.raises(BalcliError) as caught:
         analyze(example("i4"), orders)
-    assert str(caught.value) == f"orders must be whole numbers from 0 to 4096, not {told}"
+    assert str(caught.value) == f"orders must be multiples of 1/2 from 0 to 4096, not {told}"
 
 
 # ------------------------------------------------------------------ balanced, and not swallowed

@@ -9,9 +9,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balcli.field_balancing.balance import balance_rotor, find_angle_deg
+from balcli.field_balancing.balance import balance_rotor
 from balcli.field_balancing.permitted import find_permitted_unbalance
 from balcli.field_balancing.read import parse_runs
+from balcli.field_balancing.shop import find_angle_deg
 
 EXAMPLE_6 = """
 planes = ["front", "rear"]

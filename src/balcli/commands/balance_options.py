@@ -187,7 +187,7 @@ def balance_knuckles(
     even: str | None,
     model: EngineFile,
     engine: Engine,
-    orders: list[int] | None,
+    orders: list[float] | None,
 ) -> Balance:
     """The scheme that changes knuckle angles, at the engine's speed.
 

@@ -49,8 +49,8 @@ def curves(
     from ..render import curves as renderer
     from .inputs import read_engine
 
-    angles = divide_revolution(step)
     engine = read_engine(path, check_speed(speed)).engine
+    angles = divide_revolution(step, engine.period_revolutions)
     if cylinder is None:
         found = compute_engine_curves(engine, angles)
     else:

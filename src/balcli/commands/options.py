@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 from typing import Annotated
 
@@ -63,9 +64,10 @@ Orders = Annotated[
     str | None,
     typer.Option(
         "--orders",
-        metavar="1-8|1,2,4",
+        metavar="1-8|0.5-8|1,2,4",
         show_default=False,
-        help="Orders to show; default: 1, 2 and all to 512 that are not negligible.",
+        help="Orders to show, halves too where a range begins or ends with one; default: 1, 2 and "
+        "all to 512 that are not negligible.",
     ),
 ]
 Only = Annotated[
@@ -100,30 +102,39 @@ Scheme = Annotated[
 ]
 
 
-def parse_orders(text: str | None) -> list[int] | None:
-    """Orders as in `1-8`, `1,2,4` or `1-4,8`.
+def parse_orders(text: str | None) -> list[float] | None:
+    """Orders as in `1-8`, `1,2,4`, `1-4,8`, or in halves `0.5-8`.
 
     Raises:
         BalcliError: anything else, with the text.
     """
     if text is None:
         return None
-    orders: list[int] = []
+    orders: list[float] = []
     for part in text.split(","):
         first, dash, last = part.strip().partition("-")
-        if not _is_whole(first) or (dash and not _is_whole(last)) or len(first + last) > 12:
-            raise BalcliError(f'--orders "{text}": give whole numbers such as 1-8 or 1,2,4')
-        low, high = int(first), int(last or first)
-        if low > high or high > HIGHEST_ORDER:
+        low = _count_halves(first)
+        high = _count_halves(last) if dash else low
+        if low is None or high is None:
+            raise BalcliError(f'--orders "{text}": give orders such as 1-8, 1,2,4 or 0.5-8')
+        if low > high or high > 2 * HIGHEST_ORDER:
             raise BalcliError(
                 f'--orders "{text}": {part.strip()} must rise and end at {HIGHEST_ORDER} at most'
             )
-        orders += range(low, high + 1)
+        in_halves = low % 2 or high % 2
+        orders += (
+            [half / 2 for half in range(low, high + 1)]
+            if in_halves
+            else range(low // 2, high // 2 + 1)
+        )
     return orders
 
 
-def _is_whole(text: str) -> bool:
-    return text.isascii() and text.isdigit()
+def _count_halves(text: str) -> int | None:
+    """Twice an order that is written with digits, such as `8` or `0.5`; None for anything else."""
+    if not re.fullmatch(r"[0-9]{1,12}(\.[05])?", text, re.ASCII):
+        return None
+    return round(2 * float(text))
 
 
 def parse_quantities(text: str | None) -> list[str] | None:

@@ -5,6 +5,7 @@ a grid of samples.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +16,7 @@ from .phasors import Array, Complex, Phasors
 
 class Peak(NamedTuple):
     """Largest absolute value over a revolution, and one crank angle (rad, in [0, 2 pi)) at which it
-    is reached.
+    is reached; over two revolutions where there are half orders.
     """
 
     value: float
@@ -41,6 +42,9 @@ def peak(curve: Phasors) -> Peak:
     if not len(there):
         return Peak(0.0, 0.0)
     curve = Phasors(curve.orders[there], curve.forward[there], curve.backward[there], np.zeros(1))
+    if np.count_nonzero(curve.orders % 1):  # of half the crank angle all are whole
+        value, half = peak(replace(curve, orders=2 * curve.orders))
+        return Peak(value, 2 * half)
     theta = find_candidates(curve)
     step = np.pi / (8 * max(curve.orders[-1], 1))
     theta = np.concatenate(
@@ -55,8 +59,9 @@ def peak(curve: Phasors) -> Peak:
 
 
 def find_candidates(curve: Phasors, most: int = 64) -> Array:
-    """Angles of the samples that may lie beside the highest peak, at most so many: where there are
-    more, those of the highest peaks but for 1e-8, of equal ones the first.
+    """Angles of the samples that may lie beside the highest peak of a curve of whole orders, at
+    most so many: where there are more, those of the highest peaks but for 1e-8, of equal ones the
+    first.
     """
     count = 16 * max(int(curve.orders[-1]), 1)
     spectrum = np.zeros(count, complex)

@@ -34,13 +34,15 @@ if TYPE_CHECKING:  # few engines have rods on rods, or turn; those that do impor
     from ..core.mechanisms.articulated import Articulated
     from ..core.mechanisms.rotary import Rotary
 
+PISTON_PARTS = ("mass", "piston", "pin", "rings", "locks")  # keys of [piston] that are masses
+
 
 class Ripple(NamedTuple):
     """One line of an uneven crank speed: `omega = mean (1 + sum amplitude cos(order theta -
     angle))`.
     """
 
-    order: int
+    order: float
     amplitude: Figure
     angle_deg: Figure
 
@@ -131,6 +133,28 @@ class Assembly:
         own, general = self.own_of(number).rod, self.articulated_rod if articulated else self.rod
         return RodPlace(number, articulated, general.with_own(own), own, general)
 
+    @cached_property
+    def piston_parts(self) -> dict[str, Figure]:
+        """Masses of the parts that all pistons are made of, kg, by their keys; of a piston weighed
+        as a whole that of `mass`.
+        """
+        table = self.model.piston
+        given = {
+            key: self.figures.take_optional(f"piston.{key}", getattr(table, key))
+            for key in PISTON_PARTS
+        }
+        return {key: mass for key, mass in given.items() if mass is not None}
+
+    def piston_parts_of(self, number: int) -> tuple[tuple[str, Figure], ...]:
+        """The same of one cylinder's piston."""
+        own = self.own_of(number).piston_mass
+        return tuple(self.piston_parts.items()) if own is None else (("mass", own),)
+
+    @cached_property
+    def piston_mass(self) -> Figure:
+        """Of all pistons of which nothing else is said, kg."""
+        return sum(self.piston_parts.values())
+
     def piston_offset(self, number: int) -> Figure:
         """Of the path of a cylinder's piston pin, m."""
         general = self.figures.take("piston.offset", self.model.piston.offset) / 1e3
@@ -147,12 +171,11 @@ class Assembly:
         """Piston and rod of one cylinder; those of which nothing is said alone are one for all."""
         key = (place.number if place.number in self.own else 0, place.articulated)
         if key not in self._gears:
-            mass = self.figures.take("piston.mass", self.model.piston.mass)
             self._gears[key] = weigh_rod(
                 place.rod,
                 place.rod.length_for(self.radius),
                 self.piston_offset(place.number),
-                either(self.own_of(place.number).piston_mass, mass),
+                either(self.own_of(place.number).piston_mass, self.piston_mass),
             )
         return self._gears[key]
 
@@ -285,6 +308,16 @@ class Assembly:
         return mass / self.plan.rods_on_throw
 
     @cached_property
+    def rod_bearing(self) -> Figure:
+        """Bearing shells of one rod, kg."""
+        return self.figures.take("bobweight.rod_bearing", self.model.bobweight.rod_bearing)
+
+    @cached_property
+    def oil(self) -> Figure:
+        """Oil that turns with a pin, for one rod, kg."""
+        return self.figures.take("bobweight.oil", self.model.bobweight.oil)
+
+    @cached_property
     def _turned_deg(self) -> tuple[Mapping[int, Figure], Mapping[int, Figure]]:
         """Axes of the cylinders, and their crank pins from cylinder 1's; where the cylinders turn
         about pins that stand still, the other way round (core.rotary).
@@ -334,8 +367,9 @@ class Assembly:
         """
         if self.model.layout.rotary:
             return 0.0
-        big_end = 0.0 if number in self.masters else self.gears[number].big_end
-        return big_end + self.share_of_throw
+        if number in self.masters:
+            return self.share_of_throw
+        return self.gears[number].big_end + self.share_of_throw + self.rod_bearing + self.oil
 
     @cached_property
     def knuckle_angles_deg(self) -> tuple[Figure, ...] | None:

@@ -44,6 +44,13 @@ WORDS = {
 OTHER = "{value} does not fit here"
 
 
+OF_COMMANDS = dict.fromkeys(
+    ("overbalance", "balance_factor", "factor"),
+    "did you mean --factor? The balance factor is no figure of the engine: "
+    "balcli balance FILE --factor 51%",
+)
+
+
 class UnknownKey(NamedTuple):
     """A key that there is not.
 
@@ -125,6 +132,8 @@ def describe_unknown_key(unknown: UnknownKey) -> tuple[Problem, str]:
     place = f"of [{path.partition('.')[0]}]" if path else "of an engine file"
     start = f"{path}." if path else ""
     full = start + printable(key)
+    if key in OF_COMMANDS:
+        return Problem(full, f"is no key {place}; {OF_COMMANDS[key]}"), ""
     if near := nearest(key, own):
         return Problem(full, f"is no key {place}; did you mean {near}?"), start + near
     hint = next(_tables_with(key), f"it has {', '.join(own)}")

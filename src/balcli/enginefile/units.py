@@ -73,6 +73,8 @@ COMMON = {
     "rpm": Unit(Fraction(1, 60), Powers(time=-1, angle=1)),
 }
 
+AMBIGUOUS = {"gr": "g, or grain (65 mg)?", "gm": "g, or gigametre?"}
+
 LENGTH = Dimension("mm", "a length", _LENGTH, ("90 mm", "3.5 in"))
 MASS = Dimension("kg", "a mass", _MASS, ("650 g", "0.8 lb"))
 ANGLE = Dimension("deg", "an angle", _ANGLE, ("30 deg", "1.2 rad", "1/7 turn"))
@@ -132,6 +134,8 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
     """
     scale, powers = Fraction(1), Powers()
     for joint, name, power, superscript in re.findall(_PART, names, re.ASCII):
+        if name in AMBIGUOUS:
+            raise ValueError(f'has the unit "{name}": {AMBIGUOUS[name]} {wanted(dimension)}')
         part = COMMON.get(name) or _ask_pint(name)
         if part is None:
             raise ValueError(f'has the unknown unit "{name}"; {wanted(dimension)}')

@@ -4,29 +4,26 @@ permitted unbalance is reached.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.drilled_hole import find_drill_depth, find_drilled_unbalance
 from ..core.least_squares import find_dependent_columns, solve
 from ..core.smallest_largest import (
+    Region,
     Smallest,
-    find_limited,
     minimise_largest,
-    minimise_squares_within,
+    minimise_squares,
 )
 from ..enginefile.fields import counted, nearest, shorten
 from ..errors import BalcliError, InputError, Problem
 from .influence import Influence, find_influence, has_opposite_senses
-from .model import RunsFile, read_amount_unit
+from .model import RunsFile
 from .permitted import find_permitted_eccentricity, find_permitted_unbalance
-from .places import Placed, find_reach, split_weight
-from .read import is_mass
+from .shop import Piece, find_shop, find_unbalance_per_weight
 
 Complex = NDArray[np.complex128]
 Array = NDArray[np.float64]
@@ -36,37 +33,19 @@ _NEARLY_ALIKE = 0.2  # of a plane's effect, that no other plane has: below, plan
 _SMALL_CHANGE = 0.1  # of the largest reading: less tells little about a plane
 _FAR_BEYOND = 5.0  # times the largest trial weight: far from where the coefficients were measured
 _ROUNDING = 1e-14
+_NOTHING = 1e-9  # share of the weight that would do as much as all unbalance
+_AT_EDGE = 1e3  # times that: so near its limit a weight counts as at it
 _G_MM = 1e-6  # kg m
 
 
-class Piece(NamedTuple):
-    """A weight to put on, or a hole that removes it: in the file's unit, at an angle of the rotor;
-    depth of the hole in mm (nan: too much for this drill; None: nothing is drilled).
-    """
-
-    weight: float
-    angle_deg: float
-    depth_mm: float | None
-
-
-class Work(NamedTuple):
-    """What the shop does in one plane.
-
-    Attributes:
-        pieces: weights or holes; None if the places cannot take it.
-        reach: largest weight that the places can stand for in that direction; infinite without a
-            limit.
-    """
-
-    pieces: tuple[Piece, ...] | None
-    reach: float
-
-
 class Permitted(NamedTuple):
-    """Unbalance of one plane, g mm: what the grade permits, and what is there now."""
+    """Unbalance of one plane, g mm: what the grade permits, what is there now by the readings, and
+    what is left of it after the corrections.
+    """
 
     permitted: float
     present: float
+    after: float
 
     @property
     def reached(self) -> bool:
@@ -80,19 +59,22 @@ class PlaneCorrection(NamedTuple):
         total: weight in the file's unit, from the rotor as found, all trial weights off.
         step: the same, on top of what was on in the last run with a correction in; `total` where
             there is none.
+        wanted: the step that would be best if weights of any size could be anywhere.
         unbalance: of the total, g mm; None where no radius is known.
         own: share of the plane's effect that no combination of the others has (1: independent).
-        limited: whether its largest weight stopped it.
-        work: for the step. permitted: None without a grade.
+        limited: whether its places or its largest weight stopped it.
+        pieces: weights or holes of the shop, which together are the step.
+        permitted: None without a grade.
     """
 
     plane: str
     total: complex
     step: complex
+    wanted: complex
     unbalance: float | None
     own: float
     limited: bool
-    work: Work
+    pieces: tuple[Piece, ...]
     permitted: Permitted | None
 
 
@@ -124,6 +106,11 @@ class FieldBalance:
         """Whether every plane is within its permitted unbalance (true without a grade)."""
         return all(p.permitted is None or p.permitted.reached for p in self.planes)
 
+    @property
+    def limited(self) -> bool:
+        """Whether places or largest weights keep any plane from what would be best."""
+        return any(p.limited for p in self.planes)
+
 
 def balance_rotor(
     file: RunsFile, minimise: Minimise = "squares", without: Collection[str] = (), name: str = ""
@@ -142,21 +129,38 @@ def balance_rotor(
     influence = find_influence(file, frozenset(without), name)
     matrix = influence.coefficients[:, used]
     _refuse_dependent(file, matrix, used, name)
-    as_found = influence.now - np.sum(influence.coefficients * influence.now_on, axis=1)
-    weights = np.ones(len(as_found))
+    on = influence.now_on[-1]
+    now = influence.now + np.sum(influence.coefficients * (on - influence.now_on), axis=1)
+    weights = np.ones(len(now))
     if file.reading_weights:
         weights = np.tile(np.array(file.reading_weights), len(set(influence.speeds_rpm)))
-    most = np.array([file.most[k] if file.most and not file.places else np.inf for k in used])
-    fitted = _fit(matrix, -as_found, weights, most, minimise)
-    after = _drop_rounding(-fitted.residual, as_found, matrix, fitted.x)
+    sense = -1 if has_opposite_senses(file) else 1
+    shops = [find_shop(file, k) for k in used]
+    regions = [shop.find_region(complex(on[k]), sense) for k, shop in zip(used, shops, strict=True)]
+    wanted = _fit(matrix, -now, weights, (), minimise)
+    nothing = _NOTHING * np.abs(now).max() / np.abs(matrix).max(axis=0)
+    fitted, limited = wanted, [False] * len(used)
+    if not all(map(Region.has, regions, wanted.x, nothing)):
+        fitted = _fit(matrix, -now, weights, regions, minimise)
+        fitted = fitted._replace(x=np.where(np.abs(fitted.x) <= nothing, 0, fitted.x))
+        limited = list(map(Region.has_at_edge, regions, fitted.x, _AT_EDGE * nothing))
+    after = _drop_rounding(-fitted.residual, now, matrix, fitted.x)
     left = weights * np.abs(after)
-    limited = find_limited(fitted.x, most)
-    steps = fitted.x - influence.now_on[-1, used]
     own = _find_own_shares(matrix)
-    sense = np.conj if has_opposite_senses(file) else np.asarray
+    turn = np.conj if sense < 0 else np.asarray
     planes = tuple(
-        _describe_plane(file, k, complex(total), complex(step), float(own[j]), j in limited)
-        for j, (k, total, step) in enumerate(zip(used, sense(fitted.x), sense(steps), strict=True))
+        PlaneCorrection(
+            file.planes[k],
+            total=complex(turn(on[k] + step)),
+            step=complex(turn(step)),
+            wanted=complex(turn(wanted.x[j])),
+            unbalance=_find_unbalance(file, k, on[k] + step),
+            own=float(own[j]),
+            limited=limited[j],
+            pieces=shops[j].plan(complex(turn(step)), float(nothing[j])),
+            permitted=_find_permitted(file, k, wanted.x[j], wanted.x[j] - step),
+        )
+        for j, (k, step) in enumerate(zip(used, fitted.x, strict=True))
     )
     return FieldBalance(
         file,
@@ -164,7 +168,7 @@ def balance_rotor(
         influence,
         planes,
         after=after,
-        condition=solve(matrix, as_found).condition,
+        condition=solve(matrix, now).condition,
         largest=float(left.max()),
         bound=fitted.bound,
         rms=float(np.sqrt(np.mean(left**2))),
@@ -229,15 +233,14 @@ def _refuse_dependent(file: RunsFile, matrix: Complex, used: list[int], name: st
 
 
 def _fit(
-    matrix: Complex, target: Complex, weights: Array, most: Array, minimise: Minimise
+    matrix: Complex, target: Complex, weights: Array, regions: Sequence[Region], minimise: Minimise
 ) -> Smallest:
-    """The weights; residuals are those of the target."""
-    if not target.any():
+    """The steps; residuals are those of the target."""
+    if not target.any() and not regions:
         nothing = np.zeros(matrix.shape[1], dtype=complex)
         return Smallest(nothing, target, 0.0, 0.0)
-    if minimise == "max":
-        return minimise_largest(matrix, target, weights, most)
-    return minimise_squares_within(matrix, target, weights, most)
+    fit = minimise_largest if minimise == "max" else minimise_squares
+    return fit(matrix, target, weights, regions)
 
 
 def _drop_rounding(after: Complex, before: Complex, matrix: Complex, x: Complex) -> Complex:
@@ -252,90 +255,20 @@ def _find_own_shares(matrix: Complex) -> Array:
     return np.asarray(1 / np.linalg.norm(np.linalg.pinv(directions, rcond=0.0), axis=1))
 
 
-def _describe_plane(
-    file: RunsFile, k: int, total: complex, step: complex, own: float, limited: bool
-) -> PlaneCorrection:
-    per_weight = _find_unbalance_per_weight(file, k)
-    permitted = None
-    if file.grade and file.mass and file.speed and per_weight is not None:
-        shares = np.array(file.shares or np.ones(len(file.planes)))
-        whole = find_permitted_unbalance(file.grade, file.mass, file.speed)
-        share = float(shares[k] / shares.sum())
-        permitted = Permitted(whole * share, abs(step) * per_weight / _G_MM)
-    return PlaneCorrection(
-        file.planes[k],
-        total,
-        step,
-        None if per_weight is None else abs(total) * per_weight / _G_MM,
-        own,
-        limited,
-        _plan_work(file, k, step, per_weight),
-        permitted,
-    )
+def _find_unbalance(file: RunsFile, k: int, weight: complex) -> float | None:
+    """g mm of a weight in a plane; None where no radius is known."""
+    per_weight = find_unbalance_per_weight(file, k)
+    return None if per_weight is None else float(abs(weight)) * per_weight / _G_MM
 
 
-def _find_unbalance_per_weight(file: RunsFile, k: int) -> float | None:
-    """kg m of one unit of weight in a plane; None where its radius is not known."""
-    scale = float(read_amount_unit(file.weight_unit).scale)
-    if not is_mass(file):
-        return scale
-    return scale * file.radius[k] / 1e3 if file.radius else None
-
-
-class _Hole(NamedTuple):
-    """A radial hole into a rim, m; and the unbalance of one unit of weight there, kg m."""
-
-    rim: float
-    diameter: float
-    per_weight: float
-
-    def find_depth_mm(self, weight: float) -> float:
-        return 1e3 * find_drill_depth(weight * self.per_weight, self.rim, self.diameter)
-
-    def find_weight(self, depth_mm: float) -> float:
-        removed = find_drilled_unbalance(depth_mm / 1e3, self.rim, self.diameter)
-        return removed / self.per_weight
-
-
-def _find_hole(file: RunsFile, k: int, per_weight: float | None) -> _Hole | None:
-    if file.drill is None or file.radius is None or per_weight is None:
+def _find_permitted(file: RunsFile, k: int, wanted: complex, left: complex) -> Permitted | None:
+    """Args: what would balance the plane now, and after the corrections."""
+    present, after = _find_unbalance(file, k, wanted), _find_unbalance(file, k, left)
+    if not (file.grade and file.mass and file.speed) or present is None or after is None:
         return None
-    return _Hole(file.radius[k] / 1e3, file.drill[k] / 1e3, per_weight)
-
-
-def _plan_work(file: RunsFile, k: int, step: complex, per_weight: float | None) -> Work:
-    hole = _find_hole(file, k, per_weight)
-    wanted = -step if hole else step
-    limit = file.most[k] if file.most and file.places else math.inf
-    if hole and file.deepest:
-        limit = min(limit, hole.find_weight(file.deepest[k]))
-    placed, reach = _place(wanted, file.places[k] if file.places else None, limit)
-    if placed is None:
-        return Work(None, reach)
-    pieces = (
-        Piece(p.weight, p.angle_deg, hole.find_depth_mm(p.weight) if hole else None) for p in placed
-    )
-    return Work(tuple(pieces), reach)
-
-
-def _place(
-    wanted: complex, angles_deg: tuple[float, ...] | None, limit: float
-) -> tuple[tuple[Placed, ...] | None, float]:
-    """Where the weight goes (None: it does not fit), and how much would fit there."""
-    if wanted == 0:
-        return (), math.inf
-    if angles_deg is None:
-        single = Placed(abs(wanted), find_angle_deg(wanted))
-        return ((single,) if single.weight <= limit else None), limit
-    placed = split_weight(wanted, np.array(angles_deg), limit)
-    reach = math.inf if placed is not None else find_reach(wanted, np.array(angles_deg), limit)
-    return placed, reach
-
-
-def find_angle_deg(number: complex) -> float:
-    """Angle in [0, 360); 0 of 0."""
-    angle = math.degrees(math.atan2(number.imag, number.real)) % 360
-    return 0.0 if angle == 360 else angle
+    shares = np.array(file.shares or np.ones(len(file.planes)))
+    whole = find_permitted_unbalance(file.grade, file.mass, file.speed)
+    return Permitted(whole * float(shares[k] / shares.sum()), present, after)
 
 
 def _doubt_trials(result: FieldBalance) -> list[str]:

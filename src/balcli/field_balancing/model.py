@@ -27,6 +27,7 @@ _FIGURE = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _POLAR = re.compile(rf"\s*({_FIGURE})\s*@\s*({_FIGURE})\s*(?:deg|°)?\s*", re.ASCII)
 _LARGEST, _SMALLEST = 1e12, 1e-12
 _FARTHEST_DEG = 1e6
+FREE = "free"  # places of a plane that takes weights at any angle
 _AMOUNTS = Dimension("g", "a unit of mass or of unbalance", MASS.powers, ("g", "oz", "g mm"))
 
 
@@ -119,25 +120,29 @@ class AmountUnit(Label):
 
 
 class PlaceAngles(Number):
-    """Angles at which a plane takes weights, deg: a list, or how many there are all round."""
+    """Angles at which a plane takes weights, deg: a list, or how many there are all round, or
+    "free": at any angle, which is an empty list.
+    """
 
     def __init__(self) -> None:
         super().__init__(ANGLE, most=_FARTHEST_DEG)
 
     def read(self, value: object) -> tuple[float, ...]:  # type: ignore[override]
+        if value == FREE:
+            return ()
         if isinstance(value, int) and not isinstance(value, bool) and 1 <= value <= MOST_PLACES:
             return tuple(360 * k / value for k in range(value))
         if isinstance(value, list) and 1 <= len(value) <= MOST_PLACES:
             return tuple(super(PlaceAngles, self).read(angle) for angle in value)
         raise ValueError(
             f"{shorten(value)} does not say where weights can go; give the number of places all "
-            f"round (up to {MOST_PLACES}), or a list of their angles"
+            f'round (up to {MOST_PLACES}), a list of their angles, or "{FREE}" for any angle'
         )
 
     def json(self) -> dict[str, Any]:
         count = {"type": "integer", "minimum": 1, "maximum": MOST_PLACES}
         angles = {"type": "array", "items": super().json(), "minItems": 1, "maxItems": MOST_PLACES}
-        return {"anyOf": [count, angles]}
+        return {"anyOf": [count, angles, {"const": FREE}]}
 
 
 def read_amount_unit(name: str) -> Unit:
@@ -230,8 +235,8 @@ class RunsFile(Table):
     places: Annotated[tuple[PlacesOfPlane, ...], _PLANES] | None = Field(
         None,
         examples=[[12, [0, 30, 60]]],
-        description="where a plane takes weights: a number of places, evenly spaced from 0 on, or "
-        "a list of angles",
+        description="where a plane takes weights, by plane: a number of places, evenly spaced from "
+        '0 on, a list of angles, or "free": at any angle',
     )
     drill: Annotated[tuple[Size, ...], _PLANES] | None = Field(
         None,

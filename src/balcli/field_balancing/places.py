@@ -7,19 +7,24 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.smallest_largest import Region
+
 Array = NDArray[np.float64]
 
 _ROUNDING = 1e-9  # share of a weight that is rounding
 
 
 class Placed(NamedTuple):
-    """One weight at one of the angles."""
+    """One weight, at the angle of a place; which one that is, from 1 (None: anywhere)."""
 
     weight: float
     angle_deg: float
+    number: int | None
 
 
-def split_weight(wanted: complex, angles_deg: Array, most: float) -> tuple[Placed, ...] | None:
+def split_weight(
+    wanted: complex, angles_deg: Array, most: float, noise: float = 0.0
+) -> tuple[Placed, ...] | None:
     """The least weight in all, spread over the angles, that does what one weight would do.
 
     The optimum of a linear program: all places of an arc of less than half a turn are full, its two
@@ -30,18 +35,21 @@ def split_weight(wanted: complex, angles_deg: Array, most: float) -> tuple[Place
     Args:
         wanted: weight as a complex number. angles_deg: of the places.
         most: largest weight at one place, infinite if there is no limit.
+        noise: a weight that is nothing, where it is more than rounding errors of the wanted one.
 
     Returns:
         The places with a weight, or None if no weights there add up to it.
     """
-    if wanted == 0:
+    if abs(wanted) <= noise:
         return ()
-    angles, unit = _sort_places(angles_deg)
+    angles, numbers, unit = _sort_places(angles_deg)
     target, limit = wanted / abs(wanted), most / abs(wanted)
+    nothing = max(_ROUNDING, noise / abs(wanted))
     count = len(angles)
-    alone = np.flatnonzero(np.abs(unit - target) < _ROUNDING)
-    if len(alone) and limit >= 1:
-        return (Placed(abs(wanted), float(angles[alone[0]])),)
+    alone = np.flatnonzero(np.abs(unit - target) < nothing)
+    if len(alone) and limit >= 1 - nothing:
+        i = int(alone[0])
+        return (Placed(abs(wanted), float(angles[i]), int(numbers[i])),)
     sums = np.concatenate([[0], np.cumsum(np.tile(unit, 2))])
     first = np.arange(count)
     for between in range(count - 1 if np.isfinite(limit) else min(1, count - 1)):
@@ -49,41 +57,53 @@ def split_weight(wanted: complex, angles_deg: Array, most: float) -> tuple[Place
         full = (limit if between else 0.0) * (sums[last] - sums[first + 1])
         at_first, at_last = _resolve(target - full, unit, unit[last % count])
         low, high = np.minimum(at_first, at_last), np.maximum(at_first, at_last)
-        right = np.flatnonzero((low >= -_ROUNDING) & (high <= limit * (1 + _ROUNDING)))
+        right = np.flatnonzero((low >= -nothing) & (high <= limit + nothing))
         if len(right):
             i = int(right[0])
             parts = [at_first[i], *[limit] * between, at_last[i]]
             places = [(i + k) % count for k in range(between + 2)]
             return tuple(
-                Placed(float(part) * abs(wanted), float(angles[k]))
+                Placed(float(part) * abs(wanted), float(angles[k]), int(numbers[k]))
                 for part, k in zip(parts, places, strict=True)
-                if part > _ROUNDING
+                if part > nothing
             )
     return None
 
 
-def find_reach(direction: complex, angles_deg: Array, most: float) -> float:
-    """The largest weight in this direction that the places can stand for together; 0 if they cannot
-    point there at all, infinite without a limit.
+def find_region(angles_deg: Array, most: float) -> Region:
+    """What weights at these places can stand for together: a polygon, or without a limit a wedge.
 
-    What the places reach is a polygon; its edges are parallel to the directions of places, and the
-    nearest edge in the direction counts.
+    It is the sum of the rays of all places, each from 0 to `most`; so its edges are parallel to
+    them, and how far it goes in a direction is the sum of how far each goes.
+
+    Args: as of `split_weight`.
     """
-    _, unit = _sort_places(angles_deg)
-    toward = direction / abs(direction)
-    normals = np.concatenate([1j * unit, -1j * unit, unit])
-    ahead = (np.conj(normals) * toward).real
-    normals, ahead = normals[ahead > _ROUNDING], ahead[ahead > _ROUNDING]
+    _, _, unit = _sort_places(angles_deg)
+    on_a_line = np.abs((np.conj(unit[0]) * unit).imag).max() < _ROUNDING
+    normals = np.concatenate([1j * unit, -1j * unit])
+    if on_a_line:
+        normals = np.concatenate([normals, unit, -unit])
+    normals = normals[np.unique(np.round(np.degrees(np.angle(normals)), 9) % 360, True)[1]]
     parts = (np.conj(normals)[:, None] * unit).real
-    support = np.where(parts > _ROUNDING, parts, 0).sum(axis=1)
-    reach = np.where(support > 0, most * np.where(support > 0, support, 1.0), 0.0) / ahead
-    return float(reach.min(initial=np.inf))
+    ahead = np.where(parts > _ROUNDING, parts, 0.0).sum(axis=1)
+    if np.isfinite(most):
+        inside, supports = complex(unit.sum() * most / 2), most * ahead
+    else:
+        inside, supports = complex(unit.sum()), np.zeros(len(normals))
+        normals, supports = normals[ahead == 0], supports[ahead == 0]
+    line = complex(unit[0]) if on_a_line else None
+    return Region(inside, normals, supports, line=line)
 
 
-def _sort_places(angles_deg: Array) -> tuple[Array, NDArray[np.complex128]]:
-    """Angles in [0, 360), each once, and as complex numbers."""
-    angles = np.unique(np.round(np.asarray(angles_deg) % 360, 9) % 360)
-    return angles, np.exp(1j * np.radians(angles))
+def _sort_places(
+    angles_deg: Array,
+) -> tuple[Array, NDArray[np.intp], NDArray[np.complex128]]:
+    """Angles in [0, 360), each once; which of the given ones they are, from 1; and as complex
+    numbers.
+    """
+    rounded = np.round(np.asarray(angles_deg) % 360, 9) % 360
+    angles, first = np.unique(rounded, return_index=True)
+    return angles, first + 1, np.exp(1j * np.radians(angles))
 
 
 def _resolve(

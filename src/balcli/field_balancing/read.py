@@ -103,6 +103,10 @@ def _refuse_key(path: str, key: str, table: type[Table]) -> Problem:
 def _translate(path: str, finding: Mapping[str, Any], table: type[Table]) -> Problem:
     if finding["type"] == "missing" and str(finding["loc"][-1]) in _NEEDED:
         return Problem(str(finding["loc"][-1]), _NEEDED[str(finding["loc"][-1])])
+    if finding["type"] == "tuple_type" and finding["loc"][-1] in BY_PLANE:
+        key, value = str(finding["loc"][-1]), shorten(finding["input"])
+        text = f"{value} is one value; give one for each plane, such as {key} = [{value}, {value}]"
+        return Problem(key, text)
     if finding["type"] == "dict_type":
         text = '{value} is not a table; write it like {{ front = "1.15 @ 0" }}'
         return Problem(

@@ -4,7 +4,7 @@ asked for.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -239,5 +239,15 @@ def _compute_uneven(
 
 def _mix_orders(engine: Engine, orders: Array) -> tuple[Complex, Array]:
     """Coefficients of the speed (`ripple.find_speed`), and the dense orders it mixes into these."""
-    w = ripple.find_speed((line.order, line.amplitude, line.angle_deg) for line in engine.ripple)
-    return w, np.arange(0.0, orders.max(initial=0) + len(w))
+    lines = [(line.order, line.amplitude, line.angle_deg) for line in engine.ripple]
+    mixed = [order for order, _, _ in lines]
+    dense = dense_orders(orders.max(initial=0) + 2 * max(mixed), [*mixed, *orders])
+    return ripple.find_speed(lines, float(dense[1])), dense
+
+
+def dense_orders(highest: float, mixed: Iterable[float]) -> Array:
+    """The orders 0, 1, 2 .. up to the highest, shape (orders,); 0, 1/2, 1 .. where some that are
+    mixed are halves.
+    """
+    step = ripple.find_step(mixed)
+    return np.arange(round(highest / step) + 1.0) * step

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from typing import Literal, NamedTuple
@@ -24,7 +24,9 @@ from numpy.typing import NDArray
 from ..core.phasors import Array
 from ..core.roots_of_unity import even, rational, turns, vanishes
 from ..engine.build import Engine
-from .spectrum import compute_each_cylinder, compute_spectra
+from .kinds import KINDS
+from .spectrum import compute_each_cylinder
+from .textbook import find_textbook, without_devices
 
 Verdict = Literal["none", "exact", "rounding", "nearly", "free"]
 Quantity = Literal["force", "moment", "turning"]  # turning: couple, torque and roll
@@ -53,12 +55,18 @@ class Reason:
         verdict: "none": no cylinder has any; "exact": by symmetry; "rounding": balanced, but not by
             exact fractions of a turn; "nearly": less than NEARLY of one cylinder is left; "free".
         size: what is left, in units of the largest that one cylinder makes.
+        reciprocating, built: what is left of the reciprocating masses alone, as textbooks have it,
+            and of the engine as built (`textbook.Textbook`), in `unit`; None where it has none.
+        unit: F_n of the order, or F_n a; else empty.
     """
 
-    order: int
+    order: float
     quantity: Quantity
     verdict: Verdict
     size: float
+    reciprocating: float | None = None
+    built: float | None = None
+    unit: str = ""
 
     @property
     def sentence(self) -> str:
@@ -69,9 +77,17 @@ class Reason:
             "exact": "balanced exactly, by symmetry",
             "rounding": "balanced to rounding, but not by exact fractions of a turn",
             "nearly": f"nearly balanced: {self.size:.1g} of one cylinder",
-            "free": f"free: {self.size:.4g} of one cylinder",
+            "free": f"free: {self._multiple}",
         }[self.verdict]
-        return f"order {self.order} {name}: {told}"
+        return f"order {self.order:g} {name}: {told}"
+
+    @property
+    def _multiple(self) -> str:
+        """What is left, in the textbook's unit where there is one."""
+        if self.reciprocating is None:
+            return f"{self.size:.4g} of one cylinder"
+        alone, built = f"{self.reciprocating:.4g}", f"{self.built:.4g}"
+        return f"{alone} {self.unit}" + (f" ({built} as built)" if built != alone else "")
 
 
 @dataclass(frozen=True)
@@ -100,14 +116,13 @@ def explain_symmetry(
 
     Args:
         engine: without trailing axes.
-        orders: whole, from 1.
+        orders: multiples of 1/2, above 0.
         kinds: any of force, moment, couple, torque and roll; the last three have one reason in
             common.
     """
     asked = np.unique(np.fromiter(orders, float))
     quantities = dict.fromkeys(q for name, q in _QUANTITY.items() if name in kinds)
-    bare = replace(engine, devices=(), ripple=(), reference_m=(0.0, 0.0, engine.reference_m[2]))
-    layout = _Layout(bare, asked)
+    layout = _Layout(without_devices(engine), asked)
     reasons = [layout.explain(row, q) for row in range(len(asked)) for q in quantities]
     return Symmetry(tuple(reasons), describe_firing(engine))
 
@@ -142,7 +157,7 @@ class _Sum(NamedTuple):
 
     rows: list[int]
     weights: Array
-    order: int
+    order: float
     side: int
 
 
@@ -165,24 +180,37 @@ class _Layout:
         self._largest_deg = float(max(np.abs(self._axis_deg).max(), np.abs(self._c.pin_deg).max()))
         self._arms = self._c.z - engine.reference_m[2]
         kinds = [name for parts in _PARTS.values() for name in parts]
-        self._whole = compute_spectra(engine, orders, kinds)
+        self._book = find_textbook(engine, orders, kinds)
         self._single = compute_each_cylinder(engine, orders, kinds)
 
     def explain(self, row: int, quantity: Quantity) -> Reason:
         """Why the order in this row is balanced, or is not."""
-        order, parts = int(self._orders[row]), _PARTS[quantity]
-        whole = {name: self._whole[name].major[row] for name in parts}
+        n, parts = float(self._orders[row]), _PARTS[quantity]
+        order = int(n) if n == int(n) else n
+        whole = {name: self._book.built[name].major[row] for name in parts}
         single = {name: self._single[name].major[row] for name in parts}
         sizes = [whole[name] / single[name].max() for name in parts if single[name].any()]
         if not sizes:
             return Reason(order, quantity, "none", 0.0)
         there = np.any([one > 0 for one in single.values()], axis=0)
         if all(map(self._exactly_zero, self._sums(order, quantity, there))):
-            return Reason(order, quantity, "exact", 0.0)
+            return Reason(order, quantity, "exact", 0.0, *self._multiples(row, quantity))
         size = float(max(sizes))
-        return Reason(order, quantity, _judge(size), size)
+        return Reason(order, quantity, _judge(size), size, *self._multiples(row, quantity))
 
-    def _sums(self, order: int, quantity: Quantity, there: NDArray[np.bool_]) -> Iterator[_Sum]:
+    def _multiples(self, row: int, quantity: Quantity) -> tuple[float | None, float | None, str]:
+        """What is left of the order in this row in textbook units, and their name."""
+        order = int(self._orders[row])
+        if quantity == "turning":
+            return None, None, ""
+        unit = self._book.units.size(KINDS[quantity], order)
+        if unit != unit:
+            return None, None, ""
+        alone, built = self._book.reciprocating[quantity], self._book.built[quantity]
+        name = self._book.units.name(KINDS[quantity], order)
+        return float(alone.major[row] / unit), float(built.major[row] / unit), name
+
+    def _sums(self, order: float, quantity: Quantity, there: NDArray[np.bool_]) -> Iterator[_Sum]:
         """All that must vanish; `there`: which cylinders have this order at all."""
         turning = quantity == "turning"
         arms = self._arms if quantity == "moment" else np.ones(self._c.count)
@@ -230,12 +258,13 @@ class _Layout:
         """By how many turns the angle of a row's term is ahead of that of the first; None if that
         is no fraction.
         """
-        pin, axis, lean = self._c.pin_deg, self._axis_deg, s.side - s.order
+        pin, axis, order = self._c.pin_deg, self._axis_deg, Fraction(s.order)
+        lean = s.side - order
         turned = turns(float(pin[row] - pin[first]), self._largest_deg)
         leaned = turns(float(axis[row] - axis[first]), self._largest_deg) if lean else Fraction(0)
         if turned is None or leaned is None:
             return None
-        return (s.order * turned + lean * leaned) % 1
+        return (order * turned + lean * leaned) % 1
 
     def _families(self, there: NDArray[np.bool_]) -> list[list[int]]:
         """Rows of the cylinders that are there, those with equal mechanisms together."""

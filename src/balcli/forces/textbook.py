@@ -1,11 +1,16 @@
-"""The units of textbooks: the forces of one cylinder, of which those of the engine are multiples.
+"""Forces and moments as textbooks have them: multiples of those of one cylinder.
 
 `F1 = m_rec r omega^2` is the first-order force of cylinder 1's reciprocating mass, `F_n = A_n F1`
-its n-th; moments are multiples of these times the distance of neighbouring throws.
+its n-th; moments are multiples of `F_n a`, a the (smallest) distance of neighbouring throws.
+Textbooks count the reciprocating masses alone, each in the plane of its throw: what rotates is the
+counterweights' business, and does not hide the layout. Source: Bosch, Automotive Handbook, "Free
+forces and moments of the 1st and 2nd order".
 """
 
 from __future__ import annotations
 
+from collections.abc import Collection
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -14,30 +19,75 @@ from ..core.mechanisms import harmonics
 from ..core.phasors import Array
 from ..engine.build import Engine
 from .kinds import Kind
+from .spectrum import Spectra, compute_spectra
+
+_NO_FORCE = 1e-12  # A_n of an order that the piston does not have
 
 
 class TextbookUnits(NamedTuple):
     """What the forces and moments of an engine are multiples of.
 
     Attributes:
+        orders: shape (orders,).
         force: F1, N.
-        arm: a, the distance of neighbouring throws, m; nan for one throw.
+        arm: a, the smallest distance of neighbouring throws, m; nan where all stand in one plane.
         ratios: |A_n| of each order, shape (orders,).
         equal: whether all cylinders are like cylinder 1.
     """
 
+    orders: Array
     force: float
     arm: float
     ratios: Array
     equal: bool
 
-    def size(self, kind: Kind) -> float:
-        """What a force (N) or a moment (N m; nan for one throw) is a multiple of."""
-        return self.force if kind.dimension == "force" else self.force * self.arm
+    def size(self, kind: Kind, order: float) -> float:
+        """F_n of one of the orders, N, or F_n a, N m; nan where there is no such force or arm."""
+        ratio = float(self.ratios[np.searchsorted(self.orders, order)])
+        if not self.force or ratio < _NO_FORCE:
+            return float("nan")
+        return self.force * ratio * (1.0 if kind.dimension == "force" else self.arm)
 
-    def name(self, kind: Kind) -> str:
-        """How this unit is written."""
-        return "F1" if kind.dimension == "force" else "F1·a"
+    def name(self, kind: Kind, order: object = "n") -> str:
+        """How the unit of an order is written."""
+        return f"F{order}" if kind.dimension == "force" else f"F{order}·a"
+
+
+class Textbook(NamedTuple):
+    """An engine's forces and moments, and what they are multiples of.
+
+    Attributes:
+        reciprocating: as textbooks have them, N and N m: reciprocating masses in the planes of
+            their throws.
+        built: with the rotating masses, too, and all where they stand; still without devices, at a
+            steady speed.
+    """
+
+    units: TextbookUnits
+    reciprocating: Spectra
+    built: Spectra
+
+
+def find_textbook(engine: Engine, orders: Array, kinds: Collection[str]) -> Textbook:
+    """What an engine without trailing axes does, for these orders; names of kinds."""
+    built = without_devices(engine)
+    return Textbook(
+        find_textbook_units(engine, orders),
+        compute_spectra(with_reciprocating_only(built), orders, kinds),
+        compute_spectra(built, orders, kinds),
+    )
+
+
+def without_devices(engine: Engine) -> Engine:
+    """The cylinders alone, at a steady speed; moments about the crank's axis."""
+    return replace(engine, devices=(), ripple=(), reference_m=(0.0, 0.0, engine.reference_m[2]))
+
+
+def with_reciprocating_only(engine: Engine) -> Engine:
+    """The engine without what turns with its pins, every cylinder in the plane of its throw."""
+    c = engine.cylinders
+    planes = engine.throws_m[[weighed.throw for weighed in engine.weighed]]
+    return replace(engine, cylinders=replace(c, z=planes, rotating=0 * c.rotating))
 
 
 def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
@@ -50,10 +100,11 @@ def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
     lam, eps = of_cylinder_1(c.lam), of_cylinder_1(c.eps)
     series = harmonics.find_harmonics(orders, lam, eps, rod=False, energy=False).piston
     mass = float(of_cylinder_1(c.reciprocating)[0])
-    gaps = len(engine.throws_m) - 1
+    gaps = np.diff(np.unique(np.round(engine.throws_m, 9)))
     return TextbookUnits(
+        orders=orders,
         force=float(mass * c.radius * engine.omega**2),
-        arm=float(np.ptp(engine.throws_m) / gaps) if gaps else float("nan"),
+        arm=float(gaps.min()) if gaps.size else float("nan"),
         ratios=np.abs(series.c[:, 0]),
         equal=engine.equal,
     )

@@ -52,7 +52,7 @@ def _order_parts(result: Analysis, system: System) -> Iterator[Grid | Facts | Te
     yield engine_facts(result.engine, system, higher=result.has_higher_orders)
     yield from order_tables(spectra, system)
     if spectra.vectors():
-        yield from textbook_tables(_known_spectra(result), result.textbook, system)
+        yield from textbook_tables(result.textbook, system)
     if result.peaks:
         yield peak_facts(result, system, "Largest over a revolution, all orders")
     for n, share in result.cylinders:

@@ -78,14 +78,21 @@ def _crank(engine: Engine, system: System) -> str:
 
 
 def _masses(engine: Engine, system: System) -> str:
-    """Masses that go to and fro and that turn, of cylinder 1."""
-    weighed, unit = engine.weighed[engine.numbers.index(1)], system.mass
-    reciprocating = number(unit.of(float(weighed.piston + weighed.small_end)), 4)
-    rotating = number(unit.of(float(weighed.big_end + weighed.share)), 4)
-    text = f"reciprocating {reciprocating} {unit.name} a cylinder (piston, rod's share at its pin)"
-    linkage = engine.cylinders.linkage
-    if linkage is None or not linkage.turning:  # else the pins stand still
-        text += f", rotating {rotating} {unit.name} a pin (rod's share, throw)"
+    """Masses that go to and fro and that turn, of cylinder 1, and what turns with its pin where
+    that carries several rods.
+    """
+    row, unit = engine.numbers.index(1), system.mass
+    weighed = engine.weighed[row]
+    on_pin = next(rows for rows in engine.rows_by_pin if row in rows)
+    reciprocating = number(unit.of(float(weighed.reciprocating)), 4)
+    text = f"reciprocating {reciprocating} {unit.name} per cylinder (piston, rod's small end)"
+    if not engine.rotary:  # else the pins stand still
+        rotating = number(unit.of(float(weighed.rotating + weighed.share)), 4)
+        shells = ", shells and oil" if weighed.rod_bearing or weighed.oil else ""
+        text += f", rotating {rotating} {unit.name} per rod (big end{shells}, share of the throw)"
+        if len(on_pin) > 1 and engine.cylinders.linkage is None:
+            whole = sum(float(engine.weighed[k].rotating + engine.weighed[k].share) for k in on_pin)
+            text += f"; {len(on_pin)} rods on the pin: {number(unit.of(whole), 4)} {unit.name}"
     return text + _unequal(engine)
 
 

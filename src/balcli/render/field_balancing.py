@@ -8,13 +8,8 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from ..field_balancing.balance import (
-    FieldBalance,
-    Piece,
-    PlaneCorrection,
-    find_angle_deg,
-    find_eccentricity,
-)
+from ..field_balancing.balance import FieldBalance, PlaneCorrection, find_eccentricity
+from ..field_balancing.shop import Piece, find_angle_deg
 from .csv import Rows, name_cell
 from .figures import clean
 from .sheet import Facts, Grid, Sheet, Text, degrees, number
@@ -78,6 +73,11 @@ def _corrections(result: FieldBalance) -> Grid:
     if trimmed:
         note += f"Add now: on top of what was on in '{trimmed}'. "
     note += f"Own effect: what no other plane can do; condition {number(result.condition, 3)}."
+    for p in result.planes:
+        if p.limited:
+            amount, angle = _polar(p.total - p.step + p.wanted)
+            best = f"{amount} {file.weight_unit} at {angle} deg"
+            note += f" Without its limit, {p.plane} would take {best}."
     left_out = [plane for plane in file.planes if plane not in {p.plane for p in result.planes}]
     if left_out:
         note += f" Left out: {', '.join(left_out)}."
@@ -97,32 +97,37 @@ def _work(result: FieldBalance) -> Grid:
     if drilled:
         heads += ["drill, mm", "depth, mm"]
     rows: list[tuple[str, ...]] = []
-    marked: set[tuple[int, int]] = set()
     for p in result.planes:
-        if p.work.pieces is None:
-            marked.add((len(rows), 3))
-            reach = f"only {number(p.work.reach, 4)} of {number(abs(p.step), 4)} fit here"
-            rows.append((p.plane, "–", "–", reach, *["–"] * (2 * drilled)))
-        for k, piece in enumerate(p.work.pieces or (), 1):
-            cells = [p.plane, str(k), degrees(piece.angle_deg), number(piece.weight, 4)]
-            if file.drill is not None:
-                cells += [f"{file.drill[file.planes.index(p.plane)]:g}", _depth(piece)]
+        for piece in p.pieces:
+            cells = [p.plane, _place(result, p, piece)]
+            cells += [degrees(piece.angle_deg), number(piece.weight, 4)]
+            if file.drill is not None and piece.depth_mm is not None:
+                cells += [
+                    f"{file.drill[file.planes.index(p.plane)]:g}",
+                    number(piece.depth_mm, 3),
+                ]
             rows.append(tuple(cells))
+        if not p.pieces:
+            rows.append((p.plane, *["–"] * (len(heads) - 1)))
     what = "Holes to drill" if drilled else "Weights to put on"
     when = f", on top of '{result.influence.trimmed}'" if result.influence.trimmed else ""
     note = (
         "Radial holes in steel, from the rim inwards; each removes this weight, opposite to where "
         "one would be added."
         if drilled
-        else "Together they do what the corrections would."
+        else "Together they do what the corrections do."
     )
-    return Grid(f"{what}{when}", tuple(heads), tuple(rows), note, frozenset(marked))
+    if result.limited:
+        note += " Places and limits allow no better: see the readings below."
+    return Grid(f"{what}{when}", tuple(heads), tuple(rows), note)
 
 
-def _depth(piece: Piece) -> str:
-    if piece.depth_mm is None or math.isnan(piece.depth_mm):
-        return "too small"
-    return number(piece.depth_mm, 3)
+def _place(result: FieldBalance, p: PlaneCorrection, piece: Piece) -> str:
+    """Which of the places it is."""
+    places = result.file.places
+    if piece.place is None or not places:
+        return "–"
+    return f"{piece.place} of {len(places[result.file.planes.index(p.plane)])}"
 
 
 def _permitted(result: FieldBalance) -> Grid:
@@ -136,6 +141,7 @@ def _permitted(result: FieldBalance) -> Grid:
                     number(p.permitted.permitted, 4),
                     number(p.permitted.present, 4),
                     "reached" if p.permitted.reached else "not reached",
+                    number(p.permitted.after, 4),
                 )
             )
             if not p.permitted.reached:
@@ -145,10 +151,10 @@ def _permitted(result: FieldBalance) -> Grid:
     eccentricity = number(1e3 * (find_eccentricity(file) or 0.0), 4)
     return Grid(
         f"Permitted residual unbalance, ISO 21940-11, G {file.grade:g}",
-        ("plane", "permitted, g·mm", "there now, g·mm", ""),
+        ("plane", "permitted, g·mm", "there now, g·mm", "", "after, g·mm"),
         tuple(rows),
         f"{file.mass:g} kg at {file.speed:g} rpm: {eccentricity} µm. There now: {state}, by its "
-        "readings.",
+        "readings; after: what the corrections leave of it.",
         frozenset(marked),
         words=(0, 3),
     )
@@ -183,9 +189,11 @@ def _readings(result: FieldBalance) -> Grid:
     if not result.after.any():
         note = "All readings are cancelled."
     elif result.minimise == "max":
-        note += f"No weights leave less than {number(result.bound, 4)} as the largest."
+        which = "No weights that fit" if result.limited else "No weights"
+        note += f"{which} leave less than {number(result.bound, 4)} as the largest."
     else:
-        note += "The sum of their squares is the least possible."
+        which = "that the places and limits allow" if result.limited else "possible"
+        note += f"The sum of their squares is the least {which}."
     return Grid("Readings, predicted after the corrections", tuple(heads), tuple(rows), note)
 
 
@@ -198,7 +206,10 @@ def _influence(result: FieldBalance) -> Grid:
         (find_label(result, k), *(cell for j in planes for cell in _polar(complex(row[j]), 5)))
         for k, row in enumerate(result.influence.coefficients)
     ]
-    note = f"Change of a reading by 1 {result.file.weight_unit} in the plane."
+    note = (
+        f"Change of a reading by 1 {result.file.weight_unit} at 0 deg in the plane; angles count "
+        f"as phases do, {find_senses(result)[0]} rotation."
+    )
     if result.influence.trimmed and result.file.influence is None:
         note += " By least squares over all runs."
     return Grid("Influence coefficients", tuple(heads), tuple(rows), note)
@@ -242,6 +253,7 @@ def document(result: FieldBalance) -> dict[str, Any]:
                     "permitted_g_mm": clean(p.permitted.permitted),
                     "present_g_mm": clean(p.permitted.present),
                     "reached": p.permitted.reached,
+                    "after_g_mm": clean(p.permitted.after),
                 }
                 for p in result.planes
                 if p.permitted is not None
@@ -282,15 +294,19 @@ def _correction(p: PlaneCorrection, trimmed: bool) -> dict[str, Any]:
     if p.unbalance is not None:
         found["unbalance_g_mm"] = clean(p.unbalance)
     found |= {"own_effect": clean(p.own), "at_limit": p.limited}
-    if p.work.pieces is None:
-        found["reach"] = _finite(p.work.reach)
-    found["pieces"] = [_piece(piece) for piece in p.work.pieces or ()]
+    if p.limited:
+        found["wanted"] = _weight(p.total - p.step + p.wanted)
+    found["pieces"] = [_piece(piece) for piece in p.pieces]
     return found
 
 
 def _piece(piece: Piece) -> dict[str, float | None]:
     found = {"weight": clean(piece.weight), "angle_deg": clean(piece.angle_deg)}
-    return found if piece.depth_mm is None else found | {"depth_mm": clean(piece.depth_mm)}
+    if piece.place is not None:
+        found["place"] = piece.place
+    if piece.depth_mm is not None:
+        found["depth_mm"] = clean(piece.depth_mm)
+    return found
 
 
 def rows(result: FieldBalance, system: System) -> Rows:
@@ -329,7 +345,7 @@ def _list(
             for k, item in enumerate(value, 1):
                 yield from _list(part, speed, name, item, unit, f"{path}{key}.{k}.")
         else:
-            own = {"weight": unit, "amplitude": unit, "reach": unit}.get(key, _unit_of(key))
+            own = {"weight": unit, "amplitude": unit}.get(key, _unit_of(key))
             yield part, speed, name_cell(name), f"{path}{key}", value, name_cell(own)
 
 

@@ -9,17 +9,21 @@ import numpy as np
 
 from ..forces.kinds import FORCE, MOMENT, ROLL, Kind
 from .figures import peak_deg, phase_deg
-from .sheet import Facts, Grid, capitalized, degrees, number, order_number
+from .sheet import Facts, Grid, capitalized, degrees, number, order_name, order_number
 
 if TYPE_CHECKING:
     from ..core.peaks import Peak
     from ..core.phasors import Array, Phasors
     from ..forces.spectrum import Spectra
-    from ..forces.textbook import TextbookUnits
+    from ..forces.textbook import Textbook
     from .figures import Result
     from .units import System, Unit
 
 Cells = tuple[str, ...]
+_AS_BUILT = (
+    "Reciprocating masses in the planes of the throws; as built: with rotating masses and stagger, "
+    "without devices."
+)
 
 
 def order_tables(spectra: Spectra, system: System, roll: str = "") -> Iterator[Grid]:
@@ -37,21 +41,22 @@ def order_tables(spectra: Spectra, system: System, roll: str = "") -> Iterator[G
         yield _direction_table(spectra, system)
 
 
-def textbook_tables(spectra: Spectra, units: TextbookUnits, system: System) -> Iterator[Grid]:
-    """Force and moment as multiples of the units of textbooks, where those are not 0 or unknown."""
+def textbook_tables(book: Textbook, system: System) -> Iterator[Grid]:
+    """Force and moment as multiples of the units of textbooks, where there are such units."""
+    units = book.units
     if not units.force:
         return
-    if spectra.force is not None:
+    if book.built.force is not None:
         unit, cylinder = system.force, "one cylinder" if units.equal else "cylinder 1"
         note = (
             f"F1 = m r ω² = {number(unit.of(units.force))} {unit.name} "
-            f"(reciprocating mass of {cylinder}), Fn = A_n F1 its n-th order."
+            f"(reciprocating mass of {cylinder}), Fn = A_n F1 its n-th order. {_AS_BUILT}"
         )
-        yield _textbook_table(FORCE, spectra.force, units, note)
-    if spectra.moment is not None and units.arm == units.arm:
+        yield _textbook_table(FORCE, book, note)
+    if book.built.moment is not None and units.arm == units.arm:
         arm = f"{number(system.length.of(units.arm), 4)} {system.length.name}"
-        note = f"a = {arm}, the distance of neighbouring throws."
-        yield _textbook_table(MOMENT, spectra.moment, units, note)
+        note = f"a = {arm}, the smallest distance of neighbouring throws."
+        yield _textbook_table(MOMENT, book, note if book.built.force else f"{note} {_AS_BUILT}")
 
 
 def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
@@ -59,7 +64,7 @@ def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
     vectors = [(phasors, system.unit(kind)) for kind, phasors in share.vectors()]
 
     def cells(k: int) -> Iterator[str]:
-        yield str(order_number(share.orders[k]))
+        yield order_name(share.orders[k])
         for phasors, unit in vectors:
             yield _size_and_angle(phasors.forward[k], unit)
             yield _size_and_angle(phasors.backward[k], unit)
@@ -95,7 +100,7 @@ def _shown_rows(
 
 def _vector_table(kind: Kind, phasors: Phasors, unit: Unit) -> Grid:
     def cells(k: int) -> Cells:
-        name = str(order_number(phasors.orders[k]))
+        name = order_name(phasors.orders[k])
         if phasors.balanced[k]:
             return name, "balanced", "", "", "", ""
         if np.isnan(phasors.forward[k]):
@@ -116,7 +121,7 @@ def _scalar_table(spectra: Spectra, unit: Unit, roll: str) -> Grid:
 
     def cells(k: int) -> Cells:
         pairs = (_amplitude(phasors.x[k], spectra.orders[k], unit) for _, phasors in scalars)
-        return (str(order_number(spectra.orders[k])), *(cell for pair in pairs for cell in pair))
+        return (order_name(spectra.orders[k]), *(cell for pair in pairs for cell in pair))
 
     labels = [ROLL.name if roll and kind == ROLL else kind.label for kind, _ in scalars]
     heads = [head for label in labels for head in (label, "peak, deg")]
@@ -141,7 +146,7 @@ def _direction_table(spectra: Spectra, system: System) -> Grid:
     vectors = [(phasors, system.unit(kind)) for kind, phasors in spectra.vectors()]
 
     def cells(k: int) -> Iterator[str]:
-        yield str(order_number(spectra.orders[k]))
+        yield order_name(spectra.orders[k])
         for phasors, unit in vectors:
             for c in (phasors.x[k], phasors.y[k]):
                 yield number(unit.of(abs(c)), 4) if c else "0"
@@ -157,28 +162,27 @@ def _direction_table(spectra: Spectra, system: System) -> Grid:
     )
 
 
-def _textbook_table(kind: Kind, phasors: Phasors, units: TextbookUnits, note: str) -> Grid:
-    """Multiples of the textbook's unit, and of each order's own."""
-    size, ratios, unit = units.size(kind), units.ratios, units.name(kind)
+def _textbook_table(kind: Kind, book: Textbook, note: str) -> Grid:
+    """Multiples of each order's own unit."""
+    alone, built = book.reciprocating[kind.name], book.built[kind.name]
 
     def cells(k: int) -> Cells:
-        values = (phasors.major[k], abs(phasors.forward[k]), abs(phasors.backward[k]))
-        largest, ahead, against = (float(v) for v in values)
-        own = size * ratios[k] if ratios[k] > 1e-12 else 0.0
-        return (
-            str(order_number(phasors.orders[k])),
-            *(_ratio(value, size) for value in (largest, ahead, against)),
-            _ratio(largest, own),
-        )
+        order = order_number(built.orders[k])
+        size = book.units.size(kind, order)
+        values = (alone.major[k], abs(alone.forward[k]), abs(alone.backward[k]), built.major[k])
+        return order_name(order), *(_ratio(float(value), size) for value in values)
 
-    own_unit = unit.replace("1", "n")
-    heads = ("order", f"largest, {unit}", "with crank", "against", f"largest, {own_unit}")
-    rows = _shown_rows(phasors.orders, [phasors], cells)
+    unit = book.units.name(kind)
+    heads = ("order", f"largest, {unit}", "with crank", "against", "as built")
+    rows = _shown_rows(built.orders, [alone, built], cells)
     return Grid(f"{capitalized(kind.label)} in textbook units", heads, rows, note)
 
 
 def _ratio(value: float, size: float) -> str:
-    return number(value / size, 4) if size else "–"
+    """A multiple; a dash where the order is no multiple of anything."""
+    if not value:
+        return "0"
+    return number(value / size, 4) if size == size else "–"
 
 
 def _size_and_angle(v: complex, unit: Unit) -> str:

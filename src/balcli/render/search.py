@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from .units import System
 
 
+_AS_BUILT = "Fn, Fn·a: the textbook's units of order n; figures are as built, with rotating masses."
+
+
 def document(result: Search) -> dict[str, Any]:
     """`balcli.search/1`."""
     return {
@@ -40,8 +43,8 @@ def rows(result: Search, _system: System) -> Rows:
 
 
 def sheet(result: Search, _system: System) -> Sheet:
-    """The best arrangements, a row each, in SI units and in the unit F1 (F1·a for moments) in which
-    textbooks have forces and moments.
+    """The best arrangements, a row each, in SI units and in those of textbooks: F_n of the order,
+    and F_n a of moments.
     """
     first = result.results[0]
     units = {q.name: q.unit for q in result.objective.quantities}
@@ -55,6 +58,7 @@ def sheet(result: Search, _system: System) -> Sheet:
         f"Best {result.over.replace('_', ' ')}",
         tuple(heads),
         tuple(_cells(result, one) for one in result.results),
+        note=_AS_BUILT if _textbook(result, first) else "",
         words=tuple(range(len(first.design.given()))),
     )
     return Sheet(result.model.name or NAMELESS, (grid,))
@@ -74,9 +78,10 @@ def _textbook(result: Search, one: Found) -> dict[str, tuple[float, str]]:
     shown: dict[str, tuple[float, str]] = {}
     for q in result.objective.quantities:
         kind = KINDS[q.kind]
-        size = result.scale.size(kind)
-        if kind.vector and q.part != "peak" and size > 0:  # nan where there is one throw
-            shown[q.name] = one.figures[q.name] / size, result.scale.name(kind)
+        if kind.vector and q.part != "peak":
+            size = result.scale.size(kind, q.order)
+            if size == size:
+                shown[q.name] = one.figures[q.name] / size, result.scale.name(kind, q.order)
     return shown
 
 

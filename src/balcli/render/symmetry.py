@@ -24,10 +24,13 @@ def document(why: Symmetry) -> dict[str, Any]:
 
 
 def rows(why: Symmetry) -> Iterator[FigureRow]:
-    """Two figures a reason: what decides, and what is left in units of one cylinder's."""
+    """What decides, and what is left: in units of one cylinder's, and in the textbook's."""
     for reason in why.reasons:
         about = 0, reason.quantity, reason.order
         yield FigureRow(*about, "why", reason.verdict, "")
         yield FigureRow(*about, "why_size", clean(reason.size), "of one cylinder")
+        if reason.reciprocating is not None:
+            yield FigureRow(*about, "why_reciprocating", clean(reason.reciprocating), reason.unit)
+            yield FigureRow(*about, "why_built", clean(reason.built), reason.unit)
     if why.firing:
         yield FigureRow(0, "firing", None, "why", why.firing, "")

@@ -13,7 +13,7 @@ from ..forces.spectrum import Spectra
 from .sheet import capitalized, degrees, number
 from .units import System, Unit
 
-_NAMES = {
+_NAMES: dict[float, str] = {
     1: "First",
     2: "Second",
     3: "Third",
@@ -59,9 +59,9 @@ def verdict(
     ]
     if not vectors:
         return ()
-    rows = [(k, order) for k, order in enumerate(spectra.orders) if order >= 1]
-    higher = [(k, order) for k, order in rows if order > 2]
-    told = [_tell_low_order(k, int(order), vectors) for k, order in rows if order <= 2]
+    rows = [(k, order) for k, order in enumerate(spectra.orders) if order > 0]
+    higher = [(k, order) for k, order in rows if order not in (1, 2)]
+    told = [_tell_low_order(k, int(order), vectors) for k, order in rows if order in (1, 2)]
     if any(vector.matters(k) for k, _ in rows for vector in vectors):
         told += [_tell_high_order(k, order, vectors) for k, order in higher]
     else:
@@ -70,7 +70,7 @@ def verdict(
 
 
 def _order_name(order: float) -> str:
-    return f"{_NAMES.get(int(order)) or f'{order:g}th'} order"
+    return f"{_NAMES.get(order) or f'{order:g}th'} order"
 
 
 def _tell_low_order(k: int, order: int, vectors: list[_Vector]) -> str:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:  # whoever asks for one of these chapters loads it
     from ..forces.crankshaft import InnerLoads
     from ..forces.guide_moments import GuideMoments
     from ..forces.symmetry import Symmetry
-    from ..forces.textbook import TextbookUnits
+    from ..forces.textbook import Textbook
     from ..sizing.remedy import Remedy
 
 QUANTITIES = (*KINDS, "peak", "sizing")
@@ -96,11 +96,13 @@ class Analysis:
         return bool(find_relevant_orders(self.engine)[-1] > HIGHEST_ORDER_UNASKED)
 
     @property
-    def textbook(self) -> TextbookUnits:
-        """What textbooks measure forces and moments by, for the orders shown."""
-        from ..forces.textbook import find_textbook_units
+    def textbook(self) -> Textbook:
+        """Force and moment, as far as they were asked for and are known, as textbooks have them."""
+        from ..forces.textbook import find_textbook
 
-        return find_textbook_units(self.engine, self.orders)
+        asked = [kind.name for kind, _ in self.spectra.vectors()]
+        known = [name for name in asked if name != "moment" or self.moments_known]
+        return find_textbook(self.engine, self.orders, known)
 
     @property
     def of_one_cylinder(self) -> dict[str, float]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ...core.phasors import Complex
+from ...core.phasors import Array, Complex
 from ..units import Unit
 from .style import BLUE, GREEN, RED, SOFT
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 SHARE = 1e-3  # orders below this share of the largest are too small to be seen
-FINE = np.radians(np.arange(0, 360.5, 1))  # crank angles at which curves are drawn
+FINE = np.radians(np.arange(0, 360.5, 1))  # crank angles at which one order is drawn
 LOOKS = ((BLUE, "-", ""), (RED, (0, (5, 1.5)), "////"), (GREEN, (0, (1.5, 1)), "...."))
 _PREFIXES = {"N": "kN", "N·m": "kN·m"}
 
@@ -35,6 +35,16 @@ def choose_scale(unit: Unit, largest: float) -> Scale:
     if largest >= 5000 * unit.size and unit.name in _PREFIXES:
         return Scale(1e3 * unit.size, _PREFIXES[unit.name])
     return Scale(unit.size, unit.name)
+
+
+def find_cycle_deg(orders: Array) -> int:
+    """After which crank angle all of these orders repeat themselves: 720 if some are halves."""
+    return 720 if np.count_nonzero(orders % 1) else 360
+
+
+def divide_cycle(orders: Array) -> Array:
+    """Crank angles, rad, at which curves of these orders are drawn."""
+    return np.radians(np.arange(find_cycle_deg(orders) + 1))
 
 
 def set_up_plane(ax: Axes, curves: Sequence[Complex | None], what: str, s: Scale) -> float:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...core.phasors import Array, Phasors
-from ..sheet import number, order_number
+from ..sheet import number, order_name
 from ..units import Unit
 from .axes import LOOKS, SHARE, choose_scale, put_legend_above
 from .style import BLUE, RED, SOFT
@@ -76,7 +76,7 @@ def _largest_values(curve: Phasors, orders: Array) -> Array:
 
 def _label_bars(ax: Axes, orders: Array, tops: Array | None, label: str) -> None:
     """Orders below the bars, their values at `tops` if there are such, and the legend."""
-    ax.set_xticks(np.arange(len(orders)), [str(order_number(n)) for n in orders])
+    ax.set_xticks(np.arange(len(orders)), [order_name(n) for n in orders])
     ax.set(xlabel="order", ylabel=label, xlim=(-0.6, len(orders) - 0.4))
     ax.grid(False, axis="x")
     ax.locator_params(axis="y", nbins=4)

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from ...field_balancing.balance import FieldBalance, PlaneCorrection, find_angle_deg
+from ...field_balancing.balance import FieldBalance, PlaneCorrection
+from ...field_balancing.shop import find_angle_deg
 from ..field_balancing import find_label, find_senses
 from ..sheet import number
 from .style import BLUE, GREEN, INK, PAPER, RED, SOFT, Form, fit_name, open_figure, save_figure
@@ -87,20 +88,18 @@ def _draw_readings(ax: PolarAxes, result: FieldBalance) -> None:
 
 
 def _draw_weights(ax: PolarAxes, result: FieldBalance) -> None:
-    """Every plane's weight as a ray from the axis, and where the shop puts it."""
+    """Every plane's weight as a ray from the axis, where the shop puts it, what does not fit."""
     drilled = result.file.drill is not None
     largest = 0.0
     for k, p in enumerate(result.planes):
         colour, line = _COLOURS[k % len(_COLOURS)], _LINES[k // len(_COLOURS) % len(_LINES)]
-        wanted = p.step
-        angles, sizes = _polar([0j, wanted])
-        angles[0] = angles[1]
-        text = (
-            f"{fit_name(p.plane, 30)}: {number(abs(wanted), 3)} at {find_angle_deg(wanted):.1f} deg"
-        )
-        ax.plot(angles, sizes, color=colour, linestyle=line, linewidth=2, label=text)
-        ax.plot(angles[1:], sizes[1:], "o", color=colour, markersize=5)
-        largest = max([largest, abs(wanted), *_draw_places(ax, p, colour, result)])
+        name = fit_name(p.plane, 30)
+        _draw_ray(ax, p.step, name, {"color": colour, "linestyle": line, "linewidth": 2})
+        sizes = [abs(p.step), *_draw_places(ax, p, colour, result)]
+        if p.limited:
+            _draw_ray(ax, p.wanted, f"{name}, wanted", {"color": colour, "linestyle": (0, (1, 2))})
+            sizes.append(abs(p.wanted))
+        largest = max([largest, *sizes])
     if drilled or result.file.places:
         marker = "x" if drilled else "s"
         ax.plot(
@@ -114,6 +113,14 @@ def _draw_weights(ax: PolarAxes, result: FieldBalance) -> None:
     ax.set_ylim(0, 1.15 * (largest or 1.0))
 
 
+def _draw_ray(ax: PolarAxes, weight: complex, name: str, style: dict[str, Any]) -> None:
+    """From the axis to a weight."""
+    angles, sizes = _polar([0j, weight])
+    text = f"{name}: {number(abs(weight), 3)} at {find_angle_deg(weight):.1f} deg"
+    ax.plot([angles[1]] * 2, sizes, label=text, **style)
+    ax.plot(angles[1:], sizes[1:], "o", color=style["color"], markersize=5)
+
+
 def _draw_places(
     ax: PolarAxes, p: PlaneCorrection, colour: str, result: FieldBalance
 ) -> Sequence[float]:
@@ -121,7 +128,7 @@ def _draw_places(
     if not (result.file.drill or result.file.places):
         return ()
     marker = "x" if result.file.drill else "s"
-    for piece in p.work.pieces or ():
+    for piece in p.pieces:
         ax.plot(
             [np.radians(piece.angle_deg)],
             [piece.weight],
@@ -130,7 +137,7 @@ def _draw_places(
             markersize=7,
             markerfacecolor="none",
         )
-    return [piece.weight for piece in p.work.pieces or ()]
+    return [piece.weight for piece in p.pieces]
 
 
 def _polar(values: list[complex]) -> tuple[list[float], list[float]]:

@@ -79,7 +79,8 @@ def search_arrangements(
     if not found:
         also = " and fires evenly" if even_firing else ""
         raise BalcliError(f"no {what.replace('_', ' ')} keeps these limits{also}")
-    return Search(model, what, objective, found, find_textbook_units(engine, np.array([1.0])))
+    orders = np.unique([float(quantity.order) for quantity in objective.quantities])
+    return Search(model, what, objective, found, find_textbook_units(engine, orders))
 
 
 def _parse_over(text: str) -> What:
