@@ -159,6 +159,7 @@ ON_REQUEST = {
         "balcli.enginefile.templates",
         "balcli.field_balancing.starting_file",
         "balcli.sizing.schemes",
+        "balcli.torsion.starting_file",
     ),
     "balcli.engine.assembly": ("balcli.core.mechanisms.rotary", "balcli.engine.articulation"),
     "balcli.engine.rules": ("balcli.engine.articulation",),

@@ -36,6 +36,7 @@ COMMANDS = (
     "compare",
     "sum",
     "field",
+    "torsion",
     "engines",
     "bench",
 )

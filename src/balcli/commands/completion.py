@@ -11,8 +11,9 @@ def complete_kinds(incomplete: str) -> list[str]:
     """Kinds of files, of `balcli new`."""
     from ..enginefile.templates import KINDS
     from ..field_balancing.starting_file import KIND as FIELD
+    from ..torsion.starting_file import KIND as TORSION
 
-    return _beginning_with(incomplete, (*KINDS, FIELD))
+    return _beginning_with(incomplete, (*KINDS, FIELD, TORSION))
 
 
 def complete_schemes(incomplete: str) -> list[str]:

@@ -12,6 +12,7 @@ from itertools import chain
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic.fields import FieldInfo
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
 from .exclusive import Choice, find_repeated, join_words
@@ -61,6 +62,11 @@ class Table(BaseModel):
     def contradictions(self) -> Iterator[str]:
         """What the fields of this table say against each other."""
         yield from ()
+
+    @classmethod
+    def keys(cls) -> dict[str, FieldInfo]:
+        """Its fields by their keys as a file has them."""
+        return {field.alias or name: field for name, field in cls.model_fields.items()}
 
 
 def mistakes_of_choice(table: type[Table], given: Collection[str]) -> list[str]:
