@@ -573,6 +573,7 @@ def test_any_locale_gets_utf_8():
     done = run_command(
         "analyze",
         V8,
+        "--all",
         env={
             "LC_ALL": "C",
             "PYTHONUTF8": "0",

@@ -10,11 +10,14 @@ from typing import Annotated
 import typer
 
 from ..errors import BalcliError
-from ..forces.kinds import KINDS
+from ..forces.kinds import KINDS, VECTORS
 from ..limits import HIGHEST_ORDER
 from ..render.formats import Format, Units
 from .completion import complete_schemes
 from .file_names import parse_output
+
+# words of `analyze --only` that name a table or text of what is computed anyway
+PARTS = ("xy", "textbook", "verdict")
 
 EnginePath = Annotated[
     str,
@@ -80,6 +83,16 @@ Only = Annotated[
         "(shear, bending, bearing loads along the crankshaft) and guide (H- and X-type).",
     ),
 ]
+OnlyParts = Annotated[
+    str | None,
+    typer.Option(
+        "--only",
+        metavar="WHAT,...",
+        show_default=False,
+        help=f"Only some of {', '.join(KINDS)}, peak, sizing; inner (shear, bending, bearing "
+        "loads along the crankshaft), guide (H- and X-type); or xy, textbook, verdict.",
+    ),
+]
 GuideHeight = Annotated[
     float | None,
     typer.Option(
@@ -138,8 +151,28 @@ def _count_halves(text: str) -> int | None:
 
 
 def parse_quantities(text: str | None) -> list[str] | None:
-    """The quantities of `--only`, by name."""
-    return None if text is None else [word.strip() for word in text.split(",")]
+    """The quantities of `--only`, by name; a plural names the same."""
+    return None if text is None else [_singular(word.strip().lower()) for word in text.split(",")]
+
+
+def _singular(word: str) -> str:
+    return word[:-1] if word[:-1] in (*KINDS, "peak", "guide") else word
+
+
+def parse_parts(text: str | None) -> tuple[list[str] | None, frozenset[str]]:
+    """What `--only` of `analyze` asks to compute, and all words of it.
+
+    A word that names a table alone (`PARTS`) is computed from force and moment, unless quantities
+    are named beside it.
+    """
+    words = parse_quantities(text)
+    if words is None:
+        return None, frozenset()
+    quantities = [word for word in words if word not in PARTS]
+    vectors = {kind.name for kind in VECTORS}
+    if len(quantities) < len(words) and not vectors.intersection(quantities):
+        quantities += sorted(vectors)
+    return quantities, frozenset(words)
 
 
 def parse_numbers(

@@ -12,6 +12,7 @@ from . import analysis_data
 from .csv import Rows, name_cell
 from .sheet import Sheet
 from .units import System
+from .view import IN_BRIEF, View
 
 
 class NamedAnalysis(NamedTuple):
@@ -19,19 +20,19 @@ class NamedAnalysis(NamedTuple):
 
     Attributes:
         name: of the engine, by which its rows are told from those of the others.
-        pictures: whether a sheet has pictures made of characters, too.
+        view: what of it a sheet shows.
     """
 
     name: str
     result: Analysis
-    pictures: bool = False
+    view: View = IN_BRIEF
 
 
 def sheet(one: NamedAnalysis, system: System) -> Sheet:
     """What a person reads of it."""
     from . import analysis
 
-    return analysis.sheet(one.result, system, pictures=one.pictures)
+    return analysis.sheet(one.result, system, one.view)
 
 
 def document(one: NamedAnalysis) -> dict[str, Any]:

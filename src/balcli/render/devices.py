@@ -47,7 +47,7 @@ def _grid_row(device: DeviceTable, system: System) -> tuple[str, ...]:
             turns, angle = "1", f"{degrees(device.angle)} from pin 1"
             place = "on the crank"
         case Shaft():
-            turns, angle = f"{device.ratio:+d}".replace("-", "−"), degrees(device.angle)
+            turns, angle = f"{device.ratio:+d}", degrees(device.angle)
             place = _place(device.at, system.length)
         case Slider():
             turns = str(device.order)

@@ -14,7 +14,7 @@ from ..core.peaks import Peak, peak
 from ..core.phasors import Array
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..forces.kinds import KINDS, VECTORS, Kind
+from ..forces.kinds import KINDS, SCALARS, VECTORS, Kind
 from ..forces.orders import (
     check_orders,
     choose_orders,
@@ -106,15 +106,21 @@ class Analysis:
 
     @property
     def of_one_cylinder(self) -> dict[str, float]:
-        """Force of cylinder 1's piston and rod end, `m r omega^2` (N), and its moment over the
-        length of the crank (N m): what is small beside them is small.
+        """Force of cylinder 1's piston and rod end, `m r omega^2` (N), its moment over the length
+        of the crank and its torque at the radius of the crank (N m), by kind: what is small beside
+        them is small.
         """
         engine = self.engine
         masses = engine.weighed[engine.numbers.index(1)]
         force = float(
             (masses.piston + masses.small_end) * engine.cylinders.radius * engine.omega**2
         )
-        return {"force": force, "moment": force * float(np.ptp(engine.throws_m))}
+        torque = force * float(engine.cylinders.radius)
+        return {
+            "force": force,
+            "moment": force * float(np.ptp(engine.throws_m)),
+            **{kind.name: torque for kind in SCALARS},
+        }
 
 
 def analyze(
