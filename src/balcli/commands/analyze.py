@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from ..render.formats import Format, Units
+from ..render.view import View
 from .file_names import text_format
 from .options import (
     EnginePaths,
@@ -61,7 +62,6 @@ def analyze(
     refuse_overwriting(reads=paths, writes={"--output": output})
     form = text_format(output, form)
     from ..render import analyses
-    from ..render.analysis import View
     from ..results.analysis import Analysis
     from ..results.analysis import analyze as analyze_engine
     from .inputs import distinct_names, exit_on_errors, read_engine, try_each
