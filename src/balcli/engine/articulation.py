@@ -39,12 +39,8 @@ class Knuckles(NamedTuple):
     master: Mapping[int, int]
 
 
-def find_masters(articulation: Articulation | None, plan: Plan) -> dict[int, int]:
-    """Number of the cylinder with the master rod, by number of each articulated cylinder; empty
-    without the table.
-    """
-    if articulation is None:
-        return {}
+def find_masters(articulation: Articulation, plan: Plan) -> dict[int, int]:
+    """Number of the cylinder with the master rod, by number of each articulated cylinder."""
     of_throw = {c.throw: c.number for c in plan.cells if c.bank == articulation.master - 1}
     on_throw = [(c.number, of_throw.get(c.throw, c.number)) for c in plan.cells]
     return {number: master for number, master in on_throw if number != master}
