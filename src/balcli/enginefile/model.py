@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, model_validator
+from pydantic.fields import FieldInfo
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
 from .exclusive import Choice, find_repeated, join_words
@@ -67,6 +68,11 @@ class Table(BaseModel):
     def contradictions(self) -> Iterator[str]:
         """What the fields of this table say against each other."""
         yield from ()
+
+    @classmethod
+    def keys(cls) -> dict[str, FieldInfo]:
+        """Its fields by their keys as a file has them."""
+        return {field.alias or name: field for name, field in cls.model_fields.items()}
 
 
 def mistakes_of_choice(table: type[Table], given: Collection[str]) -> list[str]:
