@@ -135,9 +135,7 @@ def _take_samples(
             yield name, find(motion), 1.0
 
 
-def _is_enough(
-    spectrum: Complex, rounding: Array, highest: float
-) -> NDArray[np.bool_]:
+def _is_enough(spectrum: Complex, rounding: Array, highest: float) -> NDArray[np.bool_]:
     """Whether these samples are enough for orders up to the highest.
 
     They are where the upper half of the spectrum holds rounding errors alone. Orders of the lower
