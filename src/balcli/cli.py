@@ -37,6 +37,7 @@ COMMANDS = (
     "compare",
     "sum",
     "field",
+    "mounts",
     "engines",
     "bench",
 )

@@ -19,7 +19,8 @@ def new(
         str,
         typer.Argument(
             metavar="KIND",
-            help="single, inline, vee, boxer, radial or w; field: runs of a rotor on a machine.",
+            help="single, inline, vee, boxer, radial or w; mounts: an engine on its mounts; field: "
+            "runs of a rotor on a machine.",
             show_default=False,
             autocompletion=complete_kinds,
         ),

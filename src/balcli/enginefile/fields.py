@@ -8,7 +8,7 @@ import math
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
-from ..limits import LONGEST_SHOWN, SMALLEST_POSITIVE
+from ..limits import LONGEST_NAME, LONGEST_SHOWN, SMALLEST_POSITIVE
 from .units import PLAIN, Dimension, convert, wanted
 
 if TYPE_CHECKING:
@@ -216,3 +216,19 @@ class OneOf(_Field):
 
     def json(self) -> dict[str, Any]:
         return {"enum": list(self.options)}
+
+
+class Label(_Field):
+    """A short name."""
+
+    def read(self, value: object) -> str:
+        if not isinstance(value, str) or not value.strip():
+            raise ValueError(f"{shorten(value)} is no name; write it in quotes")
+        if len(value) > LONGEST_NAME or not value.isprintable():
+            raise ValueError(
+                f"{shorten(value)} is no name; use up to {LONGEST_NAME} letters, digits and signs"
+            )
+        return value
+
+    def json(self) -> dict[str, Any]:
+        return {"type": "string", "minLength": 1, "maxLength": LONGEST_NAME}

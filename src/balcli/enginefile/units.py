@@ -52,6 +52,8 @@ _LENGTH, _MASS, _TIME, _ANGLE = Powers(length=1), Powers(mass=1), Powers(time=1)
 INCH = Fraction(254, 10_000)  # m
 POUND = Fraction(45_359_237, 100_000_000)  # kg
 STANDARD_GRAVITY = 9.80665  # m/s2
+_FORCE = Powers(1, 1, -2)
+_POUND_FORCE = POUND * Fraction("9.80665")  # N
 
 COMMON = {
     "mm": Unit(Fraction(1, 1000), _LENGTH),
@@ -71,6 +73,8 @@ COMMON = {
     "°": Unit(Fraction(1, 360), _ANGLE),
     "rad": Unit(1 / (2 * PI), _ANGLE),
     "rpm": Unit(Fraction(1, 60), Powers(time=-1, angle=1)),
+    "N": Unit(Fraction(1), _FORCE),
+    "lbf": Unit(_POUND_FORCE, _FORCE),
 }
 
 LENGTH = Dimension("mm", "a length", _LENGTH, ("90 mm", "3.5 in"))
@@ -87,8 +91,13 @@ UNBALANCE = Dimension(
 )
 SPEED = Dimension("rpm", "a speed of rotation", Powers(time=-1, angle=1), ("6000 rpm", "300 rad/s"))
 TIME = Dimension("s", "a time", _TIME, ("0.82 s", "820 ms"))
+STIFFNESS = Dimension("N/mm", "a stiffness", Powers(0, 1, -2), ("350 N/mm", "2000 lbf/in"))
+DAMPING = Dimension("N s/mm", "a damping", Powers(0, 1, -1), ("0.5 N s/mm", "3 lbf s/in"))
 PLAIN = Dimension("", "a plain number", Powers(), ())
-_DIMENSIONS = (LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PLAIN)
+_DIMENSIONS = (
+    *(LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PLAIN),
+    *(STIFFNESS, DAMPING),
+)
 
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
 _FACTOR = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[²³])?"
