@@ -224,3 +224,14 @@ def test_a_firing_order_beside_throws_is_left_out():
     assert not build(parse(GOOD), crank).fires_deg
     following = parse(changed(("throws = [0, 180, 180, 0]\n", "")))
     assert list(build(following, crank).fires_deg) == [1, 3, 4, 2]
+
+
+def test_shells_and_parts_of_a_piston_vary_as_the_whole_does():
+    """To vary a part is to vary the sum; `piston.mass` stands for all parts."""
+    parts = GOOD.replace("mass = 0.5\n", "piston = 0.3\npin = 0.2\n") + "[bobweight]\noil = 0.1\n"
+    masses = np.array([0.4, 0.55])
+    for path, varied in (("piston.mass", masses), ("piston.pin", masses - 0.3)):
+        found = build(parse(parts), {path: varied}).cylinders.reciprocating.ravel()
+        assert found == pytest.approx(masses + 0.6 * 45 / 160, rel=1e-14)
+    found = build(parse(parts), {"bobweight.rod_bearing": masses}).cylinders.rotating.ravel()
+    assert found == pytest.approx(0.8 + 0.6 * 115 / 160 + 0.1 + masses, rel=1e-14)

@@ -204,6 +204,24 @@ def test_standard_input(monkeypatch):
             "articulation.rod.length: is missing; give it, such as length = 200",
         ),
         (
+            GOOD + "[bobweight]\noverbalance = 0.51\n",
+            "bobweight.overbalance: is no key of [bobweight]; did you mean --factor? The balance "
+            "factor is no figure of the engine: balcli balance FILE --factor 51%",
+        ),
+        (
+            changed(("mass = 0.5\n", "pin = 0.1\nlocks = 0.004\n")),
+            "piston: has pin and locks without piston; give the bare piston, too",
+        ),
+        (
+            changed(("mass = 0.5\n", "mass = 0.5\npin = 0.1\n")),
+            "piston: has mass and pin; give either mass or piston, pin, rings and locks",
+        ),
+        (
+            changed(("mass = 0.5\n", "")),
+            "piston: has neither mass nor piston, pin, rings and locks; give either mass or "
+            "piston, pin, rings and locks",
+        ),
+        (
             GOOD + "[cylinder.x]\npiston_mass = 1\n",
             "cylinder.x: does not name a cylinder; write [cylinder.3] for what differs in "
             "cylinder 3",

@@ -30,7 +30,8 @@ def test_defaults():
         engine.layout.stagger,
     ) == (0.0,) * 4
     assert (engine.layout.rods, engine.layout.strokes) == ("shared", 4)
-    assert engine.frame.reference is engine.bobweight is engine.articulation is None
+    assert engine.frame.reference is engine.articulation is None
+    assert (engine.bobweight.rod_bearing, engine.bobweight.oil) == (0, 0)
     assert (engine.cylinder, engine.counterweight, engine.shaft, engine.slider) == ({}, (), (), ())
 
 

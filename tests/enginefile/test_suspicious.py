@@ -30,8 +30,8 @@ def test_ordinary_engines_pass(text):
         ),
         (
             changed(("mass = 0.5", "mass = 0")),
-            "piston.mass is 0: only the rod moves to and fro; give the mass of piston, rings, pin "
-            "and clips",
+            "piston.mass is 0: only the rod moves to and fro; give the mass of piston, pin, rings "
+            "and locks",
         ),
         (
             changed(("length = 160", "length = 100")),

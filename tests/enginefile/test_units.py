@@ -97,6 +97,12 @@ def test_units_that_only_pint_knows(text, dimension, expected):
             '"3.5 in"',
         ),
         (
+            "775 gr",
+            MASS,
+            'has the unit "gr": g, or grain (65 mg)? a mass is wanted: a bare number in kg, or '
+            '"650 g" or "0.8 lb"',
+        ),
+        (
             "90 kg",
             LENGTH,
             'is a mass, but a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"',

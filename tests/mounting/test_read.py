@@ -55,7 +55,8 @@ CASES = [
     (block("los = 0.1"), "mount.1.los: is no key of [mount]; did you mean loss?"),
     (
         ENGINE.replace("mass = 0.5\n", "") + block().replace("mass = 200", ""),
-        "piston.mass: is missing; give it, such as mass = 0.5",
+        "piston: has neither mass nor piston, pin, rings and locks; give either mass or piston, pin, "
+        "rings and locks",
     ),
     (
         ENGINE.replace("mass = 0.5\n", "") + block().replace("mass = 200", ""),

@@ -50,6 +50,9 @@ def slope(values: np.ndarray) -> np.ndarray:
     return result if np.iscomplexobj(values) else result.real
 
 
+PISTON = ("mass", "piston", "pin", "rings", "locks")  # keys of [piston] that are masses
+
+
 @dataclass
 class Body:
     """A part: place of its centre of mass over the crank angle (m, x + iy), mass, and its turning
@@ -142,6 +145,8 @@ class Engine:
         ]
         lean = layout.get("stagger", 0) if shared else 0
         self.share = crank.get("throw_mass", 0) / rods
+        card = self.data.get("bobweight", {})
+        self.shells = card.get("rod_bearing", 0) + card.get("oil", 0)  # on each rod of a crank pin
         self.cells = []
         for (bank, throw), number in zip(where, numbers, strict=True):
             own = self.data.get("cylinder", {}).get(str(number), {})
@@ -230,7 +235,7 @@ class Engine:
         piston = self.data["piston"]
         return (
             {
-                "mass": own.get("piston_mass", piston["mass"]),
+                "mass": own.get("piston_mass", sum(piston.get(k, 0) for k in PISTON)),
                 "offset": own.get("piston_offset", piston.get("offset", 0)) / 1e3,
             },
             {"length": length, "mass": mass, "cg": cg, "inertia": inertia},
@@ -284,7 +289,7 @@ class Engine:
             bodies = [Body(foot, cell["z"], self.share)]
             foot = foot + knuckle
         else:
-            bodies = [Body(foot, cell["z"], self.share)]
+            bodies = [Body(foot, cell["z"], self.share + self.shells)]
         piston, rod = self._parts(cell)
         top = self._piston(cell, foot)
         direction = (top - foot) / rod["length"]

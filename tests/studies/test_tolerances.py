@@ -54,6 +54,17 @@ def test_shares_are_what_a_changed_file_gives() -> None:
     assert spread.nominal == pytest.approx(nominal, rel=1e-14)
 
 
+def test_a_rod_deviates_without_its_shells() -> None:
+    """What a rod's tolerance does is the same with shells and oil on the pins as without."""
+    shells = "[bobweight]\nrod_bearing = 0.05\noil = 0.01\n"
+    quantity = parse_quantity_list("force.1.forward")
+    without, with_shells = (
+        scatter_engine(load(text), Tolerances(mass=0.01), quantity, 10, seed=1).spreads[0]
+        for text in (GOOD, GOOD + shells)
+    )
+    assert with_shells.bound == pytest.approx(without.bound, rel=1e-12)
+
+
 def test_shares_of_angles_and_lengths_are_derivatives() -> None:
     weighed = changed(("mass = 0.6\ncg = 45\n", "small_end = 0.17\nbig_end = 0.43\n"))
     (spread,) = scatter_engine(

@@ -8,7 +8,6 @@ import typer
 
 from ..errors import BalcliError
 from ..limits import MOST_MOUNT_SPEEDS
-from .options import parse_numbers
 
 if TYPE_CHECKING:
     from ..core.singular_values import Real
@@ -36,23 +35,23 @@ def parse_speeds(text: str | None) -> Real | None:
         return None
     import numpy as np
 
+    start = f'--speeds "{text[:60]}": '
     ranged = ":" in text
-    parts = text.split(":") if ranged else [text]
-    if ranged and len(parts) != 3:
-        raise BalcliError(f'--speeds "{text[:60]}": give {_WANTED}')
-    figures = [value for part in parts for value in parse_numbers("--speeds", part, _WANTED)]
-    if not all(0 < value < 1e9 for value in figures) or (ranged and len(figures) != 3):
-        raise BalcliError(f'--speeds "{text[:60]}": give {_WANTED}')
+    try:
+        figures = [float(part) for part in text.split(":" if ranged else ",")]
+    except ValueError:
+        raise BalcliError(f"{start}give {_WANTED}") from None
+    if not all(0 < figure < 1e9 for figure in figures) or (ranged and len(figures) != 3):
+        raise BalcliError(f"{start}give {_WANTED}")
     if not ranged:
         return np.unique(figures)
     first, last, step = figures
     if last < first:
-        raise BalcliError(f'--speeds "{text[:60]}": a range rises; give {_WANTED}')
+        raise BalcliError(f"{start}a range rises; give {_WANTED}")
     count = (last - first) / step
     if count >= MOST_MOUNT_SPEEDS:
         raise BalcliError(
-            f'--speeds "{text[:60]}": at most {MOST_MOUNT_SPEEDS} speeds are computed; take longer '
-            "steps"
+            f"{start}at most {MOST_MOUNT_SPEEDS} speeds are computed; take longer steps"
         )
     found = first + step * np.arange(int(count + 1e-9) + 1)
     return found if found[-1] >= last - 1e-9 * step else np.append(found, last)

@@ -8,18 +8,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from itertools import chain
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..core.cylinders import Cylinders
-from ..core.mechanisms.articulated import Articulated
-from ..core.mechanisms.rotary import Rotary
 from ..core.phasors import Array, Figure
 from ..enginefile.model import EngineFile
 from . import firing
 from .arrays import column, shared_column
-from .articulation import Knuckles, build_linkage, find_masters
 from .figures import (
     NOTHING,
     Figures,
@@ -33,13 +30,19 @@ from .figures import (
 from .layout import Plan, bank_angles, cycle_deg, plan_cylinders
 from .rods import RodPlace, RunningGear, weigh_rod
 
+if TYPE_CHECKING:  # few engines have rods on rods, or turn; those that do import what these need
+    from ..core.mechanisms.articulated import Articulated
+    from ..core.mechanisms.rotary import Rotary
+
+PISTON_PARTS = ("mass", "piston", "pin", "rings", "locks")  # keys of [piston] that are masses
+
 
 class Ripple(NamedTuple):
     """One line of an uneven crank speed: `omega = mean (1 + sum amplitude cos(order theta -
     angle))`.
     """
 
-    order: int
+    order: float
     amplitude: Figure
     angle_deg: Figure
 
@@ -106,8 +109,13 @@ class Assembly:
 
     @cached_property
     def masters(self) -> dict[int, int]:
-        """Cylinder with the master rod, of each articulated cylinder."""
-        return find_masters(self.model.articulation, self.plan)
+        """Cylinder with the master rod, of each articulated cylinder; empty without any."""
+        table = self.model.articulation
+        if table is None:
+            return {}
+        from .articulation import find_masters
+
+        return find_masters(table, self.plan)
 
     @cached_property
     def rod(self) -> RodFigures:
@@ -125,6 +133,28 @@ class Assembly:
         own, general = self.own_of(number).rod, self.articulated_rod if articulated else self.rod
         return RodPlace(number, articulated, general.with_own(own), own, general)
 
+    @cached_property
+    def piston_parts(self) -> dict[str, Figure]:
+        """Masses of the parts that all pistons are made of, kg, by their keys; of a piston weighed
+        as a whole that of `mass`.
+        """
+        table = self.model.piston
+        given = {
+            key: self.figures.take_optional(f"piston.{key}", getattr(table, key))
+            for key in PISTON_PARTS
+        }
+        return {key: mass for key, mass in given.items() if mass is not None}
+
+    def piston_parts_of(self, number: int) -> tuple[tuple[str, Figure], ...]:
+        """The same of one cylinder's piston."""
+        own = self.own_of(number).piston_mass
+        return tuple(self.piston_parts.items()) if own is None else (("mass", own),)
+
+    @cached_property
+    def piston_mass(self) -> Figure:
+        """Of all pistons of which nothing else is said, kg."""
+        return sum(self.piston_parts.values())
+
     def piston_offset(self, number: int) -> Figure:
         """Of the path of a cylinder's piston pin, m."""
         general = self.figures.take("piston.offset", self.model.piston.offset) / 1e3
@@ -141,12 +171,11 @@ class Assembly:
         """Piston and rod of one cylinder; those of which nothing is said alone are one for all."""
         key = (place.number if place.number in self.own else 0, place.articulated)
         if key not in self._gears:
-            mass = self.figures.take("piston.mass", self.model.piston.mass)
             self._gears[key] = weigh_rod(
                 place.rod,
                 place.rod.length_for(self.radius),
                 self.piston_offset(place.number),
-                either(self.own_of(place.number).piston_mass, mass),
+                either(self.own_of(place.number).piston_mass, self.piston_mass),
             )
         return self._gears[key]
 
@@ -279,6 +308,16 @@ class Assembly:
         return mass / self.plan.rods_on_throw
 
     @cached_property
+    def rod_bearing(self) -> Figure:
+        """Bearing shells of one rod, kg."""
+        return self.figures.take("bobweight.rod_bearing", self.model.bobweight.rod_bearing)
+
+    @cached_property
+    def oil(self) -> Figure:
+        """Oil that turns with a pin, for one rod, kg."""
+        return self.figures.take("bobweight.oil", self.model.bobweight.oil)
+
+    @cached_property
     def _turned_deg(self) -> tuple[Mapping[int, Figure], Mapping[int, Figure]]:
         """Axes of the cylinders, and their crank pins from cylinder 1's; where the cylinders turn
         about pins that stand still, the other way round (core.rotary).
@@ -328,8 +367,9 @@ class Assembly:
         """
         if self.model.layout.rotary:
             return 0.0
-        big_end = 0.0 if number in self.masters else self.gears[number].big_end
-        return big_end + self.share_of_throw
+        if number in self.masters:
+            return self.share_of_throw
+        return self.gears[number].big_end + self.share_of_throw + self.rod_bearing + self.oil
 
     @cached_property
     def knuckle_angles_deg(self) -> tuple[Figure, ...] | None:
@@ -345,6 +385,8 @@ class Assembly:
         table, masters, axes = self.model.articulation, self.masters, self.axes_deg
         if table is None:
             return None
+        from .articulation import Knuckles, build_linkage
+
         angles = {n: axes[n] - axes[master] for n, master in masters.items()}
         if (given := self.knuckle_angles_deg) is not None:
             angles = {c.number: given[c.bank] for c in self.plan.cells if c.number in masters}
@@ -369,6 +411,8 @@ def _share_axes(axes_deg: Mapping[int, Figure]) -> list[list[int]]:
 
 def _turn_cylinders(at_pistons: Array, hung: Articulated | None) -> Rotary:
     """The mechanism of cylinders that turn, with the masses at their piston pins, kg."""
+    from ..core.mechanisms.rotary import Rotary
+
     if hung is None:
         return Rotary(at_pistons)
     both = at_pistons + hung.mass

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import groupby
 from typing import NamedTuple
 
 from ..core.cylinders import Cylinders, Device
@@ -24,19 +25,32 @@ class Weighed(NamedTuple):
 
     Attributes:
         throw: on which its rod runs (from 0).
-        piston: with rings, pin and clips.
-        small_end, big_end: of the rod.
+        piston: with pin, rings and locks.
+        piston_parts: what the piston was weighed in, by the keys of [piston]: `mass` alone, or
+            piston, pin, rings and locks as far as they are given.
+        small_end, big_end: of the rod, without shells.
         share: of the throw's unbalanced mass, for this cylinder's pin.
-        rod_bearing, oil: count on the bobweight card only.
+        rod_bearing, oil: what turns with the pin besides, for this rod.
     """
 
     throw: int
     piston: Figure
+    piston_parts: tuple[tuple[str, Figure], ...]
     small_end: Figure
     big_end: Figure
     share: Figure
-    rod_bearing: float
-    oil: float
+    rod_bearing: Figure
+    oil: Figure
+
+    @property
+    def reciprocating(self) -> Figure:
+        """What goes to and fro, kg."""
+        return self.piston + self.small_end
+
+    @property
+    def rotating(self) -> Figure:
+        """What turns with the pin besides the throw, kg."""
+        return self.big_end + self.rod_bearing + self.oil
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,12 +119,32 @@ class Engine:
         )
 
     @property
+    def period_revolutions(self) -> int:
+        """After how many revolutions speed and forces repeat themselves: 2 where the uneven speed
+        has half orders.
+        """
+        return 2 if any(line.order % 1 for line in self.ripple) else 1
+
+    @property
     def rotary(self) -> bool:
         """Whether the cylinders turn and the crank stands still: then the cylinders have masses on
         a linkage only.
         """
         c = self.cylinders
         return c.linkage is not None and c.linkage.turning
+
+    @property
+    def rows_by_pin(self) -> list[list[int]]:
+        """Rows of the cylinders on each crank pin, in the order of the throws; split pins are
+        several.
+        """
+
+        def find_pin(row: int) -> tuple[int, float]:
+            return self.weighed[row].throw, float(self.cylinders.pin_deg[row]) % 360
+
+        rows = range(len(self.numbers))
+        in_order = sorted(rows, key=lambda row: (*find_pin(row), self.numbers[row]))
+        return [list(group) for _, group in groupby(in_order, key=find_pin)]
 
     @property
     def pins_deg(self) -> dict[int, Figure]:
@@ -167,18 +201,16 @@ def assemble(
 
 def _weigh_cylinders(parts: Assembly) -> tuple[Weighed, ...]:
     throws = {cell.number: cell.throw for cell in parts.plan.cells}
-    card = parts.model.bobweight
-    rod_bearing, oil = (0.0, 0.0) if card is None else (card.rod_bearing, card.oil)
-    gears = ((number, parts.gears[number]) for number in parts.numbers)
     return tuple(
         Weighed(
             throws[number],
-            gear.piston,
-            gear.small_end,
-            gear.big_end,
-            parts.share_of_throw,
-            rod_bearing,
-            oil,
+            piston=parts.gears[number].piston,
+            piston_parts=parts.piston_parts_of(number),
+            small_end=parts.gears[number].small_end,
+            big_end=parts.gears[number].big_end,
+            share=parts.share_of_throw,
+            rod_bearing=0.0 if number in parts.masters else parts.rod_bearing,
+            oil=0.0 if number in parts.masters else parts.oil,
         )
-        for number, gear in gears
+        for number in parts.numbers
     )

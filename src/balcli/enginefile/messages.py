@@ -47,6 +47,13 @@ WORDS = {
 OTHER = "{value} does not fit here"
 
 
+OF_COMMANDS = dict.fromkeys(
+    ("overbalance", "balance_factor", "factor"),
+    "did you mean --factor? The balance factor is no figure of the engine: "
+    "balcli balance FILE --factor 51%",
+)
+
+
 class UnknownKey(NamedTuple):
     """A key that there is not.
 
@@ -99,7 +106,7 @@ def _describe_missing(table: type[model.Table], loc: Sequence[str | int]) -> str
     """With an example of the key, which may stand in a table within the table."""
     *parents, key = loc
     inner = next((INNER[str(part)] for part in reversed(parents) if part in INNER), table)
-    examples = inner.model_fields[str(key)].examples
+    examples = inner.keys()[str(key)].examples
     example = shorten(examples[0]) if examples else "{ length = 200 }"
     return f"is missing; give it, such as {key} = {example}"
 
@@ -128,6 +135,8 @@ def describe_unknown_key(unknown: UnknownKey) -> tuple[Problem, str]:
     place = f"of [{path.partition('.')[0]}]" if path else "of an engine file"
     start = f"{path}." if path else ""
     full = start + printable(key)
+    if key in OF_COMMANDS:
+        return Problem(full, f"is no key {place}; {OF_COMMANDS[key]}"), ""
     if near := nearest(key, own):
         return Problem(full, f"is no key {place}; did you mean {near}?"), start + near
     hint = next(_tables_with(key), f"it has {', '.join(own)}")

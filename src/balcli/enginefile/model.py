@@ -12,10 +12,11 @@ from itertools import chain
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic.fields import FieldInfo
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
-from .exclusive import Choice, find_repeated
-from .fields import Flag, Label, Number, OneOf, Whole, counted
+from .exclusive import Choice, find_repeated, join_words
+from .fields import Flag, Halves, Label, Number, OneOf, Whole, counted
 from .units import (
     ANGLE,
     DAMPING,
@@ -47,7 +48,7 @@ Period = Annotated[float, Number(TIME, above=0, most=1e6)]
 RodRatio = Annotated[float, Number(PLAIN, above=0, below=1)]
 Share = Annotated[float, Number(PLAIN, least=-1, most=1)]
 Count = Annotated[int, Whole(least=1, most=MOST_LIST_VALUES)]
-RippleOrder = Annotated[int, Whole(least=1, most=HIGHEST_RIPPLE_ORDER)]
+RippleOrder = Annotated[float, Halves(most=HIGHEST_RIPPLE_ORDER)]
 ShaftRatio = Annotated[int, Whole(least=-HIGHEST_SHAFT_ORDER, most=HIGHEST_SHAFT_ORDER, zero=False)]
 Angles = Annotated[tuple[Angle, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
 Lengths = Annotated[tuple[Length, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
@@ -91,6 +92,11 @@ class Table(BaseModel):
     def contradictions(self) -> Iterator[str]:
         """What the fields of this table say against each other."""
         yield from ()
+
+    @classmethod
+    def keys(cls) -> dict[str, FieldInfo]:
+        """Its fields by their keys as a file has them."""
+        return {field.alias or name: field for name, field in cls.model_fields.items()}
 
 
 def mistakes_of_choice(table: type[Table], given: Collection[str]) -> list[str]:
@@ -166,7 +172,7 @@ class Rod(Table):
         examples=[0.28],
     )
     mass: Mass | None = Field(
-        None, description="mass of the whole rod with bearing and bolts", examples=[0.6]
+        None, description="mass of the whole rod with bolts, without bearing shells", examples=[0.6]
     )
     cg: Length | None = Field(
         None, description="from the big-end centre to the centre of mass", examples=[45]
@@ -215,16 +221,31 @@ def describe_quick_period(period: float, arm_mm: float) -> str:
 
 
 class Piston(Table):
-    """One piston with its rings, pin and clips."""
+    """One piston with its rings, pin and locks: weighed together, or part by part."""
+
+    choices = (Choice((("mass",), ("piston", "pin", "rings", "locks")), required=True),)
 
     bore: Size | None = Field(None, description="cylinder bore", examples=[86])
-    mass: Mass = Field(description="piston, rings, pin and clips", examples=[0.5])
+    mass: Mass | None = Field(
+        None, description="piston, pin, rings and locks together", examples=[0.5]
+    )
+    piston: Mass | None = Field(
+        None, description="the bare piston, instead of mass, which is then the sum", examples=[0.36]
+    )
+    pin: Mass | None = Field(None, description="piston pin", examples=[0.1])
+    rings: Mass | None = Field(None, description="all rings of one piston", examples=[0.036])
+    locks: Mass | None = Field(None, description="both locks (clips) of the pin", examples=[0.004])
     offset: Length = Field(
         0.0,
         examples=[-1.6],
         description="of the pin path, + towards the side to which the crank pin moves after top "
         "dead centre",
     )
+
+    def contradictions(self) -> Iterator[str]:
+        others = [key for key in ("pin", "rings", "locks") if getattr(self, key) is not None]
+        if others and self.mass is self.piston is None:
+            yield f"has {join_words(others)} without piston; give the bare piston, too"
 
 
 class Layout(Table):
@@ -298,7 +319,9 @@ class Layout(Table):
 
 
 class Bobweight(Table):
-    """What a shop adds to the rotating mass, for each rod; used by the bobweight card only."""
+    """What turns with a crank pin besides throw and rod, for each rod on it. It counts in the
+    rotating mass, and on the bobweight card.
+    """
 
     rod_bearing: Mass = Field(
         0.0, description="big-end bearing shells of one rod", examples=[0.047]
@@ -320,7 +343,10 @@ class Operation(Table):
     """How the engine runs."""
 
     speed: Speed = Field(1000.0, description="crank speed (mean over the angle)", examples=[3000])
-    speed_ripple: tuple[Ripple, ...] = Field((), description="uneven crank speed, by whole orders")
+    speed_ripple: tuple[Ripple, ...] = Field(
+        (),
+        description="uneven crank speed, by orders: whole ones, or halves of a four-stroke engine",
+    )
 
     def contradictions(self) -> Iterator[str]:
         if len(self.speed_ripple) > MOST_RIPPLES:
@@ -562,7 +588,7 @@ class EngineFile(Table):
     rod: Rod
     piston: Piston
     layout: Layout = Layout.model_construct()
-    bobweight: Bobweight | None = None
+    bobweight: Bobweight = Bobweight.model_construct()
     operation: Operation = Operation.model_construct()
     frame: Frame = Frame.model_construct()
     articulation: Articulation | None = None

@@ -35,12 +35,11 @@ def suspicious(model: EngineFile) -> list[str]:
 
 
 def _piston(model: EngineFile) -> Iterator[str]:
-    mass, bore = model.piston.mass, model.piston.bore
+    mass, bore = _piston_mass(model), model.piston.bore
     if mass == 0:
         yield (
-            "piston.mass is 0: only the rod moves to and fro; give the mass of piston, rings, "
-            "pin "
-            "and clips"
+            "piston.mass is 0: only the rod moves to and fro; give the mass of piston, pin, rings "
+            "and locks"
         )
     elif bore is not None and not PISTON_LIGHT <= mass / (bore * 1e-3) ** 3 <= PISTON_HEAVY:
         low, high = (limit * (bore * 1e-3) ** 3 for limit in (PISTON_LIGHT, PISTON_HEAVY))
@@ -71,9 +70,10 @@ def _proportions(model: EngineFile) -> Iterator[str]:
 
 def _rod(model: EngineFile) -> Iterator[str]:
     rod, mass, length, cg = model.rod, _rod_mass(model), _rod_length(model), model.rod.cg
-    if mass and model.piston.mass and not ROD_LIGHT <= mass / model.piston.mass <= ROD_HEAVY:
+    piston = _piston_mass(model)
+    if mass and piston and not ROD_LIGHT <= mass / piston <= ROD_HEAVY:
         yield (
-            f"the rod weighs {mass:.4g} kg, {mass / model.piston.mass:.3g} times the piston, "
+            f"the rod weighs {mass:.4g} kg, {mass / piston:.3g} times the piston, "
             f"where {ROD_LIGHT:g} to "
             f"{ROD_HEAVY:g} times is usual; are both in the same unit?"
         )
@@ -133,7 +133,9 @@ def _layout(model: EngineFile) -> Iterator[str]:
 def _counterweights(model: EngineFile) -> Iterator[str]:
     radius = model.crank.stroke / 2
     throws, rods = _throws_and_rods(model)
-    mass = throws * model.crank.throw_mass + rods * (model.piston.mass + (_rod_mass(model) or 0.0))
+    mass = throws * model.crank.throw_mass + rods * (
+        _piston_mass(model) + (_rod_mass(model) or 0.0)
+    )
     limit = UNBALANCE_SHARE * mass * 1e3 * radius
     for number, weight in enumerate(model.counterweight, 1):
         if limit and abs(_unbalance(weight)) > limit:
@@ -153,6 +155,13 @@ def _lambda(model: EngineFile) -> float | None:
 def _rod_length(model: EngineFile) -> float | None:
     ratio = model.rod.ratio
     return model.rod.length if ratio is None else model.crank.stroke / 2 / ratio
+
+
+def _piston_mass(model: EngineFile) -> float:
+    """Of a whole piston, kg."""
+    piston = model.piston
+    parts = (piston.mass, piston.piston, piston.pin, piston.rings, piston.locks)
+    return sum(mass for mass in parts if mass is not None)
 
 
 def _rod_mass(model: EngineFile) -> float | None:

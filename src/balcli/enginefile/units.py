@@ -52,7 +52,7 @@ _LENGTH, _MASS, _TIME, _ANGLE = Powers(length=1), Powers(mass=1), Powers(time=1)
 INCH = Fraction(254, 10_000)  # m
 POUND = Fraction(45_359_237, 100_000_000)  # kg
 STANDARD_GRAVITY = 9.80665  # m/s2
-_FORCE = Powers(1, 1, -2)
+_FORCE, _PRESSURE = Powers(1, 1, -2), Powers(-1, 1, -2)
 _POUND_FORCE = POUND * Fraction("9.80665")  # N
 
 COMMON = {
@@ -75,7 +75,12 @@ COMMON = {
     "rpm": Unit(Fraction(1, 60), Powers(time=-1, angle=1)),
     "N": Unit(Fraction(1), _FORCE),
     "lbf": Unit(_POUND_FORCE, _FORCE),
+    "MPa": Unit(Fraction(10**6), _PRESSURE),
+    "GPa": Unit(Fraction(10**9), _PRESSURE),
+    "psi": Unit(_POUND_FORCE / INCH**2, _PRESSURE),
 }
+
+AMBIGUOUS = {"gr": "g, or grain (65 mg)?", "gm": "g, or gigametre?"}
 
 LENGTH = Dimension("mm", "a length", _LENGTH, ("90 mm", "3.5 in"))
 MASS = Dimension("kg", "a mass", _MASS, ("650 g", "0.8 lb"))
@@ -93,10 +98,22 @@ SPEED = Dimension("rpm", "a speed of rotation", Powers(time=-1, angle=1), ("6000
 TIME = Dimension("s", "a time", _TIME, ("0.82 s", "820 ms"))
 STIFFNESS = Dimension("N/mm", "a stiffness", Powers(0, 1, -2), ("350 N/mm", "2000 lbf/in"))
 DAMPING = Dimension("N s/mm", "a damping", Powers(0, 1, -1), ("0.5 N s/mm", "3 lbf s/in"))
+TORQUE = Dimension("N m", "a torque", Powers(2, 1, -2), ("250 N m", "184 lbf ft"))
+TORSIONAL_STIFFNESS = Dimension(
+    "N m/rad",
+    "a torsional stiffness",
+    Powers(2, 1, -2, -1),
+    ("1.25e6 N m/rad", "24.17e6 lbf in/rad"),
+)
+TORSIONAL_DAMPING = Dimension(
+    "N m s/rad", "a torsional damping", Powers(2, 1, -1, -1), ("2 N m s/rad", "18 lbf in s/rad")
+)
+SHEAR_MODULUS = Dimension("GPa", "a modulus of elasticity", _PRESSURE, ("79.3 GPa", "11.5e6 psi"))
+STRESS = Dimension("N/mm^2", "a stress", _PRESSURE, ("40 N/mm^2", "5800 psi"))
 PLAIN = Dimension("", "a plain number", Powers(), ())
 _DIMENSIONS = (
     *(LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PLAIN),
-    *(STIFFNESS, DAMPING),
+    *(TORQUE, TORSIONAL_STIFFNESS, TORSIONAL_DAMPING, STRESS, STIFFNESS, DAMPING),
 )
 
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
@@ -141,6 +158,8 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
     """
     scale, powers = Fraction(1), Powers()
     for joint, name, power, superscript in re.findall(_PART, names, re.ASCII):
+        if name in AMBIGUOUS:
+            raise ValueError(f'has the unit "{name}": {AMBIGUOUS[name]} {wanted(dimension)}')
         part = COMMON.get(name) or _ask_pint(name)
         if part is None:
             raise ValueError(f'has the unknown unit "{name}"; {wanted(dimension)}')

@@ -15,7 +15,7 @@ from ..errors import BalcliError
 from ..forces.orders import find_relevant_orders
 from ..forces.spectrum import compute_spectra
 from ..limits import LARGEST_FACTOR
-from .bobweight_card import DEFINITION, fill_card, group_by_pin
+from .bobweight_card import DEFINITION, fill_card
 from .details import Detail, FactorPeaks
 from .effects import Slot
 from .fitting import Fitting
@@ -83,7 +83,7 @@ def find_curve(engine: Engine, quantity: str) -> Phasors:
 def _add_weights(fitting: Fitting, factor: float) -> Fitting:
     """With one weight opposite every crank pin, where the masses on it have their centre."""
     engine = fitting.engine
-    for rows in group_by_pin(engine):
+    for rows in engine.rows_by_pin:
         masses = np.array([_count(engine.weighed[row], factor) for row in rows])
         total = float(masses.sum())
         if total == 0:
@@ -102,8 +102,7 @@ def _add_weights(fitting: Fitting, factor: float) -> Fitting:
 
 def _count(masses: Weighed, factor: float) -> float:
     """The mass of one cylinder that is balanced opposite its pin, kg."""
-    rotating = masses.big_end + masses.share
-    return float(rotating + factor * (masses.piston + masses.small_end))
+    return float(masses.rotating + masses.share + factor * masses.reciprocating)
 
 
 def _find_centre(masses: Array, places: Array) -> float:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import groupby
-
 from ..engine.build import Engine
 from .details import Bobweight
 
@@ -16,20 +14,7 @@ DEFINITION = (
 
 def fill_card(engine: Engine, factor: float) -> tuple[Bobweight, ...]:
     """The bobweight of each crank pin for this share of the reciprocating mass."""
-    return tuple(_weigh(engine, rows, factor) for rows in group_by_pin(engine))
-
-
-def group_by_pin(engine: Engine) -> list[list[int]]:
-    """Rows of the cylinders on each crank pin, in the order of the throws; split pins are
-    several.
-    """
-
-    def find_pin(row: int) -> tuple[int, float]:
-        return engine.weighed[row].throw, float(engine.cylinders.pin_deg[row]) % 360
-
-    rows = range(len(engine.numbers))
-    in_order = sorted(rows, key=lambda row: (*find_pin(row), engine.numbers[row]))
-    return [list(group) for _, group in groupby(in_order, key=find_pin)]
+    return tuple(_weigh(engine, rows, factor) for rows in engine.rows_by_pin)
 
 
 def _weigh(engine: Engine, rows: list[int], factor: float) -> Bobweight:

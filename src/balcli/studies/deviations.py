@@ -13,9 +13,10 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from ..core.phasors import Array, Phasors
+from ..engine.assembly import PISTON_PARTS
 from ..engine.build import Engine, build
 from ..engine.layout import plan_cylinders
-from ..enginefile.model import EngineFile
+from ..enginefile.model import Bobweight, EngineFile
 from ..forces.quantity import Quantity
 from ..forces.spectrum import compute_spectra
 
@@ -63,10 +64,12 @@ class DeviatingEngine:
         c = self._engine.cylinders
         without_pistons = build(_without_pistons(model), rank=1).cylinders
         without_throws = build(_without_throws(model), rank=1).cylinders
+        without_shells = build(_without_shells(model), rank=1).cylinders
         self._pistons = self._of_each(c.reciprocating - without_pistons.reciprocating)
         self._webs = self._of_each(c.rotating - without_throws.rotating)
+        self._shells = self._of_each(c.rotating - without_shells.rotating)
         self._small_ends = self._of_each(c.reciprocating) - self._pistons
-        self._big_ends = self._of_each(c.rotating) - self._webs
+        self._big_ends = self._of_each(c.rotating) - self._webs - self._shells
         self.sources = tuple(self._find_sources(tolerances))
 
     def _of_each(self, rows: Array) -> Array:
@@ -141,8 +144,14 @@ def _without_pistons(model: EngineFile) -> EngineFile:
         number: own if own.piston_mass is None else own.model_copy(update={"piston_mass": 0.0})
         for number, own in model.cylinder.items()
     }
-    piston = model.piston.model_copy(update={"mass": 0.0})
+    parts = dict.fromkeys(PISTON_PARTS)
+    piston = model.piston.model_copy(update=parts | {"mass": 0.0})
     return model.model_copy(update={"piston": piston, "cylinder": overrides})
+
+
+def _without_shells(model: EngineFile) -> EngineFile:
+    """The file without bearing shells and oil on its crank pins."""
+    return model.model_copy(update={"bobweight": Bobweight.model_construct()})
 
 
 def _without_throws(model: EngineFile) -> EngineFile:

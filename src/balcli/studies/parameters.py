@@ -46,7 +46,6 @@ def find_numbers(model: EngineFile) -> dict[str, Number]:
     tables = dict(model.tables())
     for number in plan.numbers:
         tables.setdefault(f"cylinder.{number}", Override.model_construct())
-    tables.pop("bobweight", None)  # bobweights move nothing
     numbers: dict[str, Number] = {}
     for path, table in tables.items():
         numbers |= _numbers_of(path, table)
