@@ -49,6 +49,8 @@ COMMANDS = {
     "sum": "Two engines on one frame, geared one to one: H, U and opposed-piston engines.",
     "field": "Balance a rotor on the machine or in its bearings: from readings with trial weights "
     "to correction weights, places or drill holes, and what is left.",
+    "mounts": "What the frame feels of an engine on its mounts: natural modes, rest, forces of the "
+    "mounts and motion of points over a range of speeds.",
     "torsion": "Torsional vibration of shafts: natural modes, critical speeds, Holzer tables, and "
     "vibratory torque and stress over a range of speeds.",
     "engines": "List the example engines that come with balcli, print one, or copy it.",
