@@ -172,8 +172,8 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         (["check", str(ROOT / "src")], f"{ROOT / 'src'}: has no engine files (*.toml)"),
         (
             ["new", "inlin"],
-            '"inlin" is no kind of engine; there are single, inline, vee, boxer, radial, w. Did '
-            "you mean inline?",
+            '"inlin" is no kind of engine; there are single, inline, vee, boxer, radial, w, mounts. '
+            "Did you mean inline?",
         ),
         (
             ["analyze", V8, "--only", "guide", "--guide-height", "0"],
