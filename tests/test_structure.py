@@ -170,7 +170,10 @@ ON_REQUEST = {
     "balcli.forces.spectrum": ("balcli.forces.gas",),
     "balcli.forces.symmetry": ("balcli.forces.gas_symmetry",),
     "balcli.render.analyses": ("balcli.render.analysis",),
-    "balcli.render.formats": tuple(f"balcli.render.{form}" for form in Format),
+    "balcli.render.formats": (
+        *(f"balcli.render.{form}" for form in Format),
+        "balcli.render.terminal",
+    ),
     "balcli.results.analysis": (
         "balcli.core.strokes",
         "balcli.forces.crankshaft",
