@@ -36,6 +36,7 @@ COMMANDS = (
     "compare",
     "sum",
     "field",
+    "mounts",
     "torsion",
     "engines",
     "bench",

@@ -22,6 +22,7 @@ CYLINDERS = {
     "boxer": (4, 2),
     "radial": (1, 9),
     "w": (4, 3),
+    "mounts": (4, 1),
 }
 INSTEAD = ("or instead of", "# big_end")
 
@@ -91,8 +92,8 @@ def test_unknown_kinds():
     with pytest.raises(BalcliError) as caught:
         template("boxxer")
     assert str(caught.value) == (
-        '"boxxer" is no kind of engine; there are single, inline, vee, boxer, radial, w. Did you '
-        "mean boxer?"
+        '"boxxer" is no kind of engine; there are single, inline, vee, boxer, radial, w, mounts. '
+        "Did you mean boxer?"
     )
-    with pytest.raises(BalcliError, match=r"there are single, inline, vee, boxer, radial, w\.$"):
+    with pytest.raises(BalcliError, match=r"vee, boxer, radial, w, mounts\.$"):
         template("q" * 10_000)
