@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..enginefile.model import Counterweight, Shaft, Slider
-from ..sizing.device_tables import FIELDS, DeviceTable, find_free, find_unbalance, name_kind
+from ..sizing.device_tables import FIELDS, DeviceTable, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
 from .figures import clean
 from .sheet import Grid, degrees, number
@@ -37,7 +37,7 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
         f"x, y, {system.length.name}",
         f"z, {system.length.name}",
     )
-    free = find_free(remedy.devices)
+    free = remedy.free
     rows = tuple(
         _grid_row(device, anywhere, system)
         for device, anywhere in zip(remedy.devices, free, strict=True)
@@ -128,7 +128,7 @@ def _practical_row(p: Practical, system: System) -> list[str]:
 def device_entries(remedy: Remedy) -> dict[str, list[dict[str, Any]]]:
     """New devices in JSON, as an engine file would describe them."""
     entries: dict[str, list[dict[str, Any]]] = {f"{kind.__name__.lower()}s": [] for kind in FIELDS}
-    for device, free in zip(remedy.devices, find_free(remedy.devices), strict=True):
+    for device, free in zip(remedy.devices, remedy.free, strict=True):
         entry = _device_entry(device)
         if isinstance(device, Shaft):
             entry["free"] = free

@@ -10,7 +10,7 @@ from ..engine.build import build
 from ..engine.load import parse
 from ..enginefile.edit import anew, changed, written
 from ..errors import BalcliError, InputError
-from .device_tables import FIELDS, DeviceTable, find_free, name_kind
+from .device_tables import FIELDS, DeviceTable, name_kind
 from .remedy import Remedy, fit_devices
 
 
@@ -64,8 +64,7 @@ def _write_tables(remedy: Remedy) -> Iterator[str]:
         return
     yield f"\n# fitted by balcli, scheme {remedy.scheme}\n"
     told = ""
-    free = find_free(remedy.devices)
-    for device, reason, anywhere in zip(remedy.devices, remedy.reasons, free, strict=True):
+    for device, reason, anywhere in zip(remedy.devices, remedy.reasons, remedy.free, strict=True):
         head = "" if reason == told else f"# {reason}\n"
         told = reason
         notes = {"at": "  # free: it may stand anywhere"} if anywhere else {}
