@@ -174,6 +174,7 @@ def test_help_and_completion_of_a_command_wait_for_no_library(command):
 # for the eye.
 SHAPING = {
     ("balcli.sizing.device_tables", "find_unbalance"),
+    ("balcli.sizing.device_tables", "measure_direction"),
     ("balcli.sizing.device_tables", "name_kind"),
     ("balcli.tables.recomputed", "deviates"),
     ("balcli.tables.recomputed", "parse_decimal"),
