@@ -60,3 +60,8 @@ MOST_BALANCING_PLANES = 50  # weights that influence one another: solved togethe
 MOST_SENSORS = 200  # readings of one run
 MOST_RUNS = 500  # nobody starts a machine more often
 MOST_PLACES = 720  # blades or holes of a plane: every pair of them may be looked at
+
+# Torsion -------------------------------------------------------------------------------------
+MOST_TORSION_NODES = 200  # of a chain: modes of all of them take a second
+HIGHEST_TORSION_ORDER = 256  # a cycle is sampled 16 times as often
+MOST_TORSION_SPEEDS = 20_000  # of a range: all figures of each are kept

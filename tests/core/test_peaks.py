@@ -34,6 +34,13 @@ def test_of_one_order_it_is_the_longer_semi_axis(order, forward, backward):
     assert 0 <= found.theta < 2 * np.pi
 
 
+def test_half_orders_repeat_themselves_after_two_revolutions():
+    """cos(theta/2) - 1 is largest, 2 away from 0, when the crank has turned once."""
+    found = peak(curve((0, -1, 0), (0.5, 0.5, 0.5)))
+    assert found.value == pytest.approx(2, rel=RELATIVE)
+    assert found.theta == pytest.approx(2 * np.pi, rel=1e-9)
+
+
 def test_of_a_circle_every_angle_will_do():
     found = peak(curve((1, 3 + 4j, 0)))
     assert found.value == pytest.approx(5, rel=RELATIVE)

@@ -11,6 +11,9 @@ from support.engines import engine, refused
 
 from balcli.core import speed_ripple as ripple
 from balcli.core.phasors import Phasors
+from balcli.forces.curves import compute_engine_curves
+from balcli.forces.orders import find_relevant_orders
+from balcli.forces.spectrum import compute_spectra
 
 RELATIVE = 1e-9  # central differences of sixth order at STEP
 STEP = 2e-3
@@ -271,3 +274,37 @@ def test_variants_side_by_side_are_what_each_is_alone():
         )
         assert whole.forward[:, i, j] == pytest.approx(one.forward, rel=1e-14)
         assert whole.backward[:, i, j] == pytest.approx(one.backward, rel=1e-14)
+
+
+# ------------------------------------------------------------------ half orders
+def test_a_speed_of_half_orders_mixes_into_half_orders_as_the_curves_over_the_angle_say():
+    """`curves` evaluates the motion at each angle and knows no orders."""
+    lines = [{"order": 0.5, "amplitude": 0.1, "angle": 30}, {"order": 2, "amplitude": 0.05}]
+    single = engine(operation={"speed": 2000, "speed_ripple": lines})
+    assert single.period_revolutions == 2
+    angles = np.arange(0.0, 720.0, 11.0)
+    direct = compute_engine_curves(single, angles).values
+    spectra = compute_spectra(single, find_relevant_orders(single), ["force", "torque"])
+    assert spectra.force.balanced.sum() == 0
+    assert spectra.force.orders[:3].tolist() == [0, 0.5, 1]
+    for name, found in (
+        ("force_x_N", spectra.force.values(np.radians(angles)).real),
+        ("inertia_torque_Nm", spectra.torque.values(np.radians(angles)).real),
+    ):
+        assert found == pytest.approx(direct[name], abs=1e-11 * np.abs(direct[name]).max())
+
+
+def test_a_half_order_alone_is_asked_for_like_any_other():
+    lines = [{"order": 2, "amplitude": 0.05}]
+    steady = engine(operation={"speed": 2000, "speed_ripple": lines})
+    found = compute_spectra(steady, [0.5, 1.0, 1.5], ["force"])["force"]
+    assert found.balanced.tolist() == [True, False, True]
+
+
+def test_orders_of_the_speed_are_halves_of_whole_numbers():
+    wanted = "a whole number or a half from 0.5 to 256 is wanted"
+    for order, what in ((0.3, "not a multiple of 1/2"), (0, "out of range"), (True, "not a mul")):
+        lines = [{"order": order, "amplitude": 0.1}]
+        said = refused(operation={"speed": 60, "speed_ripple": lines})
+        assert f"operation.speed_ripple.1.order: {str(order).lower()} is {what}" in said
+        assert wanted in said

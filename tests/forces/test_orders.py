@@ -23,19 +23,24 @@ from balcli.forces.spectrum import Spectra
         ("2", 2),
         ("4096", 4096),
         ("4097", None),
-        ("0.5", None),
+        ("0.5", 0.5),
+        ("11.0", 11),
+        ("4096.5", None),
+        ("0.25", None),
+        (".5", None),
         ("-1", None),
         ("", None),
         ("²", None),
         ("99999999999999999999", None),
     ],
 )
-def test_the_order_that_a_text_names(text: str, order: int | None) -> None:
+def test_the_order_that_a_text_names(text: str, order: float | None) -> None:
     assert parse_order(text) == order
 
 
-def test_orders_are_whole_numbers() -> None:
-    wanted = {0: True, 4096: True, 4097: False, -1: False, 1.5: False, float("nan"): False}
+def test_orders_are_halves_of_whole_numbers() -> None:
+    good, bad = (0, 0.5, 1.5, 4096), (4096.5, -1, -0.5, 1.25, float("nan"))
+    wanted = dict.fromkeys(good, True) | dict.fromkeys(bad, False)
     assert {number: is_order(number) for number in wanted} == wanted
 
 

@@ -45,7 +45,7 @@ def test_names_read_back(name: str) -> None:
         ),
         (
             "force.two.major",
-            "force.two.major is no quantity: after force comes a whole order up to 4096, as in "
+            "force.two.major is no quantity: after force comes an order up to 4096, as in "
             "force.2.major",
         ),
         (

@@ -89,12 +89,13 @@ def test_exactly_the_orders_asked_for_are_shown(orders):
 
 
 @pytest.mark.parametrize(
-    ("orders", "told"), [([-1], "-1"), ([HIGHEST_ORDER + 1], "4097"), ([], "none"), ([1.5], "1.5")]
+    ("orders", "told"),
+    [([-1], "-1"), ([HIGHEST_ORDER + 1], "4097"), ([], "none"), ([1.25], "1.25")],
 )
 def test_orders_that_cannot_be(orders, told):
     with pytest.raises(BalcliError) as caught:
         analyze(example("i4"), orders)
-    assert str(caught.value) == f"orders must be whole numbers from 0 to 4096, not {told}"
+    assert str(caught.value) == f"orders must be multiples of 1/2 from 0 to 4096, not {told}"
 
 
 # ------------------------------------------------------------------ balanced, and not swallowed
@@ -186,13 +187,13 @@ def test_what_is_not_asked_for_is_not_computed(monkeypatch):
     asked = []
     original = harmonics.find_distinct_harmonics
 
-    def spy(orders, *rest, rod=True, energy=True):
-        asked.append((list(orders), rod, energy))
-        return original(orders, *rest, rod=rod, energy=energy)
+    def spy(orders, lam, eps, wanted):
+        asked.append((list(orders), set(wanted) - {"along", "across"}))
+        return original(orders, lam, eps, wanted)
 
     monkeypatch.setattr(harmonics, "find_distinct_harmonics", spy)
     analyze(example("i4"), [1, 2], only=["force"])
-    assert [(orders, energy) for orders, _, energy in asked] == [([1, 2], False)]
+    assert asked == [([1, 2], {"piston"})]
 
 
 def test_an_unknown_quantity():

@@ -399,7 +399,7 @@ def test_what_each_plane_has_and_lacks_is_shown(ford):
     table = out.partition("What each plane has, and lacks")[2].splitlines()
     assert table[3].split()[3:5] == ["30000", "90.0"]
     assert table[4].split()[3:5] == ["0", "–"]
-    assert "clockwise, seen from the free end" in out
+    assert "clockwise seen from the free end" in out
 
 
 @pytest.mark.parametrize("text", ["51%%", "51 percent", "nan", "0.5:0.6", "a:b:c", "%", "50%:54%"])

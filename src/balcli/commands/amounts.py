@@ -8,6 +8,7 @@ is it certain that they mean inches or pounds: it has to say.
 from __future__ import annotations
 
 import math
+import re
 
 from ..enginefile.units import ANGLE, LENGTH, MASS, SPEED, Dimension, convert
 from ..errors import BalcliError
@@ -56,9 +57,32 @@ def read_angle(option: str, text: str) -> float:
     return _read(option, text, ANGLE, Units.SI)
 
 
+def as_bare_angles(option: str, text: str) -> str:
+    """A range or list such as `0 deg:0.5 turn:5 deg` in bare degrees: `0:180:5`. What has no unit
+    stays as it is.
+
+    Raises:
+        BalcliError: with the option and what is no angle.
+    """
+    parts = re.split(r"([:,])", text)
+    with_unit = [any(map(str.isalpha, part.replace("e", ""))) or "°" in part for part in parts]
+    return "".join(
+        f"{read_angle(option, part):.15g}" if said else part
+        for part, said in zip(parts, with_unit, strict=True)
+    )
+
+
 def read_speed(option: str, text: str) -> float:
     """A speed in rpm; BalcliError with the option and its text."""
     return _read(option, text, SPEED, Units.SI)
+
+
+def read_number(option: str, text: str, needed: str) -> float:
+    """A plain number; BalcliError with the option, its text and what is needed."""
+    value = _as_bare(text)
+    if value is None or not math.isfinite(value):
+        raise BalcliError(f"{_shown(option, text)}: give {needed}")
+    return value
 
 
 def read_share(option: str, text: str, needed: str) -> float:

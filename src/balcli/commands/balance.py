@@ -13,8 +13,8 @@ from .options import (
     Output,
     Speed,
     UnitsOption,
-    check_speed,
     parse_orders,
+    parse_speed,
 )
 from .output import show
 from .overwrite_guard import refuse_overwriting
@@ -62,7 +62,7 @@ def balance(
     scheme = balance_options.choose_scheme(scheme, options)
     tools = balance_options.parse_tools(radius, thickness, disc, drill, max_depth, slug, units)
     grading = balance_options.parse_grading(grade, mass, units)
-    asked, rpm = parse_orders(orders), check_speed(speed)
+    asked, rpm = parse_orders(orders), parse_speed(speed)
     text, model, engine = read_engine(path, rpm)
     if scheme == KNUCKLES or even is not None:
         result = balance_options.balance_knuckles(scheme, options, even, model, engine, asked)

@@ -14,9 +14,8 @@ from ..limits import MOST_FACTORS
 from ..render.formats import Units
 from ..sizing.options import SchemeOptions
 from ..sizing.schemes import KNUCKLES, NAMES
-from .amounts import read_length, read_lengths, read_mass, read_share
+from .amounts import read_length, read_lengths, read_mass, read_number, read_share
 from .completion import complete_schemes
-from .options import parse_numbers
 
 if TYPE_CHECKING:
     from ..engine.build import Engine
@@ -242,7 +241,7 @@ def _parse_slug(text: str) -> float:
     if (known := SLUGS.get(text.strip().lower())) is not None:
         return known
     wanted = f"{', '.join(SLUGS)}, or a density in g/cm3 such as 18.5"
-    return 1e3 * parse_numbers("--slug", text, wanted, 1)[0]
+    return 1e3 * read_number("--slug", text, wanted)
 
 
 def parse_grading(
@@ -257,11 +256,7 @@ def parse_grading(
 
 def _parse_grade(text: str) -> float:
     figure = text.strip().removeprefix("G")
-    wanted = "a grade of ISO 21940-11 such as G16 or 6.3"
-    try:
-        return parse_numbers("--grade", figure, wanted, 1)[0]
-    except BalcliError:
-        raise BalcliError(f'--grade "{text[:60]}": give {wanted}') from None
+    return read_number("--grade", figure, "a grade of ISO 21940-11 such as G16 or 6.3")
 
 
 def balance_knuckles(
@@ -270,7 +265,7 @@ def balance_knuckles(
     even: str | None,
     model: EngineFile,
     engine: Engine,
-    orders: list[int] | None,
+    orders: list[float] | None,
 ) -> Balance:
     """The scheme that changes knuckle angles, at the engine's speed.
 

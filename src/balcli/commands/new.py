@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 from ..enginefile.templates import template
-from ..field_balancing.starting_file import KIND, read_starting_file
+from ..field_balancing import starting_file as field
+from ..torsion import starting_file as torsion
 from .completion import complete_kinds
 from .file_names import parse_output, require_ending
 from .output import emit, refuse_existing
@@ -19,7 +20,8 @@ def new(
         str,
         typer.Argument(
             metavar="KIND",
-            help="single, inline, vee, boxer, radial or w; field: runs of a rotor on a machine.",
+            help="single, inline, vee, boxer, radial or w; field: runs of a rotor on a machine; "
+            "torsion: a chain of inertias and shafts.",
             show_default=False,
             autocompletion=complete_kinds,
         ),
@@ -35,8 +37,11 @@ def new(
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
 ) -> None:
-    """Write a commented, valid engine file (or file of runs, for `field`) to start from."""
-    text = read_starting_file() if kind == KIND else template(kind)
+    """Write a commented, valid engine file (or file of runs, for `field`, or chain file, for
+    `torsion`) to start from.
+    """
+    chapters = {chapter.KIND: chapter.read_starting_file for chapter in (field, torsion)}
+    text = chapters[kind]() if kind in chapters else template(kind)
     require_ending(path, ".toml", "FILE")
     refuse_existing(path, force)
     emit(text, path)

@@ -18,18 +18,28 @@ class File(StrEnum):
 
     ENGINE = "engine"
     FIELD = "field"
+    TORSION = "torsion"
 
 
 def schema(
     kind: Annotated[
-        File, typer.Argument(help="engine: the engine file; field: runs of a rotor on a machine.")
+        File,
+        typer.Argument(
+            help="engine: the engine file; field: runs of a rotor on a machine; torsion: a chain "
+            "of inertias and shafts."
+        ),
     ] = File.ENGINE,
     output: Output = None,
 ) -> None:
-    """Print the JSON Schema of the engine file, or of a file of runs, for editors."""
+    """Print the JSON Schema of the engine file, a file of runs or a chain file, for editors."""
     require_ending(output, ".json")
     from ..enginefile.schema import schema as describe_engine_file  # pydantic
     from ..field_balancing.schema import describe_runs_file
+    from ..torsion.schema import describe_chain_file
 
-    describe = describe_engine_file if kind is File.ENGINE else describe_runs_file
-    emit(json.dumps(describe(), indent=2, ensure_ascii=False), output)
+    describe = {
+        File.ENGINE: describe_engine_file,
+        File.FIELD: describe_runs_file,
+        File.TORSION: describe_chain_file,
+    }
+    emit(json.dumps(describe[kind](), indent=2, ensure_ascii=False), output)

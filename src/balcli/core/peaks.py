@@ -5,10 +5,10 @@ a grid of samples.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 
 from .phasors import Array, Complex, Phasors
@@ -16,7 +16,7 @@ from .phasors import Array, Complex, Phasors
 
 class Peak(NamedTuple):
     """Largest absolute value over a revolution, and one crank angle (rad, in [0, 2 pi)) at which it
-    is reached.
+    is reached; over two revolutions where there are half orders.
     """
 
     value: float
@@ -42,6 +42,9 @@ def peak(curve: Phasors) -> Peak:
     if not len(there):
         return Peak(0.0, 0.0)
     curve = Phasors(curve.orders[there], curve.forward[there], curve.backward[there], np.zeros(1))
+    if np.count_nonzero(curve.orders % 1):  # of half the crank angle all are whole
+        value, half = peak(replace(curve, orders=2 * curve.orders))
+        return Peak(value, 2 * half)
     theta = find_candidates(curve)
     step = np.pi / (8 * max(curve.orders[-1], 1))
     theta = np.concatenate(
@@ -56,8 +59,9 @@ def peak(curve: Phasors) -> Peak:
 
 
 def find_candidates(curve: Phasors, most: int = 64) -> Array:
-    """Angles of the samples that may lie beside the highest peak, at most so many: where there are
-    more, those of the highest peaks but for 1e-8, of equal ones the first.
+    """Angles of the samples that may lie beside the highest peak of a curve of whole orders, at
+    most so many: where there are more, those of the highest peaks but for 1e-8, of equal ones the
+    first.
     """
     count = 16 * max(int(curve.orders[-1]), 1)
     spectrum = np.zeros(count, complex)
@@ -84,7 +88,8 @@ def _estimate_peaks(spectrum: Complex, at: NDArray[np.intp]) -> Array:
     rate = 1j * np.fft.fftfreq(count, 1 / count)
     derivatives = [spectrum / math.factorial(k) * rate**k for k in range(_TERMS)]
     series = np.stack([np.fft.ifft(d, norm="forward")[at] for d in derivatives])
-    first, second = (np.asarray(polynomial.polyder(series, k), complex) for k in (1, 2))
+    first = _differentiate(series)
+    second = _differentiate(first)
     x = np.zeros(len(at))
     for _ in range(_ROUNDS):
         f, f1, f2 = (_evaluate_each(c, x) for c in (series, first, second))
@@ -94,8 +99,19 @@ def _estimate_peaks(spectrum: Complex, at: NDArray[np.intp]) -> Array:
 
 
 def _evaluate_each(series: Complex, x: Array) -> Complex:
-    """Polynomials of coefficients of shape (terms, polynomials), each at its own x."""
-    return np.asarray(polynomial.polyval(x, series, tensor=False), complex)
+    """Polynomials of coefficients of shape (terms, polynomials), each at its own x, by Horner's
+    rule.
+    """
+    value = series[-1]
+    for coefficient in series[-2::-1]:
+        value = coefficient + value * x
+    return value
+
+
+def _differentiate(series: Complex) -> Complex:
+    """The derivatives of such polynomials."""
+    powers: Array = np.arange(1.0, len(series))
+    return series[1:] * powers[:, None]
 
 
 def climb_peaks(curve: Phasors, theta: Array, step: float, rounds: int = 12) -> Array:

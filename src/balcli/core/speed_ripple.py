@@ -4,7 +4,8 @@ differentiated.
 With W = omega/mean and momentum `mean W G`, the force is `-mean^2 W (W G)'`, the couple the same of
 the moment of momentum, and the inertia torque `-mean^2 1/2 (I W^2)'` (from `-(1/2 I' omega^2 + I
 omega omega')`, docs/theory.md). In Fourier coefficients all of these are short convolutions, so
-that every order stays as exact as at steady speed.
+that every order stays as exact as at steady speed. Orders are whole, or multiples of 1/2 for a
+speed that repeats itself after two revolutions.
 """
 
 from __future__ import annotations
@@ -18,13 +19,22 @@ from numpy.typing import NDArray
 from .peaks import Peak, peak
 from .phasors import EPS, Complex, Figure, Phasors, unit
 
-Line: TypeAlias = tuple[int, Figure, Figure]  # order, amplitude, angle in degrees
+Line: TypeAlias = tuple[float, Figure, Figure]  # order, amplitude, angle in degrees
 Number = TypeVar("Number", np.float64, np.complex128)
 
 
-def find_speed(lines: Iterable[Line]) -> Complex:
-    """Coefficients of W for both signs of the order, shape (2 k + 1, *trailing): orders -k .. k."""
-    halves = [(order, amplitude / 2 * unit(-angle)) for order, amplitude, angle in lines]
+def find_step(orders: Iterable[float]) -> float:
+    """1, or 1/2 where an order is half a whole number."""
+    return 0.5 if any(order % 1 for order in orders) else 1.0
+
+
+def find_speed(lines: Iterable[Line], step: float = 1.0) -> Complex:
+    """Coefficients of W for both signs of the order, shape (2 k + 1, *trailing): k steps below 0 to
+    k steps above it. All orders are whole steps.
+    """
+    halves = [
+        (round(order / step), amplitude / 2 * unit(-angle)) for order, amplitude, angle in lines
+    ]
     highest = max(order for order, _ in halves)
     trailing = np.broadcast_shapes(*(half.shape for _, half in halves))
     w: Complex = np.zeros((2 * highest + 1, *trailing), complex)
@@ -35,13 +45,14 @@ def find_speed(lines: Iterable[Line]) -> Complex:
     return w
 
 
-def find_slowest(lines: Sequence[tuple[int, float, float]]) -> Peak:
-    """The least W over a revolution, to rounding, and a crank angle (rad) at which it is reached.
+def find_slowest(lines: Sequence[tuple[float, float, float]]) -> Peak:
+    """The least W over a cycle, to rounding, and a crank angle (rad) at which it is reached.
 
     It is where `sum |amplitude| + 1 - W`, which is nowhere negative, has its peak.
     """
-    w, size = find_speed(lines), sum(abs(amplitude) for _, amplitude, _ in lines)
-    orders = np.arange(len(w) // 2 + 1.0)
+    step = find_step(order for order, _, _ in lines)
+    w, size = find_speed(lines, step), sum(abs(amplitude) for _, amplitude, _ in lines)
+    orders = np.arange(len(w) // 2 + 1.0) * step
     rest = np.where(orders, -w[len(w) // 2 :], size)
     top = peak(Phasors(orders, rest, np.where(orders, rest.conj(), 0), np.zeros(1)))
     return Peak(1 + size - top.value, top.theta)
@@ -51,8 +62,8 @@ def apply_to_force(steady: Phasors, w: Complex, mean: Figure = 0.0) -> Phasors:
     """Force, moment or couple under W.
 
     Args:
-        steady: the same at a steady speed, for the orders 0, 1 .. n without a gap.
-        w: from `find_speed`, up to order k.
+        steady: the same at a steady speed, for the orders 0, 1 .. n (or 0, 1/2 .. n) without a gap.
+        w: from `find_speed` with the same step, up to order k.
         mean: mean momentum (for the couple: of what turns), which a steady speed does not show.
 
     Returns: for the same orders, correct up to n - 2k.
@@ -82,7 +93,8 @@ def _transformed(
     forces = _two_sided(steady.backward, steady.forward)
     both = np.broadcast_to(steady.noise, steady.forward.shape)
     noise = _two_sided(both, both)
-    order = np.arange(-n, n + 1.0, dtype=np.float64).reshape(-1, *(1,) * (forces.ndim - 1))
+    step = steady.orders[1] if n else 1.0
+    order = (np.arange(-n, n + 1.0) * step).reshape(-1, *(1,) * (forces.ndim - 1))
     divisor = np.where(order, order, 1)
     shape = (2 * n + 1, *np.broadcast_shapes(forces.shape[1:], np.shape(mean)))
     momentum = np.broadcast_to(1j * forces / divisor, shape).copy()  # force = -i n momentum

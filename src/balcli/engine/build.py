@@ -119,6 +119,13 @@ class Engine:
         )
 
     @property
+    def period_revolutions(self) -> int:
+        """After how many revolutions speed and forces repeat themselves: 2 where the uneven speed
+        has half orders.
+        """
+        return 2 if any(line.order % 1 for line in self.ripple) else 1
+
+    @property
     def rotary(self) -> bool:
         """Whether the cylinders turn and the crank stands still: then the cylinders have masses on
         a linkage only.

@@ -8,7 +8,7 @@ import math
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
-from ..limits import LONGEST_SHOWN, SMALLEST_POSITIVE
+from ..limits import LONGEST_NAME, LONGEST_SHOWN, SMALLEST_POSITIVE
 from .units import PLAIN, Dimension, convert, wanted
 
 if TYPE_CHECKING:
@@ -186,6 +186,26 @@ class Whole(_Field):
         return limits if self.zero else limits | {"not": {"const": 0}}
 
 
+class Halves(_Field):
+    """A multiple of 1/2 above 0."""
+
+    def __init__(self, *, most: int) -> None:
+        self.most = most
+
+    def read(self, value: object) -> float:
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or value % 0.5 != 0:
+            raise ValueError(f"{shorten(value)} is not a multiple of 1/2; {self._wanted()}")
+        if not 0.5 <= value <= self.most:
+            raise ValueError(f"{shorten(value)} is out of range; {self._wanted()}")
+        return int(value) if value == int(value) else value
+
+    def _wanted(self) -> str:
+        return f"a whole number or a half from 0.5 to {self.most} is wanted"
+
+    def json(self) -> dict[str, Any]:
+        return {"type": "number", "multipleOf": 0.5, "minimum": 0.5, "maximum": self.most}
+
+
 class Flag(_Field):
     """true or false."""
 
@@ -216,3 +236,19 @@ class OneOf(_Field):
 
     def json(self) -> dict[str, Any]:
         return {"enum": list(self.options)}
+
+
+class Label(_Field):
+    """A short name."""
+
+    def read(self, value: object) -> str:
+        if not isinstance(value, str) or not value.strip():
+            raise ValueError(f"{shorten(value)} is no name; write it in quotes")
+        if len(value) > LONGEST_NAME or not value.isprintable():
+            raise ValueError(
+                f"{shorten(value)} is no name; use up to {LONGEST_NAME} letters, digits and signs"
+            )
+        return value
+
+    def json(self) -> dict[str, Any]:
+        return {"type": "string", "minLength": 1, "maxLength": LONGEST_NAME}

@@ -103,7 +103,7 @@ def _describe_missing(table: type[model.Table], loc: Sequence[str | int]) -> str
     """With an example of the key, which may stand in a table within the table."""
     *parents, key = loc
     inner = next((INNER[str(part)] for part in reversed(parents) if part in INNER), table)
-    examples = inner.model_fields[str(key)].examples
+    examples = inner.keys()[str(key)].examples
     example = shorten(examples[0]) if examples else "{ length = 200 }"
     return f"is missing; give it, such as {key} = {example}"
 

@@ -12,10 +12,11 @@ from itertools import chain
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic.fields import FieldInfo
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
 from .exclusive import Choice, find_repeated, join_words
-from .fields import Flag, Number, OneOf, Whole, counted
+from .fields import Flag, Halves, Number, OneOf, Whole, counted
 from .units import ANGLE, INERTIA, LENGTH, MASS, PLAIN, SPEED, STANDARD_GRAVITY, TIME, UNBALANCE
 
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
@@ -34,7 +35,7 @@ Period = Annotated[float, Number(TIME, above=0, most=1e6)]
 RodRatio = Annotated[float, Number(PLAIN, above=0, below=1)]
 Share = Annotated[float, Number(PLAIN, least=-1, most=1)]
 Count = Annotated[int, Whole(least=1, most=MOST_LIST_VALUES)]
-RippleOrder = Annotated[int, Whole(least=1, most=HIGHEST_RIPPLE_ORDER)]
+RippleOrder = Annotated[float, Halves(most=HIGHEST_RIPPLE_ORDER)]
 ShaftRatio = Annotated[int, Whole(least=-HIGHEST_SHAFT_ORDER, most=HIGHEST_SHAFT_ORDER, zero=False)]
 Angles = Annotated[tuple[Angle, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
 Lengths = Annotated[tuple[Length, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
@@ -61,6 +62,11 @@ class Table(BaseModel):
     def contradictions(self) -> Iterator[str]:
         """What the fields of this table say against each other."""
         yield from ()
+
+    @classmethod
+    def keys(cls) -> dict[str, FieldInfo]:
+        """Its fields by their keys as a file has them."""
+        return {field.alias or name: field for name, field in cls.model_fields.items()}
 
 
 def mistakes_of_choice(table: type[Table], given: Collection[str]) -> list[str]:
@@ -307,7 +313,10 @@ class Operation(Table):
     """How the engine runs."""
 
     speed: Speed = Field(1000.0, description="crank speed (mean over the angle)", examples=[3000])
-    speed_ripple: tuple[Ripple, ...] = Field((), description="uneven crank speed, by whole orders")
+    speed_ripple: tuple[Ripple, ...] = Field(
+        (),
+        description="uneven crank speed, by orders: whole ones, or halves of a four-stroke engine",
+    )
 
     def contradictions(self) -> Iterator[str]:
         if len(self.speed_ripple) > MOST_RIPPLES:

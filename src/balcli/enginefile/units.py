@@ -52,6 +52,8 @@ _LENGTH, _MASS, _TIME, _ANGLE = Powers(length=1), Powers(mass=1), Powers(time=1)
 INCH = Fraction(254, 10_000)  # m
 POUND = Fraction(45_359_237, 100_000_000)  # kg
 STANDARD_GRAVITY = 9.80665  # m/s2
+_FORCE, _PRESSURE = Powers(1, 1, -2), Powers(-1, 1, -2)
+_POUND_FORCE = POUND * Fraction("9.80665")  # N
 
 COMMON = {
     "mm": Unit(Fraction(1, 1000), _LENGTH),
@@ -71,6 +73,11 @@ COMMON = {
     "°": Unit(Fraction(1, 360), _ANGLE),
     "rad": Unit(1 / (2 * PI), _ANGLE),
     "rpm": Unit(Fraction(1, 60), Powers(time=-1, angle=1)),
+    "N": Unit(Fraction(1), _FORCE),
+    "lbf": Unit(_POUND_FORCE, _FORCE),
+    "MPa": Unit(Fraction(10**6), _PRESSURE),
+    "GPa": Unit(Fraction(10**9), _PRESSURE),
+    "psi": Unit(_POUND_FORCE / INCH**2, _PRESSURE),
 }
 
 AMBIGUOUS = {"gr": "g, or grain (65 mg)?", "gm": "g, or gigametre?"}
@@ -89,8 +96,23 @@ UNBALANCE = Dimension(
 )
 SPEED = Dimension("rpm", "a speed of rotation", Powers(time=-1, angle=1), ("6000 rpm", "300 rad/s"))
 TIME = Dimension("s", "a time", _TIME, ("0.82 s", "820 ms"))
+TORQUE = Dimension("N m", "a torque", Powers(2, 1, -2), ("250 N m", "184 lbf ft"))
+TORSIONAL_STIFFNESS = Dimension(
+    "N m/rad",
+    "a torsional stiffness",
+    Powers(2, 1, -2, -1),
+    ("1.25e6 N m/rad", "24.17e6 lbf in/rad"),
+)
+TORSIONAL_DAMPING = Dimension(
+    "N m s/rad", "a torsional damping", Powers(2, 1, -1, -1), ("2 N m s/rad", "18 lbf in s/rad")
+)
+SHEAR_MODULUS = Dimension("GPa", "a modulus of elasticity", _PRESSURE, ("79.3 GPa", "11.5e6 psi"))
+STRESS = Dimension("N/mm^2", "a stress", _PRESSURE, ("40 N/mm^2", "5800 psi"))
 PLAIN = Dimension("", "a plain number", Powers(), ())
-_DIMENSIONS = (LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PLAIN)
+_DIMENSIONS = (
+    *(LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PLAIN),
+    *(TORQUE, TORSIONAL_STIFFNESS, TORSIONAL_DAMPING, STRESS),
+)
 
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
 _FACTOR = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[²³])?"

@@ -11,12 +11,11 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from ..enginefile.fields import Flag, Number, OneOf, shorten
+from ..enginefile.fields import Flag, Label, Number, OneOf, shorten
 from ..enginefile.model import Size, Speed, Table
 from ..enginefile.units import ANGLE, MASS, PLAIN, UNBALANCE, Dimension, Unit, read_unit
 from ..limits import (
     LONGEST_FIGURE,
-    LONGEST_NAME,
     MOST_BALANCING_PLANES,
     MOST_PLACES,
     MOST_RUNS,
@@ -83,29 +82,10 @@ def make_polar(amplitude: float, angle_deg: float) -> complex:
     return turned * (1, 1j, -1, -1j)[int(quarter) % 4]
 
 
-class Label(Number):
-    """A short name."""
-
-    def __init__(self) -> None:
-        super().__init__(PLAIN)
-
-    def read(self, value: object) -> str:  # type: ignore[override]
-        if not isinstance(value, str) or not value.strip():
-            raise ValueError(f"{shorten(value)} is no name; write it in quotes")
-        if len(value) > LONGEST_NAME or not value.isprintable():
-            raise ValueError(
-                f"{shorten(value)} is no name; use up to {LONGEST_NAME} letters, digits and signs"
-            )
-        return value
-
-    def json(self) -> dict[str, Any]:
-        return {"type": "string", "minLength": 1, "maxLength": LONGEST_NAME}
-
-
 class AmountUnit(Label):
     """A unit of mass, or of mass times radius."""
 
-    def read(self, value: object) -> str:  # type: ignore[override]
+    def read(self, value: object) -> str:
         name = super().read(value)
         try:
             unit = read_amount_unit(name)

@@ -43,9 +43,9 @@ class Curves:
     values: Mapping[str, Array]
 
 
-def divide_revolution(step: float = 1.0) -> Array:
-    """Crank angles of one revolution in steps of so many degrees, from 0, without 360, shape
-    (angles,).
+def divide_revolution(step: float = 1.0, revolutions: int = 1) -> Array:
+    """Crank angles of one revolution, or several, in steps of so many degrees, from 0, without the
+    last, shape (angles,).
 
     Raises:
         BalcliError: the step is not from 0.001 to 360.
@@ -55,7 +55,7 @@ def divide_revolution(step: float = 1.0) -> Array:
             f"--step {step:g}: give a step of the crank angle from {FINEST_STEP_DEG:g} to 360 "
             "degrees"
         )
-    return np.arange(0.0, np.ceil(360 / step - 1e-9)) * step
+    return np.arange(0.0, np.ceil(360 * revolutions / step - 1e-9)) * step
 
 
 def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:

@@ -1,12 +1,14 @@
 """Which orders there are, and which of them an engine has worth computing or showing.
 
 An order is how often something happens in a revolution of the crankshaft. Pistons, rods and devices
-repeat themselves after each revolution, so that all orders are whole; here alone this is taken for
-granted of what a user asks for, and of what is computed unasked.
+repeat themselves after each revolution, and have whole orders. What happens once in a cycle of four
+strokes (gas pressure, and a crank speed that is uneven by it) has halves of whole numbers. All
+orders are therefore multiples of 1/2, and exact as floating-point numbers.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 
 import numpy as np
@@ -17,14 +19,16 @@ from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import HIGHEST_ORDER, HIGHEST_ORDER_UNASKED
-from .spectrum import Spectra
+from .spectrum import Spectra, dense_orders
 
 SHOWN = 1e-6  # share of a quantity's largest order below which an order is not worth showing
 
 
 def is_order(number: float) -> bool:
-    """Whether a number is an order that may be asked for: whole, from 0 to HIGHEST_ORDER."""
-    return 0 <= number <= HIGHEST_ORDER and number % 1 == 0
+    """Whether a number is an order that may be asked for: a multiple of 1/2, from 0 to
+    HIGHEST_ORDER.
+    """
+    return 0 <= number <= HIGHEST_ORDER and number % 0.5 == 0
 
 
 def check_orders(orders: Iterable[float]) -> Array:
@@ -36,26 +40,30 @@ def check_orders(orders: Iterable[float]) -> Array:
     asked = sorted(set(orders))
     if not asked or not all(map(is_order, asked)):
         named = ", ".join(f"{n:g}" for n in asked[:8]) or "none"
-        raise BalcliError(f"orders must be whole numbers from 0 to {HIGHEST_ORDER}, not {named}")
+        raise BalcliError(f"orders must be multiples of 1/2 from 0 to {HIGHEST_ORDER}, not {named}")
     return np.array(asked, float)
 
 
-def parse_order(text: str) -> int | None:
-    """The order that a text names, such as `2`; None if it names none."""
-    digits = text.isascii() and text.isdigit() and len(text) <= len(str(HIGHEST_ORDER)) + 1
-    return int(text) if digits and is_order(int(text)) else None
+def parse_order(text: str) -> float | None:
+    """The order that a text names, such as `2` or `1.5`; None if it names none."""
+    short = len(text) <= len(f"{HIGHEST_ORDER}.5") + 1
+    if not short or not re.fullmatch(r"[0-9]+(\.[05])?", text, re.ASCII):
+        return None
+    number = float(text) if "." in text else int(text)
+    return number if is_order(number) else None
 
 
 def find_relevant_orders(engine: Engine) -> Array:
-    """The orders 1 .. n (0 .. n at uneven speed) beyond which nothing exceeds rounding errors,
-    shape (orders,).
+    """The orders 1 .. n beyond which nothing exceeds rounding errors, shape (orders,); 0 .. n at
+    uneven speed, with halves where its lines have some.
     """
     c = engine.cylinders
     find_highest = c.linkage.find_highest_order if c.linkage else harmonics.find_highest_order
     highest = max([find_highest(c.lam, c.eps), *(device.order for device in engine.devices)])
     if not engine.ripple:
         return np.arange(1.0, highest + 1)
-    return np.arange(0.0, highest + 2 * max(line.order for line in engine.ripple) + 1)
+    lines = [line.order for line in engine.ripple]
+    return dense_orders(highest + 2 * max(lines), lines)
 
 
 def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:

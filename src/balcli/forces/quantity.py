@@ -36,7 +36,7 @@ class Quantity:
     """
 
     kind: str
-    order: int
+    order: float
     part: str
 
     @property
@@ -44,7 +44,7 @@ class Quantity:
         """As a user writes it."""
         if self.part == "peak":
             return f"peak.{self.kind}"
-        return f"{self.kind}.{self.order}.{self.part}"
+        return f"{self.kind}.{self.order:g}.{self.part}"
 
     @property
     def unit(self) -> str:
@@ -102,7 +102,7 @@ def _parse_quantity(text: str) -> Quantity:
     allowed = VECTOR_PARTS if KINDS[kind].vector else SCALAR_PARTS
     if order is None:
         raise BalcliError(
-            f"{text} is no quantity: after {kind} comes a whole order up to {HIGHEST_ORDER}, as in "
+            f"{text} is no quantity: after {kind} comes an order up to {HIGHEST_ORDER}, as in "
             f"{kind}.2.{allowed[0]}"
         )
     if part not in allowed:
@@ -144,13 +144,21 @@ def evaluate_quantities(engine: Engine, quantities: Sequence[Quantity]) -> list[
     return [values[q] for q in quantities]
 
 
-def _group_by_orders(quantities: Iterable[Quantity]) -> list[tuple[list[int], list[Quantity]]]:
+def find_orders(engine: Engine, quantities: Sequence[Quantity]) -> list[list[float]]:
+    """The orders that are computed together for these quantities, group by group."""
+    groups = [orders for orders, _ in _group_by_orders(quantities)]
+    if any(q.part == "peak" for q in quantities):
+        groups.append(find_relevant_orders(engine).tolist())
+    return groups
+
+
+def _group_by_orders(quantities: Iterable[Quantity]) -> list[tuple[list[float], list[Quantity]]]:
     """Quantities whose kinds need the same orders, with these; peaks left out."""
     by_kind: dict[str, list[Quantity]] = {}
     for q in quantities:
         if q.part != "peak":
             by_kind.setdefault(q.kind, []).append(q)
-    groups: dict[tuple[int, ...], list[Quantity]] = {}
+    groups: dict[tuple[float, ...], list[Quantity]] = {}
     for members in by_kind.values():
         orders = tuple(sorted({q.order for q in members}))
         groups.setdefault(orders, []).extend(members)

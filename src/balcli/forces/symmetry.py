@@ -60,7 +60,7 @@ class Reason:
         unit: F_n of the order, or F_n a; else empty.
     """
 
-    order: int
+    order: float
     quantity: Quantity
     verdict: Verdict
     size: float
@@ -79,7 +79,7 @@ class Reason:
             "nearly": f"nearly balanced: {self.size:.1g} of one cylinder",
             "free": f"free: {self._multiple}",
         }[self.verdict]
-        return f"order {self.order} {name}: {told}"
+        return f"order {self.order:g} {name}: {told}"
 
     @property
     def _multiple(self) -> str:
@@ -116,7 +116,7 @@ def explain_symmetry(
 
     Args:
         engine: without trailing axes.
-        orders: whole, from 1.
+        orders: multiples of 1/2, above 0.
         kinds: any of force, moment, couple, torque and roll; the last three have one reason in
             common.
     """
@@ -157,7 +157,7 @@ class _Sum(NamedTuple):
 
     rows: list[int]
     weights: Array
-    order: int
+    order: float
     side: int
 
 
@@ -185,7 +185,8 @@ class _Layout:
 
     def explain(self, row: int, quantity: Quantity) -> Reason:
         """Why the order in this row is balanced, or is not."""
-        order, parts = int(self._orders[row]), _PARTS[quantity]
+        n, parts = float(self._orders[row]), _PARTS[quantity]
+        order = int(n) if n == int(n) else n
         whole = {name: self._book.built[name].major[row] for name in parts}
         single = {name: self._single[name].major[row] for name in parts}
         sizes = [whole[name] / single[name].max() for name in parts if single[name].any()]
@@ -209,7 +210,7 @@ class _Layout:
         name = self._book.units.name(KINDS[quantity], order)
         return float(alone.major[row] / unit), float(built.major[row] / unit), name
 
-    def _sums(self, order: int, quantity: Quantity, there: NDArray[np.bool_]) -> Iterator[_Sum]:
+    def _sums(self, order: float, quantity: Quantity, there: NDArray[np.bool_]) -> Iterator[_Sum]:
         """All that must vanish; `there`: which cylinders have this order at all."""
         turning = quantity == "turning"
         arms = self._arms if quantity == "moment" else np.ones(self._c.count)
@@ -257,12 +258,13 @@ class _Layout:
         """By how many turns the angle of a row's term is ahead of that of the first; None if that
         is no fraction.
         """
-        pin, axis, lean = self._c.pin_deg, self._axis_deg, s.side - s.order
+        pin, axis, order = self._c.pin_deg, self._axis_deg, Fraction(s.order)
+        lean = s.side - order
         turned = turns(float(pin[row] - pin[first]), self._largest_deg)
         leaned = turns(float(axis[row] - axis[first]), self._largest_deg) if lean else Fraction(0)
         if turned is None or leaned is None:
             return None
-        return (s.order * turned + lean * leaned) % 1
+        return (order * turned + lean * leaned) % 1
 
     def _families(self, there: NDArray[np.bool_]) -> list[list[int]]:
         """Rows of the cylinders that are there, those with equal mechanisms together."""

@@ -13,7 +13,7 @@ from ..engine.positions import MOMENTS_UNKNOWN
 from ..forces.kinds import FORCE, MOMENT, ROLL
 from ..results.balance import Balance
 from ..sizing.device_tables import name_kind
-from .analysis import brief_document
+from .analysis_data import brief_document
 from .csv import Rows
 from .devices import (
     device_entries,
@@ -34,7 +34,7 @@ from .sheet import (
     capitalized,
     degrees,
     number,
-    order_number,
+    order_name,
 )
 from .units import System, Unit
 
@@ -95,7 +95,7 @@ def _orders(result: Balance, system: System) -> Grid:
     columns = (FORCE, MOMENT, ROLL)
 
     def row(k: int) -> tuple[str, ...]:
-        cells = [f"{order_number(result.before.orders[k])}"]
+        cells = [order_name(result.before.orders[k])]
         for kind in columns:
             unit = system.unit(kind)
             for analysis in (result.before, result.after):

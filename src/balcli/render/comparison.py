@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..forces.kinds import TORQUE
 from .csv import Rows, name_cell
-from .sheet import Grid, Sheet, capitalized, number, order_number
+from .sheet import Grid, Sheet, capitalized, number, order_name, order_number
 
 _TITLES = {TORQUE: "inertia torque"}
 
@@ -65,7 +65,7 @@ def _row(line: Line, of: Any) -> tuple[str, ...]:
     first, *others = (number(of(value)) for value in line.values)
     ratios = [number(ratio, 4) for ratio in line.ratios[1:]]
     return (
-        "peak" if line.order is None else f"order {line.order:g}",
+        "peak" if line.order is None else f"order {order_name(line.order)}",
         first,
         *(cell for pair in zip(others, ratios, strict=True) for cell in pair),
     )

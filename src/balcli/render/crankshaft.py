@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .figures import FigureRow, clean, order_rows, peak_angle_deg, peak_rows, vector_entries
-from .sheet import Facts, Grid, degrees, number, order_number
+from .sheet import Facts, Grid, degrees, number, order_name, order_number
 
 if TYPE_CHECKING:
     from ..forces.crankshaft import AlongCrank, InnerLoads
@@ -73,7 +73,7 @@ def _grid(along: AlongCrank, title: str, unit: Unit, length: Unit) -> Grid:
         f"place, {length.name}",
         "largest",
         "deg",
-        *(f"order {order_number(n)}" for n in orders),
+        *(f"order {order_name(n)}" for n in orders),
     )
 
     def cells(k: int) -> tuple[str, ...]:

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..enginefile.model import Counterweight, Shaft, Slider
 from ..limits import MOST_HOLES
 from ..sizing.device_tables import FIELDS, DeviceTable, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
-from ..sizing.workshop import Holes, Practical, Tools
 from .figures import clean
 from .sheet import Grid, capitalized, degrees, number
-from .units import System, Unit
+
+if TYPE_CHECKING:
+    from ..sizing.workshop import Holes, Practical, Tools
+    from .units import System, Unit
 
 _JSON_NAMES = {
     "unbalance": "unbalance_kg_m",
@@ -23,8 +25,8 @@ _JSON_NAMES = {
     "at": "at_mm",
 }
 ANGLES = (
-    "Angles count in the sense of rotation: clockwise, seen from the free end (the front); "
-    "those of counterweights from cylinder 1's crank pin."
+    "Angles count in the sense of rotation, clockwise seen from the free end (front): of "
+    "counterweights from cylinder 1's crank pin, of shafts from x."
 )
 _CSV_FIELDS = ("ratio", "order", "unbalance", "angle", "direction", "position", "at")
 
@@ -50,7 +52,7 @@ def _grid_row(device: DeviceTable, system: System) -> tuple[str, ...]:
             turns, angle = "1", f"{degrees(device.angle)} from pin 1"
             place = "on the crank"
         case Shaft():
-            turns, angle = f"{device.ratio:+d}".replace("-", "−"), degrees(device.angle)
+            turns, angle = f"{device.ratio:+d}", degrees(device.angle)
             place = _place(device.at, system.length)
         case Slider():
             turns = str(device.order)

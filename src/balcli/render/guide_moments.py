@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from .figures import FigureRow, clean, order_rows, scalar_entries
-from .sheet import Grid, number, order_number
+from .sheet import Grid, number, order_name, order_number
 
 if TYPE_CHECKING:
     from ..core.phasors import Phasors
@@ -21,7 +21,7 @@ def sheet_parts(guide: GuideMoments, system: System) -> Iterator[Grid]:
         ("order", "H-type", "X-type"),
         tuple(
             (
-                str(order_number(n)),
+                order_name(n),
                 _largest(guide.h, k, system.moment),
                 "–" if guide.x is None else _largest(guide.x, k, system.moment),
             )

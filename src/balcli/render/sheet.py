@@ -53,6 +53,12 @@ def order_number(order: float) -> int | float:
     return int(order) if order == int(order) else float(order)
 
 
+def order_name(order: float) -> str:
+    """An order as a table shows it: 2, ½, 1½."""
+    whole, half = divmod(order, 1)
+    return f"{int(whole) or ''}½" if half else str(int(whole))
+
+
 def number(value: float, digits: int = 5) -> str:
     """A number for people: that many significant digits, no exponent between 0.001 and a million, a
     plain 0.

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.phasors import Complex, Phasors
 from ..results.analysis import Analysis
-from .sheet import Text, capitalized, number, order_number
+from .sheet import Text, capitalized, number, order_name
 from .units import System, Unit
 
 BAR, SIDE = 52, 17  # columns of the longest bar; rows of a locus, which has twice as many columns
@@ -52,7 +52,7 @@ def bars(phasors: Phasors, unit: Unit) -> Iterator[str]:
             yield " ".join(
                 filter(
                     None,
-                    (f"{order_number(order):>4}", bar, number(unit.of(float(phasors.major[k])), 4)),
+                    (f"{order_name(order):>4}", bar, number(unit.of(float(phasors.major[k])), 4)),
                 )
             )
 

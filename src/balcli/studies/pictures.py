@@ -35,7 +35,7 @@ class Banks(NamedTuple):
         force: N, shape (1, angles).
     """
 
-    order: int
+    order: float
     angles_deg: Array
     own_deg: float
     force: Phasors
@@ -59,7 +59,7 @@ class Study(NamedTuple):
 
 
 def compute_study(
-    engine: Engine, what: str, orders: Sequence[int] | None = None, scheme: str | None = None
+    engine: Engine, what: str, orders: Sequence[float] | None = None, scheme: str | None = None
 ) -> Study:
     """What the page `what` shows.
 
@@ -94,7 +94,7 @@ def compute_study(
     )
 
 
-def swing_banks(engine: Engine, order: int) -> Banks:
+def swing_banks(engine: Engine, order: float) -> Banks:
     """The free force of an order while the two banks of a vee are swung apart from 0 to 180
     degrees, the crankshaft unchanged.
     """
@@ -124,7 +124,7 @@ def swing_banks(engine: Engine, order: int) -> Banks:
     return Banks(order, angles, float(np.ptp(axes)), force)
 
 
-def _force(engine: Engine, order: int) -> Phasors:
+def _force(engine: Engine, order: float) -> Phasors:
     return compute_spectra(replace(engine, ripple=()), [order], ["force"])["force"]
 
 

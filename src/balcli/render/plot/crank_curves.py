@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core.phasors import Array, Phasors
 from ..units import Unit
-from .axes import FINE, LOOKS, choose_scale, put_legend_above
+from .axes import LOOKS, divide_cycle, put_legend_above
 from .style import SOFT
 
 if TYPE_CHECKING:
@@ -20,13 +20,15 @@ def draw_vector_curves(
     ax: Axes, curve: Phasors, what: str, unit: Unit, before: Phasors | None = None
 ) -> None:
     """Draw components and size of a vector over the crank angle, dashed its size `before`."""
-    values = curve.values(FINE)
+    crank = divide_cycle(curve.orders)
+    values = curve.values(crank)
     _draw_lines(
         ax,
+        crank,
         {"along x": values.real, "along y": values.imag, "size": np.abs(values)},
         what,
         unit,
-        None if before is None else np.abs(before.values(FINE)),
+        None if before is None else np.abs(before.values(crank)),
     )
 
 
@@ -34,21 +36,24 @@ def draw_scalar_curves(
     ax: Axes, curves: Mapping[str, Phasors], unit: Unit, before: Phasors | None = None
 ) -> None:
     """Draw scalars over the crank angle, dashed the last one `before`."""
+    crank = divide_cycle(np.concatenate([curve.orders for curve in curves.values()]))
     _draw_lines(
         ax,
-        {label: curve.values(FINE).real for label, curve in curves.items()},
+        crank,
+        {label: curve.values(crank).real for label, curve in curves.items()},
         "moment",
         unit,
-        None if before is None else before.values(FINE).real,
+        None if before is None else before.values(crank).real,
     )
 
 
 def _draw_lines(
-    ax: Axes, lines: Mapping[str, Array], what: str, unit: Unit, before: Array | None
+    ax: Axes, angles: Array, lines: Mapping[str, Array], what: str, unit: Unit, before: Array | None
 ) -> None:
     everything = [*lines.values(), *([] if before is None else [before])]
-    s = choose_scale(unit, max(float(np.abs(v).max()) for v in everything))
-    crank = np.degrees(FINE)
+    s = unit.fit(max(float(np.abs(v).max()) for v in everything))
+    crank = np.degrees(angles)
+    cycle = round(crank[-1])
     if before is not None:
         ax.plot(
             crank,
@@ -62,8 +67,8 @@ def _draw_lines(
         ax.plot(crank, values / s.size, color=look[0], linestyle=look[1], label=label)
     ax.axhline(0, color=SOFT, linewidth=0.7)
     ax.set(
-        xlim=(0, 360),
-        xticks=np.arange(0, 361, 90),
+        xlim=(0, cycle),
+        xticks=np.arange(0, cycle + 1, cycle // 4),
         xlabel="crank angle, deg",
         ylabel=f"{what}, {s.name}",
     )

@@ -9,7 +9,7 @@ import numpy as np
 from ...core.phasors import Complex, Phasors
 from ..sheet import number
 from ..units import Unit
-from .axes import FINE, SHARE, Scale, choose_scale, put_legend_above, set_up_plane
+from .axes import SHARE, put_legend_above, set_up_plane
 from .style import BLUE, INK, PAPER, SOFT
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ def draw_locus(
     second locus to compare with.
     """
     values, old = _values_once(curve), None if before is None else _values_once(before)
-    s = choose_scale(unit, max(np.abs(v).max(initial=0) for v in (values, old) if v is not None))
+    s = unit.fit(max(np.abs(v).max(initial=0) for v in (values, old) if v is not None))
     limit = set_up_plane(ax, [values, old], what, s)
     if old is not None:
         ax.plot(
@@ -58,14 +58,14 @@ def _values_once(curve: Phasors) -> Complex:
     """Values along the locus, no part of it twice: dashes drawn over one another would make a full
     line.
     """
-    return curve.values(FINE[: 360 // count_repeats(curve) + 1])
+    return curve.values(np.radians(np.arange(find_period_deg(curve) + 1)))
 
 
-def _mark_crank_angles(ax: Axes, curve: Phasors, s: Scale, limit: float) -> None:
+def _mark_crank_angles(ax: Axes, curve: Phasors, s: Unit, limit: float) -> None:
     """Draw dots at every twelfth of the period, and crank angles at every second one, on the outer
     side of the curve.
     """
-    period = 360 // count_repeats(curve)
+    period = find_period_deg(curve)
     marks = np.arange(12) * period / 12
     at, along = curve.values(np.radians(marks)), _derivative(curve).values(np.radians(marks))
     ax.plot(at.imag / s.size, at.real / s.size, "o", color=BLUE, markersize=2.6)
@@ -91,10 +91,11 @@ def _draw_arrow(ax: Axes, step: Complex, limit: float) -> None:
         )
 
 
-def count_repeats(curve: Phasors) -> int:
-    """How often the curve repeats itself in a revolution, as far as can be seen."""
-    seen = curve.orders[curve.major > SHARE * curve.major.max(initial=0)].astype(int)
-    return min(max(int(np.gcd.reduce(seen, initial=0)), 1), 12)
+def find_period_deg(curve: Phasors) -> int:
+    """The crank angle after which the curve repeats itself, as far as can be seen."""
+    seen = curve.orders[curve.major > SHARE * curve.major.max(initial=0)]
+    repeats = int(np.gcd.reduce((2 * seen).astype(int), initial=0))  # in two revolutions
+    return 720 // min(repeats, 24) if repeats else 360
 
 
 def _turning(curve: Phasors) -> float:

@@ -57,7 +57,7 @@ class Span:
 
 
 def find_minima(
-    curve: Curve, limits: Sequence[tuple[Curve, float]], span: Span, highest_order: int
+    curve: Curve, limits: Sequence[tuple[Curve, float]], span: Span, highest_order: float
 ) -> Array:
     """All local minima of `curve` where each limited curve is below its limit, deg, lowest first.
 

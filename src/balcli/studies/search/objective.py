@@ -66,12 +66,12 @@ def _parse_sizes(name: str) -> tuple[Quantity, ...]:
         if q.part == "axis":
             raise BalcliError(
                 f"{q.name} is a direction, which cannot be large or small; name a size such as "
-                f"{q.kind}.{q.order}.major"
+                f"{q.kind}.{q.order:g}.major"
             )
         if q.signed:
             raise BalcliError(
                 f"{q.name} may be negative, and then would be the better the larger it is; "
-                f"name a size such as {q.kind}.{q.order}.major"
+                f"name a size such as {q.kind}.{q.order:g}.major"
             )
     return found
 

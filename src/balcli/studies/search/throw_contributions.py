@@ -17,7 +17,7 @@ from ...enginefile.model import EngineFile
 from ...forces.quantity import Quantity
 from ...forces.spectrum import compute_spectra, with_only
 
-Key = tuple[str, int]  # name of a kind of force or moment, and order
+Key = tuple[str, float]  # name of a kind of force or moment, and order
 ROUNDING = 1e-12  # sums below this share of the size of their parts are 0
 
 
@@ -30,7 +30,7 @@ class Contributions:
         devices: forward and backward vector of the devices.
     """
 
-    order: int
+    order: float
     forward: Complex
     backward: Complex
     devices: tuple[complex, complex]

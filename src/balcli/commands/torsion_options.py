@@ -1,0 +1,100 @@
+"""What the options of `balcli torsion` say."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from ..core.singular_values import Real
+from ..enginefile.units import Dimension, Powers, convert
+from ..errors import BalcliError
+from ..limits import HIGHEST_TORSION_ORDER, MOST_TORSION_SPEEDS
+from ..torsion.analysis import HolzerAsked
+
+_FREQUENCY = Dimension("rad/s", "a frequency", Powers(time=-1, angle=1), ("20 rad/s",))
+_HERTZ = re.compile(r"\s*([0-9.eE+-]+)\s*Hz\s*")
+
+
+def parse_speeds(text: str | None) -> Real | None:
+    """Speeds of `1000:2500:25` (first, last, step), `1000:2500` (100 steps) or `1500,2000`, rpm,
+    rising.
+
+    Raises:
+        BalcliError: anything else, with the text.
+    """
+    if text is None:
+        return None
+    wanted = "give first:last:step in rpm, such as 1000:2500:25, or speeds such as 1500,2000"
+    start = f'--speeds "{text[:60]}": '
+    try:
+        ranged = ":" in text
+        figures = [float(part) for part in text.split(":" if ranged else ",")]
+    except ValueError:
+        raise BalcliError(start + wanted) from None
+    if not all(0 < figure < 1e9 for figure in figures) or (ranged and len(figures) > 3):
+        raise BalcliError(start + wanted)
+    if not ranged:
+        return np.unique(figures)
+    first, last, step = (*figures, (figures[1] - figures[0]) / 100)[:3]
+    if not (first <= last and (step > 0 or first == last)):
+        raise BalcliError(f"{start}must rise; {wanted}")
+    if first == last:
+        return np.array([first])
+    count = int((last - first) / step + 1e-9) + 1
+    if count > MOST_TORSION_SPEEDS:
+        raise BalcliError(f"{start}has {count} speeds; at most {MOST_TORSION_SPEEDS} are computed")
+    speeds = first + step * np.arange(count)
+    return speeds if speeds[-1] >= last - 1e-9 * step else np.append(speeds, last)
+
+
+def parse_half_orders(text: str | None) -> Real | None:
+    """Orders of `0.5-8` (in steps of a half), `1-8` (whole ones), `1,2.5,4`.
+
+    Raises:
+        BalcliError: anything else, with the text.
+    """
+    if text is None:
+        return None
+    found: list[float] = []
+    for part in text.split(","):
+        match = re.fullmatch(
+            r"\s*(\d{1,4}(?:\.[05]0*)?)(?:\s*-\s*(\d{1,4}(?:\.[05]0*)?))?\s*", part
+        )
+        if match is None:
+            raise BalcliError(
+                f'--orders "{text[:60]}": give multiples of 0.5 such as 0.5-8 (halves too), 1-8 '
+                "(whole ones) or 1,2.5,4"
+            )
+        low, high = float(match[1]), float(match[2] or match[1])
+        if not 0 < low <= high <= HIGHEST_TORSION_ORDER:
+            raise BalcliError(
+                f'--orders "{text[:60]}": {part.strip()} must rise, from above 0 to '
+                f"{HIGHEST_TORSION_ORDER} at most"
+            )
+        step = 0.5 if low % 1 or high % 1 else 1.0
+        found += np.arange(low, high + step / 2, step).tolist()
+    return np.unique(found)
+
+
+def parse_holzer(texts: list[str] | None) -> tuple[HolzerAsked, ...]:
+    """Numbers of modes, or trial frequencies such as `20 rad/s`, `12 Hz` and `900 rpm`.
+
+    Raises:
+        BalcliError: anything else, with the text.
+    """
+    return tuple(_parse_trial(text) for text in texts or ())
+
+
+def _parse_trial(text: str) -> HolzerAsked:
+    if re.fullmatch(r"[1-9]\d{0,5}", text.strip()):
+        return HolzerAsked(int(text))
+    wanted = 'give the number of a mode, or a frequency such as "20 rad/s", "12 Hz" or "900 rpm"'
+    try:
+        hertz = _HERTZ.fullmatch(text)
+        turns = float(hertz[1]) * 2 * np.pi if hertz else convert(text, _FREQUENCY)
+    except ValueError:
+        raise BalcliError(f'--holzer "{text[:60]}": {wanted}') from None
+    if not 0 < turns < 1e12:
+        raise BalcliError(f'--holzer "{text[:60]}": {wanted}')
+    return HolzerAsked(None, turns)

@@ -1,0 +1,143 @@
+"""Tables that chains of inertias and shafts share, wherever they are described: a shaft between two
+nodes, and a damper on a node. Units: kg mm2, N m/rad, N m s/rad, mm, GPa, kg.
+"""
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from .fields import Number, OneOf
+from .model import Size, Table
+from .units import (
+    INERTIA,
+    MASS,
+    PLAIN,
+    SHEAR_MODULUS,
+    TORSIONAL_DAMPING,
+    TORSIONAL_STIFFNESS,
+)
+
+RIGID = "rigid"  # a flange, or a mesh of gears
+
+
+class _Stiffness(Number):
+    """A torsional stiffness above 0, or "rigid"."""
+
+    def __init__(self) -> None:
+        super().__init__(TORSIONAL_STIFFNESS, above=0, most=1e24)
+
+    def read(self, value: object) -> float:
+        return math.inf if value == RIGID else super().read(value)
+
+    def json(self) -> dict[str, Any]:
+        return {"anyOf": [super().json(), {"const": RIGID}], "unit": TORSIONAL_STIFFNESS.unit}
+
+
+class _PolarInertia(Number):
+    """A moment of inertia above 0."""
+
+    def __init__(self) -> None:
+        super().__init__(INERTIA, above=0, most=1e24)
+
+    def read(self, value: object) -> float:
+        if value == 0 and not isinstance(value, bool):
+            raise ValueError("is 0; leave it out where a node has no inertia")
+        return super().read(value)
+
+
+NodeInertia = Annotated[float, _PolarInertia()]
+Stiffness = Annotated[float, _Stiffness()]
+Damping = Annotated[float, Number(TORSIONAL_DAMPING, least=0, most=1e18)]
+Loss = Annotated[float, Number(PLAIN, least=0, most=10)]
+Modulus = Annotated[float, Number(SHEAR_MODULUS, above=0, most=1e6)]
+_RingInertia = Annotated[float, Number(INERTIA, above=0, most=1e24)]
+_RingStiffness = Annotated[float, Number(TORSIONAL_STIFFNESS, above=0, most=1e24)]
+_RingDamping = Annotated[float, Number(TORSIONAL_DAMPING, above=0, most=1e18)]
+_PendulumMass = Annotated[float, Number(MASS, above=0, most=1e12)]
+
+
+class ShaftKeys(Table):
+    """What a shaft is like: its stiffness, or the steel that makes it; its section gives stress."""
+
+    stiffness: Stiffness | None = Field(
+        None,
+        examples=[1.25e6],
+        description="torsional stiffness in the shaft's own speed; rigid: a flange or a mesh",
+    )
+    diameter: Size | None = Field(
+        None, examples=[85], description="diameter of the shaft: with it, stress is known"
+    )
+    length: Size | None = Field(
+        None, examples=[400], description="length of a plain shaft, instead of stiffness"
+    )
+    bore: Size | None = Field(
+        None, examples=[30], description="diameter of its bore, if it has one"
+    )
+    shear_modulus: Modulus = Field(
+        79.3, examples=[79.3], description="of what a plain shaft is made of; default: steel"
+    )
+    loss: Loss | None = Field(
+        None, examples=[0.035], description="loss factor, imaginary over real part of the stiffness"
+    )
+    damping: Damping = Field(
+        0.0, examples=[20], description="of a dashpot between the ends of the shaft"
+    )
+
+    def contradictions(self) -> Iterator[str]:
+        if self.stiffness is not None and self.length is not None:
+            yield "has stiffness and length; leave one of them out"
+        if self.stiffness is None and (self.length is None or self.diameter is None):
+            yield (
+                "has no stiffness; give it, such as stiffness = 1.25e6, or diameter and length of "
+                "a plain shaft"
+            )
+        if self.bore is not None and (self.diameter is None or self.bore >= self.diameter):
+            outer = "no diameter" if self.diameter is None else f"a diameter of {self.diameter:g}"
+            yield f"has a bore of {self.bore:g} mm and {outer}; the bore is the smaller of both"
+
+
+_KEYS_OF_KIND = {
+    "viscous": ("inertia", "damping"),
+    "rubber": ("inertia", "stiffness", "loss"),
+    "pendulum": ("mass", "radius", "length"),
+}
+
+
+class Damper(Table):
+    """A damper on a node."""
+
+    kind: Annotated[str, OneOf(*_KEYS_OF_KIND)] = Field(
+        examples=["viscous"],
+        description="viscous: a ring in oil; rubber: a ring on rubber; pendulum: masses that swing "
+        "in the field of rotation",
+    )
+    inertia: _RingInertia | None = Field(None, examples=[30000], description="of the ring")
+    damping: _RingDamping | None = Field(None, examples=[12], description="of the oil film")
+    stiffness: _RingStiffness | None = Field(None, examples=[40000], description="of the rubber")
+    loss: Loss | None = Field(None, examples=[0.15], description="loss factor of the rubber")
+    mass: _PendulumMass | None = Field(None, examples=[2], description="of all pendulums")
+    radius: Size | None = Field(
+        None, examples=[60], description="from the axis to where a pendulum hangs"
+    )
+    length: Size | None = Field(
+        None, examples=[2.4], description="of a pendulum, from there to its centre of mass"
+    )
+
+    def contradictions(self) -> Iterator[str]:
+        wanted = _KEYS_OF_KIND[self.kind]
+        given = self.model_fields_set - {"kind"}
+        if missing := [key for key in wanted if key not in given]:
+            yield f"is {self.kind} and lacks {' and '.join(missing)}"
+        if strange := sorted(given - set(wanted)):
+            yield f"is {self.kind}, which has no {' and no '.join(strange)}"
+
+
+def find_stiffness(shaft: ShaftKeys) -> float:
+    """Torsional stiffness in N m/rad, `G pi (D^4 - d^4)/(32 L)` of a plain shaft."""
+    if shaft.stiffness is not None or shaft.diameter is None or shaft.length is None:
+        return math.inf if shaft.stiffness is None else shaft.stiffness
+    outer, inner = shaft.diameter / 1e3, (shaft.bore or 0.0) / 1e3
+    modulus = shaft.shear_modulus * 1e9
+    return modulus * math.pi * (outer**4 - inner**4) / 32 / (shaft.length / 1e3)

@@ -1,0 +1,1 @@
+"""Torsional vibration: a chain file, or an engine file, goes in; modes, criticals, response out."""

@@ -1,0 +1,122 @@
+"""One question about torsional vibration, one complete answer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.holzer_table import Holzer, tabulate_holzer
+from ..core.singular_values import Real
+from ..core.torsional_modes import chain_loss
+from ..errors import BalcliError
+from .modes import Critical, NaturalMode, find_criticals, find_natural_modes
+from .response import Response, find_barred, find_response
+from .system import TorsionalSystem
+
+
+class HolzerAsked(NamedTuple):
+    """A frequency at which Holzer's table is wanted: that of a mode by its number, or rad/s."""
+
+    mode: int | None
+    omega: float = 0.0
+
+
+class HolzerTable(NamedTuple):
+    """Holzer's table at a frequency (rad/s), of a mode by its number or a trial frequency."""
+
+    mode: int | None
+    omega: float
+    table: Holzer
+
+
+class Question(NamedTuple):
+    """What is asked.
+
+    Attributes:
+        speeds_rpm: (speeds,) rising, at which the response is wanted; None: none is.
+        orders: which of those that excite; None: all.
+        holzer: tables that are wanted.
+    """
+
+    speeds_rpm: Real | None = None
+    orders: Real | None = None
+    holzer: tuple[HolzerAsked, ...] = ()
+
+
+@dataclass(frozen=True)
+class TorsionAnalysis:
+    """Modes, criticals, and what else was asked.
+
+    Attributes:
+        system: what was analysed.
+        modes: elastic ones, lowest first.
+        criticals: those that do most work first; in the range of speeds if there was one.
+        holzer: tables.
+        response: None: no speeds were asked for.
+        barred_rpm: ranges of speed; None: there is no limit, or no response.
+    """
+
+    system: TorsionalSystem
+    modes: tuple[NaturalMode, ...]
+    criticals: tuple[Critical, ...]
+    holzer: tuple[HolzerTable, ...]
+    response: Response | None
+    barred_rpm: tuple[tuple[float, float], ...] | None
+
+
+def _tell_nobody(done: int) -> None:
+    """Progress that nobody wants to know."""
+
+
+def analyze_torsion(
+    system: TorsionalSystem, question: Question, tell: Callable[[int], None] = _tell_nobody
+) -> TorsionAnalysis:
+    """The answer; `tell` is called with the number of speeds done.
+
+    Raises:
+        BalcliError: a response without excitation or through an undamped resonance; a mode that is
+            not there; Holzer's table of a chain with loops.
+    """
+    excitation = system.excitation
+    if question.orders is not None and excitation is not None:
+        excitation = excitation.only(question.orders)
+        system = replace(system, excitation=excitation)
+    modes, named = find_natural_modes(system)
+    speeds = question.speeds_rpm
+    span = None if speeds is None else (float(speeds[0]), float(speeds[-1]))
+    criticals = () if excitation is None else find_criticals(excitation, named, span)
+    response, barred = None, None
+    if speeds is not None:
+        if excitation is None or not len(excitation.orders):
+            raise BalcliError(f"{_called(system)}nothing excites it at the orders asked for")
+        loss = chain_loss(system.chain, system.damping, modes, system.attached(modes.omega))
+        response = find_response(system, excitation, modes, loss, speeds, tell)
+        met = np.array([critical.speed_rpm for critical in criticals])
+        barred = find_barred(system, excitation, response, met)
+    tables = tuple(_tabulate(system, named, asked) for asked in question.holzer)
+    return TorsionAnalysis(system, named, criticals, tables, response, barred)
+
+
+def _tabulate(
+    system: TorsionalSystem, modes: tuple[NaturalMode, ...], asked: HolzerAsked
+) -> HolzerTable:
+    omega = asked.omega
+    if asked.mode is not None:
+        if asked.mode > len(modes):
+            count = f"{len(modes)} mode{'s' * (len(modes) != 1)}"
+            raise BalcliError(f"{_called(system)}has {count}, but --holzer asks for {asked.mode}")
+        omega = modes[asked.mode - 1].omega
+    try:
+        # Holzer's angle of 1 stands at a free end; a clamped one is where the table leads to
+        ends = (system.last, 0) if system.chain.clamped[0] else (0, system.last)
+        table = tabulate_holzer(system.chain, omega, *ends)
+    except ValueError as error:
+        raise BalcliError(f"{_called(system)}--holzer: {error}") from None
+    return HolzerTable(asked.mode, omega, table)
+
+
+def _called(system: TorsionalSystem) -> str:
+    return f"{system.name}: " if system.name else ""

@@ -1,0 +1,120 @@
+"""What a chain file may say: inertias on shafts and gears, and what excites them. It knows no
+engine.
+
+Units: kg mm2, N m/rad, N m s/rad, mm, GPa, N m, N/mm2; a string carries its own.
+"""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from ..enginefile.fields import Label, Number
+from ..enginefile.model import Table
+from ..enginefile.shafting import Damper, Damping, Loss, NodeInertia, ShaftKeys
+from ..enginefile.units import ANGLE, PLAIN, STRESS, TORQUE
+from ..limits import HIGHEST_TORSION_ORDER, MOST_TORSION_NODES
+
+Name = Annotated[str, Label()]
+Ratio = Annotated[float, Number(PLAIN, most=1e6)]
+Torque = Annotated[float, Number(TORQUE, most=1e18)]
+StressLimit = Annotated[float, Number(STRESS, above=0, most=1e9)]
+AngleLimit = Annotated[float, Number(ANGLE, above=0, most=1e3)]
+
+
+class _Ratio(Number):
+    """A speed ratio: not 0, negative where gears turn the other way."""
+
+    def __init__(self) -> None:
+        super().__init__(PLAIN, most=1e6)
+
+    def read(self, value: object) -> float:
+        ratio = super().read(value)
+        if abs(ratio) < 1e-6:
+            raise ValueError("is no speed ratio; give speed of `to` over speed of `from`, not 0")
+        return ratio
+
+
+class _HalfOrder(Number):
+    """An order: a multiple of 1/2."""
+
+    def __init__(self) -> None:
+        super().__init__(PLAIN, above=0, most=HIGHEST_TORSION_ORDER)
+
+    def read(self, value: object) -> float:
+        order = super().read(value)
+        if 2 * order != round(2 * order):
+            raise ValueError(
+                f"{order:g} is no order that can be added up over two turns of the first node; "
+                "give a multiple of 0.5"
+            )
+        return order
+
+
+class Node(Table):
+    """A node: an inertia, or a place where shafts meet."""
+
+    name: Name = Field(examples=["flywheel"], description="what to call it; each its own")
+    inertia: NodeInertia | None = Field(
+        None, examples=[2.075e6], description="moment of inertia; left out: a massless node"
+    )
+    damping: Damping = Field(0.0, examples=[2], description="of the node against ground")
+    damper: Damper | None = Field(
+        None,
+        examples=[{"kind": "viscous", "inertia": 30000, "damping": 12}],
+        description="a damper that the node has",
+    )
+
+
+class ChainShaft(ShaftKeys):
+    """A shaft between two nodes."""
+
+    from_: Name = Field(
+        alias="from", examples=["crank"], description="name of the node where it starts"
+    )
+    to: Name = Field(examples=["flywheel"], description="name of the node where it ends")
+
+
+class Gear(Table):
+    """A mesh of gears without mass."""
+
+    from_: Name = Field(
+        alias="from", examples=["pinion"], description="name of the node that drives"
+    )
+    to: Name = Field(examples=["wheel"], description="name of the node that is driven")
+    ratio: Annotated[float, _Ratio()] = Field(
+        examples=[-0.5],
+        description="speed of `to` over speed of `from`; negative: they turn against each other",
+    )
+
+
+class Excitation(Table):
+    """A torque on a node, `cos * cos(n t) + sin * sin(n t)`, t the angle of the first node."""
+
+    node: Name = Field(examples=["crank"], description="name of the node on which it acts")
+    order: Annotated[float, _HalfOrder()] = Field(
+        examples=[1.5], description="how often in a turn of the first node; a multiple of 0.5"
+    )
+    cos: Torque = Field(0.0, examples=[120], description="amplitude of its cosine")
+    sin: Torque = Field(0.0, examples=[-35], description="amplitude of its sine")
+
+
+class ChainFile(Table):
+    """Inertias on shafts and gears, and what excites them."""
+
+    name: Name | None = Field(None, examples=["pump drive"], description="what to call it")
+    loss: Loss = Field(0.0, examples=[0.02], description="loss factor of shafts that name none")
+    limit: StressLimit | None = Field(
+        None, examples=[40], description="stress of a shaft above which a speed is barred"
+    )
+    angle_limit: AngleLimit | None = Field(
+        None,
+        examples=[0.3],
+        description="angle by which the first node may swing either way; above, a speed is barred",
+    )
+    fixed: tuple[Name, ...] = Field(
+        (), examples=[["hull"]], max_length=MOST_TORSION_NODES, description="nodes that are clamped"
+    )
+    node: tuple[Node, ...] = Field(examples=[], description="the nodes; the first gives the speed")
+    shaft: tuple[ChainShaft, ...] = Field((), examples=[], description="the shafts between them")
+    gear: tuple[Gear, ...] = Field((), examples=[], description="meshes of gears between them")
+    excitation: tuple[Excitation, ...] = Field((), examples=[], description="torques on nodes")

@@ -1,0 +1,131 @@
+"""Natural modes of a torsional system by their numbers, where their nodes lie, and which orders
+meet them at which speed.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.singular_values import Real
+from ..core.torsional_modes import chain_loss, count_nodes, find_chain_modes
+from ..core.vibration import Modes, scale_shapes
+from .system import Excitation, TorsionalSystem
+
+_UNDRIVEN = 1e-10  # work up to this share of what all torques could do together is rounding
+
+
+class NaturalMode(NamedTuple):
+    """An elastic mode.
+
+    Attributes:
+        number: from 1.
+        omega: rad/s.
+        shape: (nodes,) angle of each node by itself, the largest +1.
+        nodes: how many shafts have ends that move oppositely.
+        still: their names: there lie the nodes.
+        loss: loss factor, dampers and shafts together.
+    """
+
+    number: int
+    omega: float
+    shape: Real
+    nodes: int
+    still: tuple[str, ...]
+    loss: float
+
+    @property
+    def frequency_hz(self) -> float:
+        """Natural frequency in Hz."""
+        return self.omega / (2 * np.pi)
+
+
+class Critical(NamedTuple):
+    """A speed at which an order meets a mode.
+
+    Attributes:
+        mode: its number.
+        order: of the reference.
+        speed_rpm: `60 f/n`.
+        phase_sum: sum over cylinders of the mode's angle there, each with the phase of its torque
+            and in parts of the largest torque.
+        work: of all torques in one cycle of vibration by 1 rad where the shape is 1, J.
+        work_share: of all work at this mode's criticals.
+    """
+
+    mode: int
+    order: float
+    speed_rpm: float
+    phase_sum: float
+    work: float
+    work_share: float
+
+
+def find_natural_modes(system: TorsionalSystem) -> tuple[Modes, tuple[NaturalMode, ...]]:
+    """All modes, the rigid ones too, with shapes of unit modal mass; and the elastic ones."""
+    modes = find_chain_modes(system.chain)
+    loss = chain_loss(system.chain, system.damping, modes, system.attached(modes.omega))
+    elastic = range(modes.rigid, len(modes.omega))
+    shapes = scale_shapes(modes.shapes[modes.rigid :]) if elastic else modes.shapes[:0]
+    named = tuple(
+        NaturalMode(
+            k - modes.rigid + 1,
+            float(modes.omega[k]),
+            shapes[k - modes.rigid],
+            count_nodes(system.chain, shapes[k - modes.rigid]),
+            find_still_shafts(system, shapes[k - modes.rigid]),
+            float(loss[k]),
+        )
+        for k in elastic
+    )
+    return modes, named
+
+
+def find_still_shafts(system: TorsionalSystem, shape: Real) -> tuple[str, ...]:
+    """Names of the shafts whose ends move oppositely in a mode (nodes,)."""
+    chain = system.chain
+    moved = shape[chain.end] * shape[chain.start] * np.sign(chain.ratio)
+    tiny = 1e-9 * np.abs(shape).max()
+    both = np.minimum(np.abs(shape[chain.end]), np.abs(shape[chain.start])) > tiny
+    still = (moved < 0) & both & np.isfinite(chain.stiffness)
+    return tuple(system.shafts[k] for k in np.flatnonzero(still))
+
+
+def find_criticals(
+    excitation: Excitation,
+    modes: tuple[NaturalMode, ...],
+    range_rpm: tuple[float, float] | None,
+) -> tuple[Critical, ...]:
+    """Criticals, in a range of speeds if there is one, those that do most work first."""
+    found = [critical for mode in modes for critical in _meet(excitation, mode, range_rpm)]
+    return tuple(sorted(found, key=lambda each: -each.work))
+
+
+def _meet(
+    excitation: Excitation, mode: NaturalMode, range_rpm: tuple[float, float] | None
+) -> list[Critical]:
+    """Criticals of one mode."""
+    orders = excitation.orders
+    speeds = mode.omega / orders
+    torque = np.diagonal(excitation.at(speeds), axis1=0, axis2=1).T  # (orders, sources)
+    moved = mode.shape[excitation.nodes]
+    largest = np.abs(torque).max(axis=1)
+    phasors = np.abs(torque @ moved)
+    rpm = speeds * 30 / np.pi
+    low, high = range_rpm or (0.0, np.inf)
+    inside = (rpm >= low * (1 - 1e-12)) & (rpm <= high * (1 + 1e-12))
+    counted = inside & (phasors > _UNDRIVEN * (np.abs(torque) @ np.abs(moved)))
+    work = np.where(counted, np.pi * phasors, 0)
+    total = work.sum()
+    return [
+        Critical(
+            mode.number,
+            float(orders[k]),
+            float(rpm[k]),
+            float(phasors[k] / largest[k]),
+            float(work[k]),
+            float(work[k] / total),
+        )
+        for k in np.flatnonzero(counted)
+    ]

@@ -1,0 +1,163 @@
+"""A chain file -> model: every mistake at once, each by its path in the file and with what would be
+right.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, TypeVar
+
+from pydantic import ValidationError
+
+from ..enginefile.fields import counted, nearest, printable, shorten
+from ..enginefile.messages import describe_finding, is_miscounted, join_path
+from ..enginefile.model import Table
+from ..enginefile.shafting import Damper
+from ..errors import InputError, Problem
+from ..limits import MOST_LIST_VALUES, MOST_MISTAKES_SHOWN, MOST_TORSION_NODES
+from .chain_file import ChainFile, ChainShaft, Excitation, Gear, Node
+
+T = TypeVar("T", bound=Table)
+LISTS: tuple[type[Table], ...] = (Node, ChainShaft, Gear, Excitation)
+KEYS = ("node", "shaft", "gear", "excitation")
+
+
+def describes_chain(data: Mapping[str, Any]) -> bool:
+    """Whether tables of a file are those of a chain, not of an engine."""
+    return any(key in data for key in KEYS) and not ({"crank", "piston", "rod"} & set(data))
+
+
+def read_chain_tables(data: Mapping[str, Any], file: str = "") -> ChainFile:
+    """The chain that the tables of a file describe; `file` is its name in messages.
+
+    Raises:
+        InputError: with every mistake.
+    """
+    reader = _Reader()
+    head = {key: value for key, value in data.items() if key not in KEYS}
+    model = reader.read_table("", head | {"node": []}, ChainFile)
+    lists = {
+        "node": reader.read_list("node", data.get("node", []), Node),
+        "shaft": reader.read_list("shaft", data.get("shaft", []), ChainShaft),
+        "gear": reader.read_list("gear", data.get("gear", []), Gear),
+        "excitation": reader.read_list("excitation", data.get("excitation", []), Excitation),
+    }
+    problems = [*reader.problems, *_find_misfits(data)]
+    if problems or model is None:
+        more = max(len(problems) - MOST_MISTAKES_SHOWN, 0)
+        raise InputError(problems[:MOST_MISTAKES_SHOWN], file, more)
+    return model.model_copy(update=lists)
+
+
+class _Reader:
+    """Reads tables one by one and collects the mistakes."""
+
+    def __init__(self) -> None:
+        self.problems: list[Problem] = []
+
+    def read_list(self, key: str, value: object, table: type[T]) -> tuple[T | None, ...]:
+        if not isinstance(value, list):
+            wanted = f"write [[{key}]] in double brackets, once for each {key}"
+            self.problems.append(Problem(key, f"is one of several; {wanted}"))
+            return ()
+        most = MOST_TORSION_NODES if key == "node" else MOST_LIST_VALUES
+        if len(value) > most:
+            text = f"stands {len(value)} times; at most {most} are taken"
+            self.problems.append(Problem(key, text))
+            return ()
+        return tuple(self.read_table(f"{key}.{k}", item, table) for k, item in enumerate(value, 1))
+
+    def read_table(self, path: str, value: object, table: type[T]) -> T | None:
+        """The table, or None with its mistakes added to the problems."""
+        if not isinstance(value, Mapping):
+            above = f"[[{path.partition('.')[0]}]]"
+            text = f"{shorten(value)} is not a table; write {above} above it"
+            self.problems.append(Problem(path, text))
+            return None
+        keys = table.keys()
+        known = {key: part for key, part in value.items() if key in keys}
+        unknown = [key for key in value if key not in keys]
+        self.problems += [_refuse_key(path, key, table) for key in unknown]
+        meant = {nearest(key, keys) for key in unknown}
+        try:
+            return table.model_validate(known)
+        except ValidationError as error:
+            self.problems += [
+                _describe(path, finding, table)
+                for finding in error.errors(include_url=False)
+                if not is_miscounted(finding)
+                and not (finding["type"] == "missing" and finding["loc"][-1] in meant)
+            ]
+            return None
+
+
+def _refuse_key(path: str, key: str, table: type[Table]) -> Problem:
+    place = f"of [[{path.partition('.')[0]}]]" if path else "of a chain file"
+    near = nearest(key, table.keys())
+    hint = f"did you mean {near}?" if near else f"it has {', '.join(table.keys())}"
+    return Problem(join_path(path, [key]).lstrip("."), f"is no key {place}; {hint}")
+
+
+def _describe(path: str, finding: Mapping[str, Any], table: type[Table]) -> Problem:
+    inner = Damper if "damper" in finding["loc"][:-1] else table
+    if finding["type"] == "extra_forbidden":
+        hint = f"it has {', '.join(inner.keys())}"
+        return Problem(join_path(path, finding["loc"]), f"is no key of a damper; {hint}")
+    problem = describe_finding(path, finding, inner)
+    return problem._replace(path=problem.path.lstrip("."))
+
+
+# ------------------------------------------------------------------ what does not fit together
+def _find_misfits(data: Mapping[str, Any]) -> Iterator[Problem]:
+    """What the tables say against each other, as far as they can be read."""
+    nodes = _tables(data, "node")
+    if "node" not in data:
+        text = 'is missing; write [[node]] for every inertia, such as name = "flywheel"'
+        yield Problem("node", text)
+        return
+    if data["node"] == []:
+        yield Problem("node", "is an empty list; a chain has at least one node")
+    names = [node.get("name") for _, node in nodes]
+    known = [name for name in names if isinstance(name, str)]
+    for k, node in nodes:
+        name = node.get("name")
+        if isinstance(name, str) and name in names[: k - 1]:
+            yield Problem(f"node.{k}.name", f"{shorten(name)} is there twice; give each its own")
+    for key, ends in (
+        ("shaft", ("from", "to")),
+        ("gear", ("from", "to")),
+        ("excitation", ("node",)),
+    ):
+        for k, table in _tables(data, key):
+            yield from _check_ends(f"{key}.{k}", table, ends, known)
+    fixed = data.get("fixed", ())
+    for name in fixed if isinstance(fixed, list) else ():
+        if isinstance(name, str) and name not in known:
+            yield Problem("fixed", _tell_missing(name, known))
+
+
+def _check_ends(
+    path: str, table: Mapping[str, Any], ends: Sequence[str], known: Sequence[str]
+) -> Iterator[Problem]:
+    named = [table.get(end) for end in ends]
+    for end, name in zip(ends, named, strict=True):
+        if isinstance(name, str) and name not in known:
+            yield Problem(f"{path}.{end}", _tell_missing(name, known))
+    if len(named) == 2 and isinstance(named[0], str) and named[0] == named[1]:
+        yield Problem(path, f"goes from {shorten(named[0])} to itself; it joins two nodes")
+
+
+def _tell_missing(name: str, known: Sequence[str]) -> str:
+    near = nearest(name, known)
+    told = list(dict.fromkeys(known))
+    listed = ", ".join(printable(each) for each in told[:8]) + (", ..." if told[8:] else "")
+    hint = f"did you mean {printable(near)}?" if near else f"there are {listed}"
+    count = counted(len(known), "node")
+    return f"{shorten(name)} is no node; {hint if known else f'there is {count}'}"
+
+
+def _tables(data: Mapping[str, Any], key: str) -> list[tuple[int, Mapping[str, Any]]]:
+    """The tables of a list with their numbers, those that are tables."""
+    value = data.get(key)
+    items = enumerate(value, 1) if isinstance(value, list) else ()
+    return [(k, item) for k, item in items if isinstance(item, Mapping)]

@@ -1,0 +1,236 @@
+"""Forced vibration over a range of speeds: torque of every shaft, added up in time, and what
+follows from it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.cycle_peaks import find_swing, sum_amplitudes
+from ..core.singular_values import Complex, Real
+from ..core.torsional_response import balance_power, respond_chain
+from ..core.vibration import Modes, UndampedResonanceError, find_resonances, frequencies
+from ..errors import BalcliError
+from .system import Excitation, TorsionalSystem
+
+_AT_A_TIME = 1 << 20  # samples of a cycle, of all shafts and speeds, that are computed together
+_HALVINGS = 24  # of an interval of speeds in which a limit is passed
+
+
+class Response(NamedTuple):
+    """Forced vibration.
+
+    Attributes:
+        speeds_rpm: (speeds,).
+        orders: (orders,).
+        torque: (speeds, shafts) half peak to peak of the vibratory torque, N m.
+        sums: (speeds, shafts) sum of the amplitudes of all orders, N m.
+        stress: (speeds, shafts) Pa, nan where a shaft has no diameter.
+        free_end: (speeds,) half swing of the first node, rad.
+        amplitudes: (orders, speeds, shafts) torque by order, N m.
+        swings: (orders, speeds) amplitude of the first node by order, rad.
+        heat: (speeds, dampers) W, rings of oil first, then of rubber.
+        dampers: names of their nodes.
+    """
+
+    speeds_rpm: Real
+    orders: Real
+    torque: Real
+    sums: Real
+    stress: Real
+    free_end: Real
+    amplitudes: Real
+    swings: Real
+    heat: Real
+    dampers: tuple[str, ...]
+
+
+class Motion(NamedTuple):
+    """Angles (orders, speeds, nodes) and torques (orders, speeds, shafts) by order, complex, and
+    power lost in dampers (orders, speeds, dampers).
+    """
+
+    angle: Complex
+    torque: Complex
+    heat: Real
+
+
+def find_response(
+    system: TorsionalSystem,
+    excitation: Excitation,
+    modes: Modes,
+    loss: Real,
+    speeds_rpm: Real,
+    tell: Callable[[int], None],
+) -> Response:
+    """Vibration at speeds (speeds,), rising.
+
+    Args:
+        excitation: by which; that of the system, or some of its orders.
+        modes, loss: of the system, to see whether an undamped mode is met between the speeds.
+        tell: is called with the number of speeds done.
+
+    Raises:
+        BalcliError: an undamped mode is driven at its own frequency.
+    """
+    _refuse_resonance(system, modes, loss, excitation, speeds_rpm)
+    parts = []
+    for some in _split(system, excitation, speeds_rpm):
+        parts.append(_summarise(system, excitation, speeds_rpm[some]))
+        tell(len(speeds_rpm[: some.stop]))
+    joined = [
+        np.concatenate(each, axis=axis)
+        for each, axis in zip(zip(*parts, strict=True), _AXES, strict=True)
+    ]
+    torque, sums, free_end, amplitudes, swings, heat = joined
+    names = (*(system.nodes[ring.node] for ring in system.rings), *system.nodes[system.last + 1 :])
+    return Response(
+        speeds_rpm,
+        excitation.orders,
+        torque,
+        sums,
+        torque * stress_by_torque(system),
+        free_end,
+        amplitudes,
+        swings,
+        heat,
+        names,
+    )
+
+
+_AXES = (0, 0, 0, 1, 1, 0)  # the axis of speeds in what is summed up
+
+
+def _split(system: TorsionalSystem, excitation: Excitation, speeds: Real) -> Iterator[slice]:
+    """Pieces of the range that keep memory small."""
+    samples = 16 * (excitation.orders.max() + 1) * (len(system.shafts) + 1)
+    work = len(excitation.orders) * (len(system.nodes) + len(system.shafts))
+    size = max(int(_AT_A_TIME / max(samples, work)), 1)
+    for start in range(0, len(speeds), size):
+        yield slice(start, min(start + size, len(speeds)))
+
+
+def _summarise(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> tuple[Real, ...]:
+    motion = move(system, excitation, rpm)
+    first = motion.angle[:, :, :1]
+    swing = find_swing(excitation.orders, np.concatenate([motion.torque, first], axis=-1)).half
+    return (
+        swing[:, :-1],
+        sum_amplitudes(motion.torque),
+        swing[:, -1],
+        np.abs(motion.torque),
+        np.abs(first[:, :, 0]),
+        motion.heat.sum(axis=0),
+    )
+
+
+def move(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> Motion:
+    """Motion order by order at these speeds (rpm)."""
+    speeds = rpm * np.pi / 30
+    w = frequencies(excitation.orders, speeds)
+    load = excitation.on_nodes(speeds, len(system.nodes))
+    order = np.broadcast_to(excitation.orders[:, None], w.shape)
+    attached = system.attached(w, order)
+    try:
+        twist = respond_chain(system.chain, system.damping, w, load, attached)
+    except UndampedResonanceError as error:
+        raise BalcliError(_tell_resonance(system, error.frequency / (2 * np.pi))) from None
+    power = balance_power(system.chain, system.damping, w, load, twist, attached)
+    heat = [_heat_of_rings(system, w, twist.angle)]
+    rubber = len(system.nodes) - 1 - system.last
+    heat.append(power.shafts[..., len(system.shafts) - rubber :])
+    return Motion(twist.angle, twist.torque, np.concatenate(heat, axis=-1))
+
+
+def _heat_of_rings(system: TorsionalSystem, w: Real, angle: Complex) -> Real:
+    """Power (orders, speeds, rings) that rings in oil turn to heat: `-w^3 Im J |x|^2/2`."""
+    found = np.zeros((*w.shape, len(system.rings)))
+    for k, ring in enumerate(system.rings):
+        slip = w * (ring.inertia / ring.damping)
+        lagging = ring.inertia * slip / (1 + slip**2)
+        found[..., k] = w**3 * lagging * np.abs(angle[..., ring.node]) ** 2 / 2
+    return found
+
+
+def stress_by_torque(system: TorsionalSystem) -> Real:
+    """(shafts,) Pa for 1 N m; nan where there is no diameter."""
+    found = [np.nan if s is None else s.stress_by_torque for s in system.sections]
+    return np.array(found)
+
+
+def _refuse_resonance(
+    system: TorsionalSystem, modes: Modes, loss: Real, excitation: Excitation, rpm: Real
+) -> None:
+    """Refuse a range in which an undamped mode is driven at its own frequency."""
+    if system.pendulums:  # their inertia differs from order to order, and so do the modes
+        return
+    speeds = rpm * np.pi / 30
+    load = excitation.on_nodes(speeds, len(system.nodes))
+    met = find_resonances(modes, loss, excitation.orders, speeds, load)
+    if met:
+        worst = met[0]
+        hertz = modes.omega[worst.mode] / (2 * np.pi)
+        speed = f" by order {worst.order:g} at {worst.speed * 30 / np.pi:.6g} rpm"
+        raise BalcliError(_tell_resonance(system, float(hertz), speed))
+
+
+def _tell_resonance(system: TorsionalSystem, hertz: float, speed: str = "") -> str:
+    where = f"{system.name}: " if system.name else ""
+    return (
+        f"{where}the natural frequency of {hertz:.6g} Hz is excited{speed} and nothing damps it: "
+        "its vibration has no bound; give a loss factor (loss = 0.02), or damping"
+    )
+
+
+def find_barred(
+    system: TorsionalSystem, excitation: Excitation, response: Response, criticals_rpm: Real
+) -> tuple[tuple[float, float], ...] | None:
+    """Ranges of speed (rpm) in which a limit of the file is passed; None where it has none.
+
+    Between the speeds of the response those of criticals are looked at, too; the ends of a range
+    are found by halving.
+    """
+    if system.limit_pa is None and system.angle_limit is None:
+        return None
+    known = response.speeds_rpm
+    inner = criticals_rpm[(criticals_rpm > known[0]) & (criticals_rpm < known[-1])]
+    between = np.setdiff1d(inner, known)
+    speeds = np.concatenate([known, between])
+    excess = np.concatenate([_excess(system, response), _exceed(system, excitation, between)])
+    rising = np.argsort(speeds)
+    speeds, above = speeds[rising], excess[rising] > 0
+    changes = np.flatnonzero(above[1:] != above[:-1])
+    low, high, upward = speeds[changes], speeds[changes + 1], above[changes + 1]
+    for _ in range(_HALVINGS if len(changes) else 0):
+        middle = (low + high) / 2
+        passed = (_exceed(system, excitation, middle) > 0) == upward
+        low, high = np.where(passed, low, middle), np.where(passed, middle, high)
+    ends = (low + high) / 2
+    starts = [*speeds[:1][above[:1]].tolist(), *ends[upward].tolist()]
+    stops = [*ends[~upward].tolist(), *speeds[-1:][above[-1:]].tolist()]
+    return tuple(zip(starts, stops, strict=True))
+
+
+def _exceed(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> Real:
+    """By how much of it a limit is passed at each speed (speeds,); negative below it."""
+    if not len(rpm):
+        return np.zeros(0)
+    torque, _, free_end, *_ = _summarise(system, excitation, rpm)
+    return _share_of_limits(system, torque, free_end)
+
+
+def _excess(system: TorsionalSystem, response: Response) -> Real:
+    return _share_of_limits(system, response.torque, response.free_end)
+
+
+def _share_of_limits(system: TorsionalSystem, torque: Real, free_end: Real) -> Real:
+    share = np.zeros(len(free_end))
+    if system.limit_pa is not None:
+        stress = np.nan_to_num(torque * stress_by_torque(system)) / system.limit_pa
+        share = np.maximum(share, stress.max(axis=1, initial=0.0))
+    if system.angle_limit is not None:
+        share = np.maximum(share, free_end / system.angle_limit)
+    return share - 1

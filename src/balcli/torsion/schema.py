@@ -1,0 +1,20 @@
+"""JSON Schema of a chain file, for editors that check and complete while one types."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..enginefile.model import Table
+from ..enginefile.schema import DIALECT, tidy_schema
+from ..enginefile.shafting import Damper
+from .chain_file import ChainFile
+from .read_chain import LISTS
+
+
+def describe_chain_file() -> dict[str, Any]:
+    """JSON Schema (draft 2020-12): every key with description, unit, bounds and an example."""
+    tables: tuple[type[Table], ...] = (Damper, *LISTS)
+    for table in tables:
+        table.model_rebuild()
+    document: dict[str, Any] = tidy_schema(ChainFile.model_json_schema())
+    return {"$schema": DIALECT, **document, "title": "balcli chain file"}

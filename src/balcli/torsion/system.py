@@ -1,0 +1,130 @@
+"""A torsional system in SI units: nodes and shafts with their names, what damps it and what excites
+it. Speeds and orders are those of its reference, the crankshaft or the first node of a chain.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.singular_values import Complex, Real
+from ..core.torsional_chain import Chain, Damping, Indices, find_pieces
+from ..core.torsional_dampers import pendulum_inertia, viscous_inertia
+
+
+class Section(NamedTuple):
+    """Outer and inner diameter of a shaft, m."""
+
+    outer: float
+    inner: float = 0.0
+
+    @property
+    def stress_by_torque(self) -> float:
+        """Shear stress at the surface in Pa for 1 N m: `16 D/(pi (D^4 - d^4))`."""
+        return 16 * self.outer / (pi * (self.outer**4 - self.inner**4))
+
+
+class ViscousRing(NamedTuple):
+    """A ring (kg m2) in oil (N m s) on a node."""
+
+    node: int
+    inertia: float
+    damping: float
+
+
+class Pendulums(NamedTuple):
+    """Masses (kg in all) that swing on arms of a length (m) hung up at a radius (m) on a node."""
+
+    node: int
+    mass: float
+    radius: float
+    length: float
+
+
+class Excitation(NamedTuple):
+    """Torques by order, complex, their values `Re(c e^{i n t})`, t the angle of the reference.
+
+    Attributes:
+        orders: (orders,) rising, above 0.
+        nodes: (sources,) node on which each source (a cylinder, a torque of a chain) acts.
+        steady: (orders, sources) N m, whatever the speed.
+        growing: (orders, sources) kg m2, the part that grows with the square of the speed.
+    """
+
+    orders: Real
+    nodes: Indices
+    steady: Complex
+    growing: Complex
+
+    def at(self, speeds: Real) -> Complex:
+        """Torques (orders, speeds, sources) in N m at speeds (speeds,) in rad/s."""
+        grown = self.growing[:, None, :] * speeds[:, None] ** 2
+        return np.asarray(self.steady[:, None, :] + grown, complex)
+
+    def on_nodes(self, speeds: Real, count: int) -> Complex:
+        """The same, added up node by node: (orders, speeds, nodes)."""
+        return np.asarray(self.at(speeds) @ (self.nodes[:, None] == np.arange(count)), complex)
+
+    def only(self, orders: Real) -> Excitation:
+        """Some of its orders."""
+        kept = np.isin(self.orders, orders)
+        return Excitation(self.orders[kept], self.nodes, self.steady[kept], self.growing[kept])
+
+
+@dataclass(frozen=True)
+class TorsionalSystem:
+    """Nodes, shafts, damping and excitation.
+
+    Attributes:
+        name: of the engine or chain; may be empty.
+        nodes: names, front to rear.
+        shafts: names, one a row of the chain's shafts.
+        chain: inertias and shafts; a rubber ring is a node of it.
+        damping: losses of shafts and nodes.
+        sections: (shafts) where diameters are given.
+        rings, pendulums: dampers that are no nodes.
+        excitation: what shakes it; None: nothing.
+        limit_pa: stress above which a speed is barred.
+        angle_limit: half swing of the first node, rad, above which a speed is barred.
+        last: node at which Holzer's table ends.
+    """
+
+    name: str
+    nodes: tuple[str, ...]
+    shafts: tuple[str, ...]
+    chain: Chain
+    damping: Damping
+    sections: tuple[Section | None, ...]
+    rings: tuple[ViscousRing, ...] = ()
+    pendulums: tuple[Pendulums, ...] = ()
+    excitation: Excitation | None = None
+    limit_pa: float | None = None
+    angle_limit: float | None = None
+    last: int = -1
+
+    @cached_property
+    def gears(self) -> Real:
+        """(nodes,) speed of each node over that of the reference, where it hangs with it."""
+        return find_pieces(self.chain).pace
+
+    def attached(self, frequency: Real, order: Real | None = None) -> Complex:
+        """Complex inertias (*frequency, nodes) of dampers that are no nodes.
+
+        Args:
+            frequency: rad/s.
+            order: that broadcasts to frequency; without it pendulums are left out.
+        """
+        found = np.zeros((*frequency.shape, len(self.nodes)), complex)
+        for ring in self.rings:
+            found[..., ring.node] += viscous_inertia(ring.inertia, ring.damping, frequency)
+        for swung in self.pendulums:
+            if order is None:
+                break
+            own = order / self.gears[swung.node]
+            inertia = pendulum_inertia(swung.mass, swung.radius, swung.length, own)
+            found[..., swung.node] += np.broadcast_to(inertia, frequency.shape)
+        return found

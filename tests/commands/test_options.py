@@ -1,0 +1,31 @@
+"""Options that several commands share."""
+
+from __future__ import annotations
+
+import pytest
+
+from balcli.commands.options import parse_orders
+from balcli.render.sheet import order_name
+
+
+@pytest.mark.parametrize(
+    ("text", "orders"),
+    [
+        ("1-4", [1, 2, 3, 4]),
+        ("1,2,4", [1, 2, 4]),
+        ("1-3,8", [1, 2, 3, 8]),
+        ("0.5-2", [0.5, 1, 1.5, 2]),
+        ("1-2.5", [1, 1.5, 2, 2.5]),
+        ("1.5", [1.5]),
+        ("1.0-3.0", [1, 2, 3]),
+    ],
+)
+def test_a_range_that_begins_or_ends_with_a_half_goes_in_halves(text, orders):
+    assert parse_orders(text) == orders
+
+
+@pytest.mark.parametrize(
+    ("order", "name"), [(0, "0"), (0.5, "½"), (1, "1"), (1.5, "1½"), (12.5, "12½")]
+)
+def test_what_tables_call_an_order(order, name):
+    assert order_name(order) == name

@@ -1,0 +1,287 @@
+"""`balcli torsion` of chains: every format says the same figures, and they are right."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+from io import StringIO
+
+import numpy as np
+import pytest
+from support import chains
+from support.commands import refusal, run_here, run_in_terminal
+
+from balcli.torsion.starting_file import read_starting_file
+
+
+def node(name, inertia_kg_m2, more=""):
+    inertia = f"inertia = {float(inertia_kg_m2) * 1e6!r}\n" if inertia_kg_m2 else ""
+    return f'[[node]]\nname = "{name}"\n{inertia}{more}\n'
+
+
+def text_of(chain, damping, more=""):
+    """A chain file of a chain of arrays."""
+    held = [f"n{k}" for k in np.flatnonzero(chain.clamped)]
+    lines = [f"fixed = {json.dumps(held)}\n{more}\n"]
+    for k, inertia in enumerate(chain.inertia):
+        lines.append(node(f"n{k}", inertia, f"damping = {damping.nodes[k]!r}"))
+    extra = len(chain.inertia)
+    columns = (chain.start, chain.end, chain.ratio, chain.stiffness, damping.loss, damping.dashpots)
+    for start, end, ratio, stiffness, loss, dashpot in zip(*columns, strict=True):
+        ends = f'from = "n{start}"\nto = "n{end}"\n'
+        if ratio != 1:  # a mesh without mass, then the shaft
+            lines.append(node(f"n{extra}", 0))
+            lines.append(
+                f'[[gear]]\nfrom = "n{start}"\nto = "n{extra}"\nratio = {float(ratio)!r}\n'
+            )
+            ends = f'from = "n{extra}"\nto = "n{end}"\n'
+            extra += 1
+        rigid = '"rigid"' if np.isinf(stiffness) else repr(float(stiffness))
+        lines.append(
+            f"[[shaft]]\n{ends}stiffness = {rigid}\nloss = {float(loss)!r}\ndamping = {float(dashpot)!r}\n"
+        )
+    return "".join(lines).replace("np.float64", "").replace("(", "").replace(")", "")
+
+
+def ask(text, *options):
+    status, out, err = run_here("torsion", "-", *options, "--format", "json", stdin=text)
+    assert (status, err) == (0, "")
+    return json.loads(out)
+
+
+@pytest.mark.parametrize("kind", chains.KINDS)
+@pytest.mark.parametrize("seed", range(2))
+def test_random_chains_against_50_digits(kind, seed):
+    """Inertias and stiffnesses over ten powers of ten."""
+    chain = chains.random_chain(kind, seed, 5)
+    exact = chains.exact_frequencies(chain)
+    rigid = 0 if "clamped" in kind else 1
+    said = ask(text_of(chain, chains.no_damping(chain)))
+    found = [mode["frequency_Hz"] for mode in said["modes"]]
+    assert found == pytest.approx(exact[rigid:] / (2 * np.pi), rel=1e-12, abs=0)
+
+
+@pytest.mark.parametrize("kind", ["plain", "geared", "branched", "clamped", "massless"])
+def test_forced_vibration_against_50_digits(kind):
+    """One order alone: half of peak to peak is the amplitude, of every shaft."""
+    chain = chains.random_chain(kind, 5)
+    damping = chains.random_damping(chain, 5)
+    driven = int(np.flatnonzero(~chain.clamped & (chain.inertia > 0))[0])
+    torque = f'[[excitation]]\nnode = "n{driven}"\norder = 1.5\ncos = 30\nsin = -40\n'
+    said = ask(text_of(chain, damping) + torque, "--speeds", "700,1900")["response"]
+    load = np.zeros(len(chain.inertia), complex)
+    load[driven] = 30 + 40j
+    shafts = [shaft for shaft in said["shafts"] if shaft["sum_of_amplitudes_Nm"]]
+    for k, rpm in enumerate((700, 1900)):
+        angle, torques = chains.exact_response(chain, damping, 1.5 * rpm * np.pi / 30, load)
+        meshes = np.count_nonzero(chain.ratio != 1)
+        named = shafts[: len(shafts) - meshes]
+        found = [shaft["half_peak_to_peak_Nm"][k] for shaft in named]
+        assert found == pytest.approx(np.abs(torques), rel=1e-9, abs=1e-12 * np.abs(torques).max())
+        swing = np.degrees(abs(angle[0]))
+        assert said["free_end_deg"][k] == pytest.approx(swing, rel=1e-9, abs=1e-15)
+
+
+def test_the_starting_file_shows_every_part():
+    text = read_starting_file()
+    assert text == run_here("new", "torsion").out
+    status, out, err = run_here(
+        "torsion", "-", "--speeds", "1000:2500:25", "--holzer", "1", stdin=text
+    )
+    assert (status, err) == (0, "")
+    heads = ["Natural modes", "Inertias and shapes", "Critical speeds", "Holzer's table, mode 1"]
+    for head in (*heads, "Vibratory torque, 1000 to 2500 rpm", "Limits"):
+        assert head in out
+
+
+def test_a_terminal_of_80_columns_shows_all(tmp_path):
+    path = tmp_path / "chain.toml"
+    path.write_text(read_starting_file(), encoding="utf-8")
+    out = run_in_terminal("torsion", path, "--speeds", "1000:2500:25", "--holzer", "1").out
+    plain = re.sub(r"\x1b\[[0-9;]*m", "", out)
+    assert max(map(len, plain.splitlines())) <= 80
+    assert "…" not in plain
+
+
+def test_csv_lists_the_figures_of_json():
+    options = ("--speeds", "1000:1100:50", "--holzer", "2")
+    said = ask(read_starting_file(), *options)
+    table = run_here("torsion", "-", *options, "-f", "csv", stdin=read_starting_file()).out
+    lines = list(csv.DictReader(StringIO(table)))
+    found = [float(x["value"]) for x in lines if x["part"] == "mode" and x["figure"] == "frequency"]
+    assert found == [mode["frequency_Hz"] for mode in said["modes"]]
+    name = said["response"]["shafts"][0]["name"]
+    torque = [
+        float(x["value"]) for x in lines if x["name"] == name and x["figure"] == "half_peak_to_peak"
+    ]
+    assert torque == said["response"]["shafts"][0]["half_peak_to_peak_Nm"]
+    left = [x for x in lines if x["figure"] == "residual"]
+    assert float(left[0]["value"]) == said["holzer"][0]["residual_Nm"]
+
+
+def test_limits_bar_speeds_between_the_steps():
+    """The ends of a barred range do not depend on the step; at both the limit is just met."""
+    text = read_starting_file().replace("limit = 40", "limit = 12", 1)
+    coarse, fine = (ask(text, "--speeds", f"2000:2600:{step}") for step in (600, 10))
+    assert len(fine["barred_rpm"]) == 1
+    assert coarse["barred_rpm"][0] == pytest.approx(fine["barred_rpm"][0], abs=0.01)
+    low, high = fine["barred_rpm"][0]
+    at_ends = ask(text, "--speeds", f"{low},{high}")["response"]
+    worst = np.max([s["stress_Pa"] for s in at_ends["shafts"] if "stress_Pa" in s], axis=0)
+    assert worst == pytest.approx([12e6, 12e6], rel=1e-5)
+
+
+def test_a_swing_can_be_the_limit():
+    text = read_starting_file().replace("limit = 40", "angle_limit = 0.1", 1)
+    said = ask(text, "--speeds", "800:1600:20")
+    (span,) = said["barred_rpm"]
+    assert span[0] == 800
+    assert ask(text, "--speeds", repr(span[1]))["response"]["free_end_deg"] == pytest.approx([0.1])
+
+
+def test_what_nothing_damps_is_told_with_its_speed():
+    text = read_starting_file().replace("loss = 0.02", "loss = 0").replace("loss = 0.03", "")
+    text = text.replace("damping = 1.5", "")
+    assert refusal("torsion", "-", "--speeds", "1000:2500", stdin=text) == (
+        "pump drive: the natural frequency of 77.1782 Hz is excited by order 2 at 2315.35 rpm and "
+        "nothing damps it: its vibration has no bound; give a loss factor (loss = 0.02), or damping"
+    )
+
+
+def test_a_viscous_ring_takes_heat_as_power_is_fed():
+    """Alone against the torque, it turns all power to heat."""
+    text = """
+        [[node]]
+        name = "hub"
+        inertia = 2e5
+        damper = { kind = "viscous", inertia = 5e4, damping = 3 }
+        [[node]]
+        name = "end"
+        inertia = 7e5
+        [[shaft]]
+        from = "hub"
+        to = "end"
+        stiffness = 40000
+        [[excitation]]
+        node = "end"
+        order = 3
+        cos = 20
+        """
+    said = ask(text, "--speeds", "1500")["response"]
+    w = 3 * 1500 * np.pi / 30
+    ring = 0.05 / (1 + 1j * w * 0.05 / 3)
+    k, hub, end = 40000, -(w**2) * (0.2 + ring), -(w**2) * 0.7
+    matrix = np.array([[k + hub, -k], [-k, k + end]])
+    angle = np.linalg.solve(matrix, [0, 20])
+    power = w / 2 * (20 * np.conj(angle[1])).imag
+    assert said["dampers"][0]["node"] == "hub"
+    assert said["dampers"][0]["heat_W"] == pytest.approx([power])
+
+
+def test_a_rubber_ring_takes_heat_as_power_is_fed():
+    text = """
+        [[node]]
+        name = "hub"
+        inertia = 2e5
+        damper = { kind = "rubber", inertia = 5e4, stiffness = 3000, loss = 0.2 }
+        [[excitation]]
+        node = "hub"
+        order = 1
+        cos = 20
+        """
+    said = ask(text, "--speeds", "1500")["response"]
+    w = 1500 * np.pi / 30
+    stiffness = 3000 * (1 + 0.2j)
+    ring = 0.05 / (1 - w**2 * 0.05 / stiffness)
+    angle = 20 / (-(w**2) * (0.2 + ring))
+    power = w / 2 * (20 * np.conj(angle)).imag
+    assert said["dampers"][0]["heat_W"] == pytest.approx([power])
+    assert said["free_end_deg"] == pytest.approx([np.degrees(abs(angle))])
+
+
+def test_a_tuned_pendulum_holds_its_node_still():
+    """Tuned to the order of its own node: R/L = n^2, which turns half as fast: n = 4."""
+    text = """
+        [[node]]
+        name = "crank"
+        inertia = 2e5
+        [[node]]
+        name = "wheel"
+        inertia = 3e5
+        damper = { kind = "pendulum", mass = 2, radius = 160, length = 10 }
+        [[gear]]
+        from = "crank"
+        to = "wheel"
+        ratio = 0.5
+        [[excitation]]
+        node = "crank"
+        order = 2
+        cos = 20
+        """
+    assert ask(text, "--speeds", "1500")["response"]["free_end_deg"][0] < 1e-9
+    detuned = text.replace("order = 2", "order = 2.5")
+    assert ask(detuned, "--speeds", "1500")["response"]["free_end_deg"][0] > 1e-4
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--holzer", "9"), "pump drive: has 3 modes, but --holzer asks for 9"),
+        (
+            ("--holzer", "x"),
+            '--holzer "x": give the number of a mode, or a frequency such as "20 rad/s", "12 Hz" '
+            'or "900 rpm"',
+        ),
+        (
+            ("--speeds", "3:1"),
+            '--speeds "3:1": must rise; give first:last:step in rpm, such as 1000:2500:25, or '
+            "speeds such as 1500,2000",
+        ),
+        (
+            ("--speeds", "fast"),
+            '--speeds "fast": give first:last:step in rpm, such as 1000:2500:25, or speeds such as '
+            "1500,2000",
+        ),
+        (
+            ("--speeds", "1:1e8:1"),
+            '--speeds "1:1e8:1": has 100000000 speeds; at most 20000 are computed',
+        ),
+        (
+            ("--orders", "0.7"),
+            '--orders "0.7": give multiples of 0.5 such as 0.5-8 (halves too), 1-8 (whole ones) or '
+            "1,2.5,4",
+        ),
+        (
+            ("--orders", "8-1"),
+            '--orders "8-1": 8-1 must rise, from above 0 to 256 at most',
+        ),
+        (
+            ("--speeds", "1000", "--orders", "0.5"),
+            "pump drive: nothing excites it at the orders asked for",
+        ),
+    ],
+)
+def test_options_that_cannot_be(options, message):
+    assert refusal("torsion", "-", *options, stdin=read_starting_file()) == message
+
+
+def test_trial_frequencies_have_units():
+    tables = ask(
+        read_starting_file(),
+        *(
+            "--holzer",
+            "20 rad/s",
+            "--holzer",
+            "3.183098861837907 Hz",
+            "--holzer",
+            "190.98593171027443 rpm",
+        ),
+    )["holzer"]
+    assert [table["frequency_Hz"] for table in tables] == pytest.approx([10 / np.pi] * 3)
+
+
+def test_orders_are_those_asked_for():
+    said = ask(read_starting_file(), "--speeds", "2315", "--orders", "3-8")
+    assert said["criticals"] == []  # order 4 meets no mode at this speed
+    assert [x["order"] for x in said["response"]["shafts"][0]["worst"]["orders"]] == [4]

@@ -1,0 +1,146 @@
+"""Published torsional systems as chain files, to the digits of the print."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+from support.commands import run_here
+
+
+def ask(text, *options):
+    status, out, err = run_here("torsion", "-", *options, "--format", "json", stdin=text)
+    assert (status, err) == (0, "")
+    return json.loads(out)
+
+
+def hertz(text):
+    return [mode["frequency_Hz"] for mode in ask(text)["modes"]]
+
+
+def row(inertias, stiffness):
+    """A file of nodes in a row, kg m2 and N m/rad."""
+    nodes = [f'{{ name = "{k}", inertia = "{j} kg m^2" }}' for k, j in enumerate(inertias, 1)]
+    shafts = [
+        f'{{ from = "{k}", to = "{k + 1}", stiffness = {s} }}' for k, s in enumerate(stiffness, 1)
+    ]
+    return f"node = [{', '.join(nodes)}]\nshaft = [{', '.join(shafts)}]\n"
+
+
+def test_thomson_12_4_1():
+    """Thomson, Theory of Vibration with Applications, table 12.4-1: trials of 20 and 40 rad/s."""
+    text = row([5, 11, 22], [1e5, 2e5])
+    tables = ask(text, "--holzer", "20 rad/s", "--holzer", "40 rad/s")["holzer"]
+    angles = [[x["angle"] for x in table["rows"]] for table in tables]
+    sums = [[x["sum_Nm"] for x in table["rows"]] for table in tables]
+    assert angles[0] == pytest.approx([1, 0.98, 0.94844], abs=1e-12)
+    assert angles[1] == pytest.approx([1, 0.92, 0.79904], abs=1e-12)
+    assert sums[0] == pytest.approx([2000, 6312, 14658.272])
+    assert sums[1] == pytest.approx([8000, 24192, 52318.208])
+    assert [2 * math.pi * f for f in hertz(text)] == pytest.approx([123.6658001, 202.6583486])
+
+
+def test_two_discs():
+    assert hertz(row([211.4, 8.3], [9.775e6])) == pytest.approx([176.0767468])
+
+
+def test_friswell_three_cylinders():
+    found = hertz(row([0.0035, 0.0035, 0.0035, 0.15, 0.05], [12e3, 12e3, 14e3, 10e3]))
+    assert found == pytest.approx([81.20762902, 141.2140714, 378.9529539, 536.3632829])
+
+
+def test_friswell_pair_of_gears():
+    text = """
+        node = [
+            { name = "motor", inertia = 400 },
+            { name = "pinion", inertia = 25 },
+            { name = "wheel", inertia = 25 },
+            { name = "one", inertia = 700 },
+            { name = "other", inertia = 700 },
+        ]
+        shaft = [
+            { from = "motor", to = "pinion", stiffness = 10e3 },
+            { from = "wheel", to = "one", stiffness = 5e3 },
+            { from = "pinion", to = "other", stiffness = 5e3 },
+        ]
+        gear = [{ from = "pinion", to = "wheel", ratio = -1 }]
+        """
+    assert [round(f, 1) for f in hertz(text)] == [425.4, 634.1, 3247.2]
+
+
+def test_friswell_branches():
+    """One shaft drives two others through gears of radius 0.5 and 0.8 m, G = 68 GPa."""
+    text = """
+        node = [
+            { name = "0", inertia = "3200 kg m^2" },
+            { name = "1", inertia = "200 kg m^2" },
+            { name = "2", inertia = "200 kg m^2" },
+            { name = "3", inertia = "800 kg m^2" },
+            { name = "4", inertia = "800 kg m^2" },
+            { name = "5", inertia = "450 kg m^2" },
+            { name = "6", inertia = "450 kg m^2" },
+        ]
+        shaft = [
+            { from = "0", to = "1", length = "2.5 m", diameter = 200, shear_modulus = 68 },
+            { from = "3", to = "5", length = "3.5 m", diameter = 250, shear_modulus = 68 },
+            { from = "4", to = "6", length = "3.5 m", diameter = 250, shear_modulus = 68 },
+        ]
+        gear = [
+            { from = "1", to = "2", ratio = -1 },
+            { from = "1", to = "3", ratio = -0.625 },
+            { from = "2", to = "4", ratio = -0.625 },
+        ]
+        """
+    assert [round(f, 3) for f in hertz(text)] == [10.304, 20.479, 24.423]
+
+
+def test_bevan_15_8_in_pounds_and_inches():
+    """Two rotors on a stepped shaft, whose steps meet at massless nodes. Bevan counts with g = 32.2
+    ft/s2, which makes 22.26 Hz of the 22.25 that standard gravity gives.
+    """
+    lengths, diameters = [11, 10, 15, 4, 10], [3, 5, 3.5, 7, 5]
+    inner = "".join(f'[[node]]\nname = "step {k}"\n' for k in range(1, 5))
+    names = ["left", *(f"step {k}" for k in range(1, 5)), "right"]
+    shafts = "".join(
+        f'[[shaft]]\nfrom = "{a}"\nto = "{b}"\nlength = "{length} in"\ndiameter = "{diameter} in"\n'
+        'shear_modulus = "12e6 psi"\n'
+        for a, b, length, diameter in zip(names, names[1:], lengths, diameters, strict=False)
+    )
+    ends = [
+        f'[[node]]\nname = "{n}"\ninertia = "{j} lb ft^2"\n'
+        for n, j in (("left", 1500), ("right", 1000))
+    ]
+    (found,) = hertz(ends[0] + inner + ends[1] + shafts)
+    in_feet = math.sqrt(32.2 / (9.80665 / 0.3048))
+    assert found * in_feet == pytest.approx(22.25625042)
+
+
+def test_uniform_chain_with_one_end_fixed():
+    """`2 sqrt(k/J) sin((2 i - 1) pi/(2 (2 n + 1)))`; Holzer's table leads to the clamped end."""
+    count, inertia, stiffness = 5, 20, 125
+    text = 'fixed = ["1"]\n' + row([1, *[inertia] * count], [stiffness] * count)
+    exact = [
+        2 * math.sqrt(stiffness / inertia) * math.sin((2 * i - 1) * math.pi / (2 * (2 * count + 1)))
+        for i in range(1, count + 1)
+    ]
+    assert [2 * math.pi * f for f in hertz(text)] == pytest.approx(exact, rel=1e-13)
+    (table,) = ask(text, "--holzer", "2")["holzer"]
+    assert table["rows"][-1]["angle"] == 1
+    assert table["rows"][0]["angle"] == pytest.approx(0, abs=1e-12)
+
+
+def test_bevan_15_1_flywheel_on_a_cantilever():
+    """0.3 long tons of radius of gyration 15 in on 36 in of 3 in shaft: 786 a minute."""
+    text = f"""
+        fixed = ["wall"]
+        node = [
+            {{ name = "wall" }},
+            {{ name = "flywheel", inertia = "{0.3 * 2240 * 15**2} lb in^2" }},
+        ]
+        shaft = [
+            {{ from = "wall", to = "flywheel", length = "36 in", diameter = "3 in", shear_modulus = "12e6 psi" }},
+        ]
+        """
+    (found,) = hertz(text)
+    assert round(found * 60 * math.sqrt(32.2 / (9.80665 / 0.3048))) == 786

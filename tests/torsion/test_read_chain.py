@@ -1,0 +1,250 @@
+"""What a chain file may say, and how every mistake is told, by its path."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+from support.commands import refusal, run_here
+
+from balcli.enginefile.toml_text import parse_toml
+from balcli.torsion.build_chain import build_chain
+from balcli.torsion.read_chain import read_chain_tables
+
+TWO = """
+[[node]]
+name = "a"
+inertia = 1e6
+[[node]]
+name = "b"
+inertia = 2e6
+[[shaft]]
+from = "a"
+to = "b"
+stiffness = 1000
+"""
+
+
+def build(text):
+    return build_chain(read_chain_tables(parse_toml(text, "")))
+
+
+def mistakes(text):
+    return refusal("torsion", "-", stdin=text).removeprefix("standard input: ").split("\n")
+
+
+def test_figures_are_converted_once():
+    system = build(
+        """
+        [[node]]
+        name = "a"
+        inertia = 1500
+        damping = "18 lbf in s/rad"
+        [[node]]
+        name = "b"
+        inertia = "1500 lb ft^2"
+        damper = { kind = "pendulum", mass = "3 lb", radius = 60, length = "1 in" }
+        [[shaft]]
+        from = "a"
+        to = "b"
+        stiffness = "24.17e6 lbf in/rad"
+        diameter = "3 in"
+        bore = 20
+        """
+    )
+    pound, inch = 0.45359237, 0.0254
+    force = pound * 9.80665
+    assert system.chain.inertia == pytest.approx([1.5e-3, 1500 * pound * (12 * inch) ** 2])
+    assert system.chain.stiffness == pytest.approx([24.17e6 * force * inch])
+    assert system.damping.nodes == pytest.approx([18 * force * inch, 0])
+    assert system.sections[0] == pytest.approx((3 * inch, 0.02))
+    assert system.pendulums[0] == pytest.approx((1, 3 * pound, 0.06, inch))
+
+
+def test_a_plain_shaft_has_the_stiffness_of_its_steel():
+    system = build(TWO.replace("stiffness = 1000", "diameter = 40\nlength = 500\nbore = 10"))
+    polar = math.pi / 32 * (0.04**4 - 0.01**4)
+    assert system.chain.stiffness == pytest.approx([79.3e9 * polar / 0.5])
+    softer = build(
+        TWO.replace("stiffness = 1000", 'diameter = 40\nlength = 500\nshear_modulus = "12e6 psi"')
+    )
+    modulus = 12e6 * 0.45359237 * 9.80665 / 0.0254**2
+    assert softer.chain.stiffness == pytest.approx([modulus * math.pi / 32 * 0.04**4 / 0.5])
+
+
+def test_loss_of_the_file_is_that_of_shafts_that_name_none():
+    text = "loss = 0.03\n" + TWO + '[[shaft]]\nfrom = "b"\nto = "a"\nstiffness = 5\nloss = 0\n'
+    system = build(text)
+    assert system.damping.loss.tolist() == [0.03, 0]
+    assert system.shafts == ("a-b", "b-a")
+
+
+def test_shafts_between_the_same_nodes_are_told_apart():
+    assert build(TWO + '[[shaft]]\nfrom = "a"\nto = "b"\nstiffness = 5\n').shafts == (
+        "a-b",
+        "a-b (2)",
+    )
+
+
+def test_a_rubber_ring_is_a_node_and_a_shaft():
+    rubber = 'damper = { kind = "rubber", inertia = 4e4, stiffness = 300, loss = 0.2 }\n'
+    system = build(TWO.replace('name = "a"\n', f'name = "a"\n{rubber}', 1))
+    assert system.nodes == ("a", "b", "a ring")
+    assert system.shafts == ("a-b", "a ring")
+    assert system.chain.inertia.tolist() == [1, 2, 0.04]
+    assert system.damping.loss.tolist() == [0, 0.2]
+    assert system.last == 1
+
+
+def test_torques_of_one_node_and_order_add_up():
+    system = build(
+        TWO
+        + """
+        [[excitation]]
+        node = "b"
+        order = 2
+        cos = 3
+        [[excitation]]
+        node = "b"
+        order = 2
+        cos = 1
+        sin = 5
+        [[excitation]]
+        node = "a"
+        order = 0.5
+        sin = "1 lbf ft"
+        """
+    )
+    excitation = system.excitation
+    assert excitation is not None
+    assert excitation.orders.tolist() == [0.5, 2]
+    assert excitation.nodes.tolist() == [0, 1]
+    foot_pound = 0.45359237 * 9.80665 * 0.3048
+    assert excitation.steady.ravel() == pytest.approx([-1j * foot_pound, 0, 0, 4 - 5j])
+
+
+def test_every_mistake_is_told_at_once():
+    text = """
+limt = 3
+loss = -1
+fixed = ["nowhere"]
+[[node]]
+name = "a"
+inertia = 0
+[[node]]
+name = "a"
+inertia = -5
+[[node]]
+inertia = "3 N"
+damper = { kind = "viscous", inertia = 3, mass = 4 }
+[[node]]
+name = "d"
+damper = { kind = "spring", foo = 3 }
+[[shaft]]
+from = "a"
+[[shaft]]
+from = "a"
+to = "c"
+stiffness = 0
+[[shaft]]
+from = "a"
+to = "a"
+diameter = 30
+bore = 40
+[[gear]]
+from = "a"
+to = "d"
+ratio = 0
+[[excitation]]
+node = "q"
+order = 1.3
+"""
+    assert mistakes(text) == [
+        "19 mistakes",
+        "  limt: is no key of a chain file; did you mean limit?",
+        "  loss: -1 is less than 0; a plain number is wanted, without quotes, 0 or more",
+        "  node.1.inertia: is 0; leave it out where a node has no inertia",
+        "  node.2.inertia: -5 is not above 0; a moment of inertia is wanted: a bare number in kg mm^2, "
+        'or "4200 kg mm^2" or "8.1 lb in^2", above 0',
+        '  node.3.name: is missing; give it, such as name = "flywheel"',
+        '  node.3.inertia: "3 N" is a force, but a moment of inertia is wanted: a bare number in '
+        'kg mm^2, or "4200 kg mm^2" or "8.1 lb in^2"',
+        "  node.3.damper: is viscous and lacks damping; is viscous, which has no mass",
+        '  node.4.damper.kind: "spring" is not "viscous" or "rubber" or "pendulum"',
+        "  node.4.damper.foo: is no key of a damper; it has kind, inertia, damping, stiffness, loss, "
+        "mass, radius, length",
+        '  shaft.1.to: is missing; give it, such as to = "flywheel"',
+        "  shaft.2.stiffness: 0 is not above 0; a torsional stiffness is wanted: a bare number in "
+        'N m/rad, or "1.25e6 N m/rad" or "24.17e6 lbf in/rad", above 0',
+        "  shaft.3: has no stiffness; give it, such as stiffness = 1.25e6, or diameter and length of "
+        "a plain shaft; has a bore of 40 mm and a diameter of 30; the bore is the smaller of both",
+        "  gear.1.ratio: is no speed ratio; give speed of `to` over speed of `from`, not 0",
+        "  excitation.1.order: 1.3 is no order that can be added up over two turns of the first "
+        "node; give a multiple of 0.5",
+        '  node.2.name: "a" is there twice; give each its own',
+        '  shaft.2.to: "c" is no node; there are a, d',
+        '  shaft.3: goes from "a" to itself; it joins two nodes',
+        '  excitation.1.node: "q" is no node; there are a, d',
+        '  fixed: "nowhere" is no node; there are a, d',
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", 'node: is missing; write [[node]] for every inertia, such as name = "flywheel"'),
+        (
+            "node = 3",
+            "node: is one of several; write [[node]] in double brackets, once for each node",
+        ),
+        ("node = []", "node: is an empty list; a chain has at least one node"),
+        (
+            TWO.replace('to = "b"', 'to = "bb"').replace('name = "b"', 'name = "flywheel"'),
+            'shaft.1.to: "bb" is no node; there are a, flywheel',
+        ),
+        (
+            TWO.replace('to = "b"', 'to = "flywhel"').replace('name = "b"', 'name = "flywheel"'),
+            'shaft.1.to: "flywhel" is no node; did you mean flywheel?',
+        ),
+        (TWO + "[[node]]\nname = 3\n", "node.3.name: 3 is no name; write it in quotes"),
+        (
+            TWO + '[[node]]\nname = "c"\n',
+            'node.3: "c" hangs on nothing that hangs on "a"; join them by a [[shaft]] or a [[gear]]',
+        ),
+        (
+            TWO
+            + '[[gear]]\nfrom = "a"\nto = "b"\nratio = 2\n' * 1
+            + '[[gear]]\nfrom = "b"\nto = "a"\nratio = 2\n',
+            "gear.1: is in a loop of gears whose ratios lock each other",
+        ),
+        ('fixed = ["a", "b"]\n' + TWO, "fixed: clamps every node; leave one free"),
+        (
+            TWO.replace("inertia = 1e6\n", "").replace("inertia = 2e6\n", ""),
+            "node.1.inertia: is missing; nothing that turns has any",
+        ),
+        (
+            TWO.replace("stiffness = 1000", "stiffness = 1000\nlength = 3\ndiameter = 30"),
+            "shaft.1: has stiffness and length; leave one of them out",
+        ),
+        (
+            TWO.replace("stiffness = 1000", "stiffness = 1000\nbore = 3"),
+            "shaft.1: has a bore of 3 mm and no diameter; the bore is the smaller of both",
+        ),
+    ],
+)
+def test_a_mistake_says_what_would_be_right(text, message):
+    assert mistakes(text) == [message]
+
+
+def test_sizes_are_limited():
+    many = "".join(f'[[node]]\nname = "{k}"\ninertia = 1\n' for k in range(201))
+    assert mistakes(many) == ["node: stands 201 times; at most 200 are taken"]
+
+
+def test_the_schema_knows_all_keys():
+    document = json.loads(run_here("schema", "torsion").out)
+    assert document["title"] == "balcli chain file"
+    assert set(document["properties"]) >= {"node", "shaft", "gear", "excitation", "fixed", "loss"}
+    assert set(document["$defs"]["ChainShaft"]["properties"]) >= {"from", "to", "stiffness", "bore"}
+    assert document["$defs"]["Node"]["properties"]["inertia"]["unit"] == "kg mm^2"
