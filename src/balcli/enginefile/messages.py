@@ -22,11 +22,14 @@ TABLES: dict[str, type[model.Table]] = {
     "operation": model.Operation,
     "frame": model.Frame,
     "articulation": model.Articulation,
+    "body": model.Body,
 }
 DEVICES: dict[str, type[model.Table]] = {
     "counterweight": model.Counterweight,
     "shaft": model.Shaft,
     "slider": model.Slider,
+    "mount": model.Mount,
+    "point": model.MarkedPoint,
 }
 KNOWN = (*TEXTS, *TABLES, "cylinder", *DEVICES)
 INNER: dict[str, type[model.Table]] = {
