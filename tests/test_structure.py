@@ -161,8 +161,14 @@ ON_REQUEST = {
         "balcli.sizing.schemes",
         "balcli.torsion.starting_file",
     ),
-    "balcli.engine.assembly": ("balcli.core.mechanisms.rotary", "balcli.engine.articulation"),
+    "balcli.engine.assembly": (
+        "balcli.core.mechanisms.rotary",
+        "balcli.engine.articulation",
+        "balcli.engine.gas",
+    ),
     "balcli.engine.rules": ("balcli.engine.articulation",),
+    "balcli.forces.spectrum": ("balcli.forces.gas",),
+    "balcli.forces.symmetry": ("balcli.forces.gas_symmetry",),
     "balcli.render.analyses": ("balcli.render.analysis",),
     "balcli.render.formats": (
         *(f"balcli.render.{form}" for form in Format),
