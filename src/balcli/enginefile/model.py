@@ -575,6 +575,14 @@ class MarkedPoint(Table):
     at: Point = Field(description="x, y, z, in the engine's axes", examples=[[0, 500, 0]])
 
 
+def label_table(table: Table, number: int) -> str:
+    """What stands for a table of several in dotted names: its name, if that is a word, with `_` for
+    spaces; else its number.
+    """
+    name = getattr(table, "name", "").replace(" ", "_")
+    return name if name.isidentifier() else str(number)
+
+
 class EngineFile(Table):
     """One engine: crank, rods, pistons, layout, and the devices that balance it."""
 
@@ -605,13 +613,14 @@ class EngineFile(Table):
     point: tuple[MarkedPoint, ...] = Field((), description="points whose motion is wanted")
 
     def tables(self) -> Iterator[tuple[str, Table]]:
-        """Every table with its dotted name (`crank`, `shaft.1`, `cylinder.3`), as far as the file
+        """Every table with its dotted name (`crank`, `shaft.1`, `mount.left`), as far as the file
         has it or it has defaults; not the tables within tables.
         """
         for key, part in self:
             if isinstance(part, Table):
                 yield key, part
             elif isinstance(part, tuple):
-                yield from ((f"{key}.{number}", table) for number, table in enumerate(part, 1))
+                for number, table in enumerate(part, 1):
+                    yield f"{key}.{label_table(table, number)}", table
             elif isinstance(part, dict):
                 yield from ((f"{key}.{number}", table) for number, table in part.items())
