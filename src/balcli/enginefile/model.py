@@ -9,7 +9,7 @@ a file has.
 import math
 from collections.abc import Collection, Iterator
 from itertools import chain
-from typing import Annotated, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic.fields import FieldInfo
@@ -18,6 +18,9 @@ from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES
 from .exclusive import Choice, find_repeated, join_words
 from .fields import Flag, Halves, Number, OneOf, Whole, counted
 from .units import ANGLE, INERTIA, LENGTH, MASS, PLAIN, SPEED, STANDARD_GRAVITY, TIME, UNBALANCE
+
+if TYPE_CHECKING:
+    from .torsion_tables import Torsion
 
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
 
@@ -456,6 +459,7 @@ class EngineFile(Table):
     operation: Operation = Operation.model_construct()
     frame: Frame = Frame.model_construct()
     articulation: Articulation | None = None
+    torsion: "Torsion | None" = None
     cylinder: dict[int, Override] = Field(
         {}, description="what differs in single cylinders, by their numbers"
     )

@@ -21,14 +21,16 @@ from ..limits import (
 )
 from .fields import printable, shorten
 from .messages import (
+    CHAPTERS,
     DEVICES,
-    INNER,
     KNOWN,
     TABLES,
     TEXTS,
     UnknownKey,
     describe_finding,
     describe_unknown_key,
+    find_inner_table,
+    import_table,
     is_miscounted,
     join_path,
 )
@@ -102,6 +104,9 @@ def read_tables(text: str | bytes, name: str = "") -> Draft:
     for key, table in TABLES.items():
         if key in data:
             parts[key] = reader.read_table(key, data[key], table)
+    for key in CHAPTERS:
+        if key in data:
+            parts[key] = reader.read_table(key, data[key], import_table(key))
     for key, table in DEVICES.items():
         if key in data:
             parts[key] = reader.read_devices(key, data[key], table)
@@ -226,7 +231,7 @@ class _Reader:
         for finding in findings:
             if finding["type"] == "extra_forbidden":  # in a table within the table
                 *parents, last = finding["loc"]
-                inner = INNER[str(parents[0])]
+                inner = find_inner_table(table, finding["loc"])
                 self.unknown.append(UnknownKey(join_path(path, parents), str(last), inner))
             elif not is_miscounted(finding):
                 self.problems.append(describe_finding(path, finding, table))
