@@ -95,7 +95,6 @@ def test_wrong_usage_shows_how_a_command_is_used(balcli, args, command, message)
     [
         ["analyze"],
         ["analyze", V8, "--format", "xml"],
-        ["analyze", V8, "--speed", "fast"],
         ["analyze", V8, "--only"],
         ["new"],
     ],
@@ -169,7 +168,7 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         (
             ["analyze", V8, "--only", "guide", "--guide-height", "0"],
             "--guide-height 0: the distance from the crankshaft to the middle of the "
-            "guides must be a positive number of mm, below 1e6",
+            "guides must be positive, below 1000 m",
         ),
     ],
 )
@@ -573,6 +572,7 @@ def test_any_locale_gets_utf_8():
     done = run_command(
         "analyze",
         V8,
+        "--all",
         env={
             "LC_ALL": "C",
             "PYTHONUTF8": "0",

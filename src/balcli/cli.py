@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 import sys
-from difflib import get_close_matches
 from importlib import import_module
 from inspect import cleandoc
 from io import StringIO
@@ -63,6 +62,8 @@ class _OnDemand(TyperGroup):
         try:
             return super().resolve_command(ctx, args)
         except typer.TyperException as error:
+            from difflib import get_close_matches
+
             if near := get_close_matches(args[0].lower()[:100], COMMANDS, 1):
                 error.message += f" Did you mean {near[0]}?"
             raise

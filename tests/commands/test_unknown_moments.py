@@ -5,6 +5,7 @@ them for balanced.
 import csv
 import io
 import json
+import re
 
 import pytest
 from support.engines import GOOD, changed
@@ -31,7 +32,7 @@ def warning(file):
 
 
 def test_a_table_has_dashes_and_the_verdict_judges_forces_alone(balcli, twin):
-    status, out, err = balcli("analyze", twin)
+    status, out, err = balcli("analyze", twin, "--all")
     assert (status, err) == (0, warning(twin))
     moments = out.partition("Free moment by order")[2].partition("About the crank axis")[0]
     assert [line.split() for line in moments.splitlines() if line[:1] in "12"][:2] == [
@@ -46,6 +47,9 @@ def test_a_table_has_dashes_and_the_verdict_judges_forces_alone(balcli, twin):
     assert "free of moment" not in told
     assert "no moment" not in told
     assert "no free force of orders 1 and 2 (moments are not known)" in told
+    brief = balcli("analyze", twin)[1]
+    assert re.search(r"^1 +balanced +– +– +–$", brief, re.MULTILINE)
+    assert "leave no free force (moments are not known) of orders 1 and 2" in brief
 
 
 def test_sizing_that_fits_nothing_promises_nothing_of_moments(balcli, tmp_path):

@@ -43,7 +43,7 @@ HANDBOOK = {  # forces of order 1 and 2, moments of order 1 and 2
 
 @pytest.mark.parametrize("name", HANDBOOK)
 def test_column_reasons_and_table_of_layouts_are_the_handbooks(name):
-    text = run_here("analyze", folder() / f"{name}.toml", "--why", "--orders", "1,2").out
+    text = run_here("analyze", folder() / f"{name}.toml", "--all", "--why", "--orders", "1,2").out
     columns = _columns(text)
     reasons = _reasons(text)
     layouts = _layouts()[name]

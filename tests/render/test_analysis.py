@@ -6,20 +6,29 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 from io import StringIO
+from types import SimpleNamespace
 
 import pytest
 from support.engines import RADIAL, build_text, inline_engine, rotary_engine
 
+from balcli.commands.options import parse_parts
 from balcli.errors import BalcliError
-from balcli.render import analysis
+from balcli.render import analysis, analysis_data
 from balcli.render.formats import Format, render
+from balcli.render.sheet import Facts, Grid
 from balcli.render.units import SYSTEMS
+from balcli.render.view import IN_BRIEF, View
 from balcli.results.analysis import analyze
+
+RENDERER = SimpleNamespace(
+    sheet=analysis.sheet, document=analysis_data.document, rows=analysis_data.rows
+)
 
 
 def rendered(form, subject, system="si", **options):
-    return render([analyze(subject, **options)], analysis, form, SYSTEMS[system])
+    return render([analyze(subject, **options)], RENDERER, form, SYSTEMS[system])
 
 
 def document(subject, **options):
@@ -126,7 +135,69 @@ def test_a_sheet_has_inner_moments_guide_forces_and_strokes():
     ):
         assert title in text
     assert "divided by L = 160 mm (crankshaft to the middle of the guide" in " ".join(text.split())
-    assert "Strokes and dead centres" in shown(build_text(RADIAL), only=["force"])
+    radial = analyze(build_text(RADIAL), only=["force"])
+    titles = {
+        whole: [p.title for p in analysis.sheet(radial, SYSTEMS["si"], View(whole=whole)).parts]
+        for whole in (False, True)
+    }
+    assert "Strokes and dead centres" not in " ".join(titles[False])
+    assert "Strokes and dead centres" in " ".join(titles[True])
+
+
+WIDE = [0, 72, 144, 216, 288]
+SIX = [0, 120, 240, 240, 120, 0]
+
+
+def parts(subject, view=IN_BRIEF, **options):
+    """Titles of a sheet's parts, and the first cells of its first table."""
+    found = analysis.sheet(analyze(subject, **options), SYSTEMS["si"], view).parts
+    first = next((part for part in found if isinstance(part, Grid)), None)
+    return [part.title.split(":")[0] for part in found], [
+        row[0] for row in (() if first is None else first.rows)
+    ]
+
+
+BRIEF = [
+    "",
+    "Verdict",
+    "Largest by order, and its parts that turn with the crank and against it",
+    "Largest over a revolution",
+    "Sizing",
+]
+
+
+def test_in_brief_the_verdict_comes_first_and_only_orders_that_matter():
+    assert parts(inline_engine(WIDE)) == (BRIEF, ["1", "2", "4"])
+    every = View(every_order=True)
+    assert parts(inline_engine(WIDE), every, orders=[4, 6]) == (BRIEF, ["4", "6"])
+    assert "10" in parts(inline_engine(WIDE), View(whole=True))[1]
+
+
+def test_what_is_left_out_is_named_in_one_line():
+    """A straight six has nothing below order 6, where ellipses are as small as the series."""
+    found = analysis.sheet(analyze(inline_engine(SIX)), SYSTEMS["si"])
+    grid = next(part for part in found.parts if isinstance(part, Grid))
+    assert [row[:4] for row in grid.rows] == [(n, "balanced", "", "") for n in "12"]
+    assert re.fullmatch(
+        r"Negligible: orders 6, 12 \(at most force [\d.e-]+ N\)\. All: --all\.", grid.note
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "titles"),
+    [
+        ("xy", ["", "Along x (vertical) and y (horizontal), N, N·m"]),
+        ("textbook", ["Free force in textbook units", "Free moment in textbook units"]),
+        ("verdict", ["Verdict"]),
+        ("force", ["", "Verdict", "Free force by order, N"]),
+    ],
+)
+def test_only_picks_parts(words, titles):
+    chosen, named = parse_parts(words)
+    found = analysis.sheet(
+        analyze(inline_engine([0, 180]), only=chosen), SYSTEMS["si"], View(parts=named)
+    )
+    assert [p.title for p in found.parts if p.title or isinstance(p, Facts)] == titles
 
 
 def test_a_rotary_engine_from_end_to_end():

@@ -18,7 +18,6 @@ from balcli.commands.plot import What
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.render.plot import style
-from balcli.render.plot.axes import choose_scale
 from balcli.render.plot.bars import draw_vector_bars, visible_rows
 from balcli.render.plot.locus import draw_locus, find_period_deg
 from balcli.render.plot.pages import PAGES, Subject, draw_page
@@ -160,7 +159,7 @@ def test_a_balanced_quantity_says_so(ax):
     ],
 )
 def test_long_figures_get_a_larger_unit(unit, largest, name):
-    assert choose_scale(unit, largest).name == name
+    assert unit.fit(largest).name == name
 
 
 def test_an_even_engine_repeats_its_locus(four):

@@ -122,7 +122,7 @@ def test_csv_has_what_json_calls_practical_and_details(file):
     ("units", "size", "length"), [("si", 1.0, 1.0), ("imperial", 28.349523125 * 25.4, 25.4)]
 )
 def test_csv_has_devices_in_the_units_asked_for(file, units, size, length):
-    options = ("--scheme", "two-shaft", "--at=-60,80", "--position", "12")
+    options = ("--scheme", "two-shaft", "--at=-60mm,80 mm", "--position", "12 mm")
     rows = list(
         csv.DictReader(StringIO(run(file, *options, "--format", "csv", "--units", units).out))
     )

@@ -35,7 +35,8 @@ def test_it_is_shown_beside_each():
     assert "Permitted residual unbalance, ISO 21940-11, G 16\n" in out
     assert "A crankshaft of 31 kg at 6000 rpm; all counterweights share alike." in out
     assert f"{WHOLE / 2:.1f}" in out
-    assert "oz·in" in run_here(*ASKED, "--units", "imperial").out
+    pounds = ("--mass", "68.343 lb")
+    assert "oz·in" in run_here(*ASKED, *pounds, "--units", "imperial").out
 
 
 def test_nothing_is_said_unasked():

@@ -7,20 +7,21 @@ from typing import Annotated
 import typer
 
 from ..render.formats import Format, Units
+from ..render.view import View
 from .file_names import text_format
 from .options import (
     EnginePaths,
     FormatOption,
     GuideHeight,
-    Only,
+    OnlyParts,
     Orders,
     Output,
     Speed,
     UnitsOption,
-    check_guide_height,
-    check_speed,
+    parse_guide_height,
     parse_orders,
-    parse_quantities,
+    parse_parts,
+    parse_speed,
 )
 from .output import is_seen, show
 from .overwrite_guard import refuse_overwriting
@@ -31,7 +32,10 @@ def analyze(
     form: FormatOption = None,
     speed: Speed = None,
     orders: Orders = None,
-    only: Only = None,
+    only: OnlyParts = None,
+    whole: Annotated[
+        bool, typer.Option("--all", help="Every table and every order that is not rounding.")
+    ] = False,
     by: Annotated[
         str,
         typer.Option(
@@ -54,7 +58,7 @@ def analyze(
     ] = False,
     output: Output = None,
 ) -> None:
-    """Free forces and moments by order, couple, torque and roll, peaks, and what balances them."""
+    """Free forces and moments of an engine, order by order, and what balances them."""
     refuse_overwriting(reads=paths, writes={"--output": output})
     form = text_format(output, form)
     from ..render import analyses
@@ -62,20 +66,31 @@ def analyze(
     from ..results.analysis import analyze as analyze_engine
     from .inputs import distinct_names, exit_on_errors, read_engine, try_each
 
-    if by not in ("", "cylinder"):
-        raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")
-    asked, chosen, rpm = parse_orders(orders), parse_quantities(only), check_speed(speed)
-    height_m = check_guide_height(guide_height)
+    rpm, each = parse_speed(speed), _is_by_cylinder(by)
+    height_m = parse_guide_height(guide_height, units)
+    asked, (chosen, parts) = parse_orders(orders), parse_parts(only)
 
     def analyze_file(path: str) -> tuple[str, Analysis]:
         engine = read_engine(path, rpm, chosen).engine
-        return path, analyze_engine(engine, asked, chosen, bool(by), why, height_m)
+        return path, analyze_engine(engine, asked, chosen, each, why, height_m)
 
     found, errors = try_each(paths, analyze_file)
     if found and not (errors and output):  # a file gets all of them or is left as it was
         good, results = zip(*found, strict=True)
         names = distinct_names([result.engine.name for result in results], good)
-        drawn = [plot and form is Format.TABLE and is_seen(output)] * len(results)
-        named = list(map(analyses.NamedAnalysis, names, results, drawn))
+        drawn = plot and form is Format.TABLE and is_seen(output)
+        view = View(whole, parts, every_order=asked is not None, pictures=drawn)
+        named = [analyses.NamedAnalysis(*one, view) for one in zip(names, results, strict=True)]
         show(named, analyses, form, output, units)
     exit_on_errors(errors)
+
+
+def _is_by_cylinder(by: str) -> bool:
+    """Whether --by asks for each cylinder's share.
+
+    Raises:
+        BadParameter: it asks for something else.
+    """
+    if by not in ("", "cylinder"):
+        raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")
+    return bool(by)

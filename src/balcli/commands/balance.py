@@ -13,8 +13,8 @@ from .options import (
     Output,
     Speed,
     UnitsOption,
-    check_speed,
     parse_orders,
+    parse_speed,
 )
 from .output import show
 from .overwrite_guard import refuse_overwriting
@@ -53,15 +53,15 @@ def balance(
     from .fitted_engine import write_fitted
     from .inputs import read_engine
 
-    options = balance_options.parse_scheme_options(order, at, position, planes, factor, roll)
-    tools = balance_options.parse_tools(radius, thickness, disc, drill)
-    asked, rpm = parse_orders(orders), check_speed(speed)
+    options = balance_options.parse_scheme_options(order, at, position, planes, factor, roll, units)
+    tools = balance_options.parse_tools(radius, thickness, disc, drill, units)
+    asked, rpm = parse_orders(orders), parse_speed(speed)
     text, model, engine = read_engine(path, rpm)
     if scheme == KNUCKLES or even is not None:
         result = balance_options.balance_knuckles(scheme, options, even, model, engine, asked)
     else:
         result = balance_engine(engine, scheme, options, asked, tools)
-    result = permit_unbalance(result, grade, mass)
+    result = permit_unbalance(result, grade, balance_options.parse_mass(mass, units))
     if write is not None:
         write_fitted(path, text, result.remedy, write, rpm)
     show([result], renderer, form, output, units)

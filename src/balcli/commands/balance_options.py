@@ -10,10 +10,11 @@ import typer
 
 from ..errors import BalcliError
 from ..limits import MOST_FACTORS
+from ..render.formats import Units
 from ..sizing.options import SchemeOptions
 from ..sizing.schemes import KNUCKLES, NAMES
+from .amounts import read_length, read_lengths, read_mass, read_share
 from .completion import complete_schemes
-from .options import parse_numbers
 
 if TYPE_CHECKING:
     from ..engine.build import Engine
@@ -79,7 +80,7 @@ Roll = Annotated[
     ),
 ]
 Radius = Annotated[
-    float | None,
+    str | None,
     typer.Option(
         metavar="MM",
         show_default=False,
@@ -87,7 +88,7 @@ Radius = Annotated[
     ),
 ]
 Thickness = Annotated[
-    float | None,
+    str | None,
     typer.Option(
         metavar="MM",
         show_default=False,
@@ -95,7 +96,7 @@ Thickness = Annotated[
     ),
 ]
 Disc = Annotated[
-    float | None,
+    str | None,
     typer.Option(
         metavar="MM",
         show_default=False,
@@ -103,7 +104,7 @@ Disc = Annotated[
     ),
 ]
 Drill = Annotated[
-    float | None,
+    str | None,
     typer.Option(
         metavar="MM",
         show_default=False,
@@ -132,7 +133,7 @@ Grade = Annotated[
     ),
 ]
 Mass = Annotated[
-    float | None,
+    str | None,
     typer.Option(
         metavar="KG",
         show_default=False,
@@ -157,28 +158,35 @@ def parse_scheme_options(
     planes: str | None,
     factor: str | None,
     roll: str | None,
+    units: Units,
 ) -> SchemeOptions:
     """What a scheme is asked for, in SI; BalcliError for a text that says nothing, with the
     text.
     """
     return SchemeOptions(
         order=order,
-        at=tuple(map(_parse_place, at)) if at else None,
-        position=None if position is None else _parse_position(position),
-        planes=None if planes is None else _parse_planes(planes),
+        at=tuple(_parse_place(text, units) for text in at) if at else None,
+        position=None if position is None else _parse_position(position, units),
+        planes=None if planes is None else _parse_planes(planes, units),
         factor=None if factor is None else _parse_factors(factor),
         roll=roll,
     )
 
 
 def parse_tools(
-    radius: float | None, thickness: float | None, disc: float | None, drill: float | None
+    radius: str | None, thickness: str | None, disc: str | None, drill: str | None, units: Units
 ) -> Tools:
-    """What a workshop has, mm -> m."""
+    """What a workshop has; BalcliError for a text that is no length."""
     from ..sizing.workshop import Tools
 
-    lengths = (radius, thickness, disc, drill)
-    return Tools(*(None if length is None else length / 1e3 for length in lengths))
+    given = {"radius": radius, "thickness": thickness, "disc": disc, "drill": drill}
+    said = {name: text for name, text in given.items() if text is not None}
+    return Tools(**{name: read_length(f"--{name}", text, units) for name, text in said.items()})
+
+
+def parse_mass(text: str | None, units: Units) -> float | None:
+    """The mass of `--mass`, kg."""
+    return None if text is None else read_mass("--mass", text, units)
 
 
 def balance_knuckles(
@@ -208,29 +216,29 @@ def balance_knuckles(
     raise BalcliError(f'--even "{wanted[:60]}": choose from {", ".join(knuckles.GOALS)}')
 
 
-def _parse_place(text: str) -> complex:
-    x, y = parse_numbers("--at", text, "x,y of a shaft in mm, such as -40,60", 2)
-    return complex(x / 1e3, y / 1e3)
+def _parse_place(text: str, units: Units) -> complex:
+    x, y = read_lengths("--at", text, "x,y of a shaft in mm, such as -40,60", 2, units)
+    return complex(x, y)
 
 
-def _parse_position(text: str) -> float:
-    (z,) = parse_numbers("--position", text, "one place along z in mm, such as 40", 1)
-    return z / 1e3
+def _parse_position(text: str, units: Units) -> float:
+    (z,) = read_lengths("--position", text, "one place along z in mm, such as 40", 1, units)
+    return z
 
 
-def _parse_planes(text: str) -> str | tuple[float, ...]:
+def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
     if text in ("ends", "throws"):
         return text
     wanted = "ends, throws, or places along z in mm, such as -200,200"
-    return tuple(z / 1e3 for z in parse_numbers("--planes", text, wanted))
+    return read_lengths("--planes", text, wanted, units=units)
 
 
 def _parse_factors(text: str) -> tuple[float, ...]:
-    """`0.5`, `0.4,0.5` or `0:1:0.1` (ends included)."""
-    wanted = "a share of the reciprocating mass such as 0.5, or a range such as 0:1:0.1"
+    """`0.5`, `51%`, `0.4,0.5` or `0:1:0.1` (ends included)."""
+    wanted = "a share of the reciprocating mass such as 0.5 or 50%, or a range such as 0:1:0.1"
     if ":" not in text:
-        return parse_numbers("--factor", text, wanted)
-    parts = [parse_numbers("--factor", part, wanted, 1)[0] for part in text.split(":")]
+        return tuple(read_share("--factor", part, wanted) for part in text.split(","))
+    parts = [read_share("--factor", part, wanted) for part in text.split(":")]
     if not _is_range(parts):
         raise BalcliError(
             f'--factor "{text}": a range is first:last:step, rising, with at most {MOST_FACTORS} '

@@ -9,7 +9,6 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 
 from .phasors import Array, Complex, Phasors
@@ -89,7 +88,8 @@ def _estimate_peaks(spectrum: Complex, at: NDArray[np.intp]) -> Array:
     rate = 1j * np.fft.fftfreq(count, 1 / count)
     derivatives = [spectrum / math.factorial(k) * rate**k for k in range(_TERMS)]
     series = np.stack([np.fft.ifft(d, norm="forward")[at] for d in derivatives])
-    first, second = (np.asarray(polynomial.polyder(series, k), complex) for k in (1, 2))
+    first = _differentiate(series)
+    second = _differentiate(first)
     x = np.zeros(len(at))
     for _ in range(_ROUNDS):
         f, f1, f2 = (_evaluate_each(c, x) for c in (series, first, second))
@@ -99,8 +99,19 @@ def _estimate_peaks(spectrum: Complex, at: NDArray[np.intp]) -> Array:
 
 
 def _evaluate_each(series: Complex, x: Array) -> Complex:
-    """Polynomials of coefficients of shape (terms, polynomials), each at its own x."""
-    return np.asarray(polynomial.polyval(x, series, tensor=False), complex)
+    """Polynomials of coefficients of shape (terms, polynomials), each at its own x, by Horner's
+    rule.
+    """
+    value = series[-1]
+    for coefficient in series[-2::-1]:
+        value = coefficient + value * x
+    return value
+
+
+def _differentiate(series: Complex) -> Complex:
+    """The derivatives of such polynomials."""
+    powers: Array = np.arange(1.0, len(series))
+    return series[1:] * powers[:, None]
 
 
 def climb_peaks(curve: Phasors, theta: Array, step: float, rounds: int = 12) -> Array:

@@ -8,18 +8,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from itertools import chain
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..core.cylinders import Cylinders
-from ..core.mechanisms.articulated import Articulated
-from ..core.mechanisms.rotary import Rotary
 from ..core.phasors import Array, Figure
 from ..enginefile.model import EngineFile
 from . import firing
 from .arrays import column, shared_column
-from .articulation import Knuckles, build_linkage, find_masters
 from .figures import (
     NOTHING,
     Figures,
@@ -32,6 +29,10 @@ from .figures import (
 )
 from .layout import Plan, bank_angles, cycle_deg, plan_cylinders
 from .rods import RodPlace, RunningGear, weigh_rod
+
+if TYPE_CHECKING:  # few engines have rods on rods, or turn; those that do import what these need
+    from ..core.mechanisms.articulated import Articulated
+    from ..core.mechanisms.rotary import Rotary
 
 PISTON_PARTS = ("mass", "piston", "pin", "rings", "locks")  # keys of [piston] that are masses
 
@@ -108,8 +109,13 @@ class Assembly:
 
     @cached_property
     def masters(self) -> dict[int, int]:
-        """Cylinder with the master rod, of each articulated cylinder."""
-        return find_masters(self.model.articulation, self.plan)
+        """Cylinder with the master rod, of each articulated cylinder; empty without any."""
+        table = self.model.articulation
+        if table is None:
+            return {}
+        from .articulation import find_masters
+
+        return find_masters(table, self.plan)
 
     @cached_property
     def rod(self) -> RodFigures:
@@ -379,6 +385,8 @@ class Assembly:
         table, masters, axes = self.model.articulation, self.masters, self.axes_deg
         if table is None:
             return None
+        from .articulation import Knuckles, build_linkage
+
         angles = {n: axes[n] - axes[master] for n, master in masters.items()}
         if (given := self.knuckle_angles_deg) is not None:
             angles = {c.number: given[c.bank] for c in self.plan.cells if c.number in masters}
@@ -403,6 +411,8 @@ def _share_axes(axes_deg: Mapping[int, Figure]) -> list[list[int]]:
 
 def _turn_cylinders(at_pistons: Array, hung: Articulated | None) -> Rotary:
     """The mechanism of cylinders that turn, with the masses at their piston pins, kg."""
+    from ..core.mechanisms.rotary import Rotary
+
     if hung is None:
         return Rotary(at_pistons)
     both = at_pistons + hung.mass

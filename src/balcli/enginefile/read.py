@@ -7,8 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from pydantic import ValidationError
 
@@ -38,15 +37,14 @@ from .model import EngineFile, Override, Table, mistakes_of_choice
 from .toml_text import parse_toml
 
 REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5"}
-CONTROL_CHARACTERS = {
-    "name": re.compile(rf"[\x00-\x1f\x7f-\x9f{DISGUISES}]"),
-    "source": re.compile(rf"[\x00-\x08\x0b-\x1f\x7f-\x9f{DISGUISES}]"),  # may have lines
+CONTROL_CHARACTERS = {  # compiled when a text is met that is not all printable
+    "name": rf"[\x00-\x1f\x7f-\x9f{DISGUISES}]",
+    "source": rf"[\x00-\x08\x0b-\x1f\x7f-\x9f{DISGUISES}]",  # may have lines
 }
 T = TypeVar("T", bound=Table)
 
 
-@dataclass(frozen=True)
-class Draft:
+class Draft(NamedTuple):
     """What could be read of an engine file.
 
     Attributes:
@@ -146,7 +144,8 @@ class _Reader:
         if not isinstance(value, str):
             self.add(key, f"{shorten(value)} is not text; write it in quotes")
             return None
-        if strange := CONTROL_CHARACTERS[key].search(value):
+        strange = None if value.isprintable() else re.search(CONTROL_CHARACTERS[key], value)
+        if strange:
             code = f"U+{ord(strange[0]):04X}"
             self.add(
                 key,

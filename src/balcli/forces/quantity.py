@@ -144,6 +144,14 @@ def evaluate_quantities(engine: Engine, quantities: Sequence[Quantity]) -> list[
     return [values[q] for q in quantities]
 
 
+def find_orders(engine: Engine, quantities: Sequence[Quantity]) -> list[list[float]]:
+    """The orders that are computed together for these quantities, group by group."""
+    groups = [orders for orders, _ in _group_by_orders(quantities)]
+    if any(q.part == "peak" for q in quantities):
+        groups.append(find_relevant_orders(engine).tolist())
+    return groups
+
+
 def _group_by_orders(quantities: Iterable[Quantity]) -> list[tuple[list[float], list[Quantity]]]:
     """Quantities whose kinds need the same orders, with these; peaks left out."""
     by_kind: dict[str, list[Quantity]] = {}

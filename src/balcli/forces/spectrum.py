@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..core import speed_ripple as ripple
 from ..core.cylinders import Device
-from ..core.loads import Loads, find_device_force
+from ..core.loads import Loads, find_device_force, find_needed_series
 from ..core.mechanisms import harmonics
 from ..core.phases import Phases, SeparatePhases
 from ..core.phasors import Array, Complex, Phasors, join_orders
@@ -139,6 +139,14 @@ def refuse_too_many_loads(engine: Engine, orders: int, loads: int) -> None:
         )
 
 
+def count_samples(engine: Engine) -> int:
+    """About how many samples of revolutions the mechanisms of an engine, or of variants, take."""
+    c = engine.cylinders
+    if c.linkage is not None:
+        return c.linkage.count_all_samples(c.lam, c.eps)[1]
+    return harmonics.count_all_samples(c.lam, c.eps)[1] if np.count_nonzero(c.eps) else 0
+
+
 def compute_device_force(engine: Engine, device: Device, orders: Array) -> Phasors:
     """Force of one device of an engine without trailing axes, N, for these orders."""
     if not engine.ripple:
@@ -196,9 +204,8 @@ def _compute_steady(
     c, (x, y, z) = engine.cylinders, engine.reference_m
     names = [name for name in KINDS if name in parts]
     find = c.linkage.find_distinct_harmonics if c.linkage else harmonics.find_distinct_harmonics
-    about_crank = any(not KINDS[name].vector for name in parts)
-    rod = about_crank and bool(np.count_nonzero(c.couple))
-    few, which = find(orders, c.lam, c.eps, rod=rod, energy="torque" in parts)
+    series = find_needed_series(c, parts, uneven=bool(engine.ripple))
+    few, which = find(orders, c.lam, c.eps, series)
     most = max(_AT_ONCE // c.count, 1)
 
     def make_loads(block: slice) -> Loads:

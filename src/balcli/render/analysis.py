@@ -1,46 +1,85 @@
-"""The analysis of one engine."""
+"""The analysis of one engine for people; for programs it is in `analysis_data`."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
+from typing import TypeAlias
 
 from ..engine.positions import MOMENTS_UNKNOWN
+from ..forces.kinds import KINDS, VECTORS
 from ..forces.spectrum import Spectra
 from ..results.analysis import Analysis, Sizing
 from . import crankshaft, guide_moments, strokes, symmetry
-from .csv import Rows
-from .devices import device_entries, device_grid
-from .engine_facts import engine_facts
-from .figures import FigureRow, assumptions, clean, figure_rows, order_entries, peak_entries
-from .order_tables import cylinder_table, order_tables, peak_facts, textbook_tables
+from .devices import device_grid
+from .engine_facts import engine_facts, speed_facts
+from .order_tables import (
+    cylinder_table,
+    direction_tables,
+    order_tables,
+    peak_facts,
+    textbook_tables,
+)
+from .overview import (
+    find_orders_that_matter,
+    roll_and_peaks,
+    sizing_in_brief,
+    tell_others,
+    vectors_grid,
+)
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, capitalized
 from .terminal_plot import sketches
 from .units import System
 from .verdict import verdict
+from .view import IN_BRIEF, View
+
+Part: TypeAlias = Grid | Facts | Text
+TEXTS = frozenset({"verdict", "sizing", "textbook"})  # parts that need no crank speed beside them
+TABLES = frozenset({"xy", "textbook", "sizing", "peak", "inner", "guide"})  # without a verdict
 
 
-def sheet(result: Analysis, system: System, *, pictures: bool = False) -> Sheet:
-    """What the engine is, what it does order by order, peaks, verdict, sizing; with `pictures` also
-    such as are made of characters.
-    """
-    parts: list[Grid | Facts | Text] = list(_order_parts(result, system))
-    if result.travel is not None:
-        parts += strokes.sheet_parts(result.travel, result.engine.numbers, system)
-    if result.inner is not None:
-        parts += crankshaft.sheet_parts(result.inner, system)
-    if result.guide is not None:
-        parts += guide_moments.sheet_parts(result.guide, system)
-    if found := _judge(result, system):
-        parts.append(Text("Verdict", found))
-    if result.why is not None:
-        parts += symmetry.sheet_parts(result.why)
+def sheet(result: Analysis, system: System, view: View = IN_BRIEF) -> Sheet:
+    """What the engine is, the verdict, what it does order by order, peaks, sizing."""
+    return Sheet(result.engine.name or NAMELESS, tuple(_parts(result, system, view)))
+
+
+def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
+    if not view.parts or view.whole:
+        higher = result.has_higher_orders
+        yield engine_facts(result.engine, system, higher=higher, whole=view.whole)
+    elif view.parts - TEXTS:
+        yield speed_facts(result.engine)
+    if not view.parts <= TABLES or not view.parts:
+        yield from _judge(result, system)
+    if view.whole:
+        yield from _all_order_parts(result, system)
+    elif view.parts:
+        yield from _chosen_order_parts(result, system, view)
+    else:
+        yield from _order_parts_in_brief(result, system, view)
+    known = result.moments_known
+    for n, share in result.cylinders:
+        yield cylinder_table(n, share if known else share.without_moment(), system)
+    yield from _further_parts(result, system, whole=view.whole or bool(view.parts))
     if result.sizing is not None:
-        parts += _sizing_parts(result.sizing, system)
-    if pictures:
-        parts += sketches(replace(result, spectra=_known_spectra(result)), system)
-    return Sheet(result.engine.name or NAMELESS, tuple(parts))
+        if view.whole or view.parts:
+            yield from _sizing_parts(result.sizing, system)
+        else:
+            yield sizing_in_brief(result.sizing, system)
+    if view.pictures:
+        yield from sketches(replace(result, spectra=_known_spectra(result)), system)
+
+
+def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator[Part]:
+    """What there is only of some engines, or where it was asked for."""
+    if result.travel is not None and whole:
+        yield from strokes.sheet_parts(result.travel, result.engine.numbers, system)
+    if result.inner is not None:
+        yield from crankshaft.sheet_parts(result.inner, system)
+    if result.guide is not None:
+        yield from guide_moments.sheet_parts(result.guide, system)
+    if result.why is not None:
+        yield from symmetry.sheet_parts(result.why)
 
 
 def _known_spectra(result: Analysis) -> Spectra:
@@ -48,93 +87,69 @@ def _known_spectra(result: Analysis) -> Spectra:
     return result.spectra if result.moments_known else replace(result.spectra, moment=None)
 
 
-def _order_parts(result: Analysis, system: System) -> Iterator[Grid | Facts | Text]:
-    """What the engine is and what it does order by order; moments that are not known are dashes."""
-    known = result.moments_known
-    spectra = result.spectra if known else result.spectra.without_moment()
-    yield engine_facts(result.engine, system, higher=result.has_higher_orders)
+def _all_order_parts(result: Analysis, system: System) -> Iterator[Part]:
+    """All tables of all orders."""
+    spectra = _shown_spectra(result)
     yield from order_tables(spectra, system)
+    yield from direction_tables(spectra, system)
     if spectra.vectors():
         yield from textbook_tables(result.textbook, system)
+    yield from _peaks(result, system)
+
+
+def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
+    """The tables that `--only` names, of orders that matter unless orders were asked for."""
+    spectra = _shown_spectra(result)
+    others = ""
+    if not view.every_order:
+        shown = find_orders_that_matter(spectra, result.of_one_cylinder)
+        others = tell_others(spectra, shown, system)
+        spectra = spectra.select_orders(shown)
+    tables: list[Grid] = []
+    if view.parts.intersection(KINDS):
+        named = spectra.only(view.parts)
+        tables += order_tables(named, system)
+    if "xy" in view.parts:
+        tables += direction_tables(spectra, system)
+    if "textbook" in view.parts:
+        tables += textbook_tables(replace(result, spectra=spectra).textbook, system)
+    yield from tables
+    if tables and others:
+        yield Text("", (others,))
+    yield from _peaks(result, system)
+
+
+def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Iterator[Part]:
+    """One table of force and moment, roll and peaks in a line each."""
+    vectors = _shown_spectra(result).only([kind.name for kind in VECTORS])
+    shown = list(map(float, vectors.orders))
+    if not view.every_order:
+        shown = find_orders_that_matter(vectors, result.of_one_cylinder)
+    if vectors.vectors():
+        yield vectors_grid(vectors, shown, system)
+    if (facts := roll_and_peaks(result, system)).pairs:
+        yield facts
+
+
+def _peaks(result: Analysis, system: System) -> Iterator[Facts]:
     if result.peaks:
         yield peak_facts(result, system, "Largest over a revolution, all orders")
-    for n, share in result.cylinders:
-        yield cylinder_table(n, share if known else share.without_moment(), system)
 
 
-def _judge(result: Analysis, system: System) -> tuple[str, ...]:
+def _shown_spectra(result: Analysis) -> Spectra:
+    """Moments that are not known are dashes."""
+    return result.spectra if result.moments_known else result.spectra.without_moment()
+
+
+def _judge(result: Analysis, system: System) -> Iterator[Text]:
     """The verdict; of forces alone where moments are not known, which it then says."""
-    spectra = result.spectra
-    if result.moments_known:
-        return verdict(spectra, system, result.of_one_cylinder)
-    forces = verdict(replace(spectra, moment=None), system, result.of_one_cylinder)
-    return (*forces, capitalized(f"{MOMENTS_UNKNOWN}.")) if spectra.vectors() else ()
+    spectra, known = _known_spectra(result), result.moments_known
+    if result.spectra.vectors():
+        told = verdict(spectra, system, result.of_one_cylinder)
+        yield Text("Verdict", told if known else (*told, capitalized(f"{MOMENTS_UNKNOWN}.")))
 
 
-def document(result: Analysis) -> dict[str, Any]:
-    """`balcli.analysis/1`."""
-    engine = result.engine
-    found: dict[str, Any] = {
-        "format": "balcli.analysis/1",
-        "engine": {
-            "name": engine.name,
-            "cylinders": engine.cylinders.count,
-            "displacement_m3": clean(engine.displacement_m3),
-        },
-        "speed_rpm": clean(engine.speed_rpm),
-        "reference_mm": [clean(v * 1e3) for v in engine.reference_m],
-        "orders": order_entries(result.spectra),
-        **assumptions(result),
-    }
-    if largest := peak_entries(result):
-        found["peak"] = largest
-    if result.sizing is not None:
-        found["sizing"] = {
-            "scheme": result.sizing.remedy.scheme,
-            **device_entries(result.sizing.remedy),
-            "after": brief_document(result.sizing.after),
-        }
-    if result.cylinders:
-        found["cylinders"] = [
-            {"cylinder": number, "orders": order_entries(spectra)}
-            for number, spectra in result.cylinders
-        ]
-    if result.inner is not None:
-        found["inner"] = crankshaft.document(result.inner)
-    if result.guide is not None:
-        found["guide"] = guide_moments.document(result.guide)
-    if result.travel is not None:
-        found["travel"] = strokes.document(result.travel, result.engine.numbers)
-    if result.why is not None:
-        found["why"] = symmetry.document(result.why)
-    return found
-
-
-def brief_document(result: Analysis) -> dict[str, Any]:
-    """Peaks and orders alone, where the engine is known."""
-    return {"peak": peak_entries(result), "orders": order_entries(result.spectra)}
-
-
-def rows(result: Analysis, system: System) -> Rows:
-    """CSV: a figure a line; cylinder 0 is the whole engine, an empty order the whole curve."""
-    return Rows(
-        ("cylinder", "quantity", "order", "figure", "value", "unit"), _all_rows(result, system)
-    )
-
-
-def _all_rows(result: Analysis, system: System) -> Iterator[FigureRow]:
-    yield from figure_rows(result, system)
-    if result.travel is not None:
-        yield from strokes.rows(result.travel, result.engine.numbers, system)
-    if result.inner is not None:
-        yield from crankshaft.rows(result.inner, system)
-    if result.guide is not None:
-        yield from guide_moments.rows(result.guide, system)
-    if result.why is not None:
-        yield from symmetry.rows(result.why)
-
-
-def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Grid | Text | Facts]:
+def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
     remedy, after = sizing.remedy, sizing.after
     if not (remedy.counterweights or remedy.shafts or remedy.sliders):
         needs = "no counterweight and no shaft"

@@ -13,7 +13,7 @@ from ..engine.positions import MOMENTS_UNKNOWN
 from ..forces.kinds import FORCE, MOMENT, ROLL
 from ..results.balance import Balance
 from ..sizing.device_tables import name_kind
-from .analysis import brief_document
+from .analysis_data import brief_document
 from .csv import Rows
 from .devices import device_entries, device_grid, device_rows, practical_entry, practical_grid
 from .figures import assumptions, figure_rows

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..enginefile.model import Counterweight, Shaft, Slider
 from ..sizing.device_tables import FIELDS, DeviceTable, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
-from ..sizing.workshop import Practical
 from .figures import clean
 from .sheet import Grid, degrees, number
-from .units import System, Unit
+
+if TYPE_CHECKING:
+    from ..sizing.workshop import Practical
+    from .units import System, Unit
 
 _JSON_NAMES = {
     "unbalance": "unbalance_kg_m",
@@ -45,7 +47,7 @@ def _grid_row(device: DeviceTable, system: System) -> tuple[str, ...]:
             turns, angle = "1", f"{degrees(device.angle)} from pin 1"
             place = "on the crank"
         case Shaft():
-            turns, angle = f"{device.ratio:+d}".replace("-", "−"), degrees(device.angle)
+            turns, angle = f"{device.ratio:+d}", degrees(device.angle)
             place = _place(device.at, system.length)
         case Slider():
             turns = str(device.order)

@@ -13,11 +13,18 @@ from .sheet import Facts, number
 from .units import System
 
 AXES_SHOWN = 9  # of banks
+THROWS_SHOWN = 12
 EVEN_DEG = 0.05  # intervals of firing that differ by less are shown as one
 
 
-def engine_facts(engine: Engine, system: System, *, higher: bool) -> Facts:
-    """Cylinders, crank, firing, speed, masses that the figures include, reference and source.
+def speed_facts(engine: Engine) -> Facts:
+    """The crank speed alone."""
+    return Facts((("speed", _speed(engine)),))
+
+
+def engine_facts(engine: Engine, system: System, *, higher: bool, whole: bool) -> Facts:
+    """Cylinders, crank, firing, speed, masses that the figures include, devices; and, of the whole,
+    how high orders go, the reference of moments and the source.
 
     Args:
         higher: whether there may be orders above those that are shown unless they are asked for.
@@ -26,22 +33,52 @@ def engine_facts(engine: Engine, system: System, *, higher: bool) -> Facts:
     reference = f"moments about x, y, z = {about} {system.length.name}"
     if not engine.places_known:
         reference = "moments are not known: crank.spacing is missing"
-    uneven = ", uneven: figures are those of the uneven speed" if engine.ripple else ""
     orders = f"to {HIGHEST_ORDER_UNASKED}; --orders asks for higher ones" if higher else ""
     devices = f"{len(engine.devices)} of the file are included" if engine.devices else ""
     cylinders = f"{engine.cylinders.count}{_banks(engine)}{_bore(engine, system)}"
     pairs = (
         ("cylinders", cylinders),
         ("crank", _crank(engine, system)),
+        ("throws", _throws(engine)),
         ("firing", _firing(engine)),
-        ("speed", f"{number(float(engine.speed_rpm), 6)} rpm{uneven}"),
-        ("masses", _masses(engine, system)),
-        ("orders", orders),
-        ("reference", reference),
+        ("speed", _speed(engine)),
+        ("masses", _masses(engine, system, whole=whole)),
         ("devices", devices),
-        ("source", engine.source),
+        ("orders", orders if whole else ""),
+        ("reference", reference if whole or any(engine.reference_m) else ""),
+        ("source", engine.source if whole else ""),
     )
     return Facts(tuple((name, value) for name, value in pairs if value))
+
+
+def _speed(engine: Engine) -> str:
+    uneven = ", uneven: figures are those of the uneven speed" if engine.ripple else ""
+    return f"{number(float(engine.speed_rpm), 6)} rpm{uneven}"
+
+
+def _throws(engine: Engine) -> str:
+    """Angles of several throws after cylinder 1's pin, free end to flywheel end; of split pins,
+    first those of one bank.
+    """
+    pins: dict[int, list[float]] = {}
+    for weighed, pin in zip(engine.weighed, engine.pins_deg.values(), strict=True):
+        pins.setdefault(weighed.throw, []).append(float(pin))
+    if len(pins) == 1 or engine.rotary:
+        return ""
+    shown = ", ".join(_angle(pins[throw][0]) for throw in sorted(pins)[:THROWS_SHOWN])
+    more = ", …" if len(pins) > THROWS_SHOWN else ""
+    return f"{shown}{more} deg{_splay(pins[min(pins)])}"
+
+
+def _splay(pins: list[float]) -> str:
+    """By how much the second pin of a throw leads the first, if it does."""
+    lead = round((pins[1] - pins[0] + 180) % 360 - 180, 6) if len(pins) > 1 else 0
+    return f", split pins: the next bank's at {lead:+g} deg" if lead else ""
+
+
+def _angle(degrees: float) -> str:
+    """In [0, 360), to a tenth."""
+    return f"{round(round(degrees, 6), 1) % 360:g}"
 
 
 def _banks(engine: Engine) -> str:
@@ -61,8 +98,9 @@ def _bore(engine: Engine, system: System) -> str:
         return ""
     bore = number(system.length.of(bore_m))
     stroke = number(system.length.of(2 * float(engine.cylinders.radius)))
-    volume = number(system.volume.of(float(engine.displacement_m3)), 4)
-    return f", bore × stroke {bore} × {stroke} {system.length.name}, {volume} {system.volume.name}"
+    volume = system.volume.fit(float(engine.displacement_m3))
+    size = f"{number(volume.of(float(engine.displacement_m3)), 4)} {volume.name}"
+    return f", bore × stroke {bore} × {stroke} {system.length.name}, {size}"
 
 
 def _crank(engine: Engine, system: System) -> str:
@@ -77,7 +115,7 @@ def _crank(engine: Engine, system: System) -> str:
     )
 
 
-def _masses(engine: Engine, system: System) -> str:
+def _masses(engine: Engine, system: System, *, whole: bool) -> str:
     """Masses that go to and fro and that turn, of cylinder 1, and what turns with its pin where
     that carries several rods.
     """
@@ -85,14 +123,18 @@ def _masses(engine: Engine, system: System) -> str:
     weighed = engine.weighed[row]
     on_pin = next(rows for rows in engine.rows_by_pin if row in rows)
     reciprocating = number(unit.of(float(weighed.reciprocating)), 4)
-    text = f"reciprocating {reciprocating} {unit.name} per cylinder (piston, rod's small end)"
+    text = f"reciprocating {reciprocating} {unit.name} per cylinder"
+    text += " (piston, rod's small end)" * whole
     if not engine.rotary:  # else the pins stand still
         rotating = number(unit.of(float(weighed.rotating + weighed.share)), 4)
         shells = ", shells and oil" if weighed.rod_bearing or weighed.oil else ""
-        text += f", rotating {rotating} {unit.name} per rod (big end{shells}, share of the throw)"
+        text += f", rotating {rotating} {unit.name} per rod"
+        text += f" (big end{shells}, share of the throw)" * whole
         if len(on_pin) > 1 and engine.cylinders.linkage is None:
-            whole = sum(float(engine.weighed[k].rotating + engine.weighed[k].share) for k in on_pin)
-            text += f"; {len(on_pin)} rods on the pin: {number(unit.of(whole), 4)} {unit.name}"
+            together = sum(
+                float(engine.weighed[k].rotating + engine.weighed[k].share) for k in on_pin
+            )
+            text += f"; {len(on_pin)} rods on the pin: {number(unit.of(together), 4)} {unit.name}"
     return text + _unequal(engine)
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,6 +21,11 @@ if TYPE_CHECKING:
     from .units import System, Unit
 
 Cells = tuple[str, ...]
+# share of what one cylinder does, or of the largest order, below which a higher order is passed
+# over
+NEGLIGIBLE = 1e-3
+_UNKNOWN_SIZES: Mapping[str, float] = MappingProxyType({})
+NOTHING, UNKNOWN = "balanced", "–"  # how a force or moment of 0 is told, and one not known
 _AS_BUILT = (
     "Reciprocating masses in the planes of the throws; as built: with rotating masses and stagger, "
     "without devices."
@@ -27,8 +33,7 @@ _AS_BUILT = (
 
 
 def order_tables(spectra: Spectra, system: System, roll: str = "") -> Iterator[Grid]:
-    """A table of each vector, one of what acts about the crank's axis, and one of vectors along x
-    and y.
+    """A table of each vector, and one of what acts about the crank's axis.
 
     Args:
         roll: a sentence on what the roll is, if it is more than the couple C less the torque T.
@@ -37,6 +42,10 @@ def order_tables(spectra: Spectra, system: System, roll: str = "") -> Iterator[G
         yield _vector_table(kind, phasors, system.unit(kind))
     if spectra.scalars():
         yield _scalar_table(spectra, system.moment, roll)
+
+
+def direction_tables(spectra: Spectra, system: System) -> Iterator[Grid]:
+    """Vectors along x and y, if there are any."""
     if spectra.vectors():
         yield _direction_table(spectra, system)
 
@@ -47,9 +56,9 @@ def textbook_tables(book: Textbook, system: System) -> Iterator[Grid]:
     if not units.force:
         return
     if book.built.force is not None:
-        unit, cylinder = system.force, "one cylinder" if units.equal else "cylinder 1"
+        cylinder = "one cylinder" if units.equal else "cylinder 1"
         note = (
-            f"F1 = m r ω² = {number(unit.of(units.force))} {unit.name} "
+            f"F1 = m r ω² = {size_text(units.force, system.force, 5)} "
             f"(reciprocating mass of {cylinder}), Fn = A_n F1 its n-th order. {_AS_BUILT}"
         )
         yield _textbook_table(FORCE, book, note)
@@ -78,12 +87,19 @@ def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
     return Grid(f"Cylinder {cylinder} alone", ("order", *heads), rows)
 
 
-def peak_facts(result: Result, system: System, title: str) -> Facts:
-    """The largest values over a revolution that were asked for."""
+def peak_facts(
+    result: Result, system: System, title: str, single: Mapping[str, float] = _UNKNOWN_SIZES
+) -> Facts:
+    """The largest values over a revolution that were asked for.
+
+    Args:
+        single: what one cylinder makes of each kind, beside which a peak may be negligible.
+    """
     pairs = []
     for kind, peak in result.peaks:
         known = kind is not MOMENT or result.moments_known
-        pairs.append((kind.name, _peak(peak, system.unit(kind)) if known else "–"))
+        least = NEGLIGIBLE * single.get(kind.name, 0.0)
+        pairs.append((kind.name, _peak(peak, system.unit(kind), least) if known else UNKNOWN))
     return Facts(tuple(pairs), title)
 
 
@@ -99,12 +115,14 @@ def _shown_rows(
 
 
 def _vector_table(kind: Kind, phasors: Phasors, unit: Unit) -> Grid:
+    unit = _fit(unit, phasors)
+
     def cells(k: int) -> Cells:
         name = order_name(phasors.orders[k])
         if phasors.balanced[k]:
-            return name, "balanced", "", "", "", ""
+            return name, NOTHING, "", "", "", ""
         if np.isnan(phasors.forward[k]):
-            return name, "–", "–", "–", "–", "–"
+            return name, *[UNKNOWN] * 5
         values = (phasors.major, phasors.minor, abs(phasors.forward), abs(phasors.backward))
         largest, smallest, ahead, against = (number(unit.of(float(v[k]))) for v in values)
         return name, largest, smallest, degrees(float(phasors.axis_deg[k]), 180), ahead, against
@@ -118,6 +136,7 @@ def _vector_table(kind: Kind, phasors: Phasors, unit: Unit) -> Grid:
 
 def _scalar_table(spectra: Spectra, unit: Unit, roll: str) -> Grid:
     scalars = spectra.scalars()
+    unit = _fit(unit, *(phasors for _, phasors in scalars))
 
     def cells(k: int) -> Cells:
         pairs = (_amplitude(phasors.x[k], spectra.orders[k], unit) for _, phasors in scalars)
@@ -136,21 +155,37 @@ def _scalar_table(spectra: Spectra, unit: Unit, roll: str) -> Grid:
 def _amplitude(c: complex, order: float, unit: Unit) -> tuple[str, str]:
     """Amplitude, and where it is reached first."""
     if c == 0:
-        return "balanced", ""
+        return NOTHING, ""
+    return number(unit.of(abs(c))), show_peak_deg(c, order)
+
+
+def show_peak_deg(c: complex, order: float) -> str:
+    """Where an amplitude is reached first, or a dash of a mean."""
     at = peak_deg(c, order)
-    return number(unit.of(abs(c))), "–" if at is None else degrees(at)
+    return UNKNOWN if at is None else degrees(at)
+
+
+def size_text(value: float, unit: Unit, digits: int = 4) -> str:
+    """A value (SI) in the unit that fits it, with its name."""
+    unit = unit.fit(value)
+    return f"{number(unit.of(value), digits)} {unit.name}"
+
+
+def _fit(unit: Unit, *columns: Phasors) -> Unit:
+    """The unit for the largest of all that is known."""
+    return unit.fit(max(float(np.nan_to_num(p.major).max(initial=0)) for p in columns))
 
 
 def _direction_table(spectra: Spectra, system: System) -> Grid:
     """Vertical and horizontal, as builders state them."""
-    vectors = [(phasors, system.unit(kind)) for kind, phasors in spectra.vectors()]
+    vectors = [(phasors, _fit(system.unit(kind), phasors)) for kind, phasors in spectra.vectors()]
 
     def cells(k: int) -> Iterator[str]:
         yield order_name(spectra.orders[k])
         for phasors, unit in vectors:
             for c in (phasors.x[k], phasors.y[k]):
-                yield number(unit.of(abs(c)), 4) if c else "0"
-                yield degrees(phase_deg(c)) if c else "–"
+                yield number(unit.of(abs(c)), 4) if c else NOTHING
+                yield degrees(phase_deg(c)) if c else ""
 
     axes = [kind.symbol + axis for kind, _ in spectra.vectors() for axis in "xy"]
     return Grid(
@@ -181,18 +216,20 @@ def _textbook_table(kind: Kind, book: Textbook, note: str) -> Grid:
 def _ratio(value: float, size: float) -> str:
     """A multiple; a dash where the order is no multiple of anything."""
     if not value:
-        return "0"
+        return NOTHING
     return number(value / size, 4) if size == size else "–"
 
 
 def _size_and_angle(v: complex, unit: Unit) -> str:
     if v == 0:
-        return "0"
+        return NOTHING
     return f"{number(unit.of(abs(v)), 4)} ∠ {degrees(float(np.degrees(np.angle(v))))}"
 
 
-def _peak(peak: Peak, unit: Unit) -> str:
+def _peak(peak: Peak, unit: Unit, least: float) -> str:
     if not peak.value:
-        return "none"
+        return NOTHING
+    if peak.value < least:
+        return f"negligible ({size_text(peak.value, unit, 2)})"
     at = degrees(float(np.degrees(peak.theta)))
-    return f"{number(unit.of(peak.value))} {unit.name} at crank angle {at} deg"
+    return f"{size_text(peak.value, unit, 5)} at crank angle {at} deg"

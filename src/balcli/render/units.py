@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from ..enginefile import units
@@ -12,14 +13,29 @@ POUND_FORCE = POUND * units.STANDARD_GRAVITY  # N
 
 
 class Unit(NamedTuple):
-    """A name, and how many SI units it is."""
+    """A unit of what people read.
+
+    Attributes:
+        name: as it is written.
+        size: how many SI units it is.
+        larger: the unit in which people read large values.
+        most: value in this unit from which on they do.
+    """
 
     name: str
     size: float
+    larger: Unit | None = None
+    most: float = math.inf
 
     def of(self, value: float) -> float:
         """A value in SI units in this unit."""
         return value / self.size
+
+    def fit(self, largest: float) -> Unit:
+        """The unit for values up to this one (SI; nan: not known): this one, or the larger."""
+        if self.larger is not None and abs(largest) >= self.most * self.size:
+            return self.larger
+        return self
 
 
 class System(NamedTuple):
@@ -38,12 +54,12 @@ class System(NamedTuple):
 
 
 SI = System(
-    Unit("N", 1),
-    Unit("N·m", 1),
-    Unit("g·mm", 1e-6),
+    Unit("N", 1, Unit("kN", 1e3), 5000),
+    Unit("N·m", 1, Unit("kN·m", 1e3), 5000),
+    Unit("g·mm", 1e-6, Unit("kg·m", 1), 1e6),
     Unit("kg", 1),
     Unit("mm", 1e-3),
-    Unit("cm³", 1e-6),
+    Unit("cm³", 1e-6, Unit("litres", 1e-3), 10_000),
 )
 IMPERIAL = System(
     Unit("lbf", POUND_FORCE),

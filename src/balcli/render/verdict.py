@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from ..core.phasors import Phasors
 from ..forces.spectrum import Spectra
+from .order_tables import NEGLIGIBLE
 from .sheet import capitalized, degrees, number
 from .units import System, Unit
 
@@ -24,9 +25,6 @@ _NAMES: dict[float, str] = {
     8: "Eighth",
 }
 _AXES = {"0.0": "x", "90.0": "y"}
-# share of what one cylinder does, or of the largest order, below which a higher order is passed
-# over
-NEGLIGIBLE = 1e-3
 _UNKNOWN: Mapping[str, float] = MappingProxyType({})
 
 
@@ -39,7 +37,11 @@ class _Vector(NamedTuple):
     single: float
 
     def size(self, k: int) -> str:
-        return f"{number(self.unit.of(float(self.phasors.major[k])), 4)} {self.unit.name}"
+        unit, value = self.unit_at(k), float(self.phasors.major[k])
+        return f"{number(unit.of(value), 4)} {unit.name}"
+
+    def unit_at(self, k: int) -> Unit:
+        return self.unit.fit(float(self.phasors.major[k]))
 
     def matters(self, k: int) -> bool:
         return bool(self.phasors.major[k] > NEGLIGIBLE * self.single)
@@ -108,7 +110,7 @@ def _tell_negligible(higher: list[tuple[int, float]], vectors: list[_Vector]) ->
 
 def _tell_vector(k: int, order: int, vector: _Vector) -> str:
     """One vector of order 1 or 2: its size, how it turns, and what cancels it."""
-    what, phasors, unit, size = vector.what, vector.phasors, vector.unit, vector.size(k)
+    what, phasors, unit, size = vector.what, vector.phasors, vector.unit_at(k), vector.size(k)
     if not vector.matters(k):
         return f"{what} of up to {size}, negligible."
     forward, backward = abs(phasors.forward[k]), abs(phasors.backward[k])
@@ -117,10 +119,10 @@ def _tell_vector(k: int, order: int, vector: _Vector) -> str:
         cure = by_weights if order == 1 else _cure_by_shafts(f"a shaft at +{order}")
         return f"{what} of {size}, turning with the crank: {cure}."
     if forward == 0:
-        cure = _cure_by_shafts(f"a shaft at −{order}")
+        cure = _cure_by_shafts(f"a shaft at -{order}")
         return f"{what} of {size}, turning against the crank: {cure}."
-    by_both = "counterweights cancel the first part, a shaft at −1 times crank speed the second"
-    cure = by_both if order == 1 else _cure_by_shafts(f"shafts at +{order} and −{order}")
+    by_both = "counterweights cancel the first part, a shaft at -1 times crank speed the second"
+    cure = by_both if order == 1 else _cure_by_shafts(f"shafts at +{order} and -{order}")
     ahead, against = number(unit.of(forward), 4), number(unit.of(backward), 4)
     parts = f"{ahead} turns with the crank, {against} against it"
     direction = _tell_direction(what, float(phasors.axis_deg[k]))

@@ -6,18 +6,15 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..core.peaks import Peak, peak
 from ..core.phasors import Array
-from ..core.strokes import Travel, find_travel
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..forces.crankshaft import InnerLoads, compute_inner_loads
-from ..forces.guide_moments import GuideMoments, compute_guide_moments
-from ..forces.kinds import KINDS, VECTORS, Kind
+from ..forces.kinds import KINDS, SCALARS, VECTORS, Kind
 from ..forces.orders import (
     check_orders,
     choose_orders,
@@ -25,11 +22,15 @@ from ..forces.orders import (
     merge_orders,
 )
 from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
-from ..forces.symmetry import Symmetry, explain_symmetry
-from ..forces.textbook import Textbook, find_textbook
 from ..limits import HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
-from ..sizing.auto import size_auto
-from ..sizing.remedy import Remedy, fit_devices
+
+if TYPE_CHECKING:  # whoever asks for one of these chapters loads it
+    from ..core.strokes import Travel
+    from ..forces.crankshaft import InnerLoads
+    from ..forces.guide_moments import GuideMoments
+    from ..forces.symmetry import Symmetry
+    from ..forces.textbook import Textbook
+    from ..sizing.remedy import Remedy
 
 QUANTITIES = (*KINDS, "peak", "sizing")
 EXTRAS = ("inner", "guide")  # computed only when they are named
@@ -97,21 +98,29 @@ class Analysis:
     @property
     def textbook(self) -> Textbook:
         """Force and moment, as far as they were asked for and are known, as textbooks have them."""
+        from ..forces.textbook import find_textbook
+
         asked = [kind.name for kind, _ in self.spectra.vectors()]
         known = [name for name in asked if name != "moment" or self.moments_known]
         return find_textbook(self.engine, self.orders, known)
 
     @property
     def of_one_cylinder(self) -> dict[str, float]:
-        """Force of cylinder 1's piston and rod end, `m r omega^2` (N), and its moment over the
-        length of the crank (N m): what is small beside them is small.
+        """Force of cylinder 1's piston and rod end, `m r omega^2` (N), its moment over the length
+        of the crank and its torque at the radius of the crank (N m), by kind: what is small beside
+        them is small.
         """
         engine = self.engine
         masses = engine.weighed[engine.numbers.index(1)]
         force = float(
             (masses.piston + masses.small_end) * engine.cylinders.radius * engine.omega**2
         )
-        return {"force": force, "moment": force * float(np.ptp(engine.throws_m))}
+        torque = force * float(engine.cylinders.radius)
+        return {
+            "force": force,
+            "moment": force * float(np.ptp(engine.throws_m)),
+            **{kind.name: torque for kind in SCALARS},
+        }
 
 
 def analyze(
@@ -146,8 +155,6 @@ def analyze(
     everything = compute_spectra(engine, computed, shown | peaked)
     visible = everything.only(shown)
     visible = visible.select_orders(choose_orders(visible) if asked is None else asked)
-    above_0 = visible.orders[visible.orders > 0]
-    provable = shown if engine.places_known else shown - {"moment"}
     cylinders = _analyze_cylinders(engine, visible.orders, shown) if by_cylinder else ()
     return Analysis(
         engine,
@@ -156,10 +163,10 @@ def analyze(
         peak(everything["moment"]) if peaked else None,
         sizing=_size_and_analyze(engine, asked, wanted) if "sizing" in wanted else None,
         cylinders=cylinders,
-        why=explain_symmetry(engine, above_0, provable) if reasons else None,
-        inner=compute_inner_loads(engine, asked) if "inner" in wanted else None,
-        guide=compute_guide_moments(engine, asked, guide_height_m) if "guide" in wanted else None,
-        travel=None if engine.cylinders.linkage is None else find_travel(engine.cylinders),
+        why=_explain(engine, visible.orders, shown) if reasons else None,
+        inner=_load_crankshaft(engine, asked) if "inner" in wanted else None,
+        guide=_press_guides(engine, asked, guide_height_m) if "guide" in wanted else None,
+        travel=None if engine.cylinders.linkage is None else _measure_travel(engine),
     )
 
 
@@ -197,7 +204,37 @@ def _analyze_cylinders(
     return tuple((n, own.select_place(engine.numbers.index(n))) for n in sorted(engine.numbers))
 
 
+# ------------------------------------------------------------------ chapters, loaded on request
 def _size_and_analyze(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizing:
+    from ..sizing.auto import size_auto
+    from ..sizing.remedy import fit_devices
+
     remedy = size_auto(engine)
     left = {*wanted, "force", "moment", "peak"} - {"sizing"}
     return Sizing(remedy, analyze(fit_devices(engine, remedy), asked, left))
+
+
+def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
+    """Nothing can be proved of order 0, nor of moments that are not known."""
+    from ..forces.symmetry import explain_symmetry
+
+    provable = set(kinds) if engine.places_known else set(kinds) - {"moment"}
+    return explain_symmetry(engine, orders[orders > 0], provable)
+
+
+def _load_crankshaft(engine: Engine, asked: Array | None) -> InnerLoads:
+    from ..forces.crankshaft import compute_inner_loads
+
+    return compute_inner_loads(engine, asked)
+
+
+def _press_guides(engine: Engine, asked: Array | None, height_m: float | None) -> GuideMoments:
+    from ..forces.guide_moments import compute_guide_moments
+
+    return compute_guide_moments(engine, asked, height_m)
+
+
+def _measure_travel(engine: Engine) -> Travel:
+    from ..core.strokes import find_travel
+
+    return find_travel(engine.cylinders)

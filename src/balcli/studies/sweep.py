@@ -22,12 +22,21 @@ from ..engine.load import read
 from ..enginefile.model import EngineFile
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, InputError
-from ..forces.quantity import Quantity, evaluate_quantities, parse_quantity_list, refuse_unknown
+from ..forces.quantity import (
+    Quantity,
+    evaluate_quantities,
+    find_orders,
+    parse_quantity_list,
+    refuse_unknown,
+)
+from ..forces.spectrum import count_samples
 from .parameters import Parameter, parse
 
 Array = NDArray[np.float64]
 Box = tuple[slice, ...]
-CHUNK = 32_768  # variants at a time: few enough for the cache, enough for what they share
+CHUNK = 32_768  # variants at a time, at most: enough for what they share
+BYTES = 1 << 23  # of an array that a box needs: no more than the cache holds
+SAMPLES = 1 << 22  # of revolutions in a box: a tenth of a second
 
 
 class Chunk(NamedTuple):
@@ -108,11 +117,19 @@ def check_corners(sweep: Sweep) -> None:
         InputError: one of them cannot be.
         BalcliError: a moment is asked for, and the file does not say where the throws stand.
     """
+    refuse_unknown(build_corners(sweep), sweep.quantities)
+
+
+def build_corners(sweep: Sweep) -> Engine:
+    """The variants at the corners of the grid, as one engine.
+
+    Raises:
+        InputError: one of them cannot be.
+    """
     corners = tuple(
         Parameter(p.path, np.array([p.values.min(), p.values.max()])) for p in sweep.parameters
     )
-    engine = Sweep(sweep.file, corners, (), sweep.name).engine((slice(None),) * len(corners))
-    refuse_unknown(engine, sweep.quantities)
+    return Sweep(sweep.file, corners, (), sweep.name).engine((slice(None),) * len(corners))
 
 
 def evaluate_box(sweep: Sweep, box: Box) -> list[Array]:
@@ -128,7 +145,19 @@ def evaluate_box(sweep: Sweep, box: Box) -> list[Array]:
     ]
 
 
-def divide_grid(shape: tuple[int, ...], most: int = CHUNK) -> Iterator[Box]:
+def size_boxes(sweep: Sweep) -> int:
+    """How many variants to compute at a time, by what those at the corners of the grid need: so
+    many that a box is done in a fraction of a second and in little memory.
+    """
+    engine = build_corners(sweep)
+    orders = find_orders(engine, sweep.quantities)
+    figures = engine.cylinders.count * max(map(len, orders)) + 2 * max(map(max, orders))
+    samples = count_samples(engine) // 2 ** len(sweep.parameters)
+    most = min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), CHUNK)
+    return max(most, 1)
+
+
+def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
     """The grid in boxes of at most `most` variants, in the order of rows: the last axes whole, one
     cut, the first one by one.
     """
@@ -147,7 +176,7 @@ def divide_grid(shape: tuple[int, ...], most: int = CHUNK) -> Iterator[Box]:
 
 def evaluate_chunks(sweep: Sweep) -> Iterator[Chunk]:
     """All variants, box by box, in the order of rows."""
-    for box in divide_grid(sweep.shape):
+    for box in divide_grid(sweep.shape, size_boxes(sweep)):
         yield Chunk(box, evaluate_box(sweep, box))
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...forces.crankshaft import AlongCrank
 from ..units import Unit
-from .axes import choose_scale, put_legend_above
+from .axes import put_legend_above
 from .style import BLUE, SOFT
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def draw_along(
     curves = [
         (found.z_m * 1e3, np.array([p.value for p in found.peaks])) for found in now_and_before
     ]
-    s = choose_scale(unit, max((float(values.max()) for _, values in curves), default=0.0))
+    s = unit.fit(max((float(values.max()) for _, values in curves), default=0.0))
     looks: Any = (
         (
             {"color": BLUE, "linewidth": 2.2, "zorder": 3},

@@ -6,7 +6,7 @@ The plane is seen from the free end: x up, y to the right, so that the crank tur
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,21 +20,6 @@ if TYPE_CHECKING:
 SHARE = 1e-3  # orders below this share of the largest are too small to be seen
 FINE = np.radians(np.arange(0, 360.5, 1))  # crank angles at which one order is drawn
 LOOKS = ((BLUE, "-", ""), (RED, (0, (5, 1.5)), "////"), (GREEN, (0, (1.5, 1)), "...."))
-_PREFIXES = {"N": "kN", "N·m": "kN·m"}
-
-
-class Scale(NamedTuple):
-    """Values over `size` are in the unit `name`."""
-
-    size: float
-    name: str
-
-
-def choose_scale(unit: Unit, largest: float) -> Scale:
-    """The unit for a picture, or its thousandfold where figures would be long; `largest` is SI."""
-    if largest >= 5000 * unit.size and unit.name in _PREFIXES:
-        return Scale(1e3 * unit.size, _PREFIXES[unit.name])
-    return Scale(unit.size, unit.name)
 
 
 def find_cycle_deg(orders: Array) -> int:
@@ -47,7 +32,7 @@ def divide_cycle(orders: Array) -> Array:
     return np.radians(np.arange(find_cycle_deg(orders) + 1))
 
 
-def set_up_plane(ax: Axes, curves: Sequence[Complex | None], what: str, s: Scale) -> float:
+def set_up_plane(ax: Axes, curves: Sequence[Complex | None], what: str, s: Unit) -> float:
     """Make the axes a square with the origin in its middle, x up; returns its half side."""
     largest = max(np.abs(c).max(initial=0) for c in curves if c is not None) / s.size
     limit = float(largest or 1) * 1.25

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...sizing.details import FactorPeaks
 from ..units import Unit
-from .axes import LOOKS, choose_scale, put_legend_above
+from .axes import LOOKS, put_legend_above
 from .style import BLUE, SOFT
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ def draw_factors(ax: Axes, rows: Sequence[FactorPeaks], force: Unit, moment: Uni
     its own where there is one.
     """
     share = [row.factor for row in rows]
-    s = choose_scale(force, max(row.force for row in rows))
+    s = force.fit(max(row.force for row in rows))
     lines = (
         ([row.force for row in rows], "force"),
         ([row.along for row in rows], "along the first bank"),
@@ -46,7 +46,7 @@ def draw_factors(ax: Axes, rows: Sequence[FactorPeaks], force: Unit, moment: Uni
     ax.set_title(f"Largest free force over the balance factor; best at {best.factor:g}")
     moments = np.array([row.moment for row in rows])
     if moments.max() > 0:
-        t = choose_scale(moment, float(moments.max()))
+        t = moment.fit(float(moments.max()))
         right = ax.twinx()
         right.plot(share, moments / t.size, color=SOFT, linestyle=(0, (4, 2)), linewidth=1.2)
         right.set_ylabel(f"moment (dashed grey), {t.name}")

@@ -10,7 +10,7 @@ import numpy as np
 from ...core.phasors import Phasors
 from ...studies.pictures import Banks
 from ..units import Unit
-from .axes import FINE, choose_scale, set_up_plane
+from .axes import FINE, set_up_plane
 from .style import BLUE, INK, RED
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ SHOWN_DEG = (0, 30, 60, 90, 120, 150, 180)  # bank angles
 def draw_end_curves(ax: Axes, banks: Banks, unit: Unit) -> None:
     """Draw the way of the force's tip for several bank angles."""
     shown = [int(np.argmin(np.abs(banks.angles_deg - angle))) for angle in SHOWN_DEG]
-    s = choose_scale(unit, float(banks.force.major.max(initial=0)))
+    s = unit.fit(float(banks.force.major.max(initial=0)))
     ways = [
         Phasors(
             banks.force.orders, banks.force.forward[:, k], banks.force.backward[:, k], np.zeros(1)
@@ -51,7 +51,7 @@ def draw_roses(ax: Any, banks: Banks, unit: Unit) -> None:
     from matplotlib.ticker import MaxNLocator
 
     ahead, against = np.abs(banks.force.forward[0]), np.abs(banks.force.backward[0])
-    s = choose_scale(unit, float(max(ahead.max(), against.max())))
+    s = unit.fit(float(max(ahead.max(), against.max())))
     ax.set_theta_zero_location("N")
     ax.set_theta_direction(-1)
     ax.set(thetamin=-90, thetamax=90)

@@ -10,7 +10,7 @@ import numpy as np
 from ...core.phasors import Array, Phasors
 from ..sheet import number, order_name
 from ..units import Unit
-from .axes import LOOKS, SHARE, choose_scale, put_legend_above
+from .axes import LOOKS, SHARE, put_legend_above
 from .style import BLUE, RED, SOFT
 
 if TYPE_CHECKING:
@@ -24,9 +24,7 @@ def draw_vector_bars(
     it the part against; dashed what there was before.
     """
     shown = visible_rows(curve, before)
-    s = choose_scale(
-        unit, max([float(p.major.max(initial=0)) for p in (curve, before) if p is not None])
-    )
+    s = unit.fit(max([float(p.major.max(initial=0)) for p in (curve, before) if p is not None]))
     ahead = np.abs(curve.forward[shown]) / s.size
     against = np.abs(curve.backward[shown]) / s.size
     places = np.arange(len(shown))
@@ -42,7 +40,7 @@ def draw_vector_bars(
 def draw_scalar_bars(ax: Axes, curves: Mapping[str, Phasors], unit: Unit) -> None:
     """Draw the amplitudes of several scalars, side by side."""
     shown = sorted({k for curve in curves.values() for k in visible_rows(curve)})
-    s = choose_scale(unit, max(float(c.major.max(initial=0)) for c in curves.values()))
+    s = unit.fit(max(float(c.major.max(initial=0)) for c in curves.values()))
     for (label, curve), look, shift in zip(curves.items(), LOOKS, (-0.27, 0, 0.27), strict=False):
         ax.bar(
             np.arange(len(shown)) + shift,

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core.phasors import Array, Phasors
 from ..units import Unit
-from .axes import LOOKS, choose_scale, divide_cycle, put_legend_above
+from .axes import LOOKS, divide_cycle, put_legend_above
 from .style import SOFT
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ def _draw_lines(
     ax: Axes, angles: Array, lines: Mapping[str, Array], what: str, unit: Unit, before: Array | None
 ) -> None:
     everything = [*lines.values(), *([] if before is None else [before])]
-    s = choose_scale(unit, max(float(np.abs(v).max()) for v in everything))
+    s = unit.fit(max(float(np.abs(v).max()) for v in everything))
     crank = np.degrees(angles)
     cycle = round(crank[-1])
     if before is not None:

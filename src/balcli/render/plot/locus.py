@@ -9,7 +9,7 @@ import numpy as np
 from ...core.phasors import Complex, Phasors
 from ..sheet import number
 from ..units import Unit
-from .axes import SHARE, Scale, choose_scale, put_legend_above, set_up_plane
+from .axes import SHARE, put_legend_above, set_up_plane
 from .style import BLUE, INK, PAPER, SOFT
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ def draw_locus(
     second locus to compare with.
     """
     values, old = _values_once(curve), None if before is None else _values_once(before)
-    s = choose_scale(unit, max(np.abs(v).max(initial=0) for v in (values, old) if v is not None))
+    s = unit.fit(max(np.abs(v).max(initial=0) for v in (values, old) if v is not None))
     limit = set_up_plane(ax, [values, old], what, s)
     if old is not None:
         ax.plot(
@@ -61,7 +61,7 @@ def _values_once(curve: Phasors) -> Complex:
     return curve.values(np.radians(np.arange(find_period_deg(curve) + 1)))
 
 
-def _mark_crank_angles(ax: Axes, curve: Phasors, s: Scale, limit: float) -> None:
+def _mark_crank_angles(ax: Axes, curve: Phasors, s: Unit, limit: float) -> None:
     """Draw dots at every twelfth of the period, and crank angles at every second one, on the outer
     side of the curve.
     """

@@ -9,7 +9,7 @@ import numpy as np
 from ...core.phasors import Phasors
 from ..sheet import number, order_number
 from ..units import Unit
-from .axes import FINE, Scale, choose_scale, set_up_plane
+from .axes import FINE, set_up_plane
 from .style import BLUE, INK, RED
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ def draw_order(ax: Axes, curve: Phasors, k: int, what: str, unit: Unit) -> None:
     """Draw the k-th order: its ellipse, and the two rotating vectors whose sum it is."""
     one = curve.select_orders(curve.orders[[k]])
     order, phase = order_number(curve.orders[k]), np.exp(1j * np.radians(_SHOWN_AT))
-    s = choose_scale(unit, float(one.major[0]))
+    s = unit.fit(float(one.major[0]))
     values = one.values(FINE)
     set_up_plane(ax, [values], what, s)
     ax.set_title(f"{what}, order {order}, at crank angle {_SHOWN_AT / order:g}°")
@@ -36,7 +36,7 @@ def draw_order(ax: Axes, curve: Phasors, k: int, what: str, unit: Unit) -> None:
 
 
 def _draw_vector(
-    ax: Axes, start: complex, vector: complex, s: Scale, look: tuple[str, Any, str]
+    ax: Axes, start: complex, vector: complex, s: Unit, look: tuple[str, Any, str]
 ) -> None:
     """Draw an arrow, and the circle on which it turns."""
     if not vector:

@@ -1,0 +1,153 @@
+"""An analysis in brief: the orders that matter, roll, peaks, and the devices in one line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import groupby
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..enginefile.model import Counterweight, Shaft
+from ..forces.kinds import ROLL, Kind
+from ..sizing.device_tables import DeviceTable, find_unbalance
+from .order_tables import NEGLIGIBLE, NOTHING, UNKNOWN, peak_facts, size_text
+from .sheet import Facts, Grid, Text, capitalized, number, order_number
+
+if TYPE_CHECKING:
+    from ..core.phasors import Phasors
+    from ..forces.spectrum import Spectra
+    from ..results.analysis import Analysis, Sizing
+    from .units import System, Unit
+
+
+def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[float]:
+    """Orders to 2, and those of which one force or moment is not small beside one cylinder's.
+
+    Args:
+        single: what one cylinder makes of each kind; of a kind that is not in it, none is small.
+    """
+    return [
+        float(order)
+        for k, order in enumerate(spectra.orders)
+        if order <= 2
+        or any(p.major[k] > NEGLIGIBLE * single.get(kind.name, 0.0) for kind, p in spectra.items())
+    ]
+
+
+def vectors_grid(spectra: Spectra, shown: list[float], system: System) -> Grid:
+    """Force and moment side by side, with the parts of each that turn with the crank and against
+    it; the other orders in one line.
+    """
+    chosen = spectra.select_orders(shown)
+    vectors = [(kind, p, _unit_of(kind, p, system)) for kind, p in chosen.vectors()]
+
+    def row(k: int) -> Iterator[str]:
+        yield str(order_number(chosen.orders[k]))
+        for _, phasors, unit in vectors:
+            yield from _vector_cells(phasors, k, unit)
+
+    heads = [
+        head
+        for kind, _, unit in vectors
+        for head in (f"{kind.name}, {unit.name}", "with crank", "against")
+    ]
+    return Grid(
+        "Largest by order, and its parts that turn with the crank and against it",
+        ("order", *heads),
+        tuple(tuple(row(k)) for k in range(len(shown))),
+        tell_others(spectra, shown, system),
+    )
+
+
+def tell_others(spectra: Spectra, shown: list[float], system: System) -> str:
+    """One line on the orders that are not shown, or nothing."""
+    others = [
+        float(order)
+        for k, order in enumerate(spectra.orders)
+        if order not in shown and any(p.major[k] for _, p in spectra.items())
+    ]
+    if not others:
+        return ""
+    rest = spectra.select_orders(others)
+    sizes = [
+        f"{kind.name} {size_text(largest, system.unit(kind))}"
+        for kind, p in rest.items()
+        if (largest := float(p.major.max()))
+    ]
+    names = ", ".join(f"{order_number(order)}" for order in others[:6])
+    more = ", …" if len(others) > 6 else ""
+    plural = "s" * (len(others) > 1)
+    return f"Negligible: order{plural} {names}{more} (at most {', '.join(sizes)}). All: --all."
+
+
+def roll_and_peaks(result: Analysis, system: System) -> Facts:
+    """What acts about the crank's axis, and the largest values over a revolution, a line each."""
+    peaks = peak_facts(result, system, "", result.of_one_cylinder).pairs
+    roll = result.spectra.roll
+    pairs = [] if roll is None else [(ROLL.label, _tell_roll(result, roll, system))]
+    title = "Largest over a revolution" if peaks else "About the crank axis"
+    return Facts((*pairs, *peaks), title)
+
+
+def sizing_in_brief(sizing: Sizing, system: System) -> Text:
+    """Which devices leave nothing of orders 1 and 2, in one sentence."""
+    devices = sizing.remedy.devices
+    known = sizing.after.moments_known
+    left = "no free force or moment" if known else "no free force (moments are not known)"
+    if not devices:
+        what = "Orders 1 and 2 need" if known else "The forces of orders 1 and 2 need"
+        unknown = "" if known else "; moments are not known"
+        return Text("Sizing", (f"{what} no counterweight and no shaft{unknown}.",))
+    fitted = "; ".join(
+        f"{place} {tell_sizes([find_unbalance(device) for device in group], system.unbalance)}"
+        for place, group in groupby(devices, _tell_place)
+    )
+    result = f"They leave {left} of orders 1 and 2. Details: balcli balance."
+    return Text("Sizing", (f"{capitalized(fitted)}.", result))
+
+
+def tell_sizes(unbalances: list[float], unit: Unit) -> str:
+    """`2 x 35057 g mm`, in the order in which they stand."""
+    counted: dict[str, int] = {}
+    for unbalance in unbalances:
+        text = size_text(unbalance, unit)
+        counted[text] = counted.get(text, 0) + 1
+    return " + ".join(f"{count} × {text}" for text, count in counted.items())
+
+
+def _tell_place(device: DeviceTable) -> str:
+    match device:
+        case Counterweight():
+            return "counterweights:"
+        case Shaft():
+            return f"shaft at {device.ratio:+d}:"
+        case _:
+            return "sliders:"
+
+
+def _tell_roll(result: Analysis, roll: Phasors, system: System) -> str:
+    """Every order that matters: `order 2: 458, 4: 26.3 N m`."""
+    least = NEGLIGIBLE * result.of_one_cylinder[ROLL.name]
+    rows = [k for k, size in enumerate(roll.major) if size > least]
+    unit = system.moment.fit(float(roll.major.max(initial=0)))
+    sizes = (
+        f"{order_number(roll.orders[k])}: {number(unit.of(float(roll.major[k])), 4)}" for k in rows
+    )
+    return f"order {', '.join(sizes)} {unit.name}" if rows else NOTHING
+
+
+def _unit_of(kind: Kind, phasors: Phasors, system: System) -> Unit:
+    return system.unit(kind).fit(float(np.nanmax(phasors.major, initial=0.0)))
+
+
+def _vector_cells(phasors: Phasors, k: int, unit: Unit) -> tuple[str, str, str]:
+    if phasors.balanced[k]:
+        return NOTHING, "", ""
+    if np.isnan(phasors.forward[k]):
+        return UNKNOWN, UNKNOWN, UNKNOWN
+    largest, ahead, against = (
+        number(unit.of(float(v)), 4)
+        for v in (phasors.major[k], abs(phasors.forward[k]), abs(phasors.backward[k]))
+    )
+    return largest, ahead, against
