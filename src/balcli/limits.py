@@ -63,4 +63,5 @@ MOST_PLACES = 720  # blades or holes of a plane: every pair of them may be looke
 # Torsion -------------------------------------------------------------------------------------
 MOST_TORSION_NODES = 200  # of a chain: modes of all of them take a second
 HIGHEST_TORSION_ORDER = 256  # a cycle is sampled 16 times as often
+HIGHEST_TORSION_ORDER_UNASKED = 12  # by which cylinders excite: tables of builders end here
 MOST_TORSION_SPEEDS = 20_000  # of a range: all figures of each are kept

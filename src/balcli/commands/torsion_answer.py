@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import BalcliError
+from ..render.plot.torsion import draw_torsion
 from ..torsion.analysis import Question, TorsionAnalysis, analyze_torsion
 from ..torsion.load import Source, load_source
 from ..torsion.write_damper import insert_damper
@@ -68,6 +69,4 @@ def write_damper(source: Source, result: TorsionAnalysis) -> str:
 
 def draw(result: TorsionAnalysis, what: str, form: Form) -> bytes:
     """The content of a file with pictures."""
-    from ..render.plot.torsion import draw_torsion  # brings matplotlib
-
     return draw_torsion(result, what, form)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.loads import find_inertia
+from ..core.loads import find_inertia, find_needed_series
 from ..core.mechanisms import harmonics
 from ..core.singular_values import Real
 from ..core.torsional_chain import Damping, Shaft, join_chain
@@ -21,11 +21,10 @@ from ..enginefile.shafting import find_stiffness
 from ..enginefile.torsion_tables import Part, Torsion
 from ..errors import InputError, Problem
 from ..forces.spectrum import compute_each_cylinder
+from ..limits import HIGHEST_TORSION_ORDER_UNASKED
 from .build_chain import find_section
 from .dampers import fit_dampers
 from .system import Excitation, Section, TorsionalSystem
-
-HIGHEST_ORDER_UNASKED = 12
 
 
 class _Joint(NamedTuple):
@@ -188,8 +187,7 @@ def weigh_running_gear(engine: Engine) -> Real:
     c = engine.cylinders
     mean_only = np.zeros(1)
     find = c.linkage.find_distinct_harmonics if c.linkage else harmonics.find_distinct_harmonics
-    rod = bool(np.count_nonzero(c.couple))
-    few, which = find(mean_only, c.lam, c.eps, rod=rod, energy=True)
+    few, which = find(mean_only, c.lam, c.eps, find_needed_series(c, {"torque"}, uneven=False))
     moving = find_inertia(c, few.select_cylinders(which), 1.0).c[0].real
     own = np.array([float(weighed.share) for weighed in engine.weighed])
     turning = (c.rotating - own) * c.radius**2
@@ -212,7 +210,7 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
     """
     front = 0 if model.torsion is None else len(model.torsion.front)
     nodes = front + np.array([weighed.throw for weighed in engine.weighed])
-    wanted = np.arange(1.0, HIGHEST_ORDER_UNASKED + 1) if orders is None else orders
+    wanted = np.arange(1.0, HIGHEST_TORSION_ORDER_UNASKED + 1) if orders is None else orders
     whole = wanted[wanted % 1 == 0]
     steady = replace(engine, ripple=(), speed_rpm=30 / np.pi)  # 1 rad/s
     spectra = compute_each_cylinder(steady, whole, ("torque",))
