@@ -164,7 +164,10 @@ ON_REQUEST = {
     "balcli.engine.assembly": ("balcli.core.mechanisms.rotary", "balcli.engine.articulation"),
     "balcli.engine.rules": ("balcli.engine.articulation",),
     "balcli.render.analyses": ("balcli.render.analysis",),
-    "balcli.render.formats": tuple(f"balcli.render.{form}" for form in Format),
+    "balcli.render.formats": (
+        *(f"balcli.render.{form}" for form in Format),
+        "balcli.render.terminal",
+    ),
     "balcli.results.analysis": (
         "balcli.core.strokes",
         "balcli.forces.crankshaft",

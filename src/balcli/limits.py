@@ -60,6 +60,11 @@ MOST_SENSORS = 200  # readings of one run
 MOST_RUNS = 500  # nobody starts a machine more often
 MOST_PLACES = 720  # blades or holes of a plane: every pair of them may be looked at
 
+# Engine mounts -------------------------------------------------------------------------------
+MOST_MOUNTS = 100  # and points: each has a curve for every speed
+MOST_MOUNT_SPEEDS = 20_000  # of a range
+MOST_MOUNT_RESULTS = 4_000_000  # orders x speeds x mounts and points: 300 MB
+
 # Torsion -------------------------------------------------------------------------------------
 MOST_TORSION_NODES = 200  # of a chain: modes of all of them take a second
 HIGHEST_TORSION_ORDER = 256  # a cycle is sampled 16 times as often

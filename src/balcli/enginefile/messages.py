@@ -23,6 +23,7 @@ TABLES: dict[str, type[model.Table]] = {
     "operation": model.Operation,
     "frame": model.Frame,
     "articulation": model.Articulation,
+    "body": model.Body,
 }
 # Tables of chapters beyond balance: the module of each, imported for files that have the table. Its
 # class is called like the key.
@@ -31,6 +32,8 @@ DEVICES: dict[str, type[model.Table]] = {
     "counterweight": model.Counterweight,
     "shaft": model.Shaft,
     "slider": model.Slider,
+    "mount": model.Mount,
+    "point": model.MarkedPoint,
 }
 KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES)
 WORDS = {

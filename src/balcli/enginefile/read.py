@@ -83,10 +83,14 @@ class Draft(NamedTuple):
         return InputError(listed, name, max(more, 0))
 
 
-def read_tables(text: str | bytes, name: str = "") -> Draft:
+def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Draft:
     """What a TOML text says of an engine; `name` is that of its file, for messages.
 
     Tables that the text does not have are not even compiled by pydantic.
+
+    Args:
+        bare: whether a body on its mounts will do, without crank, rods and pistons: the model then
+            has none.
 
     Raises:
         InputError: it is no TOML.
@@ -94,8 +98,9 @@ def read_tables(text: str | bytes, name: str = "") -> Draft:
     data = parse_toml(text, name)
     reader = _Reader()
     reader.unknown += [UnknownKey("", key, None) for key in data if key not in KNOWN]
+    bodiless = not bare or "body" not in data or any(key in data for key in REQUIRED)
     for key, example in REQUIRED.items():
-        if key not in data:
+        if key not in data and bodiless:
             hint = f'such as "[{key}]" and "{example}" below it'
             reader.add(key, f"is missing; an engine needs it, {hint}")
     parts: dict[str, Any] = {key: reader.read_text(key, data[key]) for key in TEXTS if key in data}

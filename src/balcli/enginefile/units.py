@@ -96,6 +96,8 @@ UNBALANCE = Dimension(
 )
 SPEED = Dimension("rpm", "a speed of rotation", Powers(time=-1, angle=1), ("6000 rpm", "300 rad/s"))
 TIME = Dimension("s", "a time", _TIME, ("0.82 s", "820 ms"))
+STIFFNESS = Dimension("N/mm", "a stiffness", Powers(0, 1, -2), ("350 N/mm", "2000 lbf/in"))
+DAMPING = Dimension("N s/mm", "a damping", Powers(0, 1, -1), ("0.5 N s/mm", "3 lbf s/in"))
 TORQUE = Dimension("N m", "a torque", Powers(2, 1, -2), ("250 N m", "184 lbf ft"))
 TORSIONAL_STIFFNESS = Dimension(
     "N m/rad",
@@ -111,7 +113,7 @@ STRESS = Dimension("N/mm^2", "a stress", _PRESSURE, ("40 N/mm^2", "5800 psi"))
 PLAIN = Dimension("", "a plain number", Powers(), ())
 _DIMENSIONS = (
     *(LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PLAIN),
-    *(TORQUE, TORSIONAL_STIFFNESS, TORSIONAL_DAMPING, STRESS),
+    *(TORQUE, TORSIONAL_STIFFNESS, TORSIONAL_DAMPING, STRESS, STIFFNESS, DAMPING),
 )
 
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"

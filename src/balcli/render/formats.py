@@ -58,9 +58,14 @@ def render(
     """
     match form:  # the module of the one format that is asked for is imported
         case Format.TABLE:
-            from .table import terminal
+            sheets = [renderer.sheet(result, system) for result in results]
+            if seen:
+                from .terminal import terminal  # rich
 
-            return terminal([renderer.sheet(result, system) for result in results], seen=seen)
+                return terminal(sheets)
+            from .table import plain_text
+
+            return plain_text(sheets)
         case Format.MARKDOWN:
             from .markdown import markdown
 

@@ -36,7 +36,7 @@ Array = NDArray[np.float64]
 Box = tuple[slice, ...]
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
 BYTES = 1 << 23  # of an array that a box needs: no more than the cache holds
-SAMPLES = 1 << 22  # of revolutions in a box: a tenth of a second
+SAMPLES = 1 << 20  # of revolutions in a box: a tenth of a second
 
 
 class Chunk(NamedTuple):
@@ -151,7 +151,7 @@ def size_boxes(sweep: Sweep) -> int:
     """
     engine = build_corners(sweep)
     orders = find_orders(engine, sweep.quantities)
-    figures = engine.cylinders.count * max(map(len, orders)) + 2 * max(map(max, orders))
+    figures = max(engine.cylinders.count * max(map(len, orders)), 2 * max(map(max, orders)))
     samples = count_samples(engine) // 2 ** len(sweep.parameters)
     most = min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), CHUNK)
     return max(most, 1)
@@ -159,12 +159,13 @@ def size_boxes(sweep: Sweep) -> int:
 
 def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
     """The grid in boxes of at most `most` variants, in the order of rows: the last axes whole, one
-    cut, the first one by one.
+    cut into like parts, the first one by one.
     """
     axis = len(shape) - 1
     while axis > 0 and math.prod(shape[axis:]) <= most:
         axis -= 1
-    step = max(most // math.prod(shape[axis + 1 :]), 1)
+    longest = max(most // math.prod(shape[axis + 1 :]), 1)
+    step = math.ceil(shape[axis] / math.ceil(shape[axis] / longest))
     for fixed in np.ndindex(shape[:axis]):
         for start in range(0, shape[axis], step):
             yield (
