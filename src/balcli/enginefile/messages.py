@@ -27,7 +27,12 @@ TABLES: dict[str, type[model.Table]] = {
 }
 # Tables of chapters beyond balance: the module of each, imported for files that have the table. Its
 # class is called like the key.
-CHAPTERS = {"torsion": "torsion_tables"}
+CHAPTERS = {
+    "gas": "gas_tables",
+    "flywheel": "gas_tables",
+    "bearing": "gas_tables",
+    "torsion": "torsion_tables",
+}
 DEVICES: dict[str, type[model.Table]] = {
     "counterweight": model.Counterweight,
     "shaft": model.Shaft,
