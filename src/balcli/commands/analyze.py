@@ -17,6 +17,7 @@ from .options import (
     Output,
     Speed,
     UnitsOption,
+    Whole,
     check_guide_height,
     check_speed,
     parse_orders,
@@ -32,9 +33,7 @@ def analyze(
     speed: Speed = None,
     orders: Orders = None,
     only: OnlyParts = None,
-    whole: Annotated[
-        bool, typer.Option("--all", help="Every table and every order that is not rounding.")
-    ] = False,
+    whole: Whole = False,
     by: Annotated[
         str,
         typer.Option(
