@@ -12,6 +12,8 @@ import re
 import signal
 import subprocess
 import sys
+from importlib import import_module
+from inspect import cleandoc
 from pathlib import Path
 
 import pytest
@@ -54,8 +56,16 @@ def test_help_lists_every_command_once_and_in_order(balcli):
     for flag in ("--help", "-h"):
         status, out, err = balcli(flag)
         assert (status, err) == (0, "")
-        listed = re.findall(r"(?m)^│ ([a-z]+) {2,}\S", out.partition(" Commands ")[2])
+        listed = re.findall(r"(?m)^  ([a-z]+) +\S", out.partition("Commands:")[2])
         assert listed == list(COMMANDS)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_list_of_commands_says_what_the_help_of_each_begins_with(command):
+    """It is a table, so that the list need not import them."""
+    function = getattr(import_module(f"balcli.commands.{command}"), command)
+    first, _, _ = cleandoc(function.__doc__).partition("\n\n")
+    assert COMMANDS[command] == " ".join(first.split())
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -95,7 +105,6 @@ def test_wrong_usage_shows_how_a_command_is_used(balcli, args, command, message)
     [
         ["analyze"],
         ["analyze", V8, "--format", "xml"],
-        ["analyze", V8, "--speed", "fast"],
         ["analyze", V8, "--only"],
         ["new"],
     ],
@@ -152,7 +161,7 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         (
             ["analyze", V8, "--only", "force,noise"],
             "there is no quantity noise: choose from force, moment, couple, torque, roll, peak, "
-            "sizing, inner, guide",
+            "sizing, gas, inner, guide",
         ),
         (
             ["analyze", V8, "-o", "/nowhere/x.txt"],
@@ -163,13 +172,13 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         (["check", str(ROOT / "src")], f"{ROOT / 'src'}: has no engine files (*.toml)"),
         (
             ["new", "inlin"],
-            '"inlin" is no kind of engine; there are single, inline, vee, boxer, radial, w. Did '
-            "you mean inline?",
+            '"inlin" is no kind of engine; there are single, inline, vee, boxer, radial, w, mounts. '
+            "Did you mean inline?",
         ),
         (
             ["analyze", V8, "--only", "guide", "--guide-height", "0"],
             "--guide-height 0: the distance from the crankshaft to the middle of the "
-            "guides must be a positive number of mm, below 1e6",
+            "guides must be positive, below 1000 m",
         ),
     ],
 )
@@ -599,16 +608,16 @@ main()
 @pytest.mark.parametrize(
     ("args", "allowed"),
     [
-        (["--help"], {"rich"}),
+        (["--help"], set()),
         (["--version"], set()),
         (["new", "single"], {"pydantic"}),  # typer itself checks arguments with it
         (["schema"], {"pydantic"}),
         (["analyze", V8, "--format", "json"], {"numpy", "pydantic"}),
         (["analyze", V8, "--format", "csv"], {"numpy", "pydantic"}),
         (["analyze", V8, "--format", "markdown"], {"numpy", "pydantic"}),
-        (["analyze", V8], {"numpy", "pydantic", "rich"}),
+        (["analyze", V8], {"numpy", "pydantic"}),
         (["check", str(ENGINES / "i4.toml")], {"numpy", "pydantic"}),
-        *(([command, "--help"], {"rich", "pydantic"}) for command in COMMANDS),
+        *(([command, "--help"], {"pydantic"}) for command in COMMANDS),
     ],
     ids=lambda value: " ".join(Path(word).name for word in value) if type(value) is list else "",
 )

@@ -150,19 +150,57 @@ def test_core_knows_numpy_and_the_standard_library_alone(file):
     assert strangers == set()
 
 
-# Imported by a function with a reason that stands beside it.
-BESIDE_A_REASON = {("balcli.__main__", "balcli.cli")}
+# What is imported by who asks for it: a plain `analyze --format json` is to import no format, chapter
+# or kind of engine that it does not need.
+ON_REQUEST = {
+    "balcli.__main__": ("balcli.cli",),
+    "balcli.commands.completion": (
+        "balcli.enginefile.examples",
+        "balcli.enginefile.templates",
+        "balcli.field_balancing.starting_file",
+        "balcli.sizing.schemes",
+        "balcli.torsion.starting_file",
+    ),
+    "balcli.engine.assembly": (
+        "balcli.core.mechanisms.rotary",
+        "balcli.engine.articulation",
+        "balcli.engine.gas",
+    ),
+    "balcli.engine.rules": ("balcli.engine.articulation",),
+    "balcli.forces.spectrum": ("balcli.forces.gas",),
+    "balcli.forces.symmetry": ("balcli.forces.gas_symmetry",),
+    "balcli.render.analyses": ("balcli.render.analysis",),
+    "balcli.render.formats": (
+        *(f"balcli.render.{form}" for form in Format),
+        "balcli.render.terminal",
+    ),
+    "balcli.results.analysis": (
+        "balcli.core.strokes",
+        "balcli.forces.crankshaft",
+        "balcli.forces.guide_moments",
+        "balcli.forces.symmetry",
+        "balcli.forces.textbook",
+        "balcli.sizing.auto",
+        "balcli.sizing.remedy",
+    ),
+    "balcli.studies.sweep": ("balcli.mounting.quantity",),
+}
 
 
 @pytest.mark.parametrize("module", imports.FILES)
-def test_own_modules_are_imported_late_only_where_that_spares_a_library(module):
+def test_own_modules_are_imported_late_only_on_request_or_where_that_spares_a_library(module):
     """Numpy and pydantic for the help of a command, for one."""
     needless = {
         other
         for other in imports.later(module)
         if other in imports.FILES and not imports.weight(other) - imports.weight(module)
     }
-    assert {(module, other) for other in needless} <= BESIDE_A_REASON
+    assert needless <= set(ON_REQUEST.get(module, ()))
+
+
+@pytest.mark.parametrize("module", ON_REQUEST)
+def test_what_is_for_those_who_ask_is_imported_late(module):
+    assert set(ON_REQUEST[module]) <= imports.later(module) - imports.at_once(module)
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -174,6 +212,7 @@ def test_help_and_completion_of_a_command_wait_for_no_library(command):
 # for the eye.
 SHAPING = {
     ("balcli.sizing.device_tables", "find_unbalance"),
+    ("balcli.sizing.device_tables", "measure_direction"),
     ("balcli.sizing.device_tables", "name_kind"),
     ("balcli.tables.recomputed", "deviates"),
     ("balcli.tables.recomputed", "parse_decimal"),

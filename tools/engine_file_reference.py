@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from balcli.enginefile.messages import DEVICES, TABLES
+from balcli.enginefile.messages import DEVICES, import_tables
 from balcli.enginefile.model import EngineFile, Override, Table
 from balcli.enginefile.schema import schema
 
@@ -31,7 +31,8 @@ def tables() -> str:
             ("name", "source"),
         )
     ]
-    named = {f"[{name}]": table for name, table in TABLES.items()} | {"[cylinder.N]": Override}
+    named = {f"[{name}]": table for name, table in import_tables().items()}
+    named["[cylinder.N]"] = Override
     for heading, table in (
         named | {f"[[{name}]]": table for name, table in DEVICES.items()}
     ).items():

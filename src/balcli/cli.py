@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 import sys
-from difflib import get_close_matches
 from importlib import import_module
 from inspect import cleandoc
 from io import StringIO
@@ -21,30 +20,47 @@ from typer.main import get_command
 from . import __version__
 from .errors import BalcliError, Exit, say
 
-COMMANDS = (
-    "analyze",
-    "balance",
-    "tables",
-    "check",
-    "new",
-    "curves",
-    "schema",
-    "plot",
-    "report",
-    "sweep",
-    "search",
-    "scatter",
-    "compare",
-    "sum",
-    "field",
-    "torsion",
-    "engines",
-    "bench",
-)
+# What each does in a line; the first paragraph of its own help says the same.
+COMMANDS = {
+    "analyze": "Free forces and moments of an engine, order by order, and what balances them.",
+    "balance": "Size counterweights, balancer shafts or sliders, and show what is left with them.",
+    "tables": "The printed coefficient tables of five books and papers, recomputed, and every "
+    "misprint in them.",
+    "check": "Recompute engines and compare with their recorded results; exit status 1 if anything "
+    "moved.",
+    "new": "Write a commented, valid engine file (or file of runs, for `field`, or chain file, "
+    "for `torsion`) to start from.",
+    "curves": "Force, moment, couple, torque and roll over the crank angle, or the motion of one "
+    "piston.",
+    "schema": "Print the JSON Schema of the engine file, a file of runs or a chain file, for "
+    "editors.",
+    "plot": "Draw free forces and moments: loci over a revolution, order by order, and over the "
+    "crank angle.",
+    "report": "Write one self-contained page: the engine in motion, what it shakes, and a balance "
+    "scheme before and after.",
+    "sweep": "Figures of many variants of an engine: numbers of its file over ranges, as CSV, "
+    "JSON or (by the name of -o) Parquet.",
+    "search": "The best crank, firing order, bank angle or splay; mirror images and rotations "
+    "once.",
+    "scatter": "How free forces and moments spread when masses (rod lengths, throw angles) vary, "
+    "and which tolerance matters most.",
+    "compare": "Engines side by side: free forces and moments by order, peaks, and their ratios "
+    "to the first engine's.",
+    "sum": "Two engines on one frame, geared one to one: H, U and opposed-piston engines.",
+    "field": "Balance a rotor on the machine or in its bearings: from readings with trial weights "
+    "to correction weights, places or drill holes, and what is left.",
+    "mounts": "What the frame feels of an engine on its mounts: natural modes, rest, forces of the "
+    "mounts and motion of points over a range of speeds.",
+    "torsion": "Torsional vibration of shafts: natural modes, critical speeds, Holzer tables, and "
+    "vibratory torque and stress over a range of speeds.",
+    "engines": "List the example engines that come with balcli, print one, or copy it.",
+    "bench": "Run time against error of every way to the same figures, on this machine; with -o "
+    "X.svg also as a picture.",
+}
 
 
 class _OnDemand(TyperGroup):
-    """The commands by name; the module of one is imported when it is called, or help is asked
+    """The commands by name; the module of one is imported when it is called, or its help is asked
     for.
     """
 
@@ -54,15 +70,23 @@ class _OnDemand(TyperGroup):
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         if cmd_name not in COMMANDS:
             return None
-        single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+        single = typer.Typer(
+            add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None
+        )
         function = getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name)
         single.command(cmd_name, help=_unwrapped(cleandoc(function.__doc__)))(function)
         return get_command(single)
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         try:
             return super().resolve_command(ctx, args)
         except typer.TyperException as error:
+            from difflib import get_close_matches
+
             if near := get_close_matches(args[0].lower()[:100], COMMANDS, 1):
                 error.message += f" Did you mean {near[0]}?"
             raise
@@ -77,6 +101,7 @@ app = typer.Typer(
     cls=_OnDemand,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
+    rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 

@@ -14,7 +14,7 @@ from .engine.build import Engine
 from .errors import BalcliError
 from .forces.kinds import KINDS, VECTORS
 from .forces.spectrum import Spectra
-from .render import analysis as renderer
+from .render import analysis_data as renderer
 from .results.analysis import Analysis, analyze
 
 TOLERANCE = 1e-9  # of a quantity's largest order, beyond what rounding may do

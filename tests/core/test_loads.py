@@ -9,7 +9,7 @@ import pytest
 from support.engines import alone, engine, engine_text
 
 from balcli.core.loads import Loads
-from balcli.core.mechanisms.fourier import Series
+from balcli.core.mechanisms.fourier import SERIES, Series
 from balcli.core.phases import Phases
 from balcli.core.phasors import EPS
 from balcli.engine.build import build
@@ -174,7 +174,7 @@ def test_errors_of_a_curve_stay_within_the_bounds_of_the_forces(name, size):
     """
     built = engine(**ENGINES[name])
     c = built.cylinders
-    few, which = c.linkage.find_distinct_harmonics(LOW, c.lam, c.eps, rod=False, energy=False)
+    few, which = c.linkage.find_distinct_harmonics(LOW, c.lam, c.eps, SERIES)
     exact = few.select_cylinders(which)._replace(
         piston=Series(0 * few.select_cylinders(which).piston.c)
     )

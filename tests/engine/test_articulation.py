@@ -13,6 +13,7 @@ import pytest
 from oracle import momentum
 from support.engines import RADIAL
 
+from balcli.core.mechanisms.articulated import Articulated
 from balcli.core.strokes import find_travel
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
@@ -138,6 +139,25 @@ def test_a_rod_that_cannot_follow_names_the_cylinder_and_the_crank_angle():
 def test_one_cylinder_with_too_short_a_rod_of_its_own():
     (only,) = mistakes(more="[cylinder.5]\nrod_length = 59\nrod_cg = 30\n")
     assert only.startswith("cylinder.5.rod_length: the crank cannot turn: at crank angle ")
+
+
+@pytest.mark.parametrize(("length", "looked_at"), [(188, 0), (120, 3), (110, 9)])
+def test_only_variants_that_might_lock_are_looked_at_all_the_way_round(
+    monkeypatch, length, looked_at
+):
+    """9 knuckle radii; a pin is at most a crank radius (60 mm) and a knuckle radius away."""
+    seen = 0
+    move = Articulated.move
+
+    def spy(self, psi, *figures):
+        nonlocal seen
+        seen += figures[0].shape[1]
+        return move(self, psi, *figures)
+
+    file = enginefile.parse(RADIAL.replace("length = 188", f"length = {length}"))
+    monkeypatch.setattr(Articulated, "move", spy)
+    engine.build(file, {"articulation.knuckle_radius": np.linspace(54.0, 62.0, 9)})
+    assert seen == looked_at
 
 
 # ------------------------------------------------------------------ strokes and dead centres

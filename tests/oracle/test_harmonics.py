@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 
 from balcli.core.mechanisms import closed_form, fourier, harmonics
+from balcli.core.mechanisms.distinct import find_distinct
 
 RELATIVE = 2e-14  # of each coefficient of the centred mechanism, where it is above 1e-290
 ABSOLUTE = 1e-15  # of the offset mechanism, in units of the first order
@@ -261,7 +262,7 @@ def test_offset_against_the_trapezoidal_rule(lam, eps):
 
 
 def test_sampling_agrees_with_the_closed_form_where_there_is_no_offset():
-    orders, lam, eps = np.arange(0, 40), np.array([0.25, 0.31]), np.zeros(1)
+    orders, lam, eps = np.arange(0, 40), np.array([0.25, 0.31]), np.zeros(2)
     closed, sampled = (
         closed_form.find_harmonics(orders, lam),
         harmonics.sample_harmonics(orders, lam, eps),
@@ -304,18 +305,36 @@ def test_an_order_of_one_engine_is_the_same_among_any_others(lam, eps):
         assert getattr(alone, name).c[0] == getattr(among, name).c[1], name
 
 
-def test_side_by_side_the_steepest_mechanism_says_how_many_samples():
-    lam, eps = np.array([0.1, 0.6, 0.3]), np.array([0.3, 0.35, -0.2])
-    most = harmonics.count_samples(0.6, 0.35)
-    assert (
-        harmonics.count_samples(lam, eps)
-        == most
-        > max(harmonics.count_samples(0.1, 0.3), harmonics.count_samples(0.3, -0.2))
-    )
+def test_side_by_side_each_mechanism_takes_the_samples_that_it_needs():
+    """Variants are to the last bit what they are among any others."""
+    lam, eps = np.array([0.1, 0.6, 0.3, 0.3]), np.array([0.3, 0.35, -0.2, 0.0])
+    counts = harmonics.count_samples(lam, eps)
+    assert counts.tolist() == [
+        harmonics.count_samples(*pair) for pair in zip(lam, eps, strict=True)
+    ]
+    assert counts[1] > counts[0] == counts[2]
     found = harmonics.find_harmonics(np.arange(9), lam[None], eps[None])
-    for k in range(3):
-        single = harmonics.find_harmonics(np.arange(9), lam[k : k + 1], eps[k : k + 1])
-        assert np.abs(found.piston.c[:, 0, k] - single.piston.c[:, 0]).max() < ABSOLUTE
+    for k in range(4):
+        one = slice(k, k + 1)
+        single = harmonics.find_harmonics(np.arange(9), lam[None, one], eps[None, one])
+        engine = harmonics.find_harmonics(np.arange(9), lam[one], eps[one])
+        for name in SERIES:
+            values = getattr(found, name).c[:, 0, k]
+            assert np.array_equal(values, getattr(single, name).c[:, 0, 0]), name
+            assert np.abs(values - getattr(engine, name).c[:, 0]).max() < ABSOLUTE, name
+
+
+def test_what_does_not_vary_has_one_mechanism():
+    """Of three cylinders the second varies, along the second axis alone; the third is as the
+    first.
+    """
+    lam = np.full((3, 2, 4), 0.3)
+    eps = np.zeros((3, 2, 4))
+    eps[1] = [0.01, 0.02, 0.03, 0.04]
+    few = find_distinct(lam, eps)
+    assert few.figures[1].tolist() == [0, 0.01, 0.02, 0.03, 0.04]
+    assert few.which[:, 0].tolist() == [[0] * 4, [1, 2, 3, 4], [0] * 4]
+    assert np.array_equal(few.which[:, 0], few.which[:, 1])
 
 
 def test_multiples_and_sums_of_series_keep_bounds_of_their_errors():

@@ -8,22 +8,27 @@ import csv
 import json
 import re
 from io import StringIO
+from types import SimpleNamespace
 
 import pytest
 from support.engines import RADIAL, build_text, inline_engine, rotary_engine
 
 from balcli.commands.options import parse_parts
 from balcli.errors import BalcliError
-from balcli.render import analysis
-from balcli.render.analysis import View
+from balcli.render import analysis, analysis_data
 from balcli.render.formats import Format, render
 from balcli.render.sheet import Facts, Grid
 from balcli.render.units import SYSTEMS
+from balcli.render.view import IN_BRIEF, View
 from balcli.results.analysis import analyze
+
+RENDERER = SimpleNamespace(
+    sheet=analysis.sheet, document=analysis_data.document, rows=analysis_data.rows
+)
 
 
 def rendered(form, subject, system="si", **options):
-    return render([analyze(subject, **options)], analysis, form, SYSTEMS[system])
+    return render([analyze(subject, **options)], RENDERER, form, SYSTEMS[system])
 
 
 def document(subject, **options):
@@ -143,7 +148,7 @@ WIDE = [0, 72, 144, 216, 288]
 SIX = [0, 120, 240, 240, 120, 0]
 
 
-def parts(subject, view=analysis.IN_BRIEF, **options):
+def parts(subject, view=IN_BRIEF, **options):
     """Titles of a sheet's parts, and the first cells of its first table."""
     found = analysis.sheet(analyze(subject, **options), SYSTEMS["si"], view).parts
     first = next((part for part in found if isinstance(part, Grid)), None)
@@ -206,6 +211,5 @@ def test_an_unknown_quantity_is_refused_with_those_there_are():
         analyze(inline_engine([0]), only=["bending"])
     assert str(caught.value) == (
         "there is no quantity bending: choose from force, moment, couple, torque, roll, peak, "
-        "sizing, "
-        "inner, guide"
+        "sizing, gas, inner, guide"
     )

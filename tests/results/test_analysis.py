@@ -187,13 +187,13 @@ def test_what_is_not_asked_for_is_not_computed(monkeypatch):
     asked = []
     original = harmonics.find_distinct_harmonics
 
-    def spy(orders, *rest, rod=True, energy=True):
-        asked.append((list(orders), rod, energy))
-        return original(orders, *rest, rod=rod, energy=energy)
+    def spy(orders, lam, eps, wanted):
+        asked.append((list(orders), set(wanted) - {"along", "across"}))
+        return original(orders, lam, eps, wanted)
 
     monkeypatch.setattr(harmonics, "find_distinct_harmonics", spy)
     analyze(example("i4"), [1, 2], only=["force"])
-    assert [(orders, energy) for orders, _, energy in asked] == [([1, 2], False)]
+    assert asked == [([1, 2], {"piston"})]
 
 
 def test_an_unknown_quantity():
@@ -201,7 +201,7 @@ def test_an_unknown_quantity():
         analyze(example("i4"), only=["force", "weight", "noise"])
     assert str(caught.value) == (
         "there is no quantity noise, weight: choose from force, moment, couple, torque, roll, "
-        "peak, sizing, inner, guide"
+        "peak, sizing, gas, inner, guide"
     )
 
 

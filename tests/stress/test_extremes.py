@@ -15,6 +15,7 @@ from support.engines import engine
 from support.paths import DOCS
 
 from balcli.core.mechanisms import closed_form, fourier, harmonics
+from balcli.core.mechanisms.fourier import SERIES
 from balcli.core.peaks import peak
 from balcli.core.phasors import EPS
 from balcli.engine.build import Engine
@@ -232,7 +233,7 @@ def test_articulated_rods_near_dead_lock_keep_the_bound_they_state(short, master
     orders = [0, 1, 2, 3, 7]
     with mp.workdps(30):
         want = revolution(motion, 2 * c.linkage.find_highest_order(c.lam, c.eps), orders)
-    few, which = c.linkage.find_distinct_harmonics(orders, c.lam, c.eps, rod=True, energy=True)
+    few, which = c.linkage.find_distinct_harmonics(orders, c.lam, c.eps, SERIES)
     found = few.select_cylinders(which)
     assert share_of_bound(found.piston, row, want[0]) < 0.5
     assert share_of_bound(found.rod, row, want[1]) < 0.5
@@ -243,7 +244,7 @@ def test_the_mirror_image_of_an_articulated_rod_has_the_same_bound():
     bounds = []
     for master in (1, 2):
         c = vee(1e-2, master).cylinders
-        few, which = c.linkage.find_distinct_harmonics([1, 2], c.lam, c.eps, rod=True, energy=False)
+        few, which = c.linkage.find_distinct_harmonics([1, 2], c.lam, c.eps, SERIES)
         found, row = few.select_cylinders(which), 2 - master
         bounds.append((found.piston.noise[row], found.rod.noise[row], found.piston.noise[1 - row]))
     assert bounds[0] == pytest.approx(bounds[1], rel=1e-6, abs=0)

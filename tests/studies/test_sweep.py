@@ -23,6 +23,7 @@ from balcli.studies.sweep import (
     evaluate_chunks,
     join_chunks,
     list_columns,
+    size_boxes,
 )
 
 SAME = 1e-12  # of the largest value of a column
@@ -138,6 +139,23 @@ def test_boxes_cover_the_grid_in_the_order_of_rows(shape: tuple[int, ...], most:
     parts = [numbers[box].ravel() for box in divide_grid(shape, most)]
     assert np.concatenate(parts).tolist() == list(range(numbers.size))
     assert max(map(len, parts)) <= most
+
+
+@pytest.mark.parametrize(
+    ("engine", "vary", "of", "most"),
+    [
+        (VEE, "rod.ratio=0.2:0.3:0.01", "force.2.major", 32_768),
+        (VEE, "rod.ratio=0.2:0.3:0.01", "force.4096.major", 64),
+        (VEE, "rod.ratio=0.2:0.999:0.001", "peak.force", 100),
+        (VEE, "cylinder.1.piston_offset=0:2:0.01", "force.2.major", 32_768),
+        (VEE, "cylinder.1.piston_offset=0:114.9:0.1", "force.2.major", 10_000),
+    ],
+)
+def test_boxes_are_the_smaller_the_more_each_variant_needs(
+    engine: str, vary: str, of: str, most: int
+) -> None:
+    """Orders, and samples near the lock: a box takes a fraction of a second, and little memory."""
+    assert size_boxes(asked(engine, vary, of=of)) <= most
 
 
 def test_chunks_do_not_change_figures() -> None:

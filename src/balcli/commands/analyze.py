@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from ..render.formats import Format, Units
+from ..render.view import View
 from .file_names import text_format
 from .options import (
     EnginePaths,
@@ -18,10 +19,10 @@ from .options import (
     Speed,
     UnitsOption,
     Whole,
-    check_guide_height,
-    check_speed,
+    parse_guide_height,
     parse_orders,
     parse_parts,
+    parse_speed,
 )
 from .output import is_seen, show
 from .overwrite_guard import refuse_overwriting
@@ -60,12 +61,12 @@ def analyze(
     refuse_overwriting(reads=paths, writes={"--output": output})
     form = text_format(output, form)
     from ..render import analyses
-    from ..render.analysis import View
     from ..results.analysis import Analysis
     from ..results.analysis import analyze as analyze_engine
     from .inputs import distinct_names, exit_on_errors, read_engine, try_each
 
-    rpm, height_m, each = check_speed(speed), check_guide_height(guide_height), _is_by_cylinder(by)
+    rpm, each = parse_speed(speed), _is_by_cylinder(by)
+    height_m = parse_guide_height(guide_height, units)
     asked, (chosen, parts) = parse_orders(orders), parse_parts(only)
 
     def analyze_file(path: str) -> tuple[str, Analysis]:

@@ -6,30 +6,41 @@ from typing import get_args
 
 from ..errors import BalcliError
 from ..limits import FARTHEST_DEG, FARTHEST_M
+from ..render.formats import Units
 from ..results.two_engines import Arrangement, Load
-from .options import parse_numbers
+from .amounts import read_angle, read_lengths
 
 
-def parse_arrangement(phase: float, at: str, turn: float, reverse: bool, load: str) -> Arrangement:
-    """From the options' text and numbers.
+def parse_arrangement(
+    phase: str, at: str, turn: str, reverse: bool, load: str, units: Units
+) -> Arrangement:
+    """From the options' texts.
 
     Args:
-        phase: crank angle by which the second engine leads, degrees.
-        at: place of its origin in the first engine's axes: three numbers in mm.
-        turn: how far it is turned about z, degrees.
+        phase: crank angle by which the second engine leads.
+        at: place of its origin in the first engine's axes: three lengths.
+        turn: how far it is turned about z.
         reverse: whether its crank turns against the first one's.
         load: first, second or both: which crank has flywheel and load.
 
     Raises:
-        BalcliError: a place that is not three numbers, anything infinite, an unknown load, or one
+        BalcliError: a place that is not three lengths, anything infinite, an unknown load, or one
             that makes no difference.
     """
-    for option, value in (("--phase", phase), ("--turn", turn)):
-        if not abs(value) <= FARTHEST_DEG:
-            raise BalcliError(
-                f"{option} {value:g}: give an angle in degrees, up to {FARTHEST_DEG:g}"
-            )
-    return Arrangement(phase, _parse_place(at), turn, reverse, _parse_load(load, reverse))
+    return Arrangement(
+        _parse_angle("--phase", phase),
+        _parse_place(at, units),
+        _parse_angle("--turn", turn),
+        reverse,
+        _parse_load(load, reverse),
+    )
+
+
+def _parse_angle(option: str, text: str) -> float:
+    value = read_angle(option, text)
+    if not abs(value) <= FARTHEST_DEG:
+        raise BalcliError(f"{option} {value:g}: give an angle in degrees, up to {FARTHEST_DEG:g}")
+    return value
 
 
 def _parse_load(text: str, reverse: bool) -> Load:
@@ -44,10 +55,10 @@ def _parse_load(text: str, reverse: bool) -> Load:
     return found
 
 
-def _parse_place(text: str) -> tuple[float, float, float]:
+def _parse_place(text: str, units: Units) -> tuple[float, float, float]:
     """x, y and z in m."""
     wanted = "three numbers, X,Y,Z in mm, such as 0,300,0"
-    x, y, z = (v / 1e3 for v in parse_numbers("--at", text, wanted, 3))
+    x, y, z = read_lengths("--at", text, wanted, 3, units)
     if max(map(abs, (x, y, z))) > FARTHEST_M:
         raise BalcliError(f'--at "{text[:60]}": the places may be up to {FARTHEST_M:g} m')
     return x, y, z

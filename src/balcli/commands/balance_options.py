@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..core.drilled_hole import SLUGS
 from ..errors import BalcliError
 from ..limits import MOST_FACTORS
+from ..render.formats import Units
 from ..sizing.options import SchemeOptions
 from ..sizing.schemes import KNUCKLES, NAMES
+from .amounts import read_length, read_lengths, read_mass, read_number, read_share
 from .completion import complete_schemes
-from .options import parse_numbers
 
 if TYPE_CHECKING:
     from ..engine.build import Engine
@@ -22,12 +24,13 @@ if TYPE_CHECKING:
     from ..sizing.workshop import Tools
 
 Scheme = Annotated[
-    str,
+    str | None,
     typer.Option(
         "--scheme",
         "--with",
         metavar="NAME",
         autocompletion=complete_schemes,
+        show_default="auto; factor where --factor or --measured is given",
         help=f"What to fit: {', '.join(NAMES[:-1])} or {NAMES[-1]}.",
     ),
 ]
@@ -65,8 +68,19 @@ Factor = Annotated[
         metavar="K|K:K:STEP",
         show_default=False,
         help=(
-            "Share of the reciprocating mass that counterweights take; default 0.5. Of a range, "
-            "the best."
+            "Share of the reciprocating mass that counterweights take, such as 51% or 0.51; "
+            "default 50%. A range such as 50%:54%:1% gives a table, and fits the best."
+        ),
+    ),
+]
+Measured = Annotated[
+    str | None,
+    typer.Option(
+        metavar="MASS",
+        show_default=False,
+        help=(
+            'Instead of --factor: what balances each bare pin, such as "812 g" (a bare number is '
+            "g): says which factor that is."
         ),
     ),
 ]
@@ -79,7 +93,7 @@ Roll = Annotated[
     ),
 ]
 Radius = Annotated[
-    float | None,
+    str | None,
     typer.Option(
         metavar="MM",
         show_default=False,
@@ -87,7 +101,7 @@ Radius = Annotated[
     ),
 ]
 Thickness = Annotated[
-    float | None,
+    str | None,
     typer.Option(
         metavar="MM",
         show_default=False,
@@ -95,7 +109,7 @@ Thickness = Annotated[
     ),
 ]
 Disc = Annotated[
-    float | None,
+    str | None,
     typer.Option(
         metavar="MM",
         show_default=False,
@@ -103,13 +117,32 @@ Disc = Annotated[
     ),
 ]
 Drill = Annotated[
-    float | None,
+    str | None,
     typer.Option(
         metavar="MM",
         show_default=False,
         help=(
-            "Diameter of a drill: also say how deep a radial hole from --radius inwards removes "
-            "as much."
+            "Diameter of a drill: also say where radial holes from --radius inwards belong, how "
+            "many and how deep, to remove as much."
+        ),
+    ),
+]
+MaxDepth = Annotated[
+    str | None,
+    typer.Option(
+        metavar="MM",
+        show_default=False,
+        help="Deepest hole, for --drill; default: to the axis of the crank.",
+    ),
+]
+Slug = Annotated[
+    str | None,
+    typer.Option(
+        metavar="METAL",
+        show_default=False,
+        help=(
+            "With --drill: fill the holes with slugs of tungsten (heavy alloy, 17 g/cm3), lead, or "
+            "of a density in g/cm3: they add weight where drilling would remove it."
         ),
     ),
 ]
@@ -123,16 +156,16 @@ Even = Annotated[
     ),
 ]
 Grade = Annotated[
-    float | None,
+    str | None,
     typer.Option(
         metavar="G",
         show_default=False,
-        help="Balance quality grade of ISO 21940-11, mm/s: say what may be left beside each "
+        help="Balance quality grade of ISO 21940-11, such as G16: say what may be left beside each "
         "counterweight.",
     ),
 ]
 Mass = Annotated[
-    float | None,
+    str | None,
     typer.Option(
         metavar="KG",
         show_default=False,
@@ -156,29 +189,74 @@ def parse_scheme_options(
     position: str | None,
     planes: str | None,
     factor: str | None,
+    measured: str | None,
     roll: str | None,
+    units: Units,
 ) -> SchemeOptions:
     """What a scheme is asked for, in SI; BalcliError for a text that says nothing, with the
     text.
     """
     return SchemeOptions(
         order=order,
-        at=tuple(map(_parse_place, at)) if at else None,
-        position=None if position is None else _parse_position(position),
-        planes=None if planes is None else _parse_planes(planes),
+        at=tuple(_parse_place(text, units) for text in at) if at else None,
+        position=None if position is None else _parse_position(position, units),
+        planes=None if planes is None else _parse_planes(planes, units),
         factor=None if factor is None else _parse_factors(factor),
+        measured=None if measured is None else _parse_measured(measured, units),
         roll=roll,
     )
 
 
+def choose_scheme(asked: str | None, options: SchemeOptions) -> str:
+    """The scheme asked for; without one `factor` where there is a factor, else `auto`."""
+    if asked is not None:
+        return asked
+    return "factor" if options.factor is not None or options.measured is not None else "auto"
+
+
 def parse_tools(
-    radius: float | None, thickness: float | None, disc: float | None, drill: float | None
+    radius: str | None,
+    thickness: str | None,
+    disc: str | None,
+    drill: str | None,
+    max_depth: str | None,
+    slug: str | None,
+    units: Units,
 ) -> Tools:
-    """What a workshop has, mm -> m."""
+    """What a workshop has; BalcliError for a text that is no length, or no metal."""
     from ..sizing.workshop import Tools
 
-    lengths = (radius, thickness, disc, drill)
-    return Tools(*(None if length is None else length / 1e3 for length in lengths))
+    given = {"radius": radius, "thickness": thickness, "disc": disc, "drill": drill}
+    given["max-depth"] = max_depth
+    lengths = {
+        name.replace("-", "_"): read_length(f"--{name}", text, units)
+        for name, text in given.items()
+        if text is not None
+    }
+    return Tools(**lengths, slug=None if slug is None else _parse_slug(slug))
+
+
+def _parse_slug(text: str) -> float:
+    """Density of a metal, kg/m3: by its name, or in g/cm3."""
+    if (known := SLUGS.get(text.strip().lower())) is not None:
+        return known
+    wanted = f"{', '.join(SLUGS)}, or a density in g/cm3 such as 18.5"
+    return 1e3 * read_number("--slug", text, wanted)
+
+
+def parse_grading(
+    grade: str | None, mass: str | None, units: Units
+) -> tuple[float | None, float | None]:
+    """The grade of `--grade` (`16` or `G16`), mm/s, and the mass of `--mass`, kg."""
+    return (
+        None if grade is None else _parse_grade(grade),
+        None if mass is None else read_mass("--mass", mass, units),
+    )
+
+
+def _parse_grade(text: str) -> float:
+    figure = text.strip().removeprefix("G")
+    return read_number("--grade", figure, "a grade of ISO 21940-11 such as G16 or 6.3")
 
 
 def balance_knuckles(
@@ -208,29 +286,35 @@ def balance_knuckles(
     raise BalcliError(f'--even "{wanted[:60]}": choose from {", ".join(knuckles.GOALS)}')
 
 
-def _parse_place(text: str) -> complex:
-    x, y = parse_numbers("--at", text, "x,y of a shaft in mm, such as -40,60", 2)
-    return complex(x / 1e3, y / 1e3)
+def _parse_place(text: str, units: Units) -> complex:
+    x, y = read_lengths("--at", text, "x,y of a shaft in mm, such as -40,60", 2, units)
+    return complex(x, y)
 
 
-def _parse_position(text: str) -> float:
-    (z,) = parse_numbers("--position", text, "one place along z in mm, such as 40", 1)
-    return z / 1e3
+def _parse_position(text: str, units: Units) -> float:
+    (z,) = read_lengths("--position", text, "one place along z in mm, such as 40", 1, units)
+    return z
 
 
-def _parse_planes(text: str) -> str | tuple[float, ...]:
+def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
     if text in ("ends", "throws"):
         return text
     wanted = "ends, throws, or places along z in mm, such as -200,200"
-    return tuple(z / 1e3 for z in parse_numbers("--planes", text, wanted))
+    return read_lengths("--planes", text, wanted, units=units)
+
+
+def _parse_measured(text: str, units: Units) -> float:
+    """A mass in kg; a bare number is in g, as on the scales of a shop."""
+    in_grams = units is Units.SI and text.strip().replace(".", "", 1).isdigit()
+    return read_mass("--measured", f"{text} g" if in_grams else text, units)
 
 
 def _parse_factors(text: str) -> tuple[float, ...]:
-    """`0.5`, `0.4,0.5` or `0:1:0.1` (ends included)."""
-    wanted = "a share of the reciprocating mass such as 0.5, or a range such as 0:1:0.1"
+    """`0.5`, `51%`, `0.4,0.5` or `0:1:0.1` (ends included)."""
+    wanted = "a share of the reciprocating mass such as 51% or 0.51, or a range such as 50%:54%:1%"
     if ":" not in text:
-        return parse_numbers("--factor", text, wanted)
-    parts = [parse_numbers("--factor", part, wanted, 1)[0] for part in text.split(":")]
+        return tuple(read_share("--factor", part, wanted) for part in text.split(","))
+    parts = [read_share("--factor", part, wanted) for part in text.split(":")]
     if not _is_range(parts):
         raise BalcliError(
             f'--factor "{text}": a range is first:last:step, rising, with at most {MOST_FACTORS} '

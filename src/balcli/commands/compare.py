@@ -14,9 +14,9 @@ from .options import (
     Speed,
     UnitsOption,
     Whole,
-    check_speed,
     parse_orders,
     parse_quantities,
+    parse_speed,
 )
 from .output import show
 from .overwrite_guard import refuse_overwriting
@@ -40,7 +40,7 @@ def compare(
     from ..results.comparison import compare_engines
     from .inputs import name_columns, read_engine
 
-    rpm, asked, chosen = check_speed(speed), parse_orders(orders), parse_quantities(only)
+    rpm, asked, chosen = parse_speed(speed), parse_orders(orders), parse_quantities(only)
     engines = [read_engine(path, rpm, chosen).engine for path in paths]
     names = name_columns([engine.name for engine in engines], paths)
     found = compare_engines(engines, names, asked, chosen, whole)

@@ -1,37 +1,39 @@
 """What a shell may complete beyond commands, options and their choices: names that are known only
-inside.
+inside. Where they are known is imported when a shell asks.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ..enginefile import examples
-from ..enginefile.templates import KINDS
-from ..field_balancing.starting_file import KIND as FIELD
-from ..sizing.schemes import NAMES
-from ..torsion.starting_file import KIND as TORSION
-
 
 def complete_kinds(incomplete: str) -> list[str]:
     """Kinds of files, of `balcli new`."""
+    from ..enginefile.templates import KINDS
+    from ..field_balancing.starting_file import KIND as FIELD
+    from ..torsion.starting_file import KIND as TORSION
+
     return _beginning_with(incomplete, (*KINDS, FIELD, TORSION))
 
 
 def complete_schemes(incomplete: str) -> list[str]:
     """Schemes, of `--scheme`."""
+    from ..sizing.schemes import NAMES
+
     return _beginning_with(incomplete, NAMES)
 
 
 def complete_tables(incomplete: str) -> list[str]:
     """Printed tables, of `balcli tables`."""
-    from ..tables import registry  # numpy
+    from ..tables import registry
 
     return _beginning_with(incomplete, registry.NAMES)
 
 
 def complete_examples(incomplete: str) -> list[str]:
     """Example engines, of `balcli engines`."""
+    from ..enginefile import examples
+
     return _beginning_with(incomplete, examples.names())
 
 

@@ -8,8 +8,9 @@ import typer
 
 from ..render.csv import csv_text
 from ..render.json import json_text
+from .amounts import read_angle
 from .file_names import SERIES, SeriesFormat, format_of
-from .options import EnginePath, Output, Speed, check_speed
+from .options import EnginePath, Output, Speed, parse_speed
 from .output import emit
 from .overwrite_guard import refuse_overwriting
 
@@ -22,7 +23,7 @@ Cylinder = Annotated[
         help="Piston travel, velocity, acceleration and rod angle of this one.",
     ),
 ]
-Step = Annotated[float, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
+Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
 Form = Annotated[
     SeriesFormat | None,
     typer.Option(
@@ -37,7 +38,7 @@ Form = Annotated[
 def curves(
     path: EnginePath,
     cylinder: Cylinder = None,
-    step: Step = 1.0,
+    step: Step = "1",
     speed: Speed = None,
     form: Form = None,
     output: Output = None,
@@ -49,8 +50,8 @@ def curves(
     from ..render import curves as renderer
     from .inputs import read_engine
 
-    engine = read_engine(path, check_speed(speed)).engine
-    angles = divide_revolution(step, engine.period_revolutions)
+    engine = read_engine(path, parse_speed(speed)).engine
+    angles = divide_revolution(read_angle("--step", step), engine.period_revolutions)
     if cylinder is None:
         found = compute_engine_curves(engine, angles)
     else:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from pathlib import Path
 from typing import Annotated
@@ -13,6 +12,7 @@ from ..errors import BalcliError
 from ..forces.kinds import KINDS, VECTORS
 from ..limits import HIGHEST_ORDER
 from ..render.formats import Format, Units
+from .amounts import read_length, read_speed
 from .completion import complete_schemes
 from .file_names import parse_output
 
@@ -58,9 +58,9 @@ Output = Annotated[
 
 
 Speed = Annotated[
-    float | None,
+    str | None,
     typer.Option(
-        "--speed", metavar="RPM", help="Crank speed instead of the file's.", show_default=False
+        "--speed", metavar="RPM", help="Crank speed instead of the file's, rpm.", show_default=False
     ),
 ]
 Orders = Annotated[
@@ -79,7 +79,7 @@ Only = Annotated[
         "--only",
         metavar="WHAT,...",
         show_default=False,
-        help=f"Compute only some of {', '.join(KINDS)}, peak, sizing; or inner "
+        help=f"Compute only some of {', '.join(KINDS)}, peak, sizing, gas; or inner "
         "(shear, bending, bearing loads along the crankshaft) and guide (H- and X-type).",
     ),
 ]
@@ -97,13 +97,13 @@ Whole = Annotated[
     bool, typer.Option("--all", help="Every table and every order that is not rounding.")
 ]
 GuideHeight = Annotated[
-    float | None,
+    str | None,
     typer.Option(
         "--guide-height",
         metavar="MM",
         show_default=False,
-        help="With --only guide: from the crankshaft to the middle of the guides; default: "
-        "length of the rod.",
+        help="With --only guide: from the crankshaft to the middle of the guides, in mm or as "
+        "'80 in'; default: length of the rod.",
     ),
 ]
 Scheme = Annotated[
@@ -178,48 +178,34 @@ def parse_parts(text: str | None) -> tuple[list[str] | None, frozenset[str]]:
     return quantities, frozenset(words)
 
 
-def parse_numbers(
-    option: str, text: str, wanted: str, count: int | None = None
-) -> tuple[float, ...]:
-    """Finite numbers with commas between them (so many, if a count is given).
-
-    Raises:
-        BalcliError: anything else, with the text and what is wanted.
-    """
-    try:
-        found = tuple(float(part) for part in text.split(","))
-    except ValueError:
-        found = ()
-    wrong_count = not found or (count is not None and len(found) != count)
-    if wrong_count or not all(map(math.isfinite, found)):
-        raise BalcliError(f'{option} "{text[:60]}": give {wanted}')
-    return found
-
-
-def check_speed(speed: float | None) -> float | None:
-    """The speed of `--speed`, rpm, as it is.
+def parse_speed(text: str | None) -> float | None:
+    """The speed of `--speed`, rpm.
 
     Raises:
         BalcliError: unless it is positive and finite.
     """
-    if speed is not None and not 0 < speed < 1e9:
+    if text is None:
+        return None
+    speed = read_speed("--speed", text)
+    if not 0 < speed < 1e9:
         raise BalcliError(
             f"--speed {speed:g}: the crank speed must be a positive number of rpm, below 1e9"
         )
     return speed
 
 
-def check_guide_height(height_mm: float | None) -> float | None:
+def parse_guide_height(text: str | None, units: Units) -> float | None:
     """The height of `--guide-height`, m.
 
     Raises:
         BalcliError: unless it is positive and finite.
     """
-    if height_mm is None:
+    if text is None:
         return None
-    if not 0 < height_mm < 1e6:
+    height = read_length("--guide-height", text, units)
+    if not 0 < height < 1e3:
         raise BalcliError(
-            f"--guide-height {height_mm:g}: the distance from the crankshaft to the middle of "
-            "the guides must be a positive number of mm, below 1e6"
+            f"--guide-height {text}: the distance from the crankshaft to the middle of the guides "
+            "must be positive, below 1000 m"
         )
-    return height_mm / 1e3
+    return height

@@ -11,7 +11,7 @@ import typer
 from ..render.formats import Units
 from ..render.units import SYSTEMS
 from .file_names import picture_form
-from .options import EnginePath, Orders, Scheme, Speed, UnitsOption, check_speed, parse_orders
+from .options import EnginePath, Orders, Scheme, Speed, UnitsOption, parse_orders, parse_speed
 from .output import write_file
 from .overwrite_guard import refuse_overwriting
 
@@ -66,6 +66,6 @@ def plot(
     from .inputs import read_engine
 
     asked = parse_orders(orders)
-    engine = read_engine(path, check_speed(speed)).engine
+    engine = read_engine(path, parse_speed(speed)).engine
     subject = Subject(system=SYSTEMS[units], **compute_study(engine, what, asked, scheme)._asdict())
     write_file(draw_page(subject, what, form), output)

@@ -11,7 +11,7 @@ from ..forces.kinds import KINDS
 from ..render.formats import Units
 from ..render.units import SYSTEMS
 from .file_names import format_of, parse_output
-from .options import EnginePath, Orders, Scheme, Speed, UnitsOption, check_speed, parse_orders
+from .options import EnginePath, Orders, Scheme, Speed, UnitsOption, parse_orders, parse_speed
 from .output import emit
 from .overwrite_guard import refuse_overwriting
 
@@ -47,7 +47,7 @@ def report(
     from .inputs import read_engine
 
     asked = parse_orders(orders)
-    engine = read_engine(path, check_speed(speed)).engine
+    engine = read_engine(path, parse_speed(speed)).engine
     result = analyze(engine, asked, {*KINDS, "peak"})
     balanced = balance(engine, scheme or "auto", orders=asked)
     emit(page(result, balanced, SYSTEMS[units]), output)

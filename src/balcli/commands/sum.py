@@ -15,8 +15,8 @@ from .options import (
     Output,
     Speed,
     UnitsOption,
-    check_speed,
     parse_orders,
+    parse_speed,
 )
 from .output import show
 from .overwrite_guard import refuse_overwriting
@@ -26,12 +26,12 @@ def sum(  # noqa: A001 (the command's name)
     first: EnginePath,
     second: EnginePath,
     phase: Annotated[
-        float, typer.Option(metavar="DEG", help="Crank angle by which the second engine leads.")
-    ] = 0.0,
+        str, typer.Option(metavar="DEG", help="Crank angle by which the second engine leads.")
+    ] = "0",
     at: Annotated[
         str, typer.Option(metavar="X,Y,Z", help="Place of its origin in the first one's axes, mm.")
     ] = "0,0,0",
-    turn: Annotated[float, typer.Option(metavar="DEG", help="How far it is turned about z.")] = 0.0,
+    turn: Annotated[str, typer.Option(metavar="DEG", help="How far it is turned about z.")] = "0",
     reverse: Annotated[
         bool, typer.Option("--reverse", help="Its crank turns against the first one's.")
     ] = False,
@@ -60,8 +60,8 @@ def sum(  # noqa: A001 (the command's name)
     from .arrangement_options import parse_arrangement
     from .inputs import named_by_file, read_engine
 
-    rpm, asked = check_speed(speed), parse_orders(orders)
-    arrangement = parse_arrangement(phase, at, turn, reverse, load)
+    rpm, asked = parse_speed(speed), parse_orders(orders)
+    arrangement = parse_arrangement(phase, at, turn, reverse, load, units)
     engines = [named_by_file(read_engine(path, rpm).engine, path) for path in (first, second)]
     result = combine_engines(engines[0], engines[1], arrangement, asked)
     show([result], renderer, form, output, units)

@@ -8,6 +8,7 @@ import typer
 
 from ..render import errata as errata_renderer
 from ..render import printed_table, table_list
+from .amounts import as_bare_angles
 from .completion import complete_tables
 from .file_names import text_format
 from .options import FormatOption, Output
@@ -71,6 +72,8 @@ def tables(
     form = text_format(output, form)
     from ..tables.registry import select_tables
 
+    if angle:
+        angle = as_bare_angles("--angle", angle)
     chosen = select_tables(name, lam, angle, power)
     if errata:
         show([chosen], errata_renderer, form, output)

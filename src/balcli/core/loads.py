@@ -7,9 +7,10 @@ SI units.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
+from operator import add
 
 import numpy as np
 
@@ -84,7 +85,7 @@ class Loads:
 
     @property
     def mean_momentum(self) -> Array:
-        """Mean moment of momentum of the cylinders about z times the speed, N m."""
+        """Mean moment of momentum of the cylinders about z (needs order 0) times the speed, N m."""
         mean = find_mean_momentum(self.cylinders, self.harmonics, self.square)
         return self.phases.add_figures(mean[None])[0]
 
@@ -115,6 +116,37 @@ def find_device_force(device: Device, n: Array, square: Figure) -> Phasors:
 
 
 # ------------------------------------------------------------------ one cylinder in its own frame
+_SHAKING = frozenset({"piston", "along", "across"})
+_SERIES = {
+    "force": _SHAKING,
+    "moment": _SHAKING,
+    "couple": _SHAKING | {"rod", "couple", "swirl"},
+    "torque": frozenset({"kinetic", "rod_kinetic", "energy"}),
+}
+
+
+def find_needed_series(cylinders: Cylinders, parts: Iterable[str], *, uneven: bool) -> set[str]:
+    """Names of the series of mechanisms (`fourier.SERIES`) that these loads of the cylinders are
+    made of.
+
+    Args:
+        parts: force, moment, couple or torque.
+        uneven: whether the mean moment of momentum is asked for.
+    """
+    c = cylinders
+    needed: set[str] = set().union(*(_SERIES[name] for name in parts))
+    if not np.count_nonzero(c.couple):
+        needed -= {"rod", "rod_kinetic"}
+    if not _has_pistons(c):
+        needed -= {"piston", "kinetic"}
+    return needed if uneven else needed - {"swirl"}
+
+
+def _has_pistons(c: Cylinders) -> bool:
+    """Whether masses move along cylinders' axes, and not all of them on curves."""
+    return c.linkage is None or bool(np.count_nonzero(c.reciprocating))
+
+
 def find_pulls(
     cylinders: Cylinders, harmonics: Harmonics, phases: Phases, square: Figure
 ) -> Vectors:
@@ -122,7 +154,9 @@ def find_pulls(
     square of the speed, and that of a linkage's masses on their curves.
     """
     c, rounding = cylinders, phases.rounding
-    along = (c.reciprocating * c.radius * square / 2) * harmonics.piston
+    along = Series(np.zeros_like(phases.n))
+    if _has_pistons(c):
+        along = (c.reciprocating * c.radius * square / 2) * harmonics.piston
     turning = (phases.n == 1) * (c.rotating * (c.radius * square))
     forward: Array | Complex = along.c + turning
     mirrored = along.c
@@ -143,7 +177,7 @@ def find_couples(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> 
     c = cylinders
     if np.count_nonzero(c.couple):
         yield (c.couple * square) * harmonics.rod
-    if np.count_nonzero(c.eps):
+    if np.count_nonzero(c.eps) and _has_pistons(c):
         yield -(c.reciprocating * c.offset * c.radius * square) * harmonics.piston
     if harmonics.curve is not None:
         yield (_weigh_on_curve(c, square) * c.radius) * harmonics.curve.couple
@@ -154,23 +188,26 @@ def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> 
     the speed, N m: `m_rec s'^2 - H beta'^2`, and that of a linkage's masses.
     """
     c = cylinders
-    total = (c.reciprocating * c.radius**2 * square) * harmonics.kinetic
+    parts = []
+    if _has_pistons(c):
+        parts.append((c.reciprocating * c.radius**2 * square) * harmonics.kinetic)
     if harmonics.curve is not None:
-        total += (_weigh_on_curve(c, square) * c.radius) * harmonics.curve.kinetic
+        parts.append((_weigh_on_curve(c, square) * c.radius) * harmonics.curve.energy)
     if np.count_nonzero(c.couple):
-        total += -(c.couple * square) * harmonics.rod_kinetic
-    return total
+        parts.append(-(c.couple * square) * harmonics.rod_kinetic)
+    return reduce(add, parts)
 
 
 def find_mean_momentum(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> Array:
     """Mean moment of momentum of each cylinder about z times the speed, N m: that of masses and
-    rods that turn, shape (cylinders or 1, *trailing).
+    rods that turn, and of masses on curves, whose first order must be 0; shape (cylinders or 1,
+    *trailing).
     """
     c = cylinders
     mean = (c.rotating * c.radius**2 - c.couple * harmonics.turns) * square
     if harmonics.curve is None:
         return mean
-    return mean + _weigh_on_curve(c, square) * c.radius * harmonics.curve.momentum
+    return mean + _weigh_on_curve(c, square) * c.radius * harmonics.curve.swirl.c[0].real
 
 
 def _weigh_on_curve(cylinders: Cylinders, square: Figure) -> Array:

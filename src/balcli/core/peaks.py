@@ -9,7 +9,6 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 
 from .phasors import Array, Complex, Phasors
@@ -24,6 +23,8 @@ class Peak(NamedTuple):
     theta: float
 
 
+MOST_CANDIDATES = 64  # for the highest peak of a curve
+NEAR_TOP = 0.92  # share of the largest |F|^2 of samples that those beside the peak have
 _EQUAL = 1e-12  # peaks that differ by a smaller share are equal
 _TERMS = 7  # of the series by which many peaks are told apart
 _ROUNDS = 4  # of Newton's method on it
@@ -59,7 +60,7 @@ def peak(curve: Phasors) -> Peak:
     return Peak(float(values.max()), float(turned[best]))
 
 
-def find_candidates(curve: Phasors, most: int = 64) -> Array:
+def find_candidates(curve: Phasors, most: int = MOST_CANDIDATES) -> Array:
     """Angles of the samples that may lie beside the highest peak of a curve of whole orders, at
     most so many: where there are more, those of the highest peaks but for 1e-8, of equal ones the
     first.
@@ -69,9 +70,8 @@ def find_candidates(curve: Phasors, most: int = 64) -> Array:
     spectrum[curve.orders.astype(int)] += curve.forward
     spectrum[-curve.orders.astype(int)] += curve.backward
     power = np.abs(np.fft.ifft(spectrum, norm="forward")) ** 2
-    top = (
-        (power >= np.roll(power, 1)) & (power >= np.roll(power, -1)) & (power >= 0.92 * power.max())
-    )
+    top = (power >= np.roll(power, 1)) & (power >= np.roll(power, -1))
+    top &= power >= NEAR_TOP * power.max()
     found = np.flatnonzero(top)
     height = power[found]
     if len(found) > most:
@@ -89,18 +89,30 @@ def _estimate_peaks(spectrum: Complex, at: NDArray[np.intp]) -> Array:
     rate = 1j * np.fft.fftfreq(count, 1 / count)
     derivatives = [spectrum / math.factorial(k) * rate**k for k in range(_TERMS)]
     series = np.stack([np.fft.ifft(d, norm="forward")[at] for d in derivatives])
-    first, second = (np.asarray(polynomial.polyder(series, k), complex) for k in (1, 2))
+    first = _differentiate(series)
+    second = _differentiate(first)
     x = np.zeros(len(at))
     for _ in range(_ROUNDS):
         f, f1, f2 = (_evaluate_each(c, x) for c in (series, first, second))
-        x = np.clip(x + _find_move(f, f1, f2, np.pi / count), -np.pi / count, np.pi / count)
+        x = np.clip(x + find_move(f, f1, f2, np.pi / count), -np.pi / count, np.pi / count)
     values: Array = np.abs(_evaluate_each(series, x)) ** 2
     return values
 
 
 def _evaluate_each(series: Complex, x: Array) -> Complex:
-    """Polynomials of coefficients of shape (terms, polynomials), each at its own x."""
-    return np.asarray(polynomial.polyval(x, series, tensor=False), complex)
+    """Polynomials of coefficients of shape (terms, polynomials), each at its own x, by Horner's
+    rule.
+    """
+    value = series[-1]
+    for coefficient in series[-2::-1]:
+        value = coefficient + value * x
+    return value
+
+
+def _differentiate(series: Complex) -> Complex:
+    """The derivatives of such polynomials."""
+    powers: Array = np.arange(1.0, len(series))
+    return series[1:] * powers[:, None]
 
 
 def climb_peaks(curve: Phasors, theta: Array, step: float, rounds: int = 12) -> Array:
@@ -109,14 +121,14 @@ def climb_peaks(curve: Phasors, theta: Array, step: float, rounds: int = 12) -> 
     """
     first, second = _derivative(curve), _derivative(_derivative(curve))
     for _ in range(rounds):
-        move = _find_move(curve.values(theta), first.values(theta), second.values(theta), step)
+        move = find_move(curve.values(theta), first.values(theta), second.values(theta), step)
         theta = theta + move
         if np.max(np.abs(move)) < 1e-10:
             break
     return theta
 
 
-def _find_move(f: Complex, f1: Complex, f2: Complex, step: float) -> Array:
+def find_move(f: Complex, f1: Complex, f2: Complex, step: float) -> Array:
     """One step of Newton's method, at most `step`, by F and its two derivatives; uphill where |F|^2
     bends upwards.
     """

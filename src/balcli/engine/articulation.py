@@ -5,9 +5,10 @@ what does not fit together in [articulation].
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import NamedTuple, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.cylinders import Cylinders
 from ..core.mechanisms.articulated import Articulated
@@ -20,6 +21,8 @@ from ..errors import Problem
 from ..limits import NEAREST_TO_LOCK
 from .arrays import column
 from .layout import Plan
+
+_AT_ONCE = 1 << 17  # rods x crank angles that are looked at together
 
 
 class Knuckles(NamedTuple):
@@ -36,12 +39,8 @@ class Knuckles(NamedTuple):
     master: Mapping[int, int]
 
 
-def find_masters(articulation: Articulation | None, plan: Plan) -> dict[int, int]:
-    """Number of the cylinder with the master rod, by number of each articulated cylinder; empty
-    without the table.
-    """
-    if articulation is None:
-        return {}
+def find_masters(articulation: Articulation, plan: Plan) -> dict[int, int]:
+    """Number of the cylinder with the master rod, by number of each articulated cylinder."""
     of_throw = {c.throw: c.number for c in plan.cells if c.bank == articulation.master - 1}
     on_throw = [(c.number, of_throw.get(c.throw, c.number)) for c in plan.cells]
     return {number: master for number, master in on_throw if number != master}
@@ -160,19 +159,34 @@ def check_knuckles(
     """
     linkage = cast(Linkage, cylinders.linkage)
     hung = cast(Articulated, linkage.hung if isinstance(linkage, Rotary) else linkage)
-    with np.errstate(invalid="ignore"):  # beyond 1 there is no angle
-        leans = np.abs(
-            linkage.sample(
-                lambda motion: motion.lean, revolution(STEPS), cylinders.lam, cylinders.eps
-            )
-        )
-    leans = leans.reshape(len(numbers), -1, STEPS).max(axis=1)
+    leans = _sample_leans(hung, cylinders.lam, cylinders.eps)
     turned = cylinders.angle_deg.reshape(len(numbers), -1)[:, 0]
     for row, number in enumerate(numbers):
         worst = int(leans[row].argmax())
         lean = leans[row, worst] + _rise_above(leans[row], worst)
         if hung.master[row] != row and lean > 1 - NEAREST_TO_LOCK:
             yield _lock(model, number, lean, (360 / STEPS * worst - turned[row]) % 360)
+
+
+def _sample_leans(hung: Articulated, lam: Array, eps: Array) -> Array:
+    """The largest |sine| of each rod's angle to its cylinder's axis, of all variants that might
+    lock, over a revolution: shape (cylinders, STEPS).
+    """
+    count = len(hung.master)
+    doubtful = np.any(hung.bound_lean(lam, eps) > 1 - NEAREST_TO_LOCK, axis=0)
+    variants = np.flatnonzero(doubtful)
+    shape = count, *doubtful.shape
+    figures: list[NDArray[Any]] = [
+        np.broadcast_to(f, shape).reshape(count, -1) for f in hung.figures(lam, eps)
+    ]
+    leans = np.zeros((count, STEPS))
+    step = max(_AT_ONCE // leans.size, 1)
+    for k in range(0, len(variants), step):
+        some = [values[:, variants[k : k + step], None] for values in figures]
+        with np.errstate(invalid="ignore"):  # beyond 1 there is no angle
+            found = np.abs(hung.move(revolution(STEPS), *some).lean).max(axis=1)
+        leans = np.maximum(leans, found)
+    return leans
 
 
 def _lock(model: EngineFile, number: int, lean: float, crank_deg: float) -> Problem:

@@ -8,18 +8,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from itertools import chain
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..core.cylinders import Cylinders
-from ..core.mechanisms.articulated import Articulated
-from ..core.mechanisms.rotary import Rotary
 from ..core.phasors import Array, Figure
 from ..enginefile.model import EngineFile
 from . import firing
 from .arrays import column, shared_column
-from .articulation import Knuckles, build_linkage, find_masters
 from .figures import (
     NOTHING,
     Figures,
@@ -33,7 +30,14 @@ from .figures import (
 from .layout import Plan, bank_angles, cycle_deg, plan_cylinders
 from .rods import RodPlace, RunningGear, weigh_rod
 
+if TYPE_CHECKING:  # few engines have rods on rods, or turn; those that do import what these need
+    from ..core.mechanisms.articulated import Articulated
+    from ..core.mechanisms.rotary import Rotary
+
 PISTON_PARTS = ("mass", "piston", "pin", "rings", "locks")  # keys of [piston] that are masses
+
+if TYPE_CHECKING:
+    from .gas import EngineGas
 
 
 class Ripple(NamedTuple):
@@ -68,6 +72,7 @@ class Assembly:
     ) -> None:
         self.model = model
         self.figures = Figures(varied or {}, model)
+        self.varies = bool(varied) or rank > 0
         self.rank = max(rank, *map(np.ndim, (varied or {}).values()), 0)
         self.legible = frozenset(legible)
         self._gears: dict[tuple[int, bool], RunningGear] = {}
@@ -108,8 +113,13 @@ class Assembly:
 
     @cached_property
     def masters(self) -> dict[int, int]:
-        """Cylinder with the master rod, of each articulated cylinder."""
-        return find_masters(self.model.articulation, self.plan)
+        """Cylinder with the master rod, of each articulated cylinder; empty without any."""
+        table = self.model.articulation
+        if table is None:
+            return {}
+        from .articulation import find_masters
+
+        return find_masters(table, self.plan)
 
     @cached_property
     def rod(self) -> RodFigures:
@@ -379,6 +389,8 @@ class Assembly:
         table, masters, axes = self.model.articulation, self.masters, self.axes_deg
         if table is None:
             return None
+        from .articulation import Knuckles, build_linkage
+
         angles = {n: axes[n] - axes[master] for n, master in masters.items()}
         if (given := self.knuckle_angles_deg) is not None:
             angles = {c.number: given[c.bank] for c in self.plan.cells if c.number in masters}
@@ -387,6 +399,16 @@ class Assembly:
         knuckles = Knuckles(radius_mm / (stroke_mm / 2), angles, masters)
         big_ends = [self.gears[n].big_end for n in self.numbers]
         return build_linkage(knuckles, self.numbers, axes, big_ends, self.sense, self.rank)
+
+    # ------------------------------------------------------------------ gas
+    @cached_property
+    def gas(self) -> EngineGas | None:
+        """Gas of the cylinders; None without [gas], and for variants, whose figures are arrays."""
+        if self.model.gas is None or self.varies:
+            return None
+        from .gas import build_gas  # files without [gas] do not pay for it
+
+        return build_gas(self)
 
 
 def _share_axes(axes_deg: Mapping[int, Figure]) -> list[list[int]]:
@@ -403,6 +425,8 @@ def _share_axes(axes_deg: Mapping[int, Figure]) -> list[list[int]]:
 
 def _turn_cylinders(at_pistons: Array, hung: Articulated | None) -> Rotary:
     """The mechanism of cylinders that turn, with the masses at their piston pins, kg."""
+    from ..core.mechanisms.rotary import Rotary
+
     if hung is None:
         return Rotary(at_pistons)
     both = at_pistons + hung.mass

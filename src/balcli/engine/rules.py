@@ -16,7 +16,6 @@ from ..core import speed_ripple
 from ..core.mechanisms import harmonics
 from ..errors import InputError, Problem
 from ..limits import MOST_SAMPLES
-from .articulation import check_articulation, check_knuckles
 from .assembly import Assembly
 from .firing import check_firing
 from .rods import (
@@ -76,6 +75,8 @@ def check_masters(parts: Assembly) -> Iterator[Problem]:
     """Articulated rods have a master rod on their throw, and knuckle pins that fit."""
     if parts.model.articulation is None:
         return
+    from .articulation import check_articulation  # for the few engines that have rods on rods
+
     with_own_throw = {number for number, own in parts.own.items() if own.throw_deg is not None}
     yield from check_articulation(
         parts.model.articulation,
@@ -174,6 +175,8 @@ def check_dead_centres(parts: Assembly) -> Iterator[Problem]:
 def check_knuckle_pins(parts: Assembly) -> Iterator[Problem]:
     """Articulated rods can follow their knuckle pins all the way round."""
     if parts.model.articulation is not None:
+        from .articulation import check_knuckles
+
         yield from check_knuckles(parts.model, parts.cylinders, parts.numbers)
 
 
@@ -193,6 +196,20 @@ def check_samples(parts: Assembly) -> Iterator[Problem]:
         )
 
 
+def check_gas(parts: Assembly) -> Iterator[Problem]:
+    """Gas in every cylinder can be worked out; what a cylinder says of it has [gas] to refer to."""
+    if parts.model.gas is None:
+        for number, own in parts.model.cylinder.items():
+            for key in ("gas", "indicator"):
+                if getattr(own, key) is not None:
+                    yield Problem(
+                        f"cylinder.{number}.{key}",
+                        "needs [gas], which says what the gas does in all cylinders",
+                    )
+    else:
+        _ = parts.gas  # raises InputError with all mistakes
+
+
 _WHOLE = frozenset({"crank", "rod", "piston", "layout", "articulation", "cylinder"})
 RULES = (
     (
@@ -204,4 +221,5 @@ RULES = (
     (Rule(check_dead_centres, _WHOLE),),
     (Rule(check_knuckle_pins, _WHOLE),),
     (Rule(check_samples, _WHOLE),),
+    (Rule(check_gas, _WHOLE | {"gas"}),),
 )

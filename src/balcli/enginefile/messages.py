@@ -5,6 +5,7 @@ probably meant.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from importlib import import_module
 from typing import Any, NamedTuple
 
 from ..errors import Problem
@@ -22,13 +23,19 @@ TABLES: dict[str, type[model.Table]] = {
     "operation": model.Operation,
     "frame": model.Frame,
     "articulation": model.Articulation,
+    "body": model.Body,
 }
+# Tables of chapters beyond balance: the module of each, imported for files that have the table. Its
+# class is called like the key.
+CHAPTERS = {"gas": "gas_tables", "flywheel": "gas_tables", "bearing": "gas_tables"}
 DEVICES: dict[str, type[model.Table]] = {
     "counterweight": model.Counterweight,
     "shaft": model.Shaft,
     "slider": model.Slider,
+    "mount": model.Mount,
+    "point": model.MarkedPoint,
 }
-KNOWN = (*TEXTS, *TABLES, "cylinder", *DEVICES)
+KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES)
 INNER: dict[str, type[model.Table]] = {
     "pendulum": model.Pendulum,
     "rod_pendulum": model.Pendulum,
@@ -49,6 +56,17 @@ OF_COMMANDS = dict.fromkeys(
     "did you mean --factor? The balance factor is no figure of the engine: "
     "balcli balance FILE --factor 51%",
 )
+
+
+def import_table(key: str) -> type[model.Table]:
+    """The table of a key of CHAPTERS."""
+    module = import_module(f"{__package__}.{CHAPTERS[key]}")
+    return getattr(module, key.capitalize())
+
+
+def import_tables() -> dict[str, type[model.Table]]:
+    """All tables that stand once in a file, those of chapters too."""
+    return TABLES | {key: import_table(key) for key in CHAPTERS}
 
 
 class UnknownKey(NamedTuple):
@@ -142,7 +160,7 @@ def describe_unknown_key(unknown: UnknownKey) -> tuple[Problem, str]:
 
 def _tables_with(key: str) -> Iterator[str]:
     """The tables of the file to which a key may belong, in words: exactly first, then nearly."""
-    tables = {f"[{name}]": table for name, table in TABLES.items()}
+    tables = {f"[{name}]": table for name, table in import_tables().items()}
     tables |= {f"[[{name}]]": table for name, table in DEVICES.items()}
     for name, table in tables.items():
         if key in table.model_fields:

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
-from typing import Any, TypeVar
+from pathlib import Path
+from typing import Any, NamedTuple, TypeVar
 
 from pydantic import ValidationError
 
@@ -21,6 +21,7 @@ from ..limits import (
 )
 from .fields import printable, shorten
 from .messages import (
+    CHAPTERS,
     DEVICES,
     INNER,
     KNOWN,
@@ -29,6 +30,7 @@ from .messages import (
     UnknownKey,
     describe_finding,
     describe_unknown_key,
+    import_table,
     is_miscounted,
     join_path,
 )
@@ -36,15 +38,14 @@ from .model import EngineFile, Override, Table, mistakes_of_choice
 from .toml_text import parse_toml
 
 REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5"}
-CONTROL_CHARACTERS = {
-    "name": re.compile(rf"[\x00-\x1f\x7f-\x9f{DISGUISES}]"),
-    "source": re.compile(rf"[\x00-\x08\x0b-\x1f\x7f-\x9f{DISGUISES}]"),  # may have lines
+CONTROL_CHARACTERS = {  # compiled when a text is met that is not all printable
+    "name": rf"[\x00-\x1f\x7f-\x9f{DISGUISES}]",
+    "source": rf"[\x00-\x08\x0b-\x1f\x7f-\x9f{DISGUISES}]",  # may have lines
 }
 T = TypeVar("T", bound=Table)
 
 
-@dataclass(frozen=True)
-class Draft:
+class Draft(NamedTuple):
     """What could be read of an engine file.
 
     Attributes:
@@ -83,10 +84,14 @@ class Draft:
         return InputError(listed, name, max(more, 0))
 
 
-def read_tables(text: str | bytes, name: str = "") -> Draft:
+def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Draft:
     """What a TOML text says of an engine; `name` is that of its file, for messages.
 
     Tables that the text does not have are not even compiled by pydantic.
+
+    Args:
+        bare: whether a body on its mounts will do, without crank, rods and pistons: the model then
+            has none.
 
     Raises:
         InputError: it is no TOML.
@@ -94,20 +99,24 @@ def read_tables(text: str | bytes, name: str = "") -> Draft:
     data = parse_toml(text, name)
     reader = _Reader()
     reader.unknown += [UnknownKey("", key, None) for key in data if key not in KNOWN]
+    bodiless = not bare or "body" not in data or any(key in data for key in REQUIRED)
     for key, example in REQUIRED.items():
-        if key not in data:
+        if key not in data and bodiless:
             hint = f'such as "[{key}]" and "{example}" below it'
             reader.add(key, f"is missing; an engine needs it, {hint}")
     parts: dict[str, Any] = {key: reader.read_text(key, data[key]) for key in TEXTS if key in data}
     for key, table in TABLES.items():
         if key in data:
             parts[key] = reader.read_table(key, data[key], table)
+    for key in CHAPTERS:
+        if key in data:
+            parts[key] = reader.read_table(key, data[key], import_table(key))
     for key, table in DEVICES.items():
         if key in data:
             parts[key] = reader.read_devices(key, data[key], table)
     if "cylinder" in data:
         parts["cylinder"] = reader.read_cylinders(data["cylinder"])
-    return reader.draft(parts)
+    return reader.draft(parts, Path(name).parent)
 
 
 class _Reader:
@@ -120,8 +129,8 @@ class _Reader:
     def add(self, path: str, message: str) -> None:
         self.problems.append(Problem(path, message))
 
-    def draft(self, parts: Mapping[str, Any]) -> Draft:
-        """What was read, from the parts of the file by their keys."""
+    def draft(self, parts: Mapping[str, Any], folder: Path) -> Draft:
+        """What was read, from the parts of the file by their keys; the file stands in `folder`."""
         cylinders: dict[int, Override | None] = parts.get("cylinder", {})
         broken = {key for key in REQUIRED if key not in parts}
         broken |= {key for key, part in parts.items() if part is None}
@@ -130,8 +139,10 @@ class _Reader:
         if None in cylinders.values():
             broken.add("cylinder")
             read["cylinder"] = {n: own for n, own in cylinders.items() if own is not None}
+        model = EngineFile.model_construct(set(read), **read)
+        model._folder = folder
         return Draft(
-            EngineFile.model_construct(set(read), **read),
+            model,
             frozenset(KNOWN) - broken,
             tuple(self.problems),
             tuple(self.unknown),
@@ -141,7 +152,8 @@ class _Reader:
         if not isinstance(value, str):
             self.add(key, f"{shorten(value)} is not text; write it in quotes")
             return None
-        if strange := CONTROL_CHARACTERS[key].search(value):
+        strange = None if value.isprintable() else re.search(CONTROL_CHARACTERS[key], value)
+        if strange:
             code = f"U+{ord(strange[0]):04X}"
             self.add(
                 key,

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ..errors import BalcliError
 
-KINDS = ("single", "inline", "vee", "boxer", "radial", "w")
+KINDS = ("single", "inline", "vee", "boxer", "radial", "w", "mounts")
 SCHEMA = """\
 #:schema balcli.schema.json
 # Editors that know TOML check and complete what you type, with that file here: `balcli schema -o balcli.schema.json`

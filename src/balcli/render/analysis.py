@@ -1,20 +1,18 @@
-"""The analysis of one engine."""
+"""The analysis of one engine for people; for programs it is in `analysis_data`."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any, NamedTuple, TypeAlias
+from typing import TypeAlias
 
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..forces.kinds import KINDS, VECTORS
 from ..forces.spectrum import Spectra
 from ..results.analysis import Analysis, Sizing
 from . import crankshaft, guide_moments, strokes, symmetry
-from .csv import Rows
-from .devices import device_entries, device_grid
+from .devices import device_grid
 from .engine_facts import engine_facts, speed_facts
-from .figures import FigureRow, assumptions, clean, figure_rows, order_entries, peak_entries
 from .order_tables import (
     cylinder_table,
     direction_tables,
@@ -33,29 +31,11 @@ from .sheet import NAMELESS, Facts, Grid, Sheet, Text, capitalized
 from .terminal_plot import sketches
 from .units import System
 from .verdict import verdict
+from .view import IN_BRIEF, View
 
 Part: TypeAlias = Grid | Facts | Text
 TEXTS = frozenset({"verdict", "sizing", "textbook"})  # parts that need no crank speed beside them
 TABLES = frozenset({"xy", "textbook", "sizing", "peak", "inner", "guide"})  # without a verdict
-
-
-class View(NamedTuple):
-    """What of an analysis a sheet shows.
-
-    Attributes:
-        whole: every table and every order; else what most people want, orders that matter.
-        parts: words of `--only`, such as `force`, `xy`, `verdict`; empty: the usual ones.
-        every_order: whether orders that are negligible are shown, too.
-        pictures: whether there are pictures made of characters, too.
-    """
-
-    whole: bool = False
-    parts: frozenset[str] = frozenset()
-    every_order: bool = False
-    pictures: bool = False
-
-
-IN_BRIEF = View()
 
 
 def sheet(result: Analysis, system: System, view: View = IN_BRIEF) -> Sheet:
@@ -167,69 +147,6 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
     if result.spectra.vectors():
         told = verdict(spectra, system, result.of_one_cylinder)
         yield Text("Verdict", told if known else (*told, capitalized(f"{MOMENTS_UNKNOWN}.")))
-
-
-def document(result: Analysis) -> dict[str, Any]:
-    """`balcli.analysis/1`."""
-    engine = result.engine
-    found: dict[str, Any] = {
-        "format": "balcli.analysis/1",
-        "engine": {
-            "name": engine.name,
-            "cylinders": engine.cylinders.count,
-            "displacement_m3": clean(engine.displacement_m3),
-        },
-        "speed_rpm": clean(engine.speed_rpm),
-        "reference_mm": [clean(v * 1e3) for v in engine.reference_m],
-        "orders": order_entries(result.spectra),
-        **assumptions(result),
-    }
-    if largest := peak_entries(result):
-        found["peak"] = largest
-    if result.sizing is not None:
-        found["sizing"] = {
-            "scheme": result.sizing.remedy.scheme,
-            **device_entries(result.sizing.remedy),
-            "after": brief_document(result.sizing.after),
-        }
-    if result.cylinders:
-        found["cylinders"] = [
-            {"cylinder": number, "orders": order_entries(spectra)}
-            for number, spectra in result.cylinders
-        ]
-    if result.inner is not None:
-        found["inner"] = crankshaft.document(result.inner)
-    if result.guide is not None:
-        found["guide"] = guide_moments.document(result.guide)
-    if result.travel is not None:
-        found["travel"] = strokes.document(result.travel, result.engine.numbers)
-    if result.why is not None:
-        found["why"] = symmetry.document(result.why)
-    return found
-
-
-def brief_document(result: Analysis) -> dict[str, Any]:
-    """Peaks and orders alone, where the engine is known."""
-    return {"peak": peak_entries(result), "orders": order_entries(result.spectra)}
-
-
-def rows(result: Analysis, system: System) -> Rows:
-    """CSV: a figure a line; cylinder 0 is the whole engine, an empty order the whole curve."""
-    return Rows(
-        ("cylinder", "quantity", "order", "figure", "value", "unit"), _all_rows(result, system)
-    )
-
-
-def _all_rows(result: Analysis, system: System) -> Iterator[FigureRow]:
-    yield from figure_rows(result, system)
-    if result.travel is not None:
-        yield from strokes.rows(result.travel, result.engine.numbers, system)
-    if result.inner is not None:
-        yield from crankshaft.rows(result.inner, system)
-    if result.guide is not None:
-        yield from guide_moments.rows(result.guide, system)
-    if result.why is not None:
-        yield from symmetry.rows(result.why)
 
 
 def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:

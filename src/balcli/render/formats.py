@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from enum import StrEnum
-from typing import Any, Protocol, TypeVar, assert_never
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar, assert_never
 
-from .csv import Rows, csv_text
-from .json import json_text
-from .markdown import markdown
-from .sheet import Sheet
-from .table import terminal
-from .units import System
+if TYPE_CHECKING:
+    from .csv import Rows
+    from .sheet import Sheet
+    from .units import System
 
 
 class Format(StrEnum):
@@ -58,14 +56,27 @@ def render(
     Args:
         seen: whether a person will see it in a terminal, with colours and at its width.
     """
-    match form:
+    match form:  # the module of the one format that is asked for is imported
         case Format.TABLE:
-            return terminal([renderer.sheet(result, system) for result in results], seen=seen)
+            sheets = [renderer.sheet(result, system) for result in results]
+            if seen:
+                from .terminal import terminal  # rich
+
+                return terminal(sheets)
+            from .table import plain_text
+
+            return plain_text(sheets)
         case Format.MARKDOWN:
+            from .markdown import markdown
+
             return markdown([renderer.sheet(result, system) for result in results])
         case Format.CSV:
+            from .csv import csv_text
+
             return csv_text([renderer.rows(result, system) for result in results])
         case Format.JSON:
+            from .json import json_text
+
             return "\n".join(json_text(renderer.document(result)) for result in results)
         case _:
             assert_never(form)

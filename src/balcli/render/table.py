@@ -1,146 +1,109 @@
-"""A sheet for the terminal, or as plain text, with figures of unlimited width, where the output is
-no terminal.
+"""Sheets as plain text, for whoever reads them in no terminal: as wide as their figures are.
+
+It is what rich would print there without colours, but importing rich takes longer than all else
+that a command does.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from io import StringIO
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Sequence
+from itertools import zip_longest
 
 from ..errors import legible
 from .sheet import Facts, Grid, Sheet, Text
 
-if TYPE_CHECKING:
-    from rich.table import Table
-
-UNLIMITED = 100_000
-LABEL = 12  # width up to which the headings of rows (`order 10`) are not folded either
-PROSE = (
-    50  # width at which columns of words are folded where no terminal has one; figures never are
-)
+GAP = 3  # blanks between the columns of a grid
+FACTS_GAP = 2  # between names and what they are
+PROSE = 50  # width at which columns of words are folded; figures never are
+_SINGLE = frozenset("–−…≠≤≥→∠⋅█▒▏θλμπψω")  # what we write ourselves takes one place each
 
 
-def terminal(sheets: list[Sheet], *, seen: bool = False) -> str:
-    """All sheets as text: with colours and folded to the width of the terminal in which they are
-    seen, else plain and as wide as they are.
-    """
-    from rich.console import Console
-    from rich.text import Text as Line
-
-    buffer = StringIO()
-    console = Console(
-        file=buffer,
-        highlight=False,
-        emoji=False,
-        markup=False,
-        soft_wrap=not seen,
-        force_terminal=seen,  # whatever FORCE_COLOR says
-        width=None if seen else UNLIMITED,
-        no_color=None if seen else True,
-    )
-    for sheet in sheets:
-        console.print(Line(legible(sheet.title), style="bold"))
-        for part in sheet.parts:
-            console.print()
-            if part.title:
-                console.print(Line(part.title, style="bold"))
-            for piece in _pieces(part, console.width):
-                console.print(piece)
-        console.print()
-    text = "\n".join(line.rstrip() for line in buffer.getvalue().splitlines())
-    return text if seen else legible(text)
+def plain_text(sheets: Sequence[Sheet]) -> str:
+    """All sheets one after the other, no line with blanks at its end."""
+    text = "\n".join(line for sheet in sheets for line in _lines(sheet))
+    return legible("\n".join(line.rstrip() for line in text.split("\n")))
 
 
-def _pieces(part: Grid | Facts | Text, width: int) -> Iterator[Any]:
-    """What is printed of a part under its title."""
-    from rich.text import Text as Line
-
-    match part:
-        case Grid():
-            yield from _fitting(part, width)
-            if part.note:
-                yield Line(part.note, style="dim")
-        case Facts():
-            yield _facts_table(part)
-        case Text():
-            yield from part.paragraphs
-
-
-def _fitting(grid: Grid, width: int) -> Iterator[Table]:
-    """The table as wide as it likes to be, else narrowed; figures are never broken, so one that is
-    still too wide comes in pieces, each with the first column.
-    """
-    natural = [max(map(len, _column_texts(grid, k))) for k in range(len(grid.columns))]
-    if width == UNLIMITED:
-        natural = [
-            min(size, PROSE) if k and k in grid.words else size for k, size in enumerate(natural)
-        ]
-    for gap in (3, 2):
-        if sum(natural) + gap * (len(natural) - 1) <= width:
-            yield _grid_table(grid, dict(enumerate(natural)), gap)
-            return
-    breakable = tuple(name.replace("_", " ") for name in grid.columns)
-    grid = grid._replace(columns=breakable)
-    least = [
-        max((len(word) for text in _column_texts(grid, k) for word in text.split()), default=1)
-        for k in range(len(grid.columns))
-    ]
-    least[0] = max(least[0], min(natural[0], LABEL))
-    piece = [0]
-    for k in range(1, len(least)):
-        if len(piece) > 1 and sum(least[j] for j in [*piece, k]) + 2 * len(piece) > width:
-            yield _grid_table(grid, _share_out(width, piece, least, natural), 2)
-            piece = [0]
-        piece.append(k)
-    yield _grid_table(grid, _share_out(width, piece, least, natural), 2)
+def _lines(sheet: Sheet) -> Iterator[str]:
+    yield sheet.title
+    for part in sheet.parts:
+        yield ""
+        if part.title:
+            yield part.title
+        match part:
+            case Grid():
+                yield from _grid_lines(part)
+                if part.note:
+                    yield part.note
+            case Facts():
+                yield from _fact_lines(part)
+            case Text():
+                yield from part.paragraphs
+    yield ""
 
 
-def _column_texts(grid: Grid, k: int) -> list[str]:
+def _grid_lines(grid: Grid) -> Iterator[str]:
+    """Headings, a rule, and the rows; words to the left, figures to the right."""
+    widths = [_measure(grid, k) for k in range(len(grid.columns))]
+    yield from _row_lines(grid.columns, widths, grid.words)
+    yield "─" * (sum(widths) + GAP * (len(widths) - 1))
+    for row in grid.rows:
+        yield from _row_lines(row, widths, grid.words)
+
+
+def _measure(grid: Grid, k: int) -> int:
+    """Width of a column."""
+    widest = max(map(count_places, column_texts(grid, k)))
+    return min(widest, PROSE) if k and k in grid.words else widest
+
+
+def column_texts(grid: Grid, k: int) -> list[str]:
     """Everything that stands in a column."""
     return [grid.columns[k], *(row[k] for row in grid.rows)]
 
 
-def _share_out(
-    width: int, columns: list[int], least: list[int], natural: list[int]
-) -> dict[int, int]:
-    """Width of each column: the least, and what is left over to the one that lacks most, until
-    there is none.
-    """
-    widths = {k: least[k] for k in columns}
-    for _ in range(width - sum(widths.values()) - 2 * (len(columns) - 1)):
-        needy = max(columns, key=lambda k: natural[k] - widths[k])
-        widths[needy] += natural[needy] > widths[needy]
-    return widths
+def _row_lines(cells: Sequence[str], widths: list[int], words: Sequence[int]) -> Iterator[str]:
+    """One line, or as many as the longest of its cells takes when it is folded."""
+    folded = [fold(cell, width) for cell, width in zip(cells, widths, strict=True)]
+    for pieces in zip_longest(*folded, fillvalue=""):
+        columns = enumerate(zip(pieces, widths, strict=True))
+        yield (" " * GAP).join(_justify(*cell, to_the_left=k in words) for k, cell in columns)
 
 
-def _grid_table(grid: Grid, widths: dict[int, int], gap: int) -> Table:
-    from rich import box
-    from rich.table import Table
-    from rich.text import Text as Cell
-
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, gap - 2, 0, 1), pad_edge=False, show_edge=False)
-    for k, width in widths.items():
-        table.add_column(
-            grid.columns[k],
-            justify="left" if k in grid.words else "right",
-            overflow="fold",
-            style="bold" if k == 0 else "",
-            max_width=width,
-        )
-    for i, row in enumerate(grid.rows):
-        table.add_row(
-            *(Cell(row[k], style="bold red" if (i, k) in grid.marked else "") for k in widths)
-        )
-    return table
+def _justify(text: str, width: int, *, to_the_left: bool) -> str:
+    blanks = " " * (width - count_places(text))
+    return text + blanks if to_the_left else blanks + text
 
 
-def _facts_table(facts: Facts) -> Table:
-    from rich.table import Table
+def fold(text: str, width: int) -> list[str]:
+    """The text in lines of this width, broken between words, and in a word where it is longer."""
+    if count_places(text) <= width:
+        return [text]
+    lines = [""]
+    for word in text.split(" "):
+        longer = f"{lines[-1]} {word}" if lines[-1] else word
+        if count_places(longer) <= width:
+            lines[-1] = longer
+            continue
+        lines.append("")
+        for letter in word:
+            if count_places(lines[-1] + letter) > width:
+                lines.append("")
+            lines[-1] += letter
+    return [line for line in lines if line]
 
-    table = Table.grid(padding=(0, 2))
-    table.add_column(style="dim")
-    table.add_column(overflow="fold")
+
+def _fact_lines(facts: Facts) -> Iterator[str]:
+    """Names to the left, what they are beside them."""
+    width = max((count_places(name) for name, _ in facts.pairs), default=0)
     for name, value in facts.pairs:
-        table.add_row(name, value)
-    return table
+        yield _justify(name, width, to_the_left=True) + " " * FACTS_GAP + value
+
+
+def count_places(text: str) -> int:
+    """How many places a text takes where every letter is as wide as another, or twice as wide."""
+    if text.isascii() or all(letter < "\u0300" or letter in _SINGLE for letter in text):
+        return len(text)
+    from rich.cells import cell_len  # knows Unicode's wide and combining letters
+
+    return cell_len(text)

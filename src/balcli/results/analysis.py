@@ -6,30 +6,32 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..core.peaks import Peak, peak
 from ..core.phasors import Array
-from ..core.strokes import Travel, find_travel
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..forces.crankshaft import InnerLoads, compute_inner_loads
-from ..forces.guide_moments import GuideMoments, compute_guide_moments
-from ..forces.kinds import KINDS, SCALARS, VECTORS, Kind
+from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, KINDS, SCALARS, VECTORS, Kind
 from ..forces.orders import (
     check_orders,
     choose_orders,
     find_relevant_orders,
+    list_gas_orders,
     merge_orders,
 )
 from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
-from ..forces.symmetry import Symmetry, explain_symmetry
-from ..forces.textbook import Textbook, find_textbook
 from ..limits import HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
-from ..sizing.auto import size_auto
-from ..sizing.remedy import Remedy, fit_devices
+
+if TYPE_CHECKING:  # whoever asks for one of these chapters loads it
+    from ..core.strokes import Travel
+    from ..forces.crankshaft import InnerLoads
+    from ..forces.guide_moments import GuideMoments
+    from ..forces.symmetry import Symmetry
+    from ..forces.textbook import Textbook
+    from ..sizing.remedy import Remedy
 
 QUANTITIES = (*KINDS, "peak", "sizing")
 EXTRAS = ("inner", "guide")  # computed only when they are named
@@ -97,6 +99,8 @@ class Analysis:
     @property
     def textbook(self) -> Textbook:
         """Force and moment, as far as they were asked for and are known, as textbooks have them."""
+        from ..forces.textbook import find_textbook
+
         asked = [kind.name for kind, _ in self.spectra.vectors()]
         known = [name for name in asked if name != "moment" or self.moments_known]
         return find_textbook(self.engine, self.orders, known)
@@ -134,7 +138,8 @@ def analyze(
         engine: without trailing axes.
         orders: which orders to show; default: 1 and 2 (0 too at uneven speed) and all in which a
             quantity that was asked for exceeds 1e-6 of its own largest order, up to 512.
-        only: any of QUANTITIES and EXTRAS; default: all QUANTITIES.
+        only: any of QUANTITIES, EXTRAS and `gas`; default: all QUANTITIES, and of an engine with
+            gas all that this does.
         by_cylinder: also the phasors of every cylinder alone.
         reasons: also why each order is balanced, or is not.
         guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
@@ -144,16 +149,14 @@ def analyze(
         BalcliError: an unknown quantity, an order that is negative or above HIGHEST_ORDER, too many
             orders of too many cylinders.
     """
-    wanted = _check_quantities(QUANTITIES if only is None else only)
+    wanted = _choose_quantities(engine, only)
     asked = None if orders is None else check_orders(orders)
     peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
-    shown = wanted.intersection(KINDS)
+    shown = wanted.intersection(EVERY_KIND)
     computed = _choose_computed(engine, asked, whole=bool(peaked))
     everything = compute_spectra(engine, computed, shown | peaked)
     visible = everything.only(shown)
     visible = visible.select_orders(choose_orders(visible) if asked is None else asked)
-    above_0 = visible.orders[visible.orders > 0]
-    provable = shown if engine.places_known else shown - {"moment"}
     cylinders = _analyze_cylinders(engine, visible.orders, shown) if by_cylinder else ()
     return Analysis(
         engine,
@@ -162,21 +165,24 @@ def analyze(
         peak(everything["moment"]) if peaked else None,
         sizing=_size_and_analyze(engine, asked, wanted) if "sizing" in wanted else None,
         cylinders=cylinders,
-        why=explain_symmetry(engine, above_0, provable) if reasons else None,
-        inner=compute_inner_loads(engine, asked) if "inner" in wanted else None,
-        guide=compute_guide_moments(engine, asked, guide_height_m) if "guide" in wanted else None,
-        travel=None if engine.cylinders.linkage is None else find_travel(engine.cylinders),
+        why=_explain(engine, visible.orders, shown) if reasons else None,
+        inner=_load_crankshaft(engine, asked) if "inner" in wanted else None,
+        guide=_press_guides(engine, asked, guide_height_m) if "guide" in wanted else None,
+        travel=None if engine.cylinders.linkage is None else _measure_travel(engine),
     )
 
 
-def _check_quantities(only: Collection[str]) -> set[str]:
+def _choose_quantities(engine: Engine, only: Collection[str] | None) -> set[str]:
+    """What is computed: with gas, all that it does, too; `gas` stands for all of that."""
+    if only is None:
+        return {*QUANTITIES, *(GAS_KINDS if engine.gas is not None else ())}
     wanted = set(only)
-    if strangers := sorted(wanted.difference(QUANTITIES, EXTRAS)):
+    if strangers := sorted(wanted.difference(QUANTITIES, GAS_KINDS, EXTRAS)):
         raise BalcliError(
             f"there is no quantity {', '.join(strangers)}: choose from "
-            f"{', '.join((*QUANTITIES, *EXTRAS))}"
+            f"{', '.join((*QUANTITIES, GAS.name, *EXTRAS))}"
         )
-    return wanted
+    return wanted | GAS_KINDS.keys() if GAS.name in wanted else wanted
 
 
 def _choose_computed(engine: Engine, asked: Array | None, *, whole: bool) -> Array:
@@ -186,7 +192,8 @@ def _choose_computed(engine: Engine, asked: Array | None, *, whole: bool) -> Arr
     if asked is not None and not whole:
         return asked
     due = DEFAULT_ORDERS if asked is None else asked
-    return merge_orders(find_relevant_orders(engine), due)
+    of_gas = () if engine.gas is None else list_gas_orders(engine.strokes)
+    return merge_orders(find_relevant_orders(engine), of_gas, due)
 
 
 def _analyze_cylinders(
@@ -203,7 +210,37 @@ def _analyze_cylinders(
     return tuple((n, own.select_place(engine.numbers.index(n))) for n in sorted(engine.numbers))
 
 
+# ------------------------------------------------------------------ chapters, loaded on request
 def _size_and_analyze(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizing:
+    from ..sizing.auto import size_auto
+    from ..sizing.remedy import fit_devices
+
     remedy = size_auto(engine)
     left = {*wanted, "force", "moment", "peak"} - {"sizing"}
     return Sizing(remedy, analyze(fit_devices(engine, remedy), asked, left))
+
+
+def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
+    """Nothing can be proved of order 0, nor of moments that are not known."""
+    from ..forces.symmetry import explain_symmetry
+
+    provable = set(kinds) if engine.places_known else set(kinds) - {"moment"}
+    return explain_symmetry(engine, orders[orders > 0], provable)
+
+
+def _load_crankshaft(engine: Engine, asked: Array | None) -> InnerLoads:
+    from ..forces.crankshaft import compute_inner_loads
+
+    return compute_inner_loads(engine, asked)
+
+
+def _press_guides(engine: Engine, asked: Array | None, height_m: float | None) -> GuideMoments:
+    from ..forces.guide_moments import compute_guide_moments
+
+    return compute_guide_moments(engine, asked, height_m)
+
+
+def _measure_travel(engine: Engine) -> Travel:
+    from ..core.strokes import find_travel
+
+    return find_travel(engine.cylinders)

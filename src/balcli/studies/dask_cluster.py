@@ -12,7 +12,7 @@ from itertools import islice
 from typing import Any
 
 from ..errors import BalcliError
-from .sweep import Box, Chunk, Sweep, divide_grid, evaluate_box
+from .sweep import Box, Chunk, Sweep, divide_grid, evaluate_box, size_boxes
 
 BATCH = 16  # boxes that a worker computes at a time
 RETRIES = 3  # of a batch that a worker has not finished
@@ -54,7 +54,7 @@ def evaluate_on_cluster(sweep: Sweep, client: Any) -> Iterator[Chunk]:
     """
     from distributed import KilledWorker  # an extra
 
-    batches = _group(divide_grid(sweep.shape))
+    batches = _group(divide_grid(sweep.shape, size_boxes(sweep)))
     most = AHEAD * max(sum(client.nthreads().values()), 1)
 
     def submit(count: int) -> Iterator[Any]:

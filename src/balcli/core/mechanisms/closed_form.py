@@ -15,7 +15,7 @@ result has the shape (orders, *lam.shape); orders that are not whole have none.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from functools import cached_property, lru_cache
 from typing import NamedTuple
 
@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..phasors import EPS, Array, Figure
-from .fourier import NONE, Harmonics, Series
+from .fourier import NONE, SERIES, Harmonics, Series
 
 _AT_ONCE = 1 << 18  # factors of Gauss's functions that are kept in memory
 
@@ -61,15 +61,15 @@ def rod_kinetic(orders: ArrayLike, lam: ArrayLike) -> Array:
 
 
 def find_harmonics(
-    orders: ArrayLike, lam: ArrayLike, *, rod: bool = True, energy: bool = True
+    orders: ArrayLike, lam: ArrayLike, wanted: Collection[str] = SERIES
 ) -> Harmonics:
-    """All of these coefficients; those of the rod, and of the energies, only where asked for."""
+    """These coefficients, as far as they are wanted (`fourier.SERIES`)."""
     ladder = _Ladder(orders, lam)
     return Harmonics(
-        piston=Series(ladder.piston()),
-        rod=Series(np.asarray(-1j * ladder.rod(), np.complex128)) if rod else NONE,
-        kinetic=Series(ladder.kinetic()) if energy else NONE,
-        rod_kinetic=Series(ladder.rod_kinetic()) if energy and rod else NONE,
+        piston=Series(ladder.piston()) if "piston" in wanted else NONE,
+        rod=Series(np.asarray(-1j * ladder.rod(), complex)) if "rod" in wanted else NONE,
+        kinetic=Series(ladder.kinetic()) if "kinetic" in wanted else NONE,
+        rod_kinetic=Series(ladder.rod_kinetic()) if "rod_kinetic" in wanted else NONE,
     )
 
 

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..phasors import EPS, Array, Complex, unit
 
-Rows: TypeAlias = NDArray[np.intp] | slice  # which of several mechanisms each cylinder has
+Rows: TypeAlias = NDArray[np.intp]  # which of several mechanisms each cylinder has
 
 SAMPLING = 16 * EPS  # error of a sampled coefficient, in units of the curve's root mean square
 
@@ -43,11 +43,12 @@ class Series:
         """The orders in these rows; what is left out (`NONE`) has none."""
         return self if self is NONE else Series(self.c[rows], self.noise)
 
-    def select_cylinders(self, which: NDArray[np.intp]) -> Series:
-        """The mechanisms with these numbers; a single one stands for all."""
-        if self.c.shape[1] == 1:
+    def select_cylinders(self, which: Rows) -> Series:
+        """The mechanisms with these numbers; what is left out (`NONE`) has none."""
+        if self is NONE:
             return self
-        return Series(self.c[:, which], np.broadcast_to(self.noise, self.c.shape[1:])[which])
+        noise = self.noise if np.ndim(self.noise) == 0 else np.asarray(self.noise)[which]
+        return Series(self.c[:, which], noise)
 
 
 NONE = Series(np.zeros((1, 1)))  # what is left out
@@ -61,12 +62,12 @@ class Curve(NamedTuple):
     along: Series  # -Re z''
     across: Series  # -Im z''
     couple: Series  # -Im(conj(z) z''): minus the rate of its moment of momentum
-    kinetic: Series  # |z'|^2
-    momentum: Array  # mean of Im(conj(z) z'), shape (cylinders, *trailing)
+    energy: Series  # |z'|^2
+    swirl: Series  # Im(conj(z) z'): moment of momentum
 
 
 class Harmonics(NamedTuple):
-    """The Fourier series of a mechanism, or of many; those of rod and energy may be left out."""
+    """The Fourier series of a mechanism, or of many; those that are not wanted are left out."""
 
     piston: Series  # -s''/r: acceleration towards the crank
     rod: Series  # -beta'': angular acceleration of the rod, in the crank's sense
@@ -81,20 +82,18 @@ class Harmonics(NamedTuple):
 
     def select_cylinders(self, which: Rows) -> Harmonics:
         """The mechanisms with these numbers."""
-        if isinstance(which, slice):
-            return self
-        chosen = self._change_each(lambda series: series.select_cylinders(which))
-        if chosen.curve is None:
-            return chosen
-        return chosen._replace(curve=chosen.curve._replace(momentum=chosen.curve.momentum[which]))
+        return self._change_each(lambda series: series.select_cylinders(which))
 
     def _change_each(self, change: Callable[[Series], Series]) -> Harmonics:
-        c = self.curve
-        if c is not None:
-            series = change(c.along), change(c.across), change(c.couple), change(c.kinetic)
-            c = Curve(*series, c.momentum)
+        curve = self.curve and Curve(*map(change, self.curve))
         own = change(self.piston), change(self.rod), change(self.kinetic), change(self.rod_kinetic)
-        return Harmonics(*own, c, self.turns)
+        return Harmonics(*own, curve, self.turns)
+
+
+# Names of all series, as they are asked for.
+SERIES = frozenset(
+    {"piston", "rod", "kinetic", "rod_kinetic", "along", "across", "couple", "energy", "swirl"}
+)
 
 
 def join_mechanisms(each: Sequence[Harmonics]) -> Harmonics:
@@ -108,8 +107,8 @@ def join_mechanisms(each: Sequence[Harmonics]) -> Harmonics:
 
 
 def _join(each: list[Series]) -> Series:
-    if each[0] is NONE:
-        return NONE
+    if each[0] is NONE or len(each) == 1:
+        return each[0]
     noises = [np.broadcast_to(series.noise, series.c.shape[1:]) for series in each]
     return Series(np.concatenate([series.c for series in each], axis=1), np.concatenate(noises))
 
@@ -132,22 +131,29 @@ def transform(samples: Array, orders: ArrayLike, condition: Array | float = 1.0)
 
     Returns: shape (orders, *the other axes).
     """
-    n, count = np.asarray(orders), samples.shape[-1]
-    spectrum = np.moveaxis(np.fft.rfft(samples) / count, -1, 0)
-    spectrum[1:] *= 2
-    inside = (n % 1 == 0) & (n < count // 2)
-    rows = spectrum[np.where(inside, n, 0).astype(int)]
-    c = np.where(inside.reshape(-1, *(1,) * (rows.ndim - 1)), rows, 0)
-    return Series(c, SAMPLING * amplify_rounding(samples, condition))
+    noise = SAMPLING * amplify_rounding(samples, condition)
+    return Series(pick_orders(np.fft.rfft(samples), orders), noise)
 
 
-def amplify_rounding(samples: Array | Complex, condition: Array | float = 1.0) -> Array:
+def pick_orders(spectrum: Complex, orders: ArrayLike) -> Complex:
+    """The coefficients of these orders in transforms (`rfft`) of revolutions, shape (*any axes,
+    samples/2 + 1); order first. Orders that are not whole, or that samples do not show, are 0.
+    """
+    n, half = np.asarray(orders), spectrum.shape[-1] - 1
+    inside = (n % 1 == 0) & (n < half)
+    numbers = np.where(inside, n, 0).astype(int)
+    scale = np.where(numbers == 0, 1, 2) * inside
+    picked = spectrum[..., numbers] / (2 * half) * scale
+    return np.moveaxis(picked, -1, 0)
+
+
+def amplify_rounding(samples: Array, condition: Array | float = 1.0) -> Array:
     """What one rounding of every sample does to a coefficient, in units of the rounding.
 
     It is the root mean square of the samples and, where they are not good to some ulp, the mean of
     what each is multiplied by (`condition`). Shape of the samples without their last axis.
     """
-    spread: Array = np.sqrt(2 * np.mean(np.abs(samples) ** 2, axis=-1))
+    spread: Array = np.sqrt(2 * np.mean(samples**2, axis=-1))
     if np.isscalar(condition):
         return spread
     return spread + np.mean(np.abs(samples) * condition, axis=-1)

@@ -5,55 +5,59 @@ The closed form is good to about 1e-14 relative in every order, samples to about
 
 from __future__ import annotations
 
-import math
+from collections.abc import Collection
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..phasors import EPS, Array
-from . import closed_form, slidercrank
-from .fourier import NONE, Harmonics, Rows, join_mechanisms, transform, unit_circle
+from . import closed_form
+from .distinct import find_distinct
+from .fourier import SERIES, Harmonics, Rows, join_mechanisms
+from .sampled import sample_mechanisms
+from .slidercrank import SliderCrank
 
 HARDEST = 1 << 16  # samples of a revolution that a mechanism takes at 1 - 1e-6 of its lock
 CLOSED_FORM = 4096  # highest order of closed forms; only mechanisms near their lock have more
 
 
 def find_harmonics(
-    orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: bool = True
+    orders: ArrayLike, lam: Array, eps: Array, wanted: Collection[str] = SERIES
 ) -> Harmonics:
     """Harmonics of one mechanism a cylinder, equal ones computed once.
 
     Args:
         orders: shape (orders,), not negative.
         lam, eps: crank radius and offset over rod length, shape (cylinders or 1, *trailing).
-        rod, energy: whether the series of the rod, and of the kinetic energies, are wanted.
+        wanted: names of series (`fourier.SERIES`).
 
     Raises nothing: that every mechanism turns (`lambda + |eps| < 1`) is the caller's to see to.
     """
-    few, which = find_distinct_harmonics(orders, lam, eps, rod=rod, energy=energy)
+    few, which = find_distinct_harmonics(orders, lam, eps, wanted)
     return few.select_cylinders(which)
 
 
 def find_distinct_harmonics(
-    orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool
+    orders: ArrayLike, lam: Array, eps: Array, wanted: Collection[str]
 ) -> tuple[Harmonics, Rows]:
     """Those of the mechanisms that differ, and which of them each cylinder has."""
-    if lam.ndim > 1 or lam.size * eps.size == 1:
-        return _find_all(orders, lam, eps, rod=rod, energy=energy), slice(None)
-    pairs, which = find_distinct(lam, eps)
-    each = [_find_all(orders, *np.array([pair]).T, rod=rod, energy=energy) for pair in pairs]
-    return join_mechanisms(each), which
-
-
-def find_distinct(lam: Array, eps: Array) -> tuple[list[tuple[float, float]], NDArray[np.intp]]:
-    """(lambda, eps) of the mechanisms that differ, and which of them each cylinder has.
-
-    Args:
-        lam, eps: shape (cylinders or 1,).
-    """
-    pairs = list(zip(*(v.tolist() for v in np.broadcast_arrays(lam, eps)), strict=True))
-    place = {pair: k for k, pair in enumerate(dict.fromkeys(pairs))}
-    return list(place), np.array([place[pair] for pair in pairs])
+    few = find_distinct(lam, eps)
+    ratios, offsets = few.figures
+    centred = offsets == 0
+    if np.max(orders, initial=0) > CLOSED_FORM:
+        centred[:] = False
+    one_engine = few.which.ndim == 1  # of one an order is the same among any others
+    found = []
+    if np.count_nonzero(centred):
+        own = ratios[centred]
+        each = own[:, None] if one_engine else own[None]
+        found += [closed_form.find_harmonics(orders, few_ratios, wanted) for few_ratios in each]
+    if not np.all(centred):
+        highest = np.inf if one_engine else float(np.max(orders, initial=0))
+        off = ratios[~centred], offsets[~centred]
+        found.append(sample_harmonics(orders, *off, wanted, highest))
+    place = np.argsort(np.argsort(~centred, kind="stable"))  # closed forms come first
+    return join_mechanisms(found), place[few.which]
 
 
 def count_all_samples(lam: Array, eps: Array) -> tuple[int, int]:
@@ -62,47 +66,43 @@ def count_all_samples(lam: Array, eps: Array) -> tuple[int, int]:
     Args:
         lam, eps: shape (cylinders or 1,).
     """
-    pairs, _ = find_distinct(lam, eps)
-    return len(pairs), sum(count_samples(*pair) for pair in pairs)
+    ratios, offsets = find_distinct(lam, eps).figures
+    return len(ratios), int(count_samples(ratios, offsets).sum())
 
 
-def count_samples(lam: ArrayLike, eps: ArrayLike, highest: float = math.inf) -> int:
-    """Number of samples (a power of two) that leaves no alias above rounding in orders up to the
-    highest, nor a tail beyond it, in any of these mechanisms.
+def count_samples(lam: ArrayLike, eps: ArrayLike, highest: float = np.inf) -> NDArray[np.intp]:
+    """Number of samples (a power of two) of each mechanism that leaves no alias above rounding in
+    orders up to the highest, nor a tail beyond it.
 
     Coefficients decay like `x^n`, x = tan(arcsin(lambda')/2), `lambda' = lambda / (1 - |eps|)`;
     order n of N samples is mixed with N - n.
     """
-    steep = np.minimum(np.max(np.asarray(lam) / (1 - np.abs(eps))), 1 - EPS)
+    steep = np.minimum(np.asarray(lam) / (1 - np.abs(eps)), 1 - EPS)
     decay = -np.log(steep / (1 + np.sqrt((1 - steep) * (1 + steep))))
     last = -1.2 * np.log(EPS) / decay  # the order beyond which all is rounding
-    return 1 << int(np.ceil(np.log2(max(last + min(highest, last), 16))))
+    doublings = np.ceil(np.log2(np.maximum(last + np.minimum(highest, last), 16)))
+    return np.asarray(1 << doublings.astype(np.intp))
 
 
 def find_highest_order(lam: Array, eps: Array) -> int:
     """The order beyond which nothing of these mechanisms exceeds rounding errors."""
-    return count_samples(lam, eps) // 2
-
-
-def _find_all(orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool) -> Harmonics:
-    """Those of every mechanism, equal or not."""
-    if np.count_nonzero(eps) or np.asarray(orders).max(initial=0) > CLOSED_FORM:
-        return sample_harmonics(orders, lam, eps, rod=rod, energy=energy)
-    return closed_form.find_harmonics(orders, lam, rod=rod, energy=energy)
+    return int(count_samples(lam, eps).max()) // 2
 
 
 def sample_harmonics(
-    orders: ArrayLike, lam: Array, eps: Array, *, rod: bool = True, energy: bool = True
+    orders: ArrayLike,
+    lam: Array,
+    eps: Array,
+    wanted: Collection[str] = SERIES,
+    highest: float = np.inf,
 ) -> Harmonics:
-    """Those of whole orders from one revolution of samples; lam and eps are broadcast.
+    """Those of whole orders from one revolution of samples.
 
-    Accelerations are sampled as such, not differentiated, so that no order's error grows.
+    Args:
+        orders: shape (orders,).
+        lam, eps: shape (mechanisms,).
+        wanted: names of series (`fourier.SERIES`).
+        highest: of all orders for which the samples must be enough.
     """
-    many = np.ndim(lam) > 1  # variants; of one engine an order is the same among any others
-    count = count_samples(lam, eps, np.max(orders, initial=0) if many else math.inf)
-    at = unit_circle(count), np.asarray(lam)[..., None], np.asarray(eps)[..., None]
-    piston = transform(slidercrank.acceleration(*at), orders)
-    spin = transform(-slidercrank.rod_acceleration(*at), orders) if rod else NONE
-    kinetic = transform(slidercrank.velocity(*at) ** 2, orders) if energy else NONE
-    rod_kinetic = transform(slidercrank.rod_rate(*at) ** 2, orders) if energy and rod else NONE
-    return Harmonics(piston, spin, kinetic, rod_kinetic)
+    counts = count_samples(lam, eps, highest)
+    return sample_mechanisms(orders, wanted, SliderCrank, (lam, eps), counts).as_harmonics()

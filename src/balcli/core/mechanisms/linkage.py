@@ -1,95 +1,33 @@
-"""Mechanisms with masses on planar curves, sampled over a revolution: what articulated rods and
-rotary engines share.
+"""Mechanisms with masses on planar curves: what articulated rods and rotary engines share.
 
 A plain slider-crank needs no more than its piston's motion along the cylinder's axis. Here another
 mass moves on a closed curve `z(psi)` (complex, in crank radii, in the cylinder's frame): the
 knuckle pin of an articulated rod, the piston of a cylinder that itself turns, or shares of it on
 both. It adds two components of force, a moment of momentum and a kinetic energy, all of which are
-harmonics of the crank angle like the others (`fourier.Curve`).
+harmonics of the crank angle like the others (`fourier.Curve`), sampled over a revolution.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
-from functools import reduce
-from operator import add
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from ..phasors import Array, Complex, Figure
-from .fourier import (
-    NONE,
-    SAMPLING,
-    Curve,
-    Harmonics,
-    Rows,
-    amplify_rounding,
-    transform,
-    unit_circle,
-)
+from ..phasors import Array, Complex
+from .distinct import Distinct, find_distinct
+from .fourier import Harmonics, Rows
 from .harmonics import count_samples
+from .motion import Motion
+from .sampled import Sampled, sample_mechanisms
 
 STEPS = 1440  # crank angles that do not miss a lock
-FEWEST_SAMPLES, MOST_SAMPLES = 64, 1 << 18
+_FEWEST_SAMPLES, _FEWEST_OF_VARIANTS = 64, 32
 _AT_ONCE = 1 << 16  # cylinders x angles of figures by themselves
-
-
-class Point(NamedTuple):
-    """A closed curve with its derivatives, and the share of the mass that moves on it."""
-
-    z: Complex
-    z1: Complex
-    z2: Complex
-    share: Figure = 1.0
-
-
-class Motion(NamedTuple):
-    """A mechanism in motion; each of shape (cylinders, *trailing, samples), lengths in crank
-    radii.
-    """
-
-    lean: Array  # sine of the rod's angle beta to the cylinder's axis
-    place: Array  # s of the piston along its axis
-    velocity: Array  # s'
-    acceleration: Array  # s''
-    spin: Array  # angular velocity of the rod, in the crank's sense
-    spin_rate: Array
-    points: tuple[Point, ...]  # where the mass is
-    condition: Array | float = 1.0  # relative error of rod and piston, in roundings: near a lock
-
-    @property
-    def velocity_of_mass(self) -> Complex:
-        """Of unit mass on its points, likewise all that follows."""
-        return reduce(add, (p.share * p.z1 for p in self.points))
-
-    @property
-    def acceleration_of_mass(self) -> Complex:
-        """Derivative of `velocity_of_mass`."""
-        return reduce(add, (p.share * p.z2 for p in self.points))
-
-    @property
-    def swirl(self) -> Array:
-        """Moment of momentum."""
-        return reduce(add, (p.share * (np.conj(p.z) * p.z1).imag for p in self.points))
-
-    @property
-    def swirl_rate(self) -> Array:
-        """Derivative of `swirl`."""
-        return reduce(add, (p.share * (np.conj(p.z) * p.z2).imag for p in self.points))
-
-    @property
-    def energy(self) -> Array:
-        """Twice the kinetic energy."""
-        return reduce(add, (p.share * np.abs(p.z1) ** 2 for p in self.points))
-
-    @property
-    def power(self) -> Array:
-        """Half the derivative of `energy`."""
-        return reduce(add, (p.share * (np.conj(p.z1) * p.z2).real for p in self.points))
+_SHARPEST = frozenset({"piston", "rod", "along", "across"})  # series that decay the slowest
 
 
 @dataclass(frozen=True)
@@ -110,6 +48,14 @@ class Linkage(ABC):
         """
 
     @abstractmethod
+    def move(self, psi: Array | Complex, *figures: NDArray[Any]) -> Motion:
+        """Mechanisms in motion.
+
+        Args:
+            psi: their own crank angles (rad) or e^{i psi}, shape (samples,) or one row each.
+            figures: as `figures` gives them, with a last axis of length 1 for the samples.
+        """
+
     def motion(self, psi: Array | Complex, lam: Array, eps: Array) -> Motion:
         """The cylinders in motion.
 
@@ -117,45 +63,27 @@ class Linkage(ABC):
             psi: their own crank angles (rad) or e^{i psi}, shape (samples,) or one row each.
             lam, eps: crank radius and offset over rod length, shape (cylinders or 1, *trailing).
         """
+        return self.move(psi, *(values[..., None] for values in self.figures(lam, eps)))
 
-    def find_distinct(self, lam: Array, eps: Array) -> tuple[Linkage, Array, Array, Rows]:
-        """The mechanisms that differ, their lam and eps, and which of them each cylinder has."""
-        return self, lam, eps, slice(None)
+    def find_distinct(self, lam: Array, eps: Array) -> Distinct:
+        """The mechanisms that differ, and which of them each cylinder has."""
+        return find_distinct(*self.figures(lam, eps))
 
     def find_distinct_harmonics(
-        self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool
+        self, orders: ArrayLike, lam: Array, eps: Array, wanted: Collection[str]
     ) -> tuple[Harmonics, Rows]:
         """Harmonics of the mechanisms that differ, and which of them each cylinder has.
-
-        Accelerations are sampled as such, so that no order's error grows.
 
         Args:
             orders: whole, shape (orders,).
             lam, eps: shape (cylinders or 1, *trailing).
-            rod, energy: whether the series of the rods, and of the kinetic energies, are wanted.
+            wanted: names of series (`fourier.SERIES`).
         """
-        few, *mechanisms, which = self.find_distinct(lam, eps)
-        return few._find_harmonics(orders, *mechanisms, rod=rod, energy=energy), which
-
-    def _find_harmonics(
-        self, orders: ArrayLike, lam: Array, eps: Array, *, rod: bool, energy: bool
-    ) -> Harmonics:
-        m = self._sample_revolution(lam, eps)
-        shake = -m.acceleration_of_mass
-        return Harmonics(
-            piston=transform(-m.acceleration, orders, m.condition),
-            rod=transform(m.spin_rate, orders, m.condition) if rod else NONE,
-            kinetic=transform(m.velocity**2, orders, m.condition) if energy else NONE,
-            rod_kinetic=transform(m.spin**2, orders, m.condition) if energy and rod else NONE,
-            curve=Curve(
-                along=transform(shake.real, orders),
-                across=transform(shake.imag, orders),
-                couple=transform(-m.swirl_rate, orders),
-                kinetic=transform(m.energy, orders) if energy else NONE,
-                momentum=m.swirl.mean(axis=-1),
-            ),
-            turns=float(self.turning),
-        )
+        few = self.find_distinct(lam, eps)
+        one_engine = few.which.ndim == 1  # of one an order is the same among any others
+        highest = np.inf if one_engine else float(np.max(orders, initial=0))
+        found = self._sample(few, orders, wanted, highest)
+        return found.as_harmonics(float(self.turning)), few.which
 
     def sample(
         self, figure: Callable[[Motion], Array], psi: Array, lam: Array, eps: Array
@@ -174,45 +102,28 @@ class Linkage(ABC):
         """How many mechanisms differ, and about how many samples of a revolution they take
         together.
         """
-        few, *mechanisms, _ = self.find_distinct(lam, eps)
-        lean = np.abs(few.sample(lambda m: m.lean, revolution(STEPS), *mechanisms)).max(axis=-1)
-        return lean.size, lean.size * count_samples(lean.max(), 0.0)
+        few = self.find_distinct(lam, eps)
+        figures = [values[:, None] for values in few.figures]
+        step = max(_AT_ONCE // len(figures[0]), 1)
+        steepest = max(
+            float(np.abs(self.move(revolution(STEPS)[k : k + step], *figures).lean).max())
+            for k in range(0, STEPS, step)
+        )
+        return len(figures[0]), len(figures[0]) * int(count_samples(steepest, 0.0))
 
     def find_highest_order(self, lam: Array, eps: Array) -> int:
         """The order beyond which nothing exceeds rounding errors."""
-        few, *mechanisms, _ = self.find_distinct(lam, eps)
-        return int(few._sample_revolution(*mechanisms).place.shape[-1]) // 2
+        found = self._sample(self.find_distinct(lam, eps), [], _SHARPEST, np.inf)
+        return int(found.counts.max()) // 2
 
-    def _sample_revolution(self, lam: Array, eps: Array) -> Motion:
-        """A revolution on as many points (a power of two) as leave neither alias nor tail above
-        rounding.
-        """
-        count = FEWEST_SAMPLES
-        while True:
-            motion = self.motion(unit_circle(count), lam, eps)
-            if count >= MOST_SAMPLES or _is_resolved(motion):
-                return motion
-            count *= 2
+    def _sample(
+        self, few: Distinct, orders: ArrayLike, wanted: Collection[str], highest: float
+    ) -> Sampled:
+        fewest = _FEWEST_SAMPLES if np.isinf(highest) else _FEWEST_OF_VARIANTS
+        counts = np.full(len(few.figures[0]), fewest)
+        return sample_mechanisms(orders, wanted, self.move, few.figures, counts, highest)
 
 
 def revolution(count: int) -> Array:
     """Crank angles of so many samples."""
     return np.arange(count, dtype=float) * (2 * np.pi / count)
-
-
-def _is_resolved(motion: Motion) -> bool:
-    """Whether there are enough samples."""
-    return (
-        _ends_in_rounding(motion.acceleration, motion.condition)
-        and _ends_in_rounding(motion.spin_rate, motion.condition)
-        and _ends_in_rounding(motion.acceleration_of_mass)
-    )
-
-
-def _ends_in_rounding(samples: Array | Complex, condition: Array | float = 1.0) -> bool:
-    """Whether the upper half of the spectrum holds rounding errors alone."""
-    sizes = np.abs(np.fft.fft(samples, norm="forward"))
-    count = samples.shape[-1]
-    tails = sizes[..., count // 4 : -(count // 4)].max(axis=-1)
-    rounding = np.maximum(amplify_rounding(samples, condition), 1.0)
-    return bool(np.all(tails <= SAMPLING / 4 * rounding))

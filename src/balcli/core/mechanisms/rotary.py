@@ -11,14 +11,17 @@ pins, which stand still, and `pin_deg` those of the cylinders, which turn.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from functools import cached_property
+from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..phasors import Array, Complex
+from ..phasors import Array, Complex, Figure, compose
 from . import slidercrank
-from .articulated import Articulated
-from .linkage import Linkage, Motion, Point
+from .articulated import Articulated, hang
+from .linkage import Linkage
+from .motion import Motion, Point
 
 
 @dataclass(frozen=True)
@@ -41,37 +44,103 @@ class Rotary(Linkage):
             return lam, eps
         return *self.hung.figures(lam, eps), self.on_knuckle
 
-    def motion(self, psi: Array | Complex, lam: Array, eps: Array) -> Motion:
-        m = _plain(psi, lam, eps) if self.hung is None else self.hung.motion(psi, lam, eps)
-        turned = slidercrank.on_circle(psi)
-        piston = m.place + 1j * (eps / lam)[..., None]
-        points = [_seen(turned, piston, m.velocity, m.acceleration)]
-        if self.on_knuckle is not None:
-            share, (knuckle,) = self.on_knuckle[..., None], m.points
-            points = [
-                points[0]._replace(share=1 - share),
-                _seen(turned, *knuckle[:3])._replace(share=share),
-            ]
-        return m._replace(spin=1 - m.spin, spin_rate=-m.spin_rate, points=tuple(points))
+    def move(self, psi: Array | Complex, *figures: NDArray[Any]) -> Motion:
+        lam, eps, *hung = figures
+        if not hung:
+            return TurningMotion(psi, slidercrank.SliderCrank(psi, lam, eps), eps / lam)
+        *of_knuckle, share = hung
+        return TurningMotion(psi, hang(psi, lam, eps, *of_knuckle), eps / lam, share)
 
 
-def _plain(psi: Array | Complex, lam: Array, eps: Array) -> Motion:
-    """Rods that are all on the crank pin."""
-    lam, eps = lam[..., None], eps[..., None]
-    sine, cosine = slidercrank.rod_angle(psi, lam, eps)
-    place = slidercrank.on_circle(psi).real + cosine / lam
-    return Motion(
-        lean=sine,
-        place=place,
-        velocity=-slidercrank.velocity(psi, lam, eps),
-        acceleration=-slidercrank.acceleration(psi, lam, eps),
-        spin=-slidercrank.rod_rate(psi, lam, eps),
-        spin_rate=np.zeros_like(place) - slidercrank.rod_acceleration(psi, lam, eps),
-        points=(),
-    )
+class _Seen(Point):
+    """A point of the mechanism from the direction of the pin; `turned` is e^{i psi}."""
+
+    def __init__(self, turned: Complex, point: Point, share: Figure = 1.0) -> None:
+        self._turned, self._point, self.share = turned, point, share
+
+    @cached_property
+    def z(self) -> Complex:
+        return self._turned * np.conj(self._point.z)
+
+    @cached_property
+    def z1(self) -> Complex:
+        w, w1 = np.conj(self._point.z), np.conj(self._point.z1)
+        return np.asarray(self._turned * (w1 + 1j * w))
+
+    @cached_property
+    def z2(self) -> Complex:
+        w, w1, w2 = np.conj(self._point.z), np.conj(self._point.z1), np.conj(self._point.z2)
+        return np.asarray(self._turned * (w2 + 2j * w1 - w))
 
 
-def _seen(turned: Complex, w: Complex, w1: Complex | Array, w2: Complex | Array) -> Point:
-    """A point of the mechanism from the direction of the pin, and its derivatives."""
-    w, w1, w2 = np.conj(w), np.conj(w1), np.conj(w2)
-    return Point(turned * w, turned * (w1 + 1j * w), turned * (w2 + 2j * w1 - w))
+class _Piston(Point):
+    """The piston on its cylinder's axis, at its offset in crank radii."""
+
+    def __init__(self, motion: Motion, offset: Array) -> None:
+        self._motion, self._offset = motion, offset
+
+    @cached_property
+    def z(self) -> Complex:
+        return compose(self._motion.place, np.asarray(self._offset))
+
+    @property
+    def z1(self) -> Complex:
+        return np.asarray(self._motion.velocity, complex)
+
+    @property
+    def z2(self) -> Complex:
+        return np.asarray(self._motion.acceleration, complex)
+
+
+class TurningMotion(Motion):
+    """Cylinders that turn.
+
+    Args:
+        psi: crank angles (rad) or e^{i psi}.
+        inside: the mechanisms as seen from their cylinders.
+        offset: of the pistons, in crank radii.
+        on_knuckle: share of the mass on the knuckle pin of `inside`, which then has one.
+    """
+
+    def __init__(
+        self,
+        psi: Array | Complex,
+        inside: Motion,
+        offset: Array,
+        on_knuckle: Figure | None = None,
+    ) -> None:
+        self._inside = inside
+        turned, piston = slidercrank.on_circle(psi), _Piston(inside, offset)
+        if on_knuckle is None:
+            self.points = (_Seen(turned, piston),)
+        else:
+            (knuckle,) = inside.points
+            self.points = _Seen(turned, piston, 1 - on_knuckle), _Seen(turned, knuckle, on_knuckle)
+
+    @property
+    def lean(self) -> Array:
+        return self._inside.lean
+
+    @property
+    def place(self) -> Array:
+        return self._inside.place
+
+    @property
+    def velocity(self) -> Array:
+        return self._inside.velocity
+
+    @property
+    def acceleration(self) -> Array:
+        return self._inside.acceleration
+
+    @property
+    def spin(self) -> Array:
+        return 1 - self._inside.spin
+
+    @property
+    def spin_rate(self) -> Array:
+        return -self._inside.spin_rate
+
+    @property
+    def condition(self) -> Array | float:
+        return self._inside.condition

@@ -18,12 +18,14 @@ neighbourhood of its zeros.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..phasors import Array, Complex
+from .motion import Motion
 
 
 class Extreme(NamedTuple):
@@ -33,18 +35,130 @@ class Extreme(NamedTuple):
     value: Array
 
 
-def rod_angle(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> tuple[Array, Array]:
-    """(sin beta, cos beta) of the rod's angle; the rod stands at -beta from the cylinder's axis.
+class SliderCrank(Motion):
+    """Plain slider-cranks in motion; arguments as everywhere here."""
 
-    sin beta = lam sin psi - eps. In cos^2 beta = (1 - sin beta)(1 + sin beta) the factor that can
-    become small is written 1 - lam +- eps + lam (1 - |sin psi|), and 1 - |sin psi| = cos^2 psi/(1 +
-    |sin psi|).
-    """
-    sine, cosine, lam, eps = _given(psi, lam, eps)
-    height, lean = np.abs(sine), np.where(sine < 0, -eps, eps)
-    near = _clearance(lam, lean) + lam * cosine**2 / (1 + height)
-    far = (1 - lean) + lam * height
-    return lam * sine - eps, np.sqrt(near * far)
+    def __init__(self, psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> None:
+        self._sine, self._cosine, self._lam, self._eps = _given(psi, lam, eps)
+
+    @cached_property
+    def angle(self) -> tuple[Array, Array]:
+        """(sin beta, cos beta) of the rod's angle; the rod stands at -beta from the cylinder's
+        axis.
+
+        sin beta = lam sin psi - eps. In cos^2 beta = (1 - sin beta)(1 + sin beta) the factor that
+        can become small is written 1 - lam +- eps + lam (1 - |sin psi|), and 1 - |sin psi| =
+        cos^2 psi/(1 + |sin psi|).
+        """
+        near = self._clearance + self._lam * self._cosine**2 / (1 + self._height)
+        far = (1 - self._lean) + self._lam * self._height
+        return self._lam * self._sine - self._eps, np.sqrt(near * far)
+
+    @property
+    def lean(self) -> Array:
+        return self.angle[0]
+
+    @cached_property
+    def place(self) -> Array:
+        return _real(self._cosine + self.angle[1] / self._lam)
+
+    @cached_property
+    def velocity(self) -> Array:
+        """-sin(psi + beta)/cos beta.
+
+        Where the two terms of the sine differ in sign, their difference is replaced by that of
+        their squares, sin^2 psi - sin^2 beta, whose factors vanish exactly at the dead centres.
+        """
+        sin_beta, cos_beta = self.angle
+        sine, cosine, lam, eps = self._sine, self._cosine, self._lam, self._eps
+        crank, rod = sine * cos_beta, cosine * sin_beta
+        opposed = crank * rod < 0
+        safe = np.where(opposed, crank - rod, 1.0)
+        product = ((1 - lam) * sine + eps) * (((1 + lam) * sine - eps) / safe)
+        return _real(-(np.where(opposed, product, crank + rod) / cos_beta))
+
+    @cached_property
+    def acceleration(self) -> Array:
+        """sin psi tan beta - cos psi - lam cos^2 psi/cos^3 beta. Accurate relative to its value
+        without offset, and to about 1e-16/cos^3 beta absolute with one.
+        """
+        with_offset = np.count_nonzero(self._eps)
+        if not with_offset:
+            return -self._centred
+        sin_beta, cos_beta = self.angle
+        sine, cosine = self._sine, self._cosine
+        offset = cosine - sine * sin_beta / cos_beta + self._lam * cosine**2 / self._cube
+        if with_offset == np.size(self._eps):
+            return _real(-offset)
+        return _real(-np.where(self._eps == 0, self._centred, offset))
+
+    @cached_property
+    def spin(self) -> Array:
+        """-lam cos psi/cos beta"""
+        return _real(-(self._lam * self._cosine / self.angle[1]))
+
+    @cached_property
+    def spin_rate(self) -> Array:
+        """lam ((w^2 - eps^2) sin psi + eps lam (1 + sin^2 psi))/cos^3 beta, w^2 = (1 - lam)(1 +
+        lam).
+
+        With h = |sin psi| and e = +-eps, by its sign, the bracket is h (1 - lam + e)(1 + lam - e) +
+        e lam (1 - h)^2: near the lock, where both factors 1 - .. are small, nothing cancels.
+        """
+        bracket = self._height * self._clearance * ((1 - self._lean) + self._lam)
+        bracket = bracket + self._lean * self._lam * self._short**2
+        sign = np.where(self._sine < 0, -1.0, 1.0)  # as in `_lean`, whatever the sign of zero is
+        return _real(self._lam * sign * bracket / self._cube)
+
+    # -------------------------------------------------------------- what they share
+    @cached_property
+    def _height(self) -> Array:
+        """|sin psi|"""
+        return np.abs(self._sine)
+
+    @cached_property
+    def _short(self) -> Array:
+        """1 - |sin psi|"""
+        return _real(self._cosine**2 / (1 + self._height))
+
+    @cached_property
+    def _lean(self) -> Array:
+        """The offset, negative where the crank leans to its side."""
+        return np.where(self._sine < 0, -self._eps, self._eps)
+
+    @cached_property
+    def _clearance(self) -> Array:
+        """1 - lam + lean, rounded once, however small it is."""
+        most = 1 - self._lam
+        return (most + self._lean) + ((1 - most) - self._lam)
+
+    @cached_property
+    def _cube(self) -> Array:
+        """cos^3 beta"""
+        return _real(self.angle[1] ** 3)
+
+    @property
+    def _centred(self) -> Array:
+        """-s'' without offset: cos psi + P/cos^3 beta, P = lam (cos^4 psi - w^2 sin^4 psi), w^2 = 1
+        - lam^2.
+
+        Where the two differ in sign: P^2 - cos^6 beta cos^2 psi = -w^2 (cos^2 psi - lam^2 sin^4 psi
+        cos^2 beta).
+        """
+        sine, cosine, lam = self._sine, self._cosine, self._lam
+        cos_beta, cube = self.angle[1], self._cube
+        w2, s2 = (1 - lam) * (1 + lam), sine**2
+        w = np.sqrt(w2)
+        rod = lam * (cosine**2 - w * s2) * (cosine**2 + w * s2)
+        opposed = rod * cosine < 0
+        safe = np.where(opposed, rod - cube * cosine, 1.0)
+        product = -w2 * (cosine - lam * s2 * cos_beta) * (cosine + lam * s2 * cos_beta) / safe
+        return _real(np.where(opposed, product, rod + cube * cosine) / cube)
+
+
+def rod_angle(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> tuple[Array, Array]:
+    """(sin beta, cos beta) of the rod's angle; the rod stands at -beta from the cylinder's axis."""
+    return SliderCrank(psi, lam, eps).angle
 
 
 def displacement(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
@@ -63,68 +177,27 @@ def displacement(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
 
 
 def velocity(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
-    """Piston velocity v/(r omega) = sin(psi + beta)/cos beta, positive away from top dead centre.
-
-    Where the two terms of the sine differ in sign, their difference is replaced by that of their
-    squares, sin^2 psi - sin^2 beta, whose factors vanish exactly at the dead centres.
+    """Piston velocity v/(r omega) = sin(psi + beta)/cos beta, positive away from top dead
+    centre.
     """
-    sin_beta, cos_beta = rod_angle(psi, lam, eps)
-    sine, cosine, lam, eps = _given(psi, lam, eps)
-    crank, rod = sine * cos_beta, cosine * sin_beta
-    opposed = crank * rod < 0
-    safe = np.where(opposed, crank - rod, 1.0)
-    product = ((1 - lam) * sine + eps) * (((1 + lam) * sine - eps) / safe)
-    return _real(np.where(opposed, product, crank + rod) / cos_beta)
+    return -SliderCrank(psi, lam, eps).velocity
 
 
 def acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
-    """Piston acceleration j/(r omega^2), positive towards the crankshaft (as near top dead centre).
-
-    cos psi - sin psi tan beta + lam cos^2 psi/cos^3 beta. Accurate relative to its value without
-    offset, and to about 1e-16/cos^3 beta absolute with one.
+    """Piston acceleration j/(r omega^2), positive towards the crankshaft (as near top dead
+    centre).
     """
-    sin_beta, cos_beta = rod_angle(psi, lam, eps)
-    sine, cosine, lam, eps = _given(psi, lam, eps)
-    offset = cosine - sine * sin_beta / cos_beta + lam * cosine**2 / cos_beta**3
-    return _real(np.where(eps == 0, _centred_acceleration(sine, cosine, lam, cos_beta), offset))
-
-
-def _centred_acceleration(sine: Array, cosine: Array, lam: Array, cos_beta: Array) -> Array:
-    """cos psi + P/cos^3 beta, P = lam (cos^4 psi - w^2 sin^4 psi), w^2 = 1 - lam^2.
-
-    Where the two differ in sign: P^2 - cos^6 beta cos^2 psi = -w^2 (cos^2 psi - lam^2 sin^4 psi
-    cos^2 beta).
-    """
-    w2, s2, cube = (1 - lam) * (1 + lam), sine**2, cos_beta**3
-    w = np.sqrt(w2)
-    rod = lam * (cosine**2 - w * s2) * (cosine**2 + w * s2)
-    opposed = rod * cosine < 0
-    safe = np.where(opposed, rod - cube * cosine, 1.0)
-    product = -w2 * (cosine - lam * s2 * cos_beta) * (cosine + lam * s2 * cos_beta) / safe
-    return _real(np.where(opposed, product, rod + cube * cosine) / cube)
+    return -SliderCrank(psi, lam, eps).acceleration
 
 
 def rod_rate(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
     """beta' = lam cos psi/cos beta; the rod turns at -beta' omega."""
-    _, cosine, ratio, _ = _given(psi, lam, eps)
-    return _real(ratio * cosine / rod_angle(psi, lam, eps)[1])
+    return -SliderCrank(psi, lam, eps).spin
 
 
 def rod_acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
-    """beta'' = -lam ((w^2 - eps^2) sin psi + eps lam (1 + sin^2 psi))/cos^3 beta, w^2 = (1 - lam)(1
-    + lam).
-
-    With h = |sin psi| and e = +-eps, by its sign, the bracket is h (1 - lam + e)(1 + lam - e) + e
-    lam (1 - h)^2: near the lock, where both factors 1 - .. are small, nothing cancels.
-    """
-    cos_beta = rod_angle(psi, lam, eps)[1]
-    sine, cosine, lam, eps = _given(psi, lam, eps)
-    height, lean = np.abs(sine), np.where(sine < 0, -eps, eps)
-    short = cosine**2 / (1 + height)
-    bracket = height * _clearance(lam, lean) * ((1 - lean) + lam) + lean * lam * short**2
-    return _real(
-        -lam * np.where(sine < 0, -1.0, 1.0) * bracket / cos_beta**3
-    )  # as in lean, whatever the sign of zero is
+    """beta'', the derivative of `rod_rate`."""
+    return -SliderCrank(psi, lam, eps).spin_rate
 
 
 # ---------------------------------------------------------------- extremes of the velocity
@@ -172,12 +245,6 @@ def on_circle(psi: ArrayLike) -> Complex:
     """e^{i psi}, psi being an angle or e^{i psi} itself."""
     angle = np.asarray(psi)
     return angle if np.iscomplexobj(angle) else np.exp(1j * angle)
-
-
-def _clearance(lam: Array, lean: Array) -> Array:
-    """1 - lam + lean, rounded once, however small it is."""
-    most = 1 - lam
-    return (most + lean) + ((1 - most) - lam)
 
 
 def _real(value: ArrayLike) -> Array:

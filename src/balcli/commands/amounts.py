@@ -1,0 +1,130 @@
+"""Lengths, angles, speeds, masses and shares as users type them on the command line: as in an
+engine file, `40`, `2.5 in`, `1/7 turn`, `9000 rpm`, and shares as `0.51` or `51%`.
+
+A bare number is in mm, kg, degrees or rpm. With `--units imperial` nobody means mm or kg by it, nor
+is it certain that they mean inches or pounds: it has to say.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+
+from ..enginefile.units import ANGLE, LENGTH, MASS, SPEED, Dimension, convert
+from ..errors import BalcliError
+from ..limits import LONGEST_SHOWN
+from ..render.formats import Units
+
+_IMPERIAL_AND_SI = {LENGTH: ("in", "mm"), MASS: ("lb", "kg")}
+
+
+def read_length(option: str, text: str, units: Units = Units.SI) -> float:
+    """A length in m; BalcliError with the option and its text."""
+    return _read(option, text, LENGTH, units) / 1e3
+
+
+def read_lengths(
+    option: str, text: str, needed: str, count: int | None = None, units: Units = Units.SI
+) -> tuple[float, ...]:
+    """Lengths with commas between them, in m.
+
+    Args:
+        needed: what is wanted, for the message: `one place along z in mm, such as 40`.
+        count: how many there have to be; None: any number from one.
+
+    Raises:
+        BalcliError: anything else; lengths of which only some have a unit.
+    """
+    parts = [part.strip() for part in text.split(",")]
+    if not all(parts) or (count is not None and len(parts) != count):
+        raise BalcliError(f"{_shown(option, text)}: give {needed}")
+    bare = [_as_bare(part) for part in parts]
+    if None in bare and any(bare):  # 0 is 0 in every unit
+        raise BalcliError(f"{_shown(option, text)}: give every number its unit, or none")
+    found = tuple(_read(option, part, LENGTH, units, needed) / 1e3 for part in parts)
+    if not all(map(math.isfinite, found)):
+        raise BalcliError(f"{_shown(option, text)}: give {needed}")
+    return found
+
+
+def read_mass(option: str, text: str, units: Units = Units.SI) -> float:
+    """A mass in kg; BalcliError with the option and its text."""
+    return _read(option, text, MASS, units)
+
+
+def read_angle(option: str, text: str) -> float:
+    """An angle in degrees; BalcliError with the option and its text."""
+    return _read(option, text, ANGLE, Units.SI)
+
+
+def as_bare_angles(option: str, text: str) -> str:
+    """A range or list such as `0 deg:0.5 turn:5 deg` in bare degrees: `0:180:5`. What has no unit
+    stays as it is.
+
+    Raises:
+        BalcliError: with the option and what is no angle.
+    """
+    parts = re.split(r"([:,])", text)
+    with_unit = [any(map(str.isalpha, part.replace("e", ""))) or "°" in part for part in parts]
+    return "".join(
+        f"{read_angle(option, part):.15g}" if said else part
+        for part, said in zip(parts, with_unit, strict=True)
+    )
+
+
+def read_speed(option: str, text: str) -> float:
+    """A speed in rpm; BalcliError with the option and its text."""
+    return _read(option, text, SPEED, Units.SI)
+
+
+def read_number(option: str, text: str, needed: str) -> float:
+    """A plain number; BalcliError with the option, its text and what is needed."""
+    value = _as_bare(text)
+    if value is None or not math.isfinite(value):
+        raise BalcliError(f"{_shown(option, text)}: give {needed}")
+    return value
+
+
+def read_share(option: str, text: str, needed: str) -> float:
+    """A share, as a number or in per cent; BalcliError with the option, its text and what is
+    needed.
+    """
+    number, percent, rest = text.strip().partition("%")
+    value = _as_bare(number)
+    if value is None or rest or not math.isfinite(value):
+        raise BalcliError(f"{_shown(option, text)}: give {needed}")
+    return value / 100 if percent else value
+
+
+def _read(option: str, text: str, dimension: Dimension, units: Units, needed: str = "") -> float:
+    """In the dimension's bare unit; whether it is finite is for the caller to judge."""
+    value = _as_bare(text)
+    if value is None:
+        return _convert(option, text, dimension, needed)
+    if units is Units.IMPERIAL and value and dimension in _IMPERIAL_AND_SI:
+        ways = " or ".join(f'"{text.strip()} {name}"' for name in _IMPERIAL_AND_SI[dimension])
+        raise BalcliError(
+            f"{_shown(option, text)}: with --units imperial {dimension.name} needs its unit: {ways}"
+        )
+    return value
+
+
+def _convert(option: str, text: str, dimension: Dimension, needed: str) -> float:
+    if needed and not any(map(str.isdigit, text)):
+        raise BalcliError(f"{_shown(option, text)}: give {needed}")
+    try:
+        return convert(text, dimension)
+    except ValueError as error:
+        raise BalcliError(f"{_shown(option, text)}: {error}") from None
+
+
+def _as_bare(text: str) -> float | None:
+    """The number, if there is no unit to it."""
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+def _shown(option: str, text: str) -> str:
+    return f'{option} "{text[:LONGEST_SHOWN]}"'

@@ -1,0 +1,156 @@
+"""Harmonics of many mechanisms, each sampled over a revolution as often as it needs, in blocks that
+stay in the processor's cache.
+
+Accelerations are sampled as such, not differentiated, so that no order's error grows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..phasors import Array, Complex
+from .fourier import (
+    NONE,
+    SAMPLING,
+    Curve,
+    Harmonics,
+    Series,
+    amplify_rounding,
+    pick_orders,
+    unit_circle,
+)
+from .motion import Motion, Move
+
+MOST_SAMPLES = 1 << 18
+_AT_ONCE = 1 << 14
+_LIMIT = SAMPLING / 4  # of the upper half of a spectrum that holds rounding errors alone
+
+_OF_ROD: Mapping[str, Callable[[Motion], Array]] = MappingProxyType(
+    {
+        "piston": lambda m: -m.acceleration,
+        "rod": lambda m: m.spin_rate,
+        "kinetic": lambda m: m.velocity**2,
+        "rod_kinetic": lambda m: m.spin**2,
+    }
+)
+_OF_MASS: Mapping[str, Callable[[Motion], Array]] = MappingProxyType(
+    {
+        "along": lambda m: -m.acceleration_of_mass.real,
+        "across": lambda m: -m.acceleration_of_mass.imag,
+        "couple": lambda m: -m.swirl_rate,
+        "energy": lambda m: m.energy,
+        "swirl": lambda m: m.swirl,
+    }
+)
+
+
+class Sampled(NamedTuple):
+    """Series of mechanisms by name, each of shape (orders, mechanisms), and how many samples each
+    mechanism took, shape (mechanisms,).
+    """
+
+    series: dict[str, Series]
+    counts: NDArray[np.intp]
+
+    def as_harmonics(self, turns: float = 0.0) -> Harmonics:
+        """The series that there are; `turns` as in `Harmonics`."""
+        of_rod = {name: self.series.get(name, NONE) for name in _OF_ROD}
+        of_mass = {name: self.series.get(name, NONE) for name in _OF_MASS}
+        on_curve = bool(self.series.keys() & of_mass.keys())
+        return Harmonics(**of_rod, curve=Curve(**of_mass) if on_curve else None, turns=turns)
+
+
+class _Room(NamedTuple):
+    """For a series of all mechanisms."""
+
+    c: Complex
+    noise: Array
+
+
+def sample_mechanisms(
+    orders: ArrayLike,
+    wanted: Collection[str],
+    move: Move,
+    figures: Sequence[NDArray[Any]],
+    counts: NDArray[np.intp],
+    highest: float | None = None,
+) -> Sampled:
+    """Series of many mechanisms, each sampled as often as it needs, whatever the others need.
+
+    Args:
+        orders: shape (orders,).
+        wanted: names of series (`fourier.SERIES`).
+        move: the mechanisms in motion, by e^{i psi} and figures of shape (mechanisms, 1).
+        figures: what distinguishes them, each of shape (mechanisms,).
+        counts: samples of a revolution that each takes at first, powers of two.
+        highest: where given, a mechanism whose samples are too few for orders up to this one takes
+            twice as many, and so on; else the counts are enough.
+    """
+    n = np.asarray(orders)
+    found: dict[str, _Room] = {}
+    taken = counts.copy()
+    waiting = {int(count): np.flatnonzero(counts == count) for count in np.unique(counts)}
+    while waiting:
+        count = min(waiting)
+        circle, again = unit_circle(count), []
+        for rows in _divide(waiting.pop(count), max(_AT_ONCE // count, 1)):
+            motion = move(circle, *(values[rows, None] for values in figures))
+            enough = np.ones(len(rows), bool)
+            for name, samples, condition in _take_samples(motion, wanted):
+                rounding, spectrum = amplify_rounding(samples, condition), np.fft.rfft(samples)
+                if name not in found:
+                    shape = len(n), len(counts)
+                    found[name] = _Room(np.zeros(shape, complex), np.zeros(shape[1]))
+                found[name].c[:, rows] = pick_orders(spectrum, n)
+                found[name].noise[rows] = SAMPLING * rounding
+                if highest is not None and count < MOST_SAMPLES:
+                    enough &= _is_enough(spectrum, rounding, highest)
+            taken[rows] = count
+            again.append(rows[~enough])
+        if any(map(len, again)):
+            again.append(waiting.get(2 * count, again[0][:0]))
+            waiting[2 * count] = np.concatenate(again)
+    return Sampled({name: Series(*room) for name, room in found.items()}, taken)
+
+
+def _divide(rows: NDArray[np.intp], step: int) -> Iterator[NDArray[np.intp]]:
+    """So many at a time."""
+    return (rows[k : k + step] for k in range(0, len(rows), step))
+
+
+def _take_samples(
+    motion: Motion, wanted: Collection[str]
+) -> Iterator[tuple[str, Array, Array | float]]:
+    """Name, samples and condition of these of each series that is wanted and there."""
+    for name, find in _OF_ROD.items():
+        if name in wanted:
+            yield name, find(motion), motion.condition
+    for name, find in _OF_MASS.items():
+        if name in wanted and motion.points:
+            yield name, find(motion), 1.0
+
+
+def _is_enough(spectrum: Complex, rounding: Array, highest: float) -> NDArray[np.bool_]:
+    """Whether these samples are enough for orders up to the highest.
+
+    They are where the upper half of the spectrum holds rounding errors alone. Orders of the lower
+    half are mixed with those from 3/2 of its length on alone; spectra decay like powers, so that
+    what is there is less than the third power of what the upper half holds.
+
+    Args:
+        spectrum: shape (mechanisms, samples/2 + 1).
+        rounding: `amplify_rounding` of the samples, shape (mechanisms,).
+    """
+    half = spectrum.shape[-1] - 1
+    sizes = spectrum.real**2 + spectrum.imag**2
+    tail = np.sqrt(sizes[:, half // 2 :].max(axis=-1)) / (2 * half)
+    most = _LIMIT * np.maximum(rounding, 1.0)
+    if highest <= half / 2:
+        largest = np.sqrt(sizes.max(axis=-1)) / (2 * half)
+        most = np.maximum(most, _LIMIT ** (1 / 3) * largest)
+    return np.asarray(tail <= most)

@@ -1,0 +1,131 @@
+"""Engine file -> what its body does on its mounts: the answer of `balcli mounts`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.singular_values import Real
+from ..engine.build import Engine
+from ..enginefile.model import EngineFile
+from ..errors import BalcliError
+from ..sizing.remedy import Remedy, fit_devices
+from ..sizing.sizing import size
+from .build import MountedBody, build_mounted_body
+from .modes import BodyModes, find_mounted_modes
+from .response import Response, find_loads, respond
+
+_SLOWEST = 1 / 8  # of the file's speed, where nobody says which speeds
+_SPEEDS = 141
+
+
+class Meeting(NamedTuple):
+    """An order that meets a mode: which mode (from 0), order, and crank speed (rad/s)."""
+
+    mode: int
+    order: float
+    omega: float
+
+
+class Fitted(NamedTuple):
+    """The same engine with the devices of a balance scheme."""
+
+    remedy: Remedy
+    response: Response
+
+
+@dataclass(frozen=True, eq=False)
+class MountReport:
+    """The answer.
+
+    Attributes:
+        name: of the engine, or of the body.
+        mounted: the body on its mounts.
+        modes: what it is by itself.
+        response: to its engine; None where the file has no engine.
+        fitted: with a scheme, if one was asked for.
+    """
+
+    name: str
+    mounted: MountedBody
+    modes: BodyModes
+    response: Response | None = None
+    fitted: Fitted | None = None
+
+    @property
+    def meetings(self) -> tuple[Meeting, ...]:
+        """Orders that meet modes within the range of speeds, by mode and order."""
+        if self.response is None:
+            return ()
+        loads = self.response.loads
+        slowest, fastest = self.response.omega[0], self.response.omega[-1]
+        met = [
+            Meeting(k, float(order), mode.omega / float(order))
+            for k, mode in enumerate(self.modes.six)
+            for order, load in zip(loads.orders, loads.inertia, strict=True)
+            if load.any()
+        ]
+        return tuple(one for one in met if slowest <= one.omega <= fastest)
+
+
+def choose_speeds(engine: Engine) -> Real:
+    """(speeds,) rpm, where nobody says which: from an eighth of the engine's speed to this."""
+    return np.asarray(np.linspace(_SLOWEST, 1.0, _SPEEDS) * float(engine.speed_rpm))
+
+
+def report_mounts(
+    model: EngineFile,
+    engine: Engine | None,
+    speeds_rpm: Real | None = None,
+    orders: Sequence[float] | None = None,
+    scheme: str | None = None,
+    name: str = "",
+) -> MountReport:
+    """Modes and rest of a body on its mounts, and its response to its engine.
+
+    Args:
+        model: with [body] and [[mount]].
+        engine: None: modes and rest alone.
+        speeds_rpm: (speeds,), rising; default: from an eighth of the engine's speed to this.
+        orders: default: all that are considerable.
+        scheme: of `sizing.schemes.SCHEMES`; the response is also that with its devices.
+        name: of the file, for messages.
+
+    Raises:
+        InputError: what does not fit together in the file.
+        BalcliError: as of `respond`; a scheme that cannot be fitted.
+    """
+    mounted = build_mounted_body(model, name)
+    modes = find_mounted_modes(mounted)
+    if engine is None:
+        return MountReport(model.name, mounted, modes)
+    try:
+        return _run(model.name, mounted, modes, engine, speeds_rpm, orders, scheme)
+    except BalcliError as error:
+        raise BalcliError(f"{name}: {error}") from None
+
+
+def _run(
+    name: str,
+    mounted: MountedBody,
+    modes: BodyModes,
+    engine: Engine,
+    speeds_rpm: Real | None,
+    orders: Sequence[float] | None,
+    scheme: str | None,
+) -> MountReport:
+    rpm = choose_speeds(engine) if speeds_rpm is None else speeds_rpm
+    omega = rpm * (np.pi / 30)
+    asked = None if orders is None else np.array(sorted(set(orders)), float)
+    loads = find_loads(engine, mounted.body.centre, asked)
+    response = respond(mounted, modes, loads, omega)
+    fitted = None
+    if scheme is not None:
+        remedy = size(engine, scheme)
+        balanced = fit_devices(engine, remedy)
+        left = find_loads(balanced, mounted.body.centre, asked)
+        fitted = Fitted(remedy, respond(mounted, modes, left, omega))
+    return MountReport(name, mounted, modes, response, fitted)

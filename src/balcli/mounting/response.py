@@ -1,0 +1,240 @@
+"""An engine that runs on its mounts: forces on them and motion of points, order by order and added
+up in time, at every speed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.cycle_peaks import find_longest, largest_of_ellipse
+from ..core.rigid_body import carry_points, load_at_centre, move_points, respond_body
+from ..core.singular_values import Complex, Real
+from ..core.vibration import find_resonances, frequencies
+from ..engine.build import Engine
+from ..engine.positions import MOMENTS_UNKNOWN
+from ..errors import BalcliError
+from ..forces.orders import choose_orders, find_relevant_orders
+from ..forces.spectrum import Spectra, compute_spectra
+from ..limits import MOST_MOUNT_RESULTS
+from .build import MountedBody
+from .modes import BodyModes
+
+_KINDS = ("force", "moment", "roll")
+_CLOSER = 30  # golden sections of the step of speed about a highest peak: 6e-7 of it
+_GOLDEN = (3 - 5**0.5) / 2
+
+
+@dataclass(frozen=True, eq=False)
+class Loads:
+    """What an engine does to the body, by order.
+
+    Attributes:
+        orders: (orders,), all above 0.
+        inertia: (orders, 6) force (N) and moment about the centre of gravity (N m) at `omega`; they
+            grow with the square of the speed.
+        omega: rad/s.
+    """
+
+    orders: Real
+    inertia: Complex
+    omega: float
+
+    def at(self, omega: Real) -> Complex:
+        """(orders, *speeds, 6) at speeds (rad/s, any shape)."""
+        square = (np.asarray(omega) / self.omega) ** 2
+        rows = self.inertia.reshape(len(self.orders), *(1,) * square.ndim, 6)
+        return np.asarray(rows * square[..., None])
+
+
+class Worst(NamedTuple):
+    """The largest value over all speeds.
+
+    Attributes:
+        value: N or m, of all orders together.
+        omega: rad/s, where it is reached.
+        order: which is the largest there by itself.
+        alone: N or m, that order's own.
+    """
+
+    value: float
+    omega: float
+    order: float
+    alone: float
+
+
+@dataclass(frozen=True, eq=False)
+class Response:
+    """Of the body to its engine; speeds in rad/s.
+
+    Attributes:
+        loads: on the body. omega: (speeds,).
+        force: (orders, speeds, mounts) N, the largest of each order, of the body on its mounts.
+        force_peak: (speeds, mounts) N, of all orders, over the cycle.
+        motion: (orders, speeds, points) m. motion_peak: (speeds, points) m.
+        free, passed: (orders, speeds, 6) amplitudes of the load about the centre of gravity, of the
+            engine on the body and of the body on the ground: N, N m.
+        worst_force: of each mount. worst_motion: of each point.
+    """
+
+    loads: Loads
+    omega: Real
+    force: Real
+    force_peak: Real
+    motion: Real
+    motion_peak: Real
+    free: Real
+    passed: Real
+    worst_force: tuple[Worst, ...]
+    worst_motion: tuple[Worst, ...]
+
+    @property
+    def speeds_rpm(self) -> Real:
+        """(speeds,)."""
+        return self.omega * (30 / np.pi)
+
+
+def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Loads:
+    """Free forces and moments of an engine as a load on the body, about its centre of gravity.
+
+    Args:
+        engine: without trailing axes.
+        centre: (3,) m. orders: default: all that are considerable.
+
+    Raises:
+        BalcliError: the file does not say where the throws stand.
+    """
+    if not engine.places_known:
+        raise BalcliError(MOMENTS_UNKNOWN)
+    wanted = find_relevant_orders(engine) if orders is None else orders
+    found = compute_spectra(engine, wanted[wanted > 0], _KINDS)
+    if orders is None:
+        found = found.select_orders(choose_orders(found))
+    reference = np.array([float(value) for value in engine.reference_m])
+    load = _find_load(found, reference, centre)
+    there = load.any(axis=1) if orders is None else np.ones(len(load), bool)
+    return Loads(found.orders[there], load[there], float(engine.omega))
+
+
+def _find_load(found: Spectra, reference: Real, centre: Real) -> Complex:
+    """(orders, 6): force, and moment about the centre of gravity."""
+    along = np.zeros(len(found.orders), complex)
+    force = np.stack([found["force"].x, found["force"].y, along], axis=-1)
+    moment = np.stack([found["moment"].x, found["moment"].y, found["roll"].x], axis=-1)
+    return load_at_centre(force, moment, reference, centre)
+
+
+def respond(mounted: MountedBody, modes: BodyModes, loads: Loads, omega: Real) -> Response:
+    """The response at every order and speed.
+
+    Args:
+        omega: (speeds,) rad/s, rising.
+
+    Raises:
+        BalcliError: too many results; an undamped mode that the engine drives at its own frequency
+            within the range of speeds, with mode, order and speed.
+    """
+    _refuse_too_many(loads, omega, mounted)
+    refuse_resonance(modes, loads, omega)
+    forces, moved = _move(mounted, loads, omega)
+    free = loads.at(omega)
+    arms = carry_points(mounted.dynamic.at, mounted.body.centre)
+    passed = np.einsum("pij,nspi->nsj", arms, forces)
+    force_peak = find_longest(loads.orders, forces).value
+    motion_peak = find_longest(loads.orders, moved).value
+
+    return Response(
+        loads,
+        omega,
+        largest_of_ellipse(forces),
+        force_peak,
+        largest_of_ellipse(moved),
+        motion_peak,
+        np.abs(free),
+        np.abs(passed),
+        _find_worst(loads, omega, force_peak, lambda at: _move(mounted, loads, at)[0]),
+        _find_worst(loads, omega, motion_peak, lambda at: _move(mounted, loads, at)[1]),
+    )
+
+
+def _move(mounted: MountedBody, loads: Loads, omega: Real) -> tuple[Complex, Complex]:
+    """Forces on mounts (orders, speeds, mounts, 3) and motion of points (orders, speeds, points,
+    3).
+    """
+    body, w = mounted.body, frequencies(loads.orders, omega)
+    found = respond_body(body, mounted.dynamic, w, loads.at(omega))
+    return found.forces, move_points(mounted.points, body.centre, found.motion)
+
+
+def _refuse_too_many(loads: Loads, omega: Real, mounted: MountedBody) -> None:
+    count = len(loads.orders) * len(omega) * (len(mounted.names) + len(mounted.point_names))
+    if count > MOST_MOUNT_RESULTS:
+        raise BalcliError(
+            f"{len(loads.orders)} orders at {len(omega)} speeds of {len(mounted.names)} mounts and "
+            f"{len(mounted.point_names)} points are {count} results, and at most "
+            f"{MOST_MOUNT_RESULTS} are computed; take fewer --speeds or --orders"
+        )
+
+
+def refuse_resonance(modes: BodyModes, loads: Loads, omega: Real) -> None:
+    """Nothing, unless the engine drives an undamped mode at its own frequency within the range.
+
+    Raises:
+        BalcliError: it does, with mode, order and speed.
+    """
+    met = find_resonances(modes.modes, modes.loss, loads.orders, omega, loads.at(omega))
+    if not met:
+        return
+    first = min(met, key=lambda one: one.speed)
+    mode = modes.six[first.mode]
+    raise BalcliError(
+        f"mode {first.mode + 1} ({mode.motion}, {mode.hertz:.4g} Hz) is not damped, and order "
+        f"{first.order:g} drives it at {first.speed * 30 / np.pi:.6g} rpm, where its motion has no "
+        "bound; give the mounts a loss, such as loss = 0.1, or other --speeds"
+    )
+
+
+def _find_worst(
+    loads: Loads, omega: Real, peaks: Real, press: Callable[[Real], Complex]
+) -> tuple[Worst, ...]:
+    """Of each curve (speeds, curves) of peaks its highest value, closer than the speeds are.
+
+    Args:
+        press: speeds -> vectors (orders, speeds, curves, 3).
+    """
+    if not peaks.shape[1]:
+        return ()
+    each = np.arange(peaks.shape[1])
+    top = peaks.argmax(axis=0)
+    low, high = omega[np.maximum(top - 1, 0)], omega[np.minimum(top + 1, len(omega) - 1)]
+
+    def evaluate(at: Real) -> tuple[Complex, Real]:
+        own = press(at)[:, each, each]
+        return own, find_longest(loads.orders, own).value
+
+    one, two = low + _GOLDEN * (high - low), high - _GOLDEN * (high - low)
+    at_one, at_two = evaluate(one)[1], evaluate(two)[1]
+    for _ in range(_CLOSER):
+        left = at_one >= at_two
+        low, high = np.where(left, low, one), np.where(left, two, high)
+        new = np.where(left, low + _GOLDEN * (high - low), high - _GOLDEN * (high - low))
+        at_new = evaluate(new)[1]
+        one, two = np.where(left, new, two), np.where(left, one, new)
+        at_one, at_two = np.where(left, at_new, at_two), np.where(left, at_one, at_new)
+    best = np.where(at_one >= at_two, one, two)
+    best = np.where(np.maximum(at_one, at_two) > peaks[top, each], best, omega[top])
+    own, value = evaluate(best)
+    alone = largest_of_ellipse(own)
+    leading = alone.argmax(axis=0)
+    return tuple(
+        Worst(
+            float(value[k]),
+            float(best[k]),
+            float(loads.orders[leading[k]]),
+            float(alone[leading[k], k]),
+        )
+        for k in each
+    )

@@ -1,0 +1,78 @@
+"""The analysis of one engine for programs: JSON and rows of CSV; for people it is in `analysis`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from . import crankshaft, guide_moments, strokes, symmetry
+from .csv import Rows
+from .devices import device_entries
+from .figures import FigureRow, assumptions, clean, figure_rows, order_entries, peak_entries
+
+if TYPE_CHECKING:
+    from ..results.analysis import Analysis
+    from .units import System
+
+
+def document(result: Analysis) -> dict[str, Any]:
+    """`balcli.analysis/1`."""
+    engine = result.engine
+    found: dict[str, Any] = {
+        "format": "balcli.analysis/1",
+        "engine": {
+            "name": engine.name,
+            "cylinders": engine.cylinders.count,
+            "displacement_m3": clean(engine.displacement_m3),
+        },
+        "speed_rpm": clean(engine.speed_rpm),
+        "reference_mm": [clean(v * 1e3) for v in engine.reference_m],
+        "orders": order_entries(result.spectra),
+        **assumptions(result),
+    }
+    if largest := peak_entries(result):
+        found["peak"] = largest
+    if result.sizing is not None:
+        found["sizing"] = {
+            "scheme": result.sizing.remedy.scheme,
+            **device_entries(result.sizing.remedy),
+            "after": brief_document(result.sizing.after),
+        }
+    if result.cylinders:
+        found["cylinders"] = [
+            {"cylinder": number, "orders": order_entries(spectra)}
+            for number, spectra in result.cylinders
+        ]
+    if result.inner is not None:
+        found["inner"] = crankshaft.document(result.inner)
+    if result.guide is not None:
+        found["guide"] = guide_moments.document(result.guide)
+    if result.travel is not None:
+        found["travel"] = strokes.document(result.travel, result.engine.numbers)
+    if result.why is not None:
+        found["why"] = symmetry.document(result.why)
+    return found
+
+
+def brief_document(result: Analysis) -> dict[str, Any]:
+    """Peaks and orders alone, where the engine is known."""
+    return {"peak": peak_entries(result), "orders": order_entries(result.spectra)}
+
+
+def rows(result: Analysis, system: System) -> Rows:
+    """CSV: a figure a line; cylinder 0 is the whole engine, an empty order the whole curve."""
+    return Rows(
+        ("cylinder", "quantity", "order", "figure", "value", "unit"), _all_rows(result, system)
+    )
+
+
+def _all_rows(result: Analysis, system: System) -> Iterator[FigureRow]:
+    yield from figure_rows(result, system)
+    if result.travel is not None:
+        yield from strokes.rows(result.travel, result.engine.numbers, system)
+    if result.inner is not None:
+        yield from crankshaft.rows(result.inner, system)
+    if result.guide is not None:
+        yield from guide_moments.rows(result.guide, system)
+    if result.why is not None:
+        yield from symmetry.rows(result.why)

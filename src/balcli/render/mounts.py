@@ -1,0 +1,428 @@
+"""What a person and a program read of an engine on its mounts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from ..core.singular_values import Real
+from ..mounting.motions import AXES
+from ..mounting.report import MountReport
+from ..mounting.response import Response, Worst
+from .csv import Rows, name_cell
+from .figures import clean
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number, order_number
+from .units import System
+
+_RPM = 30 / math.pi
+_COLUMNS = 6  # of orders and speeds in a table of a page's width
+_ROWS = 9  # speeds of a table
+_NEAR = 0.05  # distance of a speed from that at which an order meets a mode
+_SHARE = 1e-3  # of the largest free load: less is not worth a line
+_FORCES, _MOMENTS = ("force x", "force y", "force z"), ("moment x", "moment y", "roll z")
+
+
+# ------------------------------------------------------------------ for people
+def sheet(result: MountReport, system: System) -> Sheet:
+    """What matters first: what the frame feels, then modes, rest and the range of speeds."""
+    parts: list[Grid | Facts | Text] = []
+    if result.response is not None:
+        parts += [Text("What the frame feels", tuple(_answer(result, system)))]
+        parts += [_worst_forces(result, system)]
+        if result.mounted.point_names:
+            parts += [_worst_motions(result, system)]
+    parts += [_modes(result), _body(result, system), _rest(result, system)]
+    if result.response is not None:
+        if result.meetings:
+            parts += [_meetings(result)]
+        parts += [_by_speed(result, system), _passed(result.response, system)]
+    return Sheet(f"{result.name or NAMELESS}: on its mounts", tuple(parts))
+
+
+def _answer(result: MountReport, system: System) -> Iterator[str]:
+    """In words: where it is worst, and why; what a scheme is worth there."""
+    response = result.response
+    if response is None:
+        return
+    name, worst = _find_hardest(result, response)
+    force, rpm = system.force, worst.omega * _RPM
+    yield (
+        f"The mount {name} feels most: {number(force.of(worst.value), 4)} {force.name} at "
+        f"{number(rpm, 4)} rpm, of which order {order_number(worst.order)} alone makes "
+        f"{number(force.of(worst.alone), 4)} {force.name}. {_explain(result, response, worst)}"
+    )
+    yield "Of inertia alone: the torque of the gas, which rolls an engine too, is not in this."
+    if result.fitted is not None:
+        after = max(result.fitted.response.worst_force, key=lambda one: one.value)
+        change = after.value / worst.value - 1 if worst.value else 0.0
+        less = f"{abs(change):.0%} {'less' if change <= 0 else 'more'}"
+        yield (
+            f"With {result.fitted.remedy.scheme} the largest force of any mount is "
+            f"{number(force.of(after.value), 4)} {force.name} at {number(after.omega * _RPM, 4)} "
+            f"rpm: {less}."
+        )
+
+
+def _find_hardest(result: MountReport, response: Response) -> tuple[str, Worst]:
+    """The mount with the largest force."""
+    pairs = zip(result.mounted.names, response.worst_force, strict=True)
+    return max(pairs, key=lambda pair: pair[1].value)
+
+
+def _explain(result: MountReport, response: Response, worst: Worst) -> str:
+    """Why it is worst at this speed."""
+    hertz = worst.order * worst.omega / (2 * math.pi)
+    nearest = min(
+        range(len(result.modes.six)), key=lambda k: abs(result.modes.six[k].hertz / hertz - 1)
+    )
+    mode = result.modes.six[nearest]
+    if abs(mode.hertz / hertz - 1) <= _NEAR:
+        return (
+            f"There it meets mode {nearest + 1} ({mode.motion}, {number(mode.hertz, 3)} Hz): "
+            "resonance."
+        )
+    highest = result.modes.six[-1].hertz
+    if worst.omega <= response.omega[0] * (1 + 1e-9):
+        return "That is the slowest speed of the range, nearest to the modes below it."
+    if worst.omega >= response.omega[-1] * (1 - 1e-9):
+        above = "far above all modes, it" if hertz > 1.5 * highest else "it"
+        return f"That is the fastest speed of the range: {above} grows to the end."
+    return f"No mode is near its {number(hertz, 3)} Hz."
+
+
+def _worst_forces(result: MountReport, system: System) -> Grid:
+    return _worst(
+        result,
+        f"Largest force of each mount, {system.force.name}",
+        "mount",
+        result.mounted.names,
+        [each.worst_force for each in _responses(result)],
+        system.force.of,
+    )
+
+
+def _worst_motions(result: MountReport, system: System) -> Grid:
+    return _worst(
+        result,
+        f"Largest motion of each point, {system.length.name}",
+        "point",
+        result.mounted.point_names,
+        [each.worst_motion for each in _responses(result)],
+        system.length.of,
+    )
+
+
+def _responses(result: MountReport) -> list[Response]:
+    """Without a scheme, and with it."""
+    fitted = [] if result.fitted is None else [result.fitted.response]
+    return fitted if result.response is None else [result.response, *fitted]
+
+
+def _worst(
+    result: MountReport,
+    title: str,
+    head: str,
+    names: Sequence[str],
+    several: Sequence[Sequence[Worst]],
+    convert: Any,
+) -> Grid:
+    heads = [head, "all orders", "at, rpm", "largest order", "alone"]
+    if result.fitted is not None:
+        heads += [f"with {result.fitted.remedy.scheme}", "at, rpm"]
+    rows = []
+    for k, name in enumerate(names):
+        first = several[0][k]
+        cells = [name, number(convert(first.value), 4), _rpm(first.omega)]
+        cells += [str(order_number(first.order)), number(convert(first.alone), 4)]
+        for other in several[1:]:
+            cells += [number(convert(other[k].value), 4), _rpm(other[k].omega)]
+        rows.append(tuple(cells))
+    note = (
+        "The largest value over the cycle, orders added up in time; over all speeds of the range."
+    )
+    return Grid(title, tuple(heads), tuple(rows), note)
+
+
+def _rpm(omega: float) -> str:
+    return number(omega * _RPM, 4)
+
+
+def _modes(result: MountReport) -> Grid:
+    damped = any(mode.loss for mode in result.modes.six)
+    heads = ("mode", "Hz", "motion", *(f"{axis} %" for axis in AXES))
+    heads += ("damping %",) if damped else ()
+    rows = [
+        (
+            str(k),
+            number(mode.hertz, 4),
+            mode.motion,
+            *(f"{100 * share + 0.0:.1f}".replace("-0.0", "0.0") for share in mode.shares),
+            *((f"{50 * mode.loss:.1f}",) if damped else ()),
+        )
+        for k, mode in enumerate(result.modes.six, 1)
+    ]
+    note = (
+        "Shares of the kinetic energy in moving along x, y, z and turning about them; products of "
+        "inertia may make one negative. Without damping, dynamic stiffness."
+    )
+    return Grid("Natural modes", heads, tuple(rows), note, words=(0, 2))
+
+
+def _body(result: MountReport, system: System) -> Facts:
+    axis = result.modes.roll_axis
+    angle = math.degrees(math.acos(min(1.0, abs(axis[2]))))
+    point = [system.length.of(value) for value in result.modes.centre.point]
+    place = ", ".join(number(round(value, 6) + 0.0, 4) for value in point)
+    rolls = f"({_vector(axis, 4)}) through the centre of gravity, {degrees(angle)} deg from z"
+    return Facts(
+        (
+            ("torque roll axis", rolls),
+            ("elastic centre", f"({place}) {system.length.name}"),
+        ),
+        "The body",
+    )
+
+
+def _vector(values: Real, digits: int) -> str:
+    return ", ".join(number(round(float(value), 9) + 0.0, digits) for value in values)
+
+
+def _rest(result: MountReport, system: System) -> Grid:
+    settled, force, length = result.modes.settled, system.force, system.length
+    heads = ["mount", *(f"{axis}, {force.name}" for axis in "xyz")]
+    heads += [f"travel {axis}, {length.name}" for axis in "xyz"]
+    forces, travel = _wipe(settled.forces), _wipe(settled.travel)
+    rows = [
+        (
+            name,
+            *(number(force.of(value), 4) for value in forces[k]),
+            *(number(length.of(value), 3) for value in travel[k]),
+        )
+        for k, name in enumerate(result.mounted.names)
+    ]
+    note = "Of the body on its mounts, under its weight; static stiffness."
+    return Grid("At rest", tuple(heads), tuple(rows), note)
+
+
+def _wipe(values: Real) -> Real:
+    """What is rounding beside the largest is 0."""
+    return values * (abs(values) > 1e-12 * abs(values).max())
+
+
+def _meetings(result: MountReport) -> Grid:
+    met = {(one.mode, one.order): one.omega for one in result.meetings}
+    orders = sorted({order for _, order in met})[:_COLUMNS]
+    heads = ("mode", "Hz", *(f"order {order_number(order)}" for order in orders))
+    rows = [
+        (
+            str(k + 1),
+            number(mode.hertz, 4),
+            *(_rpm(met[k, order]) if (k, order) in met else "–" for order in orders),
+        )
+        for k, mode in enumerate(result.modes.six)
+    ]
+    return Grid("Where orders meet modes, rpm", heads, tuple(rows))
+
+
+def _pick(count: int, most: int) -> list[int]:
+    """At most so many of a range, evenly, both ends included."""
+    if count <= most:
+        return list(range(count))
+    return [round(k * (count - 1) / (most - 1)) for k in range(most)]
+
+
+def _by_speed(result: MountReport, system: System) -> Grid:
+    response = _responses(result)[0]
+    heads = ["rpm", *result.mounted.names]
+    several = _responses(result)
+    if result.fitted is not None:
+        heads += [f"{name}, {result.fitted.remedy.scheme}" for name in result.mounted.names]
+    rows = [
+        (
+            number(response.speeds_rpm[s], 4),
+            *(number(system.force.of(v), 4) for each in several for v in each.force_peak[s]),
+        )
+        for s in _pick(len(response.omega), _ROWS)
+    ]
+    title = f"Force of each mount by speed, all orders together, {system.force.name}"
+    return Grid(title, tuple(heads), tuple(rows))
+
+
+def _passed(response: Response, system: System) -> Grid:
+    speeds = _pick(len(response.omega), _COLUMNS - 1)
+    last = len(response.omega) - 1
+    units = (system.force,) * 3 + (system.moment,) * 3
+    heads = ["order", "load", "rigid, at the end"]
+    heads += [f"{number(response.speeds_rpm[s], 4)} rpm" for s in speeds]
+    rows = []
+    for n, order in enumerate(response.loads.orders):
+        for k, name in enumerate((*_FORCES, *_MOMENTS)):
+            size = response.free[n, last, k]
+            largest = response.free[:, last, 3 * (k // 3) : 3 * (k // 3) + 3].max()
+            if size > _SHARE * largest:
+                cells = [str(order_number(order)), name]
+                cells += [f"{number(units[k].of(size), 4)} {units[k].name}"]
+                cells += [f"{_ratio(response, n, s, k):.1%}" for s in speeds]
+                rows.append(tuple(cells))
+    note = (
+        "What the mounts pass on, as a share of what the same engine would put on a frame in which "
+        "it stood rigidly; moments about the centre of gravity."
+    )
+    return Grid("Passed on to the frame", tuple(heads), tuple(rows), note, words=(0, 1))
+
+
+def _ratio(response: Response, n: int, s: int, k: int) -> float:
+    return float(response.passed[n, s, k] / response.free[n, s, k])
+
+
+# ------------------------------------------------------------------ for programs
+def document(result: MountReport) -> dict[str, Any]:
+    """`balcli.mounts/1`, SI but for what a name says otherwise."""
+    modes, mounted = result.modes, result.mounted
+    settled = zip(mounted.names, modes.settled.forces, modes.settled.travel, strict=True)
+    found: dict[str, Any] = {
+        "format": "balcli.mounts/1",
+        "name": result.name,
+        "modes": [
+            {
+                "frequency_Hz": clean(mode.hertz),
+                "energy_percent": {
+                    axis: clean(100 * share) for axis, share in zip(AXES, mode.shares, strict=True)
+                },
+                "shape": [clean(value) for value in mode.shape],
+                "motion": mode.motion,
+                "loss_factor": clean(mode.loss),
+                "meets": [
+                    {"order": order_number(one.order), "speed_rpm": clean(one.omega * _RPM)}
+                    for one in result.meetings
+                    if one.mode == k
+                ],
+            }
+            for k, mode in enumerate(modes.six)
+        ],
+        "roll_axis": _list(modes.roll_axis),
+        "elastic_centre_mm": _list(1e3 * modes.centre.point),
+        "static": {
+            "mounts": [
+                {"name": name, "force_N": _list(force), "travel_mm": _list(1e3 * travel)}
+                for name, force, travel in settled
+            ]
+        },
+        "stiffness_N_per_m": [_list(row) for row in modes.stiffness],
+    }
+    if result.response is not None:
+        found["response"] = _response(result, result.response)
+    if result.fitted is not None:
+        found["fitted"] = {
+            "scheme": result.fitted.remedy.scheme,
+            "response": _response(result, result.fitted.response),
+        }
+    return found
+
+
+def _list(values: Real) -> list[float | None]:
+    return [clean(value) for value in values]
+
+
+def _response(result: MountReport, response: Response) -> dict[str, Any]:
+    orders = [order_number(order) for order in response.loads.orders]
+
+    def curves(names: Sequence[str], key: str, values: Real, scale: float) -> list[dict[str, Any]]:
+        return [
+            {
+                "name": name,
+                "orders": [
+                    {"order": order, key: _list(scale * values[n, :, k])}
+                    for n, order in enumerate(orders)
+                ],
+            }
+            for k, name in enumerate(names)
+        ]
+
+    mounts = curves(result.mounted.names, "force_N", response.force, 1.0)
+    points = curves(result.mounted.point_names, "motion_mm", response.motion, 1e3)
+    for k, mount in enumerate(mounts):
+        mount["peak_N"] = _list(response.force_peak[:, k])
+        mount["worst"] = _worst_entry(response.worst_force[k], "force_N", 1.0)
+    for k, point in enumerate(points):
+        point["peak_mm"] = _list(1e3 * response.motion_peak[:, k])
+        point["worst"] = _worst_entry(response.worst_motion[k], "motion_mm", 1e3)
+    return {
+        "speeds_rpm": _list(response.speeds_rpm),
+        "mounts": mounts,
+        "points": points,
+        "passed": [
+            {
+                "order": order,
+                "rigid": _components(response.free[n]),
+                "on_mounts": _components(response.passed[n]),
+            }
+            for n, order in enumerate(orders)
+        ],
+    }
+
+
+def _worst_entry(worst: Worst, key: str, scale: float) -> dict[str, Any]:
+    return {
+        key: clean(scale * worst.value),
+        "speed_rpm": clean(worst.omega * _RPM),
+        "order": order_number(worst.order),
+        f"order_{key}": clean(scale * worst.alone),
+    }
+
+
+def _components(load: Real) -> dict[str, list[float | None]]:
+    """Amplitudes by speed of a load (speeds, 6), as far as there is any."""
+    keys = [*(f"force_{axis}_N" for axis in "xyz"), *(f"moment_{axis}_Nm" for axis in "xyz")]
+    return {key: _list(load[:, k]) for k, key in enumerate(keys) if load[:, k].any()}
+
+
+_HEADER = ("part", "name", "order", "speed_rpm", "figure", "value", "unit")
+
+
+def rows(result: MountReport, system: System) -> Rows:
+    """A figure a line."""
+    return Rows(_HEADER, _lines(result, system))
+
+
+def _lines(result: MountReport, system: System) -> Iterator[tuple[Any, ...]]:
+    force, length = system.force, system.length
+    for k, mode in enumerate(result.modes.six, 1):
+        name = f"mode {k}"
+        yield "mode", name, None, None, "frequency", clean(mode.hertz), "Hz"
+        yield "mode", name, None, None, "motion", mode.motion, ""
+        for axis, share in zip(AXES, mode.shares, strict=True):
+            yield "mode", name, None, None, f"energy {axis}", clean(100 * share), "%"
+    for one in result.meetings:
+        cells = ("meeting", f"mode {one.mode + 1}", order_number(one.order))
+        yield *cells, clean(one.omega * _RPM), "speed", clean(one.omega * _RPM), "rpm"
+    settled = result.modes.settled
+    for k, name in enumerate(result.mounted.names):
+        for j, axis in enumerate("xyz"):
+            own = clean(force.of(settled.forces[k, j]))
+            yield "static", name_cell(name), None, None, f"force {axis}", own, force.name
+            own = clean(length.of(settled.travel[k, j]))
+            yield "static", name_cell(name), None, None, f"travel {axis}", own, length.name
+    for response, part in zip(_responses(result), ("", "with scheme "), strict=False):
+        yield from _curves(result, response, part, system)
+
+
+def _curves(
+    result: MountReport, response: Response, part: str, system: System
+) -> Iterator[tuple[Any, ...]]:
+    force, length = system.force, system.length
+    groups = (
+        ("mount", result.mounted.names, response.force, response.force_peak, force),
+        ("point", result.mounted.point_names, response.motion, response.motion_peak, length),
+    )
+    for kind, names, by_order, peak, unit in groups:
+        figure = "force" if kind == "mount" else "motion"
+        for k, name in enumerate(names):
+            for s, rpm in enumerate(response.speeds_rpm):
+                head = (f"{part}{kind}", name_cell(name))
+                for n, order in enumerate(response.loads.orders):
+                    value = clean(unit.of(by_order[n, s, k]))
+                    yield *head, order_number(order), clean(rpm), figure, value, unit.name
+                value = clean(unit.of(peak[s, k]))
+                yield *head, None, clean(rpm), f"peak {figure}", value, unit.name

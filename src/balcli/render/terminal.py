@@ -1,0 +1,123 @@
+"""Sheets in a terminal, by rich: with colours, and folded to its width."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from io import StringIO
+
+from rich import box
+from rich.console import Console, RenderableType
+from rich.table import Table
+from rich.text import Text as Line
+
+from ..errors import legible
+from .sheet import Facts, Grid, Sheet, Text
+from .table import column_texts, count_places
+
+LABEL = 12  # width up to which the headings of rows (`order 10`) are not folded
+
+
+def terminal(sheets: list[Sheet]) -> str:
+    """All sheets as text with escapes for the terminal in which they are seen."""
+    buffer = StringIO()
+    console = Console(
+        file=buffer,
+        highlight=False,
+        emoji=False,
+        markup=False,
+        force_terminal=True,  # whatever FORCE_COLOR says
+    )
+    for sheet in sheets:
+        console.print(Line(legible(sheet.title), style="bold"))
+        for part in sheet.parts:
+            console.print()
+            if part.title:
+                console.print(Line(part.title, style="bold"))
+            for piece in _pieces(part, console.width):
+                console.print(piece)
+        console.print()
+    return "\n".join(line.rstrip() for line in buffer.getvalue().splitlines())
+
+
+def _pieces(part: Grid | Facts | Text, width: int) -> Iterator[RenderableType]:
+    """What is printed of a part under its title."""
+    match part:
+        case Grid():
+            yield from _fitting(part, width)
+            if part.note:
+                yield Line(part.note, style="dim")
+        case Facts():
+            yield _facts_table(part)
+        case Text():
+            yield from part.paragraphs
+
+
+def _fitting(grid: Grid, width: int) -> Iterator[Table]:
+    """The table as wide as it likes to be, else narrowed; figures are never broken, so one that is
+    still too wide comes in pieces, each with the first column.
+    """
+    natural = [max(map(count_places, column_texts(grid, k))) for k in range(len(grid.columns))]
+    for gap in (3, 2):
+        if sum(natural) + gap * (len(natural) - 1) <= width:
+            yield _grid_table(grid, dict(enumerate(natural)), gap)
+            return
+    breakable = tuple(name.replace("_", " ") for name in grid.columns)
+    grid = grid._replace(columns=breakable)
+    least = [
+        max(
+            (count_places(word) for text in column_texts(grid, k) for word in text.split()),
+            default=1,
+        )
+        for k in range(len(grid.columns))
+    ]
+    least[0] = max(least[0], min(natural[0], LABEL))
+    piece = [0]
+    for k in range(1, len(least)):
+        if len(piece) > 1 and sum(least[j] for j in [*piece, k]) + 2 * len(piece) > width:
+            yield _grid_table(grid, _share_out(width, piece, least, natural), 2)
+            piece = [0]
+        piece.append(k)
+    yield _grid_table(grid, _share_out(width, piece, least, natural), 2)
+
+
+def _longest_word(texts: list[str]) -> int:
+    return max((count_places(word) for text in texts for word in text.split()), default=1)
+
+
+def _share_out(
+    width: int, columns: list[int], least: list[int], natural: list[int]
+) -> dict[int, int]:
+    """Width of each column: the least, and what is left over to the one that lacks most, until
+    there is none.
+    """
+    widths = {k: least[k] for k in columns}
+    for _ in range(width - sum(widths.values()) - 2 * (len(columns) - 1)):
+        needy = max(columns, key=lambda k: natural[k] - widths[k])
+        widths[needy] += natural[needy] > widths[needy]
+    return widths
+
+
+def _grid_table(grid: Grid, widths: dict[int, int], gap: int) -> Table:
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, gap - 2, 0, 1), pad_edge=False, show_edge=False)
+    for k, width in widths.items():
+        table.add_column(
+            grid.columns[k],
+            justify="left" if k in grid.words else "right",
+            overflow="fold",
+            style="bold" if k == 0 else "",
+            max_width=width,
+        )
+    for i, row in enumerate(grid.rows):
+        table.add_row(
+            *(Line(row[k], style="bold red" if (i, k) in grid.marked else "") for k in widths)
+        )
+    return table
+
+
+def _facts_table(facts: Facts) -> Table:
+    table = Table.grid(padding=(0, 2))
+    table.add_column(style="dim")
+    table.add_column(overflow="fold")
+    for name, value in facts.pairs:
+        table.add_row(name, value)
+    return table

@@ -1,0 +1,24 @@
+"""How much of an analysis people are shown."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class View(NamedTuple):
+    """What of an analysis a sheet shows.
+
+    Attributes:
+        whole: every table and every order; else what most people want, orders that matter.
+        parts: words of `--only`, such as `force`, `xy`, `verdict`; empty: the usual ones.
+        every_order: whether orders that are negligible are shown, too.
+        pictures: whether there are pictures made of characters, too.
+    """
+
+    whole: bool = False
+    parts: frozenset[str] = frozenset()
+    every_order: bool = False
+    pictures: bool = False
+
+
+IN_BRIEF = View()

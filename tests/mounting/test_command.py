@@ -1,0 +1,142 @@
+"""`balcli mounts`: every format says the same figures; options, files to start from."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+from io import StringIO
+
+import pytest
+from support.commands import refusal, run_here, run_in_terminal
+from support.mounts import ENGINE, block
+
+DAMPED = ENGINE + block("loss = 0.1") + '[[point]]\nname = "lever"\nat = [100, 0, 300]\n'
+
+
+@pytest.fixture
+def four(tmp_path):
+    path = tmp_path / "four.toml"
+    path.write_text(DAMPED, encoding="utf-8")
+    return path
+
+
+def test_json_is_what_it_promises(four):
+    said = json.loads(run_here("mounts", four, "--speeds", "600:3000:100", "-f", "json").out)
+    assert said["format"] == "balcli.mounts/1"
+    assert len(said["modes"]) == 6
+    first = said["modes"][0]
+    assert first.keys() >= {"frequency_Hz", "energy_percent", "shape"}
+    assert list(first["energy_percent"]) == ["x", "y", "z", "rx", "ry", "rz"]
+    assert sum(first["energy_percent"].values()) == pytest.approx(100)
+    assert len(first["shape"]) == 6
+    assert said["roll_axis"] == pytest.approx([0, 0, 1])
+    assert [mount["name"] for mount in said["static"]["mounts"]] == ["1", "2", "3", "4"]
+    total = sum(mount["force_N"][2] for mount in said["static"]["mounts"])
+    assert total == pytest.approx(-200 * 9.80665)
+    assert len(said["static"]["mounts"][0]["travel_mm"]) == 3
+    assert [len(row) for row in said["stiffness_N_per_m"]] == [6] * 6
+    assert said["stiffness_N_per_m"][0][0] == pytest.approx(800e3)
+    response = said["response"]
+    assert response["speeds_rpm"] == pytest.approx(list(range(600, 3001, 100)))
+    mount, point = response["mounts"][0], response["points"][0]
+    assert (mount["name"], point["name"]) == ("1", "lever")
+    assert [order["order"] for order in mount["orders"]][:2] == [1, 2]
+    assert len(mount["orders"][0]["force_N"]) == len(mount["peak_N"]) == 25
+    assert len(point["orders"][0]["motion_mm"]) == len(point["peak_mm"]) == 25
+    assert max(mount["peak_N"]) <= mount["worst"]["force_N"] * (1 + 1e-12)
+
+
+def test_csv_has_the_figures_of_json(four):
+    said = json.loads(run_here("mounts", four, "--speeds", "900,3000", "-f", "json").out)
+    text = run_here("mounts", four, "--speeds", "900,3000", "-f", "csv").out
+    lines = list(csv.DictReader(StringIO(text)))
+    found = {
+        (r["part"], r["name"], r["order"], r["speed_rpm"][:4], r["figure"]): (r["value"], r["unit"])
+        for r in lines
+    }
+    mount = said["response"]["mounts"][2]
+    own = found["mount", "3", "2", "900.", "force"]
+    assert own == (str(mount["orders"][1]["force_N"][0]), "N")
+    assert found["mount", "3", "", "3000", "peak force"][0] == str(mount["peak_N"][1])
+    frequency = str(said["modes"][5]["frequency_Hz"])
+    assert found["mode", "mode 6", "", "", "frequency"] == (frequency, "Hz")
+
+
+def test_the_sheet_says_what_the_frame_feels(four):
+    status, out, err = run_here("mounts", four, "--speeds", "200:3000:50")
+    assert (status, err) == (0, "")
+    assert re.search(r"^The mount \d feels most: .* N at 28\d.* rpm, of which order 2", out, re.M)
+    assert "There it meets mode 2 (along x, 9.39 Hz): resonance." in out
+    assert re.search(r"^4 +17\.43 +roll +0\.0 .* 100\.0 +5\.0$", out, re.M)
+    assert re.search(r"^lever +", out, re.M)
+
+
+def test_a_scheme_is_shown_beside(four):
+    out = run_here("mounts", four, "--scheme", "two-shaft").out
+    assert "With two-shaft the largest force of any mount is " in out
+    assert "with two-shaft" in out
+    said = json.loads(run_here("mounts", four, "--scheme", "two-shaft", "-f", "json").out)
+    assert said["fitted"]["scheme"] == "two-shaft"
+    assert len(said["fitted"]["response"]["mounts"]) == 4
+    assert refusal("mounts", four, "--scheme", "nonsense").startswith(f"{four}: there is no scheme")
+
+
+def test_without_an_engine_modes_and_rest_are_told(tmp_path):
+    path = tmp_path / "block.toml"
+    path.write_text(block(), encoding="utf-8")
+    status, out, _ = run_here("mounts", path)
+    assert status == 0
+    assert "Natural modes" in out
+    assert "At rest" in out
+    assert "feels" not in out
+    said = json.loads(run_here("mounts", path, "-f", "json").out)
+    assert "response" not in said
+
+
+def test_it_is_readable_in_a_terminal(four):
+    """No figure is broken, no line longer than 80."""
+    out = run_in_terminal("mounts", four, columns=80).out
+    plain = re.sub(r"\x1b\[[0-9;]*m", "", out)
+    assert max(map(len, plain.splitlines())) <= 80
+    assert "17.43" in plain
+
+
+def test_units(four):
+    imperial = run_here("mounts", four, "--units", "imperial").out
+    assert "lbf" in imperial
+    assert "Largest motion of each point, in" in imperial
+
+
+SPEEDS = [
+    ("900:100:100", '--speeds "900:100:100": a range rises; give first:last:step in rpm'),
+    ("1:2", '--speeds "1:2": give first:last:step in rpm, such as 600:6500:25, or speeds'),
+    ("a", '--speeds "a": give first:last:step in rpm'),
+    ("0,100", '--speeds "0,100": give first:last:step in rpm'),
+    ("1:1e6:1", '--speeds "1:1e6:1": at most 20000 speeds are computed; take longer steps'),
+]
+
+
+@pytest.mark.parametrize(("text", "message"), SPEEDS)
+def test_speeds_that_are_none(four, text, message):
+    assert refusal("mounts", four, "--speeds", text).startswith(message)
+
+
+def test_too_much_is_refused(tmp_path):
+    mounts = "".join(
+        f'[[mount]]\nname = "{k}"\nat = [{k}, {k % 7}, {k % 3}]\nstiffness = [9, 9, 9]\nloss = 1\n'
+        for k in range(100)
+    )
+    path = tmp_path / "many.toml"
+    path.write_text(ENGINE + block("loss = 1", count=0) + mounts, encoding="utf-8")
+    message = refusal("mounts", path, "--speeds", "1:19000:1", "--orders", "1-3")
+    assert "3 orders at 19000 speeds of 100 mounts and 0 points are 5700000 results" in message
+
+
+def test_the_starting_file_runs(tmp_path):
+    path = tmp_path / "four.toml"
+    assert run_here("new", "mounts", path) == (0, "", "")
+    status, out, err = run_here("mounts", path)
+    assert (status, err) == (0, "")
+    assert "feels most" in out
+    assert run_here("analyze", path).status == 0

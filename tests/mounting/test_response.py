@@ -1,0 +1,279 @@
+"""A body on its mounts, from file to result, against matrices, eigenvalues, loads and time steps of
+the tests' own.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from oracle import momentum
+from support.mounts import ENGINE, RandomBody, block
+
+from balcli.errors import BalcliError
+from balcli.mounting.read import read_mounted
+from balcli.mounting.report import report_mounts
+
+SPEEDS = np.array([700.0, 1100, 1900, 3000, 5200])
+
+
+@pytest.fixture
+def report(tmp_path):
+    def of(text, speeds=SPEEDS, orders=None, scheme=None):
+        path = tmp_path / "engine.toml"
+        path.write_text(text, encoding="utf-8")
+        file = read_mounted(path)
+        return report_mounts(file.model, file.engine, speeds, orders, scheme, "engine.toml")
+
+    return of
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_frequencies_and_shares_of_random_bodies(report, seed):
+    body = RandomBody(seed, 3 + seed % 4)
+    result = report(body.text)
+    squares, shapes = np.linalg.eig(np.linalg.solve(body.mass, body.stiffness.real))
+    rising = np.argsort(squares.real)
+    omega = np.array([mode.omega for mode in result.modes.six])
+    assert omega == pytest.approx(np.sqrt(squares.real[rising]), rel=1e-11)
+    for mode, k in zip(result.modes.six, rising, strict=True):
+        parts = shapes[:, k].real * (body.mass @ shapes[:, k].real)
+        assert mode.shares == pytest.approx(parts / parts.sum(), rel=1e-7, abs=1e-9)
+        assert mode.loss == pytest.approx(0.1, rel=1e-10)
+
+
+def test_rest(report):
+    body = RandomBody(3, 4)
+    result = report(body.text)
+    weight = np.array([-body.mass[0, 0] * 9.80665, 0, 0, 0, 0, 0])
+    motion = np.linalg.solve(body.static, weight)
+    assert result.modes.settled.motion == pytest.approx(motion, rel=1e-10)
+    assert result.modes.settled.forces.sum(axis=0) == pytest.approx(weight[:3], abs=1e-9)
+    assert result.modes.stiffness == pytest.approx(body.stiffness.real, rel=1e-10)
+
+
+def find_own_loads(centre, orders):
+    """By momentum on a grid: (orders, 6) about the centre, at the engine's speed; its own reference
+    point is the middle of the throws, where the file has its origin.
+    """
+    curves = momentum.Engine.read(ENGINE).curves()
+    grid = len(momentum.THETA)
+
+    def phasor(values, n):
+        return 2 * np.fft.fft(values)[n] / grid
+
+    loads = []
+    for n in orders:
+        force = np.array([phasor(curves.force.real, n), phasor(curves.force.imag, n), 0])
+        turning = [phasor(curves.moment.real, n), phasor(curves.moment.imag, n)]
+        moment = np.array([*turning, phasor(curves.roll, n)])
+        loads.append(np.concatenate([force, moment + np.cross(-centre, force)]))
+    return np.array(loads)
+
+
+def find_own_motion(body, load, w):
+    dynamic = body.stiffness + 1j * w * body.damping - w**2 * body.mass
+    return np.linalg.solve(dynamic, load)
+
+
+def move(motion, arm):
+    return motion[:3] + np.cross(motion[3:6], arm)
+
+
+@pytest.mark.parametrize(("seed", "damping"), [(1, 0.0), (2, 0.4), (5, 0.0)])
+def test_forces_and_motion_by_order(report, seed, damping):
+    """Each order at each speed by its own complex equations, with loads by momentum."""
+    body = RandomBody(seed, 4, damping=damping)
+    result = report(ENGINE + body.text, orders=[1, 2, 4])
+    loads = find_own_loads(body.centre, [1, 2, 4])
+    for n, order in enumerate((1, 2, 4)):
+        for s, rpm in enumerate(SPEEDS):
+            w = order * rpm * np.pi / 30
+            motion = find_own_motion(body, loads[n] * (rpm / 3000) ** 2, w)
+            for k, at in enumerate(body.at):
+                own = body.each[k] + 1j * w * damping * 1e3 * np.eye(3)
+                force = own @ move(motion, at - body.centre)
+                turned = np.exp(1j * np.linspace(0, np.pi, 2001))[:, None] * force
+                largest = np.linalg.norm(turned.real, axis=1).max()
+                assert result.response.force[n, s, k] == pytest.approx(largest, rel=2e-6)
+            point = move(motion, body.point - body.centre)
+            power, square = np.sum(np.abs(point) ** 2), abs(np.sum(point**2))
+            largest = np.sqrt((power + square) / 2)
+            assert result.response.motion[n, s, 0] == pytest.approx(largest, rel=1e-10)
+
+
+def test_all_orders_add_up_in_time(report):
+    """On a fine grid of crank angles: never more than is told, and as much to the grid's width."""
+    body = RandomBody(7, 3)
+    result = report(ENGINE + body.text, orders=[1, 2, 3, 4, 6])
+    orders = np.array([1, 2, 3, 4, 6])
+    loads, angles = find_own_loads(body.centre, orders), np.linspace(0, 2 * np.pi, 20001)
+    for s, rpm in enumerate(SPEEDS):
+        curve = np.zeros((3, len(angles)))
+        for n, load in zip(orders, loads, strict=True):
+            motion = find_own_motion(body, load * (rpm / 3000) ** 2, n * rpm * np.pi / 30)
+            force = body.each[1] @ move(motion, body.at[1] - body.centre)
+            curve += (force[:, None] * np.exp(1j * n * angles)).real
+        highest = np.linalg.norm(curve, axis=0).max()
+        assert result.response.force_peak[s, 1] == pytest.approx(highest, rel=1e-6)
+
+
+def test_one_order_reaches_its_steady_state_in_time(report):
+    """Runge and Kutta's steps of the real equations, from rest until nothing changes any more."""
+    body = RandomBody(4, 4, loss=0.0, damping=3.0)
+    result = report(ENGINE + body.text, speeds=np.array([1200.0]), orders=[2])
+    w = 2 * 1200 * np.pi / 30
+    load = find_own_loads(body.centre, [2])[0] * (1200 / 3000) ** 2
+    inverse = np.linalg.inv(body.mass)
+    matrix = np.zeros((12, 12))
+    matrix[:6, 6:] = np.eye(6)
+    matrix[6:, :6], matrix[6:, 6:] = -inverse @ body.stiffness.real, -inverse @ body.damping
+
+    def slope(t, state):
+        rate = matrix @ state
+        rate[6:] += inverse @ (load * np.exp(1j * w * t)).real
+        return rate
+
+    state, step, largest = np.zeros(12), 2 * np.pi / w / 160, 0.0
+    for k in range(160 * 60):
+        t = k * step
+        one = slope(t, state)
+        two = slope(t + step / 2, state + step / 2 * one)
+        three = slope(t + step / 2, state + step / 2 * two)
+        state = state + step / 6 * (
+            one + 2 * two + 2 * three + slope(t + step, state + step * three)
+        )
+        if k >= 160 * 59:
+            largest = max(largest, float(np.linalg.norm(move(state, body.point - body.centre))))
+    assert result.response.motion_peak[0, 0] == pytest.approx(largest, rel=1e-3)
+
+
+def test_stiff_mounts_pass_on_all_there_is(report):
+    """The limit of an engine that stands rigidly: mount forces add up to the free forces."""
+    text = ENGINE + block("loss = 0.01").replace("[200, 150, 400]", "[2e11, 1.5e11, 4e11]")
+    response = report(text).response
+    assert response.passed == pytest.approx(response.free, rel=1e-6, abs=1e-3)
+    assert response.free.max() > 1e3
+
+
+def test_the_worst_speed_lies_between_those_computed(report):
+    """A fine range finds no more than what a coarse one refines."""
+    text = ENGINE + block("loss = 0.05")
+    coarse = report(text, speeds=np.arange(200.0, 1501, 100)).response
+    fine = report(text, speeds=np.arange(200.0, 1501, 1)).response
+    for k, worst in enumerate(coarse.worst_force):
+        if 210 < worst.omega * 30 / np.pi < 1480:
+            near = np.abs(fine.speeds_rpm - worst.omega * 30 / np.pi) < 100
+            assert worst.value >= fine.force_peak[near, k].max() * (1 - 1e-12)
+            assert worst.value > coarse.force_peak[:, k].max()
+            break
+    else:
+        pytest.fail("no peak inside the range")
+
+
+def test_a_scheme_takes_away_what_it_is_for(report):
+    """Shafts cancel the second-order force; the roll stays, and the mounts feel that."""
+    text = ENGINE.replace("[cylinder.2]\npiston_mass = 0.55\n", "") + RandomBody(9, 4).text
+    result = report(text, orders=[2], scheme="two-shaft")
+    before, after = result.response.free[0, 0], result.fitted.response.free[0, 0]
+    assert after[:2] == pytest.approx(0, abs=1e-9 * before[0])
+    assert after[5] > 0.1
+    assert result.fitted.response.force_peak.max() < result.response.force_peak.max()
+
+
+def test_orders_meet_modes_where_their_frequencies_agree(report):
+    result = report(ENGINE + block("loss = 0.05"), speeds=np.array([200.0, 2000.0]))
+    assert result.meetings
+    for one in result.meetings:
+        assert one.omega * one.order == pytest.approx(result.modes.six[one.mode].omega)
+        assert 200 <= one.omega * 30 / np.pi <= 2000
+
+
+def test_motions_have_names(report):
+    """Of the block that stands along -z: up and down is z; two pairs sway and turn together."""
+    names = [mode.motion for mode in report(block()).modes.six]
+    assert "up and down" not in names[:2]
+    assert names.count("up and down") == 1
+    upright = report(block().replace("gravity = [0, 0, -1]", "")).modes.six
+    assert "roll" in [mode.motion for mode in upright]
+
+
+# ------------------------------------------------------------------ published, from a file
+def test_symmetric_block_in_closed_form(report):
+    closed = [50.13149728, 58.99302875, 89.4427191, 109.5445115, 146.5838769, 156.5880665]
+    omega = [mode.omega for mode in report(block()).modes.six]
+    assert omega == pytest.approx(closed, rel=1e-9)
+    upright = [mode.omega for mode in report(block()).modes.six if mode.motion == "up and down"]
+    assert upright == pytest.approx([np.sqrt(4 * 400e3 / 200)], rel=1e-14)
+
+
+SAIPA = """
+[body]
+mass = 163.9
+cg = [0, 0, 0]
+inertia = [9.91e6, 4.12e6, 9.09e6, -0.813e6, 1.34e6, -0.472e6]
+gravity = [0, 0, -1]
+[[mount]]
+name = "1"
+at = [-66.446, 463.093, 156.1]
+angles = [0, 0, 90]
+stiffness = [349.5, 370.5, 553]
+[[mount]]
+name = "2"
+at = [-3.59, -455.997, 100.907]
+stiffness = [141, 57, 367.5]
+[[mount]]
+name = "3"
+at = [250.721, -44.715, -200.543]
+axes = [[0.984807753012208, 0, 0.17364817766693033], [0, 2, 0]]
+stiffness = [640.5, 450, 225]
+"""
+
+
+def test_saipa_quick(report):
+    """NVHteam's powertrain on three mounts, as stored: see tests/validation/test_mounts_saipa.py."""
+    six = report(SAIPA).modes.six
+    stored = [9.610673600, 11.57906006, 12.81532586, 16.37214213, 24.62196449, 26.04757747]
+    assert [mode.hertz for mode in six] == pytest.approx(stored, rel=1e-9)
+    lowest = [29.71370270, 27.50122226, 2.167605669, 2.470989607, 18.69376064, 19.45271912]
+    assert 100 * six[0].shares == pytest.approx(lowest, rel=1e-8)
+
+
+# ------------------------------------------------------------------ what cannot be
+def refused(report, text, **options):
+    with pytest.raises(BalcliError) as caught:
+        report(text, **options)
+    return str(caught.value)
+
+
+def test_an_undamped_resonance_in_the_range_is_named(report):
+    """Also where it lies between the speeds that are asked for."""
+    message = refused(report, ENGINE + block(), speeds=np.array([300.0, 2000.0]), orders=[2])
+    assert message == (
+        "engine.toml: mode 4 (roll, 17.43 Hz) is not damped, and order 2 drives it at 523.037 rpm, "
+        "where its motion has no bound; give the mounts a loss, such as loss = 0.1, or other "
+        "--speeds"
+    )
+    assert report(ENGINE + block(), speeds=np.array([3000.0]), orders=[2]).response is not None
+
+
+FREE = [
+    (block(count=2), "turning about y through (400, 0, -200) mm"),
+    (block().replace("[200, 150, 400]", "[200, 0, 400]"), "moving along y"),
+]
+
+
+@pytest.mark.parametrize(("text", "motion"), FREE)
+def test_a_motion_that_nothing_holds_is_named(report, text, motion):
+    assert refused(report, text) == (
+        f"engine.toml: mount: nothing holds the body against {motion}; give a mount that does, or "
+        "stiffness along another axis"
+    )
+
+
+def test_several_free_motions_are_counted(report):
+    assert ", and 2 other motions; give" in refused(report, block(count=1))
+
+
+def test_where_throws_stand_must_be_known(report):
+    text = ENGINE.replace("spacing = 100\n", "") + block("loss = 0.1")
+    assert refused(report, text).startswith("engine.toml: ")
