@@ -32,7 +32,8 @@ if TYPE_CHECKING:  # whoever asks for one of these chapters loads it
     from ..forces.textbook import Textbook
     from ..sizing.remedy import Remedy
 
-QUANTITIES = (*KINDS, "peak", "sizing")
+UNASKED = (*KINDS, "peak")  # computed unless something is named
+QUANTITIES = (*UNASKED, "sizing")
 EXTRAS = ("inner", "guide")  # computed only when they are named
 DEFAULT_ORDERS = (1.0, 2.0)
 
@@ -137,7 +138,7 @@ def analyze(
         engine: without trailing axes.
         orders: which orders to show; default: 1 and 2 (0 too at uneven speed) and all in which a
             quantity that was asked for exceeds 1e-6 of its own largest order, up to 512.
-        only: any of QUANTITIES and EXTRAS; default: all QUANTITIES.
+        only: any of QUANTITIES and EXTRAS; default: UNASKED, which is all QUANTITIES but sizing.
         by_cylinder: also the phasors of every cylinder alone.
         reasons: also why each order is balanced, or is not.
         guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
@@ -147,7 +148,7 @@ def analyze(
         BalcliError: an unknown quantity, an order that is negative or above HIGHEST_ORDER, too many
             orders of too many cylinders.
     """
-    wanted = _check_quantities(QUANTITIES if only is None else only)
+    wanted = _check_quantities(UNASKED if only is None else only)
     asked = None if orders is None else check_orders(orders)
     peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
     shown = wanted.intersection(KINDS)
