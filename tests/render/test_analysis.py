@@ -211,6 +211,5 @@ def test_an_unknown_quantity_is_refused_with_those_there_are():
         analyze(inline_engine([0]), only=["bending"])
     assert str(caught.value) == (
         "there is no quantity bending: choose from force, moment, couple, torque, roll, peak, "
-        "sizing, "
-        "inner, guide"
+        "sizing, gas, inner, guide"
     )

@@ -201,7 +201,7 @@ def test_an_unknown_quantity():
         analyze(example("i4"), only=["force", "weight", "noise"])
     assert str(caught.value) == (
         "there is no quantity noise, weight: choose from force, moment, couple, torque, roll, "
-        "peak, sizing, inner, guide"
+        "peak, sizing, gas, inner, guide"
     )
 
 

@@ -471,12 +471,13 @@ OPTIONS = {
     "position": 0.033,
     "planes": (-0.02, 0.09),
     "factor": (0.3,),
+    "measured": 1.9,
     "roll": "zero",
 }
 TAKEN = {
     "auto": "",
     "counterweights": "order planes",
-    "factor": "factor",
+    "factor": "factor measured planes",
     "minimax": "planes position",
     "four-shaft": "at position",
     "single-shaft": "order at position",
@@ -900,21 +901,6 @@ def test_a_single_factor_is_no_sweep():
     ]
 
 
-def test_own_counterweights_are_not_counted_and_said():
-    engine = build(
-        parse(
-            ENGINES["one"]
-            + "[[counterweight]]\nunbalance = 1\n[[shaft]]\nratio = 2\nunbalance = 1\n"
-        )
-    )
-    assert (
-        size(engine, "factor").note
-        == "the engine's own counterweights are not counted in the factor"
-    )
-    shafts = build(parse(ENGINES["one"] + "[[shaft]]\nratio = 2\nunbalance = 1\n"))
-    assert not size(shafts, "factor").note
-
-
 def test_peaks_along_and_across_are_those_of_the_curve():
     """Across the first bank, which leans, and off its axis by an offset: samples of what the remedy
     leaves, every 0.01 degrees.
@@ -952,7 +938,7 @@ def test_factors_at_their_bounds(share):
     assert figures(size(engine, "factor", SchemeOptions(factor=(share,))))["factor"] == share
     with pytest.raises(
         BalcliError,
-        match=r"--factor: give a share of the reciprocating mass such as 0.5, or a range such as "
-        r"0:1:0.1$",
+        match=r"--factor -?10: is no share of the reciprocating mass; (did you mean 10%\? )?give one such as 0.5 or 51%, "
+        r"or a range such as 50%:54%:1%$",
     ):
         size(engine, "factor", SchemeOptions(factor=(share * (1 + 1e-15), 0.5)))

@@ -62,17 +62,17 @@ def analyze(
     refuse_overwriting(reads=paths, writes={"--output": output})
     form = text_format(output, form)
     from ..render import analyses
-    from ..results.analysis import QUANTITIES, Analysis
+    from ..results.analysis import Analysis, list_quantities
     from ..results.analysis import analyze as analyze_engine
     from .inputs import distinct_names, exit_on_errors, read_engine, try_each
 
     rpm, each = parse_speed(speed), _is_by_cylinder(by)
     height_m = parse_guide_height(guide_height, units)
     asked, (chosen, parts) = parse_orders(orders), parse_parts(only)
-    wanted = QUANTITIES if chosen is None else chosen
 
     def analyze_file(path: str) -> tuple[str, Analysis]:
         engine = read_engine(path, rpm, chosen).engine
+        wanted = (*list_quantities(engine), "sizing") if chosen is None else chosen
         return path, analyze_engine(engine, asked, wanted, each, why, height_m)
 
     found, errors = try_each(paths, analyze_file)

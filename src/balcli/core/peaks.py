@@ -23,6 +23,8 @@ class Peak(NamedTuple):
     theta: float
 
 
+MOST_CANDIDATES = 64  # for the highest peak of a curve
+NEAR_TOP = 0.92  # share of the largest |F|^2 of samples that those beside the peak have
 _EQUAL = 1e-12  # peaks that differ by a smaller share are equal
 _TERMS = 7  # of the series by which many peaks are told apart
 _ROUNDS = 4  # of Newton's method on it
@@ -58,7 +60,7 @@ def peak(curve: Phasors) -> Peak:
     return Peak(float(values.max()), float(turned[best]))
 
 
-def find_candidates(curve: Phasors, most: int = 64) -> Array:
+def find_candidates(curve: Phasors, most: int = MOST_CANDIDATES) -> Array:
     """Angles of the samples that may lie beside the highest peak of a curve of whole orders, at
     most so many: where there are more, those of the highest peaks but for 1e-8, of equal ones the
     first.
@@ -68,9 +70,8 @@ def find_candidates(curve: Phasors, most: int = 64) -> Array:
     spectrum[curve.orders.astype(int)] += curve.forward
     spectrum[-curve.orders.astype(int)] += curve.backward
     power = np.abs(np.fft.ifft(spectrum, norm="forward")) ** 2
-    top = (
-        (power >= np.roll(power, 1)) & (power >= np.roll(power, -1)) & (power >= 0.92 * power.max())
-    )
+    top = (power >= np.roll(power, 1)) & (power >= np.roll(power, -1))
+    top &= power >= NEAR_TOP * power.max()
     found = np.flatnonzero(top)
     height = power[found]
     if len(found) > most:
@@ -93,7 +94,7 @@ def _estimate_peaks(spectrum: Complex, at: NDArray[np.intp]) -> Array:
     x = np.zeros(len(at))
     for _ in range(_ROUNDS):
         f, f1, f2 = (_evaluate_each(c, x) for c in (series, first, second))
-        x = np.clip(x + _find_move(f, f1, f2, np.pi / count), -np.pi / count, np.pi / count)
+        x = np.clip(x + find_move(f, f1, f2, np.pi / count), -np.pi / count, np.pi / count)
     values: Array = np.abs(_evaluate_each(series, x)) ** 2
     return values
 
@@ -120,14 +121,14 @@ def climb_peaks(curve: Phasors, theta: Array, step: float, rounds: int = 12) -> 
     """
     first, second = _derivative(curve), _derivative(_derivative(curve))
     for _ in range(rounds):
-        move = _find_move(curve.values(theta), first.values(theta), second.values(theta), step)
+        move = find_move(curve.values(theta), first.values(theta), second.values(theta), step)
         theta = theta + move
         if np.max(np.abs(move)) < 1e-10:
             break
     return theta
 
 
-def _find_move(f: Complex, f1: Complex, f2: Complex, step: float) -> Array:
+def find_move(f: Complex, f1: Complex, f2: Complex, step: float) -> Array:
     """One step of Newton's method, at most `step`, by F and its two derivatives; uphill where |F|^2
     bends upwards.
     """

@@ -55,6 +55,13 @@ def _turn(radians: Array) -> Complex:
     return result
 
 
+def compose(real: Array, imaginary: Array) -> Complex:
+    """real + i imaginary: putting arrays side by side is quicker than sums of complex ones."""
+    result = np.empty(np.broadcast_shapes(real.shape, imaginary.shape), complex)
+    result.real, result.imag = real, imaginary
+    return result
+
+
 def reduced(degrees: ArrayLike, turn: float) -> Array:
     """The same direction in (-turn/2, turn/2], any shape; `turn` is 180 for lines, 360 for
     vectors.

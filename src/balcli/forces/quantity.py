@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.peaks import peak
+from ..core.many_peaks import find_largest
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..engine.positions import MOMENTS_UNKNOWN
@@ -140,7 +140,7 @@ def evaluate_quantities(engine: Engine, quantities: Sequence[Quantity]) -> list[
     peaks = [q for q in quantities if q.part == "peak"]
     if peaks:
         whole = compute_spectra(engine, find_relevant_orders(engine), {q.kind for q in peaks})
-        values |= {q: _find_peaks(whole[q.kind]) for q in peaks}
+        values |= {q: find_largest(whole[q.kind]) for q in peaks}
     return [values[q] for q in quantities]
 
 
@@ -163,16 +163,3 @@ def _group_by_orders(quantities: Iterable[Quantity]) -> list[tuple[list[float], 
         orders = tuple(sorted({q.order for q in members}))
         groups.setdefault(orders, []).extend(members)
     return [(list(orders), members) for orders, members in groups.items()]
-
-
-def _find_peaks(curves: Phasors) -> Array:
-    """Largest value over a revolution of every variant, shape (*trailing)."""
-    shape = np.broadcast_shapes(curves.forward.shape[1:], curves.backward.shape[1:])
-    every = (len(curves.orders), *shape)
-    forward = np.broadcast_to(curves.forward, every)
-    backward = np.broadcast_to(curves.backward, every)
-    values = np.empty(shape)
-    for at in np.ndindex(shape):
-        curve = Phasors(curves.orders, forward[:, *at], backward[:, *at], np.zeros(1))
-        values[at] = peak(curve).value
-    return values

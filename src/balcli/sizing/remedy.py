@@ -10,7 +10,7 @@ from ..core.cylinders import Device
 from ..engine.build import Engine
 from ..engine.devices import build_device
 from ..enginefile.model import Counterweight, Shaft, Slider
-from .details import Bobweight, Detail, FactorPeaks, Optima
+from .details import Bobweight, Detail, FactorPeaks, Optima, PlaneNeed
 from .device_tables import KINDS, DeviceTable
 
 T = TypeVar("T")
@@ -26,6 +26,7 @@ class Remedy(NamedTuple):
         details: figures of the scheme that are no device.
         note: what to know besides, such as why nothing is fitted.
         card: bobweights of all crank pins (scheme factor).
+        needs: what each plane has and lacks, where the file has counterweights (scheme factor).
         sweep: what each of several factors leaves (scheme factor).
         optima: best shafts of variable speed (scheme eccentric-slider).
         knuckle_angles_deg: new `articulation.knuckle_angles` (scheme knuckles).
@@ -41,6 +42,7 @@ class Remedy(NamedTuple):
     details: tuple[Detail, ...] = ()
     note: str = ""
     card: tuple[Bobweight, ...] = ()
+    needs: tuple[PlaneNeed, ...] = ()
     sweep: tuple[FactorPeaks, ...] = ()
     optima: Optima | None = None
     knuckle_angles_deg: tuple[float, ...] = ()

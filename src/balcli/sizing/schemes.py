@@ -8,7 +8,7 @@ from __future__ import annotations
 SCHEMES: dict[str, tuple[str, ...]] = {
     "auto": (),
     "counterweights": ("order", "planes"),
-    "factor": ("factor",),
+    "factor": ("factor", "measured", "planes"),
     "minimax": ("planes", "position"),
     "single-shaft": ("order", "at", "position"),
     "two-shaft": ("order", "at", "position", "roll"),

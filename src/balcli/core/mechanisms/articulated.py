@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..phasors import EPS, Array, Complex, unit
+from ..phasors import EPS, Array, Complex, compose, unit
 from . import slidercrank
 from .linkage import Linkage
 from .motion import Motion, Point
@@ -41,7 +41,7 @@ class KnucklePin(Point):
     @cached_property
     def _arm(self) -> Complex:
         sine, cosine = self._master.angle
-        return np.asarray(self._knuckle * (cosine - 1j * sine))
+        return np.asarray(self._knuckle * compose(cosine, -sine))
 
     @cached_property
     def z(self) -> Complex:
@@ -49,11 +49,12 @@ class KnucklePin(Point):
 
     @cached_property
     def z1(self) -> Complex:
-        return np.asarray(1j * (self._crank + self._master.spin * self._arm))
+        spin = self._master.spin
+        return 1j * (self._crank + compose(spin * self._arm.real, spin * self._arm.imag))
 
     @cached_property
     def z2(self) -> Complex:
-        bend = self._master.spin**2 - 1j * self._master.spin_rate
+        bend = compose(self._master.spin**2, -self._master.spin_rate)
         return np.asarray(-self._crank - bend * self._arm)
 
 

@@ -17,7 +17,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..phasors import Array, Complex, Figure
+from ..phasors import Array, Complex, Figure, compose
 from . import slidercrank
 from .articulated import Articulated, hang
 from .linkage import Linkage
@@ -81,7 +81,7 @@ class _Piston(Point):
 
     @cached_property
     def z(self) -> Complex:
-        return np.asarray(self._motion.place + 1j * self._offset)
+        return compose(self._motion.place, np.asarray(self._offset))
 
     @property
     def z1(self) -> Complex:

@@ -27,7 +27,7 @@ from .fourier import (
 from .motion import Motion, Move
 
 MOST_SAMPLES = 1 << 18
-_AT_ONCE = 1 << 15  # samples of a figure
+_AT_ONCE = 1 << 14
 _LIMIT = SAMPLING / 4  # of the upper half of a spectrum that holds rounding errors alone
 
 _OF_ROD: Mapping[str, Callable[[Motion], Array]] = MappingProxyType(
@@ -109,7 +109,7 @@ def sample_mechanisms(
                 found[name].c[:, rows] = pick_orders(spectrum, n)
                 found[name].noise[rows] = SAMPLING * rounding
                 if highest is not None and count < MOST_SAMPLES:
-                    enough &= _is_enough(spectrum, amplify_rounding(samples), rounding, highest)
+                    enough &= _is_enough(spectrum, rounding, highest)
             taken[rows] = count
             again.append(rows[~enough])
         if any(map(len, again)):
@@ -135,9 +135,7 @@ def _take_samples(
             yield name, find(motion), 1.0
 
 
-def _is_enough(
-    spectrum: Complex, spread: Array, rounding: Array, highest: float
-) -> NDArray[np.bool_]:
+def _is_enough(spectrum: Complex, rounding: Array, highest: float) -> NDArray[np.bool_]:
     """Whether these samples are enough for orders up to the highest.
 
     They are where the upper half of the spectrum holds rounding errors alone. Orders of the lower
@@ -146,13 +144,13 @@ def _is_enough(
 
     Args:
         spectrum: shape (mechanisms, samples/2 + 1).
-        spread: root mean square of the samples, shape (mechanisms,).
-        rounding: `amplify_rounding` of them, same shape.
+        rounding: `amplify_rounding` of the samples, shape (mechanisms,).
     """
     half = spectrum.shape[-1] - 1
-    upper = spectrum[:, half // 2 :]
-    tail = np.sqrt((upper.real**2 + upper.imag**2).max(axis=-1)) / (2 * half)
+    sizes = spectrum.real**2 + spectrum.imag**2
+    tail = np.sqrt(sizes[:, half // 2 :].max(axis=-1)) / (2 * half)
     most = _LIMIT * np.maximum(rounding, 1.0)
     if highest <= half / 2:
-        most = np.maximum(most, _LIMIT ** (1 / 3) * spread)
+        largest = np.sqrt(sizes.max(axis=-1)) / (2 * half)
+        most = np.maximum(most, _LIMIT ** (1 / 3) * largest)
     return np.asarray(tail <= most)
