@@ -34,6 +34,7 @@ from .units import (
 
 if TYPE_CHECKING:
     from .gas_tables import Bearing, Flywheel, Gas
+    from .torsion_tables import Torsion
 
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
 _PERPENDICULAR = 1e-6  # cosine between two axes that are
@@ -621,6 +622,7 @@ class EngineFile(Table):
     gas: "Gas | None" = None
     flywheel: "Flywheel | None" = None
     bearing: "Bearing | None" = None
+    torsion: "Torsion | None" = None
     cylinder: dict[int, Override] = Field(
         {}, description="what differs in single cylinders, by their numbers"
     )
