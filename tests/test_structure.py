@@ -183,6 +183,7 @@ ON_REQUEST = {
         "balcli.sizing.auto",
         "balcli.sizing.remedy",
     ),
+    "balcli.studies.sweep": ("balcli.mounting.quantity",),
 }
 
 
@@ -211,6 +212,7 @@ def test_help_and_completion_of_a_command_wait_for_no_library(command):
 # for the eye.
 SHAPING = {
     ("balcli.sizing.device_tables", "find_unbalance"),
+    ("balcli.sizing.device_tables", "measure_direction"),
     ("balcli.sizing.device_tables", "name_kind"),
     ("balcli.tables.recomputed", "deviates"),
     ("balcli.tables.recomputed", "parse_decimal"),

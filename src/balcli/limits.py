@@ -45,6 +45,7 @@ FINEST_STEP_DEG = 1e-3  # of the crank angle: 360 000 angles
 FARTHEST_DEG = 1e6  # phase and turn of a second engine: angles keep 10 digits
 FARTHEST_M = 1e6  # place of a second engine
 LARGEST_FACTOR = 10  # share of the reciprocating mass, either way: shops take 0 to 1
+MOST_HOLES = 50  # in one counterweight: none has room for more
 MOST_FACTORS = 1000  # steps of a range of balance factors
 MOST_TABLE_VALUES = 100_000  # steps of a range of a printed table
 LARGEST_TABLE_VALUE = 10**9  # in such a range
@@ -71,4 +72,5 @@ MOST_MOUNT_RESULTS = 4_000_000  # orders x speeds x mounts and points: 300 MB
 # Torsion -------------------------------------------------------------------------------------
 MOST_TORSION_NODES = 200  # of a chain: modes of all of them take a second
 HIGHEST_TORSION_ORDER = 256  # a cycle is sampled 16 times as often
+HIGHEST_TORSION_ORDER_UNASKED = 12  # by which cylinders excite: tables of builders end here
 MOST_TORSION_SPEEDS = 20_000  # of a range: all figures of each are kept

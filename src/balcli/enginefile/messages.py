@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from importlib import import_module
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 from ..errors import Problem
 from ..limits import MOST_LIST_VALUES
@@ -27,7 +27,12 @@ TABLES: dict[str, type[model.Table]] = {
 }
 # Tables of chapters beyond balance: the module of each, imported for files that have the table. Its
 # class is called like the key.
-CHAPTERS = {"gas": "gas_tables", "flywheel": "gas_tables", "bearing": "gas_tables"}
+CHAPTERS = {
+    "gas": "gas_tables",
+    "flywheel": "gas_tables",
+    "bearing": "gas_tables",
+    "torsion": "torsion_tables",
+}
 DEVICES: dict[str, type[model.Table]] = {
     "counterweight": model.Counterweight,
     "shaft": model.Shaft,
@@ -36,13 +41,6 @@ DEVICES: dict[str, type[model.Table]] = {
     "point": model.MarkedPoint,
 }
 KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES)
-INNER: dict[str, type[model.Table]] = {
-    "pendulum": model.Pendulum,
-    "rod_pendulum": model.Pendulum,
-    "speed_ripple": model.Ripple,
-    "rod": model.ArticulatedRod,
-}
-
 WORDS = {
     "tuple_type": "{value} is not a list; write it in square brackets, such as [0, 180]",
     "model_type": "{value} is not a table; write it in braces with its keys",
@@ -110,18 +108,34 @@ def describe_finding(path: str, finding: Mapping[str, Any], table: type[model.Ta
         message = _describe_missing(table, loc)
     elif kind in ("too_short", "too_long"):
         message = _describe_length(value, context)
+    elif kind == "tuple_type" and isinstance(value, Mapping):
+        message = f"is one of several; write [[{join_path(path, loc)}]] in double brackets"
     else:
         message = WORDS.get(kind, OTHER).format(value=shorten(value))
-    if loc and isinstance(loc[-1], int):
+    if loc and isinstance(loc[-1], int) and not isinstance(value, Mapping):
         return Problem(join_path(path, loc[:-1]), f"the {_ordinal(loc[-1] + 1)} value {message}")
     return Problem(join_path(path, loc), message)
 
 
+def find_inner_table(table: type[model.Table], loc: Sequence[str | int]) -> type[model.Table]:
+    """The table in which the last part of a place stands: `table`, or one within it."""
+    for part in loc[:-1]:
+        field = table.keys().get(str(part))
+        table = table if field is None else find_table(field.annotation) or table
+    return table
+
+
+def find_table(annotation: Any) -> type[model.Table] | None:
+    """The table of which a field's type is made, alone or in a list; None: it is none."""
+    if isinstance(annotation, type) and issubclass(annotation, model.Table):
+        return annotation
+    return next(filter(None, map(find_table, get_args(annotation))), None)
+
+
 def _describe_missing(table: type[model.Table], loc: Sequence[str | int]) -> str:
     """With an example of the key, which may stand in a table within the table."""
-    *parents, key = loc
-    inner = next((INNER[str(part)] for part in reversed(parents) if part in INNER), table)
-    examples = inner.keys()[str(key)].examples
+    key = loc[-1]
+    examples = find_inner_table(table, loc).keys()[str(key)].examples
     example = shorten(examples[0]) if examples else "{ length = 200 }"
     return f"is missing; give it, such as {key} = {example}"
 

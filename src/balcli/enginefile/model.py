@@ -34,6 +34,7 @@ from .units import (
 
 if TYPE_CHECKING:
     from .gas_tables import Bearing, Flywheel, Gas
+    from .torsion_tables import Torsion
 
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
 _PERPENDICULAR = 1e-6  # cosine between two axes that are
@@ -380,18 +381,17 @@ class Frame(Table):
     )
 
 
-class ArticulatedRod(Table):
-    """An articulated rod, from its knuckle pin to its piston pin."""
+class ArticulatedRod(Rod):
+    """An articulated rod, from its knuckle pin (its big end) to its piston pin."""
 
-    length: Size = Field(description="from the knuckle pin to the piston pin", examples=[200])
-    mass: Mass = Field(0.0, description="mass of the whole rod", examples=[0.5])
-    cg: Length = Field(
-        0.0, description="from the knuckle pin to the centre of mass", examples=[100]
+    length: Size | None = Field(
+        None, description="from the knuckle pin to the piston pin", examples=[200]
     )
-    inertia: Inertia | None = Field(
-        None,
-        description="about the centre of mass; left out: two masses at the ends",
-        examples=[3500],
+    cg: Length | None = Field(
+        None, description="from the knuckle pin to the centre of mass", examples=[100]
+    )
+    big_end: Mass | None = Field(
+        None, description="mass weighed at the knuckle pin, instead of mass and cg", examples=[0.3]
     )
 
 
@@ -593,6 +593,14 @@ class MarkedPoint(Table):
     at: Point = Field(description="x, y, z, in the engine's axes", examples=[[0, 500, 0]])
 
 
+def label_table(table: Table, number: int) -> str:
+    """What stands for a table of several in dotted names: its name, if that is a word, with `_` for
+    spaces; else its number.
+    """
+    name = getattr(table, "name", "").replace(" ", "_")
+    return name if name.isidentifier() else str(number)
+
+
 class EngineFile(Table):
     """One engine: crank, rods, pistons, layout, and the devices that balance it."""
 
@@ -613,6 +621,7 @@ class EngineFile(Table):
     gas: "Gas | None" = None
     flywheel: "Flywheel | None" = None
     bearing: "Bearing | None" = None
+    torsion: "Torsion | None" = None
     cylinder: dict[int, Override] = Field(
         {}, description="what differs in single cylinders, by their numbers"
     )
@@ -633,13 +642,14 @@ class EngineFile(Table):
         return self._folder
 
     def tables(self) -> Iterator[tuple[str, Table]]:
-        """Every table with its dotted name (`crank`, `shaft.1`, `cylinder.3`), as far as the file
+        """Every table with its dotted name (`crank`, `shaft.1`, `mount.left`), as far as the file
         has it or it has defaults; not the tables within tables.
         """
         for key, part in self:
             if isinstance(part, Table):
                 yield key, part
             elif isinstance(part, tuple):
-                yield from ((f"{key}.{number}", table) for number, table in enumerate(part, 1))
+                for number, table in enumerate(part, 1):
+                    yield f"{key}.{label_table(table, number)}", table
             elif isinstance(part, dict):
                 yield from ((f"{key}.{number}", table) for number, table in part.items())

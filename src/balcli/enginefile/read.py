@@ -23,13 +23,13 @@ from .fields import printable, shorten
 from .messages import (
     CHAPTERS,
     DEVICES,
-    INNER,
     KNOWN,
     TABLES,
     TEXTS,
     UnknownKey,
     describe_finding,
     describe_unknown_key,
+    find_inner_table,
     import_table,
     is_miscounted,
     join_path,
@@ -238,7 +238,7 @@ class _Reader:
         for finding in findings:
             if finding["type"] == "extra_forbidden":  # in a table within the table
                 *parents, last = finding["loc"]
-                inner = INNER[str(parents[0])]
+                inner = find_inner_table(table, finding["loc"])
                 self.unknown.append(UnknownKey(join_path(path, parents), str(last), inner))
             elif not is_miscounted(finding):
                 self.problems.append(describe_finding(path, finding, table))

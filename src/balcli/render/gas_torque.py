@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .order_tables import NEGLIGIBLE, size_text
-from .sheet import Grid, degrees, number, order_name
+from .sheet import NEGLIGIBLE, Grid, degrees, number, order_name, size_text
 
 if TYPE_CHECKING:
     from ..core.phasors import Phasors

@@ -11,8 +11,19 @@ import numpy as np
 from ..enginefile.model import Counterweight, Shaft
 from ..forces.kinds import ROLL, Kind
 from ..sizing.device_tables import DeviceTable, find_unbalance
-from .order_tables import NEGLIGIBLE, NOTHING, UNKNOWN, peak_facts, size_text
-from .sheet import Facts, Grid, Text, capitalized, number, order_name
+from .order_tables import peak_facts
+from .sheet import (
+    NEGLIGIBLE,
+    NOTHING,
+    UNKNOWN,
+    Facts,
+    Grid,
+    Text,
+    capitalized,
+    number,
+    order_name,
+    size_text,
+)
 
 if TYPE_CHECKING:
     from ..core.phasors import Phasors
@@ -75,7 +86,7 @@ def tell_others(spectra: Spectra, shown: list[float], system: System) -> str:
         for kind, p in rest.items()
         if (largest := float(p.major.max()))
     ]
-    names = ", ".join(order_name(order) for order in others[:6])
+    names = ", ".join(map(order_name, others[:6]))
     more = ", …" if len(others) > 6 else ""
     plural = "s" * (len(others) > 1)
     return f"Negligible: order{plural} {names}{more} (at most {', '.join(sizes)}). All: --all."
