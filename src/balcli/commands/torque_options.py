@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..enginefile.edit import changed
 from ..enginefile.units import INERTIA, convert
 from ..errors import BalcliError
 from .options import parse_orders, parse_speed
+from .output import write_file
 
 if TYPE_CHECKING:
     from ..torque.analysis import TorqueAnalysis
@@ -191,9 +193,6 @@ def write_uneven(source: bytes, result: TorqueAnalysis, target: Path) -> None:
     Raises:
         BalcliError: the inertia is not known; the target cannot be written.
     """
-    from ..enginefile.edit import changed
-    from .output import write_file
-
     if result.flywheel is None or result.flywheel.speed is None:
         raise BalcliError(
             "--write: the speed is not known; give inertia in [crank] or [flywheel], such as "
