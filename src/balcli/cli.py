@@ -53,8 +53,9 @@ COMMANDS = {
     "to correction weights, places or drill holes, and what is left.",
     "mounts": "What the frame feels of an engine on its mounts: natural modes, rest, forces of the "
     "mounts and motion of points over a range of speeds.",
-    "torsion": "Torsional vibration of shafts: natural modes, critical speeds, Holzer tables, and "
-    "vibratory torque and stress over a range of speeds.",
+    "torsion": "Torsional vibration of a crankshaft, or of any shafts: natural modes, critical "
+    "speeds, Holzer tables, vibratory torque and stress over a range of speeds, dampers, barred "
+    "speeds.",
     "engines": "List the example engines that come with balcli, print one, or copy it.",
     "bench": "Run time against error of every way to the same figures, on this machine; with -o "
     "X.svg also as a picture.",
