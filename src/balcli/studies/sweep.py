@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -35,6 +36,7 @@ from .parameters import Parameter, parse
 Array = NDArray[np.float64]
 Box = tuple[slice, ...]
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
+TILES = 8  # of so many variants in a box, where several parameters vary
 BYTES = 1 << 23  # of an array that a box needs: no more than the cache holds
 SAMPLES = 1 << 20  # of revolutions in a box: a tenth of a second
 
@@ -132,17 +134,43 @@ def build_corners(sweep: Sweep) -> Engine:
     return Sweep(sweep.file, corners, (), sweep.name).engine((slice(None),) * len(corners))
 
 
-def evaluate_box(sweep: Sweep, box: Box) -> list[Array]:
+def evaluate_box(sweep: Sweep, box: Box, most: int = CHUNK) -> list[Array]:
     """Each quantity for all variants of a box, SI or degrees, shape (variants in it,).
+
+    Args:
+        sweep: what to compute.
+        box: of its grid.
+        most: variants at a time; figures that some axes do not change are computed once for them.
 
     Raises:
         InputError: one of them cannot be.
     """
     shape = tuple(len(range(*cut.indices(n))) for cut, n in zip(box, sweep.shape, strict=True))
-    return [
-        np.broadcast_to(found, shape).ravel()
-        for found in evaluate_quantities(sweep.engine(box), sweep.quantities)
-    ]
+    found = [np.empty(shape) for _ in sweep.quantities]
+    for tile in _divide_evenly(shape, most):
+        here = tuple(
+            slice(cut.start + part.start, cut.start + part.stop)
+            for cut, part in zip(box, tile, strict=True)
+        )
+        values = evaluate_quantities(sweep.engine(here), sweep.quantities)
+        for whole, part_of_it in zip(found, values, strict=True):
+            whole[tile] = part_of_it
+    return [whole.ravel() for whole in found]
+
+
+def _divide_evenly(shape: tuple[int, ...], most: int) -> Iterator[Box]:
+    """A grid in tiles of at most `most` variants, which are about as long as wide: so their sides,
+    along which most is computed, are short.
+    """
+    steps = list(shape)
+    while math.prod(steps) > most:
+        longest = steps.index(max(steps))
+        steps[longest] = (steps[longest] + 1) // 2
+    cuts = [range(0, n, step) for n, step in zip(shape, steps, strict=True)]
+    for starts in product(*cuts):
+        yield tuple(
+            slice(k, min(k + step, n)) for k, step, n in zip(starts, steps, shape, strict=True)
+        )
 
 
 def size_boxes(sweep: Sweep) -> int:
@@ -155,6 +183,14 @@ def size_boxes(sweep: Sweep) -> int:
     samples = count_samples(engine) // 2 ** len(sweep.parameters)
     most = min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), CHUNK)
     return max(most, 1)
+
+
+def divide_sweep(sweep: Sweep, most: int) -> Iterator[Box]:
+    """The boxes of a sweep of which so many variants are computed at a time, in the order of
+    rows.
+    """
+    tiles = TILES if len(sweep.shape) > 1 else 1
+    return divide_grid(sweep.shape, tiles * most)
 
 
 def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
@@ -177,8 +213,9 @@ def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
 
 def evaluate_chunks(sweep: Sweep) -> Iterator[Chunk]:
     """All variants, box by box, in the order of rows."""
-    for box in divide_grid(sweep.shape, size_boxes(sweep)):
-        yield Chunk(box, evaluate_box(sweep, box))
+    most = size_boxes(sweep)
+    for box in divide_sweep(sweep, most):
+        yield Chunk(box, evaluate_box(sweep, box, most))
 
 
 def list_columns(sweep: Sweep, chunk: Chunk) -> list[Array]:
