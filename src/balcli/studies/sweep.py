@@ -36,9 +36,10 @@ from .parameters import Parameter, parse
 Array = NDArray[np.float64]
 Box = tuple[slice, ...]
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
-TILES = 8  # of so many variants in a box, where several parameters vary
+TILES = 8  # of so many variants in a box that would have few values of some parameter
 BYTES = 1 << 23  # of an array that a box needs: no more than the cache holds
 SAMPLES = 1 << 20  # of revolutions in a box: a tenth of a second
+_LARGE = 31 << 17  # numbers: 31 MB, glibc keeps no more
 
 
 class Chunk(NamedTuple):
@@ -146,6 +147,9 @@ def evaluate_box(sweep: Sweep, box: Box, most: int = CHUNK) -> list[Array]:
         InputError: one of them cannot be.
     """
     shape = tuple(len(range(*cut.indices(n))) for cut, n in zip(box, sweep.shape, strict=True))
+    if math.prod(shape) <= most:
+        values = evaluate_quantities(sweep.engine(box), sweep.quantities)
+        return [np.broadcast_to(one, shape).ravel() for one in values]
     found = [np.empty(shape) for _ in sweep.quantities]
     for tile in _divide_evenly(shape, most):
         here = tuple(
@@ -186,11 +190,11 @@ def size_boxes(sweep: Sweep) -> int:
 
 
 def divide_sweep(sweep: Sweep, most: int) -> Iterator[Box]:
-    """The boxes of a sweep of which so many variants are computed at a time, in the order of
-    rows.
+    """The boxes of a sweep of which so many variants are computed at a time, in the order of rows.
+    Those of one parameter's value alone, or of a few, are joined, to be computed in tiles.
     """
-    tiles = TILES if len(sweep.shape) > 1 else 1
-    return divide_grid(sweep.shape, tiles * most)
+    narrow = len(sweep.shape) > 1 and sweep.shape[-1] * TILES > most
+    return divide_grid(sweep.shape, TILES * most if narrow else most)
 
 
 def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
@@ -213,9 +217,17 @@ def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
 
 def evaluate_chunks(sweep: Sweep) -> Iterator[Chunk]:
     """All variants, box by box, in the order of rows."""
+    keep_freed_memory()
     most = size_boxes(sweep)
     for box in divide_sweep(sweep, most):
         yield Chunk(box, evaluate_box(sweep, box, most))
+
+
+def keep_freed_memory() -> None:
+    """Let the C library keep what arrays leave for the next ones. It does so for blocks as large as
+    the largest that was ever freed, and hands back the others, to be cleared again for every array.
+    """
+    np.empty(_LARGE)  # never touched: it costs nothing
 
 
 def list_columns(sweep: Sweep, chunk: Chunk) -> list[Array]:
