@@ -161,7 +161,7 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         (
             ["analyze", V8, "--only", "force,noise"],
             "there is no quantity noise: choose from force, moment, couple, torque, roll, peak, "
-            "sizing, inner, guide",
+            "sizing, gas, inner, guide",
         ),
         (
             ["analyze", V8, "-o", "/nowhere/x.txt"],

@@ -161,8 +161,14 @@ ON_REQUEST = {
         "balcli.sizing.schemes",
         "balcli.torsion.starting_file",
     ),
-    "balcli.engine.assembly": ("balcli.core.mechanisms.rotary", "balcli.engine.articulation"),
+    "balcli.engine.assembly": (
+        "balcli.core.mechanisms.rotary",
+        "balcli.engine.articulation",
+        "balcli.engine.gas",
+    ),
     "balcli.engine.rules": ("balcli.engine.articulation",),
+    "balcli.forces.spectrum": ("balcli.forces.gas",),
+    "balcli.forces.symmetry": ("balcli.forces.gas_symmetry",),
     "balcli.render.analyses": ("balcli.render.analysis",),
     "balcli.render.formats": (
         *(f"balcli.render.{form}" for form in Format),
@@ -177,6 +183,7 @@ ON_REQUEST = {
         "balcli.sizing.auto",
         "balcli.sizing.remedy",
     ),
+    "balcli.studies.sweep": ("balcli.mounting.quantity",),
 }
 
 
@@ -205,6 +212,7 @@ def test_help_and_completion_of_a_command_wait_for_no_library(command):
 # for the eye.
 SHAPING = {
     ("balcli.sizing.device_tables", "find_unbalance"),
+    ("balcli.sizing.device_tables", "measure_direction"),
     ("balcli.sizing.device_tables", "name_kind"),
     ("balcli.tables.recomputed", "deviates"),
     ("balcli.tables.recomputed", "parse_decimal"),

@@ -10,6 +10,8 @@ LARGEST_FILE_BYTES = 6_000_000  # no more is ever read, from a device without en
 MOST_TOML_MARKS = 180_000  # of "[", "{", ".", ",", "=": each stands for up to 1 kB in tomllib
 DEEPEST_KEY = 32  # parts of a dotted key: the memory of tomllib grows with their square
 LONGEST_NAME = 200  # characters; the name stands in every line of a CSV
+LONGEST_FILE_NAME = 255  # of a file that an engine file names: file systems have no longer ones
+MOST_ROWS = 100_000  # of such a file: a diagram of 720 deg in steps of 0.01 has 72 000
 LONGEST_FIGURE = 100  # characters of a number with its unit: no regular expression sees more
 LONGEST_SHOWN = 60  # characters of a value that a message repeats: it stays one line
 MOST_MISTAKES_SHOWN = 20  # of one file: they stay on the screen
@@ -32,6 +34,7 @@ MOST_SAMPLES = 1 << 19
 # Orders --------------------------------------------------------------------------------------
 HIGHEST_ORDER = 4096  # that may be asked for: closed forms are good to here
 HIGHEST_ORDER_UNASKED = 512  # that is shown otherwise: only a mechanism near its lock has more
+HIGHEST_GAS_ORDER_UNASKED = 12  # of gas torque: it falls off slowly
 HIGHEST_ORDER_SOUGHT = 8  # where a scheme looks for something to balance: engines have it below
 MOST_RESULTS_BY_CYLINDER = 1 << 14  # cylinders x orders that are told one by one
 MOST_RESULTS_ALONG_CRANK = 1 << 15  # loads x orders, whose peaks are looked for place by place
@@ -42,6 +45,7 @@ FINEST_STEP_DEG = 1e-3  # of the crank angle: 360 000 angles
 FARTHEST_DEG = 1e6  # phase and turn of a second engine: angles keep 10 digits
 FARTHEST_M = 1e6  # place of a second engine
 LARGEST_FACTOR = 10  # share of the reciprocating mass, either way: shops take 0 to 1
+MOST_HOLES = 50  # in one counterweight: none has room for more
 MOST_FACTORS = 1000  # steps of a range of balance factors
 MOST_TABLE_VALUES = 100_000  # steps of a range of a printed table
 LARGEST_TABLE_VALUE = 10**9  # in such a range
@@ -68,4 +72,5 @@ MOST_MOUNT_RESULTS = 4_000_000  # orders x speeds x mounts and points: 300 MB
 # Torsion -------------------------------------------------------------------------------------
 MOST_TORSION_NODES = 200  # of a chain: modes of all of them take a second
 HIGHEST_TORSION_ORDER = 256  # a cycle is sampled 16 times as often
+HIGHEST_TORSION_ORDER_UNASKED = 12  # by which cylinders excite: tables of builders end here
 MOST_TORSION_SPEEDS = 20_000  # of a range: all figures of each are kept

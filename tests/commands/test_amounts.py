@@ -126,8 +126,8 @@ def test_speeds_angles_and_nothing_need_no_unit_there():
         (
             FACTOR,
             ["--factor", "51%%"],
-            '--factor "51%%": give a share of the reciprocating mass such as 0.5 or 50%, or a '
-            "range such as 0:1:0.1",
+            '--factor "51%%": give a share of the reciprocating mass such as 51% or 0.51, or a '
+            "range such as 50%:54%:1%",
         ),
     ],
 )

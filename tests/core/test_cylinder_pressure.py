@@ -317,3 +317,17 @@ def test_orders_that_a_cycle_does_not_have(order, strokes, text):
     with pytest.raises(GasError, match=f"^{text}$") as refused:
         tangential_torque([0, order], [1, 1], [0, 0], area=1, radius=1, strokes=strokes)
     assert refused.value.field == "harmonics"
+
+
+def test_a_gap_may_be_wider_where_the_pressure_hardly_changes():
+    """As in a published diagram, digitised with 33.5 deg between two rows of gas exchange."""
+    angle = [*range(0, 676, 15), 709]
+    values = np.full(len(angle), 1e5)
+    values[1] = 20e5
+    assert list(mistakes(angle, values)) == []
+    values[-1] = 4e5
+    (wrong,) = mistakes(angle, values)
+    assert wrong.row == len(angle) - 1
+    assert wrong.message.startswith("lies 34° after the row before it")
+    assert list(mistakes(angle[:-1], values[:-1])) == []
+    assert [m.row for m in mistakes(angle[:-2], values[:-2])] == [None]

@@ -157,6 +157,7 @@ def figures(engine: Engine) -> dict[str, list[float]]:
         found |= {f.name: getattr(hung, f.name) for f in fields(hung) if f.name != "hung"}
     found |= {"numbers": engine.numbers, "bore": engine.bore_m, "throws": engine.throws_m}
     found |= {"speed": engine.speed_rpm, "fires": list(engine.fires_deg.values())}
+    found |= {"crank inertia": engine.crank_inertia}
     found |= {f"reference {k}": v for k, v in enumerate(engine.reference_m)}
     found |= {f"ripple {k}": v for line in engine.ripple for k, v in enumerate(line)}
     for number, device in enumerate(engine.devices):

@@ -21,7 +21,7 @@ from balcli.results.balance import balance
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import Remedy
 from balcli.sizing.schemes import SCHEMES
-from balcli.sizing.workshop import Tools, find_practical
+from balcli.sizing.workshop import Holes, Tools, find_practical
 
 SINGLE = changed(
     ("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4")
@@ -122,7 +122,7 @@ def test_csv_has_what_json_calls_practical_and_details(file):
     ("units", "size", "length"), [("si", 1.0, 1.0), ("imperial", 28.349523125 * 25.4, 25.4)]
 )
 def test_csv_has_devices_in_the_units_asked_for(file, units, size, length):
-    options = ("--scheme", "two-shaft", "--at=-60mm,80 mm", "--position", "12 mm")
+    options = ("--scheme", "two-shaft", "--at=-60 mm,80 mm", "--position", "12 mm")
     rows = list(
         csv.DictReader(StringIO(run(file, *options, "--format", "csv", "--units", units).out))
     )
@@ -203,7 +203,7 @@ def test_standard_input_can_be_written(tmp_path):
         (("--scheme", "factor", "--factor", "0:1"), "a range is first:last:step"),
         (("--scheme", "factor", "--factor", "0:1:1e-9"), "at most 1000 steps"),
         (("--scheme", "oldham"), "oldham is for a single cylinder; this engine has 4 cylinders"),
-        (("--drill", "-3"), "must be positive lengths in mm"),
+        (("--drill", "-3"), "drill and max-depth must be positive lengths, such as 40 (mm)"),
         (("--thickness", "10", "--disc", "50"), "not both"),
     ],
 )
@@ -289,13 +289,13 @@ def test_a_first_guess_of_a_device_in_steel():
     (figures,) = find_practical(engine(), weight, Tools())
     assert (figures.disc_radius, figures.disc_thickness) == pytest.approx((0.05, 0.02), rel=1e-14)
     assert (figures.radius, figures.mass) == (0.045, pytest.approx(figures.unbalance / 0.045))
-    assert figures.depth is None
+    assert figures.holes is None
 
 
 @pytest.mark.parametrize("name", ["radius", "thickness", "disc", "drill"])
 @pytest.mark.parametrize("length", [0.0, -1e-3, math.inf, math.nan])
 def test_lengths_of_tools_are_positive(name, length):
-    with pytest.raises(BalcliError, match="must be positive lengths in mm"):
+    with pytest.raises(BalcliError, match="must be positive lengths, such as 40"):
         find_practical(engine(), Remedy(""), Tools(**{name: length}))
 
 
@@ -314,6 +314,113 @@ def test_sliders_move_at_their_order():
     (figures,) = find_practical(engine(), remedy, Tools(radius=0.5, drill=1.0))
     assert (figures.mass, figures.speed_rpm) == (2, 9000)
     assert figures.force == pytest.approx((9000 * math.pi / 30) ** 2, rel=1e-14)
-    assert STEEL * math.pi / 4 * (0.5**2 - (0.5 - figures.depth) ** 2) / 2 == pytest.approx(
-        1, rel=1e-12
-    )
+    assert figures.holes is None  # it does not turn: no side of it is heavy
+
+
+# ------------------------------------------------------------------ holes
+def plan_holes(grams_mm: float, **tools: float) -> Holes:
+    weight = Remedy("", counterweights=(Counterweight(unbalance=grams_mm, angle=150, position=0),))
+    (figures,) = find_practical(engine(), weight, Tools(radius=0.08, **tools))
+    assert figures.holes is not None
+    return figures.holes
+
+
+def removed(holes: Holes, drill: float, density: float) -> float:
+    """g mm of all holes, each in thin slices, summed from the rim inwards."""
+    slices = 20_000
+    step = holes.depth / slices
+    radii = [0.08 - (k + 0.5) * step for k in range(slices)]
+    return holes.number * density * math.pi / 4 * drill**2 * step * sum(radii) * 1e6
+
+
+def test_a_hole_stands_opposite_to_the_weight_and_removes_it():
+    holes = plan_holes(6000, drill=0.02)
+    assert (holes.number, holes.angle_deg, holes.reason) == (1, -30, "")
+    assert removed(holes, 0.02, STEEL) == pytest.approx(6000, rel=1e-9)
+
+
+def test_as_many_holes_as_the_depth_asks_for():
+    holes = plan_holes(20_000, drill=0.02, max_depth=0.05)
+    assert (holes.number, holes.reason) == (3, "one hole would be deeper than --max-depth")
+    assert removed(holes, 0.02, STEEL) == pytest.approx(20_000, rel=1e-9)
+    assert holes.depth <= 0.05
+    assert removed(holes._replace(number=2, depth=0.05), 0.02, STEEL) < 20_000
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 50])
+def test_holes_to_the_last_digit_of_their_depth(count):
+    """So much as these holes remove at full depth asks for no further one."""
+    most = STEEL * math.pi / 4 * 0.02**2 * (0.08**2 - 0.05**2) / 2 * 1e6
+    for slip in (-1e-14, 0, 1e-14):
+        holes = plan_holes(count * most * (1 + slip), drill=0.02, max_depth=0.03)
+        assert holes.number == count
+        assert holes.depth == pytest.approx(0.03, rel=1e-9)
+
+
+def test_one_hole_deeper_than_the_radius_becomes_several():
+    """To the axis a hole removes rim^2/2; a tenth more needs two."""
+    holes = plan_holes(STEEL * math.pi / 4 * 0.02**2 * 0.08**2 / 2 * 1.1 * 1e6, drill=0.02)
+    assert (holes.number, holes.reason) == (2, "one hole would be deeper than the radius")
+
+
+def test_a_slug_adds_what_it_is_heavier_than_steel_on_its_own_side():
+    holes = plan_holes(20_000, drill=0.02, slug=17_000.0)
+    assert holes.angle_deg == 150
+    assert removed(holes, 0.02, 17_000 - STEEL) == pytest.approx(20_000, rel=1e-9)
+
+
+def test_more_holes_than_any_counterweight_has_room_for():
+    for drill in (1e-4, 1e-170):
+        holes = plan_holes(20_000, drill=drill)
+        assert holes.number > 50
+        assert math.isnan(holes.depth)
+    out = run("-", "--drill", "0.1", text=SINGLE).out
+    assert "more than 50" in out
+    assert "One hole would be deeper than the radius." in out
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (
+            ("--drill", "20", "--slug", "4"),
+            "--slug: 4 g/cm3 is not heavier than the steel in whose place it is put (7.85 g/cm3); "
+            "tungsten alloy has 17 to 18.5",
+        ),
+        (
+            ("--drill", "20", "--slug", "unobtainium"),
+            '--slug "unobtainium": give tungsten, mallory, lead, or a density in g/cm3 such as 18.5',
+        ),
+        (
+            ("--slug", "tungsten"),
+            "--max-depth and --slug are for holes: give the diameter of the drill, such as "
+            "--drill 25.4",
+        ),
+        (
+            ("--max-depth", "20"),
+            "--max-depth and --slug are for holes: give the diameter of the drill, such as "
+            "--drill 25.4",
+        ),
+    ],
+)
+def test_what_holes_cannot_be(file, options, told):
+    assert refusal("balance", file, *options) == told
+
+
+def test_holes_as_the_shop_reads_them(file):
+    options = ("--drill", "1 in", "--radius", "60 mm", "--scheme", "counterweights")
+    told = run("-", *options, text=SINGLE).out.partition("Holes to drill, 25.4 mm")[2]
+    weight = document("-", *options, text=SINGLE)
+    entry = weight["practical"][0]
+    assert entry["hole_angle_deg"] == 0 == weight["counterweights"][0]["angle_deg"] - 180
+    assert told.splitlines()[3].split() == [
+        "1",
+        "counterweight",
+        "0.0",
+        str(entry["holes"]),
+        f"{entry['drill_depth_mm']:.2f}",
+    ]
+    assert "opposite to the weight to add; radial, from a rim at 60 mm (--radius) inwards" in told
+    slugs = run("-", *options, "--slug", "tungsten", text=SINGLE).out
+    assert "Holes for slugs of 17 g/cm³, 25.4 mm" in slugs
+    assert "1 counterweight           180.0" in slugs

@@ -35,8 +35,17 @@ def test_it_is_shown_beside_each():
     assert "Permitted residual unbalance, ISO 21940-11, G 16\n" in out
     assert "A crankshaft of 31 kg at 6000 rpm; all counterweights share alike." in out
     assert f"{WHOLE / 2:.1f}" in out
-    pounds = ("--mass", "68.343 lb")
-    assert "oz·in" in run_here(*ASKED, *pounds, "--units", "imperial").out
+    assert "oz·in" in run_here(*ASKED, "--mass", "31 kg", "--units", "imperial").out
+
+
+def test_a_grade_may_be_written_as_the_standard_writes_it():
+    in_words = run_here("balance", V8, "--factor", "51%", "--grade", "G16", "--mass", "31 kg")
+    assert (
+        in_words.out == run_here("balance", V8, "--factor", "51%", "--grade", 16, "--mass", 31).out
+    )
+    assert refusal("balance", V8, "--grade", "good", "--mass", 3) == (
+        '--grade "good": give a grade of ISO 21940-11 such as G16 or 6.3'
+    )
 
 
 def test_nothing_is_said_unasked():

@@ -471,15 +471,16 @@ OPTIONS = {
     "position": 0.033,
     "planes": (-0.02, 0.09),
     "factor": (0.3,),
+    "measured": 1.9,
     "roll": "zero",
 }
 TAKEN = {
     "auto": "",
     "counterweights": "order planes",
-    "factor": "factor",
+    "factor": "factor measured planes",
     "minimax": "planes position",
     "four-shaft": "at position",
-    "single-shaft": "order at position",
+    "single-shaft": "order at position planes",
     "two-shaft": "order at position roll",
     "couple-shaft": "order at planes",
     "slider": "order at position",
@@ -593,9 +594,9 @@ def test_a_pair_of_shafts_stands_on_the_crank_axis_if_nothing_is_said():
     remedy = size(build(parse(ENGINES["vee"])), "two-shaft")
     assert [s.at for s in remedy.shafts] == [(0, 0), (0, 0)]
     assert remedy.reasons[0] == (
-        "Order 1 force and moment turning against the crank: nothing on the crankshaft can cancel "
-        "it; "
-        "one eccentric on a shaft at -1 times crank speed can"
+        "Order 1 force turning against the crank: nothing on the crankshaft can cancel it; "
+        "one eccentric on a shaft at -1 times crank speed can; a moment stays, which takes "
+        "eccentrics in two planes"
     )
     assert "radius ratio" not in figures(remedy, "order 1")
 
@@ -704,7 +705,7 @@ def test_couple_shafts_say_what_they_do_and_what_is_left():
     assert list(remedy.reasons[::2]) == [
         f"Order 1 moment turning {turning} the crank: two opposite eccentrics on a shaft at "
         f"{ratio} times crank speed make the opposite "
-        "moment and no force"
+        "moment and no force, wherever the shaft stands"
         for turning, ratio in (("with", "+1"), ("against", "-1"))
     ]
     after = compute_spectra(fit_devices(engine, remedy), [1], ("force", "moment"))
@@ -900,21 +901,6 @@ def test_a_single_factor_is_no_sweep():
     ]
 
 
-def test_own_counterweights_are_not_counted_and_said():
-    engine = build(
-        parse(
-            ENGINES["one"]
-            + "[[counterweight]]\nunbalance = 1\n[[shaft]]\nratio = 2\nunbalance = 1\n"
-        )
-    )
-    assert (
-        size(engine, "factor").note
-        == "the engine's own counterweights are not counted in the factor"
-    )
-    shafts = build(parse(ENGINES["one"] + "[[shaft]]\nratio = 2\nunbalance = 1\n"))
-    assert not size(shafts, "factor").note
-
-
 def test_peaks_along_and_across_are_those_of_the_curve():
     """Across the first bank, which leans, and off its axis by an offset: samples of what the remedy
     leaves, every 0.01 degrees.
@@ -952,7 +938,7 @@ def test_factors_at_their_bounds(share):
     assert figures(size(engine, "factor", SchemeOptions(factor=(share,))))["factor"] == share
     with pytest.raises(
         BalcliError,
-        match=r"--factor: give a share of the reciprocating mass such as 0.5, or a range such as "
-        r"0:1:0.1$",
+        match=r"--factor -?10: is no share of the reciprocating mass; (did you mean 10%\? )?give one such as 0.5 or 51%, "
+        r"or a range such as 50%:54%:1%$",
     ):
         size(engine, "factor", SchemeOptions(factor=(share * (1 + 1e-15), 0.5)))

@@ -319,7 +319,7 @@ def test_eccentric_stands_where_the_force_acts():
             SchemeOptions(order=6, roll="zero", at=(0.1j, 0.2j)),
             "fixes the place of the second shaft",
         ),
-        ("factor", SchemeOptions(factor=(math.nan,)), "give a share of the reciprocating mass"),
+        ("factor", SchemeOptions(factor=(math.nan,)), "is no share of the reciprocating mass"),
     ],
 )
 def test_infeasible_options_are_told_why(scheme, options, reason):

@@ -77,6 +77,14 @@ def read_speed(option: str, text: str) -> float:
     return _read(option, text, SPEED, Units.SI)
 
 
+def read_number(option: str, text: str, needed: str) -> float:
+    """A plain number; BalcliError with the option, its text and what is needed."""
+    value = _as_bare(text)
+    if value is None or not math.isfinite(value):
+        raise BalcliError(f"{_shown(option, text)}: give {needed}")
+    return value
+
+
 def read_share(option: str, text: str, needed: str) -> float:
     """A share, as a number or in per cent; BalcliError with the option, its text and what is
     needed.

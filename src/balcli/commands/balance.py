@@ -22,17 +22,20 @@ from .overwrite_guard import refuse_overwriting
 
 def balance(
     path: EnginePath,
-    scheme: balance_options.Scheme = "auto",
+    scheme: balance_options.Scheme = None,
     order: balance_options.Order = None,
     at: balance_options.At = None,
     position: balance_options.Position = None,
     planes: balance_options.Planes = None,
     factor: balance_options.Factor = None,
+    measured: balance_options.Measured = None,
     roll: balance_options.Roll = None,
     radius: balance_options.Radius = None,
     thickness: balance_options.Thickness = None,
     disc: balance_options.Disc = None,
     drill: balance_options.Drill = None,
+    max_depth: balance_options.MaxDepth = None,
+    slug: balance_options.Slug = None,
     even: balance_options.Even = None,
     grade: balance_options.Grade = None,
     mass: balance_options.Mass = None,
@@ -53,15 +56,19 @@ def balance(
     from .fitted_engine import write_fitted
     from .inputs import read_engine
 
-    options = balance_options.parse_scheme_options(order, at, position, planes, factor, roll, units)
-    tools = balance_options.parse_tools(radius, thickness, disc, drill, units)
+    options = balance_options.parse_scheme_options(
+        order, at, position, planes, factor, measured, roll, units
+    )
+    scheme = balance_options.choose_scheme(scheme, options)
+    tools = balance_options.parse_tools(radius, thickness, disc, drill, max_depth, slug, units)
+    grading = balance_options.parse_grading(grade, mass, units)
     asked, rpm = parse_orders(orders), parse_speed(speed)
     text, model, engine = read_engine(path, rpm)
     if scheme == KNUCKLES or even is not None:
         result = balance_options.balance_knuckles(scheme, options, even, model, engine, asked)
     else:
         result = balance_engine(engine, scheme, options, asked, tools)
-    result = permit_unbalance(result, grade, balance_options.parse_mass(mass, units))
+    result = permit_unbalance(result, *grading)
     if write is not None:
         write_fitted(path, text, result.remedy, write, rpm)
     show([result], renderer, form, output, units)

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..core.drilled_hole import SLUGS
 from ..errors import BalcliError
 from ..limits import MOST_FACTORS
 from ..render.formats import Units
 from ..sizing.options import SchemeOptions
 from ..sizing.schemes import KNUCKLES, NAMES
-from .amounts import read_length, read_lengths, read_mass, read_share
+from .amounts import read_length, read_lengths, read_mass, read_number, read_share
 from .completion import complete_schemes
 
 if TYPE_CHECKING:
@@ -23,12 +24,13 @@ if TYPE_CHECKING:
     from ..sizing.workshop import Tools
 
 Scheme = Annotated[
-    str,
+    str | None,
     typer.Option(
         "--scheme",
         "--with",
         metavar="NAME",
         autocompletion=complete_schemes,
+        show_default="auto; factor where --factor or --measured is given",
         help=f"What to fit: {', '.join(NAMES[:-1])} or {NAMES[-1]}.",
     ),
 ]
@@ -45,7 +47,7 @@ At = Annotated[
     typer.Option(
         metavar="X,Y",
         show_default=False,
-        help=("Place in mm of the shaft that turns against the crank; given twice: of both."),
+        help=("Place in mm of a shaft, of a pair that against the crank; given twice: of both."),
     ),
 ]
 Position = Annotated[
@@ -66,8 +68,19 @@ Factor = Annotated[
         metavar="K|K:K:STEP",
         show_default=False,
         help=(
-            "Share of the reciprocating mass that counterweights take; default 0.5. Of a range, "
-            "the best."
+            "Share of the reciprocating mass that counterweights take, such as 51% or 0.51; "
+            "default 50%. A range such as 50%:54%:1% gives a table, and fits the best."
+        ),
+    ),
+]
+Measured = Annotated[
+    str | None,
+    typer.Option(
+        metavar="MASS",
+        show_default=False,
+        help=(
+            'Instead of --factor: what balances each bare pin, such as "812 g" (a bare number is '
+            "g): says which factor that is."
         ),
     ),
 ]
@@ -84,7 +97,7 @@ Radius = Annotated[
     typer.Option(
         metavar="MM",
         show_default=False,
-        help=("Radius at which masses are stated; default: crank radius."),
+        help="Radius at which masses are stated, in mm or as '2.5 in'; default: crank radius.",
     ),
 ]
 Thickness = Annotated[
@@ -109,8 +122,27 @@ Drill = Annotated[
         metavar="MM",
         show_default=False,
         help=(
-            "Diameter of a drill: also say how deep a radial hole from --radius inwards removes "
-            "as much."
+            "Diameter of a drill: also say where radial holes from --radius inwards belong, how "
+            "many and how deep, to remove as much."
+        ),
+    ),
+]
+MaxDepth = Annotated[
+    str | None,
+    typer.Option(
+        metavar="MM",
+        show_default=False,
+        help="Deepest hole, for --drill; default: to the axis of the crank.",
+    ),
+]
+Slug = Annotated[
+    str | None,
+    typer.Option(
+        metavar="METAL",
+        show_default=False,
+        help=(
+            "With --drill: fill the holes with slugs of tungsten (heavy alloy, 17 g/cm3), lead, or "
+            "of a density in g/cm3: they add weight where drilling would remove it."
         ),
     ),
 ]
@@ -124,11 +156,11 @@ Even = Annotated[
     ),
 ]
 Grade = Annotated[
-    float | None,
+    str | None,
     typer.Option(
         metavar="G",
         show_default=False,
-        help="Balance quality grade of ISO 21940-11, mm/s: say what may be left beside each "
+        help="Balance quality grade of ISO 21940-11, such as G16: say what may be left beside each "
         "counterweight.",
     ),
 ]
@@ -157,6 +189,7 @@ def parse_scheme_options(
     position: str | None,
     planes: str | None,
     factor: str | None,
+    measured: str | None,
     roll: str | None,
     units: Units,
 ) -> SchemeOptions:
@@ -169,24 +202,61 @@ def parse_scheme_options(
         position=None if position is None else _parse_position(position, units),
         planes=None if planes is None else _parse_planes(planes, units),
         factor=None if factor is None else _parse_factors(factor),
+        measured=None if measured is None else _parse_measured(measured, units),
         roll=roll,
     )
 
 
+def choose_scheme(asked: str | None, options: SchemeOptions) -> str:
+    """The scheme asked for; without one `factor` where there is a factor, else `auto`."""
+    if asked is not None:
+        return asked
+    return "factor" if options.factor is not None or options.measured is not None else "auto"
+
+
 def parse_tools(
-    radius: str | None, thickness: str | None, disc: str | None, drill: str | None, units: Units
+    radius: str | None,
+    thickness: str | None,
+    disc: str | None,
+    drill: str | None,
+    max_depth: str | None,
+    slug: str | None,
+    units: Units,
 ) -> Tools:
-    """What a workshop has; BalcliError for a text that is no length."""
+    """What a workshop has; BalcliError for a text that is no length, or no metal."""
     from ..sizing.workshop import Tools
 
     given = {"radius": radius, "thickness": thickness, "disc": disc, "drill": drill}
-    said = {name: text for name, text in given.items() if text is not None}
-    return Tools(**{name: read_length(f"--{name}", text, units) for name, text in said.items()})
+    given["max-depth"] = max_depth
+    lengths = {
+        name.replace("-", "_"): read_length(f"--{name}", text, units)
+        for name, text in given.items()
+        if text is not None
+    }
+    return Tools(**lengths, slug=None if slug is None else _parse_slug(slug))
 
 
-def parse_mass(text: str | None, units: Units) -> float | None:
-    """The mass of `--mass`, kg."""
-    return None if text is None else read_mass("--mass", text, units)
+def _parse_slug(text: str) -> float:
+    """Density of a metal, kg/m3: by its name, or in g/cm3."""
+    if (known := SLUGS.get(text.strip().lower())) is not None:
+        return known
+    wanted = f"{', '.join(SLUGS)}, or a density in g/cm3 such as 18.5"
+    return 1e3 * read_number("--slug", text, wanted)
+
+
+def parse_grading(
+    grade: str | None, mass: str | None, units: Units
+) -> tuple[float | None, float | None]:
+    """The grade of `--grade` (`16` or `G16`), mm/s, and the mass of `--mass`, kg."""
+    return (
+        None if grade is None else _parse_grade(grade),
+        None if mass is None else read_mass("--mass", mass, units),
+    )
+
+
+def _parse_grade(text: str) -> float:
+    figure = text.strip().removeprefix("G")
+    return read_number("--grade", figure, "a grade of ISO 21940-11 such as G16 or 6.3")
 
 
 def balance_knuckles(
@@ -233,9 +303,15 @@ def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
     return read_lengths("--planes", text, wanted, units=units)
 
 
+def _parse_measured(text: str, units: Units) -> float:
+    """A mass in kg; a bare number is in g, as on the scales of a shop."""
+    in_grams = units is Units.SI and text.strip().replace(".", "", 1).isdigit()
+    return read_mass("--measured", f"{text} g" if in_grams else text, units)
+
+
 def _parse_factors(text: str) -> tuple[float, ...]:
     """`0.5`, `51%`, `0.4,0.5` or `0:1:0.1` (ends included)."""
-    wanted = "a share of the reciprocating mass such as 0.5 or 50%, or a range such as 0:1:0.1"
+    wanted = "a share of the reciprocating mass such as 51% or 0.51, or a range such as 50%:54%:1%"
     if ":" not in text:
         return tuple(read_share("--factor", part, wanted) for part in text.split(","))
     parts = [read_share("--factor", part, wanted) for part in text.split(":")]

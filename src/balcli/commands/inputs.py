@@ -47,7 +47,8 @@ def read_engine(
     engine = build_named(model, path)
     if not engine.places_known:
         _tell_unknown(name_file(path), asked or ())
-    for warning in suspicious(model):
+    doubts = engine.gas.doubts if engine.gas is not None else ()
+    for warning in (*suspicious(model), *doubts):
         say(f"warning: {name_file(path)}: {warning}")
     return Source(
         text, model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)

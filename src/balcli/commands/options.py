@@ -79,7 +79,7 @@ Only = Annotated[
         "--only",
         metavar="WHAT,...",
         show_default=False,
-        help=f"Compute only some of {', '.join(KINDS)}, peak, sizing; or inner "
+        help=f"Compute only some of {', '.join(KINDS)}, peak, sizing, gas; or inner "
         "(shear, bending, bearing loads along the crankshaft) and guide (H- and X-type).",
     ),
 ]

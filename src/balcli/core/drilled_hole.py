@@ -1,5 +1,5 @@
-"""How deep a radial hole must be to remove a given unbalance: the shop's arithmetic for
-counterweights and for rotors on a machine.
+"""How deep a radial hole must be to remove a given unbalance, or to add it with a slug of heavier
+metal: the shop's arithmetic for counterweights and for rotors on a machine.
 """
 
 from __future__ import annotations
@@ -7,9 +7,12 @@ from __future__ import annotations
 import math
 
 STEEL = 7850.0  # kg/m3, plain carbon steel
+# kg/m3, of slugs: heavy alloy of 90 % tungsten (ASTM B777, class 1), which shops also know as
+# Mallory metal; and lead
+SLUGS = {"tungsten": 17000.0, "mallory": 17000.0, "lead": 11340.0}
 
 
-def find_drill_depth(unbalance: float, rim: float, drill: float) -> float:
+def find_drill_depth(unbalance: float, rim: float, drill: float, density: float = STEEL) -> float:
     """Depth of a radial hole from the rim (radius, m) inwards whose removed steel had this
     unbalance; nan if none is deep enough.
 
@@ -17,14 +20,15 @@ def find_drill_depth(unbalance: float, rim: float, drill: float) -> float:
 
     Args:
         unbalance: kg m. drill: diameter, m.
+        density: of what is taken out, or of a slug less the steel in whose place it is put, kg/m3.
     """
-    unbalance_per_square = STEEL * math.pi / 4 * drill**2  # kg m of a depth of 1 m at 1 m
+    unbalance_per_square = density * math.pi / 4 * drill**2  # kg m of a depth of 1 m at 1 m
     share = unbalance / unbalance_per_square / rim**2  # = h/rim - (h/rim)^2 / 2, at most 1/2
     return rim * 2 * share / (1 + math.sqrt(1 - 2 * share)) if share <= 0.5 else math.nan
 
 
-def find_drilled_unbalance(depth: float, rim: float, drill: float) -> float:
+def find_drilled_unbalance(depth: float, rim: float, drill: float, density: float = STEEL) -> float:
     """Unbalance (kg m) that a radial hole of this depth from the rim inwards removes: the inverse
     of `find_drill_depth`. All lengths in m, the depth at most the rim's radius.
     """
-    return STEEL * math.pi / 4 * drill**2 * depth * (rim - depth / 2)
+    return density * math.pi / 4 * drill**2 * depth * (rim - depth / 2)

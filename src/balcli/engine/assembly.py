@@ -36,6 +36,9 @@ if TYPE_CHECKING:  # few engines have rods on rods, or turn; those that do impor
 
 PISTON_PARTS = ("mass", "piston", "pin", "rings", "locks")  # keys of [piston] that are masses
 
+if TYPE_CHECKING:
+    from .gas import EngineGas
+
 
 class Ripple(NamedTuple):
     """One line of an uneven crank speed: `omega = mean (1 + sum amplitude cos(order theta -
@@ -69,6 +72,7 @@ class Assembly:
     ) -> None:
         self.model = model
         self.figures = Figures(varied or {}, model)
+        self.varies = bool(varied) or rank > 0
         self.rank = max(rank, *map(np.ndim, (varied or {}).values()), 0)
         self.legible = frozenset(legible)
         self._gears: dict[tuple[int, bool], RunningGear] = {}
@@ -402,6 +406,16 @@ class Assembly:
         knuckles = Knuckles(radius_mm / (stroke_mm / 2), angles, masters)
         big_ends = [self.gears[n].big_end for n in self.numbers]
         return build_linkage(knuckles, self.numbers, axes, big_ends, self.sense, self.rank)
+
+    # ------------------------------------------------------------------ gas
+    @cached_property
+    def gas(self) -> EngineGas | None:
+        """Gas of the cylinders; None without [gas], and for variants, whose figures are arrays."""
+        if self.model.gas is None or self.varies:
+            return None
+        from .gas import build_gas  # files without [gas] do not pay for it
+
+        return build_gas(self)
 
 
 def _share_axes(axes_deg: Mapping[int, Figure]) -> list[list[int]]:

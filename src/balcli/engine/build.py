@@ -8,7 +8,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import groupby
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..core.cylinders import Cylinders, Device
 from ..core.phasors import Array, Figure
@@ -18,6 +18,10 @@ from .assembly import Assembly, Ripple
 from .devices import build_devices
 from .positions import are_places_known
 from .rules import find_contradictions
+
+if TYPE_CHECKING:
+    from ..enginefile.gas_tables import Bearing, Flywheel
+    from .gas import EngineGas
 
 
 class Weighed(NamedTuple):
@@ -53,6 +57,13 @@ class Weighed(NamedTuple):
         return self.big_end + self.rod_bearing + self.oil
 
 
+class Bearings(NamedTuple):
+    """Diameter times width of each bearing, m2; None where the file does not say."""
+
+    pin_m2: float | None = None
+    main_m2: float | None = None
+
+
 @dataclass(frozen=True, eq=False)
 class Engine:
     """An engine, or variants of one, in SI units except where a name says otherwise.
@@ -78,6 +89,11 @@ class Engine:
         weighed: masses behind each row of `cylinders`.
         places_known: whether the file says where its throws stand along the crank; if not, they
             count as standing in one plane, and what is said of moments means nothing.
+        gas: what the gas does in the cylinders; None where the file does not say, and for variants.
+        crank_inertia: polar moment of inertia of the crankshaft with throws and counterweights, kg
+            m2; None where the file gives none.
+        flywheel_inertia: that of the flywheel, kg m2, likewise.
+        bearings: of the crankshaft; None where the file gives none.
     """
 
     name: str
@@ -94,6 +110,10 @@ class Engine:
     devices: tuple[Device, ...]
     weighed: tuple[Weighed, ...]
     places_known: bool = True
+    gas: EngineGas | None = None
+    crank_inertia: Figure | None = None
+    flywheel_inertia: Figure | None = None
+    bearings: Bearings | None = None
 
     @property
     def omega(self) -> Figure:
@@ -186,6 +206,10 @@ def build(
         devices=tuple(build_devices(model, parts.figures, parts.axes_deg[1])),
         weighed=_weigh_cylinders(parts),
         places_known=are_places_known(model, parts.plan),
+        gas=parts.gas,
+        crank_inertia=_in_si(parts.figures.take_optional("crank.inertia", model.crank.inertia)),
+        flywheel_inertia=None if model.flywheel is None else _find_flywheel(parts, model.flywheel),
+        bearings=None if model.bearing is None else _find_bearings(model.bearing),
     )
 
 
@@ -197,6 +221,27 @@ def assemble(
     if problems := find_contradictions(parts):
         raise InputError(problems)
     return parts
+
+
+def _in_si(inertia: Figure | None) -> Figure | None:
+    """Kg m2 from the kg mm2 of the file."""
+    return None if inertia is None else inertia * 1e-6
+
+
+def _find_flywheel(parts: Assembly, table: Flywheel) -> Figure | None:
+    """Moment of inertia of the flywheel, kg m2."""
+    take = parts.figures.take_optional
+    inertia = take("flywheel.inertia", table.inertia)
+    mass = take("flywheel.mass", table.mass)
+    radius = take("flywheel.radius_of_gyration", table.radius_of_gyration)
+    if mass is None or radius is None:
+        return _in_si(inertia)
+    return mass * (radius * 1e-3) ** 2
+
+
+def _find_bearings(table: Bearing) -> Bearings:
+    pairs = (table.pin_diameter, table.pin_width), (table.main_diameter, table.main_width)
+    return Bearings(*(None if a is None or b is None else a * b * 1e-6 for a, b in pairs))
 
 
 def _weigh_cylinders(parts: Assembly) -> tuple[Weighed, ...]:

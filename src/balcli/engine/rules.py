@@ -196,6 +196,20 @@ def check_samples(parts: Assembly) -> Iterator[Problem]:
         )
 
 
+def check_gas(parts: Assembly) -> Iterator[Problem]:
+    """Gas in every cylinder can be worked out; what a cylinder says of it has [gas] to refer to."""
+    if parts.model.gas is None:
+        for number, own in parts.model.cylinder.items():
+            for key in ("gas", "indicator"):
+                if getattr(own, key) is not None:
+                    yield Problem(
+                        f"cylinder.{number}.{key}",
+                        "needs [gas], which says what the gas does in all cylinders",
+                    )
+    else:
+        _ = parts.gas  # raises InputError with all mistakes
+
+
 _WHOLE = frozenset({"crank", "rod", "piston", "layout", "articulation", "cylinder"})
 RULES = (
     (
@@ -207,4 +221,5 @@ RULES = (
     (Rule(check_dead_centres, _WHOLE),),
     (Rule(check_knuckle_pins, _WHOLE),),
     (Rule(check_samples, _WHOLE),),
+    (Rule(check_gas, _WHOLE | {"gas"}),),
 )

@@ -9,7 +9,7 @@ import tomllib
 from collections.abc import Mapping
 from typing import Any
 
-_HEAD = re.compile(r"(?m)^[ \t]*\[\[?[ \t\w.\"'-]+\]\]?[ \t]*(?:#.*)?$")
+HEAD = re.compile(r"(?m)^[ \t]*\[\[?[ \t\w.\"'-]+\]\]?[ \t]*(?:#.*)?$")
 # that can be replaced: a flat list, a string, a number
 _VALUE = r"""\[[^\[\]]*\]|"[^"\n]*"|'[^'\n]*'|[^\s#\[\]{"']+"""
 
@@ -63,7 +63,7 @@ def _changed(text: str, table: str, key: str, value: Any, note: str) -> str:
     line = f"{key} = {written(value)}    # {note}\n"
     if head is None:
         return text if value is None else f"{text.rstrip()}\n\n[{table}]\n{line}"
-    following = _HEAD.search(text, head.end())
+    following = HEAD.search(text, head.end())
     end = following.start() if following else len(text)
     before, body, after = text[: head.end()] + "\n", text[head.end() + 1 : end], text[end:]
     old = re.search(rf"(?m)^([ \t]*{key}[ \t]*=[ \t]*)(?:{_VALUE})(?:([ \t]*#.*)|[ \t]*$)\n?", body)

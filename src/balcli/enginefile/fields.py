@@ -8,7 +8,7 @@ import math
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
-from ..limits import LONGEST_NAME, LONGEST_SHOWN, SMALLEST_POSITIVE
+from ..limits import LONGEST_FILE_NAME, LONGEST_NAME, LONGEST_SHOWN, SMALLEST_POSITIVE
 from .units import PLAIN, Dimension, convert, wanted
 
 if TYPE_CHECKING:
@@ -218,6 +218,21 @@ class Flag(_Field):
 
     def json(self) -> dict[str, Any]:
         return {"type": "boolean"}
+
+
+class FileName(_Field):
+    """The name of a file, of at most some hundred characters."""
+
+    def read(self, value: object) -> str:
+        wanted = 'give the name of a file, such as "p_2000rpm.csv"'
+        if not isinstance(value, str):
+            raise ValueError(f"{shorten(value)} is not text; {wanted}")
+        if not value.strip() or not value.isprintable() or len(value) > LONGEST_FILE_NAME:
+            raise ValueError(f"{shorten(value)} is no name of a file; {wanted}")
+        return value
+
+    def json(self) -> dict[str, Any]:
+        return {"type": "string", "minLength": 1, "maxLength": LONGEST_FILE_NAME}
 
 
 class OneOf(_Field):

@@ -9,14 +9,15 @@ a file has.
 import math
 from collections.abc import Collection, Iterator
 from itertools import chain
-from typing import Annotated, ClassVar, Literal
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, model_validator
 from pydantic.fields import FieldInfo
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
 from .exclusive import Choice, find_repeated, join_words
-from .fields import Flag, Halves, Label, Number, OneOf, Whole, counted
+from .fields import FileName, Flag, Halves, Label, Number, OneOf, Whole, counted
 from .units import (
     ANGLE,
     DAMPING,
@@ -31,6 +32,10 @@ from .units import (
     UNBALANCE,
 )
 
+if TYPE_CHECKING:
+    from .gas_tables import Bearing, Flywheel, Gas
+    from .torsion_tables import Torsion
+
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
 _PERPENDICULAR = 1e-6  # cosine between two axes that are
 
@@ -42,9 +47,11 @@ Mass = Annotated[float, Number(MASS, least=0, most=1e12)]
 Angle = Annotated[float, Number(ANGLE, most=1e9)]  # a million turns, and then some
 Interval = Annotated[float, Number(ANGLE, least=0, most=720)]
 Inertia = Annotated[float, Number(INERTIA, least=0, most=1e24)]
+GivenInertia = Annotated[float, Number(INERTIA, above=0, most=1e24)]
 Unbalance = Annotated[float, Number(UNBALANCE, most=1e24)]
 Speed = Annotated[float, Number(SPEED, above=0, most=1e9)]
 Period = Annotated[float, Number(TIME, above=0, most=1e6)]
+ShareOfGas = Annotated[float, Number(PLAIN, least=0, most=100)]
 RodRatio = Annotated[float, Number(PLAIN, above=0, below=1)]
 Share = Annotated[float, Number(PLAIN, least=-1, most=1)]
 Count = Annotated[int, Whole(least=1, most=MOST_LIST_VALUES)]
@@ -132,6 +139,12 @@ class Crank(Table):
         examples=[0.8],
         description="unbalanced mass of one whole throw, referred to the crank radius; its pins "
         "share it equally",
+    )
+    inertia: GivenInertia | None = Field(
+        None,
+        description="polar moment of inertia of the whole crankshaft with throws and "
+        "counterweights, for its uneven speed",
+        examples=[90000],
     )
     splay: Angle = Field(
         0.0,
@@ -416,6 +429,12 @@ class Override(Table):
     rod_big_end: Mass | None = Field(None, description="as rod.big_end", examples=[0.43])
     rod_inertia: Inertia | None = Field(None, description="as rod.inertia", examples=[2300])
     rod_pendulum: Pendulum | None = Field(None, description="as rod.pendulum")
+    gas: ShareOfGas | None = Field(
+        None, description="share of the gas force; 0: a misfire", examples=[0]
+    )
+    indicator: Annotated[str, FileName()] | None = Field(
+        None, description="as gas.indicator, a diagram of its own", examples=["p_3.csv"]
+    )
     bank: Angle | None = Field(None, description="angle of this cylinder's axis", examples=[30])
     throw: Angle | None = Field(
         None, description="angle of this cylinder's crank pin", examples=[120]
@@ -575,6 +594,14 @@ class MarkedPoint(Table):
     at: Point = Field(description="x, y, z, in the engine's axes", examples=[[0, 500, 0]])
 
 
+def label_table(table: Table, number: int) -> str:
+    """What stands for a table of several in dotted names: its name, if that is a word, with `_` for
+    spaces; else its number.
+    """
+    name = getattr(table, "name", "").replace(" ", "_")
+    return name if name.isidentifier() else str(number)
+
+
 class EngineFile(Table):
     """One engine: crank, rods, pistons, layout, and the devices that balance it."""
 
@@ -592,6 +619,10 @@ class EngineFile(Table):
     operation: Operation = Operation.model_construct()
     frame: Frame = Frame.model_construct()
     articulation: Articulation | None = None
+    gas: "Gas | None" = None
+    flywheel: "Flywheel | None" = None
+    bearing: "Bearing | None" = None
+    torsion: "Torsion | None" = None
     cylinder: dict[int, Override] = Field(
         {}, description="what differs in single cylinders, by their numbers"
     )
@@ -604,14 +635,22 @@ class EngineFile(Table):
     mount: tuple[Mount, ...] = Field((), description="what the body stands on")
     point: tuple[MarkedPoint, ...] = Field((), description="points whose motion is wanted")
 
+    _folder: Path = PrivateAttr(Path())
+
+    @property
+    def folder(self) -> Path:
+        """Where the file stands, and the files that it names."""
+        return self._folder
+
     def tables(self) -> Iterator[tuple[str, Table]]:
-        """Every table with its dotted name (`crank`, `shaft.1`, `cylinder.3`), as far as the file
+        """Every table with its dotted name (`crank`, `shaft.1`, `mount.left`), as far as the file
         has it or it has defaults; not the tables within tables.
         """
         for key, part in self:
             if isinstance(part, Table):
                 yield key, part
             elif isinstance(part, tuple):
-                yield from ((f"{key}.{number}", table) for number, table in enumerate(part, 1))
+                for number, table in enumerate(part, 1):
+                    yield f"{key}.{label_table(table, number)}", table
             elif isinstance(part, dict):
                 yield from ((f"{key}.{number}", table) for number, table in part.items())

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 from pydantic import ValidationError
@@ -20,14 +21,16 @@ from ..limits import (
 )
 from .fields import printable, shorten
 from .messages import (
+    CHAPTERS,
     DEVICES,
-    INNER,
     KNOWN,
     TABLES,
     TEXTS,
     UnknownKey,
     describe_finding,
     describe_unknown_key,
+    find_inner_table,
+    import_table,
     is_miscounted,
     join_path,
 )
@@ -105,12 +108,15 @@ def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Dra
     for key, table in TABLES.items():
         if key in data:
             parts[key] = reader.read_table(key, data[key], table)
+    for key in CHAPTERS:
+        if key in data:
+            parts[key] = reader.read_table(key, data[key], import_table(key))
     for key, table in DEVICES.items():
         if key in data:
             parts[key] = reader.read_devices(key, data[key], table)
     if "cylinder" in data:
         parts["cylinder"] = reader.read_cylinders(data["cylinder"])
-    return reader.draft(parts)
+    return reader.draft(parts, Path(name).parent)
 
 
 class _Reader:
@@ -123,8 +129,8 @@ class _Reader:
     def add(self, path: str, message: str) -> None:
         self.problems.append(Problem(path, message))
 
-    def draft(self, parts: Mapping[str, Any]) -> Draft:
-        """What was read, from the parts of the file by their keys."""
+    def draft(self, parts: Mapping[str, Any], folder: Path) -> Draft:
+        """What was read, from the parts of the file by their keys; the file stands in `folder`."""
         cylinders: dict[int, Override | None] = parts.get("cylinder", {})
         broken = {key for key in REQUIRED if key not in parts}
         broken |= {key for key, part in parts.items() if part is None}
@@ -133,8 +139,10 @@ class _Reader:
         if None in cylinders.values():
             broken.add("cylinder")
             read["cylinder"] = {n: own for n, own in cylinders.items() if own is not None}
+        model = EngineFile.model_construct(set(read), **read)
+        model._folder = folder
         return Draft(
-            EngineFile.model_construct(set(read), **read),
+            model,
             frozenset(KNOWN) - broken,
             tuple(self.problems),
             tuple(self.unknown),
@@ -230,7 +238,7 @@ class _Reader:
         for finding in findings:
             if finding["type"] == "extra_forbidden":  # in a table within the table
                 *parents, last = finding["loc"]
-                inner = INNER[str(parents[0])]
+                inner = find_inner_table(table, finding["loc"])
                 self.unknown.append(UnknownKey(join_path(path, parents), str(last), inner))
             elif not is_miscounted(finding):
                 self.problems.append(describe_finding(path, finding, table))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import combinations, product
 from typing import Any
 
-from .messages import DEVICES, TABLES
+from .messages import CHAPTERS, DEVICES, TABLES, import_table
 from .model import EngineFile, Override, Table
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -15,7 +15,14 @@ def schema() -> dict[str, Any]:
     """JSON Schema (draft 2020-12) of an engine file: every key with description, unit, bounds and
     an example.
     """
-    tables: list[type[Table]] = [*TABLES.values(), *DEVICES.values(), Override]
+    chapters = {key.capitalize(): import_table(key) for key in CHAPTERS}
+    tables: list[type[Table]] = [
+        *TABLES.values(),
+        *chapters.values(),
+        *DEVICES.values(),
+        Override,
+    ]
+    EngineFile.model_rebuild(_types_namespace=chapters)
     for table in tables:
         table.model_rebuild()  # pydantic before 2.13 writes no default of a table not built yet
     document: dict[str, Any] = tidy_schema(EngineFile.model_json_schema())

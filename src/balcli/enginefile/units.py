@@ -48,6 +48,7 @@ class Dimension(NamedTuple):
 
 _FOREIGN = Powers(99)  # ampere, kelvin: known, but no field has such a dimension
 _LENGTH, _MASS, _TIME, _ANGLE = Powers(length=1), Powers(mass=1), Powers(time=1), Powers(angle=1)
+_ENERGY = Powers(2, 1, -2)
 # By definition: the international inch and pound (1959), standard gravity (CGPM 1901).
 INCH = Fraction(254, 10_000)  # m
 POUND = Fraction(45_359_237, 100_000_000)  # kg
@@ -73,6 +74,8 @@ COMMON = {
     "°": Unit(Fraction(1, 360), _ANGLE),
     "rad": Unit(1 / (2 * PI), _ANGLE),
     "rpm": Unit(Fraction(1, 60), Powers(time=-1, angle=1)),
+    "bar": Unit(Fraction(100_000), _PRESSURE),
+    "J": Unit(Fraction(1), _ENERGY),
     "N": Unit(Fraction(1), _FORCE),
     "lbf": Unit(_POUND_FORCE, _FORCE),
     "MPa": Unit(Fraction(10**6), _PRESSURE),
@@ -96,6 +99,8 @@ UNBALANCE = Dimension(
 )
 SPEED = Dimension("rpm", "a speed of rotation", Powers(time=-1, angle=1), ("6000 rpm", "300 rad/s"))
 TIME = Dimension("s", "a time", _TIME, ("0.82 s", "820 ms"))
+PRESSURE = Dimension("bar", "a pressure", _PRESSURE, ("9.5 bar", "1.2 MPa", "150 psi"))
+ENERGY = Dimension("J", "an energy", _ENERGY, ("1400 J", "1.4 kJ"))
 STIFFNESS = Dimension("N/mm", "a stiffness", Powers(0, 1, -2), ("350 N/mm", "2000 lbf/in"))
 DAMPING = Dimension("N s/mm", "a damping", Powers(0, 1, -1), ("0.5 N s/mm", "3 lbf s/in"))
 TORQUE = Dimension("N m", "a torque", Powers(2, 1, -2), ("250 N m", "184 lbf ft"))
@@ -112,7 +117,7 @@ SHEAR_MODULUS = Dimension("GPa", "a modulus of elasticity", _PRESSURE, ("79.3 GP
 STRESS = Dimension("N/mm^2", "a stress", _PRESSURE, ("40 N/mm^2", "5800 psi"))
 PLAIN = Dimension("", "a plain number", Powers(), ())
 _DIMENSIONS = (
-    *(LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PLAIN),
+    *(LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PRESSURE, ENERGY, PLAIN),
     *(TORQUE, TORSIONAL_STIFFNESS, TORSIONAL_DAMPING, STRESS, STIFFNESS, DAMPING),
 )
 

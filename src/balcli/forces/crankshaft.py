@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.cylinders import Device
+from ..core.levers import share_by_lever
 from ..core.peaks import Peak, peak
 from ..core.phasors import Array, Phasors
 from ..engine.arrays import ranked
@@ -87,7 +88,7 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
     _refuse_too_many_results(len(orders), len(z))
     bearings = None
     if (span := place_bearings(engine.throws_m)) is not None:
-        shares = _share_among_bearings(z, span)
+        shares = share_by_lever(z, span)
         bearings = _with_peaks(span, _sum_weighted(loads, shares, shares), orders)
     return InnerLoads(
         _with_peaks(sections, shear, orders), _with_peaks(sections, bending, orders), bearings
@@ -113,19 +114,6 @@ def place_bearings(throws_m: Array) -> Array | None:
         return None
     between = (places[1:] + places[:-1]) / 2
     return np.array([2 * places[0] - between[0], *between, 2 * places[-1] - between[-1]])
-
-
-def _share_among_bearings(z: Array, span: Array) -> Array:
-    """Share of each load at z that each bearing carries, shape (bearings, loads): by the lever in
-    its own span; loads outside hang on the end spans.
-    """
-    left = np.clip(np.searchsorted(span, z, side="right") - 1, 0, len(span) - 2)
-    right_share = (z - span[left]) / (span[left + 1] - span[left])
-    shares = np.zeros((len(span), len(z)))
-    loads = np.arange(len(z))
-    shares[left, loads] += 1 - right_share
-    shares[left + 1, loads] += right_share
-    return shares
 
 
 def _compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:

@@ -2,7 +2,8 @@
 measured and how it is written.
 
 Whatever is computed, shown, compared, recorded or searched by kind reads this table; a new kind is
-one line here, one member of `spectrum.Spectra`, and the physics that computes it.
+one line here, one member of `spectrum.Spectra`, and the physics that computes it. `KINDS` are those
+of inertia, which every engine has; `GAS_KINDS` those of engines whose file has [gas].
 """
 
 from __future__ import annotations
@@ -57,7 +58,18 @@ COUPLE = Kind("couple", "couple C", "C", "couple_Nm", vector=False, dimension="m
 TORQUE = Kind("torque", "inertia torque T", "T", "inertia_torque_Nm", False, "moment")
 ROLL = Kind("roll", "roll C − T", "C − T", "roll_Nm", False, "moment", ("couple",), ("torque",))
 
+GAS = Kind("gas", "gas torque", "Tg", "gas_torque_Nm", False, "moment")
+TORQUE_TOTAL = Kind(
+    "torque_total", "total torque", "T + Tg", "torque_Nm", False, "moment", ("torque", "gas")
+)
+ROLL_TOTAL = Kind(
+    *("roll_total", "total roll", "C − T − Tg", "roll_total_Nm", False, "moment"),
+    *(("couple",), ("torque", "gas")),
+)
+
 KINDS = {kind.name: kind for kind in (FORCE, MOMENT, COUPLE, TORQUE, ROLL)}
+GAS_KINDS = {kind.name: kind for kind in (GAS, TORQUE_TOTAL, ROLL_TOTAL)}  # of engines with gas
+EVERY_KIND = KINDS | GAS_KINDS
 # what is asked of variants of an engine unless something else is: quantities, see quantity.py
 DEFAULT_QUANTITIES = "force.1.major,force.2.major,moment.1.major,moment.2.major"
 VECTORS = tuple(kind for kind in KINDS.values() if kind.vector)

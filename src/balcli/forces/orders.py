@@ -18,7 +18,8 @@ from ..core.mechanisms import harmonics
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..limits import HIGHEST_ORDER, HIGHEST_ORDER_UNASKED
+from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER, HIGHEST_ORDER_UNASKED
+from .kinds import GAS_KINDS
 from .spectrum import Spectra, dense_orders
 
 SHOWN = 1e-6  # share of a quantity's largest order below which an order is not worth showing
@@ -66,20 +67,30 @@ def find_relevant_orders(engine: Engine) -> Array:
     return dense_orders(highest + 2 * max(lines), lines)
 
 
-def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:
+def list_gas_orders(strokes: int) -> Array:
+    """Orders of gas torque that are worth showing unless others are asked for: multiples of 1/2 (of
+    1 in two-stroke engines) up to HIGHEST_GAS_ORDER_UNASKED, shape (orders,).
+    """
+    step = 2 / strokes
+    return np.arange(1.0, round(HIGHEST_GAS_ORDER_UNASKED / step) + 1) * step
+
+
+def mark_considerable(phasors: Phasors, highest: float | None = None) -> NDArray[np.bool_]:
     """Orders in which something exceeds SHOWN of its own largest order, shape (orders,); none above
-    HIGHEST_ORDER_UNASKED.
+    the highest, or HIGHEST_ORDER_UNASKED.
     """
     sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1, initial=0)
     large = sizes > SHOWN * sizes.max(initial=0)
-    return np.asarray(large & (phasors.orders <= HIGHEST_ORDER_UNASKED))
+    most = HIGHEST_ORDER_UNASKED if highest is None else highest
+    return np.asarray(large & (phasors.orders <= most))
 
 
 def choose_orders(found: Spectra) -> Array:
-    """The orders worth showing: those to 2, and all in which some kind is considerable."""
-    due = found.orders <= 2
-    for _, phasors in found.items():
-        due |= mark_considerable(phasors)
+    """The orders worth showing: 1 and 2 (and 0), and all in which some kind is considerable."""
+    due = np.isin(found.orders, (0, 1, 2))
+    for kind, phasors in found.items():
+        few = kind.name in GAS_KINDS
+        due |= mark_considerable(phasors, HIGHEST_GAS_ORDER_UNASKED if few else None)
     return found.orders[due]
 
 

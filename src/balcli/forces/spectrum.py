@@ -20,7 +20,7 @@ from ..engine.arrays import place_in_plane
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import MOST_LOADS_APART
-from .kinds import KINDS, Kind
+from .kinds import EVERY_KIND, KINDS, Kind
 
 # orders x cylinders that are computed together, which bounds the memory: about 16 complex arrays
 _AT_ONCE = 1 << 18
@@ -34,6 +34,7 @@ class Spectra:
         orders: shape (orders,), ascending.
         force: N.
         moment, couple, torque, roll: N m; the torque is the inertia torque on the crank.
+        gas, torque_total, roll_total: N m, of the gas, and with it.
     """
 
     orders: Array
@@ -42,17 +43,20 @@ class Spectra:
     couple: Phasors | None = None
     torque: Phasors | None = None
     roll: Phasors | None = None
+    gas: Phasors | None = None
+    torque_total: Phasors | None = None
+    roll_total: Phasors | None = None
 
     def __getitem__(self, kind: str) -> Phasors:
         """Phasors of the kind with this name; KeyError if it was not asked for."""
-        phasors: Phasors | None = getattr(self, KINDS[kind].name)
+        phasors: Phasors | None = getattr(self, EVERY_KIND[kind].name)
         if phasors is None:
             raise KeyError(kind)
         return phasors
 
     def items(self) -> list[tuple[Kind, Phasors]]:
         """Each kind that was asked for, with its phasors, as in the table of kinds."""
-        found = [(kind, getattr(self, name)) for name, kind in KINDS.items()]
+        found = [(kind, getattr(self, name)) for name, kind in EVERY_KIND.items()]
         return [(kind, phasors) for kind, phasors in found if phasors is not None]
 
     def vectors(self) -> list[tuple[Kind, Phasors]]:
@@ -99,7 +103,10 @@ def compute_spectra(
     Args:
         engine: the engine; trailing axes of its arrays become those of the phasors.
         orders: shape (orders,), ascending, not negative.
-        kinds: names of KINDS.
+        kinds: names of KINDS, and of GAS_KINDS for an engine with gas.
+
+    Raises:
+        BalcliError: a kind of gas is asked of an engine without.
     """
     return _compute(engine, orders, kinds, apart=False)
 
@@ -158,12 +165,23 @@ def compute_device_force(engine: Engine, device: Device, orders: Array) -> Phaso
 
 def _compute(engine: Engine, orders: ArrayLike, kinds: Collection[str], *, apart: bool) -> Spectra:
     wanted = np.asarray(orders, float)
-    parts = {part for name in kinds for part in KINDS[name].parts}
+    parts = {part for name in kinds for part in EVERY_KIND[name].parts}
+    inertia = parts - {"gas"}
     if engine.ripple:
-        found = _compute_uneven(engine, wanted, parts, apart)
+        found = _compute_uneven(engine, wanted, inertia, apart)
     else:
-        found, _ = _compute_steady(engine, wanted, parts, apart)
-    return Spectra(wanted, **{name: add_parts(KINDS[name], found).settled() for name in kinds})
+        found, _ = _compute_steady(engine, wanted, inertia, apart)
+    if "gas" in parts:
+        found["gas"] = _compute_gas(engine, wanted, apart=apart)
+    every = {name: add_parts(EVERY_KIND[name], found).settled() for name in kinds}
+    return Spectra(wanted, **every)
+
+
+def _compute_gas(engine: Engine, orders: Array, *, apart: bool) -> Phasors:
+    from . import gas  # engines without gas do not pay for it
+
+    compute = gas.compute_gas_torque_of_each if apart else gas.compute_gas_torque
+    return compute(engine, orders)
 
 
 def add_parts(kind: Kind, parts: Mapping[str, Phasors]) -> Phasors:

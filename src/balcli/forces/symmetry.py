@@ -16,6 +16,7 @@ from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
+from operator import attrgetter
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -29,7 +30,7 @@ from .spectrum import compute_each_cylinder
 from .textbook import find_textbook, without_devices
 
 Verdict = Literal["none", "exact", "rounding", "nearly", "free"]
-Quantity = Literal["force", "moment", "turning"]  # turning: couple, torque and roll
+Quantity = Literal["force", "moment", "turning", "gas"]  # turning: couple, torque and roll
 _QUANTITY: dict[str, Quantity] = {  # by the name of the kind
     "force": "force",
     "moment": "moment",
@@ -71,7 +72,8 @@ class Reason:
     @property
     def sentence(self) -> str:
         """The reason in words."""
-        name = "couple, torque and roll" if self.quantity == "turning" else self.quantity
+        names = {"turning": "couple, torque and roll", "gas": "gas torque"}
+        name = names.get(self.quantity, self.quantity)
         told = {
             "none": "no cylinder has any",
             "exact": "balanced exactly, by symmetry",
@@ -124,7 +126,21 @@ def explain_symmetry(
     quantities = dict.fromkeys(q for name, q in _QUANTITY.items() if name in kinds)
     layout = _Layout(without_devices(engine), asked)
     reasons = [layout.explain(row, q) for row in range(len(asked)) for q in quantities]
+    if engine.gas is not None and "gas" in kinds:
+        reasons = sorted([*reasons, *_explain_gas(engine, asked)], key=attrgetter("order"))
     return Symmetry(tuple(reasons), describe_firing(engine))
+
+
+def _explain_gas(engine: Engine, orders: Array) -> Iterator[Reason]:
+    """Why each order of the gas torque is balanced, or is not."""
+    from .gas_symmetry import measure_gas  # engines without gas do not pay for it
+
+    for n, (exact, size) in zip(orders.tolist(), measure_gas(engine, orders), strict=True):
+        order = int(n) if n == int(n) else n
+        if size is None:
+            yield Reason(order, "gas", "none", 0.0)
+        else:
+            yield Reason(order, "gas", "exact" if exact else _judge(size), 0.0 if exact else size)
 
 
 def describe_firing(engine: Engine) -> str:

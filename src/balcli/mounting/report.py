@@ -71,6 +71,11 @@ class MountReport:
         return tuple(one for one in met if slowest <= one.omega <= fastest)
 
 
+def choose_speeds(engine: Engine) -> Real:
+    """(speeds,) rpm, where nobody says which: from an eighth of the engine's speed to this."""
+    return np.asarray(np.linspace(_SLOWEST, 1.0, _SPEEDS) * float(engine.speed_rpm))
+
+
 def report_mounts(
     model: EngineFile,
     engine: Engine | None,
@@ -112,9 +117,8 @@ def _run(
     orders: Sequence[float] | None,
     scheme: str | None,
 ) -> MountReport:
-    if speeds_rpm is None:
-        speeds_rpm = np.linspace(_SLOWEST, 1.0, _SPEEDS) * float(engine.speed_rpm)
-    omega = np.asarray(speeds_rpm) * (np.pi / 30)
+    rpm = choose_speeds(engine) if speeds_rpm is None else speeds_rpm
+    omega = rpm * (np.pi / 30)
     asked = None if orders is None else np.array(sorted(set(orders)), float)
     loads = find_loads(engine, mounted.body.centre, asked)
     response = respond(mounted, modes, loads, omega)

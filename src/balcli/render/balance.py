@@ -15,7 +15,14 @@ from ..results.balance import Balance
 from ..sizing.device_tables import name_kind
 from .analysis_data import brief_document
 from .csv import Rows
-from .devices import device_entries, device_grid, device_rows, practical_entry, practical_grid
+from .devices import (
+    device_entries,
+    device_grid,
+    device_rows,
+    holes_grid,
+    practical_entry,
+    practical_grid,
+)
 from .figures import assumptions, figure_rows
 from .scheme_details import details_document, details_parts
 from .sheet import (
@@ -42,6 +49,8 @@ def sheet(result: Balance, system: System) -> Sheet:
     elif remedy.reasons:
         parts.append(Text("What is fitted, and why", tuple(dict.fromkeys(remedy.reasons))))
         parts += [device_grid(remedy, system), practical_grid(result.practical, system)]
+        if any(figures.holes for figures in result.practical):
+            parts.append(holes_grid(remedy, result.practical, result.tools, system))
     else:
         why = () if remedy.note or not known else ("Orders 1 and 2 are balanced.",)
         parts.append(Text("Nothing is fitted", why))
@@ -49,8 +58,8 @@ def sheet(result: Balance, system: System) -> Sheet:
         parts.append(Text("Note", (remedy.note,)))
     if not known:
         parts.append(Text("Forces alone", (capitalized(f"{MOMENTS_UNKNOWN}."),)))
-    parts += details_parts(result, system)
     parts += _permitted(result, system)
+    parts += details_parts(result, system)
     parts += [_orders(result, system), _peaks(result, system)]
     return Sheet(
         f"{result.before.engine.name or NAMELESS}: {remedy.scheme}{order}",

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..enginefile.model import Counterweight, Shaft, Slider
+from ..limits import MOST_HOLES
 from ..sizing.device_tables import FIELDS, DeviceTable, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
 from .figures import clean
-from .sheet import Grid, degrees, number
+from .sheet import Grid, capitalized, degrees, number
 
 if TYPE_CHECKING:
-    from ..sizing.workshop import Practical
+    from ..sizing.workshop import Holes, Practical, Tools
     from .units import System, Unit
 
 _JSON_NAMES = {
@@ -23,6 +24,10 @@ _JSON_NAMES = {
     "position": "position_mm",
     "at": "at_mm",
 }
+ANGLES = (
+    "Angles count in the sense of rotation, clockwise seen from the free end (front): of "
+    "counterweights from cylinder 1's crank pin, of shafts from x."
+)
 _CSV_FIELDS = ("ratio", "order", "unbalance", "angle", "direction", "position", "at")
 
 
@@ -37,18 +42,32 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
         f"x, y, {system.length.name}",
         f"z, {system.length.name}",
     )
-    rows = tuple(_grid_row(device, system) for device in remedy.devices)
-    return Grid("", heads, rows, words=(0, 3, 4))
+    free = remedy.free
+    rows = tuple(
+        _grid_row(device, anywhere, system)
+        for device, anywhere in zip(remedy.devices, free, strict=True)
+    )
+    note = " ".join([ANGLES, *_explain_places(remedy.devices, free)])
+    return Grid("", heads, rows, note, words=(0, 3, 4))
 
 
-def _grid_row(device: DeviceTable, system: System) -> tuple[str, ...]:
+def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Iterator[str]:
+    """What to know of shafts of which nobody has said where they stand."""
+    if any(free):
+        yield "free: the shaft may stand anywhere, for it makes a moment alone."
+    shafts = zip(devices, free, strict=True)
+    if any(isinstance(d, Shaft) and not any(d.at) and not anywhere for d, anywhere in shafts):
+        yield "At 0, 0, where the crank is, a shaft adds no roll: elsewhere it does."
+
+
+def _grid_row(device: DeviceTable, free: bool, system: System) -> tuple[str, ...]:
     match device:
         case Counterweight():
             turns, angle = "1", f"{degrees(device.angle)} from pin 1"
             place = "on the crank"
         case Shaft():
             turns, angle = f"{device.ratio:+d}", degrees(device.angle)
-            place = _place(device.at, system.length)
+            place = "free" if free else _place(device.at, system.length)
         case Slider():
             turns = str(device.order)
             angle = f"{degrees(device.angle)} along {degrees(device.direction)}"
@@ -75,7 +94,6 @@ def _length(millimetres: float, unit: Unit) -> str:
 def practical_grid(practical: tuple[Practical, ...], system: System) -> Grid:
     """The workshop's figures, one row a device; there must be one."""
     first = practical[0]
-    drilled = first.depth is not None
     names = [
         "device",
         "rpm",
@@ -88,33 +106,63 @@ def practical_grid(practical: tuple[Practical, ...], system: System) -> Grid:
         f"Mass at a radius of {number(system.length.of(first.radius), 4)} {system.length.name}; "
         "disc: a semicircular one of steel"
     )
-    if drilled:
-        names.append(f"drill, {system.length.name}")
-        note += "; drill: depth of a radial hole from that radius inwards that removes as much"
     rows = tuple((str(k), *_practical_row(p, system)) for k, p in enumerate(practical, 1))
     return Grid("Practical figures", tuple(names), rows, note=f"{note}.")
 
 
 def _practical_row(p: Practical, system: System) -> list[str]:
-    row = [
+    return [
         f"{p.speed_rpm:.0f}",
         number(system.force.of(p.force)),
         number(system.mass.of(p.mass), 4),
         number(system.length.of(p.disc_radius), 3),
         number(system.length.of(p.disc_thickness), 3),
     ]
-    if p.depth is not None:
-        too_small = math.isnan(p.depth)
-        row.append("too small" if too_small else number(system.length.of(p.depth), 3))
-    return row
+
+
+def holes_grid(
+    remedy: Remedy, practical: tuple[Practical, ...], tools: Tools, system: System
+) -> Grid:
+    """Where to drill, how many holes and how deep; or where to put slugs. There must be a drill."""
+    unit = system.length
+    drill = f"{number(unit.of(tools.drill or 0.0), 4)} {unit.name}"
+    rim = f"{number(unit.of(practical[0].radius), 4)} {unit.name}"
+    heads = ("for", "holes at, deg", "holes", f"depth of each, {unit.name}")
+    rows = tuple(
+        (f"{k} {name_kind(device)}", *_holes_row(figures.holes, unit))
+        for k, (device, figures) in enumerate(zip(remedy.devices, practical, strict=True), 1)
+        if figures.holes is not None
+    )
+    if tools.slug is None:
+        title = f"Holes to drill, {drill}"
+        what = "Holes remove steel opposite to the weight to add"
+    else:
+        title = f"Holes for slugs of {number(tools.slug / 1e3)} g/cm³, {drill}"
+        what = "Slugs stand where weight is to be added and count less the steel removed for them"
+    note = f"{what}; radial, from a rim at {rim} (--radius) inwards, side by side along the crank."
+    for reason in dict.fromkeys(p.holes.reason for p in practical if p.holes and p.holes.reason):
+        note += f" {capitalized(reason)}."
+    return Grid(title, heads, rows, note)
+
+
+def _holes_row(holes: Holes, unit: Unit) -> tuple[str, ...]:
+    many = math.isnan(holes.depth)
+    return (
+        degrees(holes.angle_deg),
+        f"more than {MOST_HOLES}" if many else str(holes.number),
+        "–" if many else number(unit.of(holes.depth), 4),
+    )
 
 
 # ------------------------------------------------------------------ for programs
 def device_entries(remedy: Remedy) -> dict[str, list[dict[str, Any]]]:
     """New devices in JSON, as an engine file would describe them."""
     entries: dict[str, list[dict[str, Any]]] = {f"{kind.__name__.lower()}s": [] for kind in FIELDS}
-    for device in remedy.devices:
-        entries[f"{name_kind(device)}s"].append(_device_entry(device))
+    for device, free in zip(remedy.devices, remedy.free, strict=True):
+        entry = _device_entry(device)
+        if isinstance(device, Shaft):
+            entry["free"] = free
+        entries[f"{name_kind(device)}s"].append(entry)
     return entries
 
 
@@ -137,9 +185,12 @@ def practical_entry(p: Practical) -> dict[str, float | None]:
         "disc_radius_mm": p.disc_radius * 1e3,
         "disc_thickness_mm": p.disc_thickness * 1e3,
     }
-    if p.depth is not None:
-        figures["drill_depth_mm"] = p.depth * 1e3
-    return {key: clean(value) for key, value in figures.items()}
+    entry = {key: clean(value) for key, value in figures.items()}
+    if p.holes is not None:
+        entry["drill_depth_mm"] = clean(p.holes.depth * 1e3)
+        entry["holes"] = p.holes.number
+        entry["hole_angle_deg"] = clean(p.holes.angle_deg)
+    return entry
 
 
 def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, Any, str]]:

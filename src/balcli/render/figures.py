@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.peaks import Peak
 from ..core.phasors import Phasors
-from ..forces.kinds import KINDS, MOMENT, Kind
+from ..forces.kinds import EVERY_KIND, MOMENT, Kind
 from ..forces.spectrum import Spectra
 from .sheet import order_number
 from .units import System, Unit
@@ -145,7 +145,7 @@ def peak_angle_deg(peak: Peak) -> float | None:
 # ------------------------------------------------------------------ as a list
 def figure_rows(result: Result, system: System) -> Iterator[FigureRow]:
     """Every figure of the orders and the peaks, one a row; none of moments that are not known."""
-    told = [kind for kind in KINDS.values() if result.moments_known or kind is not MOMENT]
+    told = [kind for kind in EVERY_KIND.values() if result.moments_known or kind is not MOMENT]
     for cylinder, spectra in ((0, result.spectra), *result.cylinders):
         known = [(kind, phasors) for kind, phasors in spectra.items() if kind in told]
         columns = [(kind, kind_entries(kind, phasors)) for kind, phasors in known]

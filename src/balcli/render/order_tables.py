@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..forces.kinds import FORCE, MOMENT, ROLL, Kind
+from ..forces.kinds import FORCE, GAS_KINDS, KINDS, MOMENT, ROLL, Kind
 from .figures import peak_deg, phase_deg
 from .sheet import Facts, Grid, capitalized, degrees, number, order_name, order_number
 
@@ -41,7 +41,7 @@ def order_tables(spectra: Spectra, system: System, roll: str = "") -> Iterator[G
     for kind, phasors in spectra.vectors():
         yield _vector_table(kind, phasors, system.unit(kind))
     if spectra.scalars():
-        yield _scalar_table(spectra, system.moment, roll)
+        yield from _scalar_tables(spectra, system.moment, roll)
 
 
 def direction_tables(spectra: Spectra, system: System) -> Iterator[Grid]:
@@ -134,7 +134,16 @@ def _vector_table(kind: Kind, phasors: Phasors, unit: Unit) -> Grid:
     )
 
 
-def _scalar_table(spectra: Spectra, unit: Unit, roll: str) -> Grid:
+def _scalar_tables(spectra: Spectra, unit: Unit, roll: str) -> Iterator[Grid]:
+    """What inertia does about the crank's axis, and what it does with the gas."""
+    of_inertia, of_gas = spectra.only(KINDS), spectra.only(GAS_KINDS)
+    if of_inertia.scalars():
+        yield _scalar_table(of_inertia, unit, roll)
+    if of_gas.scalars():
+        yield _scalar_table(of_gas, unit, "", " with gas")
+
+
+def _scalar_table(spectra: Spectra, unit: Unit, roll: str, what: str = "") -> Grid:
     scalars = spectra.scalars()
     unit = _fit(unit, *(phasors for _, phasors in scalars))
 
@@ -145,7 +154,7 @@ def _scalar_table(spectra: Spectra, unit: Unit, roll: str) -> Grid:
     labels = [ROLL.name if roll and kind == ROLL else kind.label for kind, _ in scalars]
     heads = [head for label in labels for head in (label, "peak, deg")]
     return Grid(
-        f"About the crank axis, {unit.name}",
+        f"About the crank axis{what}, {unit.name}",
         ("order", *heads),
         _shown_rows(spectra.orders, [phasors for _, phasors in scalars], cells),
         note=roll,

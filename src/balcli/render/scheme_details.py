@@ -7,7 +7,20 @@ from math import nan
 from typing import Any
 
 from ..results.balance import Balance
-from ..sizing.details import Bobweight, Detail, Dimension, FactorPeaks, Optima, Optimum, Range
+from ..sizing.bobweight_card import PISTON
+from ..sizing.details import (
+    Bobweight,
+    Detail,
+    Dimension,
+    FactorPeaks,
+    Optima,
+    Optimum,
+    PlaneNeed,
+    Range,
+)
+from ..sizing.device_tables import measure_direction
+from .bobweights import group_equal_pins, multiply, name_pins
+from .devices import ANGLES
 from .figures import clean
 from .sheet import Facts, Grid, degrees, number
 from .units import System, Unit
@@ -20,17 +33,9 @@ _JSON_UNITS: dict[Dimension, tuple[str, float]] = {
     "unbalance": ("_kg_m", 1.0),
     "length": ("_mm", 1e3),
     "angle": ("_deg", 1.0),
+    "share": ("", 1.0),
+    "grams": ("_g", 1e3),
 }
-_CARD = (
-    "piston",
-    "small_end",
-    "big_end",
-    "rod_bearing",
-    "oil",
-    "rotating",
-    "reciprocating",
-    "bobweight",
-)
 
 
 # ------------------------------------------------------------------ for programs
@@ -41,6 +46,8 @@ def details_document(result: Balance) -> dict[str, Any]:
     document |= _document(remedy.details)
     if remedy.card:
         document["card"] = [_bobweight_document(bobweight) for bobweight in remedy.card]
+    if remedy.needs:
+        document["planes"] = [_document(_list_need(need)) for need in remedy.needs]
     if remedy.sweep:
         document["sweep"] = [_document(_list_peaks(peaks)) for peaks in remedy.sweep]
     if remedy.note:
@@ -77,8 +84,28 @@ def _json_value(value: float | str | Range | tuple[float, ...], per_si_unit: flo
 
 
 def _bobweight_document(bobweight: Bobweight) -> dict[str, Any]:
-    masses = {name: clean(v) for name, v in bobweight._asdict().items() if name.endswith("_g")}
-    return bobweight._asdict() | masses | {"cylinders": list(bobweight.cylinders)}
+    sums = {
+        "piston_g": bobweight.sum_of(*PISTON),
+        "small_end_g": bobweight.sum_of("small end"),
+        "big_end_g": bobweight.sum_of("big end"),
+        "rod_bearing_g": bobweight.sum_of("rod bearing"),
+        "oil_g": bobweight.sum_of("oil"),
+        "rotating_g": bobweight.rotating_g,
+        "reciprocating_g": bobweight.reciprocating_g,
+        "bobweight_g": bobweight.bobweight_g,
+        "throw_g": bobweight.throw_g,
+    }
+    lines = [
+        {"part": line.part, "rotates": line.rotates, "each_g": list(map(clean, line.each_g))}
+        for line in bobweight.lines
+    ]
+    return {
+        "throw": bobweight.throw,
+        "cylinders": list(bobweight.cylinders),
+        "factor": bobweight.factor,
+        **{name: clean(value) for name, value in sums.items()},
+        "lines": lines,
+    }
 
 
 def _optima_document(optima: Optima) -> dict[str, Any]:
@@ -102,6 +129,8 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
     if details:
         pairs = tuple(pair for detail in details for pair in _list_facts(detail, system))
         yield Facts(pairs, "Details")
+    if remedy.needs:
+        yield _needs_grid(remedy.needs, system)
     if remedy.card:
         yield _card_grid(remedy.card)
     if remedy.sweep:
@@ -124,48 +153,89 @@ def _list_facts(detail: Detail, system: System) -> Iterator[tuple[str, str]]:
         case tuple():
             yield label, f"{', '.join(map(degrees, detail.value))} deg"
         case _:
-            yield label, _figure(detail.value, detail.dimension, system)
+            figure = _figure(detail.value, detail.dimension, system)
+            yield label, f"{figure} {detail.what}".rstrip()
 
 
 def _figure(value: float, dimension: Dimension, system: System) -> str:
     """A figure with its unit."""
     if dimension == "":
         return number(value)
+    if dimension == "share":
+        return f"{number(100 * value)} %"
+    if dimension == "grams":
+        return f"{number(1e3 * value)} g"
     if dimension == "angle":
         return f"{value + 0.0:.3f} deg".replace("-0.000", "0.000")
     unit: Unit = getattr(system, dimension)
     return f"{number(unit.of(value))} {unit.name}"
 
 
-def _card_grid(card: tuple[Bobweight, ...]) -> Grid:
-    """Grams are what a balancing shop's scales show, in either system; equal pins stand in one
-    column.
-    """
-    columns: dict[tuple[float, ...], list[int]] = {}
-    for bobweight in card:
-        masses = tuple(getattr(bobweight, f"{name}_g") for name in _CARD)
-        columns.setdefault(masses, []).extend(bobweight.cylinders)
-    heads = [f"cylinders {', '.join(map(str, cylinders))}" for cylinders in columns.values()]
-    rows = tuple(
-        (name.replace("_", " "), *(number(masses[k], 5) for masses in columns))
-        for k, name in enumerate(_CARD)
+def _needs_grid(needs: tuple[PlaneNeed, ...], system: System) -> Grid:
+    """What the file has in each plane, and what is missing."""
+    unit, length = system.unbalance, system.length
+    heads = (
+        f"z, {length.name}",
+        f"wanted, {unit.name}",
+        "at, deg",
+        f"in the file, {unit.name}",
+        "at, deg",
+        f"missing, {unit.name}",
+        "at, deg",
     )
-    pins = "each pin" if len(columns) < len(card) else "pin"
-    return Grid(f"Bobweight card, g for {pins}", ("", *heads), rows)
+
+    def row(need: PlaneNeed) -> tuple[str, ...]:
+        vectors = (need.wanted, need.present, need.missing)
+        cells = ((number(unit.of(abs(v))), _direction(v)) for v in vectors)
+        return number(length.of(need.z)), *(cell for pair in cells for cell in pair)
+
+    return Grid("What each plane has, and lacks", heads, tuple(map(row, needs)), note=ANGLES)
+
+
+def _direction(vector: complex) -> str:
+    """From cylinder 1's pin, degrees; a dash where there is nothing."""
+    return degrees(measure_direction(vector)) if vector else "–"
+
+
+def _card_grid(card: tuple[Bobweight, ...]) -> Grid:
+    """Quantity x each = sum, in grams as a balancing shop's scales show, in either system; equal
+    pins stand in one column.
+    """
+    columns = group_equal_pins(card)
+    heads = [name_pins(pins) for pins in columns]
+    labels = list(dict.fromkeys(line.part for pins in columns for line in pins[0].lines))
+    rows = [(part, *(_line_cell(pins[0], part) for pins in columns)) for part in labels]
+    share = f"{number(100 * card[0].factor)} %"
+    sums = (
+        ("rotating", [pins[0].rotating_g for pins in columns]),
+        ("reciprocating", [pins[0].reciprocating_g for pins in columns]),
+        (f"bobweight ({share})", [pins[0].bobweight_g for pins in columns]),
+    )
+    rows += [(name, *(number(value, 5) for value in values)) for name, values in sums]
+    return Grid("Bobweight card, g for each pin", ("", *heads), tuple(rows))
+
+
+def _line_cell(bobweight: Bobweight, part: str) -> str:
+    line = next((line for line in bobweight.lines if line.part == part), None)
+    return "–" if line is None else f"{multiply(line)} = {number(line.sum_g, 5)}"
 
 
 def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
-    force, moment = system.force, system.moment
+    force, moment, unbalance = system.force, system.moment, system.unbalance
     heads = (
         "factor",
+        "bobweight, g",
+        f"weight, {unbalance.name}",
         f"force, {force.name}",
-        "along 1st bank",
-        "across it",
+        "along",
+        "across",
         f"moment, {moment.name}",
     )
     rows = tuple(
         (
-            f"{peaks.factor:g}",
+            f"{number(100 * peaks.factor)} %",
+            number(peaks.bobweight_g),
+            number(unbalance.of(peaks.counterweight)),
             number(force.of(peaks.force)),
             number(force.of(peaks.along)),
             number(force.of(peaks.across)),
@@ -173,7 +243,11 @@ def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
         )
         for peaks in sweep
     )
-    return Grid("Largest values by factor", heads, rows)
+    note = (
+        "Bobweight of the first pin; weight: the largest counterweight to add. What is left: the "
+        "largest force, along and across the first bank; all orders."
+    )
+    return Grid("Largest values by factor", heads, rows, note=note)
 
 
 def _optima_grid(optima: Optima) -> Grid:
@@ -201,7 +275,18 @@ def _list_peaks(peaks: FactorPeaks) -> tuple[Detail, ...]:
         Detail("along", "force", peaks.along),
         Detail("across", "force", peaks.across),
         Detail("peak moment", "moment", peaks.moment),
+        Detail("bobweight", "grams", peaks.bobweight_g / 1e3),
+        Detail("counterweight", "unbalance", peaks.counterweight),
     )
+
+
+def _list_need(need: PlaneNeed) -> Iterator[Detail]:
+    """Place, and each unbalance with its direction from cylinder 1's pin."""
+    yield Detail("position", "length", need.z)
+    for name in ("wanted", "present", "missing"):
+        vector: complex = getattr(need, name)
+        yield Detail(name, "unbalance", abs(vector))
+        yield Detail(name, "angle", measure_direction(vector) if vector else nan)
 
 
 def _list_optimum(optima: Optima, optimum: Optimum, group: str = "") -> tuple[Detail, ...]:

@@ -14,11 +14,12 @@ from ..core.peaks import Peak, peak
 from ..core.phasors import Array
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..forces.kinds import KINDS, SCALARS, VECTORS, Kind
+from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, KINDS, SCALARS, VECTORS, Kind
 from ..forces.orders import (
     check_orders,
     choose_orders,
     find_relevant_orders,
+    list_gas_orders,
     merge_orders,
 )
 from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
@@ -32,7 +33,8 @@ if TYPE_CHECKING:  # whoever asks for one of these chapters loads it
     from ..forces.textbook import Textbook
     from ..sizing.remedy import Remedy
 
-QUANTITIES = (*KINDS, "peak", "sizing")
+UNASKED = (*KINDS, "peak")  # of every engine, unless something is named
+QUANTITIES = (*UNASKED, "sizing")
 EXTRAS = ("inner", "guide")  # computed only when they are named
 DEFAULT_ORDERS = (1.0, 2.0)
 
@@ -137,7 +139,7 @@ def analyze(
         engine: without trailing axes.
         orders: which orders to show; default: 1 and 2 (0 too at uneven speed) and all in which a
             quantity that was asked for exceeds 1e-6 of its own largest order, up to 512.
-        only: any of QUANTITIES and EXTRAS; default: all QUANTITIES.
+        only: any of QUANTITIES, EXTRAS and `gas`; default: `list_quantities`.
         by_cylinder: also the phasors of every cylinder alone.
         reasons: also why each order is balanced, or is not.
         guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
@@ -147,10 +149,10 @@ def analyze(
         BalcliError: an unknown quantity, an order that is negative or above HIGHEST_ORDER, too many
             orders of too many cylinders.
     """
-    wanted = _check_quantities(QUANTITIES if only is None else only)
+    wanted = _choose_quantities(engine, only)
     asked = None if orders is None else check_orders(orders)
     peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
-    shown = wanted.intersection(KINDS)
+    shown = wanted.intersection(EVERY_KIND)
     computed = _choose_computed(engine, asked, whole=bool(peaked))
     everything = compute_spectra(engine, computed, shown | peaked)
     visible = everything.only(shown)
@@ -170,14 +172,24 @@ def analyze(
     )
 
 
-def _check_quantities(only: Collection[str]) -> set[str]:
+def list_quantities(engine: Engine) -> tuple[str, ...]:
+    """What is computed of an engine unless something is named: all but sizing; with gas, all that
+    it does, too.
+    """
+    return (*UNASKED, *(GAS_KINDS if engine.gas is not None else ()))
+
+
+def _choose_quantities(engine: Engine, only: Collection[str] | None) -> set[str]:
+    """What is computed; `gas` stands for all that gas does."""
+    if only is None:
+        return set(list_quantities(engine))
     wanted = set(only)
-    if strangers := sorted(wanted.difference(QUANTITIES, EXTRAS)):
+    if strangers := sorted(wanted.difference(QUANTITIES, GAS_KINDS, EXTRAS)):
         raise BalcliError(
             f"there is no quantity {', '.join(strangers)}: choose from "
-            f"{', '.join((*QUANTITIES, *EXTRAS))}"
+            f"{', '.join((*QUANTITIES, GAS.name, *EXTRAS))}"
         )
-    return wanted
+    return wanted | GAS_KINDS.keys() if GAS.name in wanted else wanted
 
 
 def _choose_computed(engine: Engine, asked: Array | None, *, whole: bool) -> Array:
@@ -187,7 +199,8 @@ def _choose_computed(engine: Engine, asked: Array | None, *, whole: bool) -> Arr
     if asked is not None and not whole:
         return asked
     due = DEFAULT_ORDERS if asked is None else asked
-    return merge_orders(find_relevant_orders(engine), due)
+    of_gas = () if engine.gas is None else list_gas_orders(engine.strokes)
+    return merge_orders(find_relevant_orders(engine), of_gas, due)
 
 
 def _analyze_cylinders(

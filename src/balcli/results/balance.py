@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -39,6 +39,7 @@ class Balance:
     Attributes:
         before, after: analyses of the same orders.
         practical: the workshop's figures of each device, in the order of `remedy.devices`.
+        tools: what the workshop has.
         speed_note: how remedy and analyses differ in speed; empty if they do not.
         permitted: what a grade permits, if one was asked for.
     """
@@ -47,6 +48,7 @@ class Balance:
     before: Analysis
     after: Analysis
     practical: tuple[Practical, ...] = ()
+    tools: Tools = field(default_factory=Tools)
     speed_note: str = ""
     permitted: PermittedUnbalance | None = None
 
@@ -73,10 +75,11 @@ def balance(
         BalcliError: an unknown scheme, or options that cannot be met, with the reason.
     """
     remedy = size(engine, scheme, options)
-    practical = find_practical(engine, remedy, tools or Tools())
+    tools = tools or Tools()
+    practical = find_practical(engine, remedy, tools)
     balanced = fit_devices(engine, remedy)
     before, after = analyze(engine, orders, SHOWN), analyze(balanced, orders, SHOWN)
     if orders is None and not np.array_equal(before.orders, after.orders):
         both = np.union1d(before.orders, after.orders)
         before, after = analyze(engine, both, SHOWN), analyze(balanced, both, SHOWN)
-    return Balance(remedy, before, after, practical, _UNEVEN if engine.ripple else "")
+    return Balance(remedy, before, after, practical, tools, _UNEVEN if engine.ripple else "")

@@ -1,66 +1,90 @@
 """The scheme `factor`, as balancing shops do it: opposite each crank pin all rotating mass and a
-share of the reciprocating mass of the rods on it.
+share of the reciprocating mass of the rods on it; less what the file's own counterweights do.
 """
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
+from ..core.levers import share_by_lever
 from ..core.peaks import peak
-from ..core.phasors import EPS, Array, Phasors, unit
-from ..engine.build import Engine, Weighed
+from ..core.phasors import EPS, Array, Complex, Phasors, unit
+from ..engine.build import Engine
+from ..engine.positions import MOMENTS_UNKNOWN
 from ..errors import BalcliError
 from ..forces.orders import find_relevant_orders
 from ..forces.spectrum import compute_spectra
 from ..limits import LARGEST_FACTOR
 from .bobweight_card import DEFINITION, fill_card
-from .details import Detail, FactorPeaks
-from .effects import Slot
+from .details import Detail, FactorPeaks, PlaneNeed
+from .effects import LEFT, Slot
 from .fitting import Fitting
 from .options import SchemeOptions
+from .planes import SAME_PLACE, read_planes
 from .remedy import Remedy, fit_devices
+
+COMPLETE = "nothing is missing: the counterweights of the file balance this factor"
+
+
+class PinLoad(NamedTuple):
+    """What one crank pin asks for.
+
+    Attributes:
+        cylinders: numbers of those whose rods are on it.
+        unbalance: of what is to be balanced opposite it, with the throw, at crank angle 0, kg m.
+        z: where the masses on the pin have their centre, m.
+    """
+
+    cylinders: tuple[int, ...]
+    unbalance: complex
+    z: float
 
 
 def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Counterweights by the factor asked for, 0.5 if none is.
+    """Counterweights by the factor asked for, 0.5 if none is, or by what was measured on a pin.
+
+    What the file's own counterweights do counts, and what is missing is fitted: opposite each pin,
+    or in the planes asked for, to which pins and weights are carried by the lever.
 
     Of several factors all peaks are told, and the one that leaves the smallest peak force (among
     equals, moment) is fitted.
 
-    Raises BalcliError for a factor that is no share, or if the crankshaft stands still.
+    Raises BalcliError for a factor that is no share, planes where moments are not known, or if the
+    crankshaft stands still.
     """
-    if engine.cylinders.linkage is not None and engine.cylinders.linkage.turning:
+    if engine.rotary:
         raise BalcliError(
             "scheme factor: the cylinders turn and the crank pins stand still, with all that is "
             "on them: there is no rotating mass to balance opposite a pin; counterweights or auto "
             "can balance what is left"
         )
-    factors = options.factor or (0.5,)
-    if not all(math.isfinite(k) and abs(k) <= LARGEST_FACTOR for k in factors):
-        raise BalcliError(
-            "--factor: give a share of the reciprocating mass such as 0.5, or a range such as "
-            "0:1:0.1"
-        )
-    sweep = tuple(find_factor_peaks(engine, factor) for factor in factors)
+    planes = _choose_planes(engine, options)
+    factors = _choose_factors(engine, options)
+    sweep = tuple(find_factor_peaks(engine, factor, planes) for factor in factors)
     best = min(sweep, key=lambda peaks: (round(peaks.force, 6), peaks.moment)).factor
-    fitting = _add_weights(Fitting.start(engine, "factor", 1), best).note(
-        Detail("factor", "", best), Detail("definition", "", DEFINITION)
-    )
-    own = any(device.rank == 0 for device in engine.devices)
-    return fitting.remedy._replace(
-        note="the engine's own counterweights are not counted in the factor" if own else "",
+    fitting = _fit_factor(engine, best, planes).note(*_describe(engine, options, best))
+    own = _find_counterweights(engine)[1].any()
+    remedy = fitting.remedy
+    needs = _find_needs(engine, best, planes)
+    note = COMPLETE if own and not remedy.devices else ""
+    if planes is not None and len(planes) == 1 and fitting.find_residual(1).moment(1):
+        note = SAME_PLACE
+    return remedy._replace(
+        note=note,
         card=fill_card(engine, best),
+        needs=tuple(_count_from_pin(engine, need) for need in needs) if own else (),
         sweep=sweep if len(sweep) > 1 else (),
     )
 
 
-def find_factor_peaks(engine: Engine, factor: float) -> FactorPeaks:
-    """Largest force and moment at steady speed with weights of this factor besides the engine's own
-    devices.
-    """
-    fitting = _add_weights(Fitting.start(engine, "factor"), factor)
+def find_factor_peaks(
+    engine: Engine, factor: float, planes: tuple[float, ...] | None = None
+) -> FactorPeaks:
+    """Largest force and moment at steady speed when the crankshaft is balanced by this factor."""
+    fitting = _fit_factor(engine, factor, planes)
     new = fit_devices(fitting.engine, fitting.remedy)
     force, moment = find_curve(new, "force"), find_curve(new, "moment")
     along = complex(unit(float(engine.cylinders.axis_deg[0])))
@@ -70,6 +94,9 @@ def find_factor_peaks(engine: Engine, factor: float) -> FactorPeaks:
         along=_find_largest_component(force, along),
         across=_find_largest_component(force, 1j * along),
         moment=peak(moment).value,
+        bobweight_g=fill_card(engine, factor)[0].bobweight_g,
+        counterweight=max((w.unbalance or 0.0 for w in fitting.remedy.counterweights), default=0.0)
+        / 1e6,
     )
 
 
@@ -80,29 +107,148 @@ def find_curve(engine: Engine, quantity: str) -> Phasors:
     return curve
 
 
-def _add_weights(fitting: Fitting, factor: float) -> Fitting:
-    """With one weight opposite every crank pin, where the masses on it have their centre."""
-    engine = fitting.engine
-    for rows in engine.rows_by_pin:
-        masses = np.array([_count(engine.weighed[row], factor) for row in rows])
-        total = float(masses.sum())
-        if total == 0:
-            continue
-        z = _find_centre(masses, engine.cylinders.z[rows])
-        pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
-        numbers = ", ".join(str(engine.numbers[row]) for row in rows)
-        reason = (
-            f"Opposite the pin of cylinder{'s' if len(rows) > 1 else ''} {numbers}: all rotating "
-            f"mass and {factor:g} of the reciprocating mass"
+# ------------------------------------------------------------------ which factor, which planes
+def _choose_factors(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
+    """The factors asked for, or the one that was measured."""
+    if options.measured is not None:
+        if options.factor is not None:
+            raise BalcliError(
+                "--factor and --measured say the same: what balances a pin stands for a factor; "
+                "give one of them"
+            )
+        return (find_measured_factor(engine, options.measured),)
+    factors = options.factor or (0.5,)
+    for factor in factors:
+        if not (math.isfinite(factor) and abs(factor) <= LARGEST_FACTOR):
+            meant = f"did you mean {factor:g}%? " if LARGEST_FACTOR < factor <= 100 else ""
+            raise BalcliError(
+                f"--factor {factor:g}: is no share of the reciprocating mass; {meant}give one such "
+                "as 0.5 or 51%, or a range such as 50%:54%:1%"
+            )
+    return factors
+
+
+def find_measured_factor(engine: Engine, measured: float) -> float:
+    """The factor of a crankshaft that is in balance with this mass (kg) on each bare pin, at the
+    crank radius, without rods: that mass stands for rotating + factor x reciprocating mass.
+
+    Raises BalcliError where nothing goes to and fro, or for a mass that no crankshaft can have.
+    """
+    card = fill_card(engine, 0.0)
+    reciprocating = sum(one.reciprocating_g for one in card)
+    rotating = sum(one.rotating_g for one in card)
+    if not reciprocating:
+        raise BalcliError("--measured: nothing goes to and fro in this engine: there is no factor")
+    factor = (1e3 * measured * len(card) - rotating) / reciprocating
+    if not abs(factor) <= LARGEST_FACTOR:
+        raise BalcliError(
+            f"--measured {1e3 * measured:g} g: would balance {factor:.3g} times the reciprocating "
+            f"mass; {rotating / len(card):.5g} g balance none of it on a pin, and "
+            f"{(rotating + reciprocating) / len(card):.5g} g all; is the unit right?"
         )
-        unbalance = -total * float(engine.cylinders.radius) * pin
-        fitting = fitting.add([Slot("counterweight", 1, 1, z)], [unbalance], reason)
+    return factor
+
+
+def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] | None:
+    """The planes asked for (z, m), ascending, each once; None: those of the pins."""
+    if options.planes is None:
+        return None
+    if not engine.places_known:
+        raise BalcliError(f"--planes: {MOMENTS_UNKNOWN}")
+    return tuple(sorted(set(read_planes(engine, options))))
+
+
+def _describe(engine: Engine, options: SchemeOptions, factor: float) -> list[Detail]:
+    """The factor by both definitions, and what was measured."""
+    rods = len(engine.rows_by_pin[0])
+    said = "of all reciprocating mass on the pin"
+    details = [
+        Detail("factor", "share", factor, what=said),
+        Detail(
+            "factor of one cylinder",
+            "share",
+            factor * rods,
+            what="the same, as a share of one cylinder's reciprocating mass",
+        ),
+        Detail("definition", "", DEFINITION),
+    ]
+    if options.measured is not None:
+        what = "balance each bare pin, at the crank radius, without rods"
+        details.insert(0, Detail("measured", "grams", options.measured, what=what))
+    return details
+
+
+# ------------------------------------------------------------------ what is wanted, what is there
+def _fit_factor(engine: Engine, factor: float, planes: tuple[float, ...] | None) -> Fitting:
+    """With a weight in each plane for what is missing there."""
+    fitting = Fitting.start(engine, "factor", 1)
+    counted = "; what the counterweights of the file do is counted"
+    less = counted if _find_counterweights(engine)[1].any() else ""
+    taken = f"all rotating mass and {factor:.6g} of the reciprocating mass"
+    needs = _find_needs(engine, factor, planes)
+    if planes is not None:
+        reason = f"In these planes, carried to them by the lever: {taken} of every pin{less}"
+        slots = [Slot("counterweight", 1, 1, need.z) for need in needs]
+        return fitting.add(slots, [need.missing for need in needs], reason)
+    for need, load in zip(needs, _list_loads(engine, factor), strict=True):
+        numbers = ", ".join(map(str, load.cylinders))
+        cylinders = f"cylinder{'s' if len(load.cylinders) > 1 else ''} {numbers}"
+        reason = f"Opposite the pin of {cylinders}: {taken}{less}"
+        fitting = fitting.add([Slot("counterweight", 1, 1, need.z)], [need.missing], reason)
     return fitting
 
 
-def _count(masses: Weighed, factor: float) -> float:
-    """The mass of one cylinder that is balanced opposite its pin, kg."""
-    return float(masses.rotating + masses.share + factor * masses.reciprocating)
+def _find_needs(
+    engine: Engine, factor: float, planes: tuple[float, ...] | None
+) -> tuple[PlaneNeed, ...]:
+    """What each plane asks for and has, directions at crank angle 0; without planes one for each
+    pin, where of pins in one plane the first has what is carried to that plane.
+    """
+    loads = _list_loads(engine, factor)
+    pins = np.array([load.unbalance for load in loads], complex)
+    at = np.array([load.z for load in loads])
+    z = at if planes is None else np.array(planes)
+    if not len(z):
+        return ()
+    distinct, first = np.unique(z, return_index=True)
+    places, weights = _find_counterweights(engine)
+    of_weights = np.zeros((len(z), len(places)))
+    of_weights[first] = share_by_lever(places, distinct)
+    of_pins = np.eye(len(z)) if planes is None else share_by_lever(at, distinct)
+    wanted, present = -(of_pins @ pins), of_weights @ weights
+    parts = np.abs(of_pins) @ np.abs(pins) + np.abs(of_weights) @ np.abs(weights)
+    missing = np.where(np.abs(wanted - present) <= LEFT * parts, 0, wanted - present)
+    rows = zip(z.tolist(), wanted.tolist(), present.tolist(), missing.tolist(), strict=True)
+    return tuple(PlaneNeed(*row) for row in rows)
+
+
+def _count_from_pin(engine: Engine, need: PlaneNeed) -> PlaneNeed:
+    """The same with directions from cylinder 1's crank pin."""
+    turned = complex(unit(-float(engine.first_axis_deg)))
+    return PlaneNeed(need.z, *(turned * vector for vector in need[1:]))
+
+
+def _find_counterweights(engine: Engine) -> tuple[Array, Complex]:
+    """Places (m) and unbalances at crank angle 0 (kg m) of the file's counterweights."""
+    own = [device for device in engine.devices if device.rank == 0]
+    places = np.array([float(device.z) for device in own])
+    return places, np.array([complex(device.forward) for device in own], complex)
+
+
+def _list_loads(engine: Engine, factor: float) -> list[PinLoad]:
+    """What each crank pin asks for; pins that carry nothing are left out."""
+    loads = []
+    for rows in engine.rows_by_pin:
+        weighed = [engine.weighed[row] for row in rows]
+        masses = np.array([float(w.rotating + w.share + factor * w.reciprocating) for w in weighed])
+        total = float(masses.sum())
+        if total == 0:
+            continue
+        pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
+        cylinders = tuple(engine.numbers[row] for row in rows)
+        unbalance = total * float(engine.cylinders.radius) * pin
+        loads.append(PinLoad(cylinders, unbalance, _find_centre(masses, engine.cylinders.z[rows])))
+    return loads
 
 
 def _find_centre(masses: Array, places: Array) -> float:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from ..engine.build import Engine
-from .details import Bobweight
+from collections.abc import Iterator
+
+from ..engine.build import Engine, Weighed
+from .details import Bobweight, CardLine
 
 DEFINITION = (
     "bobweight of a crank pin = rotating mass + factor x reciprocating mass of the rods on that "
     "pin; rotating: rod big ends, rod bearings, oil; reciprocating: pistons with rings, pins and "
-    "clips, rod small ends"
+    "locks, rod small ends"
 )
+WHOLE_PISTON = "piston complete"
+PISTON = (WHOLE_PISTON, "piston", "pin", "rings", "locks")
 
 
 def fill_card(engine: Engine, factor: float) -> tuple[Bobweight, ...]:
@@ -20,25 +24,29 @@ def fill_card(engine: Engine, factor: float) -> tuple[Bobweight, ...]:
 def _weigh(engine: Engine, rows: list[int], factor: float) -> Bobweight:
     """The bobweight of the pin of these cylinders."""
     masses = [engine.weighed[row] for row in rows]
-    piston, small_end, big_end, rod_bearing, oil = (
-        1e3 * sum(float(mass) for mass in of_each)
-        for of_each in zip(
-            *((m.piston, m.small_end, m.big_end, m.rod_bearing, m.oil) for m in masses),
-            strict=True,
-        )
-    )
-    rotating = big_end + rod_bearing + oil
-    reciprocating = piston + small_end
     return Bobweight(
         throw=masses[0].throw + 1,
         cylinders=tuple(engine.numbers[row] for row in rows),
-        piston_g=piston,
-        small_end_g=small_end,
-        big_end_g=big_end,
-        rod_bearing_g=rod_bearing,
-        oil_g=oil,
-        rotating_g=rotating,
-        reciprocating_g=reciprocating,
+        lines=tuple(_list_lines(masses)),
         factor=factor,
-        bobweight_g=rotating + factor * reciprocating,
+        throw_g=1e3 * sum(float(one.share) for one in masses),
     )
+
+
+def _list_lines(masses: list[Weighed]) -> Iterator[CardLine]:
+    """All that is weighed of the rods on one pin; parts that none of them has are left out."""
+
+    def weigh(part: str, rotates: bool, each_kg: list[float]) -> CardLine:
+        return CardLine(part, rotates, tuple(1e3 * mass for mass in each_kg))
+
+    yield weigh("big end", True, [float(one.big_end) for one in masses])
+    yield weigh("rod bearing", True, [float(one.rod_bearing) for one in masses])
+    yield weigh("oil", True, [float(one.oil) for one in masses])
+    pistons = [
+        {WHOLE_PISTON if key == "mass" else key: float(mass) for key, mass in one.piston_parts}
+        for one in masses
+    ]
+    for part in PISTON:
+        if any(part in piston for piston in pistons):
+            yield weigh(part, False, [piston.get(part, 0.0) for piston in pistons])
+    yield weigh("small end", False, [float(one.small_end) for one in masses])

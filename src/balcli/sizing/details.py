@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple
 
-Dimension = Literal["", "force", "moment", "unbalance", "length", "angle"]
+Dimension = Literal["", "force", "moment", "unbalance", "length", "angle", "share", "grams"]
 
 
 class Range(NamedTuple):
@@ -20,14 +20,36 @@ class Detail(NamedTuple):
     Attributes:
         label: what it is, in words.
         dimension: of the value: "force" (N), "moment" (N m), "unbalance" (kg m), "length" (m),
-            "angle" (degrees), or "" for plain numbers and words.
+            "angle" (degrees), "share" (of 1, shown in per cent), "grams" (kg, shown in g, as on
+            the scales of a shop), or "" for plain numbers and words.
         group: what it belongs to, such as "order 2"; empty if to the whole scheme.
+        what: said after the figure where people read it.
     """
 
     label: str
     dimension: Dimension
     value: float | str | Range | tuple[float, ...]
     group: str = ""
+    what: str = ""
+
+
+class CardLine(NamedTuple):
+    """One line of a bobweight card.
+
+    Attributes:
+        part: what is weighed, such as "rings".
+        rotates: whether it turns with the pin, or else goes to and fro.
+        each_g: mass for each rod on the pin, g.
+    """
+
+    part: str
+    rotates: bool
+    each_g: tuple[float, ...]
+
+    @property
+    def sum_g(self) -> float:
+        """For all rods on the pin."""
+        return sum(self.each_g)
 
 
 class Bobweight(NamedTuple):
@@ -36,24 +58,53 @@ class Bobweight(NamedTuple):
     Attributes:
         throw: of the pin, from 1.
         cylinders: numbers of the cylinders whose rods are on the pin.
-        piston_g, small_end_g, big_end_g, rod_bearing_g, oil_g: of all these rods together.
-        rotating_g: big ends, rod bearings and oil.
-        reciprocating_g: pistons and small ends.
+        lines: all that is weighed, what rotates first.
         factor: share of the reciprocating mass that counts.
-        bobweight_g: rotating plus factor times reciprocating.
+        throw_g: what the throw itself has at the crank radius on the side of this pin, for its
+            rods: counterweights balance it besides the bobweight.
     """
 
     throw: int
     cylinders: tuple[int, ...]
-    piston_g: float
-    small_end_g: float
-    big_end_g: float
-    rod_bearing_g: float
-    oil_g: float
-    rotating_g: float
-    reciprocating_g: float
+    lines: tuple[CardLine, ...]
     factor: float
-    bobweight_g: float
+    throw_g: float
+
+    @property
+    def rotating_g(self) -> float:
+        """Big ends, rod bearings and oil of all rods on the pin."""
+        return sum(line.sum_g for line in self.lines if line.rotates)
+
+    @property
+    def reciprocating_g(self) -> float:
+        """Pistons and small ends of all rods on the pin."""
+        return sum(line.sum_g for line in self.lines if not line.rotates)
+
+    @property
+    def bobweight_g(self) -> float:
+        """Rotating plus factor times reciprocating."""
+        return self.rotating_g + self.factor * self.reciprocating_g
+
+    def sum_of(self, *parts: str) -> float:
+        """Of the lines of these parts, g."""
+        return sum(line.sum_g for line in self.lines if line.part in parts)
+
+
+class PlaneNeed(NamedTuple):
+    """What a balance factor asks for in one plane of the crankshaft. Unbalances are kg m, their
+    directions count from cylinder 1's crank pin in the sense of rotation.
+
+    Attributes:
+        z: of the plane, m.
+        wanted: counterweight for all pins, as far as this plane takes it.
+        present: what the file's counterweights do there.
+        missing: what is still to be added.
+    """
+
+    z: float
+    wanted: complex
+    present: complex
+    missing: complex
 
 
 class FactorPeaks(NamedTuple):
@@ -63,6 +114,8 @@ class FactorPeaks(NamedTuple):
     Attributes:
         force: N. along, across: its components along the axis of the first bank and across it, N.
         moment: N m.
+        bobweight_g: of the first pin.
+        counterweight: the largest weight that is missing, kg m.
     """
 
     factor: float
@@ -70,6 +123,8 @@ class FactorPeaks(NamedTuple):
     along: float
     across: float
     moment: float
+    bobweight_g: float
+    counterweight: float
 
 
 class Optimum(NamedTuple):

@@ -20,6 +20,7 @@ class SchemeOptions(NamedTuple):
         position: z of new devices.
         planes: "ends", "throws", or places z of new devices.
         factor: shares of the reciprocating mass.
+        measured: mass that balances the crank when it hangs on a bare pin, kg, instead of a factor.
         roll: "zero": two shafts are placed such that the roll of this order vanishes, too.
     """
 
@@ -28,6 +29,7 @@ class SchemeOptions(NamedTuple):
     position: float | None = None
     planes: str | tuple[float, ...] | None = None
     factor: tuple[float, ...] | None = None
+    measured: float | None = None
     roll: str | None = None
 
     def check(self, scheme: str) -> None:

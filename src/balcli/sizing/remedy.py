@@ -10,8 +10,8 @@ from ..core.cylinders import Device
 from ..engine.build import Engine
 from ..engine.devices import build_device
 from ..enginefile.model import Counterweight, Shaft, Slider
-from .details import Bobweight, Detail, FactorPeaks, Optima
-from .device_tables import KINDS, DeviceTable
+from .details import Bobweight, Detail, FactorPeaks, Optima, PlaneNeed
+from .device_tables import KINDS, DeviceTable, find_free
 
 T = TypeVar("T")
 
@@ -26,6 +26,7 @@ class Remedy(NamedTuple):
         details: figures of the scheme that are no device.
         note: what to know besides, such as why nothing is fitted.
         card: bobweights of all crank pins (scheme factor).
+        needs: what each plane has and lacks, where the file has counterweights (scheme factor).
         sweep: what each of several factors leaves (scheme factor).
         optima: best shafts of variable speed (scheme eccentric-slider).
         knuckle_angles_deg: new `articulation.knuckle_angles` (scheme knuckles).
@@ -41,6 +42,7 @@ class Remedy(NamedTuple):
     details: tuple[Detail, ...] = ()
     note: str = ""
     card: tuple[Bobweight, ...] = ()
+    needs: tuple[PlaneNeed, ...] = ()
     sweep: tuple[FactorPeaks, ...] = ()
     optima: Optima | None = None
     knuckle_angles_deg: tuple[float, ...] = ()
@@ -50,6 +52,11 @@ class Remedy(NamedTuple):
     def devices(self) -> tuple[DeviceTable, ...]:
         """Counterweights, shafts and sliders, in this order."""
         return (*self.counterweights, *self.shafts, *self.sliders)
+
+    @property
+    def free(self) -> tuple[bool, ...]:
+        """Which of `devices` may stand anywhere (`device_tables.find_free`)."""
+        return find_free(self.devices)
 
     def add_devices(self, added: Iterable[DeviceTable], reason: str) -> Remedy:
         """The remedy with further devices, all for the same reason."""

@@ -8,9 +8,9 @@ from __future__ import annotations
 SCHEMES: dict[str, tuple[str, ...]] = {
     "auto": (),
     "counterweights": ("order", "planes"),
-    "factor": ("factor",),
+    "factor": ("factor", "measured", "planes"),
     "minimax": ("planes", "position"),
-    "single-shaft": ("order", "at", "position"),
+    "single-shaft": ("order", "at", "position", "planes"),
     "two-shaft": ("order", "at", "position", "roll"),
     "four-shaft": ("at", "position"),
     "couple-shaft": ("order", "at", "planes"),

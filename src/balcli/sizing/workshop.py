@@ -7,13 +7,16 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from ..core.drilled_hole import STEEL, find_drill_depth
+from ..core.drilled_hole import STEEL, find_drill_depth, find_drilled_unbalance
+from ..core.phasors import reduced
 from ..engine.build import Engine
-from ..enginefile.model import Counterweight, Shaft
+from ..enginefile.model import Counterweight, Shaft, Slider
 from ..errors import BalcliError
+from ..limits import MOST_HOLES
 from .device_tables import DeviceTable, find_unbalance
 from .remedy import Remedy
 
+ROUNDING = 1e-12  # of a hole: that much more than the deepest one is still one
 THICKNESS = 0.020  # m, of a semicircular disc if nothing else is said
 
 
@@ -23,13 +26,34 @@ class Tools(NamedTuple):
     Attributes:
         radius: at which masses are stated; the crank radius if not said.
         thickness, disc: thickness, or radius, of semicircular discs; THICKNESS if neither is said.
-        drill: diameter; no depth of holes is stated if not said.
+        drill: diameter; no holes are stated if not said.
+        max_depth: of holes; to the axis if not said.
+        slug: density of slugs that fill the holes, kg/m3; empty holes if not said.
     """
 
     radius: float | None = None
     thickness: float | None = None
     disc: float | None = None
     drill: float | None = None
+    max_depth: float | None = None
+    slug: float | None = None
+
+
+class Holes(NamedTuple):
+    """Radial holes side by side along the crank, all alike: they remove an unbalance opposite to
+    it, or add it with slugs on its own side.
+
+    Attributes:
+        angle_deg: of the holes, counted as that of the device.
+        number: how many.
+        depth: of each, from the rim inwards, m; nan where more are needed than MOST_HOLES.
+        reason: why one is not enough; empty where it is.
+    """
+
+    angle_deg: float
+    number: int
+    depth: float
+    reason: str
 
 
 class Practical(NamedTuple):
@@ -41,8 +65,7 @@ class Practical(NamedTuple):
         speed_rpm: of the shaft; of a slider its strokes a minute.
         disc_radius, disc_thickness: semicircular steel disc, its diameter through the axis of
             rotation.
-        depth: of a radial hole, from the rim at `radius` inwards, that removes as much; nan if the
-            drill is too small for it, None if there is no drill.
+        holes: into a rim at `radius`; None without a drill, and for sliders.
     """
 
     unbalance: float
@@ -52,7 +75,7 @@ class Practical(NamedTuple):
     speed_rpm: float
     disc_radius: float
     disc_thickness: float
-    depth: float | None = None
+    holes: Holes | None = None
 
 
 def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practical, ...]:
@@ -61,8 +84,20 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
     Raises BalcliError unless all lengths are positive and at most one of disc and thickness is
     given.
     """
-    if any(length is not None and not 0 < length < math.inf for length in tools):
-        raise BalcliError("radius, thickness, disc and drill must be positive lengths in mm")
+    if any(figure is not None and not 0 < figure < math.inf for figure in tools):
+        raise BalcliError(
+            "radius, thickness, disc, drill and max-depth must be positive lengths, such as 40 (mm)"
+        )
+    if tools.drill is None and not tools.max_depth is tools.slug is None:
+        raise BalcliError(
+            "--max-depth and --slug are for holes: give the diameter of the drill, such as "
+            "--drill 25.4"
+        )
+    if tools.slug is not None and tools.slug <= STEEL:
+        raise BalcliError(
+            f"--slug: {tools.slug / 1e3:g} g/cm3 is not heavier than the steel in whose place it "
+            f"is put ({STEEL / 1e3:g} g/cm3); tungsten alloy has 17 to 18.5"
+        )
     if tools.thickness is not None and tools.disc is not None:
         raise BalcliError(
             "a semicircular disc has its radius or its thickness given, not both: the other follows"
@@ -82,8 +117,26 @@ def _find_figures(engine: Engine, device: DeviceTable, tools: Tools) -> Practica
         speed_rpm=order * float(engine.speed_rpm),
         disc_radius=disc_radius,
         disc_thickness=disc_thickness,
-        depth=find_drill_depth(unbalance, radius, tools.drill) if tools.drill else None,
+        holes=_plan_holes(device, unbalance, radius, tools),
     )
+
+
+def _plan_holes(device: DeviceTable, unbalance: float, rim: float, tools: Tools) -> Holes | None:
+    """As few holes as the depth allows."""
+    if tools.drill is None or isinstance(device, Slider):
+        return None
+    density = STEEL if tools.slug is None else tools.slug - STEEL
+    deepest = min(rim, tools.max_depth or rim)
+    angle = reduced(device.angle + (180 if tools.slug is None else 0), 360)
+    of_one = find_drilled_unbalance(deepest, rim, tools.drill, density)
+    share = unbalance / of_one * (1 - ROUNDING) if of_one else math.inf
+    count = max(math.ceil(share), 1) if share <= MOST_HOLES else MOST_HOLES + 1
+    depth = math.nan
+    if count <= MOST_HOLES:
+        depth = find_drill_depth(unbalance / count, rim, tools.drill, density)
+        depth = deepest if math.isnan(depth) else min(depth, deepest)
+    reason = "one hole would be deeper than " + ("--max-depth" if deepest < rim else "the radius")
+    return Holes(float(angle), count, depth, reason if count > 1 else "")
 
 
 def _find_order(device: DeviceTable) -> int:

@@ -49,6 +49,8 @@ def find_numbers(model: EngineFile) -> dict[str, Number]:
     numbers: dict[str, Number] = {}
     for path, table in tables.items():
         numbers |= _numbers_of(path, table)
+    if model.gas is None:  # a share of nothing
+        numbers = {path: number for path, number in numbers.items() if not path.endswith(".gas")}
     if plan.banks != 2:  # it would make a vee of the engine, with other cylinders
         numbers.pop("layout.bank_angle", None)
     return numbers

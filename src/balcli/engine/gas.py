@@ -1,0 +1,367 @@
+"""Gas in an engine's cylinders: which torque it makes in each, and when each fires.
+
+The cycle angle of a cylinder is 0 at the upper dead centre of its own mechanism next to which it
+fires; which of the two revolutions of a four-stroke cycle that is, the firing order says.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ..core import pressure_diagram as diagrams
+from ..core.combustion import Burn, Diesel, Dual, Otto, Wiebe
+from ..core.cylinder_pressure import (
+    CylinderPressure,
+    GasError,
+    GasTorque,
+    Piston,
+    PressureOnPiston,
+    pistons,
+)
+from ..core.gas_cycle import Goal, Process, gas_cycle
+from ..core.gas_cycle import mistakes as cycle_mistakes
+from ..core.tangential_force import tangential_torque
+from ..enginefile.csv_columns import Columns, locate_beside, read_columns
+from ..enginefile.gas_tables import DIAGRAM_KEYS, Gas
+from ..errors import BalcliError, InputError, Problem
+
+if TYPE_CHECKING:
+    from .assembly import Assembly
+
+BAR = 1e5  # Pa
+PRESSURE_HEADS = {
+    "pressure_bar": BAR,
+    "pressure_MPa": 1e6,
+    "pressure_kPa": 1e3,
+    "pressure_Pa": 1.0,
+    "pressure_psi": 0.45359237 * 9.80665 / 0.0254**2,
+}
+NEAR_DEG = 45.0  # from the firing dead centre: there the pressure of every engine is highest
+SAME_IMEP = 0.03  # by which a diagram may miss the stated mean effective pressure
+
+
+class CylinderGas(NamedTuple):
+    """Gas of one cylinder.
+
+    Attributes:
+        piston: its mechanism, with the area of the bore.
+        torque: by cycle angle, without the share; a `PressureOnPiston` unless only its harmonics
+            are known.
+        nominal_deg: crank angle, in [0, 720) or [0, 360), at which its crank pin stands along its
+            axis when it fires.
+        share: by which the gas force is multiplied; 0 is a misfire.
+    """
+
+    piston: Piston
+    torque: GasTorque
+    nominal_deg: float
+    share: float
+
+    @property
+    def fires(self) -> float:
+        """Crank angle of its firing dead centre, rad: cycle angle = crank angle - `fires`."""
+        return math.radians(self.nominal_deg) + self.piston.top
+
+
+@dataclass(frozen=True, eq=False)
+class EngineGas:
+    """Gas of an engine.
+
+    Attributes:
+        cylinders: one for each row of `Engine.cylinders`. Equal cylinders have one and the same
+            `torque`.
+        cycle_deg: 720, or 360 of a two-stroke engine.
+        mechanical_efficiency: brake over indicated work; None: not known.
+        doubts: what is suspicious of the file, in words, each by its path.
+    """
+
+    cylinders: tuple[CylinderGas, ...]
+    cycle_deg: int
+    mechanical_efficiency: float | None = None
+    doubts: tuple[str, ...] = ()
+
+    @property
+    def cycle(self) -> float:
+        """Rad."""
+        return math.radians(self.cycle_deg)
+
+    def with_share(self, row: int, share: float) -> EngineGas:
+        """The same with another share of the cylinder in one row."""
+        changed = list(self.cylinders)
+        changed[row] = changed[row]._replace(share=share)
+        return replace(self, cylinders=tuple(changed))
+
+
+def build_gas(parts: Assembly) -> EngineGas:
+    """The gas of an engine whose tables fit together otherwise.
+
+    Raises:
+        InputError: every mistake of [gas], of what cylinders say of it, and of the files named
+            there.
+    """
+    return _Builder(parts).build()
+
+
+class _Source(NamedTuple):
+    """Where a cylinder's gas comes from: its own diagram (path in the file and name), or [gas]."""
+
+    path: str
+    indicator: str | None
+
+
+class _Builder:
+    """The gas of an engine while it is put together."""
+
+    def __init__(self, parts: Assembly) -> None:
+        gas = parts.model.gas
+        if gas is None:
+            raise ValueError("an engine file without [gas]")
+        self.parts, self.gas = parts, gas
+        self.strokes = parts.model.layout.strokes
+        self.problems: list[Problem] = []
+        self.doubts: list[str] = []
+        self._made: dict[tuple[object, ...], GasTorque | None] = {}
+        self._read: dict[str, Columns] = {}
+
+    def build(self) -> EngineGas:
+        self.problems += self._check_tables()
+        self._refuse()
+        c, bore = self.parts.cylinders, self.parts.model.piston.bore or 0.0
+        found = pistons(c, math.pi / 4 * (bore / 1e3) ** 2)
+        mechanisms = self._name_mechanisms()
+        torques = [
+            self._torque(number, found[row], mechanisms[row])
+            for row, number in enumerate(self.parts.numbers)
+        ]
+        self._refuse()
+        nominal = self._find_nominal([piston.top for piston in found])
+        return EngineGas(
+            tuple(
+                CylinderGas(piston, torque, nominal[row], self._share(self.parts.numbers[row]))
+                for row, (piston, torque) in enumerate(zip(found, torques, strict=True))
+                if torque is not None
+            ),
+            180 * self.strokes,
+            self.gas.mechanical_efficiency,
+            tuple(self.doubts),
+        )
+
+    def _refuse(self) -> None:
+        if self.problems:
+            raise InputError(list(dict.fromkeys(self.problems)))
+
+    # -------------------------------------------------------------- what does not fit together
+    def _check_tables(self) -> Iterator[Problem]:
+        model, gas = self.parts.model, self.gas
+        if model.piston.bore is None:
+            yield Problem("piston.bore", "is missing; gas presses on its area, such as bore = 86")
+        if self.strokes == 4 and self.parts.order is None and len(self.parts.numbers) > 1:
+            yield Problem(
+                "layout.firing_order",
+                "is missing; a four-stroke cylinder fires in every second revolution, and only "
+                "the firing order says in which, such as firing_order = [1, 3, 4, 2]",
+            )
+        own = [n for n, table in model.cylinder.items() if table.indicator is not None]
+        if gas.indicator is None and not own:
+            for key in DIAGRAM_KEYS:
+                if key in gas.model_fields_set:
+                    yield Problem(f"gas.{key}", "belongs to an indicator diagram; leave it out")
+        if self.strokes == 2 and gas.zero == "gas-exchange":
+            yield Problem(
+                "gas.zero", 'a two-stroke cycle has no gas-exchange dead centre; give "firing"'
+            )
+
+    # -------------------------------------------------------------- one cylinder
+    def _share(self, number: int) -> float:
+        own = self.parts.model.cylinder.get(number)
+        return 1.0 if own is None or own.gas is None else own.gas
+
+    def _source(self, number: int) -> _Source:
+        own = self.parts.model.cylinder.get(number)
+        if own is not None and own.indicator is not None:
+            return _Source(f"cylinder.{number}.indicator", own.indicator)
+        return _Source("gas.indicator", self.gas.indicator)
+
+    def _name_mechanisms(self) -> list[tuple[object, ...]]:
+        """Figures of each row's mechanism; equal ones move their pistons alike."""
+        c = self.parts.cylinders
+        columns = (c.lam, c.eps) if c.linkage is None else c.linkage.figures(c.lam, c.eps)
+        rows = range(c.count)
+        return [
+            tuple(column[row if len(column) > 1 else 0].item() for column in columns)
+            for row in rows
+        ]
+
+    def _torque(
+        self, number: int, piston: Piston, mechanism: tuple[object, ...]
+    ) -> GasTorque | None:
+        """That of a cylinder, of equal ones computed once; None after a mistake."""
+        source = self._source(number)
+        key = (*mechanism, source.indicator)
+        if key not in self._made:
+            try:
+                self._made[key] = self._make(source, piston)
+            except BalcliError as error:
+                self._made[key] = None
+                path = source.path if source.indicator is not None else "gas.harmonics"
+                self.problems.append(Problem(path, str(error)))
+        return self._made[key]
+
+    def _make(self, source: _Source, piston: Piston) -> GasTorque | None:
+        gas = self.gas
+        if source.indicator is not None:
+            found = PressureOnPiston(piston, self._diagram(source), gas.crankcase * BAR)
+            self._doubt_diagram(source, found)
+            return found
+        if gas.harmonics is not None:
+            return self._harmonics(gas.harmonics, piston)
+        pressure = self._cycle(piston)
+        return None if pressure is None else PressureOnPiston(piston, pressure, gas.crankcase * BAR)
+
+    def _columns(self, name: str, wanted: tuple[tuple[str, ...], ...]) -> Columns:
+        if name not in self._read:
+            path = locate_beside(self.parts.model.folder, name)
+            self._read[name] = read_columns(path, wanted)
+        return self._read[name]
+
+    # -------------------------------------------------------------- diagrams
+    def _diagram(self, source: _Source) -> diagrams.PressureDiagram:
+        gas, name = self.gas, source.indicator or ""
+        columns = self._columns(name, (("angle_deg",), tuple(PRESSURE_HEADS)))
+        unit = PRESSURE_HEADS[columns.heads[1]]
+        gauge = diagrams.ATMOSPHERE if gas.pressure == "gauge" else 0.0
+        pressure = np.array(columns.column(1)) * unit + gauge
+        angle = np.array(columns.column(0))
+        wrong = list(diagrams.mistakes(angle, pressure, strokes=self.strokes))
+        if wrong:
+            line = "" if wrong[0].row is None else f"line {columns.lines[wrong[0].row]}: "
+            raise BalcliError(f"{name}: {line}{wrong[0].message}")
+        firing = 360.0 if gas.zero == "gas-exchange" else 0.0
+        found = diagrams.pressure_diagram(
+            angle, pressure, strokes=self.strokes, firing_deg=firing - gas.phase
+        )
+        if found.closing_step:
+            last = pressure[-1] / BAR
+            first = pressure[0] / BAR
+            self.doubts.append(
+                f"{source.path}: {name}: the last row closes the cycle with {last:.4g} bar, the "
+                f"first has {first:.4g} bar; the first is taken"
+            )
+        return found
+
+    def _doubt_diagram(self, source: _Source, gas: PressureOnPiston) -> None:
+        angle, value = gas.pressure.highest()
+        if abs(math.degrees(angle)) > NEAR_DEG:
+            self.doubts.append(
+                f"{source.path}: the highest pressure, {value / BAR:.4g} bar, stands at "
+                f"{math.degrees(angle):.4g} deg from the firing dead centre, where within "
+                f"{NEAR_DEG:g} is usual; are gas.zero and gas.phase right?"
+            )
+        stated = self.gas.imep
+        if stated is not None and source.path == "gas.indicator":
+            found = gas.imep / BAR
+            if abs(found - stated) > SAME_IMEP * abs(stated):
+                self.doubts.append(
+                    f"gas.imep is {stated:g} bar, and the diagram has {found:.4g} bar; a phase of "
+                    "one degree makes about 7 %: is gas.phase right?"
+                )
+
+    # -------------------------------------------------------------- builders' tables
+    def _harmonics(self, name: str, piston: Piston) -> GasTorque:
+        columns = self._columns(name, (("order",), ("cos",), ("sin",)))
+        orders, cosines, sines = (np.array(columns.column(k)) for k in range(3))
+        if not len(orders):
+            raise BalcliError(f"{name}: has no rows; give order,cos,sin in each")
+        if len(not_rising := np.flatnonzero(np.diff(orders) <= 0)):
+            line = columns.lines[not_rising[0] + 1]
+            raise BalcliError(f"{name}: line {line}: orders have to rise")
+        radius = float(self.parts.cylinders.radius)
+        try:
+            return tangential_torque(
+                orders,
+                cosines * BAR,
+                sines * BAR,
+                area=piston.area,
+                radius=radius,
+                strokes=self.strokes,
+            )
+        except GasError as error:
+            raise BalcliError(f"{name}: {error}") from None
+
+    # -------------------------------------------------------------- computed cycles
+    def _cycle(self, piston: Piston) -> CylinderPressure | None:
+        process, burn, goal = self._process(), self._burn(), find_goal(self.gas)
+        wrong = list(cycle_mistakes(piston, process, burn, goal))
+        if not wrong:
+            try:
+                return gas_cycle(piston, process, burn, goal)
+            except GasError as error:
+                wrong = [error]
+        self.problems += map(self._locate, wrong)
+        return None
+
+    def _locate(self, error: GasError) -> Problem:
+        """A mistake of a cycle by its path in the file."""
+        if error.field == "imep" and self.gas.bmep is not None:
+            return Problem("gas.bmep", f"over mechanical_efficiency, the imep, {error}")
+        return Problem(f"gas.{error.field}", str(error))
+
+    def _process(self) -> Process:
+        g = self.gas
+        return Process(
+            compression_ratio=g.compression_ratio or math.nan,
+            strokes=self.strokes,
+            compression_index=g.compression_index,
+            expansion_index=g.expansion_index,
+            intake=g.intake * BAR,
+            exhaust=g.exhaust * BAR,
+            exhaust_opens_deg=g.exhaust_opens,
+            intake_closes_deg=g.intake_closes,
+        )
+
+    def _burn(self) -> Burn:
+        g = self.gas
+        match g.cycle:
+            case "diesel":
+                return Diesel()
+            case "dual":
+                return Dual((g.max_pressure or math.nan) * BAR)
+            case "wiebe":
+                return Wiebe(g.burn_start, g.burn_duration, g.burn_shape)
+            case _:
+                return Otto()
+
+    # -------------------------------------------------------------- firing
+    def _find_nominal(self, tops: list[float]) -> list[float]:
+        """`CylinderGas.nominal_deg` of each row. Cylinder 1 fires in [-180, 180) deg of crank
+        angle, the others next to when the firing order has them fire.
+        """
+        parts, cycle = self.parts, 180.0 * self.strokes
+        phi, first = parts.cylinders.angle_deg, parts.numbers.index(1)
+        fires = parts.fires_deg if parts.order is not None else {}
+        found = []
+        for row, number in enumerate(parts.numbers):
+            at = 0.0 - float(phi[row])
+            top = math.degrees(tops[row] - tops[first])
+            wanted = float(fires[number] - fires[1]) if number in fires else 0.0
+            at += 360.0 * round((wanted - top - at) / 360.0)
+            found.append(at % cycle)
+        return found
+
+
+def find_goal(gas: Gas) -> Goal:
+    """What a computed cycle is to have."""
+    if gas.imep is not None:
+        return Goal("imep", gas.imep * BAR)
+    if gas.bmep is not None:
+        return Goal("imep", gas.bmep * BAR / (gas.mechanical_efficiency or math.nan))
+    if gas.heat is not None:
+        return Goal("heat", gas.heat)
+    if gas.cut_off is not None:
+        return Goal("cut_off", gas.cut_off)
+    return Goal("max_pressure", (gas.max_pressure or math.nan) * BAR)

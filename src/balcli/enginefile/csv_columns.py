@@ -1,0 +1,113 @@
+"""Tables of numbers beside an engine file: CSV with a heading, such as a measured diagram."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from ..errors import BalcliError
+from ..limits import LARGEST_FILE_BYTES, MOST_ROWS
+from .fields import shorten
+from .toml_text import read_bytes
+
+
+class Columns(NamedTuple):
+    """Numbers of a file.
+
+    Attributes:
+        heads: as the file has them, in the order in which they were asked for.
+        rows: a number for each head.
+        lines: of the file, from 1, one for each row.
+    """
+
+    heads: tuple[str, ...]
+    rows: tuple[tuple[float, ...], ...]
+    lines: tuple[int, ...]
+
+    def column(self, number: int) -> list[float]:
+        """All numbers under one of the heads."""
+        return [row[number] for row in self.rows]
+
+
+def locate_beside(folder: Path, name: str) -> Path:
+    """The file of this name, relative to a folder that it may not leave.
+
+    Raises:
+        BalcliError: it would.
+    """
+    home, place = folder.resolve(), (folder / name).resolve()
+    if not place.is_relative_to(home):
+        raise BalcliError(
+            f"{shorten(name)} lies outside the folder of the engine file; put it beside that file, "
+            "or into a folder below it"
+        )
+    return folder / name
+
+
+def read_columns(path: Path, wanted: Sequence[Sequence[str]]) -> Columns:
+    """Some columns of a CSV file; other columns, empty lines and lines that begin with # count for
+    nothing.
+
+    Args:
+        wanted: the names that each column may have.
+
+    Raises:
+        BalcliError: it cannot be read, a column is missing, or a line has no such numbers.
+    """
+    content = read_bytes(path)
+    if len(content) > LARGEST_FILE_BYTES:
+        raise BalcliError(f"{path}: has more than {LARGEST_FILE_BYTES // 1_000_000} MB")
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise BalcliError(f"{path}: is not UTF-8 text") from None
+    try:
+        return _parse(text, wanted)
+    except (ValueError, csv.Error) as error:
+        raise BalcliError(f"{path}: {error}") from None
+
+
+def _parse(text: str, wanted: Sequence[Sequence[str]]) -> Columns:
+    lines = [
+        (number, line)
+        for number, line in enumerate(text.splitlines(), 1)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
+    if len(lines) > MOST_ROWS:
+        raise ValueError(f"has {len(lines)} lines; at most {MOST_ROWS} are read")
+    cells = csv.reader(line for _, line in lines)
+    heading = [cell.strip() for cell in next(cells, [])]
+    places = [_find_head(names, heading, wanted) for names in wanted]
+    numbers = [number for number, _ in lines[1:]]
+    rows = tuple(_read_row(row, places, n) for row, n in zip(cells, numbers, strict=False))
+    return Columns(tuple(heading[place] for place in places), rows, tuple(numbers))
+
+
+def _find_head(names: Sequence[str], heading: list[str], wanted: Sequence[Sequence[str]]) -> int:
+    for place, head in enumerate(heading):
+        if head in names:
+            return place
+    usual = ",".join(some[0] for some in wanted)
+    others = [name for some in wanted for name in some[1:]]
+    also = f" (or {', '.join(others)})" if others else ""
+    found = shorten(",".join(heading))
+    raise ValueError(f"the heading {found} has no {names[0]}; head the file {usual}{also}")
+
+
+def _read_row(row: list[str], places: list[int], line: int) -> tuple[float, ...]:
+    if len(row) <= max(places):
+        raise ValueError(f"line {line}: has {len(row)} of {max(places) + 1} columns")
+    return tuple(_read_number(row[place], line) for place in places)
+
+
+def _read_number(cell: str, line: int) -> float:
+    try:
+        number = float(cell)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise ValueError(f"line {line}: {shorten(cell.strip())} is not a number")
+    return number

@@ -1,0 +1,90 @@
+"""Torque of the gas on the crank, by order, of an engine that has gas (`Engine.gas`).
+
+Gas presses on piston and head alike: it makes no free force and no free moment, only torque and its
+reaction on the frame. With t_h the coefficients of one cylinder's torque over its cycle, a cylinder
+that fires at the crank angle f adds `t_h e^{i h (theta - f)/2}`: order n = h/2.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.cylinder_pressure import GasTorque
+from ..core.phases import SUM
+from ..core.phasors import EPS, Array, Complex, Phasors, unit
+from ..engine.build import Engine
+from ..engine.gas import CylinderGas, EngineGas
+from ..errors import BalcliError
+
+_TURN = np.pi * EPS  # of an angle in the file (half an ulp of 360 deg), which the order multiplies
+_LEAST = 24  # harmonics that are computed at least, so that the largest is among them
+_QUADRATURE = 8 * EPS  # error of a coefficient, of the largest
+
+
+class _Course(NamedTuple):
+    """Harmonics of one cylinder's torque, N m, shape (orders,), and their error."""
+
+    c: Complex
+    error: float
+
+
+def take_gas(engine: Engine) -> EngineGas:
+    """The gas of an engine.
+
+    Raises:
+        BalcliError: it has none.
+    """
+    if engine.gas is None:
+        name = engine.name or "the engine"
+        raise BalcliError(
+            f'{name}: has no [gas]; give a diagram, a cycle or harmonics, such as cycle = "wiebe", '
+            "compression_ratio = 10.5, imep = 10"
+        )
+    return engine.gas
+
+
+def compute_gas_torque(engine: Engine, orders: Array) -> Phasors:
+    """Torque of all cylinders' gas on the crank, N m, not settled.
+
+    Args:
+        engine: without trailing axes.
+        orders: multiples of 1/2, shape (orders,).
+
+    Raises:
+        BalcliError: the engine has no gas.
+    """
+    each = compute_gas_torque_of_each(engine, orders)
+    count = len(take_gas(engine).cylinders)
+    turning = SUM * count + _TURN * orders
+    noise = each.noise.sum(axis=1) + turning * np.abs(each.forward).sum(axis=1)
+    return Phasors(orders, each.forward.sum(axis=1), each.backward.sum(axis=1), noise)
+
+
+def compute_gas_torque_of_each(engine: Engine, orders: Array) -> Phasors:
+    """Torque of each cylinder's gas on the crank, N m, shape (orders, cylinders), the cylinders in
+    the order of `engine.numbers`; arguments and errors as of `compute_gas_torque`.
+    """
+    gas, halves = take_gas(engine), np.rint(2 * orders).astype(np.intp)
+    courses: dict[int, _Course] = {}  # of equal cylinders once
+    columns, errors = [], []
+    for cylinder in gas.cylinders:
+        which = id(cylinder.torque)
+        if which not in courses:
+            courses[which] = _find_course(cylinder.torque, halves)
+        course = courses[which]
+        columns.append(cylinder.share * course.c * _turn(cylinder, orders))
+        errors.append(np.full(len(orders), cylinder.share * course.error))
+    return Phasors.from_scalar(orders, np.stack(columns, axis=1), np.stack(errors, axis=1))
+
+
+def _find_course(torque: GasTorque, halves: NDArray[np.intp]) -> _Course:
+    lowest = np.abs(torque.harmonics(np.arange(1, _LEAST + 1)))
+    return _Course(torque.harmonics(halves), _QUADRATURE * float(lowest.max()))
+
+
+def _turn(cylinder: CylinderGas, orders: Array) -> Complex:
+    """e^{-i n f}: the nominal angle turns exactly, so that cylinders that fire evenly cancel."""
+    return np.exp(-1j * orders * cylinder.piston.top) * unit(-orders * cylinder.nominal_deg)

@@ -1,0 +1,290 @@
+"""[gas] of an engine file: what is built of it, and every mistake by its path."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from support.gas_engines import FOUR, WIEBE, draw_engine, engine
+
+from balcli.core.cylinder_pressure import PressureOnPiston
+from balcli.engine.load import load, parse
+from balcli.errors import InputError
+
+TWO_STROKE = FOUR.replace("firing_order = [1, 3, 4, 2]", "strokes = 2")
+
+
+def problems(text: str) -> list[str]:
+    with pytest.raises(InputError) as caught:
+        engine(text)
+    return [str(problem) for problem in caught.value.problems]
+
+
+# ------------------------------------------------------------------ what is built
+def test_cylinders_fire_as_the_firing_order_has_it():
+    gas = engine(FOUR + WIEBE).gas
+    assert [c.nominal_deg for c in gas.cylinders] == [0, 540, 180, 360]
+    assert gas.cycle_deg == 720
+    assert len({id(c.torque) for c in gas.cylinders}) == 1, "equal cylinders are computed once"
+
+
+def test_cylinders_of_a_two_stroke_fire_at_their_dead_centres():
+    gas = engine(TWO_STROKE + WIEBE).gas
+    assert [c.nominal_deg for c in gas.cylinders] == [0, 180, 180, 0]
+    assert gas.cycle_deg == 360
+
+
+def test_dead_centres_are_those_of_the_mechanism():
+    gas = engine(FOUR.replace("mass = 0.5", "mass = 0.5\noffset = 12") + WIEBE).gas
+    assert gas.cylinders[0].fires == pytest.approx(math.asin(12 / 195), abs=1e-14)
+    assert gas.cylinders[1].fires - gas.cylinders[0].fires == pytest.approx(3 * math.pi, abs=1e-13)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_cycle_has_the_stated_mean_effective_pressure(seed):
+    found = draw_engine(seed)
+    for c in found.gas.cylinders:
+        assert c.torque.work / c.piston.swept == pytest.approx(c.torque.imep, rel=1e-13)
+        assert c.torque.pressure.imep == pytest.approx(c.torque.imep, rel=1e-12)
+
+
+def test_bmep_is_imep_times_mechanical_efficiency():
+    gas = engine(FOUR + WIEBE.replace("imep = 9", "bmep = 9\nmechanical_efficiency = 0.9")).gas
+    assert gas.cylinders[0].torque.imep == pytest.approx(10e5, rel=1e-12)
+
+
+def test_flywheel_crank_and_bearings():
+    text = FOUR.replace("spacing = 100", "spacing = 100\ninertia = 40000")
+    text += "[flywheel]\nmass = 10\nradius_of_gyration = 120\n[bearing]\n"
+    text += "pin_diameter = 48\npin_width = 20\n"
+    found = engine(text)
+    assert found.crank_inertia == pytest.approx(0.04)
+    assert found.flywheel_inertia == pytest.approx(0.144)
+    assert found.bearings.pin_m2 == pytest.approx(960e-6)
+    assert found.bearings.main_m2 is None
+    assert found.gas is None
+
+
+# ------------------------------------------------------------------ files beside the engine file
+DIAGRAM = "angle_deg,pressure_MPa\n# a note\n" + "\n".join(
+    f"{angle},{6 if angle == 370 else 0.1}" for angle in range(0, 721, 10)
+)
+
+
+@pytest.fixture
+def beside(tmp_path):
+    """Writes an engine file and a file beside it; returns the engine file's path."""
+
+    def write(gas: str, name: str = "p.csv", content: str = DIAGRAM) -> str:
+        (tmp_path / name).write_text(content, encoding="utf-8")
+        path = tmp_path / "engine.toml"
+        path.write_text(FOUR + "[gas]\n" + gas, encoding="utf-8")
+        return str(path)
+
+    return write
+
+
+def test_a_diagram_may_count_from_the_other_dead_centre_and_be_shifted(beside):
+    path = beside('indicator = "p.csv"\nzero = "gas-exchange"\nphase = 5\npressure = "gauge"\n')
+    gas = load(path).gas.cylinders[0].torque
+    assert isinstance(gas, PressureOnPiston)
+    angle, value = gas.pressure.highest()
+    assert math.degrees(angle) == pytest.approx(15)
+    assert value == pytest.approx(6e6 + 101325)
+
+
+def test_one_cylinder_may_have_a_diagram_of_its_own(beside, tmp_path):
+    path = beside('indicator = "p.csv"\nzero = "gas-exchange"\n[cylinder.3]\nindicator = "q.csv"\n')
+    (tmp_path / "q.csv").write_text(DIAGRAM.replace(",6", ",3"), encoding="utf-8")
+    found = load(path).gas
+    highest = [c.torque.pressure.highest().value for c in found.cylinders]
+    assert highest == pytest.approx([6e6, 6e6, 3e6, 6e6])
+
+
+def test_harmonics_are_of_the_mean_tangential_pressure(beside):
+    content = "order,cos,sin\n0,2,0\n0.5,1,3\n"
+    path = beside('harmonics = "h.csv"\n', "h.csv", content)
+    torque = load(path).gas.cylinders[0].torque
+    unit = math.pi / 4 * 0.086**2 * 0.045 * 1e5
+    assert torque.harmonics([0, 1, 2]) == pytest.approx([2 * unit, (1 - 3j) * unit, 0])
+
+
+@pytest.mark.parametrize(
+    ("gas", "content", "told"),
+    [
+        ('indicator = "q.csv"', "", "gas.indicator: {folder}/q.csv: no such file"),
+        (
+            'indicator = "../p.csv"',
+            "",
+            'gas.indicator: "../p.csv" lies outside the folder of the engine file; put it beside '
+            "that file, or into a folder below it",
+        ),
+        (
+            'indicator = "p.csv"',
+            "angle,pressure_bar\n0,1\n",
+            'gas.indicator: {folder}/p.csv: the heading "angle,pressure_bar" has no angle_deg; '
+            "head the file angle_deg,pressure_bar (or pressure_MPa, pressure_kPa, pressure_Pa, "
+            "pressure_psi)",
+        ),
+        (
+            'indicator = "p.csv"',
+            DIAGRAM.replace("50,0.1", "50,x"),
+            'gas.indicator: {folder}/p.csv: line 8: "x" is not a number',
+        ),
+        (
+            'indicator = "p.csv"',
+            DIAGRAM.replace("\n50,", "\n30,"),
+            "gas.indicator: p.csv: line 8: the angle 30° does not exceed the 40° before it",
+        ),
+        (
+            'indicator = "p.csv"',
+            DIAGRAM.replace("50,0.1", "50"),
+            "gas.indicator: {folder}/p.csv: line 8: has 1 of 2 columns",
+        ),
+        (
+            'indicator = "p.csv"',
+            DIAGRAM.replace("50,0.1", "50,-0.1"),
+            "gas.indicator: p.csv: line 8: the absolute pressure is -1 bar: give 0 or more",
+        ),
+        (
+            'indicator = "p.csv"',
+            DIAGRAM + "\n730,0.1",
+            "gas.indicator: p.csv: covers 730°; a cycle of 4 strokes has 720°",
+        ),
+        (
+            'harmonics = "p.csv"',
+            "order,cos,sin\n0,1,0\n0.25,1,0\n",
+            "gas.harmonics: p.csv: has order 0.25: a cycle of 4 strokes has multiples of 0.5",
+        ),
+        (
+            'harmonics = "p.csv"',
+            "order,cos,sin\n1,1,0\n1,1,0\n",
+            "gas.harmonics: p.csv: line 3: orders have to rise",
+        ),
+    ],
+)
+def test_mistakes_of_files_beside(beside, tmp_path, gas, content, told):
+    path = beside(gas + "\n", content=content)
+    with pytest.raises(InputError) as caught:
+        load(path)
+    (problem,) = caught.value.problems
+    assert str(problem) == told.format(folder=tmp_path)
+
+
+def test_what_is_suspicious_of_a_diagram(beside):
+    path = beside('indicator = "p.csv"\nimep = 4\n', content=DIAGRAM.replace("720,0.1", "720,0.2"))
+    doubts = load(path).gas.doubts
+    assert [text.partition(":")[0] for text in doubts[:2]] == ["gas.indicator"] * 2
+    assert "closes the cycle with 2 bar, the first has 1 bar; the first is taken" in doubts[0]
+    assert "the highest pressure, 60 bar, stands at -350 deg from the firing dead" in doubts[1]
+    assert doubts[2].startswith("gas.imep is 4 bar, and the diagram has ")
+
+
+# ------------------------------------------------------------------ mistakes
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (
+            FOUR.replace("bore = 86\n", "") + WIEBE,
+            ["piston.bore: is missing; gas presses on its area, such as bore = 86"],
+        ),
+        (
+            FOUR.replace("firing_order = [1, 3, 4, 2]", "") + WIEBE,
+            [
+                "layout.firing_order: is missing; a four-stroke cylinder fires in every second "
+                "revolution, and only the firing order says in which, such as firing_order = "
+                "[1, 3, 4, 2]"
+            ],
+        ),
+        (
+            FOUR + "[cylinder.2]\ngas = 0\n",
+            ["cylinder.2.gas: needs [gas], which says what the gas does in all cylinders"],
+        ),
+        (
+            FOUR + WIEBE + "zero = 'firing'\n",
+            ["gas.zero: belongs to an indicator diagram; leave it out"],
+        ),
+        (
+            TWO_STROKE + WIEBE + "intake_closes = 580\n",
+            [
+                "gas.intake_closes: has no meaning in a two-stroke cycle, whose ports close where "
+                "the exhaust opened: leave it out"
+            ],
+        ),
+        (
+            FOUR + WIEBE + "exhaust_opens = 30\n",
+            [
+                "gas.burn_duration: a burn over 50° from -15° ends at 35°, past 30°, where the "
+                "exhaust opens"
+            ],
+        ),
+        (
+            FOUR + WIEBE.replace("imep = 9", "imep = -50"),
+            ["gas.imep: is -50 bar: with the least heat the cycle has "],
+        ),
+        (
+            FOUR + WIEBE.replace("imep = 9", "max_pressure = 5"),
+            ["gas.max_pressure: is 5 bar, below the "],
+        ),
+        (
+            FOUR + WIEBE.replace("wiebe", "diesel").replace("imep = 9", "cut_off = 40"),
+            ["gas.cut_off: is 40: with more than "],
+        ),
+        (
+            FOUR + WIEBE + "heat = 3\nburn_strat = 3\n",
+            [
+                "gas.burn_strat: is no key of [gas]; did you mean burn_start?",
+                "gas: has imep and heat; give one of imep, bmep, max_pressure, cut_off and heat",
+            ],
+        ),
+        (
+            FOUR + WIEBE.replace("wiebe", "otto") + "burn_start = 3\n",
+            ["gas: has burn_start, which only a wiebe cycle has"],
+        ),
+        (
+            FOUR + "[gas]\ncycle = 'dual'\ncompression_ratio = 1\n",
+            ["gas.compression_ratio: 1 is not above 1; a plain number is wanted, without quotes, "],
+        ),
+        (
+            FOUR + "[gas]\ncycle = 'dual'\ncompression_ratio = 15\n",
+            [
+                "gas: needs max_pressure for a dual cycle, at which it burns on; does not say how "
+                "much is burnt; give one of imep, bmep, cut_off and heat"
+            ],
+        ),
+        (
+            FOUR + "[gas]\nimep = 3\n",
+            [
+                "gas: has neither indicator nor cycle nor harmonics; give either indicator or "
+                "cycle or harmonics"
+            ],
+        ),
+        (
+            FOUR + "[gas]\nindicator = 'x.csv'\nheat = 3\n",
+            ["gas: has heat beside indicator; these belong to a computed cycle"],
+        ),
+        (FOUR + "[gas]\nindicator = 3\n", ["gas.indicator: 3 is not text; give the name of a f"]),
+        (
+            FOUR + "[flywheel]\ninertia = 0\n",
+            ["flywheel.inertia: 0 is not above 0; a moment of inertia is wanted: "],
+        ),
+        (
+            FOUR + "[bearing]\npin_width = 20\n",
+            ["bearing: has pin_width without pin_diameter; give either pin_diameter and pin_width"],
+        ),
+    ],
+)
+def test_mistakes_by_path(text, told):
+    found = problems(text)
+    assert len(found) == len(told)
+    for one, start in zip(found, told, strict=True):
+        assert one.startswith(start)
+
+
+def test_a_misfire_is_told_of_a_cylinder_that_there_is():
+    assert problems(FOUR + WIEBE + "[cylinder.7]\ngas = 0\n")[0].startswith("cylinder.7: there is")
+
+
+def test_a_file_without_gas_makes_no_gas():
+    assert parse(FOUR).gas is None
+    assert engine(FOUR).gas is None

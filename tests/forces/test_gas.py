@@ -1,0 +1,161 @@
+"""Gas torque of whole engines by order: identities, and a quadrature that shares nothing with it."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from support.gas_engines import FOUR, WIEBE, draw_engine, engine
+
+from balcli.core.mechanisms.closed_form import find_harmonics
+from balcli.engine.load import load
+from balcli.errors import BalcliError
+from balcli.forces.gas import compute_gas_torque, compute_gas_torque_of_each
+from balcli.forces.spectrum import compute_spectra
+from balcli.forces.symmetry import explain_symmetry
+from balcli.results.analysis import analyze
+
+ORDERS = np.arange(0, 24.5, 0.5)
+OF_THE_LARGEST = 1e-12
+
+
+def scalar(phasors):
+    """c_n of `Re sum c_n e^{i n theta}`."""
+    return phasors.forward + np.conj(phasors.backward)
+
+
+def quadrature(found, orders):
+    """The same by Gauss-Legendre sums over the cycle of each cylinder, with the slider-crank's own
+    formula: `-s'` by the crank angle, and pressures at crank angles.
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(24)
+    cycle, total = found.gas.cycle, 0
+    c = found.cylinders
+    lam, eps = (np.broadcast_to(v, c.count) for v in (c.lam, c.eps))
+    for row, gas in enumerate(found.gas.cylinders):
+        breaks = gas.torque.breaks
+        edges = np.concatenate([np.linspace(a, b, 13)[:-1] for a, b in pairwise(breaks)])
+        edges = np.append(edges, breaks[-1])
+        half = np.diff(edges) / 2
+        angle = ((edges[1:] + edges[:-1]) / 2 + half * nodes[:, None]).ravel()
+        crank = angle + gas.fires
+        psi = crank + np.radians(c.angle_deg[row])
+        beta = np.arcsin(lam[row] * np.sin(psi) - eps[row])
+        rate = float(c.radius) * (np.sin(psi) + np.cos(psi) * np.tan(beta))
+        pressure = gas.torque.pressure.at(angle) - gas.torque.crankcase
+        area = np.pi / 4 * found.bore_m**2
+        values = gas.share * pressure * area * rate * (half * weights[:, None]).ravel()
+        total = total + np.exp(-1j * np.multiply.outer(orders, crank)) @ values
+    return total / cycle * np.where(orders == 0, 1, 2)
+
+
+@pytest.mark.parametrize("strokes", [2, 4])
+@pytest.mark.parametrize("seed", range(5))
+def test_against_a_quadrature(seed, strokes):
+    found = draw_engine(seed, strokes)
+    want = quadrature(found, ORDERS)
+    if strokes == 2:
+        want = np.where(ORDERS % 1, 0, want)
+    error = np.abs(scalar(compute_gas_torque(found, ORDERS)) - want)
+    assert error.max() < OF_THE_LARGEST * np.abs(want).max()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_mean_torque_does_the_work_of_the_cylinders(seed):
+    found = draw_engine(seed)
+    work = sum(c.share * c.torque.imep * c.piston.swept for c in found.gas.cylinders)
+    mean = compute_gas_torque(found, np.zeros(1)).forward[0].real
+    assert mean * found.gas.cycle == pytest.approx(work, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("throws", "firing", "strokes"),
+    [
+        ([0, 180, 180, 0], [1, 3, 4, 2], 4),
+        ([0, 240, 120], [1, 3, 2], 4),
+        (None, [1, 2, 4, 5, 3], 4),
+        ([0, 240, 120], [1, 2, 3], 2),
+        (None, [1, 2, 3, 4, 5, 6, 7], 4),
+        (None, [1, 6, 4, 2, 7, 5, 3], 2),
+    ],
+)
+def test_equal_cylinders_that_fire_evenly_leave_multiples_of_their_number_alone(
+    throws, firing, strokes
+):
+    text = FOUR.replace("throws = [0, 180, 180, 0]", f"throws = {throws}" if throws else "")
+    text = text.replace("[1, 3, 4, 2]", f"{firing}\nstrokes = {strokes}")
+    found = engine(text + WIEBE)
+    per_cycle = len(firing) * 2 / strokes
+    total = compute_spectra(found, ORDERS, ["gas"])["gas"]
+    each = compute_gas_torque_of_each(found, ORDERS)
+    alone = ORDERS % per_cycle == 0
+    assert total.balanced.tolist() == (~alone).tolist()
+    sum_of_sizes = len(firing) * np.abs(scalar(each)[:, 0])
+    assert np.abs(scalar(total))[alone] == pytest.approx(sum_of_sizes[alone], rel=1e-13)
+    why = {r.order: r.verdict for r in explain_symmetry(found, ORDERS[1:], ["gas"]).reasons}
+    if strokes == 4:
+        assert [why[n] == "exact" for n in ORDERS[1:]] == (~alone[1:]).tolist()
+    else:
+        assert why[0.5] == "none"
+
+
+def test_a_misfire_leaves_what_the_cylinder_would_have_made():
+    whole = engine(FOUR + WIEBE)
+    missing = engine(FOUR + WIEBE + "[cylinder.3]\ngas = 0\n")
+    row = whole.numbers.index(3)
+    gone = compute_gas_torque_of_each(whole, ORDERS).forward[:, row]
+    left = compute_gas_torque(missing, ORDERS).forward
+    assert left == pytest.approx(compute_gas_torque(whole, ORDERS).forward - gone, abs=1e-11)
+    assert np.all(explain_symmetry(missing, [0.5, 1], ["gas"]).reasons[0].size > 0.9)
+
+
+def test_constant_pressure_has_the_harmonics_of_the_travel(tmp_path):
+    """`T = -P s'`, and of a centred slider-crank `-s'' = r (cos + sum A_n cos n)`."""
+    rows = "\n".join(f"{angle},6" for angle in range(0, 721, 30))
+    (tmp_path / "p.csv").write_text(f"angle_deg,pressure_bar\n{rows}\n")
+    single = FOUR.replace("throws = [0, 180, 180, 0]", "throws = [0]")
+    single = single.replace("firing_order = [1, 3, 4, 2]", "")
+    path = tmp_path / "single.toml"
+    path.write_text(single + '[gas]\nindicator = "p.csv"\ncrankcase = 2\n')
+    found = load(path)
+    torque = scalar(compute_spectra(found, ORDERS, ["gas"])["gas"])
+    series = find_harmonics(ORDERS, found.cylinders.lam, ["piston"]).piston.c[:, 0]
+    n = np.where(ORDERS, ORDERS, 1)
+    want = -1j * 4e5 * np.pi / 4 * 0.086**2 * 0.045 * series / n
+    assert torque == pytest.approx(np.where(ORDERS, want, 0), abs=1e-12 * np.abs(want).max())
+
+
+def test_totals_are_sums_of_inertia_and_gas():
+    found = compute_spectra(
+        draw_engine(3), ORDERS, ["couple", "torque", "gas", "torque_total", "roll_total"]
+    )
+    parts = {name: scalar(found[name]) for name in ("couple", "torque", "gas")}
+    size = np.abs(parts["gas"]).max()
+    assert scalar(found.torque_total) == pytest.approx(
+        parts["torque"] + parts["gas"], abs=1e-13 * size
+    )
+    assert scalar(found.roll_total) == pytest.approx(
+        parts["couple"] - parts["torque"] - parts["gas"], abs=1e-13 * size
+    )
+
+
+# ------------------------------------------------------------------ what is shown
+def test_an_analysis_shows_gas_where_there_is_some():
+    found = analyze(engine(FOUR + WIEBE))
+    assert found.spectra.gas is not None
+    assert found.orders.tolist() == [1, 2, 4, 6, 8, 10, 12]
+    plain = analyze(engine(FOUR))
+    assert plain.spectra.gas is None
+    with pytest.raises(BalcliError, match=r"has no \[gas\]; give a diagram, a cycle or harmonics"):
+        analyze(engine(FOUR), only=["gas"])
+
+
+def test_only_gas_is_all_that_gas_does():
+    found = analyze(engine(FOUR + WIEBE), orders=[0.5, 2], only=["gas"])
+    assert [kind.key for kind, _ in found.spectra.items()] == [
+        "gas_torque_Nm",
+        "torque_Nm",
+        "roll_total_Nm",
+    ]
+    assert found.spectra.gas.balanced.tolist() == [True, False]

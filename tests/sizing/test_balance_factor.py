@@ -1,0 +1,407 @@
+"""The shop's factor: what it fits, counts and leaves, against sums written out by hand and a momentum
+calculation on a grid.
+"""
+
+from __future__ import annotations
+
+import math
+import tomllib
+
+import numpy as np
+import pytest
+from oracle import momentum
+from support.commands import refusal, run_here
+from support.engines import build_text, changed
+from support.remedies import figures
+
+from balcli.errors import BalcliError
+from balcli.sizing.options import SchemeOptions
+from balcli.sizing.remedy import Remedy
+from balcli.sizing.sizing import size
+from balcli.sizing.write import insert_remedy
+
+FORD = """\
+name = "Ford 302"
+[crank]
+stroke = 76.2
+throws = [0, 90, 270, 180]
+spacing = 111.25
+throw_mass = 1.1
+[rod]
+length = 129.3
+small_end = 0.180
+big_end = 0.400
+[piston]
+bore = 101.6
+piston = 0.600
+pin = 0.130
+rings = 0.041
+locks = 0.004
+[layout]
+banks = [45, -45]
+stagger = 22
+numbering = [[1, 2, 3, 4], [5, 6, 7, 8]]
+[bobweight]
+rod_bearing = 0.044
+oil = 0.005
+[operation]
+speed = 6000
+"""
+TWIN = """\
+[crank]
+stroke = 96.8
+throws = [0]
+throw_mass = 0.9
+[rod]
+length = 189
+small_end = 0.22
+big_end = 0.45
+[piston]
+bore = 88.8
+mass = 0.5
+offset = 3
+[layout]
+bank_angle = 45
+stagger = 24
+[operation]
+speed = 4000
+"""
+UNEQUAL = """\
+[crank]
+stroke = 90
+positions = [-140, -20, 60]
+throws = [0, 130, 265]
+throw_mass = 0.8
+[rod]
+length = 160
+mass = 0.6
+cg = 45
+[piston]
+mass = 0.5
+[layout]
+bank_angle = 70
+stagger = 20
+[bobweight]
+rod_bearing = 0.03
+[cylinder.2]
+piston_mass = 0.61
+[operation]
+speed = 3000
+"""
+WEIGHTS = """
+[[counterweight]]
+unbalance = 41000
+angle = 170
+position = -190
+[[counterweight]]
+unbalance = 17000
+angle = 20
+position = 35
+"""
+INLINE = changed(
+    ("throws = [0, 180, 180, 0]", "throws = [0, 240, 120]"), ("firing_order = [1, 3, 4, 2]", "")
+)
+
+
+def fit(text: str, factor: float = 0.5, **options: object) -> Remedy:
+    asked = SchemeOptions(factor=(factor,), **options)  # type: ignore[arg-type]
+    return size(build_text(text), "factor", asked)
+
+
+# ------------------------------------------------------------------ what it leaves
+def pull_of_pins(text: str, factor: float) -> tuple[np.ndarray, np.ndarray, float]:
+    """Force and moment (N, N m) over the crank angle of what the factor balances: every rod's
+    rotating mass, its share of the throw and a share of what goes to and fro, as a point that
+    turns with its pin; and the sum of their sizes.
+    """
+    data = tomllib.loads(text)
+    oracle = momentum.Engine.read(text)
+    omega = data["operation"]["speed"] * math.pi / 30
+    force = np.zeros(momentum.POINTS, complex)
+    moment = np.zeros(momentum.POINTS, complex)
+    sizes = 0.0
+    for cell in oracle.cells:
+        piston, rod = oracle._parts(cell)
+        small = rod["mass"] * rod["cg"] / rod["length"]
+        mass = rod["mass"] - small + oracle.share + oracle.shells
+        mass += factor * (piston["mass"] + small)
+        angle = momentum.THETA + math.radians(oracle.first["axis"] + cell["pin"])
+        pull = mass * oracle.radius * omega**2 * np.exp(1j * angle)
+        force += pull
+        moment += 1j * (cell["z"] - oracle.z) * pull
+        sizes += abs(pull[0])
+    return force, moment, sizes
+
+
+@pytest.mark.parametrize(
+    "planes", [None, "ends", "throws", (-0.21, 0.33), (-0.3, -0.05, 0.01, 0.2), (0.02,)]
+)
+@pytest.mark.parametrize("weights", ["", WEIGHTS])
+@pytest.mark.parametrize("name", ["ford", "twin", "unequal", "inline"])
+def test_what_is_left_is_the_engine_without_what_the_factor_takes(name, weights, planes):
+    """Whatever the file has already, and wherever the rest is put: on a grid, by the momentum of all
+    parts of the file as it is written.
+    """
+    text = {"ford": FORD, "twin": TWIN, "unequal": UNEQUAL, "inline": INLINE}[name]
+    remedy = fit(text + weights, 0.53, planes=planes)
+    written = insert_remedy((text + weights).encode(), remedy)
+    left, bare = (momentum.Engine.read(t).curves() for t in (written, text))
+    force, moment, scale = pull_of_pins(text, 0.53)
+    assert find_orders(left.force) == pytest.approx(
+        find_orders(bare.force - force), abs=1e-11 * scale
+    )
+    one_throw = name == "twin" and weights and planes in (None, "throws")
+    if planes != (0.02,) and not one_throw:
+        assert find_orders(left.moment) == pytest.approx(
+            find_orders(bare.moment - moment), abs=1e-11 * scale
+        )
+    else:
+        unmet = planes is not None
+        assert remedy.note.startswith("one plane, or planes at the same z") == unmet
+
+
+def find_orders(curve: np.ndarray) -> np.ndarray:
+    """Its vectors of orders -8 to 8, without the rounding of higher ones."""
+    return np.roll(np.fft.fft(curve, norm="forward"), 8)[:17]
+
+
+def test_two_planes_by_the_lever():
+    """Ford 302: 2972.1 g on every throw, at 38.1 mm; by hand to planes at -200 and 250 mm."""
+    throws = zip((-166.875, -55.625, 55.625, 166.875), (0, 90, 270, 180), strict=True)
+    one = (1872.1 + 1100) * 38.1
+    front = rear = 0j
+    for z, angle in throws:
+        pin = -one * np.exp(1j * math.radians(angle))
+        front += pin * (250 - z) / 450
+        rear += pin * (z + 200) / 450
+    first, second = fit(FORD, 0.51, planes=(-0.2, 0.25)).counterweights
+    for found, wanted in ((first, front), (second, rear)):
+        assert found.unbalance == pytest.approx(abs(wanted), rel=1e-12)
+        assert found.angle == pytest.approx(math.degrees(np.angle(wanted)), abs=1e-9)
+
+
+# ------------------------------------------------------------------ what is there already
+def test_what_the_file_has_is_counted_plane_by_plane():
+    """Weights at -200 and 25: the second half-way between the planes at -200 and 250."""
+    own = """
+[[counterweight]]
+unbalance = 30000
+angle = 90
+position = -200
+[[counterweight]]
+unbalance = 8000
+angle = -90
+position = 25
+"""
+    remedy = fit(FORD + own, 0.51, planes=(-0.2, 0.25))
+    bare = fit(FORD, 0.51, planes=(-0.2, 0.25))
+    front, rear = remedy.needs
+    assert (front.z, rear.z) == (-0.2, 0.25)
+    assert front.present == pytest.approx(26e-3j, rel=1e-12)
+    assert rear.present == pytest.approx(-4e-3j, rel=1e-12)
+    for need, whole, left in zip(
+        remedy.needs, bare.counterweights, remedy.counterweights, strict=True
+    ):
+        assert abs(need.wanted) * 1e6 == pytest.approx(whole.unbalance, rel=1e-12)
+        assert need.missing == pytest.approx(need.wanted - need.present, rel=1e-12)
+        assert abs(need.missing) * 1e6 == pytest.approx(left.unbalance, rel=1e-12)
+        assert math.degrees(np.angle(need.missing)) == pytest.approx(left.angle, abs=1e-9)
+    assert "what the counterweights of the file do is counted" in remedy.reasons[0]
+    assert not bare.needs
+    assert "counted" not in bare.reasons[0]
+
+
+@pytest.mark.parametrize("planes", [None, "ends", (-0.25, 0.3)])
+def test_nothing_is_missing_once_it_is_there(planes):
+    """What was written is all there is to do; no dust of a device is left."""
+    text = insert_remedy(FORD.encode(), fit(FORD, 0.51, planes=planes))
+    again = fit(text, 0.51, planes=planes)
+    assert not again.devices
+    assert again.note == "nothing is missing: the counterweights of the file balance this factor"
+    assert {need.missing for need in again.needs} == {0}
+
+
+def test_shafts_of_the_file_are_no_counterweights():
+    shaft = "[[shaft]]\nratio = 1\nunbalance = 9000\n"
+    assert fit(TWIN + shaft).counterweights == fit(TWIN).counterweights
+    assert not fit(TWIN + shaft).needs
+
+
+# ------------------------------------------------------------------ the card
+def test_the_card_of_a_ford_302():
+    """Weighed part by part and summed by hand: 2 x (400 + 44 + 5) = 898 turn, 2 x (600 + 130 + 41 +
+    4 + 180) = 1910 go to and fro, and 898 + 0.51 x 1910 = 1872.1 g hang on each pin.
+    """
+    remedy = fit(FORD, 0.51)
+    for one in remedy.card:
+        assert [(line.part, line.rotates, round(line.sum_g, 9)) for line in one.lines] == [
+            ("big end", True, 800),
+            ("rod bearing", True, 88),
+            ("oil", True, 10),
+            ("piston", False, 1200),
+            ("pin", False, 260),
+            ("rings", False, 82),
+            ("locks", False, 8),
+            ("small end", False, 360),
+        ]
+        assert all(len(line.each_g) == 2 for line in one.lines)
+        assert one.rotating_g == pytest.approx(898)
+        assert one.reciprocating_g == pytest.approx(1910)
+        assert one.bobweight_g == pytest.approx(1872.1)
+        assert one.throw_g == pytest.approx(1100)
+    weights = [w.unbalance for w in remedy.counterweights]
+    assert weights == pytest.approx([(1872.1 + 1100) * 38.1] * 4, rel=1e-12)
+
+
+def test_card_and_counterweights_scheme_agree():
+    """At a factor of one half the bobweights balance a cross-plane V8: the two schemes then ask for
+    the same two weights.
+    """
+    ends = SchemeOptions(planes="ends")
+    both = [size(build_text(FORD), scheme, ends) for scheme in ("factor", "counterweights")]
+    for one, other in zip(*(remedy.counterweights for remedy in both), strict=True):
+        assert one.unbalance == pytest.approx(other.unbalance, rel=1e-12)
+        assert one.angle == pytest.approx(other.angle, abs=1e-9)
+
+
+def test_a_cylinder_of_its_own_is_weighed_on_its_own():
+    (card,) = fit(TWIN + "[cylinder.2]\npiston_mass = 0.52\n", 0.5).card
+    assert next(line for line in card.lines if line.part == "piston complete").each_g == (500, 520)
+    assert card.reciprocating_g == pytest.approx(500 + 520 + 2 * 220)
+
+
+# ------------------------------------------------------------------ both definitions, and the inverse
+def test_the_same_weight_by_both_definitions():
+    """65 % of one cylinder's reciprocating mass are 32.5 % of all on the pin of a twin."""
+    told = figures(fit(TWIN, 0.325))
+    assert (told["factor"], told["factor of one cylinder"]) == (0.325, 0.65)
+    assert figures(fit(INLINE, 0.4))["factor of one cylinder"] == 0.4
+
+
+def test_what_was_measured_is_the_factor_it_stands_for():
+    """Rotating 2 x 450 g, reciprocating 2 x 720 g: 1375 g on the pin take 475/1440 of it."""
+    engine = build_text(TWIN)
+    remedy = size(engine, "factor", SchemeOptions(measured=1.375))
+    assert figures(remedy)["factor"] == pytest.approx(475 / 1440, rel=1e-12)
+    assert figures(remedy)["factor of one cylinder"] == pytest.approx(950 / 1440, rel=1e-12)
+    assert figures(remedy)["measured"] == 1.375
+    assert remedy.card[0].bobweight_g == pytest.approx(1375)
+    assert remedy.counterweights[0].unbalance == pytest.approx((1375 + 900) * 48.4, rel=1e-12)
+
+
+def test_unequal_pins_share_what_was_measured():
+    """The mean of all pins counts."""
+    engine = build_text(UNEQUAL)
+    mean = np.mean([one.bobweight_g for one in size(engine, "factor").card]) / 1e3
+    measured = size(engine, "factor", SchemeOptions(measured=float(mean)))
+    assert figures(measured)["factor"] == pytest.approx(0.5, rel=1e-12)
+
+
+def test_a_range_tells_bobweight_counterweight_and_what_is_left():
+    factors = tuple(k / 100 for k in range(50, 55))
+    engine = build_text(FORD)
+    rows = size(engine, "factor", SchemeOptions(factor=factors, planes=(-0.2, 0.25))).sweep
+    for factor, row in zip(factors, rows, strict=True):
+        alone = fit(FORD, factor, planes=(-0.2, 0.25))
+        assert row.factor == factor
+        assert row.bobweight_g == pytest.approx(898 + factor * 1910)
+        assert row.counterweight * 1e6 == max(w.unbalance for w in alone.counterweights)
+    assert [row.moment for row in rows] == sorted(row.moment for row in rows)
+
+
+# ------------------------------------------------------------------ refusals
+@pytest.mark.parametrize(
+    ("text", "options", "told"),
+    [
+        (
+            TWIN,
+            SchemeOptions(factor=(0.5,), measured=1.0),
+            "--factor and --measured say the same: what balances a pin stands for a factor; give "
+            "one of them",
+        ),
+        (
+            TWIN,
+            SchemeOptions(factor=(51.0,)),
+            "--factor 51: is no share of the reciprocating mass; did you mean 51%? give one such "
+            "as 0.5 or 51%, or a range such as 50%:54%:1%",
+        ),
+        (
+            TWIN,
+            SchemeOptions(measured=812.0),
+            "--measured 812000 g: would balance 563 times the reciprocating mass; 900 g balance "
+            "none of it on a pin, and 2340 g all; is the unit right?",
+        ),
+        (
+            changed(("mass = 0.5", "mass = 0"), ("cg = 45", "cg = 0")),
+            SchemeOptions(measured=1.0),
+            "--measured: nothing goes to and fro in this engine: there is no factor",
+        ),
+        (
+            FORD.replace("spacing = 111.25\n", ""),
+            SchemeOptions(planes="ends"),
+            "--planes: moments are not known, because crank.spacing is missing",
+        ),
+        (
+            TWIN,
+            SchemeOptions(planes="left"),
+            '--planes "left": give ends, throws, or places along z in mm, such as -200,200',
+        ),
+    ],
+)
+def test_what_a_factor_cannot_be(text, options, told):
+    with pytest.raises(BalcliError) as caught:
+        size(build_text(text), "factor", options)
+    assert str(caught.value).startswith(told)
+
+
+# ------------------------------------------------------------------ as it is typed, and read
+@pytest.fixture
+def ford(tmp_path):
+    path = tmp_path / "ford.toml"
+    path.write_text(FORD)
+    return path
+
+
+def test_a_factor_alone_chooses_its_scheme(ford):
+    in_full = run_here("balance", ford, "--scheme", "factor", "--factor", "0.51").out
+    for alone in (("--factor", "51%"), ("--factor", "51 %"), ("--measured", "1872.1 g")):
+        found = run_here("balance", ford, *alone)
+        assert found.status == 0
+        assert "bobweight (51 %)" in found.out
+    assert run_here("balance", ford, "--factor", "51%").out == in_full
+    assert "Ford 302: auto\n" in run_here("balance", ford).out
+
+
+def test_grams_are_what_a_shop_measures(ford):
+    bare, said = (
+        run_here("balance", ford, "--measured", text).out for text in ("1872.1", "1872.1 g")
+    )
+    assert bare == said
+    pounds = run_here("balance", ford, "--measured", "66.04 oz", "--units", "imperial").out
+    assert "1872.2 g balance each bare pin, at the crank radius, without rods" in pounds
+    assert refusal("balance", ford, "--measured", "775 gr").startswith(
+        '--measured "775 gr": has the unit "gr": g, or grain (65 mg)?'
+    )
+    assert "1872.1" in refusal("balance", ford, "--measured", "1872.1", "--units", "imperial")
+
+
+def test_a_table_with_a_row_for_each_factor(ford):
+    out = run_here("balance", ford, "--factor", "50%:54%:1%", "--planes", "ends").out
+    rows = out.partition("Largest values by factor")[2].splitlines()
+    assert [row.split()[0] for row in rows if " %  " in row] == ["50", "51", "52", "53", "54"]
+    assert len(rows[2]) <= 80
+    assert [row.split()[2] for row in rows if " %  " in row][:2] == ["1853", "1872.1"]
+
+
+def test_what_each_plane_has_and_lacks_is_shown(ford):
+    ford.write_text(FORD + "[[counterweight]]\nunbalance = 30000\nangle = 90\nposition = -200\n")
+    out = run_here("balance", ford, "--factor", "51%", "--planes=-200,250").out
+    table = out.partition("What each plane has, and lacks")[2].splitlines()
+    assert table[3].split()[3:5] == ["30000", "90.0"]
+    assert table[4].split()[3:5] == ["0", "–"]
+    assert "clockwise seen from the free end" in out
+
+
+@pytest.mark.parametrize("text", ["51%%", "51 percent", "nan", "0.5:0.6", "a:b:c", "%", "50%:54%"])
+def test_factors_that_say_nothing(ford, text):
+    assert "51%" in refusal("balance", ford, "--factor", text)

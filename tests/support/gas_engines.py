@@ -1,0 +1,82 @@
+"""Engine files with [gas], small ones and some drawn at random, for tests."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from balcli.engine.build import Engine, build
+from balcli.engine.load import parse
+
+FOUR = """\
+[crank]
+stroke = 90
+throws = [0, 180, 180, 0]
+spacing = 100
+[rod]
+length = 150
+mass = 0.6
+cg = 45
+inertia = 2600
+[piston]
+bore = 86
+mass = 0.5
+[layout]
+firing_order = [1, 3, 4, 2]
+[operation]
+speed = 3000
+"""
+WIEBE = """\
+[gas]
+cycle = "wiebe"
+compression_ratio = 10
+imep = 9
+"""
+
+
+def engine(text: str) -> Engine:
+    """The engine that a text describes."""
+    return build(parse(text))
+
+
+def draw_engine(seed: int, strokes: int = 4, more: str = "") -> Engine:
+    """An engine with a computed cycle, everything drawn: one to six cylinders that fire anyhow, an
+    offset, a rod with any inertia, valve events, burn.
+    """
+    random = np.random.default_rng(seed)
+    count = int(random.integers(1, 7))
+    cycle = 180 * strokes
+    order = [1, *(random.permutation(count - 1) + 2).tolist()]
+    cuts = np.sort(random.choice(np.arange(1, cycle // 5), count - 1, replace=False)) * 5
+    intervals = np.diff([0, *cuts, cycle]).tolist()
+    offset, mean = random.uniform(-8, 8), random.uniform(4, 15)
+    text = f"""\
+[crank]
+stroke = {random.uniform(60, 140)}
+spacing = 100
+throw_mass = {random.uniform(0, 1)}
+[rod]
+ratio = {random.uniform(0.2, 0.32)}
+mass = {random.uniform(0.4, 0.9)}
+cg = {random.uniform(30, 50)}
+inertia = {random.uniform(1000, 4000)}
+[piston]
+bore = {random.uniform(60, 120)}
+mass = {random.uniform(0.3, 1.0)}
+offset = {offset}
+[layout]
+strokes = {strokes}
+firing_order = {order}
+firing_intervals = {intervals}
+[operation]
+speed = {random.uniform(800, 4000)}
+[gas]
+cycle = "{random.choice(["otto", "diesel", "wiebe"])}"
+compression_ratio = {random.uniform(12, 18)}
+imep = {mean}
+exhaust_opens = {random.uniform(100, 170)}
+crankcase = {random.uniform(0, 1.2)}
+[cylinder.1]
+gas = {random.uniform(0.5, 1.5)}
+{more}
+"""
+    return engine(text)
