@@ -10,7 +10,7 @@ import re
 import pytest
 from support import imports
 from support.commands import run_here
-from support.paths import ENGINES
+from support.paths import ENGINES, PACKAGE
 from support.rotors import three_runs
 
 from balcli.bench import bench
@@ -30,6 +30,7 @@ SHOWN = {  # by renderer
     "search": ("search", V8, "--over", "throws", "--minimise", "moment.1.major"),
     "table_list": ("tables",),
     "tolerances": ("scatter", V8, "--samples", "100", "--seed", "1"),
+    "torsion": ("torsion", PACKAGE / "torsion" / "starting_file.toml"),
     "two_engines": ("sum", V6, SINGLE),
 }
 
