@@ -15,7 +15,8 @@ from ..core.singular_values import Real
 from ..core.vibration import frequencies
 from ..engine.build import Engine, build
 from ..enginefile.fields import nearest, shorten
-from ..enginefile.model import EngineFile, Table, find_tensor_faults, label_table
+from ..enginefile.model import EngineFile, Table, label_table
+from ..enginefile.mounting_tables import find_tensor_faults
 from ..errors import BalcliError, InputError, Problem
 from .build import MountedBody, build_mounted_body
 from .modes import BodyModes, find_mounted_modes
