@@ -51,7 +51,7 @@ def curves(
     from ..render import curves as renderer
     from .inputs import read_engine
 
-    engine = read_engine(path, parse_speed(speed)).engine
+    engine = read_engine(path, parse_speed(speed), None if cylinder is None else ()).engine
     turns = engine.period_revolutions if cylinder is None else engine.cycle_revolutions
     angles = divide_revolution(read_angle("--step", step), turns)
     if cylinder is None:
