@@ -127,9 +127,9 @@ def test_strokes_and_reasons_as_rows():
 def test_a_sheet_has_inner_moments_guide_forces_and_strokes():
     text = shown(inline_engine([0, 180, 180, 0]), only=["inner", "guide"])
     for title in (
-        "Shear force in the crankshaft behind each load, N",
+        "Shear force in the crankshaft behind each load, kN",
         "Bending moment in the crankshaft, N·m",
-        "Inertia loads of main bearings half-way between throws, shaft cut in each, N",
+        "Inertia loads of main bearings half-way between throws, shaft cut in each, kN",
         "largest inner moment",
         "Guide-force moments of inertia alone, without gas, N·m",
     ):

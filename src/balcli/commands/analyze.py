@@ -18,6 +18,7 @@ from .options import (
     Output,
     Speed,
     UnitsOption,
+    Whole,
     parse_guide_height,
     parse_orders,
     parse_parts,
@@ -33,9 +34,7 @@ def analyze(
     speed: Speed = None,
     orders: Orders = None,
     only: OnlyParts = None,
-    whole: Annotated[
-        bool, typer.Option("--all", help="Every table and every order that is not rounding.")
-    ] = False,
+    whole: Whole = False,
     by: Annotated[
         str,
         typer.Option(

@@ -381,18 +381,17 @@ class Frame(Table):
     )
 
 
-class ArticulatedRod(Table):
-    """An articulated rod, from its knuckle pin to its piston pin."""
+class ArticulatedRod(Rod):
+    """An articulated rod, from its knuckle pin (its big end) to its piston pin."""
 
-    length: Size = Field(description="from the knuckle pin to the piston pin", examples=[200])
-    mass: Mass = Field(0.0, description="mass of the whole rod", examples=[0.5])
-    cg: Length = Field(
-        0.0, description="from the knuckle pin to the centre of mass", examples=[100]
+    length: Size | None = Field(
+        None, description="from the knuckle pin to the piston pin", examples=[200]
     )
-    inertia: Inertia | None = Field(
-        None,
-        description="about the centre of mass; left out: two masses at the ends",
-        examples=[3500],
+    cg: Length | None = Field(
+        None, description="from the knuckle pin to the centre of mass", examples=[100]
+    )
+    big_end: Mass | None = Field(
+        None, description="mass weighed at the knuckle pin, instead of mass and cg", examples=[0.3]
     )
 
 

@@ -10,8 +10,7 @@ from typing import NamedTuple
 
 from ..core.phasors import Phasors
 from ..forces.spectrum import Spectra
-from .order_tables import NEGLIGIBLE
-from .sheet import capitalized, degrees, number
+from .sheet import NEGLIGIBLE, capitalized, degrees, number
 from .units import System, Unit
 
 _NAMES: dict[float, str] = {

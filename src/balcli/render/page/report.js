@@ -268,7 +268,7 @@
         set(vector, { x2: (y * scale).toFixed(3), y2: (-x * scale).toFixed(3) });
         set(tip, { cx: y * scale, cy: -x * scale });
         const direction = (Math.atan2(y, x) * 180 / Math.PI).toFixed(0);
-        now.textContent = size ? `${figure(size, unit)} at ${direction}° from x` : "none";
+        now.textContent = size ? `${figure(size, unit)} at ${direction}° from x` : "balanced";
         chain.replaceChildren();
         let at = [0, 0];
         const links = (showChain ? rows : []).flatMap(([n, a, b, c, d]) => [
@@ -311,7 +311,7 @@
     return input;
   };
   const orders = scene.orders.map((n) => switchFor("orders", "checkbox", "order", n, n === 0 ? "mean" : n, true));
-  if (!orders.length) byId("orders").append("none is free");
+  if (!orders.length) byId("orders").append("balanced");
   const variants = scene.variants.map((v, k) => switchFor("variants", "radio", "variant", k, v.label, k === 0));
   byId("variants").hidden = variants.length < 2;
 
