@@ -11,7 +11,7 @@ from inspect import cleandoc
 from pathlib import Path
 from typing import Any
 
-from balcli.enginefile.messages import DEVICES, find_table, import_tables
+from balcli.enginefile.messages import find_table, import_lists, import_tables
 from balcli.enginefile.model import EngineFile, Override, Table
 from balcli.enginefile.schema import schema
 
@@ -34,7 +34,7 @@ def tables() -> str:
     named = {f"[{name}]": table for name, table in import_tables().items()}
     named["[cylinder.N]"] = Override
     for heading, table in (
-        named | {f"[[{name}]]": table for name, table in DEVICES.items()}
+        named | {f"[[{name}]]": table for name, table in import_lists().items()}
     ).items():
         parts.append(_part(f"`{heading}`", str(table.__doc__), table, definitions[table.__name__]))
         if table is not Override:

@@ -27,11 +27,11 @@ SHOWN = {  # by renderer
     "errata": ("tables", "liu-3", "--errata"),
     "field_balancing": ("field", "-"),
     "layouts": ("layouts",),
+    "mounts": ("mounts", PACKAGE / "enginefile" / "starting_files" / "mounts.toml"),
     "printed_table": ("tables", "liu-1"),
     "search": ("search", V8, "--over", "throws", "--minimise", "moment.1.major"),
     "table_list": ("tables",),
     "tolerances": ("scatter", V8, "--samples", "100", "--seed", "1"),
-    "torsion": ("torsion", PACKAGE / "torsion" / "starting_file.toml"),
     "two_engines": ("sum", V6, SINGLE),
 }
 

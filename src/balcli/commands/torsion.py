@@ -67,6 +67,12 @@ def torsion(
             help='Holzer\'s table of a mode, or at "20 rad/s", "12 Hz"; may be given again.',
         ),
     ] = None,
+    misfire: Annotated[
+        list[int] | None,
+        typer.Option(
+            metavar="N", show_default=False, help="Cylinder without gas; may be given again."
+        ),
+    ] = None,
     damper: Annotated[
         Kind | None,
         typer.Option(
@@ -123,7 +129,7 @@ def torsion(
 
     asked = parse_question(speeds, orders, holzer, damper, damper_at, damper_inertia)
     answers.require_options(asked, write, plot, what)
-    source, result = answers.find_answer(path, asked, progress)
+    source, result = answers.find_answer(path, asked, misfire or (), progress)
     if write is not None:
         write_file(answers.write_damper(source, result), write)
     if plot is not None and drawn is not None:

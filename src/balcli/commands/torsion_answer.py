@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..errors import BalcliError
+from ..enginefile.toml_text import name_file
+from ..errors import BalcliError, say
 from ..render.plot.torsion import draw_torsion
 from ..torsion.analysis import Question, TorsionAnalysis, analyze_torsion
 from ..torsion.load import Source, load_source
@@ -37,9 +38,13 @@ def require_options(asked: Question, write: Path | None, plot: Path | None, what
         raise BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")
 
 
-def find_answer(path: str, asked: Question, progress: bool) -> tuple[Source, TorsionAnalysis]:
+def find_answer(
+    path: str, asked: Question, misfires: Sequence[int], progress: bool
+) -> tuple[Source, TorsionAnalysis]:
     """The file and what was asked about it."""
-    source = load_source(path, asked.orders)
+    source = load_source(path, asked.orders, misfires)
+    for doubt in source.doubts():
+        say(f"warning: {name_file(path)}: {doubt}")
     total = 0 if asked.speeds_rpm is None else len(asked.speeds_rpm)
     with _telling_progress(total, progress and total > 0) as tell:
         return source, analyze_torsion(source, asked, tell)

@@ -50,12 +50,14 @@ def anew(data: Mapping[str, Any], reason: str) -> str:
 
 
 def written(value: Any) -> str:
-    """A number, or lists of them, as TOML has it: the shortest decimals that read back to the same
-    number.
+    """A number, or lists and tables of them, as TOML has it: the shortest decimals that read back
+    to the same number.
     """
-    return (
-        f"[{', '.join(map(written, value))}]" if isinstance(value, (list, tuple)) else repr(value)
-    )
+    if isinstance(value, (list, tuple)):
+        return f"[{', '.join(map(written, value))}]"
+    if isinstance(value, Mapping):
+        return f"{{ {', '.join(f'{key} = {written(inner)}' for key, inner in value.items())} }}"
+    return repr(value)
 
 
 def _changed(text: str, table: str, key: str, value: Any, note: str) -> str:

@@ -23,7 +23,6 @@ TABLES: dict[str, type[model.Table]] = {
     "operation": model.Operation,
     "frame": model.Frame,
     "articulation": model.Articulation,
-    "body": model.Body,
 }
 # Tables of chapters beyond balance: the module of each, imported for files that have the table. Its
 # class is called like the key.
@@ -32,15 +31,15 @@ CHAPTERS = {
     "flywheel": "gas_tables",
     "bearing": "gas_tables",
     "torsion": "torsion_tables",
+    "body": "mounting_tables",
 }
+CHAPTER_LISTS = {"mount": "mounting_tables", "point": "mounting_tables"}  # each several times
 DEVICES: dict[str, type[model.Table]] = {
     "counterweight": model.Counterweight,
     "shaft": model.Shaft,
     "slider": model.Slider,
-    "mount": model.Mount,
-    "point": model.MarkedPoint,
 }
-KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES)
+KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES, *CHAPTER_LISTS)
 WORDS = {
     "tuple_type": "{value} is not a list; write it in square brackets, such as [0, 180]",
     "model_type": "{value} is not a table; write it in braces with its keys",
@@ -57,14 +56,21 @@ OF_COMMANDS = dict.fromkeys(
 
 
 def import_table(key: str) -> type[model.Table]:
-    """The table of a key of CHAPTERS."""
-    module = import_module(f"{__package__}.{CHAPTERS[key]}")
+    """The table of a key; its module is imported, if it is of a chapter."""
+    if key in TABLES or key in DEVICES:
+        return (TABLES | DEVICES)[key]
+    module = import_module(f"{__package__}.{(CHAPTERS | CHAPTER_LISTS)[key]}")
     return getattr(module, key.capitalize())
 
 
 def import_tables() -> dict[str, type[model.Table]]:
     """All tables that stand once in a file, those of chapters too."""
     return TABLES | {key: import_table(key) for key in CHAPTERS}
+
+
+def import_lists() -> dict[str, type[model.Table]]:
+    """All tables that may stand several times in a file, those of chapters too."""
+    return DEVICES | {key: import_table(key) for key in CHAPTER_LISTS}
 
 
 class UnknownKey(NamedTuple):
@@ -175,7 +181,7 @@ def describe_unknown_key(unknown: UnknownKey) -> tuple[Problem, str]:
 def _tables_with(key: str) -> Iterator[str]:
     """The tables of the file to which a key may belong, in words: exactly first, then nearly."""
     tables = {f"[{name}]": table for name, table in import_tables().items()}
-    tables |= {f"[[{name}]]": table for name, table in DEVICES.items()}
+    tables |= {f"[[{name}]]": table for name, table in import_lists().items()}
     for name, table in tables.items():
         if key in table.model_fields:
             yield f"{key} belongs to {name}"

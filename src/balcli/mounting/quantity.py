@@ -11,10 +11,12 @@ import numpy as np
 
 from ..core.cycle_peaks import find_longest
 from ..core.rigid_body import move_points, respond_body
+from ..core.singular_values import Real
 from ..core.vibration import frequencies
 from ..engine.build import Engine, build
 from ..enginefile.fields import nearest, shorten
-from ..enginefile.model import EngineFile, Table, find_tensor_faults, label_table
+from ..enginefile.model import EngineFile, Table, label_table
+from ..enginefile.mounting_tables import find_tensor_faults
 from ..errors import BalcliError, InputError, Problem
 from .build import MountedBody, build_mounted_body
 from .modes import BodyModes, find_mounted_modes
@@ -158,9 +160,13 @@ class MountedVariants:
         model = vary_mounting(self._model, values)
         mounted = build_mounted_body(model)
         modes = find_mounted_modes(mounted)
-        forces, motions = np.zeros(0), np.zeros(0)
+        forces: Real = np.zeros(0)
+        motions: Real = np.zeros(0)
         if self._runs:
-            forces, motions = _find_peaks(mounted, modes, self._build_engine(values))
+            engine = self._build_engine(values)
+            loads = find_loads(engine, mounted.body.centre)
+            modes = find_mounted_modes(mounted, loads.mean)
+            forces, motions = _find_peaks(mounted, modes, loads, choose_speeds(engine))
         labels = {
             "mount": [label_table(table, k) for k, table in enumerate(model.mount, 1)],
             "point": [label_table(table, k) for k, table in enumerate(model.point, 1)],
@@ -183,9 +189,14 @@ class MountedVariants:
             for path, value in values.items()
             if path.partition(".")[0] not in ("body", "mount", "point")
         }
+        if own and self._model.gas is not None:
+            raise BalcliError(
+                "with [gas], forces of mounts are told only while figures of body, mounts and "
+                f"points vary, not {next(iter(own))}"
+            )
         key = tuple(own.items())
         if key not in self._engines:
-            self._engines = {key: build(self._model, own)}
+            self._engines = {key: build(self._model, own or None)}
         return self._engines[key]
 
 
@@ -202,11 +213,10 @@ def _read_mode(modes: BodyModes, q: MountQuantity) -> float:
 
 
 def _find_peaks(
-    mounted: MountedBody, modes: BodyModes, engine: Engine
-) -> tuple[np.ndarray, np.ndarray]:
-    """Largest force of each mount and motion of each point over the range of speeds."""
-    omega = choose_speeds(engine) * (np.pi / 30)
-    loads: Loads = find_loads(engine, mounted.body.centre)
+    mounted: MountedBody, modes: BodyModes, loads: Loads, speeds_rpm: Real
+) -> tuple[Real, Real]:
+    """Largest force of each mount and motion of each point over a range of speeds."""
+    omega = speeds_rpm * (np.pi / 30)
     refuse_resonance(modes, loads, omega)
     w = frequencies(loads.orders, omega)
     found = respond_body(mounted.body, mounted.dynamic, w, loads.at(omega))

@@ -41,7 +41,7 @@ def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[
     return [
         float(order)
         for k, order in enumerate(spectra.orders)
-        if order <= 2
+        if order in (0, 1, 2)
         or any(p.major[k] > NEGLIGIBLE * single.get(kind.name, 0.0) for kind, p in spectra.items())
     ]
 

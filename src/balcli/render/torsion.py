@@ -186,7 +186,7 @@ def _response(result: TorsionAnalysis, response: Response) -> Grid:
     swing = number(float(np.degrees(response.free_end[worst])), 4)
     note = (
         "Largest half of peak to peak, orders added up in time; sum: of their amplitudes, which "
-        f"never peak together. {result.system.nodes[0]} swings by ±{swing} deg at "
+        f"do not peak together. {result.system.nodes[0]} swings by ±{swing} deg at "
         f"{number(float(response.speeds_rpm[worst]))} rpm."
     )
     for k, name in enumerate(response.dampers):

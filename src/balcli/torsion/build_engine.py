@@ -19,7 +19,7 @@ from ..enginefile.fields import counted, nearest, printable, shorten
 from ..enginefile.model import EngineFile
 from ..enginefile.shafting import find_stiffness
 from ..enginefile.torsion_tables import Part, Torsion
-from ..errors import InputError, Problem
+from ..errors import BalcliError, InputError, Problem
 from ..forces.spectrum import compute_each_cylinder
 from ..limits import HIGHEST_TORSION_ORDER_UNASKED
 from .build_chain import find_section
@@ -198,24 +198,47 @@ def _weigh_throws(torsion: Torsion, model: EngineFile, throws: int) -> Sequence[
     """Moment of inertia of the crankshaft at each throw, kg m2."""
     if torsion.throw_inertia is not None:
         return [each / 1e6 for each in _each(torsion.throw_inertia, throws)]
-    whole = getattr(model.crank, "inertia", None) or 0.0
+    whole = model.crank.inertia or 0.0
     return [whole / 1e6 / throws] * throws
 
 
-def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Excitation:
-    """Torque of every cylinder on the node of its throw, by inertia of what it moves.
+def excite_engine(
+    model: EngineFile, engine: Engine, orders: Real | None, misfires: Sequence[int] = ()
+) -> Excitation:
+    """Torque of every cylinder on the node of its throw: by inertia of what it moves, and by gas
+    where the engine has some.
 
     Args:
-        orders: (orders,); None: to 12.
+        orders: (orders,); None: to 12, with halves where gas has them.
+        misfires: numbers of cylinders without gas force.
+
+    Raises:
+        BalcliError: a misfire of an engine without gas, or of a cylinder that there is not.
     """
     front = 0 if model.torsion is None else len(model.torsion.front)
     nodes = front + np.array([weighed.throw for weighed in engine.weighed])
-    wanted = np.arange(1.0, HIGHEST_TORSION_ORDER_UNASKED + 1) if orders is None else orders
-    whole = wanted[wanted % 1 == 0]
-    steady = replace(engine, ripple=(), speed_rpm=30 / np.pi)  # 1 rad/s
-    spectra = compute_each_cylinder(steady, whole, ("torque",))
-    torque = spectra["torque"].x
-    return Excitation(whole, nodes, np.zeros_like(torque), torque)
+    engine = _let_misfire(replace(engine, ripple=(), speed_rpm=30 / np.pi), misfires)  # 1 rad/s
+    if orders is None:
+        step = 0.5 if engine.gas is not None and engine.gas.cycle_deg == 720 else 1.0
+        orders = np.arange(step, HIGHEST_TORSION_ORDER_UNASKED + step / 2, step)
+    growing = compute_each_cylinder(engine, orders, ("torque",))["torque"].x
+    steady = np.zeros_like(growing)
+    if engine.gas is not None:
+        steady = compute_each_cylinder(engine, orders, ("gas",))["gas"].x
+    moves = np.any((growing != 0) | (steady != 0), axis=1)
+    return Excitation(orders[moves], nodes, steady[moves], growing[moves])
+
+
+def _let_misfire(engine: Engine, misfires: Sequence[int]) -> Engine:
+    gas = engine.gas
+    if misfires and gas is None:
+        raise BalcliError("--misfire: the engine has no [gas], so that nothing fires")
+    for number in misfires:
+        if number not in engine.numbers:
+            count = counted(len(engine.numbers), "cylinder")
+            raise BalcliError(f"--misfire {number}: there is no such cylinder; there are {count}")
+        gas = gas and gas.with_share(engine.numbers.index(number), 0.0)
+    return replace(engine, gas=gas)
 
 
 # ------------------------------------------------------------------ what does not fit together
@@ -267,6 +290,6 @@ def _check_throws(torsion: Torsion, model: EngineFile, throws: int) -> Iterator[
                 f"has {counted(len(values), 'value')}, but {counted(throws, 'throw')} need "
                 f"{count}; give one for all, or a list of these",
             )
-    if torsion.throw_inertia is None and getattr(model.crank, "inertia", None) is None:
+    if torsion.throw_inertia is None and model.crank.inertia is None:
         text = "is missing; give it, such as throw_inertia = 46700, or inertia of the whole [crank]"
         yield Problem("torsion.throw_inertia", text)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -11,6 +11,7 @@ from ..engine.build import Engine
 from ..engine.load import build_named, parse
 from ..enginefile.model import EngineFile
 from ..enginefile.shafting import Damper
+from ..enginefile.suspicious import suspicious
 from ..enginefile.toml_text import name_file, parse_toml, read_bytes
 from ..errors import BalcliError
 from .build_chain import build_chain
@@ -31,6 +32,10 @@ class ChainSource:
     def system(self) -> TorsionalSystem:
         """What it describes. Raises InputError: what hangs together wrongly."""
         return build_chain(self.model, self.file)
+
+    def doubts(self) -> tuple[str, ...]:
+        """What is suspicious of the file, in words."""
+        return ()
 
     def dampers(self) -> Mapping[str, Damper | None]:
         """What may carry a damper, by name, and those that do."""
@@ -62,6 +67,11 @@ class EngineSource:
         """What it describes. Raises InputError: what does not fit together in [torsion]."""
         return build_engine_system(self.model, self.engine, self.excitation, self.file)
 
+    def doubts(self) -> tuple[str, ...]:
+        """What is suspicious of the file, in words, each by its path."""
+        gas = () if self.engine.gas is None else self.engine.gas.doubts
+        return (*suspicious(self.model), *gas)
+
     def dampers(self) -> Mapping[str, Damper | None]:
         """What may carry a damper, by name, and those that do."""
         torsion = self.model.torsion
@@ -87,11 +97,12 @@ class EngineSource:
 Source = ChainSource | EngineSource
 
 
-def load_source(path: str, orders: Real | None = None) -> Source:
+def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] = ()) -> Source:
     """A file, or standard input for "-".
 
     Args:
         orders: (orders,) by which an engine is excited; None: to 12.
+        misfires: numbers of cylinders of an engine without gas force.
 
     Raises:
         BalcliError: it cannot be read; all its mistakes.
@@ -99,6 +110,8 @@ def load_source(path: str, orders: Real | None = None) -> Source:
     name, text = name_file(path), read_bytes(path)
     data: Mapping[str, Any] = parse_toml(text, name)
     if describes_chain(data):
+        if misfires:
+            raise BalcliError("--misfire: a chain has no cylinders")
         return ChainSource(name, text, read_chain_tables(data, name))
     model = parse(text, name)
     engine = build_named(model, name)
@@ -107,4 +120,4 @@ def load_source(path: str, orders: Real | None = None) -> Source:
             f"{name}: has no [torsion]; write it with throw_stiffness, throw_inertia and "
             "[[torsion.rear]] for the flywheel, or a chain of [[node]] and [[shaft]]"
         )
-    return EngineSource(name, text, model, engine, excite_engine(model, engine, orders))
+    return EngineSource(name, text, model, engine, excite_engine(model, engine, orders, misfires))
