@@ -12,7 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.cycle_peaks import find_longest, largest_of_ellipse
-from ..core.rigid_body import carry_points, load_at_centre, move_points, respond_body
+from ..core.rigid_body import (
+    BodyResponse,
+    carry_points,
+    load_at_centre,
+    move_points,
+    respond_body,
+)
 from ..core.singular_values import Complex, Real
 from ..core.vibration import find_resonances, frequencies
 from ..engine.build import Engine
@@ -97,6 +103,7 @@ class Response:
         free, passed: (orders, speeds, 6) amplitudes of the load about the centre of gravity, of the
             engine on the body and of the body on the ground: N, N m.
         worst_force: of each mount. worst_motion: of each point.
+        body: (orders, speeds, 6) motion of the centre of gravity, m and rad.
     """
 
     loads: Loads
@@ -109,6 +116,7 @@ class Response:
     passed: Real
     worst_force: tuple[Worst, ...]
     worst_motion: tuple[Worst, ...]
+    body: Complex
 
     @property
     def speeds_rpm(self) -> Real:
@@ -172,13 +180,16 @@ def respond(mounted: MountedBody, modes: BodyModes, loads: Loads, omega: Real) -
     """
     _refuse_too_many(loads, omega, mounted)
     refuse_resonance(modes, loads, omega)
-    curves = _move(mounted, loads, omega)
+    found = _move(mounted, loads, omega)
+    curves = _list_curves(mounted, found)
     count = len(mounted.names)
     free, peak = loads.at(omega), find_longest(loads.orders, curves).value
     arms = carry_points(mounted.dynamic.at, mounted.body.centre)
     passed = np.einsum("pij,nspi->nsj", arms, curves[:, :, :count])
     by_order = largest_of_ellipse(curves)
-    worst = _find_worst(loads, omega, peak, lambda at: _move(mounted, loads, at))
+    worst = _find_worst(
+        loads, omega, peak, lambda at: _list_curves(mounted, _move(mounted, loads, at))
+    )
     return Response(
         loads,
         omega,
@@ -190,14 +201,18 @@ def respond(mounted: MountedBody, modes: BodyModes, loads: Loads, omega: Real) -
         np.abs(passed),
         worst[:count],
         worst[count:],
+        found.motion,
     )
 
 
-def _move(mounted: MountedBody, loads: Loads, omega: Real) -> Complex:
+def _move(mounted: MountedBody, loads: Loads, omega: Real) -> BodyResponse:
+    w = frequencies(loads.orders, omega)
+    return respond_body(mounted.body, mounted.dynamic, w, loads.at(omega))
+
+
+def _list_curves(mounted: MountedBody, found: BodyResponse) -> Complex:
     """Forces of mounts (N), then motion of points (m): (orders, speeds, mounts + points, 3)."""
-    body, w = mounted.body, frequencies(loads.orders, omega)
-    found = respond_body(body, mounted.dynamic, w, loads.at(omega))
-    moved = move_points(mounted.points, body.centre, found.motion)
+    moved = move_points(mounted.points, mounted.body.centre, found.motion)
     return np.concatenate([found.forces, moved], axis=2)
 
 
