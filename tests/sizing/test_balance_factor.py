@@ -452,9 +452,7 @@ Permitted by ISO 21940-11, G 16, 46 kg, 6000 rpm.
 """.strip().splitlines()
     assert [line for line in wanted if line not in lines] == []
     assert max(map(len, page.splitlines())) == 80
-    assert (
-        page == run_here("balance", ford, *asked, "--units", "imperial", "--max-depth", "40 mm").out
-    )
+    assert page == run_here("balance", ford, *asked, "--units", "imperial").out
 
 
 def test_a_card_alone_chooses_the_scheme_of_factors(ford, tmp_path):
