@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from ..errors import BalcliError, legible
 from ..limits import MOST_HOLES
 from ..sizing.device_tables import find_unbalance
-from .bobweights import group_equal_pins, multiply, name_pins
+from .bobweights import group_equal_pins, multiply, name_pins, percent
 from .sheet import NAMELESS, capitalized, degrees, number
 from .units import IMPERIAL, INCH, POUND
 
@@ -51,9 +51,9 @@ def _lines(result: Balance) -> Iterator[str]:
     yield _row("BOBWEIGHT CARD", (engine.name or NAMELESS)[: WIDTH - 20])
     yield _HEAVY
     factor, rods = card[0].factor, len(card[0].cylinders)
-    yield f"Balance factor    {_percent(factor)} of all reciprocating mass on the pin"
+    yield f"Balance factor    {percent(factor)} of all reciprocating mass on the pin"
     if rods > 1:
-        yield f"                  = {_percent(factor * rods)} of one cylinder's reciprocating mass"
+        yield f"                  = {percent(factor * rods)} of one cylinder's reciprocating mass"
     for pins in group_equal_pins(card):
         yield ""
         yield from _weigh_pins(pins)
@@ -76,7 +76,7 @@ def _weigh_pins(pins: Sequence[Bobweight]) -> Iterator[str]:
     yield "Reciprocating"
     yield from _list_parts(one, rotates=False)
     yield _sum("reciprocating", one.reciprocating_g)
-    share = f"{number(one.reciprocating_g)} × {_percent(one.factor)}"
+    share = f"{number(one.reciprocating_g)} × {percent(one.factor)}"
     yield _line(f"{_INDENT}balanced share", share, *_weight(one.factor * one.reciprocating_g))
     yield _HEAVY
     each = f"{len(pins)} alike" if len(pins) > 1 else ""
@@ -153,7 +153,3 @@ def _weight(grams: float) -> tuple[str, str]:
 
 def _unbalance(kg_m: float) -> tuple[str, str]:
     return f"{1e6 * kg_m:.0f}", f"{IMPERIAL.unbalance.of(kg_m):.2f}"
-
-
-def _percent(share: float) -> str:
-    return f"{number(100 * share)} %"
