@@ -183,6 +183,7 @@ ON_REQUEST = {
         "balcli.sizing.auto",
         "balcli.sizing.remedy",
     ),
+    "balcli.studies.sweep": ("balcli.mounting.quantity",),
 }
 
 

@@ -6,12 +6,12 @@ They stand between two comments; what is above and below is written by hand.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
+from inspect import cleandoc
 from pathlib import Path
 from typing import Any
 
-from balcli.enginefile.messages import DEVICES, import_tables
+from balcli.enginefile.messages import find_table, import_lists, import_tables
 from balcli.enginefile.model import EngineFile, Override, Table
 from balcli.enginefile.schema import schema
 
@@ -34,19 +34,11 @@ def tables() -> str:
     named = {f"[{name}]": table for name, table in import_tables().items()}
     named["[cylinder.N]"] = Override
     for heading, table in (
-        named | {f"[[{name}]]": table for name, table in DEVICES.items()}
+        named | {f"[[{name}]]": table for name, table in import_lists().items()}
     ).items():
         parts.append(_part(f"`{heading}`", str(table.__doc__), table, definitions[table.__name__]))
-        parts += [
-            _part(
-                f"`{key} = {{…}}` in `{heading}`",
-                str(inner.__doc__),
-                inner,
-                definitions[inner.__name__],
-            )
-            for key, inner in _inner(table)
-            if table is not Override
-        ]
+        if table is not Override:
+            parts += _describe_inner(heading, table, definitions)
     return "\n".join(parts)
 
 
@@ -68,7 +60,7 @@ def _part(
         [
             f"### {heading}",
             "",
-            about.strip(),
+            cleandoc(about),
             "",
             "| key | unit | left out | meaning | example |",
             "| --- | --- | --- | --- | --- |",
@@ -110,13 +102,24 @@ def _left_out(key: str, table: type[Table], definition: dict[str, Any]) -> str:
     return "–" if default is None or default in ((), "") else f"{_toml(default)}"
 
 
-def _inner(table: type[Table]) -> Iterator[tuple[str, type[Table]]]:
-    """Tables within a table."""
+def _describe_inner(heading: str, table: type[Table], definitions: dict[str, Any]) -> Iterator[str]:
+    """The tables within a table, each once, and those within these."""
+    found: dict[type[Table], list[str]] = {}
     for key, field in table.model_fields.items():
-        for name in re.findall(r"balcli\.model\.(\w+)", str(field.annotation)):
-            import balcli.enginefile.model
-
-            yield key, getattr(balcli.model, name)
+        if inner := find_table(field.annotation):
+            found.setdefault(inner, []).append(key)
+    for inner, keys in found.items():
+        shown = definitions[table.__name__]["properties"][keys[0]]
+        listed = shown.get("type") == "array"
+        dotted = heading.strip("[]")
+        if listed:
+            names = [f"[[{dotted}.{key}]]" for key in keys]
+        else:
+            names = [f"{key} = {{…}}" for key in keys]
+        where = "" if listed else f" in `{heading}`"
+        title = ", ".join(f"`{name}`" for name in names) + where
+        yield _part(title, str(inner.__doc__), inner, definitions[inner.__name__])
+        yield from _describe_inner(names[0], inner, definitions)
 
 
 def _toml(value: Any) -> str:
@@ -125,6 +128,8 @@ def _toml(value: Any) -> str:
         return str(value).lower()
     if isinstance(value, (list, tuple)):
         return f"[{', '.join(map(_toml, value))}]"
+    if isinstance(value, dict):
+        return f"{{ {', '.join(f'{key} = {_toml(part)}' for key, part in value.items())} }}"
     return f'"{value}"' if isinstance(value, str) else f"{value:g}"
 
 

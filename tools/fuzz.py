@@ -253,8 +253,10 @@ def _bases() -> list[dict[str, Tree]]:
 def _keys() -> tuple[str, ...]:
     from balcli.enginefile import messages as mistakes
 
-    tables = (*mistakes.TABLES.values(), *mistakes.DEVICES.values(), *mistakes.INNER.values())
-    own = {key for table in tables for key in table.model_fields}
+    tables = (*mistakes.import_tables().values(), *mistakes.import_lists().values())
+    fields = [(key, field) for table in tables for key, field in table.model_fields.items()]
+    inner = filter(None, (mistakes.find_table(field.annotation) for _, field in fields))
+    own = {key for key, _ in fields} | {key for table in inner for key in table.model_fields}
     return (
         *mistakes.KNOWN,
         *sorted(own),

@@ -47,12 +47,15 @@ COMMANDS = {
     "compare": "Engines side by side: free forces and moments by order, peaks, and their ratios "
     "to the first engine's.",
     "sum": "Two engines on one frame, geared one to one: H, U and opposed-piston engines.",
+    "torque": "Torque of gas and inertia on the crank: by order and over the cycle, mean torque "
+    "and power, the uneven speed and the flywheel; or what a given torque curve does.",
     "field": "Balance a rotor on the machine or in its bearings: from readings with trial weights "
     "to correction weights, places or drill holes, and what is left.",
     "mounts": "What the frame feels of an engine on its mounts: natural modes, rest, forces of the "
     "mounts and motion of points over a range of speeds.",
-    "torsion": "Torsional vibration of shafts: natural modes, critical speeds, Holzer tables, and "
-    "vibratory torque and stress over a range of speeds.",
+    "torsion": "Torsional vibration of a crankshaft, or of any shafts: natural modes, critical "
+    "speeds, Holzer tables, vibratory torque and stress over a range of speeds, dampers, barred "
+    "speeds.",
     "engines": "List the example engines that come with balcli, print one, or copy it.",
     "bench": "Run time against error of every way to the same figures, on this machine; with -o "
     "X.svg also as a picture.",

@@ -17,7 +17,7 @@ from balcli.core.mechanisms.articulated import Articulated
 from balcli.core.strokes import find_travel
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
-from balcli.errors import InputError
+from balcli.errors import BalcliError, InputError
 from balcli.forces import spectrum
 from balcli.forces.orders import find_relevant_orders
 
@@ -311,3 +311,80 @@ def test_many_variants_are_taken_some_angles_at_a_time():
     assert np.array_equal(
         linkage.sample(lambda m: m.lean, psi, lam, eps), linkage.motion(psi, lam, eps).lean
     )
+
+
+# ------------------------------------------------------------------ what articulated rods may say
+def _radial(rod: str) -> str:
+    return RADIAL.replace("{ length = 188, mass = 0.62, cg = 90 }", rod)
+
+
+def test_an_articulated_rod_weighed_at_its_ends_is_one_of_mass_and_cg():
+    ends = engine.build(
+        enginefile.parse(_radial("{ length = 188, small_end = 0.3, big_end = 0.32 }"))
+    )
+    whole = engine.build(
+        enginefile.parse(_radial(f"{{ length = 188, mass = 0.62, cg = {188 * 0.3 / 0.62} }}"))
+    )
+    assert ends.cylinders.reciprocating == pytest.approx(whole.cylinders.reciprocating, rel=1e-14)
+    assert ends.cylinders.linkage.mass == pytest.approx(whole.cylinders.linkage.mass, rel=1e-14)
+    assert ends.cylinders.couple == pytest.approx(whole.cylinders.couple, abs=1e-17)
+
+
+def test_a_pendulum_test_of_an_articulated_rod_is_its_inertia():
+    period = 2 * math.pi * math.sqrt((3.5e-3 + 0.62 * 0.09**2) / (0.62 * 9.80665 * 0.09))
+    swung = f'pendulum = {{ pivot = "big_end", period = {period!r} }}'
+    found = engine.build(
+        enginefile.parse(_radial(f"{{ length = 188, mass = 0.62, cg = 90, {swung} }}"))
+    )
+    wanted = engine.build(
+        enginefile.parse(_radial("{ length = 188, mass = 0.62, cg = 90, inertia = 3500 }"))
+    )
+    assert found.cylinders.couple == pytest.approx(wanted.cylinders.couple, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("rod", "message"),
+    [
+        (
+            "{ length = 188, small_end = 0.3 }",
+            "articulation.rod: has small_end without big_end; weigh the rod at both ends, or give "
+            "mass and cg",
+        ),
+        (
+            "{ mass = 0.62, cg = 90 }",
+            "articulation.rod: has neither length nor ratio; give either length or ratio",
+        ),
+        (
+            "{ length = 188, mass = 0.6, small_end = 0.3, big_end = 0.3 }",
+            "articulation.rod: has mass, small_end and big_end; give either mass and cg or "
+            "small_end and big_end",
+        ),
+        (
+            '{ length = 188, mass = 0.6, cg = 90, inertia = 1, pendulum = { pivot = "big_end", '
+            "period = 0.9 } }",
+            "articulation.rod: has inertia and pendulum; give either inertia or pendulum",
+        ),
+        (
+            '{ length = 188, mass = 0.6, cg = 90, pendulum = { pivot = "big_end", period = 0.5 } }',
+            "articulation.rod: pendulum.period 0.5 s is too quick: with the centre of mass 90 mm "
+            "from the pivot a full swing takes more than 0.6019 s",
+        ),
+    ],
+)
+def test_mistakes_of_articulated_rods(rod, message):
+    with pytest.raises(InputError) as found:
+        engine.build(enginefile.parse(_radial(rod)))
+    assert str(found.value) == f"engine: {message}"
+
+
+def test_figures_that_say_the_same_do_not_vary_together():
+    """`articulation.rod.mass` beside weighed ends would change nothing."""
+    model = enginefile.parse(_radial("{ length = 188, small_end = 0.3, big_end = 0.32 }"))
+    with pytest.raises(BalcliError) as found:
+        engine.build(model, {"articulation.rod.mass": np.array([0.5, 0.7])})
+    assert str(found.value) == (
+        "articulation.rod.mass: the file gives small_end and big_end instead; vary that, or give "
+        "mass and cg in the file"
+    )
+    varied = engine.build(model, {"articulation.rod.small_end": np.array([0.3, 0.4])})
+    assert np.ptp(varied.cylinders.reciprocating, axis=-1).max() == pytest.approx(0.1)

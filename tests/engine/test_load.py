@@ -199,7 +199,7 @@ def test_standard_input(monkeypatch):
         ),
         (
             GOOD + "[articulation]\nknuckle_radius = 50\nrod = { mass = 1 }\n",
-            "articulation.rod.length: is missing; give it, such as length = 200",
+            "articulation.rod: has neither length nor ratio; give either length or ratio",
         ),
         (
             GOOD + "[bobweight]\noverbalance = 0.51\n",

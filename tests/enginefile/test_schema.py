@@ -9,12 +9,16 @@ import pytest
 from pydantic import ValidationError
 from support.commands import run_python
 
-from balcli.enginefile.messages import DEVICES, TABLES
+from balcli.enginefile.messages import import_lists, import_tables
 from balcli.enginefile.model import Override, Pendulum, Ripple, Table
 from balcli.enginefile.schema import DIALECT, schema
 
 DOCUMENT = schema()
-MODELS: list[type[Table]] = [*TABLES.values(), *DEVICES.values(), Override, Pendulum, Ripple]
+MODELS: list[type[Table]] = [
+    *import_tables().values(),
+    *import_lists().values(),
+    *(Override, Pendulum, Ripple),
+]
 
 
 def fields() -> list[tuple[str, str, dict[str, Any]]]:

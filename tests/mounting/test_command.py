@@ -102,6 +102,38 @@ def test_it_is_readable_in_a_terminal(four):
     assert "17.43" in plain
 
 
+@pytest.mark.parametrize("form", ["svg", "png", "pdf"])
+def test_picture(four, tmp_path, form):
+    picture = tmp_path / f"mounts.{form}"
+    done = run_here(
+        "mounts", four, "--speeds", "300:900:50", "--scheme", "two-shaft", "--plot", picture
+    )
+    assert (done.status, done.err) == (0, "")
+    content = picture.read_bytes()
+    assert content.startswith({"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF"}[form])
+    if form == "svg":
+        for words in (
+            "Force of each mount",
+            "Motion of points",
+            "1, two-shaft",
+            "4: 17.4 Hz",
+            "roll",
+        ):
+            assert words.encode() in content
+
+
+def test_picture_of_a_body_alone(tmp_path):
+    path, picture = tmp_path / "block.toml", tmp_path / "block.svg"
+    path.write_text(block(), encoding="utf-8")
+    assert run_here("mounts", path, "--plot", picture).status == 0
+    assert b"Force of each mount" not in picture.read_bytes()
+    assert b"6: 24.9 Hz" in picture.read_bytes()
+
+
+def test_pictures_overwrite_no_engine(four):
+    assert "stays as it is" in refusal("mounts", four, "-o", four)
+
+
 def test_units(four):
     imperial = run_here("mounts", four, "--units", "imperial").out
     assert "lbf" in imperial

@@ -9,7 +9,10 @@ import pytest
 from oracle import momentum
 from support.mounts import ENGINE, RandomBody, block
 
+from balcli.engine.build import build
+from balcli.engine.load import parse
 from balcli.errors import BalcliError
+from balcli.forces.spectrum import compute_spectra
 from balcli.mounting.read import read_mounted
 from balcli.mounting.report import report_mounts
 
@@ -178,6 +181,46 @@ def test_a_scheme_takes_away_what_it_is_for(report):
     assert after[:2] == pytest.approx(0, abs=1e-9 * before[0])
     assert after[5] > 0.1
     assert result.fitted.response.force_peak.max() < result.response.force_peak.max()
+
+
+GAS = ENGINE.replace(
+    "[cylinder.2]", "[layout]\nfiring_order = [1, 3, 4, 2]\n[cylinder.2]\ngas = 0"
+) + ('[gas]\ncycle = "wiebe"\ncompression_ratio = 10\nimep = 9\n')
+
+
+def test_gas_rolls_the_body_alike_at_every_speed(report):
+    """A misfire has half orders; torque on the body is the reaction to that on the crank, which does
+    not grow with the speed as inertia does.
+    """
+    body = RandomBody(6, 4)
+    orders = [0.5, 1, 1.5, 2]
+    result = report(GAS + body.text, orders=orders)
+    plain = report(ENGINE + body.text, orders=orders)
+    torque = compute_spectra(build(parse(GAS)), np.array(orders), ["gas"])["gas"].x
+    assert np.abs(torque).min() > 1
+    assert plain.response.loads.gas is None
+    inertia = plain.response.loads.inertia
+    for n, order in enumerate(orders):
+        for s, rpm in enumerate(SPEEDS):
+            load = inertia[n] * (rpm / 3000) ** 2 - np.array([0, 0, 0, 0, 0, torque[n]])
+            motion = find_own_motion(body, load, order * rpm * np.pi / 30)
+            point = move(motion, body.point - body.centre)
+            largest = np.sqrt((np.sum(np.abs(point) ** 2) + abs(np.sum(point**2))) / 2)
+            assert result.response.motion[n, s, 0] == pytest.approx(largest, rel=1e-9)
+
+
+def test_the_mean_torque_leans_on_the_mounts(report):
+    """Three of four cylinders fire: mean torque 3/4 imep V / (4 pi); the crank turns from x to y, so
+    that the body leans the other way.
+    """
+    body = RandomBody(6, 4)
+    result = report(GAS + body.text)
+    volume = 4 * np.pi / 4 * 0.08**2 * 0.09
+    mean = 0.75 * 9e5 * volume / (4 * np.pi)
+    assert result.response.loads.mean == pytest.approx(-mean, rel=1e-6)
+    arms = np.array(body.at) - body.centre
+    about = np.cross(arms, result.modes.settled.forces).sum(axis=0)
+    assert about == pytest.approx([0, 0, -mean], rel=1e-6, abs=1e-6)
 
 
 def test_orders_meet_modes_where_their_frequencies_agree(report):

@@ -377,7 +377,9 @@ def _bare(value: Any) -> Any:
     """Numbers in the file's units; text that is a number with a unit is converted."""
     if isinstance(value, dict):
         return {
-            k: v if k in ("name", "source", "rods", "pivot") else _bare(v) for k, v in value.items()
+            k: v if k in ("name", "source", "rods", "pivot") else _bare(v)
+            for k, v in value.items()
+            if k not in ("gas", "torsion")  # which make no free force
         }
     if isinstance(value, list):
         return [_bare(v) for v in value]

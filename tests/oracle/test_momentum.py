@@ -41,6 +41,17 @@ ARTICULATED = """
 knuckle_radius = 52
 rod = { length = 188, mass = 0.62, cg = 90, inertia = 3500 }
 """
+HUNG = "{ length = 188, mass = 0.62, cg = 90, inertia = 3500 }"
+WEIGHED = ARTICULATED.replace(HUNG, "{ length = 188, small_end = 0.31, big_end = 0.33 }")
+SWUNG = ARTICULATED.replace(
+    HUNG,
+    '{ ratio = 0.32, mass = 0.62, cg = 90, pendulum = { pivot = "big_end", period = 0.85 } }',
+)
+SWUNG_ENDS = ARTICULATED.replace(
+    HUNG,
+    "{ length = 188, small_end = 0.3, big_end = 0.33, "
+    'pendulum = { pivot = "small_end", period = 0.88 } }',
+)
 RIPPLE = (
     "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }, { order = 3, amplitude = "
     "0.02, "
@@ -105,6 +116,17 @@ CASES = {
         "more": "[cylinder.2]\npiston_mass = 2.5\nrod_length = 200\n",
     },
     "radial with master rod": {"layout": "radial = 7", "more": ARTICULATED},
+    "articulated rods weighed at both ends": {"layout": "radial = 7", "more": WEIGHED},
+    "articulated rods by ratio, swung": {"layout": "radial = 5", "more": SWUNG},
+    "articulated rods weighed and swung, one of its own": {
+        "layout": "bank_angle = 60",
+        "crank": "throws = [0, 120, 240]\nspacing = 160",
+        "more": SWUNG_ENDS + "[cylinder.5]\nrod_mass = 0.7\nrod_cg = 80\nrod_inertia = 4100",
+    },
+    "rotary with articulated rods weighed and swung": {
+        "layout": "radial = 5\nrotary = true",
+        "more": SWUNG_ENDS,
+    },
     "two rows with master rods": {
         "layout": "radial = 5\nstagger = 4",
         "crank": "throws = [0, 180]\nspacing = 160",

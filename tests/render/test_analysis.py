@@ -20,7 +20,7 @@ from balcli.render.formats import Format, render
 from balcli.render.sheet import Facts, Grid
 from balcli.render.units import SYSTEMS
 from balcli.render.view import IN_BRIEF, View
-from balcli.results.analysis import analyze
+from balcli.results.analysis import QUANTITIES, analyze
 
 RENDERER = SimpleNamespace(
     sheet=analysis.sheet, document=analysis_data.document, rows=analysis_data.rows
@@ -127,9 +127,9 @@ def test_strokes_and_reasons_as_rows():
 def test_a_sheet_has_inner_moments_guide_forces_and_strokes():
     text = shown(inline_engine([0, 180, 180, 0]), only=["inner", "guide"])
     for title in (
-        "Shear force in the crankshaft behind each load, N",
+        "Shear force in the crankshaft behind each load, kN",
         "Bending moment in the crankshaft, N·m",
-        "Inertia loads of main bearings half-way between throws, shaft cut in each, N",
+        "Inertia loads of main bearings half-way between throws, shaft cut in each, kN",
         "largest inner moment",
         "Guide-force moments of inertia alone, without gas, N·m",
     ):
@@ -150,7 +150,7 @@ SIX = [0, 120, 240, 240, 120, 0]
 
 def parts(subject, view=IN_BRIEF, **options):
     """Titles of a sheet's parts, and the first cells of its first table."""
-    found = analysis.sheet(analyze(subject, **options), SYSTEMS["si"], view).parts
+    found = analysis.sheet(analyze(subject, only=QUANTITIES, **options), SYSTEMS["si"], view).parts
     first = next((part for part in found if isinstance(part, Grid)), None)
     return [part.title.split(":")[0] for part in found], [
         row[0] for row in (() if first is None else first.rows)

@@ -10,7 +10,7 @@ import re
 import pytest
 from support import imports
 from support.commands import run_here
-from support.paths import ENGINES
+from support.paths import ENGINES, PACKAGE
 from support.rotors import three_runs
 
 from balcli.bench import bench
@@ -26,6 +26,7 @@ SHOWN = {  # by renderer
     "comparison": ("compare", V6, V8),
     "errata": ("tables", "liu-3", "--errata"),
     "field_balancing": ("field", "-"),
+    "mounts": ("mounts", PACKAGE / "enginefile" / "starting_files" / "mounts.toml"),
     "printed_table": ("tables", "liu-1"),
     "search": ("search", V8, "--over", "throws", "--minimise", "moment.1.major"),
     "table_list": ("tables",),

@@ -22,7 +22,7 @@ from balcli.render.plot.bars import draw_vector_bars, visible_rows
 from balcli.render.plot.locus import draw_locus, find_period_deg
 from balcli.render.plot.pages import PAGES, Subject, draw_page
 from balcli.render.units import IMPERIAL, SI
-from balcli.results.analysis import analyze
+from balcli.results.analysis import QUANTITIES, analyze
 
 HOSTILE = '$x_{1}$ </text><script>alert(1)</script> 发动机 №5 & "q" \u0001 _'
 ANALYSES = [what for what in PAGES if what not in ("factor", "bank", "inner")]
@@ -35,7 +35,7 @@ def engine(text: str = GOOD):
 
 @pytest.fixture(scope="module")
 def four():
-    return analyze(engine())
+    return analyze(engine(), only=QUANTITIES)
 
 
 @pytest.mark.parametrize("what", ANALYSES)

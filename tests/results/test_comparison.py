@@ -44,7 +44,7 @@ def test_orders_of_every_engine_are_shown() -> None:
 
 
 def test_one_engine_is_refused() -> None:
-    with pytest.raises(BalcliError, match="name at least two to compare"):
+    with pytest.raises(BalcliError, match="compare needs at least two engine files"):
         compare_engines([build(parse(GOOD))], ["one"])
 
 

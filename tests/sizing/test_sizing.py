@@ -480,7 +480,7 @@ TAKEN = {
     "factor": "factor measured planes",
     "minimax": "planes position",
     "four-shaft": "at position",
-    "single-shaft": "order at position",
+    "single-shaft": "order at position planes",
     "two-shaft": "order at position roll",
     "couple-shaft": "order at planes",
     "slider": "order at position",
@@ -594,9 +594,9 @@ def test_a_pair_of_shafts_stands_on_the_crank_axis_if_nothing_is_said():
     remedy = size(build(parse(ENGINES["vee"])), "two-shaft")
     assert [s.at for s in remedy.shafts] == [(0, 0), (0, 0)]
     assert remedy.reasons[0] == (
-        "Order 1 force and moment turning against the crank: nothing on the crankshaft can cancel "
-        "it; "
-        "one eccentric on a shaft at -1 times crank speed can"
+        "Order 1 force turning against the crank: nothing on the crankshaft can cancel it; "
+        "one eccentric on a shaft at -1 times crank speed can; a moment stays, which takes "
+        "eccentrics in two planes"
     )
     assert "radius ratio" not in figures(remedy, "order 1")
 
@@ -705,7 +705,7 @@ def test_couple_shafts_say_what_they_do_and_what_is_left():
     assert list(remedy.reasons[::2]) == [
         f"Order 1 moment turning {turning} the crank: two opposite eccentrics on a shaft at "
         f"{ratio} times crank speed make the opposite "
-        "moment and no force"
+        "moment and no force, wherever the shaft stands"
         for turning, ratio in (("with", "+1"), ("against", "-1"))
     ]
     after = compute_spectra(fit_devices(engine, remedy), [1], ("force", "moment"))

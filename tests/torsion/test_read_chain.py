@@ -179,7 +179,7 @@ order = 1.3
         'N m/rad, or "1.25e6 N m/rad" or "24.17e6 lbf in/rad", above 0',
         "  shaft.3: has no stiffness; give it, such as stiffness = 1.25e6, or diameter and length of "
         "a plain shaft; has a bore of 40 mm and a diameter of 30; the bore is the smaller of both",
-        "  gear.1.ratio: is no speed ratio; give speed of `to` over speed of `from`, not 0",
+        "  gear.1.ratio: 0 is no speed ratio; give driven over driving speed, not 0",
         "  excitation.1.order: 1.3 is no order that can be added up over two turns of the first "
         "node; give a multiple of 0.5",
         '  node.2.name: "a" is there twice; give each its own',
@@ -193,7 +193,10 @@ order = 1.3
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", 'node: is missing; write [[node]] for every inertia, such as name = "flywheel"'),
+        (
+            "gear = []",
+            'node: is missing; write [[node]] for every inertia, such as name = "flywheel"',
+        ),
         (
             "node = 3",
             "node: is one of several; write [[node]] in double brackets, once for each node",

@@ -18,6 +18,7 @@ from .options import (
     Output,
     Speed,
     UnitsOption,
+    Whole,
     parse_guide_height,
     parse_orders,
     parse_parts,
@@ -33,9 +34,7 @@ def analyze(
     speed: Speed = None,
     orders: Orders = None,
     only: OnlyParts = None,
-    whole: Annotated[
-        bool, typer.Option("--all", help="Every table and every order that is not rounding.")
-    ] = False,
+    whole: Whole = False,
     by: Annotated[
         str,
         typer.Option(
@@ -62,7 +61,7 @@ def analyze(
     refuse_overwriting(reads=paths, writes={"--output": output})
     form = text_format(output, form)
     from ..render import analyses
-    from ..results.analysis import Analysis
+    from ..results.analysis import Analysis, list_quantities
     from ..results.analysis import analyze as analyze_engine
     from .inputs import distinct_names, exit_on_errors, read_engine, try_each
 
@@ -72,7 +71,8 @@ def analyze(
 
     def analyze_file(path: str) -> tuple[str, Analysis]:
         engine = read_engine(path, rpm, chosen).engine
-        return path, analyze_engine(engine, asked, chosen, each, why, height_m)
+        wanted = (*list_quantities(engine), "sizing") if chosen is None else chosen
+        return path, analyze_engine(engine, asked, wanted, each, why, height_m)
 
     found, errors = try_each(paths, analyze_file)
     if found and not (errors and output):  # a file gets all of them or is left as it was

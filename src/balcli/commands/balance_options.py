@@ -71,7 +71,7 @@ At = Annotated[
     typer.Option(
         metavar="X,Y",
         show_default=False,
-        help=("Place in mm of the shaft that turns against the crank; given twice: of both."),
+        help=("Place in mm of a shaft, of a pair that against the crank; given twice: of both."),
     ),
 ]
 Position = Annotated[
@@ -121,7 +121,7 @@ Radius = Annotated[
     typer.Option(
         metavar="MM",
         show_default=False,
-        help=("Radius at which masses are stated; default: crank radius."),
+        help="Radius at which masses are stated, in mm or as '2.5 in'; default: crank radius.",
     ),
 ]
 Thickness = Annotated[

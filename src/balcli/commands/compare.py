@@ -13,6 +13,7 @@ from .options import (
     Output,
     Speed,
     UnitsOption,
+    Whole,
     parse_orders,
     parse_quantities,
     parse_speed,
@@ -27,6 +28,7 @@ def compare(
     speed: Speed = None,
     orders: Orders = None,
     only: Only = None,
+    whole: Whole = False,
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
@@ -36,10 +38,10 @@ def compare(
     refuse_overwriting(reads=paths, writes={"--output": output})
     form = text_format(output, form)
     from ..results.comparison import compare_engines
-    from .inputs import distinct_names, read_engine
+    from .inputs import name_columns, read_engine
 
     rpm, asked, chosen = parse_speed(speed), parse_orders(orders), parse_quantities(only)
     engines = [read_engine(path, rpm, chosen).engine for path in paths]
-    names = distinct_names([engine.name for engine in engines], paths)
-    found = compare_engines(engines, names, asked, chosen)
+    names = name_columns([engine.name for engine in engines], paths)
+    found = compare_engines(engines, names, asked, chosen, whole)
     show([found], renderer, form, output, units)

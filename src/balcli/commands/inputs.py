@@ -104,6 +104,15 @@ def named_by_file(engine: Engine, path: str) -> Engine:
     return engine if engine.name else replace(engine, name=legible(Path(name_file(path)).stem))
 
 
+def name_columns(names: Sequence[str], paths: Sequence[str]) -> Sequence[str]:
+    """What to call engines side by side: all by name, or all by file where a name is missing or
+    stands for several.
+    """
+    if all(names) and len(set(names)) == len(names):
+        return names
+    return [legible(name_file(path)) for path in paths]
+
+
 def distinct_names(names: Sequence[str], paths: Sequence[str]) -> list[str]:
     """What to call several engines side by side: by name, or by file where a name is missing or
     stands for several.

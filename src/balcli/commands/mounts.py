@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from ..enginefile.toml_text import name_file
 from ..render.formats import Units
-from .file_names import text_format
+from ..render.units import SYSTEMS
+from .file_names import picture_form, text_format
 from .options import (
     EnginePath,
     FormatOption,
@@ -17,7 +19,7 @@ from .options import (
     UnitsOption,
     parse_orders,
 )
-from .output import show
+from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
 from .speed_range import Speeds, parse_speeds
 
@@ -37,6 +39,15 @@ def mounts(
     speeds: Speeds = None,
     orders: Orders = None,
     scheme: Scheme = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            show_default=False,
+            help="Draw forces over speed, orders and modes, and the body moving in each mode; "
+            ".svg, .png or .pdf.",
+        ),
+    ] = None,
     form: FormatOption = None,
     units: UnitsOption = Units.SI,
     output: Output = None,
@@ -47,8 +58,9 @@ def mounts(
     The file has [body], [[mount]] and, if motion of points is wanted, [[point]]; `balcli new
     mounts` writes one to start from. Without an engine in it, modes and rest are told.
     """
-    refuse_overwriting(reads=[path], writes={"--output": output})
+    refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     form = text_format(output, form)
+    drawn = picture_form(plot, "--plot") if plot is not None else None
     rpm, asked = parse_speeds(speeds), parse_orders(orders)
     from ..mounting.read import read_mounted
     from ..mounting.report import report_mounts
@@ -56,4 +68,8 @@ def mounts(
 
     model, engine = read_mounted(path)
     result = report_mounts(model, engine, rpm, asked, scheme, name_file(path))
+    if plot is not None and drawn is not None:
+        from ..render.plot.mounts import draw_mounts  # brings matplotlib
+
+        write_file(draw_mounts(result, drawn, SYSTEMS[units]), plot)
     show([result], renderer, form, output, units)

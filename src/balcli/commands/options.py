@@ -93,6 +93,9 @@ OnlyParts = Annotated[
         "loads along the crankshaft), guide (H- and X-type); or xy, textbook, verdict.",
     ),
 ]
+Whole = Annotated[
+    bool, typer.Option("--all", help="Every table and every order that is not rounding.")
+]
 GuideHeight = Annotated[
     str | None,
     typer.Option(

@@ -2,14 +2,34 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from .file_names import text_format
+from .file_names import picture_form, require_ending, text_format
 from .options import FormatOption, Output
-from .output import show
+from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
+
+
+class Kind(StrEnum):
+    """Kinds of dampers."""
+
+    VISCOUS = "viscous"
+    RUBBER = "rubber"
+    PENDULUM = "pendulum"
+
+
+class What(StrEnum):
+    """Which pictures are drawn."""
+
+    ALL = "all"
+    MODES = "modes"
+    CAMPBELL = "campbell"
+    RESPONSE = "response"
+    WATERFALL = "waterfall"
 
 
 def torsion(
@@ -17,7 +37,8 @@ def torsion(
         str,
         typer.Argument(
             metavar="FILE",
-            help="A chain of inertias and shafts (TOML); - reads standard input.",
+            help="Engine file with [torsion], or a chain of inertias and shafts (TOML); - reads "
+            "standard input.",
             show_default=False,
         ),
     ],
@@ -34,7 +55,8 @@ def torsion(
         typer.Option(
             metavar="0.5-12|1,2.5",
             show_default=False,
-            help="Orders that excite, 0.5-8 with halves, 1-8 whole ones; default: all.",
+            help="Orders that excite, 0.5-8 with halves, 1-8 whole ones; default: all of a chain, "
+            "to 12 of an engine.",
         ),
     ] = None,
     holzer: Annotated[
@@ -45,20 +67,71 @@ def torsion(
             help='Holzer\'s table of a mode, or at "20 rad/s", "12 Hz"; may be given again.',
         ),
     ] = None,
+    misfire: Annotated[
+        list[int] | None,
+        typer.Option(
+            metavar="N", show_default=False, help="Cylinder without gas; may be given again."
+        ),
+    ] = None,
+    damper: Annotated[
+        Kind | None,
+        typer.Option(
+            show_default=False,
+            help="Size a damper that makes the largest stress over --speeds least.",
+        ),
+    ] = None,
+    damper_at: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME", show_default=False, help="What carries it; default: the foremost part."
+        ),
+    ] = None,
+    damper_inertia: Annotated[
+        str | None,
+        typer.Option(
+            metavar="KGMM2",
+            show_default=False,
+            help="Its ring, or its pendulums about the axis; default: that in the file, or a usual "
+            "share.",
+        ),
+    ] = None,
+    write: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE", show_default=False, help="Write the file with the damper here."
+        ),
+    ] = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", show_default=False, help="Draw pictures; .svg, .png or .pdf."),
+    ] = None,
+    what: Annotated[
+        What, typer.Option(help="Which, with --plot; the last two take --speeds.")
+    ] = What.ALL,
+    progress: Annotated[
+        bool, typer.Option("--progress", help="Show a bar on standard error.")
+    ] = False,
     form: FormatOption = None,
     output: Output = None,
 ) -> None:
-    """Torsional vibration of shafts: natural modes, critical speeds, Holzer tables, and vibratory
-    torque and stress over a range of speeds.
+    """Torsional vibration of a crankshaft, or of any shafts: natural modes, critical speeds, Holzer
+    tables, vibratory torque and stress over a range of speeds, dampers, barred speeds.
 
     `balcli new torsion chain.toml` writes a file to start from: nodes, shafts, gears, torques.
     """
-    refuse_overwriting(reads=[path], writes={"--output": output})
+    refuse_overwriting(reads=[path], writes={"--output": output, "--write": write, "--plot": plot})
     form = text_format(output, form)
+    drawn = None if plot is None else picture_form(plot, "--plot")
+    require_ending(write, ".toml", "--write")
     from ..render import torsion as renderer
-    from ..torsion.analysis import Question, analyze_torsion
-    from ..torsion.load import load_system
-    from .torsion_options import parse_half_orders, parse_holzer, parse_speeds
+    from . import torsion_answer as answers
+    from .torsion_options import parse_question
 
-    question = Question(parse_speeds(speeds), parse_half_orders(orders), parse_holzer(holzer))
-    show([analyze_torsion(load_system(path), question)], renderer, form, output)
+    asked = parse_question(speeds, orders, holzer, damper, damper_at, damper_inertia)
+    answers.require_options(asked, write, plot, what)
+    source, result = answers.find_answer(path, asked, misfire or (), progress)
+    if write is not None:
+        write_file(answers.write_damper(source, result), write)
+    if plot is not None and drawn is not None:
+        write_file(answers.draw(result, what, drawn), plot)
+    show([result], renderer, form, output)

@@ -7,10 +7,11 @@ import re
 import numpy as np
 
 from ..core.singular_values import Real
-from ..enginefile.units import Dimension, Powers, convert
+from ..enginefile.units import INERTIA, Dimension, Powers, convert, wanted
 from ..errors import BalcliError
 from ..limits import HIGHEST_TORSION_ORDER, MOST_TORSION_SPEEDS
-from ..torsion.analysis import HolzerAsked
+from ..torsion.analysis import HolzerAsked, Question
+from ..torsion.damper_sizing import DamperAsked
 
 _FREQUENCY = Dimension("rad/s", "a frequency", Powers(time=-1, angle=1), ("20 rad/s",))
 _HERTZ = re.compile(r"\s*([0-9.eE+-]+)\s*Hz\s*")
@@ -25,20 +26,20 @@ def parse_speeds(text: str | None) -> Real | None:
     """
     if text is None:
         return None
-    wanted = "give first:last:step in rpm, such as 1000:2500:25, or speeds such as 1500,2000"
+    right = "give first:last:step in rpm, such as 1000:2500:25, or speeds such as 1500,2000"
     start = f'--speeds "{text[:60]}": '
     try:
         ranged = ":" in text
         figures = [float(part) for part in text.split(":" if ranged else ",")]
     except ValueError:
-        raise BalcliError(start + wanted) from None
+        raise BalcliError(start + right) from None
     if not all(0 < figure < 1e9 for figure in figures) or (ranged and len(figures) > 3):
-        raise BalcliError(start + wanted)
+        raise BalcliError(start + right)
     if not ranged:
         return np.unique(figures)
     first, last, step = (*figures, (figures[1] - figures[0]) / 100)[:3]
     if not (first <= last and (step > 0 or first == last)):
-        raise BalcliError(f"{start}must rise; {wanted}")
+        raise BalcliError(f"{start}must rise; {right}")
     if first == last:
         return np.array([first])
     count = int((last - first) / step + 1e-9) + 1
@@ -89,12 +90,50 @@ def parse_holzer(texts: list[str] | None) -> tuple[HolzerAsked, ...]:
 def _parse_trial(text: str) -> HolzerAsked:
     if re.fullmatch(r"[1-9]\d{0,5}", text.strip()):
         return HolzerAsked(int(text))
-    wanted = 'give the number of a mode, or a frequency such as "20 rad/s", "12 Hz" or "900 rpm"'
+    right = 'give the number of a mode, or a frequency such as "20 rad/s", "12 Hz" or "900 rpm"'
     try:
         hertz = _HERTZ.fullmatch(text)
         turns = float(hertz[1]) * 2 * np.pi if hertz else convert(text, _FREQUENCY)
     except ValueError:
-        raise BalcliError(f'--holzer "{text[:60]}": {wanted}') from None
+        raise BalcliError(f'--holzer "{text[:60]}": {right}') from None
     if not 0 < turns < 1e12:
-        raise BalcliError(f'--holzer "{text[:60]}": {wanted}')
+        raise BalcliError(f'--holzer "{text[:60]}": {right}')
     return HolzerAsked(None, turns)
+
+
+def parse_question(
+    speeds: str | None,
+    orders: str | None,
+    holzer: list[str] | None,
+    damper: str | None,
+    damper_at: str | None,
+    damper_inertia: str | None,
+) -> Question:
+    """What the options of these names ask.
+
+    Raises:
+        BalcliError: one of them cannot be read, or says more of a damper that is not asked for.
+    """
+    asked = None
+    if damper is not None:
+        asked = DamperAsked(damper, damper_at, _parse_inertia(damper_inertia))
+    elif damper_at is not None or damper_inertia is not None:
+        option = "--damper-inertia" if damper_at is None else "--damper-at"
+        raise BalcliError(f"{option}: say which damper, such as --damper viscous")
+    return Question(parse_speeds(speeds), parse_half_orders(orders), parse_holzer(holzer), asked)
+
+
+def _parse_inertia(text: str | None) -> float | None:
+    """kg m2 of a figure in kg mm2, or with its own unit."""
+    if text is None:
+        return None
+    try:
+        bare = float(text)
+    except ValueError:
+        try:
+            bare = convert(text, INERTIA)
+        except ValueError as error:
+            raise BalcliError(f'--damper-inertia "{text[:60]}" {error}') from None
+    if not 0 < bare < 1e24:
+        raise BalcliError(f'--damper-inertia "{text[:60]}": {wanted(INERTIA)}, above 0')
+    return bare / 1e6

@@ -69,6 +69,9 @@ class Cylinders:
         return self.eps * self.radius / self.lam
 
 
+SHAFT_RANK = 1  # see `Device.rank`
+
+
 class Device(NamedTuple):
     """Counterweight, balancer shaft or slider: mass x radius that turns at an order of the crank.
 

@@ -22,7 +22,6 @@ from .figures import (
     Figures,
     OwnFigures,
     RodFigures,
-    articulated_rod_figures,
     either,
     own_figures,
     rod_figures,
@@ -130,7 +129,9 @@ class Assembly:
     def articulated_rod(self) -> RodFigures:
         """What holds for all articulated rods; nothing where there are none."""
         table = self.model.articulation
-        return RodFigures() if table is None else articulated_rod_figures(self.figures, table.rod)
+        if table is None:
+            return RodFigures()
+        return rod_figures(self.figures, table.rod, "articulation.rod")
 
     def rod_place(self, number: int, articulated: bool = False) -> RodPlace:
         """The figures of a cylinder's rod; number 0 stands for what holds for all."""

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ..core.cylinders import Device
+from ..core.cylinders import SHAFT_RANK, Device
 from ..core.phasors import Complex, Figure, unit
 from ..enginefile.model import Counterweight, EngineFile, Shaft, Slider
 from .arrays import place_in_plane
@@ -58,7 +58,7 @@ def _shaft(figures: Figures, path: str, shaft: Shaft) -> Device:
     turning = _unbalance(figures, path, shaft) * unit(angle)
     forward, backward = (turning, 0j) if shaft.ratio > 0 else (0j, turning)
     place, z = _place(figures, path, shaft.at), _position(figures, path, shaft)
-    return Device(abs(shaft.ratio), forward, backward, place, z, 1)
+    return Device(abs(shaft.ratio), forward, backward, place, z, SHAFT_RANK)
 
 
 def _slider(figures: Figures, path: str, slider: Slider) -> Device:

@@ -12,7 +12,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple, cast
 
 from ..core.phasors import Figure
-from ..enginefile.model import ArticulatedRod, EngineFile, Override, Pendulum, Rod, Table
+from ..enginefile.model import EngineFile, Override, Pendulum, Rod, Table
 from ..errors import BalcliError
 
 
@@ -62,6 +62,8 @@ class Figures:
     def _find_displaced(self, model: EngineFile) -> Iterator[str]:
         cylinders = self.cylinder_tables(model)
         tables = dict(model.tables()) | {f"cylinder.{n}": own for n, own in cylinders.items()}
+        if model.articulation is not None:
+            tables["articulation.rod"] = model.articulation.rod
         for path in self._varied:
             start, _, key = path.rpartition(".")
             if start in tables:
@@ -162,28 +164,21 @@ def over(figure: Figure | None, divisor: float) -> Figure | None:
     return None if figure is None else figure / divisor
 
 
-def rod_figures(figures: Figures, rod: Rod) -> RodFigures:
-    """What [rod] says."""
-    take = figures.take_optional
-    return RodFigures(
-        length=over(take("rod.length", rod.length), 1e3),
-        ratio=take("rod.ratio", rod.ratio),
-        mass=take("rod.mass", rod.mass),
-        cg=over(take("rod.cg", rod.cg), 1e3),
-        small_end=take("rod.small_end", rod.small_end),
-        big_end=take("rod.big_end", rod.big_end),
-        inertia=over(take("rod.inertia", rod.inertia), 1e6),
-        pendulum=_swing(figures, "rod.pendulum", rod.pendulum),
-    )
+def rod_figures(figures: Figures, rod: Rod, path: str = "rod") -> RodFigures:
+    """What the file says of rods, in the table of this name: [rod], or that of articulated rods."""
 
+    def take(key: str) -> Figure | None:
+        return figures.take_optional(f"{path}.{key}", getattr(rod, key))
 
-def articulated_rod_figures(figures: Figures, rod: ArticulatedRod) -> RodFigures:
-    """What [articulation] says of the rods that hang on the master rod."""
     return RodFigures(
-        length=figures.take("articulation.rod.length", rod.length) / 1e3,
-        mass=figures.take("articulation.rod.mass", rod.mass),
-        cg=figures.take("articulation.rod.cg", rod.cg) / 1e3,
-        inertia=over(figures.take_optional("articulation.rod.inertia", rod.inertia), 1e6),
+        length=over(take("length"), 1e3),
+        ratio=take("ratio"),
+        mass=take("mass"),
+        cg=over(take("cg"), 1e3),
+        small_end=take("small_end"),
+        big_end=take("big_end"),
+        inertia=over(take("inertia"), 1e6),
+        pendulum=_swing(figures, f"{path}.pendulum", rod.pendulum),
     )
 
 

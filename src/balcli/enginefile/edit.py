@@ -9,7 +9,7 @@ import tomllib
 from collections.abc import Mapping
 from typing import Any
 
-_HEAD = re.compile(r"(?m)^[ \t]*\[\[?[ \t\w.\"'-]+\]\]?[ \t]*(?:#.*)?$")
+HEAD = re.compile(r"(?m)^[ \t]*\[\[?[ \t\w.\"'-]+\]\]?[ \t]*(?:#.*)?$")
 # that can be replaced: a flat list, a string, a number
 _VALUE = r"""\[[^\[\]]*\]|"[^"\n]*"|'[^'\n]*'|[^\s#\[\]{"']+"""
 
@@ -50,12 +50,14 @@ def anew(data: Mapping[str, Any], reason: str) -> str:
 
 
 def written(value: Any) -> str:
-    """A number, or lists of them, as TOML has it: the shortest decimals that read back to the same
-    number.
+    """A number, or lists and tables of them, as TOML has it: the shortest decimals that read back
+    to the same number.
     """
-    return (
-        f"[{', '.join(map(written, value))}]" if isinstance(value, (list, tuple)) else repr(value)
-    )
+    if isinstance(value, (list, tuple)):
+        return f"[{', '.join(map(written, value))}]"
+    if isinstance(value, Mapping):
+        return f"{{ {', '.join(f'{key} = {written(inner)}' for key, inner in value.items())} }}"
+    return repr(value)
 
 
 def _changed(text: str, table: str, key: str, value: Any, note: str) -> str:
@@ -63,7 +65,7 @@ def _changed(text: str, table: str, key: str, value: Any, note: str) -> str:
     line = f"{key} = {written(value)}    # {note}\n"
     if head is None:
         return text if value is None else f"{text.rstrip()}\n\n[{table}]\n{line}"
-    following = _HEAD.search(text, head.end())
+    following = HEAD.search(text, head.end())
     end = following.start() if following else len(text)
     before, body, after = text[: head.end()] + "\n", text[head.end() + 1 : end], text[end:]
     old = re.search(rf"(?m)^([ \t]*{key}[ \t]*=[ \t]*)(?:{_VALUE})(?:([ \t]*#.*)|[ \t]*$)\n?", body)

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from importlib import import_module
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 from ..errors import Problem
 from ..limits import MOST_LIST_VALUES
@@ -23,26 +23,23 @@ TABLES: dict[str, type[model.Table]] = {
     "operation": model.Operation,
     "frame": model.Frame,
     "articulation": model.Articulation,
-    "body": model.Body,
 }
 # Tables of chapters beyond balance: the module of each, imported for files that have the table. Its
 # class is called like the key.
-CHAPTERS = {"gas": "gas_tables", "flywheel": "gas_tables", "bearing": "gas_tables"}
+CHAPTERS = {
+    "gas": "gas_tables",
+    "flywheel": "gas_tables",
+    "bearing": "gas_tables",
+    "torsion": "torsion_tables",
+    "body": "mounting_tables",
+}
+CHAPTER_LISTS = {"mount": "mounting_tables", "point": "mounting_tables"}  # each several times
 DEVICES: dict[str, type[model.Table]] = {
     "counterweight": model.Counterweight,
     "shaft": model.Shaft,
     "slider": model.Slider,
-    "mount": model.Mount,
-    "point": model.MarkedPoint,
 }
-KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES)
-INNER: dict[str, type[model.Table]] = {
-    "pendulum": model.Pendulum,
-    "rod_pendulum": model.Pendulum,
-    "speed_ripple": model.Ripple,
-    "rod": model.ArticulatedRod,
-}
-
+KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES, *CHAPTER_LISTS)
 WORDS = {
     "tuple_type": "{value} is not a list; write it in square brackets, such as [0, 180]",
     "model_type": "{value} is not a table; write it in braces with its keys",
@@ -59,14 +56,21 @@ OF_COMMANDS = dict.fromkeys(
 
 
 def import_table(key: str) -> type[model.Table]:
-    """The table of a key of CHAPTERS."""
-    module = import_module(f"{__package__}.{CHAPTERS[key]}")
+    """The table of a key; its module is imported, if it is of a chapter."""
+    if key in TABLES or key in DEVICES:
+        return (TABLES | DEVICES)[key]
+    module = import_module(f"{__package__}.{(CHAPTERS | CHAPTER_LISTS)[key]}")
     return getattr(module, key.capitalize())
 
 
 def import_tables() -> dict[str, type[model.Table]]:
     """All tables that stand once in a file, those of chapters too."""
     return TABLES | {key: import_table(key) for key in CHAPTERS}
+
+
+def import_lists() -> dict[str, type[model.Table]]:
+    """All tables that may stand several times in a file, those of chapters too."""
+    return DEVICES | {key: import_table(key) for key in CHAPTER_LISTS}
 
 
 class UnknownKey(NamedTuple):
@@ -110,18 +114,34 @@ def describe_finding(path: str, finding: Mapping[str, Any], table: type[model.Ta
         message = _describe_missing(table, loc)
     elif kind in ("too_short", "too_long"):
         message = _describe_length(value, context)
+    elif kind == "tuple_type" and isinstance(value, Mapping):
+        message = f"is one of several; write [[{join_path(path, loc)}]] in double brackets"
     else:
         message = WORDS.get(kind, OTHER).format(value=shorten(value))
-    if loc and isinstance(loc[-1], int):
+    if loc and isinstance(loc[-1], int) and not isinstance(value, Mapping):
         return Problem(join_path(path, loc[:-1]), f"the {_ordinal(loc[-1] + 1)} value {message}")
     return Problem(join_path(path, loc), message)
 
 
+def find_inner_table(table: type[model.Table], loc: Sequence[str | int]) -> type[model.Table]:
+    """The table in which the last part of a place stands: `table`, or one within it."""
+    for part in loc[:-1]:
+        field = table.keys().get(str(part))
+        table = table if field is None else find_table(field.annotation) or table
+    return table
+
+
+def find_table(annotation: Any) -> type[model.Table] | None:
+    """The table of which a field's type is made, alone or in a list; None: it is none."""
+    if isinstance(annotation, type) and issubclass(annotation, model.Table):
+        return annotation
+    return next(filter(None, map(find_table, get_args(annotation))), None)
+
+
 def _describe_missing(table: type[model.Table], loc: Sequence[str | int]) -> str:
     """With an example of the key, which may stand in a table within the table."""
-    *parents, key = loc
-    inner = next((INNER[str(part)] for part in reversed(parents) if part in INNER), table)
-    examples = inner.keys()[str(key)].examples
+    key = loc[-1]
+    examples = find_inner_table(table, loc).keys()[str(key)].examples
     example = shorten(examples[0]) if examples else "{ length = 200 }"
     return f"is missing; give it, such as {key} = {example}"
 
@@ -161,7 +181,7 @@ def describe_unknown_key(unknown: UnknownKey) -> tuple[Problem, str]:
 def _tables_with(key: str) -> Iterator[str]:
     """The tables of the file to which a key may belong, in words: exactly first, then nearly."""
     tables = {f"[{name}]": table for name, table in import_tables().items()}
-    tables |= {f"[[{name}]]": table for name, table in DEVICES.items()}
+    tables |= {f"[[{name}]]": table for name, table in import_lists().items()}
     for name, table in tables.items():
         if key in table.model_fields:
             yield f"{key} belongs to {name}"

@@ -17,26 +17,25 @@ from pydantic.fields import FieldInfo
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
 from .exclusive import Choice, find_repeated, join_words
-from .fields import FileName, Flag, Halves, Label, Number, OneOf, Whole, counted
+from .fields import FileName, Flag, Halves, Number, OneOf, Whole, counted
 from .units import (
     ANGLE,
-    DAMPING,
     INERTIA,
     LENGTH,
     MASS,
     PLAIN,
     SPEED,
     STANDARD_GRAVITY,
-    STIFFNESS,
     TIME,
     UNBALANCE,
 )
 
 if TYPE_CHECKING:
     from .gas_tables import Bearing, Flywheel, Gas
+    from .mounting_tables import Body, Mount, Point
+    from .torsion_tables import Torsion
 
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
-_PERPENDICULAR = 1e-6  # cosine between two axes that are
 
 # Bounds of figures are far beyond every engine; products and powers of them overflow nothing.
 Length = Annotated[float, Number(LENGTH, most=1e9)]
@@ -62,24 +61,7 @@ Intervals = Annotated[tuple[Interval, ...], Field(min_length=1, max_length=MOST_
 Numbers = Annotated[tuple[Count, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
 NumbersOfBanks = Annotated[tuple[Numbers, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
 Place = Annotated[tuple[Length, ...], Field(min_length=2, max_length=2)]
-Point = Annotated[tuple[Length, ...], Field(min_length=3, max_length=3)]
-Name = Annotated[str, Label()]
-Tensor = Annotated[
-    tuple[Annotated[float, Number(INERTIA, most=1e24)], ...], Field(min_length=6, max_length=6)
-]
-Direction = Annotated[
-    tuple[Annotated[float, Number(PLAIN, most=1e9)], ...], Field(min_length=3, max_length=3)
-]
-Directions = Annotated[tuple[Direction, ...], Field(min_length=2, max_length=2)]
-Turns = Annotated[tuple[Angle, ...], Field(min_length=3, max_length=3)]
-Stiffnesses = Annotated[
-    tuple[Annotated[float, Number(STIFFNESS, least=0, most=1e12)], ...],
-    Field(min_length=3, max_length=3),
-]
-Dampings = Annotated[
-    tuple[Annotated[float, Number(DAMPING, least=0, most=1e12)], ...],
-    Field(min_length=3, max_length=3),
-]
+Triple = Annotated[tuple[Length, ...], Field(min_length=3, max_length=3)]
 
 
 class Table(BaseModel):
@@ -369,7 +351,7 @@ class Operation(Table):
 class Frame(Table):
     """The engine's frame."""
 
-    reference: Point | None = Field(
+    reference: Triple | None = Field(
         None,
         examples=[[0, 0, 0]],
         description="x, y, z of the point about which all moments are taken; left out: on the "
@@ -378,18 +360,17 @@ class Frame(Table):
     )
 
 
-class ArticulatedRod(Table):
-    """An articulated rod, from its knuckle pin to its piston pin."""
+class ArticulatedRod(Rod):
+    """An articulated rod, from its knuckle pin (its big end) to its piston pin."""
 
-    length: Size = Field(description="from the knuckle pin to the piston pin", examples=[200])
-    mass: Mass = Field(0.0, description="mass of the whole rod", examples=[0.5])
-    cg: Length = Field(
-        0.0, description="from the knuckle pin to the centre of mass", examples=[100]
+    length: Size | None = Field(
+        None, description="from the knuckle pin to the piston pin", examples=[200]
     )
-    inertia: Inertia | None = Field(
-        None,
-        description="about the centre of mass; left out: two masses at the ends",
-        examples=[3500],
+    cg: Length | None = Field(
+        None, description="from the knuckle pin to the centre of mass", examples=[100]
+    )
+    big_end: Mass | None = Field(
+        None, description="mass weighed at the knuckle pin, instead of mass and cg", examples=[0.3]
     )
 
 
@@ -485,110 +466,12 @@ class Slider(Device):
     at: Place = Field((0.0, 0.0), description="x, y of its middle", examples=[[0, 0]])
 
 
-class Body(Table):
-    """All that rocks on the mounts: the engine with its gearbox, as one rigid body."""
-
-    mass: Annotated[float, Number(MASS, above=0, most=1e12)] = Field(
-        description="of the whole", examples=[163.9]
-    )
-    cg: Point = Field(
-        description="x, y, z of the centre of gravity, in the engine's axes",
-        examples=[[12, -8, 35]],
-    )
-    inertia: Tensor = Field(
-        description="xx, yy, zz, xy, yz, zx of the inertia tensor about the centre of gravity, as "
-        "they stand in the matrix (products of inertia with minus)",
-        examples=[[9.91e6, 4.12e6, 9.09e6, -0.813e6, 1.34e6, -0.472e6]],
-    )
-    gravity: Direction = Field(
-        (-1.0, 0.0, 0.0),
-        description="direction of the weight, of any length",
-        examples=[[-1, 0, 0]],
-    )
-
-    def contradictions(self) -> Iterator[str]:
-        if not any(self.gravity):
-            yield "gravity [0, 0, 0] has no direction; leave it out for -x, downwards"
-        yield from find_tensor_faults(self.inertia)
-
-
-def find_tensor_faults(inertia: tuple[float, ...]) -> Iterator[str]:
-    """Which elements of an inertia tensor (xx, yy, zz, xy, yz, zx) no body can have."""
-    moments = dict(zip(("xx", "yy", "zz"), inertia, strict=False))
-    products = dict(zip(("xy", "yz", "zx"), inertia[3:], strict=True))
-    faults = [
-        f"inertia {name} is {value:g}; a moment of inertia is above 0"
-        for name, value in moments.items()
-        if value <= 0
-    ]
-    if not faults:
-        for name, value in products.items():
-            most = math.sqrt(moments[2 * name[0]] * moments[2 * name[1]])
-            if abs(value) >= most:
-                faults.append(
-                    f"inertia {name} is {value:g}; beside {2 * name[0]} and {2 * name[1]} it must "
-                    f"be within {most:g}"
-                )
-    if not faults:
-        (a, b, c), (d, e, f) = moments.values(), products.values()
-        if a * b * c + 2 * d * e * f <= a * e**2 + b * f**2 + c * d**2:
-            faults.append(
-                "inertia xy, yz and zx are together too large: the tensor is not positive definite "
-                "(they are elements of the matrix: products of inertia with minus)"
-            )
-    yield from faults
-
-
-class Mount(Table):
-    """A mount: three springs at a point, between the body and the frame."""
-
-    choices = (Choice((("axes",), ("angles",))),)
-
-    name: Name = Field(description="what to call it", examples=["left"])
-    at: Point = Field(description="x, y, z, in the engine's axes", examples=[[-66, 463, 156]])
-    stiffness: Stiffnesses = Field(
-        description="static, along its three own axes", examples=[[349.5, 370.5, 453]]
-    )
-    axes: Directions | None = Field(
-        None,
-        description="first and second own axis in the engine's axes, perpendicular, of any length; "
-        "left out: x, y, z",
-        examples=[[[0, 1, 0], [-1, 0, 0]]],
-    )
-    angles: Turns | None = Field(
-        None,
-        description="instead of axes: turned about x, then y, then z by these",
-        examples=[[0, -10, 0]],
-    )
-    loss: Annotated[float, Number(PLAIN, least=0, most=10)] = Field(
-        0.0, description="loss factor of the stiffness", examples=[0.1]
-    )
-    damping: Dampings = Field(
-        (0.0, 0.0, 0.0), description="viscous, along its own axes", examples=[[0.4, 0.4, 0.4]]
-    )
-    dynamic_factor: Annotated[float, Number(PLAIN, above=0, most=100)] = Field(
-        1.0, description="dynamic over static stiffness; statics do not use it", examples=[1.3]
-    )
-
-    def contradictions(self) -> Iterator[str]:
-        if not any(self.stiffness):
-            yield "stiffness [0, 0, 0] holds nothing; give at least one above 0"
-        if self.axes:
-            first, second = self.axes
-            sizes = math.hypot(*first) * math.hypot(*second)
-            cosine = sum(a * b for a, b in zip(first, second, strict=True)) / (sizes or 1.0)
-            if sizes == 0:
-                yield "axes has a direction of length 0; give two directions such as [0, 1, 0]"
-            elif abs(cosine) > _PERPENDICULAR:
-                angle = math.degrees(math.acos(max(-1.0, min(1.0, cosine))))
-                yield f"axes are {angle:.4g} degrees apart; they must be perpendicular"
-
-
-class MarkedPoint(Table):
-    """A point of the body whose motion is wanted."""
-
-    name: Name = Field(description="what to call it", examples=["seat rail"])
-    at: Point = Field(description="x, y, z, in the engine's axes", examples=[[0, 500, 0]])
+def label_table(table: Table, number: int) -> str:
+    """What stands for a table of several in dotted names: its name, if that is a word, with `_` for
+    spaces; else its number.
+    """
+    name = getattr(table, "name", "").replace(" ", "_")
+    return name if name.isidentifier() else str(number)
 
 
 class EngineFile(Table):
@@ -611,6 +494,7 @@ class EngineFile(Table):
     gas: "Gas | None" = None
     flywheel: "Flywheel | None" = None
     bearing: "Bearing | None" = None
+    torsion: "Torsion | None" = None
     cylinder: dict[int, Override] = Field(
         {}, description="what differs in single cylinders, by their numbers"
     )
@@ -619,9 +503,9 @@ class EngineFile(Table):
     )
     shaft: tuple[Shaft, ...] = Field((), description="balancer shafts")
     slider: tuple[Slider, ...] = Field((), description="reciprocating balance masses")
-    body: Body | None = None
-    mount: tuple[Mount, ...] = Field((), description="what the body stands on")
-    point: tuple[MarkedPoint, ...] = Field((), description="points whose motion is wanted")
+    body: "Body | None" = None
+    mount: "tuple[Mount, ...]" = Field((), description="what the body stands on")
+    point: "tuple[Point, ...]" = Field((), description="points whose motion is wanted")
 
     _folder: Path = PrivateAttr(Path())
 
@@ -631,13 +515,14 @@ class EngineFile(Table):
         return self._folder
 
     def tables(self) -> Iterator[tuple[str, Table]]:
-        """Every table with its dotted name (`crank`, `shaft.1`, `cylinder.3`), as far as the file
+        """Every table with its dotted name (`crank`, `shaft.1`, `mount.left`), as far as the file
         has it or it has defaults; not the tables within tables.
         """
         for key, part in self:
             if isinstance(part, Table):
                 yield key, part
             elif isinstance(part, tuple):
-                yield from ((f"{key}.{number}", table) for number, table in enumerate(part, 1))
+                for number, table in enumerate(part, 1):
+                    yield f"{key}.{label_table(table, number)}", table
             elif isinstance(part, dict):
                 yield from ((f"{key}.{number}", table) for number, table in part.items())

@@ -21,15 +21,16 @@ from ..limits import (
 )
 from .fields import printable, shorten
 from .messages import (
+    CHAPTER_LISTS,
     CHAPTERS,
     DEVICES,
-    INNER,
     KNOWN,
     TABLES,
     TEXTS,
     UnknownKey,
     describe_finding,
     describe_unknown_key,
+    find_inner_table,
     import_table,
     is_miscounted,
     join_path,
@@ -105,15 +106,10 @@ def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Dra
             hint = f'such as "[{key}]" and "{example}" below it'
             reader.add(key, f"is missing; an engine needs it, {hint}")
     parts: dict[str, Any] = {key: reader.read_text(key, data[key]) for key in TEXTS if key in data}
-    for key, table in TABLES.items():
-        if key in data:
-            parts[key] = reader.read_table(key, data[key], table)
-    for key in CHAPTERS:
-        if key in data:
-            parts[key] = reader.read_table(key, data[key], import_table(key))
-    for key, table in DEVICES.items():
-        if key in data:
-            parts[key] = reader.read_devices(key, data[key], table)
+    for key in filter(data.__contains__, (*TABLES, *CHAPTERS)):
+        parts[key] = reader.read_table(key, data[key], import_table(key))
+    for key in filter(data.__contains__, (*DEVICES, *CHAPTER_LISTS)):
+        parts[key] = reader.read_devices(key, data[key], import_table(key))
     if "cylinder" in data:
         parts["cylinder"] = reader.read_cylinders(data["cylinder"])
     return reader.draft(parts, Path(name).parent)
@@ -134,7 +130,7 @@ class _Reader:
         cylinders: dict[int, Override | None] = parts.get("cylinder", {})
         broken = {key for key in REQUIRED if key not in parts}
         broken |= {key for key, part in parts.items() if part is None}
-        broken |= {key for key in DEVICES if None in (parts.get(key) or ())}
+        broken |= {key for key in (*DEVICES, *CHAPTER_LISTS) if None in (parts.get(key) or ())}
         read = {key: part for key, part in parts.items() if key not in broken}
         if None in cylinders.values():
             broken.add("cylinder")
@@ -238,7 +234,7 @@ class _Reader:
         for finding in findings:
             if finding["type"] == "extra_forbidden":  # in a table within the table
                 *parents, last = finding["loc"]
-                inner = INNER[str(parents[0])]
+                inner = find_inner_table(table, finding["loc"])
                 self.unknown.append(UnknownKey(join_path(path, parents), str(last), inner))
             elif not is_miscounted(finding):
                 self.problems.append(describe_finding(path, finding, table))

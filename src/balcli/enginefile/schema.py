@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import combinations, product
 from typing import Any
 
-from .messages import CHAPTERS, DEVICES, TABLES, import_table
+from .messages import CHAPTER_LISTS, CHAPTERS, DEVICES, TABLES, import_table
 from .model import EngineFile, Override, Table
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -15,7 +15,7 @@ def schema() -> dict[str, Any]:
     """JSON Schema (draft 2020-12) of an engine file: every key with description, unit, bounds and
     an example.
     """
-    chapters = {key.capitalize(): import_table(key) for key in CHAPTERS}
+    chapters = {key.capitalize(): import_table(key) for key in (*CHAPTERS, *CHAPTER_LISTS)}
     tables: list[type[Table]] = [
         *TABLES.values(),
         *chapters.values(),

@@ -92,6 +92,20 @@ def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Cu
     )
 
 
+def compute_inertia_torque(engine: Engine, crank_deg: Array) -> Array:
+    """Inertia torque of all cylinders on the crank, N m, shape (angles,), for an engine without
+    trailing axes.
+    """
+    return _torque_of_cylinders(_Motion(engine, crank_deg)).sum(axis=0)
+
+
+def compute_moving_inertia(engine: Engine, crank_deg: Array) -> Array:
+    """Moment of inertia about the crank of pistons, rods and what turns with the pins, kg m2, shape
+    (angles,), likewise.
+    """
+    return _inertia_of_cylinders(_Motion(engine, crank_deg)).sum(axis=0)
+
+
 def _sum_parts(
     engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, Array]]
 ) -> Curves:
@@ -259,12 +273,21 @@ def _torque_of_cylinders(motion: _Motion) -> Array:
     """
     c, r = motion.cylinders, motion.radius
     mass, couple = _column(c.reciprocating) * r**2, _column(c.couple)
-    inertia = mass * motion.v**2 + _column(c.rotating) * r**2 - couple * motion.spin**2
     half_slope = mass * motion.v * motion.a - couple * motion.spin * motion.spin_rate
     if (m := motion.linked) is not None:
-        inertia = inertia + motion.mass * r**2 * m.energy
         half_slope = half_slope + motion.mass * r**2 * m.power
+    inertia = _inertia_of_cylinders(motion)
     return np.asarray(-(half_slope * motion.omega**2 + motion.xi * inertia))
+
+
+def _inertia_of_cylinders(motion: _Motion) -> Array:
+    """I of each cylinder, kg m2, shape (cylinders, angles)."""
+    c, r = motion.cylinders, motion.radius
+    mass, couple = _column(c.reciprocating) * r**2, _column(c.couple)
+    inertia = mass * motion.v**2 + _column(c.rotating) * r**2 - couple * motion.spin**2
+    if (m := motion.linked) is not None:
+        inertia = inertia + motion.mass * r**2 * m.energy
+    return np.asarray(inertia)
 
 
 def _column(values: Array) -> Array:

@@ -17,7 +17,8 @@ from ..core.rigid_body import (
 )
 from ..core.singular_values import Real
 from ..enginefile.fields import counted, printable, shorten
-from ..enginefile.model import EngineFile, MarkedPoint, Mount
+from ..enginefile.model import EngineFile
+from ..enginefile.mounting_tables import Mount, Point
 from ..enginefile.units import STANDARD_GRAVITY
 from ..errors import InputError, Problem
 from ..limits import MOST_MOUNTS
@@ -110,7 +111,7 @@ def find_mounting_faults(
         yield from _find_twice("point", model.point)
 
 
-def _find_twice(key: str, tables: Sequence[Mount | MarkedPoint]) -> Iterator[Problem]:
+def _find_twice(key: str, tables: Sequence[Mount | Point]) -> Iterator[Problem]:
     met: dict[str, int] = {}
     for number, table in enumerate(tables, 1):
         first = met.setdefault(table.name, number)

@@ -65,10 +65,14 @@ class MountReport:
         met = [
             Meeting(k, float(order), mode.omega / float(order))
             for k, mode in enumerate(self.modes.six)
-            for order, load in zip(loads.orders, loads.inertia, strict=True)
-            if load.any()
+            for order in loads.orders[loads.there]
         ]
         return tuple(one for one in met if slowest <= one.omega <= fastest)
+
+
+def choose_speeds(engine: Engine) -> Real:
+    """(speeds,) rpm, where nobody says which: from an eighth of the engine's speed to this."""
+    return np.asarray(np.linspace(_SLOWEST, 1.0, _SPEEDS) * float(engine.speed_rpm))
 
 
 def report_mounts(
@@ -94,11 +98,10 @@ def report_mounts(
         BalcliError: as of `respond`; a scheme that cannot be fitted.
     """
     mounted = build_mounted_body(model, name)
-    modes = find_mounted_modes(mounted)
     if engine is None:
-        return MountReport(model.name, mounted, modes)
+        return MountReport(model.name, mounted, find_mounted_modes(mounted))
     try:
-        return _run(model.name, mounted, modes, engine, speeds_rpm, orders, scheme)
+        return _run(model.name, mounted, engine, speeds_rpm, orders, scheme)
     except BalcliError as error:
         raise BalcliError(f"{name}: {error}") from None
 
@@ -106,17 +109,16 @@ def report_mounts(
 def _run(
     name: str,
     mounted: MountedBody,
-    modes: BodyModes,
     engine: Engine,
     speeds_rpm: Real | None,
     orders: Sequence[float] | None,
     scheme: str | None,
 ) -> MountReport:
-    if speeds_rpm is None:
-        speeds_rpm = np.linspace(_SLOWEST, 1.0, _SPEEDS) * float(engine.speed_rpm)
-    omega = np.asarray(speeds_rpm) * (np.pi / 30)
+    rpm = choose_speeds(engine) if speeds_rpm is None else speeds_rpm
+    omega = rpm * (np.pi / 30)
     asked = None if orders is None else np.array(sorted(set(orders)), float)
     loads = find_loads(engine, mounted.body.centre, asked)
+    modes = find_mounted_modes(mounted, loads.mean)
     response = respond(mounted, modes, loads, omega)
     fitted = None
     if scheme is not None:

@@ -5,10 +5,11 @@ up in time, at every speed.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.cycle_peaks import find_longest, largest_of_ellipse
 from ..core.rigid_body import carry_points, load_at_centre, move_points, respond_body
@@ -17,13 +18,19 @@ from ..core.vibration import find_resonances, frequencies
 from ..engine.build import Engine
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..errors import BalcliError
-from ..forces.orders import choose_orders, find_relevant_orders
+from ..forces.orders import (
+    choose_orders,
+    find_relevant_orders,
+    list_gas_orders,
+    merge_orders,
+)
 from ..forces.spectrum import Spectra, compute_spectra
 from ..limits import MOST_MOUNT_RESULTS
 from .build import MountedBody
 from .modes import BodyModes
 
 _KINDS = ("force", "moment", "roll")
+_ROLL = 5  # of the six parts of a load, the moment about the crankshaft's axis
 _CLOSER = 30  # golden sections of the step of speed about a highest peak: 6e-7 of it
 _GOLDEN = (3 - 5**0.5) / 2
 
@@ -37,17 +44,29 @@ class Loads:
         inertia: (orders, 6) force (N) and moment about the centre of gravity (N m) at `omega`; they
             grow with the square of the speed.
         omega: rad/s.
+        gas: (orders, 6), the same at every speed: what the gas torque leaves as roll; None where
+            the file says nothing of gas.
+        mean: N m about the crankshaft's axis on the body, steady: the gas torque's reaction.
     """
 
     orders: Real
     inertia: Complex
     omega: float
+    gas: Complex | None = None
+    mean: float = 0.0
 
     def at(self, omega: Real) -> Complex:
         """(orders, *speeds, 6) at speeds (rad/s, any shape)."""
         square = (np.asarray(omega) / self.omega) ** 2
-        rows = self.inertia.reshape(len(self.orders), *(1,) * square.ndim, 6)
-        return np.asarray(rows * square[..., None])
+        shape = (len(self.orders), *(1,) * square.ndim, 6)
+        inertia = self.inertia.reshape(shape) * square[..., None]
+        return np.asarray(inertia if self.gas is None else inertia + self.gas.reshape(shape))
+
+    @property
+    def there(self) -> NDArray[np.bool_]:
+        """(orders,): which orders have any load."""
+        parts = [self.inertia] if self.gas is None else [self.inertia, self.gas]
+        return np.any(np.concatenate(parts, axis=1), axis=1)
 
 
 class Worst(NamedTuple):
@@ -109,14 +128,28 @@ def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Load
     """
     if not engine.places_known:
         raise BalcliError(MOMENTS_UNKNOWN)
-    wanted = find_relevant_orders(engine) if orders is None else orders
-    found = compute_spectra(engine, wanted[wanted > 0], _KINDS)
+    of_gas = () if engine.gas is None else list_gas_orders(engine.strokes)
+    wanted = merge_orders(find_relevant_orders(engine), of_gas) if orders is None else orders
+    kinds = _KINDS if engine.gas is None else (*_KINDS, "gas")
+    found = compute_spectra(engine, wanted[wanted > 0], kinds)
     if orders is None:
         found = found.select_orders(choose_orders(found))
     reference = np.array([float(value) for value in engine.reference_m])
-    load = _find_load(found, reference, centre)
-    there = load.any(axis=1) if orders is None else np.ones(len(load), bool)
-    return Loads(found.orders[there], load[there], float(engine.omega))
+    inertia = _find_load(found, reference, centre)
+    loads = Loads(found.orders, inertia, float(engine.omega))
+    if engine.gas is not None:
+        gas = np.zeros_like(inertia)
+        gas[:, _ROLL] = -found["gas"].x
+        mean = compute_spectra(engine, [0.0], ["gas"])["gas"].x[0].real
+        loads = replace(loads, gas=gas, mean=-float(mean))
+    return loads if orders is not None else _leave_out_none(loads)
+
+
+def _leave_out_none(loads: Loads) -> Loads:
+    """Without orders that have no load."""
+    there = loads.there
+    gas = None if loads.gas is None else loads.gas[there]
+    return replace(loads, orders=loads.orders[there], inertia=loads.inertia[there], gas=gas)
 
 
 def _find_load(found: Spectra, reference: Real, centre: Real) -> Complex:

@@ -7,12 +7,13 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from ..engine.positions import MOMENTS_UNKNOWN
-from ..forces.kinds import KINDS, VECTORS
+from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, VECTORS
 from ..forces.spectrum import Spectra
 from ..results.analysis import Analysis, Sizing
 from . import crankshaft, guide_moments, strokes, symmetry
 from .devices import device_grid
 from .engine_facts import engine_facts, speed_facts
+from .gas_torque import gas_grid, tell_rocking
 from .order_tables import (
     cylinder_table,
     direction_tables,
@@ -106,8 +107,8 @@ def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterato
         others = tell_others(spectra, shown, system)
         spectra = spectra.select_orders(shown)
     tables: list[Grid] = []
-    if view.parts.intersection(KINDS):
-        named = spectra.only(view.parts)
+    if view.parts.intersection(EVERY_KIND):
+        named = spectra.only(view.parts | (GAS_KINDS.keys() if GAS.name in view.parts else set()))
         tables += order_tables(named, system)
     if "xy" in view.parts:
         tables += direction_tables(spectra, system)
@@ -129,6 +130,7 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
         yield vectors_grid(vectors, shown, system)
     if (facts := roll_and_peaks(result, system)).pairs:
         yield facts
+    yield from gas_grid(result.spectra, system, every_order=view.every_order)
 
 
 def _peaks(result: Analysis, system: System) -> Iterator[Facts]:
@@ -146,6 +148,8 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
     spectra, known = _known_spectra(result), result.moments_known
     if result.spectra.vectors():
         told = verdict(spectra, system, result.of_one_cylinder)
+        if rocking := tell_rocking(spectra, system):
+            told = (*told, rocking)
         yield Text("Verdict", told if known else (*told, capitalized(f"{MOMENTS_UNKNOWN}.")))
 
 

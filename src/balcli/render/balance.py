@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.peaks import Peak
 from ..engine.positions import MOMENTS_UNKNOWN
-from ..forces.kinds import FORCE, MOMENT, ROLL
+from ..forces.kinds import FORCE, MOMENT, ROLL, Kind
 from ..results.balance import Balance
 from ..sizing.device_tables import name_kind
 from .analysis_data import brief_document
@@ -27,6 +27,8 @@ from .figures import assumptions, figure_rows
 from .scheme_details import details_document, details_parts
 from .sheet import (
     NAMELESS,
+    NOTHING,
+    UNKNOWN,
     Facts,
     Grid,
     Sheet,
@@ -94,24 +96,23 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
 def _orders(result: Balance, system: System) -> Grid:
     columns = (FORCE, MOMENT, ROLL)
 
+    units = {kind: _fit(result, kind, system) for kind in columns}
+
     def row(k: int) -> tuple[str, ...]:
         cells = [order_name(result.before.orders[k])]
-        for kind in columns:
-            unit = system.unit(kind)
+        for kind, unit in units.items():
             for analysis in (result.before, result.after):
                 phasors = analysis.spectra[kind.name]
                 if kind is MOMENT and not analysis.moments_known:
-                    cells.append("–")
+                    cells.append(UNKNOWN)
                     continue
                 cells.append(
-                    "balanced"
-                    if phasors.balanced[k]
-                    else number(unit.of(float(phasors.major[k])), 4)
+                    NOTHING if phasors.balanced[k] else number(unit.of(float(phasors.major[k])), 4)
                 )
         return tuple(cells)
 
     heads = [
-        head for kind in columns for head in (f"{kind.name}, {system.unit(kind).name}", "after")
+        head for kind, unit in units.items() for head in (f"{kind.name}, {unit.name}", "after")
     ]
     return Grid(
         "Largest value by order, before and after",
@@ -120,12 +121,18 @@ def _orders(result: Balance, system: System) -> Grid:
     )
 
 
+def _fit(result: Balance, kind: Kind, system: System) -> Unit:
+    """The unit for the largest value of the kind."""
+    both = (result.before.spectra[kind.name], result.after.spectra[kind.name])
+    return system.unit(kind).fit(max(float(p.major.max(initial=0)) for p in both))
+
+
 def _peaks(result: Balance, system: System) -> Grid:
     rows = []
     for (kind, before), (_, after) in zip(result.before.peaks, result.after.peaks, strict=True):
-        unit = system.unit(kind)
+        unit = system.unit(kind).fit(max(before.value, after.value))
         told = kind is not MOMENT or result.before.moments_known
-        cells = (*_peak(before, unit), *_peak(after, unit)) if told else ("–",) * 4
+        cells = (*_peak(before, unit), *_peak(after, unit)) if told else (UNKNOWN,) * 4
         rows.append((f"{kind.name}, {unit.name}", *cells))
     note = (
         "Sized for steady mean speed; both columns are those of the uneven speed."
@@ -142,7 +149,7 @@ def _peaks(result: Balance, system: System) -> Grid:
 
 def _peak(peak: Peak, unit: Unit) -> tuple[str, str]:
     if not peak.value:
-        return "none", "–"
+        return NOTHING, ""
     return number(unit.of(peak.value)), degrees(float(np.degrees(peak.theta)))
 
 

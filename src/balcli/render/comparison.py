@@ -6,7 +6,17 @@ from typing import TYPE_CHECKING, Any
 
 from ..forces.kinds import TORQUE
 from .csv import Rows, name_cell
-from .sheet import Grid, Sheet, capitalized, number, order_name, order_number
+from .sheet import (
+    NEGLIGIBLE,
+    NOTHING,
+    Grid,
+    Sheet,
+    Text,
+    capitalized,
+    number,
+    order_name,
+    order_number,
+)
 
 _TITLES = {TORQUE: "inertia torque"}
 
@@ -52,17 +62,39 @@ def _csv_line(line: Line, system: System) -> tuple[Any, ...]:
 def sheet(result: Comparison, system: System) -> Sheet:
     """Amplitudes, with ratios to the first engine's below their size."""
     heads = ("", result.names[0], *(head for name in result.names[1:] for head in (name, "ratio")))
-    grids = []
+    grids: list[Grid | Text] = []
+    nothing: list[str] = []
     for kind in dict.fromkeys(line.kind for line in result.lines):
-        unit = system.unit(kind)
-        lines = [line for line in result.lines if line.kind == kind]
+        every = [line for line in result.lines if line.kind == kind]
+        lines = every if result.whole else _find_lines_that_matter(every)
+        if not lines:
+            nothing.append(_TITLES.get(kind, kind.label))
+            continue
+        unit = system.unit(kind).fit(max(v for line in lines for v in line.values if v == v))
         title = f"{capitalized(_TITLES.get(kind, kind.label))}, {unit.name}: largest by order"
         grids.append(Grid(title, heads, tuple(_row(line, unit.of) for line in lines)))
+    if nothing:
+        grids.append(Text("", (f"Balanced in all of them: {', '.join(nothing)}.",)))
     return Sheet("Engines side by side", tuple(grids))
 
 
+def _find_lines_that_matter(lines: list[Line]) -> list[Line]:
+    """Orders that are not small beside the largest, and the peak; none if all are 0. What is not
+    known of one engine is told of low orders.
+    """
+    largest = max((v for line in lines for v in line.values if v == v), default=0.0)
+    return [line for line in lines if _matters(line, NEGLIGIBLE * largest)]
+
+
+def _matters(line: Line, least: float) -> bool:
+    known = [value for value in line.values if value == value]
+    if len(known) < len(line.values) and (line.order is None or line.order <= 2):
+        return True
+    return max(known, default=0.0) > least
+
+
 def _row(line: Line, of: Any) -> tuple[str, ...]:
-    first, *others = (number(of(value)) for value in line.values)
+    first, *others = (number(of(value)) if value else NOTHING for value in line.values)
     ratios = [number(ratio, 4) for ratio in line.ratios[1:]]
     return (
         "peak" if line.order is None else f"order {order_name(line.order)}",

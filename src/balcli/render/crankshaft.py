@@ -10,12 +10,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .figures import FigureRow, clean, order_rows, peak_angle_deg, peak_rows, vector_entries
-from .sheet import Facts, Grid, degrees, number, order_name, order_number
+from .sheet import NOTHING, Facts, Grid, degrees, number, order_name, order_number, size_text
 
 if TYPE_CHECKING:
     from ..forces.crankshaft import AlongCrank, InnerLoads
     from .units import System, Unit
 
+_OPEN_END = (
+    "Without bearings: what stands at the last place is the free moment of the whole engine, which "
+    "the mounts bear."
+)
 ORDERS_SHOWN = 6  # in a table, which has a column an order
 
 
@@ -24,7 +28,8 @@ def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts]:
     yield _grid(
         inner.shear, "Shear force in the crankshaft behind each load", system.force, system.length
     )
-    yield _grid(inner.bending, "Bending moment in the crankshaft", system.moment, system.length)
+    bending = _grid(inner.bending, "Bending moment in the crankshaft", system.moment, system.length)
+    yield bending._replace(note=_OPEN_END)
     if inner.bearings is not None:
         title = "Inertia loads of main bearings half-way between throws, shaft cut in each"
         yield _grid(inner.bearings, title, system.force, system.length)
@@ -69,6 +74,7 @@ def _grid(along: AlongCrank, title: str, unit: Unit, length: Unit) -> Grid:
     orders.
     """
     orders = along.phasors.orders[:ORDERS_SHOWN]
+    unit = unit.fit(max(peak.value for peak in along.peaks))
     heads = (
         f"place, {length.name}",
         "largest",
@@ -80,8 +86,8 @@ def _grid(along: AlongCrank, title: str, unit: Unit, length: Unit) -> Grid:
         peak, here = along.peaks[k], along.at(k)
         return (
             number(length.of(float(along.z_m[k]))),
-            number(unit.of(peak.value)),
-            degrees(float(np.degrees(peak.theta))) if peak.value else "–",
+            number(unit.of(peak.value)) if peak.value else NOTHING,
+            degrees(float(np.degrees(peak.theta))) if peak.value else "",
             *(number(unit.of(float(largest)), 4) for largest in here.major[: len(orders)]),
         )
 
@@ -90,9 +96,9 @@ def _grid(along: AlongCrank, title: str, unit: Unit, length: Unit) -> Grid:
 
 def _largest_bending(inner: InnerLoads, system: System) -> str:
     most = inner.bending.largest
-    moment = number(system.moment.of(inner.bending.peaks[most].value))
+    moment = size_text(inner.bending.peaks[most].value, system.moment, 5)
     place = number(system.length.of(float(inner.bending.z_m[most])))
-    return f"{moment} {system.moment.name} at {place} {system.length.name}"
+    return f"{moment} at {place} {system.length.name}"
 
 
 def _entry(along: AlongCrank, k: int) -> dict[str, Any]:

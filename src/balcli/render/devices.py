@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..enginefile.model import Counterweight, Shaft, Slider
@@ -42,18 +42,32 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
         f"x, y, {system.length.name}",
         f"z, {system.length.name}",
     )
-    rows = tuple(_grid_row(device, system) for device in remedy.devices)
-    return Grid("", heads, rows, note=ANGLES, words=(0, 3, 4))
+    free = remedy.free
+    rows = tuple(
+        _grid_row(device, anywhere, system)
+        for device, anywhere in zip(remedy.devices, free, strict=True)
+    )
+    note = " ".join([ANGLES, *_explain_places(remedy.devices, free)])
+    return Grid("", heads, rows, note, words=(0, 3, 4))
 
 
-def _grid_row(device: DeviceTable, system: System) -> tuple[str, ...]:
+def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Iterator[str]:
+    """What to know of shafts of which nobody has said where they stand."""
+    if any(free):
+        yield "free: the shaft may stand anywhere, for it makes a moment alone."
+    shafts = zip(devices, free, strict=True)
+    if any(isinstance(d, Shaft) and not any(d.at) and not anywhere for d, anywhere in shafts):
+        yield "At 0, 0, where the crank is, a shaft adds no roll: elsewhere it does."
+
+
+def _grid_row(device: DeviceTable, free: bool, system: System) -> tuple[str, ...]:
     match device:
         case Counterweight():
             turns, angle = "1", f"{degrees(device.angle)} from pin 1"
             place = "on the crank"
         case Shaft():
             turns, angle = f"{device.ratio:+d}", degrees(device.angle)
-            place = _place(device.at, system.length)
+            place = "free" if free else _place(device.at, system.length)
         case Slider():
             turns = str(device.order)
             angle = f"{degrees(device.angle)} along {degrees(device.direction)}"
@@ -144,8 +158,11 @@ def _holes_row(holes: Holes, unit: Unit) -> tuple[str, ...]:
 def device_entries(remedy: Remedy) -> dict[str, list[dict[str, Any]]]:
     """New devices in JSON, as an engine file would describe them."""
     entries: dict[str, list[dict[str, Any]]] = {f"{kind.__name__.lower()}s": [] for kind in FIELDS}
-    for device in remedy.devices:
-        entries[f"{name_kind(device)}s"].append(_device_entry(device))
+    for device, free in zip(remedy.devices, remedy.free, strict=True):
+        entry = _device_entry(device)
+        if isinstance(device, Shaft):
+            entry["free"] = free
+        entries[f"{name_kind(device)}s"].append(entry)
     return entries
 
 

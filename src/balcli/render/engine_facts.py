@@ -131,10 +131,9 @@ def _masses(engine: Engine, system: System, *, whole: bool) -> str:
         text += f", rotating {rotating} {unit.name} per rod"
         text += f" (big end{shells}, share of the throw)" * whole
         if len(on_pin) > 1 and engine.cylinders.linkage is None:
-            together = sum(
-                float(engine.weighed[k].rotating + engine.weighed[k].share) for k in on_pin
-            )
-            text += f"; {len(on_pin)} rods on the pin: {number(unit.of(together), 4)} {unit.name}"
+            sharing = [engine.weighed[k] for k in on_pin]
+            together = number(unit.of(sum(float(w.rotating + w.share) for w in sharing)), 4)
+            text += f" ({together} per pin of {len(on_pin)} rods)"
     return text + _unequal(engine)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from .figures import FigureRow, clean, order_rows, scalar_entries
-from .sheet import Grid, number, order_name, order_number
+from .sheet import NOTHING, UNKNOWN, Grid, number, order_name, order_number
 
 if TYPE_CHECKING:
     from ..core.phasors import Phasors
@@ -16,14 +16,16 @@ if TYPE_CHECKING:
 
 def sheet_parts(guide: GuideMoments, system: System) -> Iterator[Grid]:
     """One table, an order a row."""
+    both = [moment for moment in (guide.h, guide.x) if moment is not None]
+    unit = system.moment.fit(max(float(moment.major.max(initial=0)) for moment in both))
     yield Grid(
-        f"Guide-force moments of inertia alone, without gas, {system.moment.name}",
+        f"Guide-force moments of inertia alone, without gas, {unit.name}",
         ("order", "H-type", "X-type"),
         tuple(
             (
                 order_name(n),
-                _largest(guide.h, k, system.moment),
-                "–" if guide.x is None else _largest(guide.x, k, system.moment),
+                _largest(guide.h, k, unit),
+                UNKNOWN if guide.x is None else _largest(guide.x, k, unit),
             )
             for k, n in enumerate(guide.h.orders)
         ),
@@ -67,4 +69,5 @@ def _heights(guide: GuideMoments, system: System) -> str:
 
 
 def _largest(moment: Phasors, k: int, unit: Unit) -> str:
-    return number(unit.of(float(moment.major[k])))
+    size = float(moment.major[k])
+    return number(unit.of(size)) if size else NOTHING

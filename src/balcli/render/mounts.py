@@ -52,7 +52,10 @@ def _answer(result: MountReport, system: System) -> Iterator[str]:
         f"{number(rpm, 4)} rpm, of which order {order_number(worst.order)} alone makes "
         f"{number(force.of(worst.alone), 4)} {force.name}. {_explain(result, response, worst)}"
     )
-    yield "Of inertia alone: the torque of the gas, which rolls an engine too, is not in this."
+    if response.loads.gas is None:
+        yield "Of inertia alone: the torque of the gas, which rolls an engine too, is not in this."
+    else:
+        yield "Of inertia and the torque of the gas, the same diagram at every speed."
     if result.fitted is not None:
         after = max(result.fitted.response.worst_force, key=lambda one: one.value)
         change = after.value / worst.value - 1 if worst.value else 0.0
@@ -201,7 +204,12 @@ def _rest(result: MountReport, system: System) -> Grid:
         )
         for k, name in enumerate(result.mounted.names)
     ]
-    note = "Of the body on its mounts, under its weight; static stiffness."
+    loads = None if result.response is None else result.response.loads
+    mean = ""
+    if loads is not None and loads.mean:
+        moment = f"{number(system.moment.of(abs(loads.mean)), 4)} {system.moment.name}"
+        mean = f" and the reaction to a mean torque of {moment}"
+    note = f"Of the body on its mounts, under its weight{mean}; static stiffness."
     return Grid("At rest", tuple(heads), tuple(rows), note)
 
 

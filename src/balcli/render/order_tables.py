@@ -10,7 +10,19 @@ import numpy as np
 
 from ..forces.kinds import FORCE, GAS_KINDS, KINDS, MOMENT, ROLL, Kind
 from .figures import peak_deg, phase_deg
-from .sheet import Facts, Grid, capitalized, degrees, number, order_name, order_number
+from .sheet import (
+    NEGLIGIBLE,
+    NOTHING,
+    UNKNOWN,
+    Facts,
+    Grid,
+    capitalized,
+    degrees,
+    number,
+    order_name,
+    order_number,
+    size_text,
+)
 
 if TYPE_CHECKING:
     from ..core.peaks import Peak
@@ -21,11 +33,7 @@ if TYPE_CHECKING:
     from .units import System, Unit
 
 Cells = tuple[str, ...]
-# share of what one cylinder does, or of the largest order, below which a higher order is passed
-# over
-NEGLIGIBLE = 1e-3
 _UNKNOWN_SIZES: Mapping[str, float] = MappingProxyType({})
-NOTHING, UNKNOWN = "balanced", "–"  # how a force or moment of 0 is told, and one not known
 _AS_BUILT = (
     "Reciprocating masses in the planes of the throws; as built: with rotating masses and stagger, "
     "without devices."
@@ -172,12 +180,6 @@ def show_peak_deg(c: complex, order: float) -> str:
     """Where an amplitude is reached first, or a dash of a mean."""
     at = peak_deg(c, order)
     return UNKNOWN if at is None else degrees(at)
-
-
-def size_text(value: float, unit: Unit, digits: int = 4) -> str:
-    """A value (SI) in the unit that fits it, with its name."""
-    unit = unit.fit(value)
-    return f"{number(unit.of(value), digits)} {unit.name}"
 
 
 def _fit(unit: Unit, *columns: Phasors) -> Unit:

@@ -11,8 +11,19 @@ import numpy as np
 from ..enginefile.model import Counterweight, Shaft
 from ..forces.kinds import ROLL, Kind
 from ..sizing.device_tables import DeviceTable, find_unbalance
-from .order_tables import NEGLIGIBLE, NOTHING, UNKNOWN, peak_facts, size_text
-from .sheet import Facts, Grid, Text, capitalized, number, order_number
+from .order_tables import peak_facts
+from .sheet import (
+    NEGLIGIBLE,
+    NOTHING,
+    UNKNOWN,
+    Facts,
+    Grid,
+    Text,
+    capitalized,
+    number,
+    order_name,
+    size_text,
+)
 
 if TYPE_CHECKING:
     from ..core.phasors import Phasors
@@ -30,7 +41,7 @@ def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[
     return [
         float(order)
         for k, order in enumerate(spectra.orders)
-        if order <= 2
+        if order in (0, 1, 2)
         or any(p.major[k] > NEGLIGIBLE * single.get(kind.name, 0.0) for kind, p in spectra.items())
     ]
 
@@ -43,7 +54,7 @@ def vectors_grid(spectra: Spectra, shown: list[float], system: System) -> Grid:
     vectors = [(kind, p, _unit_of(kind, p, system)) for kind, p in chosen.vectors()]
 
     def row(k: int) -> Iterator[str]:
-        yield str(order_number(chosen.orders[k]))
+        yield order_name(chosen.orders[k])
         for _, phasors, unit in vectors:
             yield from _vector_cells(phasors, k, unit)
 
@@ -75,7 +86,7 @@ def tell_others(spectra: Spectra, shown: list[float], system: System) -> str:
         for kind, p in rest.items()
         if (largest := float(p.major.max()))
     ]
-    names = ", ".join(f"{order_number(order)}" for order in others[:6])
+    names = ", ".join(map(order_name, others[:6]))
     more = ", …" if len(others) > 6 else ""
     plural = "s" * (len(others) > 1)
     return f"Negligible: order{plural} {names}{more} (at most {', '.join(sizes)}). All: --all."
@@ -132,7 +143,7 @@ def _tell_roll(result: Analysis, roll: Phasors, system: System) -> str:
     rows = [k for k, size in enumerate(roll.major) if size > least]
     unit = system.moment.fit(float(roll.major.max(initial=0)))
     sizes = (
-        f"{order_number(roll.orders[k])}: {number(unit.of(float(roll.major[k])), 4)}" for k in rows
+        f"{order_name(roll.orders[k])}: {number(unit.of(float(roll.major[k])), 4)}" for k in rows
     )
     return f"order {', '.join(sizes)} {unit.name}" if rows else NOTHING
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.cylinders import Device
+from ..core.cylinders import SHAFT_RANK, Device
 from ..core.mechanisms.articulated import Articulated
 from ..core.mechanisms.rotary import Rotary
 from ..core.phasors import Phasors
@@ -18,6 +18,7 @@ from .figures import clean
 from .sheet import order_number
 from .units import System, Unit
 
+_SHAFT_WIDTH = 1.6  # crank radii that a shaft takes in the picture
 ASSUMED_BORE = 0.95  # of the stroke, where a file gives none: pistons have to be drawn
 
 
@@ -25,12 +26,13 @@ def scene(now: Analysis, after: Analysis | None, system: System) -> dict[str, An
     """The mechanism, and what shakes as the engine is and with devices fitted."""
     engine = now.engine
     stroke, bore = 2e3 * float(engine.cylinders.radius), clean(engine.bore_m * 1e3)
-    variants = [_variant_entry("as in the file", now, system)]
+    bore = bore or ASSUMED_BORE * stroke
+    variants = [_variant_entry("as in the file", now, system, bore)]
     if after is not None:
-        variants.append(_variant_entry("with the devices fitted", after, system))
+        variants.append(_variant_entry("with the devices fitted", after, system, bore))
     return {
         "stroke": stroke,
-        "bore": bore or ASSUMED_BORE * stroke,
+        "bore": bore,
         "rotary": isinstance(engine.cylinders.linkage, Rotary),
         "cylinders": _cylinder_entries(engine),
         "variants": variants,
@@ -74,11 +76,15 @@ def _cylinder_entries(engine: Engine) -> list[dict[str, Any]]:
     return found
 
 
-def _variant_entry(label: str, result: Analysis, system: System) -> dict[str, Any]:
+def _variant_entry(label: str, result: Analysis, system: System, bore: float) -> dict[str, Any]:
     force, moment = result.spectra.force, result.spectra.moment
+    drawn = place_beside(result.engine, bore / 1e3)
     return {
         "label": label,
-        "devices": [_device_entry(d) for d in result.engine.devices],
+        "devices": [
+            _device_entry(device, drawn.get(row))
+            for row, device in enumerate(result.engine.devices)
+        ],
         "force": [] if force is None else _vector_rows(force, system.force),
         "moment": []
         if moment is None or not result.moments_known
@@ -99,15 +105,42 @@ def _unit_entry(unit: Unit) -> dict[str, str]:
     return {"name": unit.name, "thousand": f"k{unit.name}" if unit.size == 1 else ""}
 
 
-def _device_entry(device: Device) -> dict[str, Any]:
-    """A device for the page: unbalance in g mm, places in mm."""
-    forward, backward, place = (complex(v) for v in (device.forward, device.backward, device.place))
+def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
+    """Where to draw the shafts that stand within the circle of the crank pins, where none can be:
+    beside the engine, those that turn with the crank on the right, the others on the left; x + iy
+    (m) by rows of the devices.
+
+    Args:
+        bore: m.
+    """
+    c = engine.cylinders
+    r = float(c.radius)
+    across, reach = np.sin(np.radians(c.axis_of_each_deg)), r + r / c.lam + bore
+    width = float(np.max(np.abs(across) * reach + (1 - np.abs(across)) * bore, initial=1.5 * r))
+    found: dict[int, complex] = {}
+    rows: dict[tuple[int, bool], int] = {}  # of each shaft on its side of the engine
+    for k, device in enumerate(engine.devices):
+        if device.rank != SHAFT_RANK or abs(complex(device.place)) >= r:
+            continue
+        ahead = bool(device.forward)
+        side = rows.setdefault((device.order, ahead), sum(way == ahead for _, way in rows))
+        found[k] = complex(-_SHAFT_WIDTH * r * side, (1 if ahead else -1) * (width + r))
+    return found
+
+
+def _device_entry(device: Device, drawn: complex | None) -> dict[str, Any]:
+    """A device for the page: unbalance in g mm, places in mm; `drawn`: where it is shown instead of
+    its place.
+    """
+    forward, backward = complex(device.forward), complex(device.backward)
+    place = complex(device.place) if drawn is None else drawn
     return {
         "order": order_number(device.order),
         "forward": [forward.real * 1e6, forward.imag * 1e6],
         "backward": [backward.real * 1e6, backward.imag * 1e6],
         "at": [place.real * 1e3, place.imag * 1e3],
         "z": float(device.z) * 1e3,
+        "beside": drawn is not None,
     }
 
 

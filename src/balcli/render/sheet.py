@@ -4,9 +4,16 @@ it.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from .units import Unit
 
 NAMELESS = "engine without a name"
+# share of what one cylinder does, or of the largest order, below which a higher order is passed
+# over
+NEGLIGIBLE = 1e-3
+NOTHING, UNKNOWN = "balanced", "–"  # a force or moment of 0, and one that is not known
 
 
 class Grid(NamedTuple):
@@ -77,6 +84,12 @@ def number(value: float, digits: int = 5) -> str:
         return f"{value:.0f}" if abs(value) >= 1 else f"{value:.{digits + 3}f}".rstrip("0")
     mantissa, exponent = text.split("e")
     return f"{mantissa}e{int(exponent)}"
+
+
+def size_text(value: float, unit: Unit, digits: int = 4) -> str:
+    """A value (SI) in the unit that fits it, with its name."""
+    unit = unit.fit(value)
+    return f"{number(unit.of(value), digits)} {unit.name}"
 
 
 def degrees(value: float, turn: float = 360) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.phasors import Complex, Phasors
 from ..results.analysis import Analysis
-from .sheet import Text, capitalized, number, order_name
+from .sheet import NOTHING, Text, capitalized, number, order_name, size_text
 from .units import System, Unit
 
 BAR, SIDE = 52, 17  # columns of the longest bar; rows of a locus, which has twice as many columns
@@ -89,4 +89,4 @@ def _set_dot(grid: np.ndarray, row: int, column: int) -> None:
 def _largest_size(phasors: Phasors, unit: Unit) -> str:
     curve: Complex = phasors.values(np.radians(np.arange(0, 360, 0.25)))
     largest = float(np.abs(curve).max())
-    return f"up to {number(unit.of(largest), 4)} {unit.name}" if largest else "none"
+    return f"up to {size_text(largest, unit)}" if largest else NOTHING

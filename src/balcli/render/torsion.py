@@ -1,23 +1,22 @@
-"""What a person and a program read of torsional vibration: modes, criticals, Holzer's tables, and
-forced vibration over speed.
+"""What a person reads of torsional vibration: modes, criticals, Holzer's tables, forced vibration
+over speed, and a damper that was sized.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+import math
 
 import numpy as np
 
-from ..core.singular_values import Real
-from ..torsion.analysis import HolzerTable, TorsionAnalysis
+from ..torsion.analysis import BEYOND, HolzerTable, TorsionAnalysis
+from ..torsion.damper_sizing import SizedDamper
 from ..torsion.response import Response
-from .csv import Rows, name_cell
-from .figures import clean
 from .sheet import Facts, Grid, Sheet, Text, number, order_number
+from .torsion_document import document, rows
 from .units import System
 
-_HEADER = ("part", "number", "speed_rpm", "order", "name", "figure", "value", "unit")
+__all__ = ["document", "rows", "sheet"]
+
 _MOST_MODES = 5  # shown with their shapes: more do not fit into a terminal
 _MOST_CRITICALS = 12  # shown: those that do most work
 _MOST_ORDERS = 3  # of a shaft's torque, named beside it
@@ -25,7 +24,10 @@ _MOST_ORDERS = 3  # of a shaft's torque, named beside it
 
 def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     """Modes first, then what was asked; units are SI."""
-    parts: list[Grid | Facts | Text] = [_modes(result), _shapes(result)]
+    parts: list[Grid | Facts | Text] = []
+    if result.damper is not None:
+        parts.append(_damper(result.damper))
+    parts += [_modes(result), _shapes(result)]
     if result.criticals:
         parts.append(_criticals(result))
     parts += [_holzer(result, table) for table in result.holzer]
@@ -34,6 +36,37 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     if result.barred_rpm is not None:
         parts.append(_barred(result))
     return Sheet(f"{result.system.name or 'chain without a name'}: torsion", tuple(parts))
+
+
+_DAMPER_KEYS = {
+    "inertia": ("ring", "kg·mm²"),
+    "damping": ("damping", "N·m·s/rad"),
+    "stiffness": ("stiffness", "N·m/rad"),
+    "loss": ("loss factor", ""),
+    "mass": ("pendulums, in all", "kg"),
+    "radius": ("hung up at a radius of", "mm"),
+    "length": ("length to the centre of mass", "mm"),
+}
+
+
+def _damper(sized: SizedDamper) -> Facts:
+    """What to make, and what it does."""
+    size, unit = (1e6, "N/mm²") if sized.measure == "stress" else (1, "N·m")
+    before = (
+        "without bound" if math.isinf(sized.before) else f"±{number(sized.before / size)} {unit}"
+    )
+    pairs = [("on", sized.node)]
+    for key, value in sized.damper.model_dump(exclude={"kind"}, exclude_none=True).items():
+        name, measured = _DAMPER_KEYS[key]
+        told = f"{number(float(value), 6)} {measured}".strip()
+        if key == sized.figure:
+            told += f" (of mode {sized.mode} by itself: {number(sized.start)})"
+        pairs.append((name, told))
+    pairs.append((f"largest {sized.measure} before", before))
+    pairs.append((f"largest {sized.measure} with it", f"±{number(sized.after / size)} {unit}"))
+    if sized.heat:
+        pairs.append(("heat", f"up to {number(sized.heat, 4)} W, at {number(sized.heat_rpm)} rpm"))
+    return Facts(tuple(pairs), f"Sized: a {sized.damper.kind} damper")
 
 
 def _modes(result: TorsionAnalysis) -> Grid:
@@ -95,6 +128,8 @@ def _criticals(result: TorsionAnalysis) -> Grid:
         for each in shown
     )
     note = "Those that do most work first; share: of all work done on the mode."
+    if result.response is None and result.system.rated_rpm:
+        note += f" To {number(BEYOND * result.system.rated_rpm)} rpm, {BEYOND:g} times the file's."
     left = len(result.criticals) - len(shown)
     if left:
         note += f" JSON has {left} more."
@@ -151,7 +186,7 @@ def _response(result: TorsionAnalysis, response: Response) -> Grid:
     swing = number(float(np.degrees(response.free_end[worst])), 4)
     note = (
         "Largest half of peak to peak, orders added up in time; sum: of their amplitudes, which "
-        f"never peak together. {result.system.nodes[0]} swings by ±{swing} deg at "
+        f"do not peak together. {result.system.nodes[0]} swings by ±{swing} deg at "
         f"{number(float(response.speeds_rpm[worst]))} rpm."
     )
     for k, name in enumerate(response.dampers):
@@ -189,178 +224,3 @@ def _barred(result: TorsionAnalysis) -> Facts:
     ranges = [f"{number(a)} to {number(b)} rpm" for a, b in result.barred_rpm or ()]
     barred = ", ".join(ranges) or "none in this range"
     return Facts((("limit", " and ".join(limits)), ("barred speeds", barred)), "Limits")
-
-
-# ------------------------------------------------------------------ for programs
-def document(result: TorsionAnalysis) -> dict[str, Any]:
-    """`balcli.torsion/1`, SI units."""
-    system = result.system
-    found: dict[str, Any] = {
-        "format": "balcli.torsion/1",
-        "name": system.name or None,
-        "nodes": [
-            {"name": name, "inertia_kg_m2": clean(inertia), "gear": clean(gear)}
-            for name, inertia, gear in zip(
-                system.nodes, system.chain.inertia, system.gears, strict=True
-            )
-        ],
-        "shafts": [
-            {"name": name, "stiffness_Nm_per_rad": _finite(stiffness)}
-            for name, stiffness in zip(system.shafts, system.chain.stiffness, strict=True)
-        ],
-        "modes": [
-            {
-                "frequency_Hz": clean(mode.frequency_hz),
-                "shape": _list(mode.shape),
-                "nodes": mode.nodes,
-                "node_in": list(mode.still),
-                "loss": clean(mode.loss),
-            }
-            for mode in result.modes
-        ],
-    }
-    if system.excitation is not None:
-        found["criticals"] = [
-            {
-                "mode": each.mode,
-                "order": order_number(each.order),
-                "speed_rpm": clean(each.speed_rpm),
-                "phase_sum": clean(each.phase_sum),
-                "work_share": clean(each.work_share),
-            }
-            for each in result.criticals
-        ]
-    if result.holzer:
-        found["holzer"] = [_holzer_document(result, table) for table in result.holzer]
-    if result.response is not None:
-        found["response"] = _response_document(result, result.response)
-    if result.barred_rpm is not None:
-        found["barred_rpm"] = [[clean(low), clean(high)] for low, high in result.barred_rpm]
-    return found
-
-
-def _holzer_document(result: TorsionAnalysis, asked: HolzerTable) -> dict[str, Any]:
-    table = asked.table
-    columns = (table.angle, table.torque, table.total, table.stiffness, table.twist)
-    keys = ("angle", "torque_Nm", "sum_Nm", "stiffness_Nm_per_rad", "twist")
-    rows = [
-        {"node": name, "inertia_kg_m2": clean(inertia)}
-        | {key: _finite(value) for key, value in zip(keys, values, strict=True)}
-        for name, inertia, *values in zip(
-            result.system.nodes, result.system.chain.inertia, *columns, strict=True
-        )
-    ]
-    mode = {} if asked.mode is None else {"mode": asked.mode}
-    frequency = {"frequency_Hz": clean(asked.omega / (2 * np.pi))}
-    return mode | frequency | {"rows": rows, "residual_Nm": clean(table.residual)}
-
-
-def _response_document(result: TorsionAnalysis, response: Response) -> dict[str, Any]:
-    shafts = []
-    for k, name in enumerate(result.system.shafts):
-        worst = int(np.argmax(response.torque[:, k]))
-        amplitudes = response.amplitudes[:, worst, k]
-        entry: dict[str, Any] = {
-            "name": name,
-            "half_peak_to_peak_Nm": _list(response.torque[:, k]),
-            "sum_of_amplitudes_Nm": _list(response.sums[:, k]),
-        }
-        if result.system.sections[k] is not None:
-            entry["stress_Pa"] = _list(response.stress[:, k])
-        entry["worst"] = {
-            "speed_rpm": clean(response.speeds_rpm[worst]),
-            "half_peak_to_peak_Nm": clean(response.torque[worst, k]),
-            "orders": [
-                {"order": order_number(float(order)), "amplitude_Nm": clean(amplitude)}
-                for order, amplitude in zip(response.orders, amplitudes, strict=True)
-            ],
-        }
-        shafts.append(entry)
-    found: dict[str, Any] = {
-        "speeds_rpm": _list(response.speeds_rpm),
-        "shafts": shafts,
-        "free_end_deg": _list(np.degrees(response.free_end)),
-    }
-    if response.dampers:
-        found["dampers"] = [
-            {"node": name.removesuffix(" ring"), "heat_W": _list(response.heat[:, k])}
-            for k, name in enumerate(response.dampers)
-        ]
-    return found
-
-
-def _list(values: Real) -> list[float | None]:
-    return [clean(value) for value in values]
-
-
-def _finite(value: float) -> float | None:
-    return clean(value) if np.isfinite(value) else None
-
-
-def rows(result: TorsionAnalysis, system: System) -> Rows:
-    """Every figure of the document a row, SI."""
-    return Rows(_HEADER, _lines(result))
-
-
-Line = tuple[Any, ...]
-
-
-def _lines(result: TorsionAnalysis) -> Iterator[Line]:
-    said = document(result)
-    for node in said["nodes"]:
-        name = name_cell(node["name"])
-        yield "node", None, None, None, name, "inertia", node["inertia_kg_m2"], "kg m2"
-        yield "node", None, None, None, name, "gear", node["gear"], ""
-    for shaft in said["shafts"]:
-        stiffness = shaft["stiffness_Nm_per_rad"]
-        yield "shaft", None, None, None, name_cell(shaft["name"]), "stiffness", stiffness, "N m/rad"
-    for number_, mode in enumerate(said["modes"], 1):
-        yield "mode", number_, None, None, "", "frequency", mode["frequency_Hz"], "Hz"
-        yield "mode", number_, None, None, "", "nodes", mode["nodes"], ""
-        yield "mode", number_, None, None, "", "loss", mode["loss"], ""
-        for node, angle in zip(said["nodes"], mode["shape"], strict=True):
-            yield "mode", number_, None, None, name_cell(node["name"]), "angle", angle, ""
-    for each in said.get("criticals", ()):
-        where = ("critical", each["mode"], each["speed_rpm"], each["order"], "")
-        yield *where, "phase_sum", each["phase_sum"], ""
-        yield *where, "work_share", each["work_share"], ""
-    for number_, table in enumerate(said.get("holzer", ()), 1):
-        yield from _holzer_lines(number_, table)
-    if "response" in said:
-        yield from _response_lines(said["response"])
-    for number_, (low, high) in enumerate(said.get("barred_rpm", ()), 1):
-        yield "barred", number_, None, None, "", "from", low, "rpm"
-        yield "barred", number_, None, None, "", "to", high, "rpm"
-
-
-_HOLZER_UNITS = {
-    "inertia_kg_m2": ("inertia", "kg m2"),
-    "angle": ("angle", ""),
-    "torque_Nm": ("torque", "N m"),
-    "sum_Nm": ("sum", "N m"),
-    "stiffness_Nm_per_rad": ("stiffness", "N m/rad"),
-    "twist": ("twist", ""),
-}
-
-
-def _holzer_lines(number_: int, table: dict[str, Any]) -> Iterator[Line]:
-    where = ("holzer", number_, None, None)
-    yield *where, "", "frequency", table["frequency_Hz"], "Hz"
-    for row in table["rows"]:
-        for key, (figure, unit) in _HOLZER_UNITS.items():
-            yield *where, name_cell(row["node"]), figure, row[key], unit
-    yield *where, "", "residual", table["residual_Nm"], "N m"
-
-
-def _response_lines(said: dict[str, Any]) -> Iterator[Line]:
-    for k, speed in enumerate(said["speeds_rpm"]):
-        where = ("response", None, speed, None)
-        for shaft in said["shafts"]:
-            name = name_cell(shaft["name"])
-            yield *where, name, "half_peak_to_peak", shaft["half_peak_to_peak_Nm"][k], "N m"
-            yield *where, name, "sum_of_amplitudes", shaft["sum_of_amplitudes_Nm"][k], "N m"
-            if "stress_Pa" in shaft:
-                yield *where, name, "stress", shaft["stress_Pa"][k], "Pa"
-        yield *where, "", "free_end", said["free_end_deg"][k], "deg"
-        for damper in said.get("dampers", ()):
-            yield *where, name_cell(damper["node"]), "heat", damper["heat_W"][k], "W"

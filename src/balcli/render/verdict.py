@@ -10,8 +10,7 @@ from typing import NamedTuple
 
 from ..core.phasors import Phasors
 from ..forces.spectrum import Spectra
-from .order_tables import NEGLIGIBLE
-from .sheet import capitalized, degrees, number
+from .sheet import NEGLIGIBLE, capitalized, degrees, number, order_name
 from .units import System, Unit
 
 _NAMES: dict[float, str] = {
@@ -72,6 +71,8 @@ def verdict(
 
 
 def _order_name(order: float) -> str:
+    if order % 1:
+        return f"Order {order_name(order)}"
     return f"{_NAMES.get(order) or f'{order:g}th'} order"
 
 

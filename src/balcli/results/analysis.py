@@ -33,7 +33,8 @@ if TYPE_CHECKING:  # whoever asks for one of these chapters loads it
     from ..forces.textbook import Textbook
     from ..sizing.remedy import Remedy
 
-QUANTITIES = (*KINDS, "peak", "sizing")
+UNASKED = (*KINDS, "peak")  # of every engine, unless something is named
+QUANTITIES = (*UNASKED, "sizing")
 EXTRAS = ("inner", "guide")  # computed only when they are named
 DEFAULT_ORDERS = (1.0, 2.0)
 
@@ -138,8 +139,7 @@ def analyze(
         engine: without trailing axes.
         orders: which orders to show; default: 1 and 2 (0 too at uneven speed) and all in which a
             quantity that was asked for exceeds 1e-6 of its own largest order, up to 512.
-        only: any of QUANTITIES, EXTRAS and `gas`; default: all QUANTITIES, and of an engine with
-            gas all that this does.
+        only: any of QUANTITIES, EXTRAS and `gas`; default: `list_quantities`.
         by_cylinder: also the phasors of every cylinder alone.
         reasons: also why each order is balanced, or is not.
         guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
@@ -172,10 +172,17 @@ def analyze(
     )
 
 
+def list_quantities(engine: Engine) -> tuple[str, ...]:
+    """What is computed of an engine unless something is named: all but sizing; with gas, all that
+    it does, too.
+    """
+    return (*UNASKED, *(GAS_KINDS if engine.gas is not None else ()))
+
+
 def _choose_quantities(engine: Engine, only: Collection[str] | None) -> set[str]:
-    """What is computed: with gas, all that it does, too; `gas` stands for all of that."""
+    """What is computed; `gas` stands for all that gas does."""
     if only is None:
-        return {*QUANTITIES, *(GAS_KINDS if engine.gas is not None else ())}
+        return set(list_quantities(engine))
     wanted = set(only)
     if strangers := sorted(wanted.difference(QUANTITIES, GAS_KINDS, EXTRAS)):
         raise BalcliError(

@@ -53,10 +53,17 @@ class Line:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Names of engines, and one line a figure."""
+    """Engines side by side.
+
+    Attributes:
+        names: of the engines.
+        lines: one a figure.
+        whole: whether people are shown orders that are negligible, too.
+    """
 
     names: tuple[str, ...]
     lines: tuple[Line, ...]
+    whole: bool = False
 
 
 def compare_engines(
@@ -64,6 +71,7 @@ def compare_engines(
     names: Sequence[str],
     orders: Iterable[float] | None = None,
     only: Collection[str] | None = None,
+    whole: bool = False,
 ) -> Comparison:
     """The free forces and moments of several engines: the largest of each order, and peaks.
 
@@ -73,12 +81,14 @@ def compare_engines(
         orders: default: all that `analyze` shows for one of them.
         only: as in `analyze`; of sizing, the peaks that are left with the devices; default: all
             but sizing, inner and guide.
+        whole: whether people are shown orders that are negligible, too; they are if orders are
+            given.
 
     Raises:
         BalcliError: fewer than two engines.
     """
     if len(engines) < 2:
-        raise BalcliError("there is one engine; name at least two to compare")
+        raise BalcliError("compare needs at least two engine files")
     wanted = set(QUANTITIES) - {"sizing"} if only is None else set(only)
     analyses = [analyze(engine, orders, wanted) for engine in engines]
     every = merge_orders(*(orders for one in analyses for orders in _list_orders(one)))
@@ -91,7 +101,7 @@ def compare_engines(
         *_compare_guide(analyses),
         *_compare_sizing(analyses),
     )
-    return Comparison(tuple(names), lines)
+    return Comparison(tuple(names), lines, whole or orders is not None)
 
 
 def _list_orders(one: Analysis) -> Iterator[Array]:

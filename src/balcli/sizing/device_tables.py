@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import cmath
 import math
-from typing import TypeAlias
+from collections.abc import Sequence
+from typing import TypeAlias, TypeGuard
 
 from ..core.phasors import EPS, reduced
 from ..enginefile.model import Counterweight, Shaft, Slider
@@ -20,6 +21,7 @@ FIELDS: dict[type[DeviceTable], tuple[str, ...]] = {
     Slider: ("order", "unbalance", "direction", "angle", "at", "position"),
 }
 KINDS = tuple(FIELDS)
+_ROUNDING = 1e-12  # of the largest eccentric: less together is no force
 
 
 def name_kind(device: DeviceTable) -> str:
@@ -30,6 +32,31 @@ def name_kind(device: DeviceTable) -> str:
 def find_unbalance(device: DeviceTable) -> float:
     """Unbalance of a device that a scheme made, kg m."""
     return (device.unbalance or 0.0) / 1e6
+
+
+def find_free(devices: Sequence[DeviceTable]) -> tuple[bool, ...]:
+    """Which devices belong to a shaft that may stand anywhere, because its eccentrics together make
+    a moment and no force, and nobody has said where it stands.
+    """
+    turned: dict[int, list[complex]] = {}
+    for device in devices:
+        if _stands_nowhere(device):
+            turned.setdefault(device.ratio, []).append(_as_vector(device))
+    free = {
+        ratio
+        for ratio, vectors in turned.items()
+        if len(vectors) > 1 and abs(sum(vectors)) <= _ROUNDING * max(map(abs, vectors))
+    }
+    return tuple(_stands_nowhere(device) and device.ratio in free for device in devices)
+
+
+def _stands_nowhere(device: DeviceTable) -> TypeGuard[Shaft]:
+    """A shaft on the crank axis, where it is put if nothing is said of its place."""
+    return isinstance(device, Shaft) and not any(device.at)
+
+
+def _as_vector(shaft: Shaft) -> complex:
+    return cmath.rect(find_unbalance(shaft), math.radians(shaft.angle))
 
 
 def make_counterweight(unbalance: complex, z: float, first_axis_deg: float) -> Counterweight:

@@ -55,10 +55,17 @@ def find_single_plane(residual: Residual, sense: int, within: tuple[float, float
     near = min(max(locate_force(residual, sense), low), high)
     legible = round(near, 12)  # m: to a thousandth of a nanometre, figures that people can read
     for z in (legible, near):
-        left = residual.moment(sense) - (z - residual.reference.z) * residual.force(sense)
-        if abs(left) <= residual.noise[Part("moment", sense)]:
+        if takes_moment(residual, sense, z):
             return z
     return None
+
+
+def takes_moment(residual: Residual, sense: int, z: float) -> bool:
+    """Whether one device at z (m) that takes the force turning in this sense takes its moment,
+    too.
+    """
+    left = residual.moment(sense) - (z - residual.reference.z) * residual.force(sense)
+    return abs(left) <= residual.noise[Part("moment", sense)]
 
 
 def choose_plane(engine: Engine, options: SchemeOptions, residual: Residual, sense: int) -> float:

@@ -17,7 +17,7 @@ def explain_counterweights(residual: Residual) -> str:
 
 
 def explain_shaft(residual: Residual, sense: int, count: int) -> str:
-    """Of this many eccentrics on one shaft, for the part that turns in this sense."""
+    """Of this many eccentrics on one shaft that take all that turns in this sense."""
     two = "eccentrics in two planes" if residual.force(sense) else "two opposite eccentrics"
     return (
         f"{_name(residual, sense)} turning {_turning(sense)} the crank: nothing on the crankshaft "
@@ -26,12 +26,23 @@ def explain_shaft(residual: Residual, sense: int, count: int) -> str:
     )
 
 
-def explain_halves(residual: Residual, sense: int) -> str:
-    """Of two shafts that share the force turning in this sense."""
-    return (
-        f"{explain_shaft(residual, sense, 1)}, in two halves on opposite sides of the crank so "
-        "that no roll is added"
+def explain_one_eccentric(
+    residual: Residual, sense: int, whole: bool, more: str, halves: bool = False
+) -> str:
+    """Of one eccentric for the force that turns in this sense, or of two halves of it.
+
+    Args:
+        whole: whether it takes the moment that turns so, too.
+        more: what would take the moment that stays otherwise.
+    """
+    what = _name(residual, sense) if whole else f"Order {residual.order} force"
+    reason = (
+        f"{what} turning {_turning(sense)} the crank: nothing on the crankshaft can cancel it; one "
+        f"eccentric on a shaft at {sense * residual.order:+d} times crank speed can"
     )
+    if halves:
+        reason += ", in two halves on opposite sides of the crank so that no roll is added"
+    return reason if whole else f"{reason}; a moment stays, which {more}"
 
 
 def explain_couple(residual: Residual, sense: int) -> str:
@@ -39,7 +50,7 @@ def explain_couple(residual: Residual, sense: int) -> str:
     return (
         f"Order {residual.order} moment turning {_turning(sense)} the crank: two opposite "
         f"eccentrics on a shaft at {sense * residual.order:+d} times crank speed make the opposite "
-        "moment and no force"
+        "moment and no force, wherever the shaft stands"
     )
 
 

@@ -11,7 +11,7 @@ from ..engine.build import Engine
 from ..engine.devices import build_device
 from ..enginefile.model import Counterweight, Shaft, Slider
 from .details import Bobweight, Detail, FactorPeaks, Optima, PlaneNeed
-from .device_tables import KINDS, DeviceTable
+from .device_tables import KINDS, DeviceTable, find_free
 
 T = TypeVar("T")
 
@@ -52,6 +52,11 @@ class Remedy(NamedTuple):
     def devices(self) -> tuple[DeviceTable, ...]:
         """Counterweights, shafts and sliders, in this order."""
         return (*self.counterweights, *self.shafts, *self.sliders)
+
+    @property
+    def free(self) -> tuple[bool, ...]:
+        """Which of `devices` may stand anywhere (`device_tables.find_free`)."""
+        return find_free(self.devices)
 
     def add_devices(self, added: Iterable[DeviceTable], reason: str) -> Remedy:
         """The remedy with further devices, all for the same reason."""

@@ -115,44 +115,49 @@ def find_residual(engine: Engine, order: int) -> Residual:
 def choose_residual(
     engine: Engine,
     options: SchemeOptions,
-    quantity: Literal["force", "moment"],
+    quantities: Sequence[Literal["force", "moment"]],
     senses: Sequence[int] = (1, -1),
 ) -> Residual:
-    """What is left at the order asked for, or else at the lowest where this quantity is not
-    balanced.
+    """What is left at the order asked for, or else at the lowest where one of these quantities is
+    not balanced.
 
     Args:
         senses: of rotation that count: 1 with the crank, -1 against it.
 
-    Raises NothingToBalanceError if nothing of the quantity is left, BalcliError for a moment that
-    is not known.
+    Raises NothingToBalanceError if nothing of them is left, BalcliError for a moment that is not
+    known.
     """
-    if quantity == "moment" and not engine.places_known:
+    if "moment" in quantities and not engine.places_known:
         raise BalcliError(MOMENTS_UNKNOWN)
     if options.order is None:
-        return _find_lowest(engine, quantity, senses)
+        return _find_lowest(engine, quantities, senses)
     residual = find_residual(engine, options.order)
-    if residual.has(quantity, senses):
+    if _has_any(residual, quantities, senses):
         return residual
     hint = ""
-    if quantity == "force" and residual.has("moment", senses):
+    if "moment" not in quantities and residual.has("moment", senses):
         hint = "; it has a free moment: couple-shaft"
-    if quantity == "moment" and residual.has("force", senses):
+    if "force" not in quantities and residual.has("force", senses):
         hint = "; it has a free force: two-shaft"
     raise NothingToBalanceError(
-        f"order {options.order} has no free {quantity}{_turning(senses)}: nothing to balance{hint}"
+        f"order {options.order} has no free {' or '.join(quantities)}{_turning(senses)}: nothing "
+        f"to balance{hint}"
     )
 
 
-def _find_lowest(engine: Engine, quantity: Quantity, senses: Sequence[int]) -> Residual:
-    """That of the lowest order at which something of this quantity is left."""
+def _has_any(residual: Residual, quantities: Sequence[Quantity], senses: Sequence[int]) -> bool:
+    return any(residual.has(quantity, senses) for quantity in quantities)
+
+
+def _find_lowest(engine: Engine, quantities: Sequence[Quantity], senses: Sequence[int]) -> Residual:
+    """That of the lowest order at which something of these quantities is left."""
     for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
         residual = find_residual(engine, order)
-        if residual.has(quantity, senses):
+        if _has_any(residual, quantities, senses):
             return residual
     raise NothingToBalanceError(
-        f"there is no free {quantity}{_turning(senses)} of orders 1 to {HIGHEST_ORDER_SOUGHT}: "
-        "nothing to balance; --order names a higher one"
+        f"there is no free {' or '.join(quantities)}{_turning(senses)} of orders 1 to "
+        f"{HIGHEST_ORDER_SOUGHT}: nothing to balance; --order names a higher one"
     )
 
 

@@ -10,7 +10,7 @@ SCHEMES: dict[str, tuple[str, ...]] = {
     "counterweights": ("order", "planes"),
     "factor": ("factor", "measured", "planes"),
     "minimax": ("planes", "position"),
-    "single-shaft": ("order", "at", "position"),
+    "single-shaft": ("order", "at", "position", "planes"),
     "two-shaft": ("order", "at", "position", "roll"),
     "four-shaft": ("at", "position"),
     "couple-shaft": ("order", "at", "planes"),

@@ -16,8 +16,8 @@ from .details import Detail
 from .effects import Slot
 from .fitting import Fitting
 from .options import SchemeOptions
-from .planes import choose_plane
-from .reasons import explain_halves, explain_shaft
+from .planes import choose_plane, takes_moment
+from .reasons import explain_one_eccentric
 from .remedy import Remedy
 from .residual import (
     BACKWARD_MOMENT,
@@ -36,7 +36,7 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     none is left (option `roll`).
     """
     try:
-        residual = choose_residual(engine, options, "force")
+        residual = choose_residual(engine, options, ("force",))
     except NothingToBalanceError as reason:
         if options.roll:
             raise BalcliError(
@@ -72,10 +72,8 @@ def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> F
         slots = [Slot("shaft", residual.order, sense, z, place) for place in standing]
         share = 1 / len(slots)
         unbalances = [-residual.force(sense) * share for _ in slots]
-        if len(slots) == 1:
-            reason = explain_shaft(residual, sense, 1)
-        else:
-            reason = explain_halves(residual, sense)
+        whole, more = takes_moment(residual, sense, z), "takes eccentrics in two planes"
+        reason = explain_one_eccentric(residual, sense, whole, more, halves=len(slots) > 1)
         fitting = fitting.add(slots, unbalances, reason)
     left = fitting.find_residual(residual.order)
     group = f"order {residual.order}"

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ..engine.build import Engine
+from ..errors import BalcliError
 from .details import Detail
 from .effects import Slot
 from .fitting import Fitting
@@ -12,57 +15,85 @@ from .planes import (
     find_counterweight_planes,
     locate_force,
     read_two_planes,
+    takes_moment,
 )
-from .reasons import explain_counterweights, explain_couple, explain_shaft
+from .reasons import (
+    explain_counterweights,
+    explain_couple,
+    explain_one_eccentric,
+    explain_shaft,
+)
 from .remedy import Remedy
 from .residual import (
+    BACKWARD,
     BACKWARD_FORCE,
     BACKWARD_MOMENT,
     FORWARD,
     FORWARD_FORCE,
     FORWARD_MOMENT,
     ROLL,
+    Residual,
     choose_residual,
 )
 
 
 def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
-    """One shaft at -N for the force of order N that turns against the crank; at N = 1
-    counterweights take what turns with it.
+    """One shaft at -N for what of order N turns against the crank; at N = 1 counterweights take
+    what turns with it.
 
-    The axial distance of the shaft from the force leaves a couple, which the details state; unless
-    a place is asked for, it stands where that couple is smallest.
+    One eccentric takes the force; its axial distance from the force leaves a couple, which the
+    details state, and unless a place is asked for, it stands where that couple is smallest. Two, in
+    the planes asked for, take the moment as well.
     """
-    residual = choose_residual(engine, options, "force", (-1,))
+    two = options.planes is not None
+    if two and options.position is not None:
+        raise BalcliError("--planes and --position both say where along the shaft: give one")
+    residual = choose_residual(engine, options, ("force", "moment") if two else ("force",), (-1,))
     fitting = Fitting.start(engine, "single-shaft", residual.order)
     if residual.order == 1:
         planes = find_counterweight_planes(engine, residual)
         weights = [Slot("counterweight", 1, 1, z) for z in planes]
         fitting = fitting.cancel(weights, FORWARD, explain_counterweights(residual))
-    z = choose_plane(engine, options, residual, -1)
-    slot = Slot("shaft", residual.order, -1, z, options.read_place())
-    fitting = fitting.cancel([slot], [BACKWARD_FORCE], explain_shaft(residual, -1, 1))
+    if two:
+        fitting = _add_two_eccentrics(fitting, residual, options)
+    else:
+        fitting = _add_one_eccentric(fitting, residual, options)
     left = fitting.find_residual(residual.order)
-    fitting = fitting.note(
-        Detail("couple left", "moment", left.size(BACKWARD_MOMENT)),
-        Detail("axial distance", "length", _round_off(z - locate_force(residual, -1))),
-        Detail("roll left", "moment", left.size(ROLL)),
-    )
+    fitting = fitting.note(Detail("roll left", "moment", left.size(ROLL)))
     if residual.order > 1:
         fitting = fitting.note(Detail("force with crank left", "force", left.size(FORWARD_FORCE)))
     return fitting.remedy
 
 
+def _add_one_eccentric(fitting: Fitting, residual: Residual, options: SchemeOptions) -> Fitting:
+    z = choose_plane(fitting.engine, options, residual, -1)
+    slot = Slot("shaft", residual.order, -1, z, options.read_place())
+    more = "eccentrics in two planes take, too: --planes"
+    reason = explain_one_eccentric(residual, -1, takes_moment(residual, -1, z), more)
+    fitting = fitting.cancel([slot], [BACKWARD_FORCE], reason)
+    left = fitting.find_residual(residual.order)
+    return fitting.note(
+        Detail("couple left", "moment", left.size(BACKWARD_MOMENT)),
+        Detail("axial distance", "length", _round_off(z - locate_force(residual, -1))),
+    )
+
+
+def _add_two_eccentrics(fitting: Fitting, residual: Residual, options: SchemeOptions) -> Fitting:
+    planes, place = read_two_planes(fitting.engine, options), options.read_place()
+    slots = [Slot("shaft", residual.order, -1, z, place) for z in planes]
+    return fitting.cancel(slots, BACKWARD, explain_shaft(residual, -1, 2))
+
+
 def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     """Shafts at +N and -N, each with two opposite eccentrics in two planes, for the moment of order
-    N.
+    N; where it turns in one sense alone, one of them.
     """
-    residual = choose_residual(engine, options, "moment")
+    residual = choose_residual(engine, options, ("moment",))
     low, high = read_two_planes(engine, options)
-    place = options.read_place()
+    places = _read_places(options, [sense for sense in (-1, 1) if residual.moment(sense)])
     fitting = Fitting.start(engine, "couple-shaft", residual.order)
-    for sense in (1, -1):
-        slots = [Slot("shaft", residual.order, sense, z, place) for z in (low, high)]
+    for sense in sorted(places, reverse=True):
+        slots = [Slot("shaft", residual.order, sense, z, places[sense]) for z in (low, high)]
         unbalance = residual.moment(sense) / (high - low)
         fitting = fitting.add(slots, (unbalance, -unbalance), explain_couple(residual, sense))
     left = fitting.find_residual(residual.order)
@@ -70,6 +101,17 @@ def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
         Detail("moment left", "moment", left.size(FORWARD_MOMENT, BACKWARD_MOMENT)),
         Detail("force left", "force", left.size(FORWARD_FORCE, BACKWARD_FORCE)),
     ).remedy
+
+
+def _read_places(options: SchemeOptions, senses: Sequence[int]) -> dict[int, complex]:
+    """Where the shafts of these senses stand, as asked for in this order; what is not said is free,
+    and counts as on the crank axis.
+    """
+    at = options.at or ()
+    if len(at) > len(senses):
+        told = "two shafts" if len(senses) == 2 else "one shaft"
+        raise BalcliError(f"--at: this moment takes {told}; give no more places")
+    return {sense: at[k] if k < len(at) else 0j for k, sense in enumerate(senses)}
 
 
 def _round_off(length: float) -> float:

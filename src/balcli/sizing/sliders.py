@@ -30,7 +30,7 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
 
     They stand where the stronger of the two rotating forces acts, unless a place is asked for.
     """
-    residual = choose_residual(engine, options, "force")
+    residual = choose_residual(engine, options, ("force",))
     forward, backward = residual.force(1), residual.force(-1)
     stronger = 1 if abs(forward) >= abs(backward) else -1
     z, place = choose_plane(engine, options, residual, stronger), options.read_place()

@@ -64,11 +64,14 @@ def _write_tables(remedy: Remedy) -> Iterator[str]:
         return
     yield f"\n# fitted by balcli, scheme {remedy.scheme}\n"
     told = ""
-    for device, reason in zip(remedy.devices, remedy.reasons, strict=True):
+    for device, reason, anywhere in zip(remedy.devices, remedy.reasons, remedy.free, strict=True):
         head = "" if reason == told else f"# {reason}\n"
         told = reason
+        notes = {"at": "  # free: it may stand anywhere"} if anywhere else {}
         entries = _list_entries(device)
-        lines = "".join(f"{key} = {written(value)}\n" for key, value in entries.items())
+        lines = "".join(
+            f"{key} = {written(value)}{notes.get(key, '')}\n" for key, value in entries.items()
+        )
         yield f"{head}[[{name_kind(device)}]]\n{lines}\n"
 
 

@@ -12,7 +12,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from itertools import product
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,8 +33,13 @@ from ..forces.quantity import (
 from ..forces.spectrum import count_samples
 from .parameters import Parameter, parse
 
+if TYPE_CHECKING:
+    from ..mounting.quantity import MountQuantity
+
 Array = NDArray[np.float64]
 Box = tuple[slice, ...]
+_OF_MOUNTS = ("mode", "mount", "point")  # beginnings of quantities of an engine on its mounts
+ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
 BYTES = 1 << 23  # of an array that a box needs: no more than the cache holds
 SAMPLES = 1 << 20  # of revolutions in a box: a tenth of a second
@@ -52,13 +58,23 @@ class Sweep:
 
     file: EngineFile
     parameters: tuple[Parameter, ...]
-    quantities: tuple[Quantity, ...]
+    quantities: tuple[Quantity | MountQuantity, ...]
     name: str = "engine"  # of the file, in messages
 
     @property
     def columns(self) -> list[str]:
         """Names of the parameters and quantities."""
         return [*(p.path for p in self.parameters), *(q.name for q in self.quantities)]
+
+    @property
+    def of_engine(self) -> tuple[Quantity, ...]:
+        """Quantities of forces and moments."""
+        return tuple(q for q in self.quantities if isinstance(q, Quantity))
+
+    @property
+    def of_mounts(self) -> tuple[MountQuantity, ...]:
+        """Quantities of the engine on its mounts."""
+        return tuple(q for q in self.quantities if not isinstance(q, Quantity))
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -103,9 +119,24 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str) -> Sweep:
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
-    sweep = Sweep(model, parameters, parse_quantity_list(quantities), name_file(file))
+    sweep = Sweep(model, parameters, _parse_quantities(quantities), name_file(file))
     check_corners(sweep)
     return sweep
+
+
+def _parse_quantities(text: str) -> tuple[Quantity | MountQuantity, ...]:
+    """Those of the engine and those of its mounts, in the order in which they are asked for."""
+    words = [word.strip() for word in text.split(",") if word.strip()]
+    of_mounts = [word for word in words if word.partition(".")[0] in _OF_MOUNTS]
+    if not of_mounts:
+        return parse_quantity_list(text)
+    from ..mounting.quantity import parse_mount_quantity
+
+    found = [
+        parse_mount_quantity(word) if word in of_mounts else parse_quantity_list(word)[0]
+        for word in words
+    ]
+    return tuple(dict.fromkeys(found))
 
 
 def check_corners(sweep: Sweep) -> None:
@@ -117,7 +148,11 @@ def check_corners(sweep: Sweep) -> None:
         InputError: one of them cannot be.
         BalcliError: a moment is asked for, and the file does not say where the throws stand.
     """
-    refuse_unknown(build_corners(sweep), sweep.quantities)
+    refuse_unknown(build_corners(sweep), sweep.of_engine)
+    if sweep.of_mounts:
+        from ..mounting.quantity import refuse_unknown_targets
+
+        refuse_unknown_targets(sweep.file, sweep.of_mounts)
 
 
 def build_corners(sweep: Sweep) -> Engine:
@@ -139,18 +174,48 @@ def evaluate_box(sweep: Sweep, box: Box) -> list[Array]:
         InputError: one of them cannot be.
     """
     shape = tuple(len(range(*cut.indices(n))) for cut, n in zip(box, sweep.shape, strict=True))
-    return [
-        np.broadcast_to(found, shape).ravel()
-        for found in evaluate_quantities(sweep.engine(box), sweep.quantities)
-    ]
+    values: dict[Quantity | MountQuantity, Array] = {}
+    if sweep.of_engine:
+        found = evaluate_quantities(sweep.engine(box), sweep.of_engine)
+        values |= dict(zip(sweep.of_engine, found, strict=True))
+    if sweep.of_mounts:
+        values |= dict(zip(sweep.of_mounts, _evaluate_mounts(sweep, box), strict=True))
+    return [np.broadcast_to(values[q], shape).ravel() for q in sweep.quantities]
+
+
+def _evaluate_mounts(sweep: Sweep, box: Box) -> list[Array]:
+    """Quantities of the mounts for all variants of a box, one by one, of the box's shape.
+
+    Raises:
+        InputError, BalcliError: one of them cannot be, with its figures.
+    """
+    from ..mounting.quantity import MountedVariants
+
+    axes = [p.values[cut] for p, cut in zip(sweep.parameters, box, strict=True)]
+    paths = [p.path for p in sweep.parameters]
+    variants = MountedVariants(sweep.file, sweep.of_mounts)
+    rows = []
+    for figures in product(*axes):
+        own = dict(zip(paths, map(float, figures), strict=True))
+        where = ", ".join(f"{path} = {value:g}" for path, value in own.items())
+        try:
+            rows.append(variants.evaluate(own))
+        except InputError as error:
+            raise InputError(error.problems, f"{sweep.name}: {where}") from None
+        except BalcliError as error:
+            raise BalcliError(f"{sweep.name}: {where}: {error}") from None
+    table = np.array(rows).reshape(*map(len, axes), len(sweep.of_mounts))
+    return list(np.moveaxis(table, -1, 0))
 
 
 def size_boxes(sweep: Sweep) -> int:
     """How many variants to compute at a time, by what those at the corners of the grid need: so
     many that a box is done in a fraction of a second and in little memory.
     """
+    if not sweep.of_engine:
+        return ALONE
     engine = build_corners(sweep)
-    orders = find_orders(engine, sweep.quantities)
+    orders = find_orders(engine, sweep.of_engine)
     figures = max(engine.cylinders.count * max(map(len, orders)), 2 * max(map(max, orders)))
     samples = count_samples(engine) // 2 ** len(sweep.parameters)
     most = min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), CHUNK)

@@ -10,11 +10,14 @@ import numpy as np
 
 from ..core.holzer_table import Holzer, tabulate_holzer
 from ..core.singular_values import Real
-from ..core.torsional_modes import chain_loss
 from ..errors import BalcliError
+from .damper_sizing import DamperAsked, SizedDamper, size_damper
+from .load import Source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes
-from .response import Response, find_barred, find_response
+from .response import Response, find_barred, find_response, tell_nobody
 from .system import TorsionalSystem
+
+BEYOND = 1.5  # times the file's own speed to which criticals are told: engines overspeed
 
 
 class HolzerAsked(NamedTuple):
@@ -39,11 +42,13 @@ class Question(NamedTuple):
         speeds_rpm: (speeds,) rising, at which the response is wanted; None: none is.
         orders: which of those that excite; None: all.
         holzer: tables that are wanted.
+        damper: that is to be sized; the answer is then about the system that has it.
     """
 
     speeds_rpm: Real | None = None
     orders: Real | None = None
     holzer: tuple[HolzerAsked, ...] = ()
+    damper: DamperAsked | None = None
 
 
 @dataclass(frozen=True)
@@ -53,10 +58,12 @@ class TorsionAnalysis:
     Attributes:
         system: what was analysed.
         modes: elastic ones, lowest first.
-        criticals: those that do most work first; in the range of speeds if there was one.
+        criticals: those that do most work first; in the range of speeds if there was one, else to
+            BEYOND times the file's own speed, if it gives one.
         holzer: tables.
         response: None: no speeds were asked for.
         barred_rpm: ranges of speed; None: there is no limit, or no response.
+        damper: that was sized; the system has it.
     """
 
     system: TorsionalSystem
@@ -65,35 +72,45 @@ class TorsionAnalysis:
     holzer: tuple[HolzerTable, ...]
     response: Response | None
     barred_rpm: tuple[tuple[float, float], ...] | None
-
-
-def _tell_nobody(done: int) -> None:
-    """Progress that nobody wants to know."""
+    damper: SizedDamper | None = None
 
 
 def analyze_torsion(
-    system: TorsionalSystem, question: Question, tell: Callable[[int], None] = _tell_nobody
+    source: Source, question: Question, tell: Callable[[int], None] = tell_nobody
 ) -> TorsionAnalysis:
-    """The answer; `tell` is called with the number of speeds done.
+    """The answer about a chain or an engine; `tell` is called with the number of speeds done.
 
     Raises:
         BalcliError: a response without excitation or through an undamped resonance; a mode that is
-            not there; Holzer's table of a chain with loops.
+            not there; Holzer's table of a chain with loops; a damper that nothing can carry.
+        InputError: what does not fit together in the file.
     """
+    if question.damper is None or question.speeds_rpm is None:
+        return analyze_system(source.system(), question, tell)
+    sized = size_damper(source, question.damper, question.speeds_rpm, question.orders)
+    fitted = source.with_damper(sized.node, sized.damper).system()
+    return replace(analyze_system(fitted, question, tell), damper=sized)
+
+
+def analyze_system(
+    system: TorsionalSystem, question: Question, tell: Callable[[int], None] = tell_nobody
+) -> TorsionAnalysis:
+    """The answer about a system as it is."""
     excitation = system.excitation
     if question.orders is not None and excitation is not None:
         excitation = excitation.only(question.orders)
         system = replace(system, excitation=excitation)
-    modes, named = find_natural_modes(system)
+    named = find_natural_modes(system)
     speeds = question.speeds_rpm
-    span = None if speeds is None else (float(speeds[0]), float(speeds[-1]))
+    span = (0.0, BEYOND * system.rated_rpm) if system.rated_rpm else None
+    if speeds is not None:
+        span = float(speeds[0]), float(speeds[-1])
     criticals = () if excitation is None else find_criticals(excitation, named, span)
     response, barred = None, None
     if speeds is not None:
         if excitation is None or not len(excitation.orders):
             raise BalcliError(f"{_called(system)}nothing excites it at the orders asked for")
-        loss = chain_loss(system.chain, system.damping, modes, system.attached(modes.omega))
-        response = find_response(system, excitation, modes, loss, speeds, tell)
+        response = find_response(system, excitation, speeds, tell)
         met = np.array([critical.speed_rpm for critical in criticals])
         barred = find_barred(system, excitation, response, met)
     tables = tuple(_tabulate(system, named, asked) for asked in question.holzer)

@@ -11,27 +11,12 @@ from pydantic import Field
 from ..enginefile.fields import Label, Number
 from ..enginefile.model import Table
 from ..enginefile.shafting import Damper, Damping, Loss, NodeInertia, ShaftKeys
-from ..enginefile.units import ANGLE, PLAIN, STRESS, TORQUE
+from ..enginefile.torsion_tables import AngleLimit, SpeedRatio, StressLimit
+from ..enginefile.units import PLAIN, TORQUE
 from ..limits import HIGHEST_TORSION_ORDER, MOST_TORSION_NODES
 
 Name = Annotated[str, Label()]
-Ratio = Annotated[float, Number(PLAIN, most=1e6)]
 Torque = Annotated[float, Number(TORQUE, most=1e18)]
-StressLimit = Annotated[float, Number(STRESS, above=0, most=1e9)]
-AngleLimit = Annotated[float, Number(ANGLE, above=0, most=1e3)]
-
-
-class _Ratio(Number):
-    """A speed ratio: not 0, negative where gears turn the other way."""
-
-    def __init__(self) -> None:
-        super().__init__(PLAIN, most=1e6)
-
-    def read(self, value: object) -> float:
-        ratio = super().read(value)
-        if abs(ratio) < 1e-6:
-            raise ValueError("is no speed ratio; give speed of `to` over speed of `from`, not 0")
-        return ratio
 
 
 class _HalfOrder(Number):
@@ -81,7 +66,7 @@ class Gear(Table):
         alias="from", examples=["pinion"], description="name of the node that drives"
     )
     to: Name = Field(examples=["wheel"], description="name of the node that is driven")
-    ratio: Annotated[float, _Ratio()] = Field(
+    ratio: Annotated[float, SpeedRatio()] = Field(
         examples=[-0.5],
         description="speed of `to` over speed of `from`; negative: they turn against each other",
     )

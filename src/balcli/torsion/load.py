@@ -1,19 +1,123 @@
-"""A file -> torsional system, whichever of both it describes: a chain, or an engine."""
+"""A file -> what `balcli torsion` works on, whichever it describes: a chain or an engine."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ..core.singular_values import Real
+from ..engine.build import Engine
+from ..engine.load import build_named, parse
+from ..enginefile.model import EngineFile
+from ..enginefile.shafting import Damper
+from ..enginefile.suspicious import suspicious
 from ..enginefile.toml_text import name_file, parse_toml, read_bytes
+from ..errors import BalcliError
 from .build_chain import build_chain
-from .read_chain import read_chain_tables
-from .system import TorsionalSystem
+from .build_engine import build_engine_system, excite_engine
+from .chain_file import ChainFile, Node
+from .read_chain import describes_chain, read_chain_tables
+from .system import Excitation, TorsionalSystem
 
 
-def load_system(path: str) -> TorsionalSystem:
-    """The system of a file, or on standard input for "-".
+@dataclass(frozen=True)
+class ChainSource:
+    """A chain file that has been read: its name, its text, what it says."""
+
+    file: str
+    text: bytes
+    model: ChainFile
+
+    def system(self) -> TorsionalSystem:
+        """What it describes. Raises InputError: what hangs together wrongly."""
+        return build_chain(self.model, self.file)
+
+    def doubts(self) -> tuple[str, ...]:
+        """What is suspicious of the file, in words."""
+        return ()
+
+    def dampers(self) -> Mapping[str, Damper | None]:
+        """What may carry a damper, by name, and those that do."""
+        return {node.name: node.damper for node in self.model.node}
+
+    def with_damper(self, name: str, damper: Damper | None) -> ChainSource:
+        """The same with this damper on a node."""
+
+        def fit(node: Node) -> Node:
+            return node.model_copy(update={"damper": damper}) if node.name == name else node
+
+        model = self.model.model_copy(update={"node": tuple(map(fit, self.model.node))})
+        return replace(self, model=model)
+
+
+@dataclass(frozen=True)
+class EngineSource:
+    """An engine file that has been read: its name, its text, what it says, the engine, and what
+    excites it.
+    """
+
+    file: str
+    text: bytes
+    model: EngineFile
+    engine: Engine
+    excitation: Excitation
+
+    def system(self) -> TorsionalSystem:
+        """What it describes. Raises InputError: what does not fit together in [torsion]."""
+        return build_engine_system(self.model, self.engine, self.excitation, self.file)
+
+    def doubts(self) -> tuple[str, ...]:
+        """What is suspicious of the file, in words, each by its path."""
+        gas = () if self.engine.gas is None else self.engine.gas.doubts
+        return (*suspicious(self.model), *gas)
+
+    def dampers(self) -> Mapping[str, Damper | None]:
+        """What may carry a damper, by name, and those that do."""
+        torsion = self.model.torsion
+        parts = () if torsion is None else (*reversed(torsion.front), *torsion.rear)
+        return {part.name: part.damper for part in parts}
+
+    def with_damper(self, name: str, damper: Damper | None) -> EngineSource:
+        """The same with this damper on a part."""
+        torsion = self.model.torsion
+        if torsion is None:
+            return self
+        lists = {
+            key: tuple(
+                part.model_copy(update={"damper": damper}) if part.name == name else part
+                for part in parts
+            )
+            for key, parts in (("front", torsion.front), ("rear", torsion.rear))
+        }
+        fitted = torsion.model_copy(update=lists)
+        return replace(self, model=self.model.model_copy(update={"torsion": fitted}))
+
+
+Source = ChainSource | EngineSource
+
+
+def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] = ()) -> Source:
+    """A file, or standard input for "-".
+
+    Args:
+        orders: (orders,) by which an engine is excited; None: to 12.
+        misfires: numbers of cylinders of an engine without gas force.
 
     Raises:
         BalcliError: it cannot be read; all its mistakes.
     """
-    name = name_file(path)
-    data = parse_toml(read_bytes(path), name)
-    return build_chain(read_chain_tables(data, name), name)
+    name, text = name_file(path), read_bytes(path)
+    data: Mapping[str, Any] = parse_toml(text, name)
+    if describes_chain(data):
+        if misfires:
+            raise BalcliError("--misfire: a chain has no cylinders")
+        return ChainSource(name, text, read_chain_tables(data, name))
+    model = parse(text, name)
+    engine = build_named(model, name)
+    if model.torsion is None:
+        raise BalcliError(
+            f"{name}: has no [torsion]; write it with throw_stiffness, throw_inertia and "
+            "[[torsion.rear]] for the flywheel, or a chain of [[node]] and [[shaft]]"
+        )
+    return EngineSource(name, text, model, engine, excite_engine(model, engine, orders, misfires))

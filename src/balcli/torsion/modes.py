@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.singular_values import Real
 from ..core.torsional_modes import chain_loss, count_nodes, find_chain_modes
-from ..core.vibration import Modes, scale_shapes
+from ..core.vibration import scale_shapes
 from .system import Excitation, TorsionalSystem
 
 _UNDRIVEN = 1e-10  # work up to this share of what all torques could do together is rounding
@@ -62,13 +62,13 @@ class Critical(NamedTuple):
     work_share: float
 
 
-def find_natural_modes(system: TorsionalSystem) -> tuple[Modes, tuple[NaturalMode, ...]]:
-    """All modes, the rigid ones too, with shapes of unit modal mass; and the elastic ones."""
+def find_natural_modes(system: TorsionalSystem) -> tuple[NaturalMode, ...]:
+    """The elastic modes, lowest first."""
     modes = find_chain_modes(system.chain)
     loss = chain_loss(system.chain, system.damping, modes, system.attached(modes.omega))
     elastic = range(modes.rigid, len(modes.omega))
     shapes = scale_shapes(modes.shapes[modes.rigid :]) if elastic else modes.shapes[:0]
-    named = tuple(
+    return tuple(
         NaturalMode(
             k - modes.rigid + 1,
             float(modes.omega[k]),
@@ -79,7 +79,6 @@ def find_natural_modes(system: TorsionalSystem) -> tuple[Modes, tuple[NaturalMod
         )
         for k in elastic
     )
-    return modes, named
 
 
 def find_still_shafts(system: TorsionalSystem, shape: Real) -> tuple[str, ...]:

@@ -10,9 +10,8 @@ from typing import Any, TypeVar
 from pydantic import ValidationError
 
 from ..enginefile.fields import counted, nearest, printable, shorten
-from ..enginefile.messages import describe_finding, is_miscounted, join_path
+from ..enginefile.messages import describe_finding, find_inner_table, is_miscounted, join_path
 from ..enginefile.model import Table
-from ..enginefile.shafting import Damper
 from ..errors import InputError, Problem
 from ..limits import MOST_LIST_VALUES, MOST_MISTAKES_SHOWN, MOST_TORSION_NODES
 from .chain_file import ChainFile, ChainShaft, Excitation, Gear, Node
@@ -99,11 +98,10 @@ def _refuse_key(path: str, key: str, table: type[Table]) -> Problem:
 
 
 def _describe(path: str, finding: Mapping[str, Any], table: type[Table]) -> Problem:
-    inner = Damper if "damper" in finding["loc"][:-1] else table
     if finding["type"] == "extra_forbidden":
-        hint = f"it has {', '.join(inner.keys())}"
+        hint = f"it has {', '.join(find_inner_table(table, finding['loc']).keys())}"
         return Problem(join_path(path, finding["loc"]), f"is no key of a damper; {hint}")
-    problem = describe_finding(path, finding, inner)
+    problem = describe_finding(path, finding, table)
     return problem._replace(path=problem.path.lstrip("."))
 
 

@@ -11,8 +11,9 @@ import numpy as np
 
 from ..core.cycle_peaks import find_swing, sum_amplitudes
 from ..core.singular_values import Complex, Real
+from ..core.torsional_modes import chain_loss, find_chain_modes
 from ..core.torsional_response import balance_power, respond_chain
-from ..core.vibration import Modes, UndampedResonanceError, find_resonances, frequencies
+from ..core.vibration import UndampedResonanceError, find_resonances, frequencies
 from ..errors import BalcliError
 from .system import Excitation, TorsionalSystem
 
@@ -58,25 +59,26 @@ class Motion(NamedTuple):
     heat: Real
 
 
+def tell_nobody(done: int) -> None:
+    """Progress that nobody wants to know."""
+
+
 def find_response(
     system: TorsionalSystem,
     excitation: Excitation,
-    modes: Modes,
-    loss: Real,
     speeds_rpm: Real,
-    tell: Callable[[int], None],
+    tell: Callable[[int], None] = tell_nobody,
 ) -> Response:
     """Vibration at speeds (speeds,), rising.
 
     Args:
         excitation: by which; that of the system, or some of its orders.
-        modes, loss: of the system, to see whether an undamped mode is met between the speeds.
         tell: is called with the number of speeds done.
 
     Raises:
         BalcliError: an undamped mode is driven at its own frequency.
     """
-    _refuse_resonance(system, modes, loss, excitation, speeds_rpm)
+    _refuse_resonance(system, excitation, speeds_rpm)
     parts = []
     for some in _split(system, excitation, speeds_rpm):
         parts.append(_summarise(system, excitation, speeds_rpm[some]))
@@ -161,12 +163,12 @@ def stress_by_torque(system: TorsionalSystem) -> Real:
     return np.array(found)
 
 
-def _refuse_resonance(
-    system: TorsionalSystem, modes: Modes, loss: Real, excitation: Excitation, rpm: Real
-) -> None:
+def _refuse_resonance(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> None:
     """Refuse a range in which an undamped mode is driven at its own frequency."""
     if system.pendulums:  # their inertia differs from order to order, and so do the modes
         return
+    modes = find_chain_modes(system.chain)
+    loss = chain_loss(system.chain, system.damping, modes, system.attached(modes.omega))
     speeds = rpm * np.pi / 30
     load = excitation.on_nodes(speeds, len(system.nodes))
     met = find_resonances(modes, loss, excitation.orders, speeds, load)
@@ -199,7 +201,12 @@ def find_barred(
     inner = criticals_rpm[(criticals_rpm > known[0]) & (criticals_rpm < known[-1])]
     between = np.setdiff1d(inner, known)
     speeds = np.concatenate([known, between])
-    excess = np.concatenate([_excess(system, response), _exceed(system, excitation, between)])
+    excess = np.concatenate(
+        [
+            _share_of_limits(system, response.torque, response.free_end),
+            _exceed(system, excitation, between),
+        ]
+    )
     rising = np.argsort(speeds)
     speeds, above = speeds[rising], excess[rising] > 0
     changes = np.flatnonzero(above[1:] != above[:-1])
@@ -220,10 +227,6 @@ def _exceed(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> Real:
         return np.zeros(0)
     torque, _, free_end, *_ = _summarise(system, excitation, rpm)
     return _share_of_limits(system, torque, free_end)
-
-
-def _excess(system: TorsionalSystem, response: Response) -> Real:
-    return _share_of_limits(system, response.torque, response.free_end)
 
 
 def _share_of_limits(system: TorsionalSystem, torque: Real, free_end: Real) -> Real:

@@ -91,6 +91,7 @@ class TorsionalSystem:
         limit_pa: stress above which a speed is barred.
         angle_limit: half swing of the first node, rad, above which a speed is barred.
         last: node at which Holzer's table ends.
+        rated_rpm: speed of the file's own; None: it gives none.
     """
 
     name: str
@@ -105,6 +106,7 @@ class TorsionalSystem:
     limit_pa: float | None = None
     angle_limit: float | None = None
     last: int = -1
+    rated_rpm: float | None = None
 
     @cached_property
     def gears(self) -> Real:

@@ -68,7 +68,7 @@
       for (const a of angles) for (const v of [-0.6 * bore, 0.6 * bore]) corners.push(turned([reach * 1.03, v], a));
     }
     for (const d of scene.variants.flatMap((variant) => variant.devices)) {
-      for (const s of [-0.5 * r, 0.5 * r]) corners.push([d.at[0] + s, d.at[1] + s]);
+      for (const s of [-0.7 * r, 0.7 * r]) corners.push([d.at[0] + s, d.at[1] + s]);
     }
     const labels = bankLabels();
     for (const { x, y, wide, high } of labels) corners.push([x + high, y - wide], [x - high, y + wide]);
@@ -144,7 +144,7 @@
       const v = add(spin(d.forward, d.order * theta), spin(d.backward, -d.order * theta));
       const angle = Math.atan2(v[1], v[0]) * 180 / Math.PI;
       const place = `translate(${y} ${-x}) rotate(${angle})`;
-      element("circle", { class: "shaft", r: radius, transform: place }, group);
+      element("circle", { class: d.beside ? "shaft dashed" : "shaft", r: radius, transform: place }, group);
       const half = `M ${-radius} 0 A ${radius} ${radius} 0 0 1 ${radius} 0 Z`;
       element("path", { class: "weight", d: half, transform: place }, group);
     }
@@ -268,7 +268,7 @@
         set(vector, { x2: (y * scale).toFixed(3), y2: (-x * scale).toFixed(3) });
         set(tip, { cx: y * scale, cy: -x * scale });
         const direction = (Math.atan2(y, x) * 180 / Math.PI).toFixed(0);
-        now.textContent = size ? `${figure(size, unit)} at ${direction}° from x` : "none";
+        now.textContent = size ? `${figure(size, unit)} at ${direction}° from x` : "balanced";
         chain.replaceChildren();
         let at = [0, 0];
         const links = (showChain ? rows : []).flatMap(([n, a, b, c, d]) => [
@@ -294,6 +294,9 @@
     byId("end-caption").textContent = "From the free end: x up, y to the right; "
       + "the cylinders turn clockwise, the crank stands still";
   }
+  if (scene.variants.some((variant) => variant.devices.some((d) => d.beside))) {
+    byId("end-caption").textContent += ". Dashed: shafts whose place is free, or not said, drawn beside the engine";
+  }
   const end = endView(), side = sideView();
   const views = {
     force: locusView("force", scene.units.force),
@@ -308,7 +311,7 @@
     return input;
   };
   const orders = scene.orders.map((n) => switchFor("orders", "checkbox", "order", n, n === 0 ? "mean" : n, true));
-  if (!orders.length) byId("orders").append("none is free");
+  if (!orders.length) byId("orders").append("balanced");
   const variants = scene.variants.map((v, k) => switchFor("variants", "radio", "variant", k, v.label, k === 0));
   byId("variants").hidden = variants.length < 2;
 

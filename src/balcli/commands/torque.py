@@ -1,0 +1,48 @@
+"""`balcli torque`"""
+
+from __future__ import annotations
+
+from ..render.formats import Units
+from . import torque_options as own
+from .file_names import require_ending, text_format
+from .options import FormatOption, Orders, Output, Speed, UnitsOption
+from .output import show
+from .overwrite_guard import refuse_overwriting
+
+
+def torque(
+    path: own.Engine = None,
+    fluctuation: own.Fluctuation = None,
+    cylinder: own.Cylinder = 1,
+    misfire: own.Misfire = None,
+    curve: own.Curve = None,
+    load: own.Load = None,
+    inertia: own.Inertia = None,
+    write: own.Write = None,
+    speed: Speed = None,
+    orders: Orders = None,
+    form: FormatOption = None,
+    units: UnitsOption = Units.SI,
+    output: Output = None,
+) -> None:
+    """Torque of gas and inertia on the crank: by order and over the cycle, mean torque and power,
+    the uneven speed and the flywheel; or what a given torque curve does.
+
+    `balcli torque v8.toml --fluctuation 1/200` says which inertia keeps the speed to that.
+    """
+    reads = [str(name) for name in (path, curve, load) if name is not None]
+    refuse_overwriting(reads=reads, writes={"--output": output, "--write": write})
+    form = text_format(output, form)
+    require_ending(write, ".toml", "--write")
+    from ..render import torque as renderer
+
+    engine_alone = {"--misfire": misfire, "--write": write, "--cylinder": cylinder != 1}
+    own.refuse_mixture(path, curve, engine_alone, {"--load": load, "--inertia": inertia})
+    if curve is not None:
+        given = own.analyze_given(curve, load, inertia, speed, orders, fluctuation)
+        show([given], renderer, form, output, units)
+        return
+    text, result = own.analyze_file(path or "", speed, orders, cylinder, misfire, fluctuation)
+    if write is not None:
+        own.write_uneven(text, result, write)
+    show([result], renderer, form, output, units)

@@ -1,0 +1,206 @@
+"""Options of `balcli torque`, and what is computed for them."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..enginefile.edit import changed
+from ..enginefile.units import INERTIA, convert
+from ..errors import BalcliError
+from .options import parse_orders, parse_speed
+from .output import write_file
+
+if TYPE_CHECKING:
+    from ..torque.analysis import TorqueAnalysis
+    from ..torque.given_curve import CurveAnalysis
+
+Engine = Annotated[
+    str | None,
+    typer.Argument(
+        metavar="FILE",
+        help="Engine file with [gas] (TOML); - reads standard input. Not with --curve.",
+        show_default=False,
+    ),
+]
+Fluctuation = Annotated[
+    str | None,
+    typer.Option(
+        metavar="1/200",
+        show_default=False,
+        help="Also the inertia that keeps (highest - lowest)/mean speed to this; or 0.5%.",
+    ),
+]
+Cylinder = Annotated[
+    int, typer.Option(metavar="N", help="Whose torque is shown beside the engine's.")
+]
+Misfire = Annotated[
+    list[int] | None,
+    typer.Option(
+        metavar="N", show_default=False, help="A cylinder without gas; may be given again."
+    ),
+]
+Curve = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="CSV",
+        show_default=False,
+        help="A torque instead of an engine: angle_deg,torque_Nm; the last row closes the period.",
+    ),
+]
+Load = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="CSV",
+        show_default=False,
+        help="With --curve: the torque that the load takes, likewise; default: the mean, evenly.",
+    ),
+]
+Inertia = Annotated[
+    str | None,
+    typer.Option(
+        metavar="KG_MM2",
+        show_default=False,
+        help="With --curve: of all that turns, in kg mm^2 or as '2 kg m^2'.",
+    ),
+]
+Write = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="OUT.toml",
+        show_default=False,
+        help="Write the engine file with this uneven speed (speed_ripple).",
+    ),
+]
+
+
+def parse_fluctuation(text: str | None) -> float | None:
+    """`1/200`, `0.005` or `0.5%`.
+
+    Raises:
+        BalcliError: anything else; what is not between 0 and 2.
+    """
+    if text is None:
+        return None
+    whole = r"\s*([0-9.]+(?:e-?[0-9]+)?)\s*(?:/\s*([0-9.]+)|(%))?\s*"
+    match = re.fullmatch(whole, text, re.ASCII)
+    try:
+        above, below, percent = match.groups() if match else ("", None, None)
+        found = float(above) / float(below or 1) / (100 if percent else 1)
+    except (ValueError, ZeroDivisionError):
+        found = math.nan
+    if not 0 < found < 2:
+        raise BalcliError(
+            f'--fluctuation "{text[:60]}": give (highest - lowest)/mean speed, such as 1/200 or '
+            "0.5%"
+        )
+    return found
+
+
+def parse_inertia(text: str | None) -> float | None:
+    """Kg m2.
+
+    Raises:
+        BalcliError: unless it is positive and finite.
+    """
+    if text is None:
+        return None
+    try:
+        found = float(text)
+    except ValueError:
+        try:
+            found = convert(text, INERTIA)
+        except ValueError as error:
+            raise BalcliError(f'--inertia "{text[:60]}": {error}') from None
+    if not 0 < found < 1e24:
+        raise BalcliError(f"--inertia {text[:60]}: give a moment of inertia above 0, in kg mm^2")
+    return found * 1e-6
+
+
+def analyze_file(
+    path: str,
+    speed: str | None,
+    orders: str | None,
+    cylinder: int,
+    misfire: list[int] | None,
+    fluctuation: str | None,
+) -> tuple[bytes, TorqueAnalysis]:
+    """Text of an engine file, and the torque of its engine."""
+    from ..torque.analysis import analyze_torque
+    from ..torque.course import silence
+    from .inputs import named_by_file, read_engine
+
+    source = read_engine(path, parse_speed(speed))
+    engine = named_by_file(source.engine, path)
+    for number in misfire or ():
+        engine = silence(engine, number)
+    asked, allowed = parse_orders(orders), parse_fluctuation(fluctuation)
+    return source.text, analyze_torque(engine, asked, cylinder=cylinder, fluctuation=allowed)
+
+
+def analyze_given(
+    curve: Path,
+    load: Path | None,
+    inertia: str | None,
+    speed: str | None,
+    orders: str | None,
+    fluctuation: str | None,
+) -> CurveAnalysis:
+    """A torque from a file."""
+    from ..torque.given_curve import Shaft, analyze_curve, read_curve
+
+    rpm = parse_speed(speed)
+    shaft = Shaft(None if rpm is None else rpm * math.pi / 30, parse_inertia(inertia))
+    return analyze_curve(
+        curve.stem,
+        read_curve(curve),
+        None if load is None else read_curve(load),
+        shaft,
+        fluctuation=parse_fluctuation(fluctuation),
+        orders=parse_orders(orders),
+    )
+
+
+def refuse_mixture(
+    path: str | None, curve: Path | None, alone: Mapping[str, object], given: Mapping[str, object]
+) -> None:
+    """Either an engine or a curve, and the options of one of them.
+
+    Args:
+        alone: options that need an engine, with their values.
+        given: options that need a curve.
+
+    Raises:
+        BalcliError: with what to leave out.
+    """
+    if (path is None) == (curve is None):
+        raise BalcliError("give an engine file, or --curve with a torque")
+    wrong = alone if path is None else given
+    for option, value in wrong.items():
+        if value:
+            needs = "an engine file" if path is None else "--curve"
+            raise BalcliError(f"{option} needs {needs}")
+
+
+def write_uneven(source: bytes, result: TorqueAnalysis, target: Path) -> None:
+    """The engine file with its speed as uneven as the torque makes it.
+
+    Raises:
+        BalcliError: the inertia is not known; the target cannot be written.
+    """
+    if result.flywheel is None or result.flywheel.speed is None:
+        raise BalcliError(
+            "--write: the speed is not known; give inertia in [crank] or [flywheel], such as "
+            "[flywheel] and inertia = 250000"
+        )
+    lines = [
+        {"order": line.order, "amplitude": line.amplitude, "angle": line.angle_deg}
+        for line in result.flywheel.speed.lines
+    ]
+    keys = {"speed": float(result.engine.speed_rpm), "speed_ripple": lines}
+    write_file(changed(source.decode("utf-8-sig"), "operation", keys, "by balcli torque"), target)

@@ -1,0 +1,77 @@
+"""What `balcli torsion` does between its options and its output."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..enginefile.toml_text import name_file
+from ..errors import BalcliError, say
+from ..render.plot.torsion import draw_torsion
+from ..torsion.analysis import Question, TorsionAnalysis, analyze_torsion
+from ..torsion.load import Source, load_source
+from ..torsion.write_damper import insert_damper
+
+if TYPE_CHECKING:
+    from ..render.plot.style import Form
+
+
+def require_options(asked: Question, write: Path | None, plot: Path | None, what: str) -> None:
+    """Refuse options without those that they belong to.
+
+    Raises:
+        BalcliError: with the option that is missing.
+    """
+    if asked.damper is not None and asked.speeds_rpm is None:
+        raise BalcliError(
+            "--damper: give the range in which it is to help, such as --speeds 1000:2500"
+        )
+    if write is not None and asked.damper is None:
+        raise BalcliError(
+            "--write: writes a damper into the file; say which, such as --damper viscous"
+        )
+    if plot is None and what != "all":
+        raise BalcliError(f"--what {what}: give --plot and a file for the picture")
+    if what in ("response", "waterfall") and asked.speeds_rpm is None:
+        raise BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")
+
+
+def find_answer(
+    path: str, asked: Question, misfires: Sequence[int], progress: bool
+) -> tuple[Source, TorsionAnalysis]:
+    """The file and what was asked about it."""
+    source = load_source(path, asked.orders, misfires)
+    for doubt in source.doubts():
+        say(f"warning: {name_file(path)}: {doubt}")
+    total = 0 if asked.speeds_rpm is None else len(asked.speeds_rpm)
+    with _telling_progress(total, progress and total > 0) as tell:
+        return source, analyze_torsion(source, asked, tell)
+
+
+@contextmanager
+def _telling_progress(total: int, wanted: bool) -> Iterator[Callable[[int], None]]:
+    """Something to tell the number of speeds done, which shows a bar on standard error."""
+    if not wanted:
+        yield lambda done: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+
+    columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("", total=total)
+        yield lambda done: bar.update(task, completed=done)
+
+
+def write_damper(source: Source, result: TorsionAnalysis) -> str:
+    """The text of the file with the damper that was sized."""
+    if result.damper is None:
+        raise BalcliError("--write: there is no damper to write")
+    return insert_damper(source.text, result.damper.node, result.damper.damper)
+
+
+def draw(result: TorsionAnalysis, what: str, form: Form) -> bytes:
+    """The content of a file with pictures."""
+    return draw_torsion(result, what, form)

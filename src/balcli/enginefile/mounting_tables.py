@@ -1,0 +1,141 @@
+"""Tables of an engine file about its mounts: [body], [[mount]] and [[point]].
+
+They are imported for files that have them (`messages.CHAPTERS`).
+"""
+
+import math
+from collections.abc import Iterator
+from typing import Annotated
+
+from pydantic import Field
+
+from .exclusive import Choice
+from .fields import Label, Number
+from .model import Angle, Table, Triple
+from .units import DAMPING, INERTIA, MASS, PLAIN, STIFFNESS
+
+Name = Annotated[str, Label()]
+Tensor = Annotated[
+    tuple[Annotated[float, Number(INERTIA, most=1e24)], ...], Field(min_length=6, max_length=6)
+]
+Direction = Annotated[
+    tuple[Annotated[float, Number(PLAIN, most=1e9)], ...], Field(min_length=3, max_length=3)
+]
+Directions = Annotated[tuple[Direction, ...], Field(min_length=2, max_length=2)]
+Turns = Annotated[tuple[Angle, ...], Field(min_length=3, max_length=3)]
+Stiffnesses = Annotated[
+    tuple[Annotated[float, Number(STIFFNESS, least=0, most=1e12)], ...],
+    Field(min_length=3, max_length=3),
+]
+Dampings = Annotated[
+    tuple[Annotated[float, Number(DAMPING, least=0, most=1e12)], ...],
+    Field(min_length=3, max_length=3),
+]
+
+_PERPENDICULAR = 1e-6  # cosine between two axes that are
+
+
+class Body(Table):
+    """All that rocks on the mounts: the engine with its gearbox, as one rigid body."""
+
+    mass: Annotated[float, Number(MASS, above=0, most=1e12)] = Field(
+        description="of the whole", examples=[163.9]
+    )
+    cg: Triple = Field(
+        description="x, y, z of the centre of gravity, in the engine's axes",
+        examples=[[12, -8, 35]],
+    )
+    inertia: Tensor = Field(
+        description="xx, yy, zz, xy, yz, zx of the inertia tensor about the centre of gravity, as "
+        "they stand in the matrix (products of inertia with minus)",
+        examples=[[9.91e6, 4.12e6, 9.09e6, -0.813e6, 1.34e6, -0.472e6]],
+    )
+    gravity: Direction = Field(
+        (-1.0, 0.0, 0.0),
+        description="direction of the weight, of any length",
+        examples=[[-1, 0, 0]],
+    )
+
+    def contradictions(self) -> Iterator[str]:
+        if not any(self.gravity):
+            yield "gravity [0, 0, 0] has no direction; leave it out for -x, downwards"
+        yield from find_tensor_faults(self.inertia)
+
+
+def find_tensor_faults(inertia: tuple[float, ...]) -> Iterator[str]:
+    """Which elements of an inertia tensor (xx, yy, zz, xy, yz, zx) no body can have."""
+    moments = dict(zip(("xx", "yy", "zz"), inertia, strict=False))
+    products = dict(zip(("xy", "yz", "zx"), inertia[3:], strict=True))
+    faults = [
+        f"inertia {name} is {value:g}; a moment of inertia is above 0"
+        for name, value in moments.items()
+        if value <= 0
+    ]
+    if not faults:
+        for name, value in products.items():
+            most = math.sqrt(moments[2 * name[0]] * moments[2 * name[1]])
+            if abs(value) >= most:
+                faults.append(
+                    f"inertia {name} is {value:g}; beside {2 * name[0]} and {2 * name[1]} it must "
+                    f"be within {most:g}"
+                )
+    if not faults:
+        (a, b, c), (d, e, f) = moments.values(), products.values()
+        if a * b * c + 2 * d * e * f <= a * e**2 + b * f**2 + c * d**2:
+            faults.append(
+                "inertia xy, yz and zx are together too large: the tensor is not positive definite "
+                "(they are elements of the matrix: products of inertia with minus)"
+            )
+    yield from faults
+
+
+class Mount(Table):
+    """A mount: three springs at a point, between the body and the frame."""
+
+    choices = (Choice((("axes",), ("angles",))),)
+
+    name: Name = Field(description="what to call it", examples=["left"])
+    at: Triple = Field(description="x, y, z, in the engine's axes", examples=[[-66, 463, 156]])
+    stiffness: Stiffnesses = Field(
+        description="static, along its three own axes", examples=[[349.5, 370.5, 453]]
+    )
+    axes: Directions | None = Field(
+        None,
+        description="first and second own axis in the engine's axes, perpendicular, of any length; "
+        "left out: x, y, z",
+        examples=[[[0, 1, 0], [-1, 0, 0]]],
+    )
+    angles: Turns | None = Field(
+        None,
+        description="instead of axes: turned about x, then y, then z by these",
+        examples=[[0, -10, 0]],
+    )
+    loss: Annotated[float, Number(PLAIN, least=0, most=10)] = Field(
+        0.0, description="loss factor of the stiffness", examples=[0.1]
+    )
+    damping: Dampings = Field(
+        (0.0, 0.0, 0.0), description="viscous, along its own axes", examples=[[0.4, 0.4, 0.4]]
+    )
+    dynamic_factor: Annotated[float, Number(PLAIN, above=0, most=100)] = Field(
+        1.0, description="dynamic over static stiffness; statics do not use it", examples=[1.3]
+    )
+
+    def contradictions(self) -> Iterator[str]:
+        if not any(self.stiffness):
+            yield "stiffness [0, 0, 0] holds nothing; give at least one above 0"
+        if self.axes:
+            first, second = self.axes
+            sizes = math.hypot(*first) * math.hypot(*second)
+            cosine = sum(a * b for a, b in zip(first, second, strict=True)) / (sizes or 1.0)
+            if sizes == 0:
+                yield "axes has a direction of length 0; give two directions such as [0, 1, 0]"
+            elif abs(cosine) > _PERPENDICULAR:
+                angle = math.degrees(math.acos(max(-1.0, min(1.0, cosine))))
+                yield f"axes are {angle:.4g} degrees apart; they must be perpendicular"
+
+
+class Point(Table):
+    """A point of the body whose motion is wanted."""
+
+    name: Name = Field(description="what to call it", examples=["seat rail"])
+    at: Triple = Field(description="x, y, z, in the engine's axes", examples=[[0, 500, 0]])

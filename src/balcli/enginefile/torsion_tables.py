@@ -1,0 +1,133 @@
+"""Table [torsion] of an engine file: what its crankshaft and all that hangs on it are like when
+they twist.
+
+It is imported for files that have it.
+"""
+
+from collections.abc import Iterator
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from ..limits import MOST_TORSION_NODES
+from .fields import Label, Number, counted, shorten
+from .model import Size, Table
+from .shafting import Damper, Damping, Loss, NodeInertia, ShaftKeys
+from .units import ANGLE, INERTIA, PLAIN, STRESS, TORSIONAL_STIFFNESS, Dimension
+
+StressLimit = Annotated[float, Number(STRESS, above=0, most=1e9)]
+AngleLimit = Annotated[float, Number(ANGLE, above=0, most=1e3)]
+
+
+class SpeedRatio(Number):
+    """A speed ratio: not 0, negative where gears turn the other way."""
+
+    def __init__(self) -> None:
+        super().__init__(PLAIN, most=1e6)
+
+    def read(self, value: object) -> float:
+        ratio = super().read(value)
+        if abs(ratio) < 1e-6:
+            raise ValueError(f"{ratio:g} is no speed ratio; give driven over driving speed, not 0")
+        return ratio
+
+
+class _EachOrAll(Number):
+    """One figure above 0 for all throws, or a list of them."""
+
+    def __init__(self, dimension: Dimension) -> None:
+        super().__init__(dimension, above=0, most=1e24)
+
+    def read(self, value: object) -> tuple[float, ...]:  # type: ignore[override]
+        if not isinstance(value, list):
+            return (super().read(value),)
+        if not 1 <= len(value) <= MOST_TORSION_NODES:
+            raise ValueError(
+                f"{shorten(value)} has {counted(len(value), 'value')}; give one for all, or a list "
+                f"of up to {MOST_TORSION_NODES}"
+            )
+        return tuple(super(_EachOrAll, self).read(each) for each in value)
+
+    def json(self) -> dict[str, Any]:
+        items = {"type": "array", "items": super().json(), "minItems": 1}
+        return {"anyOf": [super().json(), items], "unit": self.dimension.unit}
+
+
+class Part(ShaftKeys):
+    """What turns with the crankshaft before or behind its throws, and the shaft that leads to
+    it from the throws.
+    """
+
+    name: Annotated[str, Label()] = Field(
+        description="what to call it; each its own", examples=["flywheel"]
+    )
+    inertia: NodeInertia | None = Field(
+        None, description="moment of inertia; left out: a massless node", examples=[2.075e6]
+    )
+    gear: Annotated[float, SpeedRatio()] | None = Field(
+        None,
+        description="speed over that of the crank; left out: as fast as what it hangs on. The mesh "
+        "sits there, and the shaft turns with this part",
+        examples=[0.5],
+    )
+    of: Annotated[str, Label()] | None = Field(
+        None,
+        description="what it hangs on, a part or throw 1, throw 2, ...; left out: the part before "
+        "it in the list, the first on the nearest throw",
+        examples=["throw 1"],
+    )
+    node_damping: Damping = Field(0.0, description="of the part against ground", examples=[5])
+    damper: Damper | None = Field(
+        None,
+        description="a damper that it has",
+        examples=[{"kind": "viscous", "inertia": 30000, "damping": 12}],
+    )
+
+
+_Parts = Annotated[tuple[Part, ...], Field(max_length=MOST_TORSION_NODES)]
+
+
+class Torsion(Table):
+    """Torsional vibration: a node for each throw, and the parts before and behind them."""
+
+    throw_stiffness: Annotated[tuple[float, ...], _EachOrAll(TORSIONAL_STIFFNESS)] | None = Field(
+        None,
+        description="torsional stiffness between neighbouring throws, or a list of all",
+        examples=[1.25e6],
+    )
+    throw_inertia: Annotated[tuple[float, ...], _EachOrAll(INERTIA)] | None = Field(
+        None,
+        description="moment of inertia of the crankshaft at each throw, its own mass and "
+        "counterweights included, without rods and pistons; or a list of all; left out: an equal "
+        "share of crank.inertia",
+        examples=[46700],
+    )
+    throw_diameter: Size | None = Field(
+        None,
+        description="diameter of the crankshaft between throws: with it, stress is known",
+        examples=[85],
+    )
+    throw_bore: Size | None = Field(
+        None, description="diameter of its bore, if it has one", examples=[30]
+    )
+    damping: Damping = Field(0.0, description="at every cylinder, against ground", examples=[2])
+    loss: Loss = Field(
+        0.0, description="loss factor of every shaft that names none", examples=[0.035]
+    )
+    limit: StressLimit | None = Field(
+        None, description="stress of a shaft above which a speed is barred", examples=[40]
+    )
+    angle_limit: AngleLimit | None = Field(
+        None,
+        description="angle by which the foremost part may swing either way; above, a speed is "
+        "barred",
+        examples=[0.3],
+    )
+    front: _Parts = Field((), description="parts before the first throw, outward")
+    rear: _Parts = Field((), description="parts behind the last throw, outward")
+
+    def contradictions(self) -> Iterator[str]:
+        if self.throw_bore is not None and (
+            self.throw_diameter is None or self.throw_bore >= self.throw_diameter
+        ):
+            yield "has a throw_bore without a larger throw_diameter; the bore lies within the shaft"

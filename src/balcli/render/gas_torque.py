@@ -1,0 +1,70 @@
+"""What gas and inertia together do about the crank's axis, in brief."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .sheet import NEGLIGIBLE, Grid, degrees, number, order_name, size_text
+
+if TYPE_CHECKING:
+    from ..core.phasors import Phasors
+    from ..forces.spectrum import Spectra
+    from .units import System
+
+_SHOWN = ("torque", "gas", "torque_total", "roll_total")  # names of kinds
+
+
+def gas_grid(spectra: Spectra, system: System, *, every_order: bool) -> Iterator[Grid]:
+    """Inertia torque, gas torque, both together and the roll of the frame, by order, if all of them
+    are known; negligible orders are left out unless every one was asked for.
+    """
+    found = [phasors for kind, phasors in spectra.items() if kind.name in _SHOWN]
+    if len(found) < len(_SHOWN):
+        return
+    inertia, gas, total, roll = found
+    unit = system.moment.fit(float(max(p.major.max(initial=0) for p in found)))
+    least = NEGLIGIBLE * float(max(gas.major.max(initial=0), inertia.major.max(initial=0)))
+
+    def row(k: int) -> Iterator[str]:
+        yield order_name(spectra.orders[k])
+        for phasors in (inertia, gas, total, roll):
+            size = float(phasors.major[k])
+            yield number(unit.of(size), 4) if size else "balanced"
+        yield _tell_peak(roll, k)
+
+    shown = [
+        k
+        for k, order in enumerate(spectra.orders)
+        if order in (1, 2) or every_order or max(p.major[k] for p in found) > least
+    ]
+    yield Grid(
+        f"About the crank axis with gas, {unit.name}",
+        ("order", "inertia torque", "gas torque", "torque", "roll of the frame", "peak, deg"),
+        tuple(tuple(row(k)) for k in shown),
+        "Torque = inertia + gas. Mean torque, flywheel and more: balcli torque.",
+    )
+
+
+def tell_rocking(spectra: Spectra, system: System) -> str:
+    """Which order rocks the engine most, in a sentence; empty where that is not known."""
+    roll, gas, inertia = spectra.roll_total, spectra.gas, spectra.torque
+    if roll is None or gas is None or inertia is None:
+        return ""
+    size = np.where(roll.orders > 0, roll.major, 0)
+    if not size.any():
+        return "No order rocks the engine about the crank axis."
+    k = int(size.argmax())
+    parts = f"gas {size_text(float(gas.major[k]), system.moment)}, inertia "
+    parts += size_text(float(inertia.major[k]), system.moment)
+    most = size_text(float(size[k]), system.moment)
+    return f"Order {order_name(roll.orders[k])} rocks the engine most: roll of {most} ({parts})."
+
+
+def _tell_peak(roll: Phasors, k: int) -> str:
+    c, order = complex(roll.x[k]), float(roll.orders[k])
+    if not c or not order:
+        return ""
+    return degrees(float(np.degrees(-np.angle(c)) % 360) / order)

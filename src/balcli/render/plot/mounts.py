@@ -1,0 +1,173 @@
+"""Picture of an engine on its mounts: forces over speed, orders that meet modes, motion of points,
+and the body moving in each mode.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations, product
+from textwrap import fill
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...core.singular_values import Real
+from ...mounting.modes import BodyMode
+from ...mounting.report import MountReport
+from ...mounting.response import Response
+from ..sheet import NAMELESS, number, order_number
+from ..units import System, Unit
+from .style import (
+    BLUE,
+    FAINT,
+    GREEN,
+    INK,
+    PAPER,
+    RED,
+    SOFT,
+    Form,
+    fit_name,
+    open_figure,
+    save_figure,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_LOOKS = tuple(product(("-", "--", ":"), (BLUE, RED, GREEN, INK)))
+_MOST_CURVES = 12  # that are told apart
+_WIDEST, _THINNEST = 7.0, 0.6  # lines of orders, points
+_SWING = 0.22  # of the body's size, by which its farthest corner moves in a picture of a mode
+_SIZE, _SHAPES_ALONE = (11.0, 8.6), (11.0, 3.2)
+# x of the engine is up on the page, z runs to the right, y to the left and towards the reader
+_PROJECTION = np.array([[0.0, -0.62, 0.86], [1.0, -0.34, -0.28]])
+
+
+def draw_mounts(result: MountReport, form: Form, system: System) -> bytes:
+    """The picture in this form."""
+    title = f"{fit_name(result.name or NAMELESS)}: on its mounts"
+    with open_figure(*(_SHAPES_ALONE if result.response is None else _SIZE), form) as fig:
+        fig.suptitle(title, x=0.01, ha="left")
+        if result.response is None:
+            shapes = fig.subplots(1, 6)
+        else:
+            halves: Any = fig.subfigures(2, 1, height_ratios=(2.1, 1))
+            upper, lower = halves
+            several = upper.subplots(1, 3 if result.mounted.point_names else 2)
+            _draw_forces(several[0], result, system.force)
+            _draw_meetings(several[1], result, result.response)
+            if result.mounted.point_names:
+                _draw_motions(several[2], result, system.length)
+            shapes = lower.subplots(1, 6)
+        for k, (ax, mode) in enumerate(zip(shapes, result.modes.six, strict=True), 1):
+            _draw_mode(ax, k, mode, result)
+        return save_figure(fig, form)
+
+
+def _draw_forces(ax: Axes, result: MountReport, unit: Unit) -> None:
+    curves = [(each.force_peak, name) for each, name in _responses(result)]
+    _draw_curves(ax, result, result.mounted.names, curves, unit)
+    ax.set_title("Force of each mount")
+    ax.set_ylabel(f"{unit.name}, all orders")
+
+
+def _draw_motions(ax: Axes, result: MountReport, unit: Unit) -> None:
+    curves = [(each.motion_peak, name) for each, name in _responses(result)]
+    _draw_curves(ax, result, result.mounted.point_names, curves, unit)
+    ax.set_title("Motion of points")
+    ax.set_ylabel(f"{unit.name}, all orders")
+
+
+def _responses(result: MountReport) -> list[tuple[Response, str]]:
+    """Without a scheme, and with it, with what to add to a name."""
+    found = [] if result.response is None else [(result.response, "")]
+    if result.fitted is not None:
+        found.append((result.fitted.response, f", {result.fitted.remedy.scheme}"))
+    return found
+
+
+def _draw_curves(
+    ax: Axes,
+    result: MountReport,
+    names: Sequence[str],
+    curves: Sequence[tuple[Real, str]],
+    unit: Unit,
+) -> None:
+    """Over speed, a curve for each name; those with a scheme are thin and of the same look."""
+    response = result.response
+    if response is None:
+        return
+    for k, name in enumerate(names[:_MOST_CURVES]):
+        line, colour = _LOOKS[k % len(_LOOKS)]
+        for values, more in curves:
+            ax.plot(
+                response.speeds_rpm,
+                [unit.of(value) for value in values[:, k]],
+                color=colour,
+                linestyle="-." if more else line,
+                linewidth=1.0 if more else 1.8,
+                label=f"{fit_name(name, 20)}{more}",
+            )
+    ax.set_ylim(bottom=0)
+    ax.set_xlabel("rpm")
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
+
+
+def _draw_meetings(ax: Axes, result: MountReport, response: Response) -> None:
+    """Orders over speed, as wide as the force of the mount that feels most; modes lie across."""
+    hardest = int(np.argmax([worst.value for worst in response.worst_force]))
+    force = response.force[:, :, hardest]
+    largest = force.max() or 1.0
+    rpm = response.speeds_rpm
+    highest = 2.5 * result.modes.six[-1].hertz
+    for n, order in enumerate(response.loads.orders):
+        hertz = order * rpm / 60
+        width = np.maximum(_WIDEST * force[n] / largest, _THINNEST)
+        if width.max() > _THINNEST:
+            ax.scatter(rpm, hertz, s=width**2, color=BLUE, linewidths=0, zorder=3)
+        ax.plot(rpm, hertz, color=BLUE, linewidth=_THINNEST)
+        inside = hertz < 0.97 * highest
+        if inside.any():
+            last = int(np.flatnonzero(inside)[-1])
+            ax.text(rpm[last], hertz[last], f" {order_number(order)}", color=INK, va="bottom")
+    for k, mode in enumerate(result.modes.six, 1):
+        ax.axhline(mode.hertz, color=RED, linewidth=0.8)
+        ax.text(rpm[-1], mode.hertz, f"{k}", color=RED, ha="right", va="bottom")
+    ax.set_ylim(0, highest)
+    ax.set_xlim(rpm[0], rpm[-1] if len(rpm) > 1 else rpm[0] + 1)
+    ax.set_title("Orders (blue) meet modes (red)")
+    ax.set_xlabel(f"rpm; width: force of {fit_name(result.mounted.names[hardest], 20)}")
+    ax.set_ylabel("Hz")
+
+
+def _draw_mode(ax: Axes, k: int, mode: BodyMode, result: MountReport) -> None:
+    """A block of the body's mass and inertia at rest and at the end of its swing, with its
+    mounts.
+    """
+    body = result.mounted.body
+    half = _find_half_sizes(body.mass, np.diagonal(body.inertia))
+    corners = np.array(list(product((-1, 1), repeat=3))) * half
+    turned = mode.shape[:3] + np.cross(mode.shape[3:], corners)
+    farthest = float(np.linalg.norm(turned, axis=1).max()) or 1.0
+    scale = _SWING * 2 * float(half.max()) / farthest
+    places = result.mounted.dynamic.at - body.centre
+    moved = places + scale * (mode.shape[:3] + np.cross(mode.shape[3:], places))
+    for points, colour, width in ((corners, FAINT, 1.0), (corners + scale * turned, BLUE, 1.4)):
+        flat = points @ _PROJECTION.T
+        for i, j in combinations(range(8), 2):
+            if np.sum(corners[i] != corners[j]) == 1:
+                ax.plot(*flat[[i, j]].T, color=colour, linewidth=width)
+    rest, away = places @ _PROJECTION.T, moved @ _PROJECTION.T
+    ax.plot(*rest.T, "o", color=SOFT, markersize=3, markerfacecolor=PAPER)
+    for one, other in zip(rest, away, strict=True):
+        ax.plot(*np.stack([one, other]).T, color=SOFT, linewidth=0.8)
+    ax.plot(*away.T, "o", color=RED, markersize=3)
+    ax.set_aspect("equal")
+    ax.set_axis_off()
+    ax.set_title(f"{k}: {number(mode.hertz, 3)} Hz\n{fill(mode.motion, 22)}", fontsize=8.5, pad=4)
+
+
+def _find_half_sizes(mass: float, moments: Real) -> Real:
+    """(3,) of an even block of this mass and these moments of inertia, m."""
+    squares = 1.5 * (moments.sum() - 2 * moments) / mass
+    return np.sqrt(np.maximum(squares, 0.05 * squares.max()))

@@ -1,0 +1,184 @@
+"""Pictures of torsional vibration: shapes of modes, Campbell diagram, torque over speed, and its
+orders one behind the other (waterfall).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import cycle, product
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...torsion.analysis import TorsionAnalysis
+from ...torsion.response import Response
+from ..sheet import number, order_number
+from .style import BLUE, FAINT, GREEN, INK, RED, SOFT, Form, fit_name, open_figure, save_figure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+PAGES = ("all", "modes", "campbell", "response", "waterfall")
+_STYLES = tuple(product(("-", "--", ":"), (BLUE, RED, GREEN, INK)))  # told apart in grey, too
+_MOST_MODES = 4  # whose shapes are drawn: more lie on one another
+_MOST_SHAFTS = 8  # whose torque is drawn: the largest
+_MOST_LINES = 40  # of a waterfall
+_MOST_ORDERS = 12  # that are named in a Campbell diagram
+_WORTH = 1e-3  # share of work from which a critical is drawn
+
+
+def draw_torsion(result: TorsionAnalysis, what: str, form: Form) -> bytes:
+    """The content of a file with a page of pictures, as far as they were asked for; `what` is one
+    of PAGES.
+    """
+    parts: list[Callable[[Axes], None]] = []
+    if what in ("all", "modes"):
+        parts.append(lambda ax: _draw_modes(ax, result))
+    if what in ("all", "campbell"):
+        parts.append(lambda ax: _draw_campbell(ax, result))
+    if result.response is not None:
+        response = result.response
+        if what in ("all", "response"):
+            parts.append(lambda ax: _draw_torque(ax, result, response))
+        if what == "response":
+            parts.append(lambda ax: _draw_swing(ax, result, response))
+        if what in ("all", "waterfall"):
+            parts.append(lambda ax: _draw_waterfall(ax, result, response))
+    rows, columns = (2, 2) if len(parts) > 2 else (len(parts), 1) if what != "all" else (1, 2)
+    with open_figure(5.6 * columns + 1.2 * (columns == 1), 4.1 * rows + 0.3, form) as fig:
+        for ax, draw in zip(_lay_out(fig, rows, columns), parts, strict=False):
+            draw(ax)
+        name = fit_name(result.system.name) or "chain without a name"
+        fig.suptitle(f"{name}: torsion", x=0.01, ha="left")
+        return save_figure(fig, form)
+
+
+def _lay_out(fig: Figure, rows: int, columns: int) -> list[Axes]:
+    grid: Any = fig.subplots(rows, columns, squeeze=False)
+    return list(grid.flat)
+
+
+def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
+    """Angle of each node, joined along the shafts; a mesh of gears is dotted."""
+    chain, names = result.system.chain, result.system.nodes
+    for mode, (line, colour) in zip(result.modes[:_MOST_MODES], _STYLES, strict=False):
+        for start, end, stiffness in zip(chain.start, chain.end, chain.stiffness, strict=True):
+            style: Any = (0, (1, 2)) if np.isinf(stiffness) else line
+            angles = mode.shape[[start, end]]
+            ax.plot([start, end], angles, color=colour, linestyle=style, linewidth=1.4)
+        label = f"{mode.number}: {number(mode.frequency_hz, 4)} Hz"
+        ax.plot(
+            range(len(names)), mode.shape, "o", color=colour, markersize=3, label=label, zorder=3
+        )
+    ax.axhline(0, color=SOFT, linewidth=0.8)
+    ax.set_xticks(range(len(names)), [fit_name(name, 14) for name in names])
+    ax.tick_params(axis="x", labelrotation=90 if len(names) > 5 else 0)
+    ax.set_ylim(-1.1, 1.1)
+    ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0, handlelength=1)
+    ax.set_title("Shapes of modes: angle of each node", pad=22)
+
+
+def _find_span(result: TorsionAnalysis) -> float:
+    """Highest speed of a Campbell diagram, rpm: of the range, or of the criticals that matter."""
+    if result.response is not None:
+        return float(result.response.speeds_rpm[-1])
+    worth = [each.speed_rpm for each in result.criticals if each.work_share > 0.02]
+    first = result.modes[0].frequency_hz * 60 if result.modes else 1000.0
+    return 1.1 * min(max(worth, default=first), 2 * first)
+
+
+def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
+    """Natural frequencies over speed, a ray for each order, a dot for each critical by its work."""
+    top = _find_span(result)
+    drawn = [c for c in result.criticals if c.work_share > _WORTH and c.speed_rpm <= top]
+    modes = {mode.number: mode for mode in result.modes}
+    highest = max((modes[c.mode].frequency_hz for c in drawn), default=0.0)
+    first = result.modes[0].frequency_hz if result.modes else 1.0
+    ceiling = 1.25 * max(highest, first)
+    for mode in result.modes:
+        if mode.frequency_hz < ceiling:
+            ax.axhline(mode.frequency_hz, color=INK, linewidth=1)
+            label = f"{number(mode.frequency_hz, 4)} Hz"
+            ax.text(0.01 * top, mode.frequency_hz, label, va="bottom", fontsize=7)
+    excitation = result.system.excitation
+    orders = [] if excitation is None else sorted({c.order for c in drawn}) or excitation.orders
+    named = sorted(orders, key=lambda n: -sum(c.work_share for c in drawn if c.order == n))
+    for order in orders:
+        end = min(top, 60 * ceiling / order)
+        ax.plot([0, end], [0, order * end / 60], color=FAINT, linewidth=0.9, zorder=1)
+        if order in named[:_MOST_ORDERS]:
+            ax.text(end, order * end / 60, f"{order_number(order)}", fontsize=7, color=SOFT)
+    for critical in drawn:
+        size = 12 + 240 * critical.work_share
+        height = modes[critical.mode].frequency_hz
+        ax.scatter([critical.speed_rpm], [height], s=size, color=RED, alpha=0.7, zorder=3)
+    ax.set(xlim=(0, 1.03 * top), ylim=(0, ceiling), xlabel="rpm", ylabel="Hz")
+    ax.set_title("Campbell diagram: orders, and criticals by work", pad=22)
+    _shade_barred(ax, result)
+
+
+def _shade_barred(ax: Axes, result: TorsionAnalysis) -> None:
+    for low, high in result.barred_rpm or ():
+        ax.axvspan(low, high, color=RED, alpha=0.12, linewidth=0)
+
+
+def _draw_torque(ax: Axes, result: TorsionAnalysis, response: Response) -> None:
+    """Half of peak to peak of each shaft, as stress where all drawn have diameters."""
+    largest = np.argsort(-response.torque.max(axis=0), kind="stable")
+    stressed = [k for k in largest if result.system.sections[k] is not None]
+    limit = result.system.limit_pa
+    by_stress = bool(stressed) and limit is not None
+    shown = sorted((stressed if by_stress else largest.tolist())[:_MOST_SHAFTS])
+    values = response.stress / 1e6 if by_stress else response.torque
+    for k, (line, colour) in zip(shown, cycle(_STYLES)):
+        name = fit_name(result.system.shafts[k], 22)
+        ax.plot(response.speeds_rpm, values[:, k], line, color=colour, label=name)
+    if by_stress and limit is not None:
+        ax.axhline(limit / 1e6, color=INK, linewidth=0.9, linestyle=(0, (1, 2)))
+    _finish(ax, response, "N/mm²" if by_stress else "N·m")
+    ax.set_title("Vibratory stress" if by_stress else "Vibratory torque", pad=34)
+    ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0, handlelength=1.4)
+    _shade_barred(ax, result)
+
+
+def _draw_swing(ax: Axes, result: TorsionAnalysis, response: Response) -> None:
+    """Half swing of the first node, and its largest orders."""
+    degrees = np.degrees(response.free_end)
+    ax.plot(response.speeds_rpm, degrees, color=INK, label="added up in time")
+    largest = np.argsort(-response.swings.max(axis=1), kind="stable")[:5]
+    for k, (line, colour) in zip(sorted(largest), _STYLES, strict=False):
+        label = f"order {order_number(float(response.orders[k]))}"
+        swing = np.degrees(response.swings[k])
+        ax.plot(response.speeds_rpm, swing, line, color=colour, linewidth=1, label=label)
+    _finish(ax, response, "deg")
+    ax.set_title(f"Half swing of {fit_name(result.system.nodes[0], 30)}", pad=34)
+    ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=3, borderaxespad=0, handlelength=1.4)
+    _shade_barred(ax, result)
+
+
+def _finish(ax: Axes, response: Response, unit: str) -> None:
+    ax.set_xlim(float(response.speeds_rpm[0]), float(response.speeds_rpm[-1]) + 1e-9)
+    ax.set_ylim(bottom=0)
+    ax.set(xlabel="rpm", ylabel=f"± {unit}")
+
+
+def _draw_waterfall(ax: Axes, result: TorsionAnalysis, response: Response) -> None:
+    """Torque of the shaft with the largest, by order, one line a speed, the fastest behind."""
+    shaft = int(np.argmax(response.torque.max(axis=0)))
+    amplitudes = response.amplitudes[:, :, shaft]
+    count = min(len(response.speeds_rpm), _MOST_LINES)
+    chosen = np.unique(np.linspace(0, len(response.speeds_rpm) - 1, count).astype(int))
+    speeds = response.speeds_rpm[chosen]
+    spacing = float(np.diff(speeds).mean()) if len(speeds) > 1 else 1.0
+    scale = 6 * spacing / (float(amplitudes.max()) or 1.0)
+    for k, speed in zip(chosen[::-1], speeds[::-1], strict=True):
+        heights = speed + scale * amplitudes[:, k]
+        ax.vlines(response.orders, speed, heights, color=BLUE, linewidth=1.3)
+        ax.axhline(speed, color=FAINT, linewidth=0.5, zorder=0)
+    ax.set(xlabel="order", ylabel="rpm")
+    ax.grid(visible=False)
+    ax.set_xlim(0, float(response.orders[-1]) + 0.5)
+    name = fit_name(result.system.shafts[shaft], 22)
+    largest = number(float(amplitudes.max()), 3)
+    ax.set_title(f"Torque of {name} by order; the largest {largest} N·m", pad=22)

@@ -1,0 +1,324 @@
+"""Torque on the crank: of an engine, or of a given curve."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from ..core.piecewise import PiecewiseCurve
+from ..core.speed_variation import Surplus
+from ..forces.spectrum import Spectra
+from ..torque.analysis import KINDS_OF_TORQUE, TorqueAnalysis, degrees_in_cycle
+from ..torque.flywheel import Flywheel, Speed
+from ..torque.given_curve import CurveAnalysis
+from .csv import Rows
+from .figures import FigureRow, clean, order_entries, order_rows, peak_deg
+from .sheet import NAMELESS, Facts, Grid, Sheet, degrees, number, order_name, order_number
+from .units import System, Unit
+
+RPM = 30 / np.pi  # in rad/s
+Result = TorqueAnalysis | CurveAnalysis
+
+
+# ------------------------------------------------------------------ JSON
+def document(result: Result) -> dict[str, Any]:
+    """`balcli.torque/1`."""
+    found = {"format": "balcli.torque/1"}
+    if isinstance(result, CurveAnalysis):
+        return found | _curve_document(result)
+    gas = result.max_pressure
+    head = {
+        "speed_rpm": clean(result.engine.speed_rpm),
+        "cycle_deg": result.cycle_deg,
+        "imep_Pa": clean(result.imep),
+        "bmep_Pa": None if result.bmep is None else clean(result.bmep),
+        "max_pressure_Pa": None if gas is None else clean(gas.value),
+        "max_pressure_deg": None if gas is None else clean(np.degrees(gas.angle)),
+        "mean_torque_Nm": clean(result.mean_torque),
+        "power_W": clean(result.power),
+    }
+    known = {key: value for key, value in head.items() if value is not None}
+    single = order_entries(result.single)
+    orders = [
+        entry | {"one_cylinder": {k: v for k, v in one.items() if k != "order"}}
+        for entry, one in zip(order_entries(result.spectra), single, strict=True)
+    ]
+    return {
+        **found,
+        **known,
+        "torque": _extremes_entry(result.curves.total, result.cycle_deg),
+        "orders": orders,
+        "energy": _energy_entry(result.surplus, result.cycle_deg),
+        **_flywheel_entry(result.flywheel),
+    }
+
+
+def _curve_document(result: CurveAnalysis) -> dict[str, Any]:
+    cycle, speed = float(np.degrees(result.torque.period)), result.shaft.mean_speed
+    mean = result.torque.mean
+    told: dict[str, Any] = {} if speed is None else {"speed_rpm": clean(speed * RPM)}
+    told |= {"cycle_deg": _whole(cycle), "mean_torque_Nm": clean(mean)}
+    if speed is not None:
+        told["power_W"] = clean(mean * speed)
+    orders = [
+        {"order": order_number(round(n, 9)), "torque_Nm": _scalar_entry(c, n)}
+        for n, c in zip(result.orders, result.harmonics, strict=True)
+    ]
+    return {
+        **told,
+        "torque": _extremes_entry(result.torque, cycle),
+        "orders": orders,
+        "energy": _energy_entry(result.surplus, cycle),
+        **_flywheel_entry(result.flywheel),
+    }
+
+
+def _scalar_entry(c: complex, order: float) -> dict[str, Any]:
+    return {
+        "cos": clean(c.real),
+        "sin": clean(-c.imag),
+        "amplitude": clean(abs(c)),
+        "peak_deg": peak_deg(c, order),
+        "balanced": bool(c == 0),
+    }
+
+
+def _whole(value: float) -> float | int:
+    near = round(value, 9)
+    return int(near) if near == int(near) else near
+
+
+def _extremes_entry(torque: PiecewiseCurve, cycle_deg: float) -> dict[str, Any]:
+    lowest, highest = torque.extremes()
+    return {
+        "max_Nm": clean(highest.value),
+        "max_deg": clean(degrees_in_cycle(highest.angle, cycle_deg)),
+        "min_Nm": clean(lowest.value),
+        "min_deg": clean(degrees_in_cycle(lowest.angle, cycle_deg)),
+        "reversals": torque.reversals(),
+    }
+
+
+def _energy_entry(surplus: Surplus, cycle_deg: float) -> dict[str, Any]:
+    return {
+        "surplus_J": clean(surplus.energy),
+        "from_deg": clean(degrees_in_cycle(surplus.start, cycle_deg)),
+        "to_deg": clean(degrees_in_cycle(surplus.end, cycle_deg)),
+        "work_J": clean(surplus.work),
+    }
+
+
+def _flywheel_entry(flywheel: Flywheel | None) -> dict[str, Any]:
+    """What is known of it."""
+    if flywheel is None:
+        return {}
+    speed = flywheel.speed
+    figures = {
+        "inertia_kg_m2": flywheel.mean,
+        "moving_parts_kg_m2": flywheel.moving,
+        "fluctuation": speed and speed.fluctuation,
+        "fluctuation_small": speed and speed.small,
+        "needed_kg_m2": flywheel.needed,
+        "speed_max_rpm": speed and speed.highest.value * RPM,
+        "speed_min_rpm": speed and speed.lowest.value * RPM,
+    }
+    return {"flywheel": {key: clean(value) for key, value in figures.items() if value is not None}}
+
+
+# ------------------------------------------------------------------ a list
+def rows(result: Result, system: System) -> Rows:
+    """CSV: a figure a line, as of `analyze`; cylinder 0 is the engine, an empty order the cycle."""
+    header = ("cylinder", "quantity", "order", "figure", "value", "unit")
+    return Rows(header, _all_rows(result, system))
+
+
+def _all_rows(result: Result, system: System) -> Iterator[FigureRow]:
+    found = document(result)
+    units = {"Nm": system.moment, "J": system.moment}
+    for key, value in found.items():
+        if isinstance(value, dict):
+            for figure, inner in value.items():
+                yield _figure_row(key, figure, inner, units)
+        elif key not in ("format", "orders"):
+            yield _figure_row("engine", key, value, units)
+    if isinstance(result, CurveAnalysis):
+        for entry in found["orders"]:
+            values = entry["torque_Nm"]
+            yield from order_rows("torque", entry["order"], values, system.moment)
+        return
+    for number_of, spectra in ((0, result.spectra), (result.cylinder, result.single)):
+        entries = order_entries(spectra)
+        for kind, _ in spectra.items():
+            for entry in entries:
+                values = entry[kind.key]
+                unit = system.unit(kind)
+                yield from order_rows(kind.name, entry["order"], values, unit, number_of)
+
+
+def _figure_row(quantity: str, key: str, value: Any, units: dict[str, Unit]) -> FigureRow:
+    """A figure whose key says its unit."""
+    name, _, ending = key.rpartition("_")
+    if ending in units:
+        unit = units[ending]
+        return FigureRow(0, quantity, None, name, unit.of(value), unit.name)
+    known = {"Pa": "Pa", "W": "W", "m2": "kg·m²"}
+    if ending in ("deg", "rpm"):
+        return FigureRow(0, quantity, None, key, value, ending)
+    if ending in known:
+        return FigureRow(0, quantity, None, name.removesuffix("_kg"), value, known[ending])
+    return FigureRow(0, quantity, None, key, value, "")
+
+
+# ------------------------------------------------------------------ what a person reads
+def sheet(result: Result, system: System) -> Sheet:
+    """Work, torque over the cycle, flywheel, and torque by order."""
+    if isinstance(result, CurveAnalysis):
+        cycle = float(np.degrees(result.torque.period))
+        parts: list[Grid | Facts] = [_curve_facts(result, system)]
+        parts.append(_course_facts(result.torque, result.surplus, cycle, system))
+        parts += _flywheel_facts(result.flywheel, cycle)
+        return Sheet(f"{result.name}: torque", (*parts, _curve_table(result, system)))
+    name = result.engine.name or NAMELESS
+    parts = [_work_facts(result, system)]
+    parts.append(_course_facts(result.curves.total, result.surplus, result.cycle_deg, system))
+    parts += _flywheel_facts(result.flywheel, result.cycle_deg)
+    parts.append(_order_table(result, system))
+    return Sheet(f"{name}: torque on the crank", tuple(parts))
+
+
+def _work_facts(result: TorqueAnalysis, system: System) -> Facts:
+    gas = result.max_pressure
+    pairs = [("speed", f"{number(float(result.engine.speed_rpm), 6)} rpm")]
+    pairs.append(("mean pressure", f"{number(result.imep / 1e5)} bar indicated"))
+    if result.bmep is not None:
+        pairs[-1] = (pairs[-1][0], f"{pairs[-1][1]}, {number(result.bmep / 1e5)} bar brake")
+    if gas is not None:
+        at = degrees(float(np.degrees(gas.angle)))
+        pairs.append(("largest pressure", f"{number(gas.value / 1e5)} bar, {at} deg after firing"))
+    silent = _silent(result)
+    if silent:
+        pairs.append(("no gas in", silent))
+    return Facts((*pairs, *_mean_pairs(result.mean_torque, result.power, system)))
+
+
+def _silent(result: TorqueAnalysis) -> str:
+    """Numbers of the cylinders without gas."""
+    gas = result.engine.gas
+    if gas is None:
+        return ""
+    shares = zip(result.engine.numbers, gas.cylinders, strict=True)
+    return ", ".join(str(n) for n, c in sorted(shares, key=lambda pair: pair[0]) if not c.share)
+
+
+def _mean_pairs(mean: float, power: float | None, system: System) -> Iterator[tuple[str, str]]:
+    yield "mean torque", f"{number(system.moment.of(mean))} {system.moment.name}"
+    if power is not None:
+        yield "power", f"{number(power / 1e3)} kW"
+
+
+def _curve_facts(result: CurveAnalysis, system: System) -> Facts:
+    pairs = [("period", f"{_whole(float(np.degrees(result.torque.period)))} deg")]
+    speed = result.shaft.mean_speed
+    if speed is not None:
+        pairs.append(("speed", f"{number(speed * RPM, 6)} rpm"))
+    power = None if speed is None else result.torque.mean * speed
+    return Facts((*pairs, *_mean_pairs(result.torque.mean, power, system)))
+
+
+def _course_facts(
+    torque: PiecewiseCurve, surplus: Surplus, cycle_deg: float, system: System
+) -> Facts:
+    lowest, highest = torque.extremes()
+    unit = system.moment
+    start, end = (degrees(degrees_in_cycle(a, cycle_deg)) for a in (surplus.start, surplus.end))
+
+    def told(value: float, angle: float) -> str:
+        at = degrees(degrees_in_cycle(angle, cycle_deg))
+        return f"{number(unit.of(value))} {unit.name} at {at} deg"
+
+    pairs = (
+        ("largest", told(highest.value, highest.angle)),
+        ("smallest", told(lowest.value, lowest.angle)),
+        ("reversals", str(torque.reversals())),
+        ("work of a cycle", f"{number(surplus.work)} J"),
+        ("surplus", f"{number(surplus.energy)} J from {start} to {end} deg"),
+    )
+    return Facts(pairs, "Torque over the cycle")
+
+
+def _flywheel_facts(flywheel: Flywheel | None, cycle_deg: float) -> Iterator[Facts]:
+    if flywheel is None:
+        return
+    pairs = []
+    moving = f"of it moving parts {number(flywheel.moving)}" if flywheel.moving else ""
+    if flywheel.mean is not None:
+        pairs.append(("inertia", f"{number(flywheel.mean)} kg·m²{moving and f', {moving}'}"))
+    if flywheel.speed is not None:
+        pairs += _speed_pairs(flywheel.speed, cycle_deg)
+    if flywheel.needed is not None:
+        pairs.append(("needed", f"{number(flywheel.needed)} kg·m² in all"))
+        own = flywheel.needed - flywheel.moving
+        if moving:
+            pairs[-1] = ("needed", f"{pairs[-1][1]}, {number(own)} beyond the moving parts")
+    yield Facts(tuple(pairs), "Flywheel")
+
+
+def _speed_pairs(speed: Speed, cycle_deg: float) -> Iterator[tuple[str, str]]:
+    share = f"1/{number(1 / speed.fluctuation, 4)}" if speed.fluctuation else "0"
+    small = number(100 * speed.small, 4)
+    yield (
+        "fluctuation",
+        f"{number(100 * speed.fluctuation, 4)} % ({share}); {small} % by the rule for small ones",
+    )
+    low, high = (
+        f"{number(e.value * RPM, 6)} rpm at {degrees(degrees_in_cycle(e.angle, cycle_deg))} deg"
+        for e in (speed.lowest, speed.highest)
+    )
+    yield "speed", f"{low} to {high}"
+
+
+def _order_table(result: TorqueAnalysis, system: System) -> Grid:
+    """Orders in which the engine or the one cylinder has something."""
+    unit, spectra, single = system.moment, result.spectra, result.single
+    columns = [spectra[kind] for kind in KINDS_OF_TORQUE]
+    alone = single["gas"]
+
+    def cells(k: int) -> Iterator[str]:
+        n = float(spectra.orders[k])
+        yield order_name(n)
+        for phasors in columns:
+            yield from _amplitude(complex(phasors.x[k]), n, unit)
+        yield number(unit.of(abs(complex(alone.x[k]))), 4)
+
+    shown = [
+        k for k in range(len(spectra.orders)) if not (_nothing(spectra, k) and alone.balanced[k])
+    ]
+    return Grid(
+        f"Torque by order, {unit.name}",
+        (
+            *("order", "gas", "at, deg", "inertia", "at, deg", "total", "at, deg"),
+            f"gas of {result.cylinder}",
+        ),
+        tuple(tuple(cells(k)) for k in shown),
+        f"The last column is what the gas of cylinder {result.cylinder} does alone.",
+    )
+
+
+def _nothing(spectra: Spectra, k: int) -> bool:
+    return all(phasors.balanced[k] for _, phasors in spectra.items())
+
+
+def _amplitude(c: complex, order: float, unit: Unit) -> tuple[str, str]:
+    at = peak_deg(c, order)
+    return (number(unit.of(abs(c)), 5), "–" if at is None else degrees(at)) if c else ("0", "")
+
+
+def _curve_table(result: CurveAnalysis, system: System) -> Grid:
+    unit = system.moment
+    rows = tuple(
+        (f"{round(float(n), 9):g}", *_amplitude(complex(c), float(n), unit))
+        for n, c in zip(result.orders, result.harmonics, strict=True)
+    )
+    return Grid(f"Torque by order, {unit.name}", ("order", "torque", "peak, deg"), rows)

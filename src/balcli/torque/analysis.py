@@ -1,0 +1,141 @@
+"""Torque of an engine: by order and over the cycle, its means and extremes, and the flywheel."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..core.cylinder_pressure import PressureOnPiston
+from ..core.phasors import Array
+from ..core.piecewise import Extreme
+from ..core.speed_variation import Surplus, surplus
+from ..engine.build import Engine
+from ..forces.gas import take_gas
+from ..forces.orders import check_orders, list_gas_orders
+from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
+from .course import (
+    TorqueCurves,
+    find_constant_inertia,
+    find_moving_inertia,
+    find_row,
+    find_torque_curves,
+)
+from .flywheel import Flywheel, Question, find_flywheel
+
+KINDS_OF_TORQUE = ("gas", "torque", "torque_total")
+
+
+@dataclass(frozen=True, eq=False)
+class TorqueAnalysis:
+    """What turns the crank of an engine, at its mean speed.
+
+    Attributes:
+        engine: as analysed.
+        spectra: gas, inertia and total torque of the engine by order.
+        cylinder: number of the cylinder that is looked at.
+        single: the same of that cylinder alone, with its share.
+        curves: over the cycle.
+        imep: work of all cylinders over the swept volume of all, Pa.
+        max_pressure: highest in any cylinder that has gas, Pa, at a cycle angle (rad); None where
+            pressures are not known.
+        surplus: of the total torque above its mean.
+        flywheel: None where the file gives no inertia and none was asked for.
+    """
+
+    engine: Engine
+    spectra: Spectra
+    cylinder: int
+    single: Spectra
+    curves: TorqueCurves
+    imep: float
+    max_pressure: Extreme | None
+    surplus: Surplus
+    flywheel: Flywheel | None
+
+    @property
+    def orders(self) -> Array:
+        """Those shown, shape (orders,)."""
+        return self.spectra.orders
+
+    @property
+    def bmep(self) -> float | None:
+        """Brake mean effective pressure, Pa; None without mechanical_efficiency."""
+        efficiency = take_gas(self.engine).mechanical_efficiency
+        return None if efficiency is None else self.imep * efficiency
+
+    @property
+    def mean_torque(self) -> float:
+        """Indicated, N m."""
+        return self.curves.gas.mean
+
+    @property
+    def power(self) -> float:
+        """Indicated, W."""
+        return self.mean_torque * float(self.engine.omega)
+
+    @property
+    def cycle_deg(self) -> int:
+        """720, or 360 of a two-stroke engine."""
+        return take_gas(self.engine).cycle_deg
+
+
+def analyze_torque(
+    engine: Engine,
+    orders: Iterable[float] | None = None,
+    *,
+    cylinder: int = 1,
+    fluctuation: float | None = None,
+) -> TorqueAnalysis:
+    """Torque of gas and inertia on the crank of an engine.
+
+    Args:
+        engine: with gas, without trailing axes. An uneven speed in its file does not count here.
+        orders: which to show; default: multiples of 1/2 (of 1 in two-stroke engines) up to
+            HIGHEST_GAS_ORDER_UNASKED.
+        cylinder: whose torque is shown beside the engine's.
+        fluctuation: (highest - lowest)/mean speed, for which the inertia is wanted.
+
+    Raises:
+        BalcliError: no gas; no such cylinder; the crank stalls.
+    """
+    gas = take_gas(engine)
+    steady = replace(engine, ripple=())
+    shown = list_gas_orders(engine.strokes) if orders is None else check_orders(orders)
+    row = find_row(engine, cylinder, "--cylinder")
+    curves = find_torque_curves(steady)
+    above = surplus(curves.total)
+    swept = sum(c.piston.swept for c in gas.cylinders)
+    asked = Question(
+        curves.gas,
+        above.energy,
+        float(engine.omega),
+        find_constant_inertia(engine),
+        find_moving_inertia(engine),
+        fluctuation,
+    )
+    return TorqueAnalysis(
+        engine,
+        compute_spectra(steady, shown, KINDS_OF_TORQUE),
+        cylinder,
+        compute_each_cylinder(steady, shown, KINDS_OF_TORQUE).select_place(row),
+        curves,
+        sum(c.share * c.torque.work for c in gas.cylinders) / swept,
+        _find_highest(engine),
+        above,
+        find_flywheel(asked),
+    )
+
+
+def _find_highest(engine: Engine) -> Extreme | None:
+    """The highest pressure of all cylinders whose gas does something, in the first that has it."""
+    torques = {id(c.torque): c.torque for c in take_gas(engine).cylinders if c.share}
+    found = [t.pressure.highest() for t in torques.values() if isinstance(t, PressureOnPiston)]
+    return max(found, key=lambda extreme: extreme.value, default=None)
+
+
+def degrees_in_cycle(angle: float, cycle_deg: float) -> float:
+    """A crank angle (rad) in [0, cycle) deg."""
+    turned = float(np.degrees(angle)) % cycle_deg
+    return 0.0 if cycle_deg - turned < 1e-9 else turned

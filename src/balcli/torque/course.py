@@ -1,0 +1,101 @@
+"""Torque on the crank of an engine with gas, over its cycle; and the inertia that moves.
+
+What torsion and mounts build on: the torque by order is `forces.spectrum` (kinds `gas`, `torque`,
+`torque_total`, `roll_total`), that of each cylinder with its phase
+`forces.spectrum.compute_each_cylinder`; the curves over the crank angle are here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.cylinder_pressure import crank_torque
+from ..core.phasors import Array
+from ..core.piecewise import Function, PiecewiseCurve
+from ..engine.build import Engine
+from ..engine.gas import EngineGas
+from ..errors import BalcliError
+from ..forces.curves import compute_inertia_torque, compute_moving_inertia
+from ..forces.gas import take_gas
+
+
+class TorqueCurves(NamedTuple):
+    """Torque on the crank at crank angles (rad) of one cycle, N m, at the mean speed.
+
+    Attributes:
+        gas: of all cylinders' gas.
+        total: with the inertia torque.
+    """
+
+    gas: PiecewiseCurve
+    total: PiecewiseCurve
+
+
+def find_torque_curves(engine: Engine) -> TorqueCurves:
+    """The torque of an engine without trailing axes, as if its speed were even.
+
+    Raises:
+        BalcliError: it has no gas.
+    """
+    gas = [(c.torque, c.fires, c.share) for c in take_gas(engine).cylinders]
+    return TorqueCurves(crank_torque(gas), crank_torque(gas, find_inertia_torque(engine)))
+
+
+def find_inertia_torque(engine: Engine) -> Function:
+    """Inertia torque (N m) at crank angles (rad) of any shape, at the mean speed."""
+    steady = replace(engine, ripple=())
+    return _at_radians(lambda degrees: compute_inertia_torque(steady, degrees))
+
+
+def find_moving_inertia(engine: Engine) -> Function:
+    """Moment of inertia about the crank (kg m2) of pistons, rods and throw masses, at crank angles
+    (rad) of any shape. Throw masses are left out where the crankshaft's own inertia is given, which
+    has them.
+    """
+    if engine.crank_inertia is not None:
+        c = engine.cylinders
+        throws = np.array([[weighed.share] for weighed in engine.weighed]).reshape(-1)
+        engine = replace(engine, cylinders=replace(c, rotating=c.rotating - throws))
+    return _at_radians(lambda degrees: compute_moving_inertia(engine, degrees))
+
+
+def find_constant_inertia(engine: Engine) -> float | None:
+    """Moment of inertia of crankshaft and flywheel, kg m2; None where the file gives neither."""
+    given = [v for v in (engine.crank_inertia, engine.flywheel_inertia) if v is not None]
+    return float(sum(given)) if given else None
+
+
+def silence(engine: Engine, number: int, option: str = "--misfire") -> Engine:
+    """The engine with a cylinder whose gas does nothing.
+
+    Raises:
+        BalcliError: it has no gas, or no such cylinder.
+    """
+    gas: EngineGas = take_gas(engine)
+    return replace(engine, gas=gas.with_share(find_row(engine, number, option), 0.0))
+
+
+def find_row(engine: Engine, number: int, option: str) -> int:
+    """Row of the cylinder with this number.
+
+    Raises:
+        BalcliError: there is none.
+    """
+    if number not in engine.numbers:
+        some = ", ".join(map(str, sorted(engine.numbers)))
+        raise BalcliError(
+            f"{option} {number}: {engine.name or 'the engine'} has the cylinders {some}"
+        )
+    return engine.numbers.index(number)
+
+
+def _at_radians(function: Function) -> Function:
+    """A function of degrees in one axis as one of radians of any shape."""
+
+    def at(angle: Array) -> Array:
+        return function(np.degrees(angle.reshape(-1))).reshape(angle.shape)
+
+    return at

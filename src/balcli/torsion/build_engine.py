@@ -1,0 +1,295 @@
+"""[torsion] of an engine file and the engine -> torsional system: a node for each throw, with the
+mean inertia of what moves on it, and one for each part before and behind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.loads import find_inertia, find_needed_series
+from ..core.mechanisms import harmonics
+from ..core.singular_values import Real
+from ..core.torsional_chain import Damping, Shaft, join_chain
+from ..engine.build import Engine
+from ..enginefile.fields import counted, nearest, printable, shorten
+from ..enginefile.model import EngineFile
+from ..enginefile.shafting import find_stiffness
+from ..enginefile.torsion_tables import Part, Torsion
+from ..errors import BalcliError, InputError, Problem
+from ..forces.spectrum import compute_each_cylinder
+from ..limits import HIGHEST_TORSION_ORDER_UNASKED
+from .build_chain import find_section
+from .dampers import fit_dampers
+from .system import Excitation, Section, TorsionalSystem
+
+
+class _Joint(NamedTuple):
+    """A part and the name of what it hangs on; `path` is its place in the file."""
+
+    path: str
+    part: Part
+    of: str
+
+
+class _Spring(NamedTuple):
+    """A shaft with its name, loss factor, dashpot (N m s/rad) and diameters."""
+
+    name: str
+    shaft: Shaft
+    loss: float
+    dashpot: float
+    section: Section | None
+
+
+def build_engine_system(
+    model: EngineFile, engine: Engine, excitation: Excitation, name: str = ""
+) -> TorsionalSystem:
+    """The system of an engine.
+
+    Args:
+        model: its file, which has [torsion].
+        engine: of this file.
+        excitation: by its cylinders, as of `excite_engine`.
+        name: of the file, for messages.
+
+    Raises:
+        InputError: what does not fit together in [torsion], by its path.
+    """
+    torsion = model.torsion
+    if torsion is None:
+        hint = "write [torsion] with throw_stiffness and throw_inertia, and [[torsion.rear]]"
+        raise InputError([Problem("torsion", f"is missing; {hint}")], name)
+    throws = len(engine.throws_m)
+    problems = list(_find_misfits(torsion, model, engine, throws))
+    if problems:
+        raise InputError(problems, name)
+    joints = _join_parts(torsion, throws)
+    names = [part.name for part in reversed(torsion.front)]
+    front = len(names)
+    names += [*_name_throws(throws), *(part.name for part in torsion.rear)]
+    parts = {names.index(joint.part.name): joint.part for joint in joints}
+    fitted = fit_dampers(
+        names, [parts[k].damper if k in parts else None for k in range(len(names))]
+    )
+    inertia, damping = np.zeros((2, len(names)))
+    inertia[front : front + throws] = _weigh_throws(torsion, model, throws)
+    on_throw = front + np.array([weighed.throw for weighed in engine.weighed])
+    np.add.at(inertia, on_throw, weigh_running_gear(engine))
+    np.add.at(damping, on_throw, torsion.damping)
+    for k, part in parts.items():
+        inertia[k], damping[k] = (part.inertia or 0.0) / 1e6, part.node_damping
+    between = _each(torsion.throw_stiffness or (), throws - 1)
+    springs = [
+        _Spring(
+            f"throw {k + 1}-{k + 2}",
+            Shaft(front + k, front + k + 1, stiffness),
+            torsion.loss,
+            0.0,
+            _find_throw_section(torsion),
+        )
+        for k, stiffness in enumerate(between)
+    ]
+    leading = list(_lead_shafts(torsion, joints, names, throws))
+    springs = [*reversed(leading[:front]), *springs, *leading[front:]]
+    springs += [
+        _Spring(*each, 0.0, None)
+        for each in zip(fitted.names, fitted.shafts, fitted.losses, strict=True)
+    ]
+    rubber = [0.0] * len(fitted.inertias)
+    return TorsionalSystem(
+        engine.name,
+        (*names, *fitted.names),
+        tuple(spring.name for spring in springs),
+        join_chain([*inertia, *fitted.inertias], [spring.shaft for spring in springs]),
+        Damping(
+            np.array([spring.loss for spring in springs]),
+            np.array([spring.dashpot for spring in springs]),
+            np.array([*damping, *rubber]),
+        ),
+        tuple(spring.section for spring in springs),
+        fitted.rings,
+        fitted.pendulums,
+        excitation,
+        None if torsion.limit is None else torsion.limit * 1e6,
+        None if torsion.angle_limit is None else float(np.radians(torsion.angle_limit)),
+        len(names) - 1,
+        model.operation.speed if "speed" in model.operation.model_fields_set else None,
+    )
+
+
+def _lead_shafts(
+    torsion: Torsion, joints: Sequence[_Joint], names: Sequence[str], throws: int
+) -> Iterator[_Spring]:
+    """Shaft of every part, from what it hangs on; its stiffness counts in its own speed."""
+    gears = _find_gears(joints, throws)
+    for _, part, of in joints:
+        ends, ratio = (names.index(of), names.index(part.name)), gears[part.name] / gears[of]
+        loss = torsion.loss if part.loss is None else part.loss
+        shaft = Shaft(*ends, find_stiffness(part), ratio)
+        yield _Spring(part.name, shaft, loss, part.damping, find_section(part))
+
+
+def _find_throw_section(torsion: Torsion) -> Section | None:
+    if torsion.throw_diameter is None:
+        return None
+    return Section(torsion.throw_diameter / 1e3, (torsion.throw_bore or 0.0) / 1e3)
+
+
+def _name_throws(throws: int) -> list[str]:
+    return [f"throw {k}" for k in range(1, throws + 1)]
+
+
+def _name_between(throws: int) -> list[str]:
+    return [f"throw {k}-{k + 1}" for k in range(1, throws)]
+
+
+def _each(values: Sequence[float], count: int) -> list[float]:
+    """One value for each of so many, from one for all or a list."""
+    return list(values) * count if len(values) == 1 else list(values)
+
+
+def _join_parts(torsion: Torsion, throws: int) -> list[_Joint]:
+    """Every part with what it hangs on: front parts first, each list outward."""
+    found = []
+    for key, parts, throw in (("front", torsion.front, 1), ("rear", torsion.rear, throws)):
+        before = f"throw {throw}"
+        for k, part in enumerate(parts, 1):
+            found.append(_Joint(f"torsion.{key}.{k}", part, part.of or before))
+            before = part.name
+    return found
+
+
+def _find_gears(joints: Sequence[_Joint], throws: int) -> dict[str, float]:
+    """Speed of every node over that of the crank, by name."""
+    gears = dict.fromkeys(_name_throws(throws), 1.0)
+    waiting = list(joints)
+    while waiting:
+        for joint in waiting:
+            if joint.of in gears:
+                own = joint.part.gear
+                gears[joint.part.name] = gears[joint.of] if own is None else own
+        left = [joint for joint in waiting if joint.part.name not in gears]
+        if len(left) == len(waiting):
+            break
+        waiting = left
+    return gears
+
+
+# ------------------------------------------------------------------ inertia and excitation
+def weigh_running_gear(engine: Engine) -> Real:
+    """Mean moment of inertia (cylinders,) in kg m2 of what each cylinder moves, without the throw:
+    `m_rot r^2 + mean(m_rec s'^2 - H beta'^2)`.
+    """
+    c = engine.cylinders
+    mean_only = np.zeros(1)
+    find = c.linkage.find_distinct_harmonics if c.linkage else harmonics.find_distinct_harmonics
+    few, which = find(mean_only, c.lam, c.eps, find_needed_series(c, {"torque"}, uneven=False))
+    moving = find_inertia(c, few.select_cylinders(which), 1.0).c[0].real
+    own = np.array([float(weighed.share) for weighed in engine.weighed])
+    turning = (c.rotating - own) * c.radius**2
+    return np.broadcast_to(moving, own.shape) + np.broadcast_to(turning, own.shape)
+
+
+def _weigh_throws(torsion: Torsion, model: EngineFile, throws: int) -> Sequence[float]:
+    """Moment of inertia of the crankshaft at each throw, kg m2."""
+    if torsion.throw_inertia is not None:
+        return [each / 1e6 for each in _each(torsion.throw_inertia, throws)]
+    whole = model.crank.inertia or 0.0
+    return [whole / 1e6 / throws] * throws
+
+
+def excite_engine(
+    model: EngineFile, engine: Engine, orders: Real | None, misfires: Sequence[int] = ()
+) -> Excitation:
+    """Torque of every cylinder on the node of its throw: by inertia of what it moves, and by gas
+    where the engine has some.
+
+    Args:
+        orders: (orders,); None: to 12, with halves where gas has them.
+        misfires: numbers of cylinders without gas force.
+
+    Raises:
+        BalcliError: a misfire of an engine without gas, or of a cylinder that there is not.
+    """
+    front = 0 if model.torsion is None else len(model.torsion.front)
+    nodes = front + np.array([weighed.throw for weighed in engine.weighed])
+    engine = _let_misfire(replace(engine, ripple=(), speed_rpm=30 / np.pi), misfires)  # 1 rad/s
+    if orders is None:
+        step = 0.5 if engine.gas is not None and engine.gas.cycle_deg == 720 else 1.0
+        orders = np.arange(step, HIGHEST_TORSION_ORDER_UNASKED + step / 2, step)
+    growing = compute_each_cylinder(engine, orders, ("torque",))["torque"].x
+    steady = np.zeros_like(growing)
+    if engine.gas is not None:
+        steady = compute_each_cylinder(engine, orders, ("gas",))["gas"].x
+    moves = np.any((growing != 0) | (steady != 0), axis=1)
+    return Excitation(orders[moves], nodes, steady[moves], growing[moves])
+
+
+def _let_misfire(engine: Engine, misfires: Sequence[int]) -> Engine:
+    gas = engine.gas
+    if misfires and gas is None:
+        raise BalcliError("--misfire: the engine has no [gas], so that nothing fires")
+    for number in misfires:
+        if number not in engine.numbers:
+            count = counted(len(engine.numbers), "cylinder")
+            raise BalcliError(f"--misfire {number}: there is no such cylinder; there are {count}")
+        gas = gas and gas.with_share(engine.numbers.index(number), 0.0)
+    return replace(engine, gas=gas)
+
+
+# ------------------------------------------------------------------ what does not fit together
+def _find_misfits(
+    torsion: Torsion, model: EngineFile, engine: Engine, throws: int
+) -> Iterator[Problem]:
+    if engine.rotary:
+        yield Problem("torsion", "is for crankshafts that turn; that of a rotary stands still")
+        return
+    yield from _check_throws(torsion, model, throws)
+    joints = _join_parts(torsion, throws)
+    names = [*_name_throws(throws), *(joint.part.name for joint in joints)]
+    reserved = {*_name_throws(throws), *_name_between(throws)}
+    taken: set[str] = set()
+    for joint in joints:
+        name = joint.part.name
+        if name in reserved:
+            yield Problem(f"{joint.path}.name", f"{shorten(name)} is a name that throws have")
+        elif name in taken:
+            yield Problem(
+                f"{joint.path}.name", f"{shorten(name)} is there twice; give each its own"
+            )
+        taken.add(name)
+        if joint.of not in names:
+            near = nearest(joint.of, names)
+            listed = ", ".join(printable(each) for each in names[:8])
+            hint = f"did you mean {near}?" if near else f"there are {listed}"
+            yield Problem(f"{joint.path}.of", f"{shorten(joint.of)} is no part; {hint}")
+    led = [j if j.of in names else j._replace(of="throw 1") for j in joints]  # told already
+    hanging = _find_gears(led, throws)
+    for joint in joints:
+        if joint.of in names and joint.part.name not in hanging:
+            yield Problem(
+                f"{joint.path}.of",
+                f"{shorten(joint.of)} does not lead to the crankshaft; name what the part hangs on",
+            )
+
+
+def _check_throws(torsion: Torsion, model: EngineFile, throws: int) -> Iterator[Problem]:
+    places = throws - 1
+    if torsion.throw_stiffness is None and places:
+        text = f"is missing; give that between neighbours of {counted(throws, 'throw')}"
+        yield Problem("torsion.throw_stiffness", f"{text}, such as throw_stiffness = 1.25e6")
+    for key, count in (("throw_stiffness", places), ("throw_inertia", throws)):
+        values = getattr(torsion, key)
+        if values is not None and len(values) not in (1, count):
+            yield Problem(
+                f"torsion.{key}",
+                f"has {counted(len(values), 'value')}, but {counted(throws, 'throw')} need "
+                f"{count}; give one for all, or a list of these",
+            )
+    if torsion.throw_inertia is None and model.crank.inertia is None:
+        text = "is missing; give it, such as throw_inertia = 46700, or inertia of the whole [crank]"
+        yield Problem("torsion.throw_inertia", text)

@@ -1,0 +1,233 @@
+"""A damper sized on the whole system: from the optimum of a system with one degree of freedom to
+the one that makes the largest stress over a range of speeds least.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.singular_values import Real
+from ..core.torsional_dampers import best_viscous_damping
+from ..enginefile.fields import printable
+from ..enginefile.shafting import Damper
+from ..errors import BalcliError
+from .load import Source
+from .modes import NaturalMode, find_criticals, find_natural_modes
+from .response import Response, find_response, stress_by_torque
+from .system import Excitation, TorsionalSystem
+
+RUBBER_LOSS = 0.15  # usual for damper rubber
+# of the mode's inertia at the node, where nothing says how heavy a damper is
+_SHARE = {"viscous": 0.3, "rubber": 0.15, "pendulum": 0.05}
+_FIGURE = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  # that is sized
+_WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # range of the search, times and over
+_PENDULUM_RADIUS = 0.06  # m, where nothing says where one hangs
+_PLACES = 13  # looked at over this range before the best is approached
+_ROUNDS = 20  # of golden section: to 1e-4 of the step between these
+_GOLDEN = (math.sqrt(5) - 1) / 2
+
+
+class DamperAsked(NamedTuple):
+    """What is to be sized.
+
+    Attributes:
+        kind: viscous, rubber or pendulum.
+        node: what carries it, by name; None: the first that can.
+        inertia: of ring or pendulums, kg m2; None: that of the file's damper there, or a usual
+            share of the mode's.
+    """
+
+    kind: str
+    node: str | None = None
+    inertia: float | None = None
+
+
+class SizedDamper(NamedTuple):
+    """A damper and what it does.
+
+    Attributes:
+        node: what carries it.
+        damper: as a file describes it.
+        start: its figure that was sized (damping, stiffness or length), as the optimum of a system
+            with one degree of freedom has it, in the file's unit.
+        sized: the same, sized on the whole system.
+        figure: name of that figure.
+        mode: number of the mode it was tuned to.
+        measure: what was made least: "stress" in Pa, or "torque" in N m where no shaft has a
+            diameter.
+        before, after: largest over all shafts and speeds without a damper there, and with it.
+        heat: largest power it turns to heat, W, and at which speed, rpm.
+    """
+
+    node: str
+    damper: Damper
+    start: float
+    sized: float
+    figure: str
+    mode: int
+    measure: str
+    before: float
+    after: float
+    heat: float
+    heat_rpm: float
+
+
+def size_damper(
+    source: Source, asked: DamperAsked, speeds: Real, orders: Real | None = None
+) -> SizedDamper:
+    """The damper that makes the largest stress of all shafts over speeds (rpm) least.
+
+    Raises:
+        BalcliError: nothing can carry it, or nothing excites the system.
+    """
+    node, own = _find_carrier(source.dampers(), asked.node)
+    bare = source.with_damper(node, None).system()
+    mode, order = _find_worst(bare, speeds, orders)
+    first = _propose(asked, own, bare, bare.nodes.index(node), mode, order)
+    figure = _FIGURE[asked.kind]
+    start = float(getattr(first, figure))
+
+    def respond(damper: Damper | None) -> tuple[float, Response]:
+        """Largest stress or torque of the shafts that are there without it, and the response."""
+        system = source.with_damper(node, damper).system()
+        response = find_response(system, _excite(system, orders), speeds)
+        worth = response.torque[:, : len(bare.shafts)]
+        if any(bare.sections):
+            worth = worth * stress_by_torque(bare)
+        return float(np.nanmax(worth)), response
+
+    def judge(logarithm: float) -> float:
+        return respond(_with(first, figure, start * math.exp(logarithm)))[0]
+
+    width = math.log(_WIDTH[asked.kind])
+    best = float(f"{start * math.exp(_minimise(judge, -width, width)):.6g}")
+    damper = _with(first, figure, best)
+    after, response = respond(damper)
+    mine = [k for k, name in enumerate(response.dampers) if name.removesuffix(" ring") == node]
+    heat = response.heat[:, mine].sum(axis=1)
+    hottest = int(np.argmax(heat))
+    return SizedDamper(
+        node,
+        damper,
+        start,
+        best,
+        figure,
+        mode.number,
+        "stress" if any(bare.sections) else "torque",
+        _judge_bare(respond),
+        after,
+        float(heat[hottest]),
+        float(speeds[hottest]),
+    )
+
+
+def _judge_bare(respond: Callable[[None], tuple[float, Response]]) -> float:
+    """Largest without a damper; inf where nothing else damps a resonance."""
+    try:
+        return respond(None)[0]
+    except BalcliError:
+        return math.inf
+
+
+def _find_carrier(
+    carriers: Mapping[str, Damper | None], asked: str | None
+) -> tuple[str, Damper | None]:
+    """Name of the node that is to carry the damper, and the one it has."""
+    name = next(iter(carriers), None) if asked is None else asked
+    if name is None:
+        raise BalcliError("--damper: nothing can carry one; give a part in [[torsion.front]]")
+    if name not in carriers:
+        raise BalcliError(
+            f'--damper-at "{printable(name)}": cannot carry a damper; what can is '
+            f"{', '.join(printable(each) for each in carriers)}"
+        )
+    return name, carriers[name]
+
+
+def _excite(system: TorsionalSystem, orders: Real | None) -> Excitation:
+    excitation = system.excitation
+    if excitation is not None and orders is not None:
+        excitation = excitation.only(orders)
+    if excitation is None or not len(excitation.orders):
+        raise BalcliError("--damper: nothing excites the system at the orders asked for")
+    return excitation
+
+
+def _find_worst(
+    system: TorsionalSystem, speeds: Real, orders: Real | None
+) -> tuple[NaturalMode, float]:
+    """The mode on which most work is done at criticals in the range, and the order that does it;
+    the first mode and the lowest order where there is none.
+    """
+    modes, excitation = find_natural_modes(system), _excite(system, orders)
+    met = find_criticals(excitation, modes, (float(speeds[0]), float(speeds[-1])))
+    if not modes:
+        raise BalcliError("--damper: the system has no mode that could be damped")
+    if not met:
+        return modes[0], float(excitation.orders[0])
+    return modes[met[0].mode - 1], met[0].order
+
+
+def _propose(
+    asked: DamperAsked,
+    own: Damper | None,
+    system: TorsionalSystem,
+    node: int,
+    mode: NaturalMode,
+    order: float,
+) -> Damper:
+    """A damper of the inertia that is wanted, tuned as the optimum of a system with one degree of
+    freedom has it: Houdaille's for oil, Den Hartog's tuning for rubber, the order itself for
+    pendulums.
+    """
+    own = own if own is not None and own.kind == asked.kind else None
+    if mode.shape[node] == 0:
+        raise BalcliError(f"--damper: {system.nodes[node]} does not move in mode {mode.number}")
+    there = float(np.sum(system.chain.inertia * mode.shape**2)) / mode.shape[node] ** 2
+    known = None if own is None or own.inertia is None else own.inertia / 1e6
+    inertia = asked.inertia or known or float(f"{_SHARE[asked.kind] * there:.4g}")
+    ratio, written = inertia / there, float(f"{inertia * 1e6:.12g}")
+    if asked.kind == "viscous":
+        damping = best_viscous_damping(inertia, ratio, mode.omega)
+        return _make("viscous", inertia=written, damping=damping)
+    if asked.kind == "rubber":
+        stiffness = inertia * (mode.omega / (1 + ratio)) ** 2
+        loss = RUBBER_LOSS if own is None else own.loss
+        return _make("rubber", inertia=written, stiffness=stiffness, loss=loss)
+    radius = _PENDULUM_RADIUS if own is None or own.radius is None else own.radius / 1e3
+    length = radius * (system.gears[node] / order) ** 2
+    mass = float(f"{inertia / (radius + length) ** 2:.4g}")
+    if own is not None and own.mass is not None and asked.inertia is None:
+        mass = own.mass
+    return _make("pendulum", mass=mass, radius=radius * 1e3, length=length * 1e3)
+
+
+def _make(kind: str, **figures: float | None) -> Damper:
+    return Damper.model_validate({"kind": kind} | figures)
+
+
+def _with(damper: Damper, figure: str, value: float) -> Damper:
+    return damper.model_copy(update={figure: value})
+
+
+def _minimise(judge: Callable[[float], float], low: float, high: float) -> float:
+    """Where a function is least: the best of a few places, approached by golden section."""
+    places = np.linspace(low, high, _PLACES)
+    best = int(np.argmin([judge(float(place)) for place in places]))
+    low, high = float(places[max(best - 1, 0)]), float(places[min(best + 1, _PLACES - 1)])
+    left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+    at_left, at_right = judge(left), judge(right)
+    for _ in range(_ROUNDS):
+        if at_left <= at_right:
+            high, right, at_right = right, left, at_left
+            left = high - _GOLDEN * (high - low)
+            at_left = judge(left)
+        else:
+            low, left, at_left = left, right, at_right
+            right = low + _GOLDEN * (high - low)
+            at_right = judge(right)
+    return left if at_left <= at_right else right

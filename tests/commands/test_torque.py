@@ -1,0 +1,162 @@
+"""`balcli torque`: what it prints in every format, and what it refuses."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from support.commands import run_here
+from support.gas_engines import FOUR, WIEBE
+
+TORQUE = "angle_deg,torque_Nm\n0,0\n90,1000\n180,0\n360,0\n"
+WHOLE = {"format", "speed_rpm", "cycle_deg", "imep_Pa", "max_pressure_Pa", "max_pressure_deg"}
+WHOLE |= {"mean_torque_Nm", "power_W", "torque", "orders", "energy"}
+
+
+@pytest.fixture
+def four(tmp_path):
+    path = tmp_path / "four.toml"
+    path.write_text(FOUR + WIEBE + "mechanical_efficiency = 0.8\n[flywheel]\ninertia = 200000\n")
+    return str(path)
+
+
+@pytest.fixture
+def curve(tmp_path):
+    path = tmp_path / "press.csv"
+    path.write_text(TORQUE)
+    return str(path)
+
+
+def torque(*arguments):
+    status, out, err = run_here("torque", *arguments)
+    assert (status, err) == (0, "")
+    return out
+
+
+def test_json_has_what_the_file_allows(four):
+    found = json.loads(torque(four, "--format", "json", "--fluctuation", "1/300"))
+    assert set(found) == WHOLE | {"bmep_Pa", "flywheel"}
+    assert found["format"] == "balcli.torque/1"
+    assert found["imep_Pa"] == pytest.approx(9e5)
+    assert found["bmep_Pa"] == pytest.approx(7.2e5)
+    assert set(found["torque"]) == {"max_Nm", "max_deg", "min_Nm", "min_deg", "reversals"}
+    assert set(found["energy"]) == {"surplus_J", "from_deg", "to_deg", "work_J"}
+    assert set(found["flywheel"]) == {
+        *("inertia_kg_m2", "moving_parts_kg_m2", "fluctuation", "fluctuation_small"),
+        *("needed_kg_m2", "speed_max_rpm", "speed_min_rpm"),
+    }
+    assert [entry["order"] for entry in found["orders"]] == [n / 2 for n in range(1, 25)]
+    kinds = {"gas_torque_Nm", "inertia_torque_Nm", "torque_Nm"}
+    assert set(found["orders"][0]) == kinds | {"order", "one_cylinder"}
+    assert set(found["orders"][0]["one_cylinder"]) == kinds
+    assert found["orders"][0]["gas_torque_Nm"]["balanced"]
+
+
+def test_what_the_file_does_not_allow_is_left_out(four, tmp_path):
+    bare = tmp_path / "bare.toml"
+    bare.write_text(FOUR + WIEBE)
+    assert set(json.loads(torque(str(bare), "--format", "json"))) == WHOLE
+
+
+def test_text_fits_a_terminal_of_80_columns(four):
+    text = torque(four, "--fluctuation", "0.5%", "--misfire", "3")
+    assert max(map(len, text.splitlines())) <= 80
+    for told in ("mean pressure", "6.75 bar indicated, 5.4 bar brake", "no gas in", "needed"):
+        assert told in text
+    assert "| ½ |" in torque(four, "--format", "markdown")
+
+
+def test_csv_lists_every_figure(four):
+    lines = torque(four, "--format", "csv").splitlines()
+    assert lines[0] == "cylinder,quantity,order,figure,value,unit"
+    assert any(line.startswith("0,flywheel,,fluctuation,0.0") for line in lines)
+    assert any(line.startswith("1,gas,0.5,amplitude,") for line in lines)
+    assert any(line.startswith("0,torque_total,2,peak_deg,") for line in lines)
+
+
+def test_what_is_written_turns_as_unevenly(four, tmp_path):
+    out = tmp_path / "uneven.toml"
+    torque(four, "--write", str(out))
+    assert "order = 2, amplitude = 0.0" in out.read_text()
+    status, text, _ = run_here("analyze", str(out), "--format", "json", "--only", "force")
+    assert status == 0
+    assert json.loads(text)["orders"][0]["order"] == 0, "an uneven speed has a mean force"
+    again = json.loads(torque(str(out), "--format", "json"))
+    assert again == json.loads(torque(four, "--format", "json")), "torque is that of the mean speed"
+
+
+def test_a_curve_needs_no_engine(curve):
+    found = json.loads(torque("--curve", curve, "--format", "json"))
+    assert set(found) == {"format", "cycle_deg", "mean_torque_Nm", "torque", "orders", "energy"}
+    assert found["mean_torque_Nm"] == pytest.approx(250)
+    assert found["cycle_deg"] == 360
+    assert found["torque"]["max_Nm"] == 1000
+    assert found["energy"]["work_J"] == pytest.approx(250 * 2 * 3.141592653589793)
+    assert set(found["orders"][0]) == {"order", "torque_Nm"}
+    arguments = ("--curve", curve, "--speed", "300", "--inertia", "2e6", "--fluctuation", "1/100")
+    text = torque(*arguments)
+    assert "Flywheel\ninertia      2 kg·m²" in text
+    metric = torque(*arguments[:5], "2 kg m^2", *arguments[6:])
+    assert metric == text
+
+
+def test_a_curve_of_several_turns_has_orders_below_1(tmp_path):
+    (tmp_path / "t.csv").write_text("angle_deg,torque_Nm\n0,1\n300,5\n1080,1\n")
+    orders = json.loads(torque("--curve", str(tmp_path / "t.csv"), "-f", "json"))["orders"]
+    assert [entry["order"] for entry in orders[:3]] == pytest.approx([1 / 3, 2 / 3, 1])
+
+
+def test_the_load_takes_its_share(curve, tmp_path):
+    """A load that is the torque itself leaves nothing over."""
+    found = json.loads(torque("--curve", curve, "--load", curve, "-f", "json"))
+    assert found["energy"]["surplus_J"] == pytest.approx(0, abs=1e-9)
+    other = tmp_path / "l.csv"
+    other.write_text("angle_deg,torque_Nm\n0,250\n720,250\n")
+    status, _, err = run_here("torque", "--curve", curve, "--load", str(other))
+    assert status == 2
+    assert "--load: has a period of 720 deg, the torque 360: give both over the same angle" in err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        ([], "give an engine file, or --curve with a torque"),
+        (["{four}", "--curve", "{curve}"], "give an engine file, or --curve with a torque"),
+        (["--curve", "{curve}", "--misfire", "1"], "--misfire needs an engine file"),
+        (["{four}", "--inertia", "3"], "--inertia needs --curve"),
+        (["{four}", "--fluctuation", "x"], '--fluctuation "x": give (highest - lowest)/mean sp'),
+        (["{four}", "--fluctuation", "1/0"], '--fluctuation "1/0": give (highest - lowest)/mea'),
+        (["{four}", "--cylinder", "7"], "--cylinder 7: four has the cylinders 1, 2, 3, 4"),
+        (["--curve", "{curve}", "--inertia", "0"], "--inertia 0: give a moment of inertia above 0"),
+        (["--curve", "{curve}", "--inertia", "3 s"], '--inertia "3 s": is a time, but a moment of'),
+        (
+            ["--curve", "{curve}", "--fluctuation", "1/100"],
+            "--fluctuation needs the mean speed; give it, such as --speed 300",
+        ),
+        (["--curve", "{four}"], "the heading"),
+        (
+            ["--curve", "{curve}", "--orders", "0.5"],
+            "order 0.5: a period of 360 deg has multiples of 1",
+        ),
+    ],
+)
+def test_what_is_refused(four, curve, arguments, told):
+    status, out, err = run_here("torque", *(a.format(four=four, curve=curve) for a in arguments))
+    assert (status, out) == (2, "")
+    assert told in err
+
+
+def test_writing_needs_inertia(tmp_path):
+    bare = tmp_path / "bare.toml"
+    bare.write_text(FOUR + WIEBE)
+    status, _, err = run_here("torque", str(bare), "--write", str(tmp_path / "out.toml"))
+    assert status == 2
+    assert "--write: the speed is not known; give inertia in [crank] or [flywheel]" in err
+
+
+def test_an_engine_without_gas_is_refused(tmp_path):
+    bare = tmp_path / "bare.toml"
+    bare.write_text(FOUR)
+    status, _, err = run_here("torque", str(bare))
+    assert status == 2
+    assert "bare: has no [gas]; give a diagram, a cycle or harmonics" in err

@@ -1,0 +1,117 @@
+"""Figures of an engine on its mounts, over variants: each as if the file said so."""
+
+from __future__ import annotations
+
+import csv
+import json
+from io import StringIO
+
+import numpy as np
+import pytest
+from support.commands import refusal, run_here
+from support.mounts import ENGINE, block
+
+POINT = '[[point]]\nname = "shift lever"\nat = [100, 0, 300]\n'
+TEXT = ENGINE + block("loss = 0.1") + POINT
+NAMED = TEXT.replace('name = "1"', 'name = "left"').replace('name = "3"', 'name = "rear one"')
+
+
+@pytest.fixture
+def four(tmp_path):
+    path = tmp_path / "four.toml"
+    path.write_text(NAMED, encoding="utf-8")
+    return path
+
+
+def sweep(path, *args):
+    done = run_here("sweep", path, *args)
+    assert (done.status, done.err) == (0, "")
+    return [
+        {key: float(value) for key, value in row.items()}
+        for row in csv.DictReader(StringIO(done.out))
+    ]
+
+
+def said_by(path, text):
+    path.write_text(text, encoding="utf-8")
+    return json.loads(run_here("mounts", path, "-f", "json").out)
+
+
+def test_each_variant_is_the_file_that_says_so(four, tmp_path):
+    quantities = (
+        "mode.3.Hz,mode.roll.Hz,mode.roll.share,mode.2.damping,mount.left.force,"
+        "mount.rear_one.static,point.shift_lever.motion,force.2.major"
+    )
+    rows = sweep(
+        four,
+        "--vary",
+        "mount.left.stiffness.3=300,500",
+        "--vary",
+        "body.mass=150,210",
+        "-q",
+        quantities,
+    )
+    assert len(rows) == 4
+    for row in rows:
+        stiffness, mass = row["mount.left.stiffness.3"], row["body.mass"]
+        text = NAMED.replace("[200, 150, 400]", f"[200, 150, {stiffness}]", 1)
+        said = said_by(tmp_path / "one.toml", text.replace("mass = 200", f"mass = {mass}"))
+        modes = said["modes"]
+        assert row["mode.3.Hz"] == pytest.approx(modes[2]["frequency_Hz"], rel=1e-12)
+        roll = max(modes, key=lambda mode: mode["energy_percent"]["rz"])
+        assert row["mode.roll.Hz"] == pytest.approx(roll["frequency_Hz"], rel=1e-12)
+        assert row["mode.roll.share"] == pytest.approx(roll["energy_percent"]["rz"], rel=1e-9)
+        assert row["mode.2.damping"] == pytest.approx(5, rel=1e-9)
+        mount, point = said["response"]["mounts"][0], said["response"]["points"][0]
+        assert row["mount.left.force"] == pytest.approx(max(mount["peak_N"]), rel=1e-9)
+        assert row["point.shift_lever.motion"] == pytest.approx(
+            max(point["peak_mm"]) / 1e3, rel=1e-9
+        )
+        rest = np.linalg.norm(said["static"]["mounts"][2]["force_N"])
+        assert row["mount.rear_one.static"] == pytest.approx(rest, rel=1e-9)
+        assert row["force.2.major"] > 1000
+
+
+def test_figures_of_the_engine_vary_with_those_of_the_mounts(four, tmp_path):
+    rows = sweep(four, "--vary", "rod.length=130,180", "-q", "mount.left.force")
+    for row in rows:
+        text = NAMED.replace("length = 150", f"length = {row['rod.length']}")
+        said = said_by(tmp_path / "one.toml", text)
+        largest = max(said["response"]["mounts"][0]["peak_N"])
+        assert row["mount.left.force"] == pytest.approx(largest, rel=1e-9)
+
+
+def test_what_varies_nothing_is_not_computed_again(four):
+    one, two = sweep(
+        four, "--vary", "mount.left.loss=0.1,0.2", "-q", "mode.roll.Hz,mode.roll.damping"
+    )
+    assert one["mode.roll.Hz"] == two["mode.roll.Hz"]
+    assert one["mode.roll.damping"] < two["mode.roll.damping"]
+
+
+WRONG = [
+    (
+        "mode.7.Hz",
+        "mode.7.Hz is no quantity: after mode comes its number from 1 to 6, or its motion",
+    ),
+    ("mode.3.hz", "mode.3.hz is no quantity: give mode.3.Hz or mode.3.share or mode.3.damping"),
+    ("mount.force", "mount.force is no quantity: give mount.left.force or mount.left.static"),
+    ("mount.lef.force", 'mount.lef.force: the file has no mount "lef"; did you mean left?'),
+    ("point.x.motion", 'point.x.motion: the file has no point "x"; there are shift_lever'),
+]
+
+
+@pytest.mark.parametrize(("quantity", "message"), WRONG)
+def test_what_is_no_quantity(four, quantity, message):
+    told = refusal("sweep", four, "--vary", "mount.left.loss=0.1,0.2", "-q", quantity)
+    assert told.startswith(message)
+
+
+def test_variants_that_cannot_be_are_told_with_their_figures(four):
+    told = refusal("sweep", four, "--vary", "body.inertia.4=0,1e8", "-q", "mode.1.Hz")
+    assert told == (
+        f"{four}: body.inertia.4 = 1e+08: body: inertia xy is 1e+08; beside xx and yy it must be "
+        "within 9.79796e+06"
+    )
+    told = refusal("sweep", four, "--vary", "mount.9.loss=0,1", "-q", "mode.1.Hz")
+    assert told.startswith("mount.9.loss is no number of this engine file; did you mean")

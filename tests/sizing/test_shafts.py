@@ -1,0 +1,228 @@
+"""One shaft with one eccentric or two, and shafts whose place is free."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from support.commands import refusal, run_here
+from support.engines import engine
+from support.paths import ENGINES
+
+from balcli.engine.load import load
+from balcli.forces.spectrum import compute_spectra
+from balcli.render.page_scene import place_beside
+from balcli.sizing.device_tables import find_free, make_counterweight, make_shaft
+from balcli.sizing.options import SchemeOptions
+from balcli.sizing.remedy import fit_devices
+from balcli.sizing.sizing import size
+
+TWIN = ENGINES / "twin270.toml"
+I3 = ENGINES / "i3.toml"
+I4 = ENGINES / "i4.toml"
+I5 = ENGINES / "i5.toml"
+
+
+def left(path, scheme, options, order):
+    """Forward and backward force and moment with the devices, N and N m."""
+    built = load(path)
+    fitted = fit_devices(built, size(built, scheme, options))
+    return compute_spectra(fitted, [order], ("force", "moment"))
+
+
+# ------------------------------------------------------------------ two eccentrics on one shaft
+def test_two_eccentrics_at_a_given_place_take_force_and_moment_of_a_270_degree_twin():
+    options = SchemeOptions(at=(-0.07 + 0.09j,), planes=(-0.048, 0.048))
+    remedy = size(load(TWIN), "single-shaft", options)
+    assert [(s.ratio, s.at, s.position) for s in remedy.shafts] == [
+        (-1, (-70, 90), -48),
+        (-1, (-70, 90), 48),
+    ]
+    found = left(TWIN, "single-shaft", options, 1)
+    assert found.force.balanced.all()
+    assert found.moment.balanced.all()
+    assert remedy.reasons[-1].endswith(
+        "eccentrics in two planes on a shaft at -1 times crank speed can"
+    )
+    assert "couple left" not in {detail.label for detail in remedy.details}
+
+
+def test_their_sizes_by_hand():
+    """A backward force V at z = 0 and a moment V a/2 of it: (1 -+ a/(2 h)) / 2 of it in planes at
+    -h and h, if moment and force point the same way; in general sum and first moment are as
+    wanted.
+    """
+    built = load(TWIN)
+    remedy = size(built, "single-shaft", SchemeOptions(planes=(-0.05, 0.02)))
+    spectra = compute_spectra(
+        fit_devices(built, size(built, "counterweights", SchemeOptions(order=1))),
+        [1],
+        ("force", "moment"),
+    )
+    square = built.omega**2
+    force, moment = spectra.force.backward[0] / square, spectra.moment.backward[0] / 1j / square
+    one, other = (d.backward for d in fit_devices(built, remedy).devices if d.backward)
+    assert one + other == pytest.approx(-force, rel=1e-12)
+    assert -0.05 * one + 0.02 * other == pytest.approx(-moment, rel=1e-12)
+
+
+def test_one_eccentric_promises_the_force_alone_where_a_moment_stays():
+    remedy = size(load(TWIN), "single-shaft", SchemeOptions(at=(-0.07 + 0.09j,)))
+    assert remedy.reasons[-1] == (
+        "Order 1 force turning against the crank: nothing on the crankshaft can cancel it; one "
+        "eccentric on a shaft at -1 times crank speed can; a moment stays, which eccentrics in two "
+        "planes take, too: --planes"
+    )
+    assert not left(TWIN, "single-shaft", SchemeOptions(), 1).moment.balanced.all()
+
+
+def test_one_eccentric_promises_both_where_it_takes_both():
+    """A single cylinder: its force acts where the shaft is."""
+    remedy = size(load(ENGINES / "single.toml"), "single-shaft")
+    assert remedy.reasons[-1].endswith("one eccentric on a shaft at -1 times crank speed can")
+    uneven = engine(crank={"throws": [0], "spacing": 1}, cylinder={"1": {"position": 30}})
+    assert "moment stays" not in size(uneven, "single-shaft").reasons[-1]
+
+
+def test_pairs_promise_no_more_either():
+    remedy = size(load(TWIN), "two-shaft")
+    assert all(
+        reason.endswith("a moment stays, which takes eccentrics in two planes")
+        for reason in remedy.reasons
+    )
+    assert all(reason.startswith("Order 1 force turning") for reason in remedy.reasons)
+    whole = size(load(I4), "two-shaft", SchemeOptions(order=2)).reasons
+    assert not any("stays" in reason for reason in whole)
+
+
+def test_two_planes_take_a_moment_alone_too():
+    """A three has no force: two opposite eccentrics on one shaft."""
+    remedy = size(load(I3), "single-shaft", SchemeOptions(planes="ends"))
+    assert remedy.order == 1
+    assert len(remedy.shafts) == 2
+    assert left(I3, "single-shaft", SchemeOptions(planes="ends"), 1).moment.balanced.all()
+    without = run_here("balance", I3, "--scheme", "single-shaft")
+    assert "there is no free force turning against the crank of orders 1 to 5" in without.out or (
+        "Order 6 force" in without.out
+    )
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (
+            ["--scheme=single-shaft", "--planes=-48,48", "--position", "3"],
+            "--planes and --position both say where along the shaft: give one",
+        ),
+        (
+            ["--scheme=single-shaft", "--planes=5,5"],
+            "--planes: one plane, or planes at the same z, cannot take a moment; choose two planes "
+            "with some distance between them",
+        ),
+        (
+            ["--scheme=single-shaft", "--planes=1,2,3"],
+            "--planes: opposite eccentrics stand in two planes; give ends, or two places along z in "
+            "mm, such as -200,200",
+        ),
+        (
+            ["--scheme=couple-shaft", "--at=1,2", "--at=3,4", "--at=5,6"],
+            "--at: this moment takes two shafts; give no more places",
+        ),
+    ],
+)
+def test_refusals(options, message):
+    assert refusal("balance", TWIN, *options) == message
+
+
+# ------------------------------------------------------------------ places of couple shafts
+def test_couple_shafts_stand_at_two_places():
+    options = SchemeOptions(order=2, at=(-0.05 + 0.08j, 0.06 + 0.09j))
+    shafts = size(load(I5), "couple-shaft", options).shafts
+    assert [(s.ratio, s.at) for s in shafts] == [
+        (2, (60, 90)),
+        (2, (60, 90)),
+        (-2, (-50, 80)),
+        (-2, (-50, 80)),
+    ]
+    assert left(I5, "couple-shaft", options, 2).moment.balanced.all()
+
+
+def test_one_place_is_that_of_the_shaft_against_the_crank():
+    shafts = size(load(I5), "couple-shaft", SchemeOptions(order=2, at=(0.1 + 0j,))).shafts
+    assert {(s.ratio, s.at) for s in shafts} == {(2, (0, 0)), (-2, (100, 0))}
+
+
+def test_a_moment_that_turns_in_one_sense_takes_one_place():
+    """V6 of 60 degrees: its second order turns against the crank alone."""
+    v6 = ENGINES / "v6_60.toml"
+    shafts = size(load(v6), "couple-shaft", SchemeOptions(order=2, at=(0.1 + 0j,))).shafts
+    assert [(s.ratio, s.at) for s in shafts] == [(-2, (100, 0))] * 2
+    two = ["--scheme=couple-shaft", "--order=2", "--at=1,2", "--at=3,4"]
+    message = "--at: this moment takes one shaft; give no more places"
+    assert refusal("balance", v6, *two) == message
+
+
+# ------------------------------------------------------------------ free places
+def test_opposite_eccentrics_that_nobody_has_placed_are_free():
+    pair = [make_shaft(u, -1, z, 0j) for u, z in ((1e-3j, -0.1), (-1e-3j, 0.1))]
+    placed = [make_shaft(u, -1, z, 0.05j) for u, z in ((1e-3j, -0.1), (-1e-3j, 0.1))]
+    force = [make_shaft(u, 2, z, 0j) for u, z in ((1e-3, -0.1), (-0.9e-3, 0.1))]
+    weight = make_counterweight(1e-3, 0.0, 0.0)
+    assert find_free([weight, *pair, *force]) == (False, True, True, False, False)
+    assert find_free(placed) == (False, False)
+    assert find_free([make_shaft(1e-3, 2, 0.0, 0j)]) == (False,)
+
+
+def test_free_places_are_told():
+    table = run_here("balance", I5, "--scheme", "couple-shaft", "--order", 2, "--at=100,0").out
+    rows = [line.split() for line in table.splitlines() if line.startswith("shaft")]
+    assert [(row[1], row[4]) for row in rows] == [("+2", "free")] * 2 + [("-2", "100,")] * 2
+    assert "free: the shaft may stand anywhere, for it makes a moment alone." in table
+    sizing = json.loads(run_here("analyze", I5, "--format", "json").out)["sizing"]
+    assert [(s["free"], s["at_mm"]) for s in sizing["shafts"]] == [(True, [0, 0])] * 6
+
+
+def test_a_force_has_no_free_place():
+    """The shafts of a four at +2 and -2 add a roll wherever they stand but on the crank axis."""
+    table = run_here("analyze", I4, "--only", "sizing").out
+    assert "free: " not in table
+    assert "At 0, 0, where the crank is, a shaft adds no roll: elsewhere it does." in table
+
+
+def test_the_file_says_which_are_free(tmp_path):
+    out = tmp_path / "out.toml"
+    run_here("balance", I3, "--scheme", "couple-shaft", "--order", 1, "--write", out)
+    lines = out.read_text().splitlines()
+    assert lines.count("at = [0.0, 0.0]  # free: it may stand anywhere") == 4
+
+
+def test_shafts_on_the_crank_axis_are_drawn_beside_the_engine():
+    built = load(I5)
+    fitted = fit_devices(built, size(built))
+    radius = float(built.cylinders.radius)
+    drawn = place_beside(fitted, 0.08)
+    shafts = {row for row, device in enumerate(fitted.devices) if device.rank == 1}
+    assert set(drawn) == shafts
+    assert min(abs(place) for place in drawn.values()) > 2 * radius
+    turning = {row: 1 if fitted.devices[row].forward else -1 for row in drawn}
+    assert all(place.imag * turning[row] > 0 for row, place in drawn.items())
+    by_place = {}
+    for row, place in drawn.items():
+        by_place.setdefault(place, set()).add((fitted.devices[row].order, turning[row]))
+    assert sorted(map(len, by_place.values())) == [1, 1, 1]  # no two shafts in one place
+
+
+def test_shafts_with_a_place_are_drawn_there():
+    built = load(I4)
+    options = SchemeOptions(order=2, at=(0.2 + 0.1j, 0.2 - 0.1j))
+    assert place_beside(fit_devices(built, size(built, "two-shaft", options)), 0.08) == {}
+
+
+def test_the_page_has_no_shaft_inside_the_crank():
+    page = run_here("report", I5, "-o", "-").out
+    start = '<script type="application/json" id="scene">'
+    scene = json.loads(page.partition(start)[2].partition("</script>")[0])
+    radius = scene["stroke"] / 2
+    shafts = [d for d in scene["variants"][-1]["devices"] if d["beside"]]
+    assert len(shafts) == 6
+    assert all(max(map(abs, d["at"])) > 2 * radius for d in shafts)

@@ -1,0 +1,185 @@
+"""Torque over the cycle and the speed it makes uneven: identities on engines drawn at random, and a
+step-by-step integration of the equation of motion.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from support.gas_engines import FOUR, WIEBE, draw_engine, engine
+
+from balcli.errors import BalcliError
+from balcli.forces.spectrum import compute_spectra
+from balcli.torque.analysis import analyze_torque
+from balcli.torque.course import (
+    find_inertia_torque,
+    find_moving_inertia,
+    find_torque_curves,
+    silence,
+)
+
+HALVES = np.arange(25)
+FLYWHEEL = "[flywheel]\ninertia = {}\n"
+
+
+def on_crank(inertia_kg_mm2: float, seed: int):
+    return draw_engine(seed, more=FLYWHEEL.format(inertia_kg_mm2))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_curve_has_the_harmonics_of_the_orders(seed):
+    """Two ways: the curve is added up at angles, the orders by phases."""
+    found = draw_engine(seed)
+    total = find_torque_curves(found).total
+    orders = HALVES / 2
+    phasors = compute_spectra(found, orders, ["torque_total"])["torque_total"]
+    want = phasors.forward + np.conj(phasors.backward)
+    assert total.harmonics(24) == pytest.approx(want, abs=1e-12 * np.abs(want).max())
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_mean_torque_and_pressure(seed):
+    found = analyze_torque(draw_engine(seed))
+    gas = found.engine.gas
+    swept = sum(c.piston.swept for c in gas.cylinders)
+    work = sum(c.share * c.torque.imep * c.piston.swept for c in gas.cylinders)
+    assert found.imep == pytest.approx(work / swept, rel=1e-12)
+    assert found.mean_torque * gas.cycle == pytest.approx(work, rel=1e-12)
+    assert found.surplus.work == pytest.approx(work, rel=1e-12)
+    assert found.power == pytest.approx(found.mean_torque * found.engine.speed_rpm * np.pi / 30)
+
+
+def test_a_misfire_takes_a_quarter_of_the_work():
+    four = engine(FOUR + WIEBE)
+    missing = analyze_torque(silence(four, 3))
+    assert missing.imep == pytest.approx(0.75 * analyze_torque(four).imep, rel=1e-13)
+    written = analyze_torque(engine(FOUR + WIEBE + "[cylinder.3]\ngas = 0\n"))
+    assert written.curves.total.extremes() == missing.curves.total.extremes()
+    with pytest.raises(BalcliError, match=r"^--misfire 5: the engine has the cylinders 1, 2, 3, 4"):
+        silence(four, 5)
+
+
+def test_one_cylinder_is_shown_with_its_share():
+    found = analyze_torque(draw_engine(1), [0.5, 1], cylinder=1)
+    gas = found.engine.gas.cylinders[found.engine.numbers.index(1)]
+    assert found.single.gas.major == pytest.approx(
+        gas.share * np.abs(gas.torque.harmonics([1, 2])), rel=1e-12
+    )
+
+
+# ------------------------------------------------------------------ speed
+def speed_by_steps(found, first: float, steps: int = 24):
+    """Speed at the breaks of the gas torque, by classical Runge-Kutta steps of
+    `I omega omega' + 1/2 I' omega^2 = T - mean`, from the speed at angle 0; I' by differences.
+    """
+    torque = find_torque_curves(found).gas
+    moving, still = find_moving_inertia(found), found.flywheel_inertia
+    breaks = torque.breaks
+    angle, end = [], []
+    for low, high in pairwise(breaks):
+        width = (high - low) / steps
+        angle += [low + k * width / 2 for k in range(2 * steps)]
+        end.append(len(angle))
+    angle = np.array([*angle, breaks[-1]])
+    inside = torque.at(angle) - torque.mean
+    before = torque.at(angle, before=True) - torque.mean
+    inertia = still + moving(angle)
+    shift, weights = 2e-3, {1: 3 / 4, 2: -3 / 20, 3: 1 / 60}
+    slope = sum(
+        w * (moving(angle + k * shift) - moving(angle - k * shift)) for k, w in weights.items()
+    )
+    slope = slope / shift
+
+    def rate(k, omega, values):
+        return (values[k] - 0.5 * slope[k] * omega**2) / (inertia[k] * omega)
+
+    omega, speeds = first, [first]
+    for k in range(0, len(angle) - 1, 2):
+        h = angle[k + 2] - angle[k]
+        a = rate(k, omega, inside)
+        b = rate(k + 1, omega + h / 2 * a, inside)
+        c = rate(k + 1, omega + h / 2 * b, inside)
+        d = rate(k + 2, omega + h * c, before)
+        omega += h / 6 * (a + 2 * b + 2 * c + d)
+        if k + 2 in end:
+            speeds.append(omega)
+    return breaks, np.array([*speeds, omega])[: len(breaks)]
+
+
+@pytest.mark.parametrize("seed", [0, 5])
+def test_the_speed_against_steps_in_time(seed):
+    found = on_crank(150000, seed)
+    from balcli.core.speed_variation import speed_variation  # the curve itself
+
+    parts, still = find_moving_inertia(found), found.flywheel_inertia
+    gas = find_torque_curves(found).gas
+    exact = speed_variation(gas, lambda angle: still + parts(angle), float(found.omega))
+    breaks, speeds = speed_by_steps(found, float(exact.speed.at(gas.breaks[0])))
+    assert speeds == pytest.approx(exact.speed.at(breaks), rel=1e-9)
+    assert exact.speed.mean == pytest.approx(found.omega, rel=1e-12)
+    told = analyze_torque(found).flywheel.speed
+    assert told.fluctuation == pytest.approx(exact.fluctuation, rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_with_a_heavy_flywheel_the_rule_for_small_fluctuations_is_exact(seed):
+    for inertia, agreement in ((1e8, 1e-2), (1e11, 1e-5)):
+        speed = analyze_torque(on_crank(inertia, seed)).flywheel.speed
+        assert speed.fluctuation == pytest.approx(speed.small, rel=agreement)
+
+
+def test_the_needed_inertia_keeps_the_fluctuation():
+    found = analyze_torque(on_crank(3e5, 2), fluctuation=0.01).flywheel
+    needed = (found.needed - found.moving) * 1e6
+    again = analyze_torque(on_crank(needed, 2)).flywheel
+    assert again.speed.fluctuation == pytest.approx(0.01, rel=1e-9)
+    assert again.mean == pytest.approx(found.needed, rel=1e-12)
+
+
+def test_lines_of_the_speed_add_up_to_it():
+    found = analyze_torque(on_crank(2e5, 4))
+    speed, theta = found.flywheel.speed, found.flywheel.speed.highest.angle
+    lines = sum(
+        line.amplitude * np.cos(line.order * theta - np.radians(line.angle_deg))
+        for line in speed.lines
+    )
+    share = speed.highest.value / float(found.engine.omega) - 1
+    assert lines == pytest.approx(share, rel=2e-3)
+
+
+def test_throw_masses_are_counted_once():
+    text = FOUR.replace("spacing = 100", "spacing = 100\nthrow_mass = 0.5")
+    without = find_moving_inertia(engine(text))(np.array([0.3]))
+    given = text.replace("spacing = 100", "spacing = 100\ninertia = 9000")
+    assert without - find_moving_inertia(engine(given))(np.array([0.3])) == pytest.approx(
+        4 * 0.5 * 0.045**2
+    )
+
+
+def test_the_inertia_torque_is_half_the_slope_of_the_inertia():
+    """-1/2 I' omega^2, by differences."""
+    found = draw_engine(3)
+    angle, shift = np.linspace(0, 6, 7), 1e-4
+    moving = find_moving_inertia(found)
+    slope = (moving(angle + shift) - moving(angle - shift)) / (2 * shift)
+    want = -0.5 * slope * float(found.omega) ** 2
+    assert find_inertia_torque(found)(angle) == pytest.approx(want, abs=1e-6 * np.abs(want).max())
+
+
+def test_a_crank_that_would_stand_still_is_refused():
+    slow = replace(engine(FOUR + WIEBE + FLYWHEEL.format(1000)), speed_rpm=300.0)
+    with pytest.raises(
+        BalcliError, match=r"^the shaft stalls at \d+\.\d°: with this inertia it ne"
+    ):
+        analyze_torque(slow)
+
+
+def test_without_inertia_nothing_is_said_of_the_speed():
+    assert analyze_torque(engine(FOUR + WIEBE)).flywheel is None
+    asked = analyze_torque(engine(FOUR + WIEBE), fluctuation=0.01).flywheel
+    assert asked.mean is None
+    assert asked.speed is None
+    assert asked.needed > asked.moving > 0

@@ -1,0 +1,237 @@
+"""`torsion --damper`: what is sized is the best there is, does what is said, and can be written."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+
+import numpy as np
+import pytest
+from support.commands import refusal, run_here
+from support.diesel import write_diesel
+
+from balcli.torsion.starting_file import read_starting_file
+
+RANGE = ("--speeds", "850:1150:0.5")
+# 1 kg m2 on a spring with a natural frequency of 1000 rpm, excited by 100 N m
+SINGLE = f"""
+fixed = ["wall"]
+[[node]]
+name = "disc"
+inertia = 1e6
+[[node]]
+name = "wall"
+[[shaft]]
+from = "disc"
+to = "wall"
+stiffness = {float((1000 * np.pi / 30) ** 2)!r}
+[[excitation]]
+node = "disc"
+order = 1
+cos = 100
+"""
+
+
+def ask(text, *options):
+    status, out, err = run_here("torsion", "-", *options, "--format", "json", stdin=text)
+    assert (status, err) == (0, "")
+    return json.loads(out)
+
+
+def largest(said, what="half_peak_to_peak_Nm"):
+    return max(max(shaft[what]) for shaft in said["response"]["shafts"] if what in shaft)
+
+
+@pytest.mark.parametrize("ratio", [0.1, 0.3])
+def test_houdaille_optimum(ratio):
+    """A viscous ring on one undamped degree of freedom leaves 1 + 2/ratio times the static torque,
+    and the damping is that of Den Hartog's formula.
+    """
+    options = ("--damper", "viscous", "--damper-inertia", f"{ratio} kg m^2", *RANGE)
+    damper = ask(SINGLE, *options)["damper"]
+    assert damper["node"] == "disc"
+    assert damper["before_Nm"] is None, "nothing else damps it: no bound"
+    assert damper["after_Nm"] == pytest.approx(100 * (1 + 2 / ratio), rel=2e-4)
+    exact = 2 * ratio * (1000 * np.pi / 30) / np.sqrt(2 * (1 + ratio) * (2 + ratio))
+    assert damper["damping_Nms_per_rad"] == pytest.approx(exact, rel=0.02)
+
+
+@pytest.mark.parametrize("kind", ["viscous", "rubber"])
+def test_no_other_figure_is_better(kind):
+    """Of the Diesel with its inertia torque, over the range in which order 3 is critical."""
+    options = ("--speeds", "3000:4600:20")
+    sized = ask(write_diesel(), *options, "--damper", kind, "--damper-at", "pulley")
+    damper = sized["damper"]
+    assert damper["after_Pa"] == pytest.approx(largest(sized, "stress_Pa"))
+    assert damper["after_Pa"] < 0.4 * damper["before_Pa"]
+    key = {"viscous": "damping", "rubber": "stiffness"}[kind]
+    for share in (0.5, 0.9, 1.1, 2):
+        ring = {"kind": kind, "inertia": damper["inertia_kg_m2"] * 1e6}
+        if kind == "rubber":
+            ring |= {"loss": damper["loss"], key: share * damper["stiffness_Nm_per_rad"]}
+        else:
+            ring |= {key: share * damper["damping_Nms_per_rad"]}
+        table = ", ".join(f"{k} = {json.dumps(v)}" for k, v in ring.items())
+        other = write_diesel().replace(
+            'name = "pulley"\n', f'name = "pulley"\ndamper = {{ {table} }}\n'
+        )
+        assert largest(ask(other, *options), "stress_Pa") > damper["after_Pa"]
+
+
+def test_a_pendulum_is_tuned_to_the_order_that_does_most():
+    options = ("--speeds", "3800:4400:20", "--orders", "3")
+    damper = ask(write_diesel(), *options, "--damper", "pendulum")["damper"]
+    assert damper["radius_m"] / damper["length_m"] == pytest.approx(9, rel=0.25)
+    assert damper["after_Pa"] < 0.1 * damper["before_Pa"]
+    assert damper["heat_W"] == 0
+
+
+def test_a_damper_of_the_file_is_the_one_that_is_sized():
+    own = 'damper = { kind = "rubber", inertia = 12345, stiffness = 1, loss = 0.2 }\n'
+    text = write_diesel().replace('name = "pulley"\n', f'name = "pulley"\n{own}')
+    damper = ask(text, "--speeds", "3000:4600:40", "--damper", "rubber")["damper"]
+    assert (damper["inertia_kg_m2"], damper["loss"]) == (0.012345, 0.2)
+    assert damper["stiffness_Nm_per_rad"] > 1000
+
+
+def test_what_it_costs_is_the_power_lost_in_it():
+    """The heat of the sized damper is that of the same damper in a file."""
+    options = ("--speeds", "3000:4600:40")
+    sized = ask(write_diesel(), *options, "--damper", "viscous")
+    (told,) = sized["response"]["dampers"]
+    assert told["node"] == "pulley"
+    assert sized["damper"]["heat_W"] == max(told["heat_W"])
+    speeds = sized["response"]["speeds_rpm"]
+    assert sized["damper"]["heat_rpm"] == speeds[int(np.argmax(told["heat_W"]))]
+
+
+@pytest.mark.parametrize("line_end", ["\n", "\r\n"])
+def test_what_is_written_does_what_was_said(tmp_path, line_end):
+    chain, fitted = tmp_path / "chain.toml", tmp_path / "fitted.toml"
+    text = read_starting_file()
+    chain.write_bytes(text.replace("\n", line_end).encode())
+    options = ("--speeds", "1500:2600:20", "--format", "json")
+    sized = run_here("torsion", chain, *options, "--damper", "viscous", "--write", fitted)
+    assert sized.status == 0
+    promised = json.loads(sized.out)
+    del promised["damper"]
+    assert json.loads(run_here("torsion", fitted, *options).out) == promised
+    new = fitted.read_bytes().decode()
+    kept = [line for line in new.split(line_end) if "by balcli" not in line]
+    assert kept == text.split("\n"), "comments and all else stay"
+
+
+def test_an_older_damper_is_replaced(tmp_path):
+    old, new = tmp_path / "old.toml", tmp_path / "new.toml"
+    own = 'damper = { kind = "viscous", inertia = 20000, damping = 1 }   # too soft\n'
+    old.write_text(write_diesel().replace('name = "pulley"\n', f'name = "pulley"\n{own}'))
+    options = ("--speeds", "3000:4600:40", "--damper", "viscous")
+    assert run_here("torsion", old, *options, "--write", new).status == 0
+    parts = tomllib.loads(new.read_text())["torsion"]["front"]
+    assert parts[1]["damper"]["inertia"] == 20000
+    assert parts[1]["damper"]["damping"] > 10
+    assert new.read_text().count("damper = {") == 1
+
+
+def test_a_file_in_inline_tables_is_written_anew(tmp_path):
+    chain, fitted = tmp_path / "chain.toml", tmp_path / "fitted.toml"
+    chain.write_text(
+        'node = [{ name = "a", inertia = 1e6 }, { name = "b", inertia = 2e6 }] # short\n'
+        'shaft = [{ from = "a", to = "b", stiffness = 1e4 }]\n'
+        'excitation = [{ node = "b", order = 1, cos = 3 }]\n'
+    )
+    options = ("--speeds", "800:2000", "--damper", "viscous", "--write", fitted)
+    assert run_here("torsion", chain, *options).status == 0
+    assert fitted.read_text().startswith(
+        "# Comments and lay-out of the original could not be kept: the table of a is written in an "
+        "unusual way.\n"
+    )
+    assert tomllib.loads(fitted.read_text())["node"][0]["damper"]["kind"] == "viscous"
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (
+            ("--damper", "viscous"),
+            "--damper: give the range in which it is to help, such as --speeds 1000:2500",
+        ),
+        (
+            ("--write", "x.toml", "--speeds", "1000:2000"),
+            "--write: writes a damper into the file; say which, such as --damper viscous",
+        ),
+        (
+            ("--damper-at", "disc"),
+            "--damper-at: say which damper, such as --damper viscous",
+        ),
+        (
+            ("--damper-inertia", "3"),
+            "--damper-inertia: say which damper, such as --damper viscous",
+        ),
+        (
+            ("--damper", "viscous", "--damper-at", "disk", *RANGE),
+            '--damper-at "disk": cannot carry a damper; what can is disc, wall',
+        ),
+        (
+            ("--damper", "viscous", "--damper-at", "wall", *RANGE),
+            "--damper: wall does not move in mode 1",
+        ),
+        (
+            ("--damper", "viscous", "--damper-inertia", "-3", *RANGE),
+            '--damper-inertia "-3": a moment of inertia is wanted: a bare number in kg mm^2, or '
+            '"4200 kg mm^2" or "8.1 lb in^2", above 0',
+        ),
+        (
+            ("--damper", "viscous", "--damper-inertia", "3 kg", *RANGE),
+            '--damper-inertia "3 kg" is a mass, but a moment of inertia is wanted: a bare number in '
+            'kg mm^2, or "4200 kg mm^2" or "8.1 lb in^2"',
+        ),
+        (
+            ("--damper", "viscous", "--orders", "2", *RANGE),
+            "--damper: nothing excites the system at the orders asked for",
+        ),
+        (
+            ("--what", "modes"),
+            "--what modes: give --plot and a file for the picture",
+        ),
+        (
+            ("--what", "response", "--plot", "x.svg"),
+            "--what response: give the range, such as --speeds 1000:2500",
+        ),
+    ],
+)
+def test_options_that_miss_others(options, message):
+    assert refusal("torsion", "-", *options, stdin=SINGLE) == message
+
+
+@pytest.mark.parametrize("what", ["all", "modes", "campbell", "response", "waterfall"])
+def test_pictures_are_the_same_for_the_same_question(tmp_path, what):
+    files = [tmp_path / f"{k}.svg" for k in range(2)]
+    options = ("--speeds", "1000:4000:100", "--plot")
+    for file in files:
+        status, _, err = run_here(
+            "torsion", "-", *options, file, "--what", what, stdin=write_diesel("limit = 60")
+        )
+        assert (status, err) == (0, "")
+    first, second = (file.read_bytes() for file in files)
+    assert first == second
+    text = first.decode()
+    assert "six: torsion" in text
+    titles = {
+        "modes": "Shapes of modes: angle of each node",
+        "campbell": "Campbell diagram: orders, and criticals by work",
+        "response": "Vibratory stress",
+        "waterfall": "by order; the largest",
+    }
+    for name, title in titles.items():
+        assert (title in text) == (what in ("all", name))
+
+
+def test_pictures_without_a_range_show_modes_and_criticals(tmp_path):
+    picture = tmp_path / "chain.svg"
+    status, *_ = run_here("torsion", "-", "--plot", picture, stdin=read_starting_file())
+    assert status == 0
+    text = picture.read_text()
+    assert "Shapes of modes" in text
+    assert "Campbell" in text
+    assert "Vibratory" not in text

@@ -1,0 +1,413 @@
+"""`[torsion]` of an engine file: inertias and torques of its cylinders against quadrature and time
+integration, and every mistake by its path.
+"""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from support.commands import refusal, run_here
+from support.diesel import INERTIAS, NATURAL_HZ, RUNNING_GEAR, write_diesel
+
+ODE = 1e-6  # of the largest: what a time integration agrees to
+
+
+def ask(text, *options):
+    status, out, err = run_here("torsion", "-", *options, "--format", "json", stdin=text)
+    assert (status, err) == (0, "")
+    return json.loads(out)
+
+
+def slider_crank(theta, radius, length, offset=0.0):
+    """Speed of the piston and of the rod's angle for a crank speed of 1 (m, 1)."""
+    lean = (radius * np.sin(theta) - offset) / length
+    rate = radius * np.cos(theta) / (length * np.sqrt(1 - lean**2))
+    return -radius * np.sin(theta) - length * lean * rate, rate
+
+
+# ------------------------------------------------------------------ inertias
+def test_nodes_and_shafts_stand_from_front_to_rear():
+    said = ask(write_diesel())
+    throws = [f"throw {k}" for k in range(1, 7)]
+    assert [node["name"] for node in said["nodes"]] == ["pulley", "gear", *throws, "flywheel"]
+    between = [f"throw {k}-{k + 1}" for k in range(1, 6)]
+    assert [shaft["name"] for shaft in said["shafts"]] == ["pulley", "gear", *between, "flywheel"]
+    found = [node["inertia_kg_m2"] for node in said["nodes"]]
+    assert found == pytest.approx(INERTIAS, rel=1e-7)
+    assert [mode["frequency_Hz"] for mode in said["modes"]] == pytest.approx(NATURAL_HZ, rel=1e-7)
+    assert [mode["nodes"] for mode in said["modes"]] == list(range(1, 9))
+
+
+def test_mean_inertia_of_a_cylinder_against_quadrature():
+    """`m_rot r^2 + mean(m_rec s'^2 - H beta'^2)`, with an offset and a rod that is no two masses."""
+    radius, length, offset = 0.045, 0.145, 0.004
+    mass, cg, about = 0.7, 0.05, 2600e-6
+    text = f"""
+        [crank]
+        stroke = 90
+        throw_mass = 3.3
+        [rod]
+        length = 145
+        mass = {mass}
+        cg = {cg * 1e3}
+        inertia = {about * 1e6}
+        [piston]
+        mass = 0.5
+        offset = 4
+        [torsion]
+        throw_inertia = 20000
+        [[torsion.rear]]
+        name = "flywheel"
+        inertia = 1e6
+        stiffness = 1e5
+        """
+    theta = np.arange(4096) * 2 * np.pi / 4096
+    speed, rate = slider_crank(theta, radius, length, offset)
+    small, big = mass * cg / length, mass * (length - cg) / length
+    lacking = small * big / mass * length**2 - about
+    moving = np.mean((0.5 + small) * speed**2 - lacking * rate**2)
+    expected = 0.02 + big * radius**2 + moving
+    assert ask(text)["nodes"][0]["inertia_kg_m2"] == pytest.approx(expected, rel=1e-13)
+
+
+def test_throws_of_a_vee_carry_two_rods():
+    vee = """
+        [crank]
+        stroke = 80
+        throws = [0, 90]
+        spacing = 100
+        [rod]
+        length = 140
+        small_end = 0.2
+        big_end = 0.4
+        [piston]
+        mass = 0.5
+        [layout]
+        bank_angle = 90
+        [torsion]
+        throw_inertia = [15000, 16000]
+        throw_stiffness = 5e5
+        damping = 3
+        [[torsion.rear]]
+        name = "flywheel"
+        inertia = 1e6
+        stiffness = 1e6
+        """
+    speed, _ = slider_crank(np.arange(4096) * 2 * np.pi / 4096, 0.04, 0.14)
+    one = 0.4 * 0.04**2 + 0.7 * np.mean(speed**2)
+    said = ask(vee)
+    found = [node["inertia_kg_m2"] for node in said["nodes"][:2]]
+    assert found == pytest.approx([0.015 + 2 * one, 0.016 + 2 * one], rel=1e-12)
+    first = said["modes"][0]
+    swing = np.array([n["inertia_kg_m2"] for n in said["nodes"]]) @ np.square(first["shape"])
+    throws = np.square(first["shape"][:2]).sum()
+    loss = 2 * 3 * throws / (2 * np.pi * first["frequency_Hz"] * swing)
+    assert first["loss"] == pytest.approx(loss), "damping counts for each cylinder"
+
+
+def test_the_running_gear_of_the_diesel():
+    """The classic half of m r^2 is 2.9 % low."""
+    speed, _ = slider_crank(np.arange(4096) * 2 * np.pi / 4096, 0.0685, 0.207)
+    assert 2.521 * np.mean(speed**2) == pytest.approx(RUNNING_GEAR, rel=1e-7)
+    assert pytest.approx(0.972, abs=5e-4) == 0.5 * 2.521 * 0.0685**2 / RUNNING_GEAR
+
+
+# ------------------------------------------------------------------ excitation
+def test_phase_sums_are_those_of_the_firing_order():
+    said = ask(write_diesel(), "--orders", "1-12")
+    shape = np.array(said["modes"][0]["shape"][2:8])
+    pins = np.radians([0, 240, 120, 120, 240, 0])  # of 1-5-3-6-2-4
+    for critical in said["criticals"]:
+        if critical["mode"] == 1:
+            phasors = np.exp(1j * critical["order"] * pins)
+            assert critical["phase_sum"] == pytest.approx(abs(phasors @ shape))
+    assert sum(c["work_share"] for c in said["criticals"] if c["mode"] == 1) == pytest.approx(1)
+    assert {c["order"] for c in said["criticals"] if c["phase_sum"] > 3} == {6, 9, 12}
+
+
+def integrate(inertia, stiffness, dashpots, grounded, torque, omega, steps):
+    """Half peak to peak of the torque in each shaft of a chain in a row, in its periodic state.
+
+    Over one turn the state at the end is linear in that at the start; the start that returns to
+    itself is solved for. Runge-Kutta, 4th order.
+
+    Args:
+        torque: function of the crank angle to the torques on all nodes.
+    """
+    count = len(inertia)
+    twist = np.eye(count)[:-1] - np.eye(count)[1:]
+    springs = twist.T @ (np.array(stiffness)[:, None] * twist)
+    losses = twist.T @ (np.array(dashpots)[:, None] * twist) + np.diag(grounded)
+    system = np.block(
+        [
+            [np.zeros((count, count)), np.eye(count)],
+            [-springs / inertia[:, None], -losses / inertia[:, None]],
+        ]
+    )
+    span = 2 * np.pi / omega / steps
+    half_steps = np.array([torque(k * np.pi / steps) for k in range(2 * steps + 1)]) / inertia
+    pushed = np.concatenate([np.zeros_like(half_steps), half_steps], axis=1)
+
+    def step(k, state, forced):
+        before, middle, after = (each[:, None] * forced for each in pushed[2 * k : 2 * k + 3])
+        a = system @ state + before
+        b = system @ (state + span / 2 * a) + middle
+        c = system @ (state + span / 2 * b) + middle
+        d = system @ (state + span * c) + after
+        return state + span / 6 * (a + 2 * b + 2 * c + d)
+
+    state = np.concatenate([np.eye(2 * count), np.zeros((2 * count, 1))], axis=1)
+    forced = np.zeros(2 * count + 1)
+    forced[-1] = 1
+    for k in range(steps):
+        state = step(k, state, forced)
+    start = np.linalg.lstsq(np.eye(2 * count) - state[:, :-1], state[:, -1], rcond=1e-12)[0]
+    state, torques = start[:, None], []
+    for k in range(steps):
+        bend = twist @ state[:count, 0]
+        rate = twist @ state[count:, 0]
+        torques.append(np.array(stiffness) * bend + np.array(dashpots) * rate)
+        state = step(k, state, np.ones(1))
+    return (np.max(torques, axis=0) - np.min(torques, axis=0)) / 2
+
+
+def test_time_integration_agrees_with_the_synthesis():
+    """Inertia torque of the slider-crank itself, not of its harmonics; near a critical."""
+    inertia, stiffness = np.array([0.03, 0.05, 0.05, 0.05, 0.05, 0.9]), [9e5, 8e5, 8e5, 8e5, 1e6]
+    radius, length, mass, omega = 0.043, 0.145, 0.9, 5200 * np.pi / 30
+    theta = np.arange(4096) * 2 * np.pi / 4096
+    speed, _ = slider_crank(theta, radius, length)
+    gear = mass * np.mean(speed**2)
+    text = f"""
+        [crank]
+        stroke = 86
+        throws = [0, 180, 180, 0]
+        spacing = 90
+        [rod]
+        length = 145
+        mass = 0
+        cg = 0
+        [piston]
+        mass = {mass}
+        [torsion]
+        throw_inertia = {float(0.05 - gear) * 1e6!r}
+        throw_stiffness = 8e5
+        damping = 4
+        [[torsion.front]]
+        name = "pulley"
+        inertia = 30000
+        stiffness = 9e5
+        damping = 60
+        [[torsion.rear]]
+        name = "flywheel"
+        inertia = 900000
+        stiffness = 1e6
+        damping = 50
+        node_damping = 1
+        """
+
+    def torque(angle):
+        """`-1/2 dI/dtheta` by the chain rule: `-m s' s''`, of two pairs of cylinders."""
+        step = 1e-4
+        ahead, behind = (
+            slider_crank(angle + turn, radius, length)[0] ** 2 for turn in (step, -step)
+        )
+        wide = [
+            slider_crank(angle + turn, radius, length)[0] ** 2 for turn in (2 * step, -2 * step)
+        ]
+        slope = (8 * (ahead - behind) - (wide[0] - wide[1])) / (12 * step)
+        other = [
+            slider_crank(angle + np.pi + turn, radius, length)[0] ** 2 for turn in (step, -step)
+        ]
+        far = [
+            slider_crank(angle + np.pi + turn, radius, length)[0] ** 2
+            for turn in (2 * step, -2 * step)
+        ]
+        turned = (8 * (other[0] - other[1]) - (far[0] - far[1])) / (12 * step)
+        one, two = (-mass * omega**2 / 2 * each for each in (slope, turned))
+        return np.array([0, one, two, two, one, 0])
+
+    exact = integrate(
+        inertia, stiffness, [60, 0, 0, 0, 50], [0, 4, 4, 4, 4, 1], torque, omega, 3000
+    )
+    said = ask(text, "--speeds", "5200", "--orders", "1-24")["response"]
+    found = [shaft["half_peak_to_peak_Nm"][0] for shaft in said["shafts"]]
+    assert found == pytest.approx(exact, abs=ODE * max(exact))
+
+
+def test_rigid_shafts_leave_the_fluctuation_of_one_inertia():
+    """k to infinity: all turn as one, `T_n/(n^2 omega^2 J)`."""
+    stiff = write_diesel().replace(
+        "throw_stiffness = [", "throw_stiffness = [1e16, 1e16, 1e16, 1e16, 1e16] # ["
+    )
+    for stiffness in ("1631000.0", "1106000.0", "1976000.0"):
+        stiff = stiff.replace(f"stiffness = {stiffness}", 'stiffness = "rigid"')
+    said = ask(stiff.replace("damping = 2", "damping = 0"), "--speeds", "2000", "--orders", "6")
+    whole = sum(INERTIAS)
+    theta = np.arange(4096) * 2 * np.pi / 4096
+    speed, _ = slider_crank(theta, 0.0685, 0.207)
+    omega = 2000 * np.pi / 30
+    sixth = 6 * 2 * np.abs(np.mean(2.521 * speed**2 * np.exp(-6j * theta)))  # of six cylinders
+    torque = 0.5 * 6 * sixth * omega**2
+    swing = np.degrees(torque / (36 * omega**2 * whole))
+    assert said["response"]["free_end_deg"][0] == pytest.approx(swing, rel=1e-6)
+
+
+# ------------------------------------------------------------------ parts
+def test_branches_and_gears():
+    more = """
+        [[torsion.rear]]
+        name = "camshaft"
+        inertia = 8000
+        stiffness = 20000
+        of = "throw 2"
+        gear = 0.5
+        [[torsion.rear]]
+        name = "pump"
+        inertia = 3000
+        stiffness = 9000
+        """
+    said = ask(write_diesel() + more)
+    gears = {node["name"]: node["gear"] for node in said["nodes"]}
+    assert (gears["flywheel"], gears["camshaft"], gears["pump"]) == (1, 0.5, 0.5)
+    assert len(said["modes"]) == 10
+    low = np.sqrt(9000 / 0.003) / 2 / np.pi
+    assert any(mode["frequency_Hz"] < low for mode in said["modes"])
+
+
+def test_a_rigid_part_adds_to_its_neighbour():
+    apart = write_diesel().replace(f"inertia = {INERTIAS[8] * 1e6}", "inertia = 2000000")
+    rest = """
+        [[torsion.rear]]
+        name = "clutch"
+        inertia = 75000
+        stiffness = "rigid"
+        """
+    found = [mode["frequency_Hz"] for mode in ask(apart + rest)["modes"]]
+    assert found == pytest.approx(NATURAL_HZ, rel=1e-7)
+
+
+BAD_PARTS = """
+[torsion]
+throw_inertia = [1, 2]
+throw_stiffness = [1, 2]
+[[torsion.front]]
+name = "a"
+stiffness = 1
+of = "thrwo 1"
+[[torsion.front]]
+name = "a"
+stiffness = 1
+[[torsion.rear]]
+name = "throw 1"
+stiffness = 1
+[[torsion.rear]]
+name = "b"
+stiffness = 1
+of = "c"
+[[torsion.rear]]
+name = "c"
+stiffness = 1
+of = "b"
+"""
+
+
+def test_every_misfit_of_torsion_is_told_by_its_path():
+    head = write_diesel().partition("[torsion]")[0]
+    assert refusal("torsion", "-", stdin=head + BAD_PARTS).split("\n") == [
+        "standard input: 7 mistakes",
+        "  torsion.throw_stiffness: has 2 values, but 6 throws need 5; give one for all, or a list of "
+        "these",
+        "  torsion.throw_inertia: has 2 values, but 6 throws need 6; give one for all, or a list of "
+        "these",
+        '  torsion.front.1.of: "thrwo 1" is no part; did you mean throw 1?',
+        '  torsion.front.2.name: "a" is there twice; give each its own',
+        '  torsion.rear.1.name: "throw 1" is a name that throws have',
+        '  torsion.rear.2.of: "c" does not lead to the crankshaft; name what the part hangs on',
+        '  torsion.rear.3.of: "b" does not lead to the crankshaft; name what the part hangs on',
+    ]
+
+
+@pytest.mark.parametrize(
+    ("torsion", "message"),
+    [
+        (
+            "[torsion]\nfront = 3",
+            "torsion.front: 3 is not a list; write it in square brackets, such as [0, 180]",
+        ),
+        (
+            "[torsion.front]\nname = 3",
+            "torsion.front: is one of several; write [[torsion.front]] in double brackets",
+        ),
+        (
+            '[[torsion.front]]\nname = "a"\nstiffness = 1\ninertja = 3',
+            "torsion.front.1.inertja: is no key of [torsion]; did you mean inertia?",
+        ),
+        (
+            '[[torsion.front]]\nname = "a"\ninertia = 0\nstiffness = 1',
+            "torsion.front.1.inertia: is 0; leave it out where a node has no inertia",
+        ),
+        (
+            '[[torsion.front]]\nname = "a"\ninertia = 1',
+            "torsion.front.1: has no stiffness; give it, such as stiffness = 1.25e6, or diameter and "
+            "length of a plain shaft",
+        ),
+        (
+            '[[torsion.front]]\nname = "a"\ninertia = 1\nstiffness = 1\ndamper = { kind = "rubber" }',
+            "torsion.front.1.damper: is rubber and lacks inertia and stiffness and loss",
+        ),
+        (
+            "[[torsion.front]]\nstiffness = 1",
+            'torsion.front.1.name: is missing; give it, such as name = "flywheel"',
+        ),
+        (
+            "[torsion]\nthrow_bore = 3",
+            "torsion: has a throw_bore without a larger throw_diameter; the bore lies within the shaft",
+        ),
+        (
+            "[torsion]\nthrow_stiffness = []",
+            "torsion.throw_stiffness: [] has 0 values; give one for all, or a list of up to 200",
+        ),
+        (
+            "[torsion]\nthrow_stiffness = [1, -2]",
+            "torsion.throw_stiffness: -2 is not above 0; a torsional stiffness is wanted: a bare number "
+            'in N m/rad, or "1.25e6 N m/rad" or "24.17e6 lbf in/rad", above 0',
+        ),
+        (
+            "[torsion]\nthrow_stiffness = 1",
+            "torsion.throw_inertia: is missing; give it, such as throw_inertia = 46700, or inertia of "
+            "the whole [crank]",
+        ),
+        (
+            "",
+            "has no [torsion]; write it with throw_stiffness, throw_inertia and [[torsion.rear]] for "
+            "the flywheel, or a chain of [[node]] and [[shaft]]",
+        ),
+    ],
+)
+def test_mistakes_of_torsion_say_what_would_be_right(torsion, message):
+    head = write_diesel().partition("[torsion]")[0]
+    assert refusal("torsion", "-", stdin=head + torsion) == f"standard input: {message}"
+
+
+def test_a_rotary_has_no_crankshaft_that_twists():
+    text = """
+        [crank]
+        stroke = 140
+        [rod]
+        length = 280
+        mass = 1
+        cg = 100
+        [piston]
+        mass = 1
+        [layout]
+        radial = 9
+        rotary = true
+        [torsion]
+        throw_inertia = 3
+        """
+    assert refusal("torsion", "-", stdin=text) == (
+        "standard input: torsion: is for crankshafts that turn; that of a rotary stands still"
+    )

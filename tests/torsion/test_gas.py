@@ -1,0 +1,133 @@
+"""Gas and inertia shake the crankshaft together: the published Diesel, misfires, half orders."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from support.commands import refusal, run_here
+from support.diesel import INERTIAS, STIFFNESSES, write_diesel
+
+BORE, RADIUS, ROD, RECIPROCATING = 0.105, 0.0685, 0.207, 2.521
+ORDER = (1, 5, 3, 6, 2, 4)
+# crank angle from firing (deg), pressure (bar): a rough diagram, linear between rows
+DIAGRAM = [(0, 140), (10, 149), (30, 85), (60, 27), (130, 7), (180, 3), (540, 2.7), (690, 50)]
+
+
+@pytest.fixture
+def diesel(tmp_path):
+    angles = range(0, 720, 10)  # with all corners among them
+    pressures = np.interp(angles, *np.array([*DIAGRAM, (720, DIAGRAM[0][1])]).T)
+    rows = "".join(f"{a},{p}\n" for a, p in zip(angles, pressures, strict=True))
+    (tmp_path / "p.csv").write_text(f"angle_deg,pressure_bar\n{rows}", encoding="utf-8")
+    path = tmp_path / "diesel.toml"
+    gas = '[gas]\nindicator = "p.csv"\ncrankcase = 1\n'
+    path.write_text(write_diesel(extra=gas), encoding="utf-8")
+    return path
+
+
+def ask(*args):
+    status, out, err = run_here("torsion", *args, "--format", "json")
+    assert (status, err) == (0, "")
+    return json.loads(out)
+
+
+def torque(rpm, angle):
+    """Of one cylinder that fires at 0, N m: gas and inertia, from the piston's speed."""
+    lean = RADIUS * np.sin(angle) / ROD
+    arm = RADIUS * np.sin(angle) * (1 + RADIUS * np.cos(angle) / (ROD * np.sqrt(1 - lean**2)))
+    cycle = np.degrees(angle) % 720
+    rows = np.array([*DIAGRAM, (720, DIAGRAM[0][1])]).T
+    gas = (np.interp(cycle, *rows) - 1) * 1e5 * np.pi / 4 * BORE**2 * arm
+    slope = np.gradient(arm**2, angle, edge_order=2)
+    return gas - RECIPROCATING * (rpm * np.pi / 30) ** 2 / 2 * slope
+
+
+def respond(rpm, weights=(1,) * 6):
+    """Half peak to peak of torque in each shaft by plain equations of motion, orders to 12."""
+    count = 1 << 15
+    angle = np.arange(count) * 4 * np.pi / count
+    harmonics = 2 * np.fft.rfft(torque(rpm, angle))[1:25] / count
+    omega, curve = rpm * np.pi / 30, 0
+    twist = np.eye(9)[:-1] - np.eye(9)[1:]
+    stiffness = np.array(STIFFNESSES) * (1 + 0.035j)
+    grounded = np.diag([0, 0, 2, 2, 2, 2, 2, 2, 0.0])
+    sample = np.arange(count) * 4 * np.pi / count
+    for k, harmonic in enumerate(harmonics, 1):
+        w, load = k / 2 * omega, np.zeros(9, complex)
+        for place, number in enumerate(ORDER):
+            load[1 + number] = weights[number - 1] * harmonic * np.exp(-1j * k * place * np.pi / 3)
+        dynamic = (twist.T * stiffness) @ twist + 1j * w * grounded - w**2 * np.diag(INERTIAS)
+        shafts = stiffness * (twist @ np.linalg.solve(dynamic, load))
+        curve = curve + np.real(shafts[:, None] * np.exp(1j * k / 2 * sample))
+    return np.ptp(curve, axis=1) / 2
+
+
+@pytest.mark.parametrize("rpm", [1000, 2170])
+def test_vibratory_torque_against_plain_equations(diesel, rpm):
+    said = ask(diesel, "--speeds", rpm)["response"]
+    found = [shaft["half_peak_to_peak_Nm"][0] for shaft in said["shafts"]]
+    assert found == pytest.approx(respond(rpm), rel=5e-6)
+    orders = [each["order"] for each in said["shafts"][0]["worst"]["orders"]]
+    assert orders == [k / 2 if k % 2 else k // 2 for k in range(1, 25)]
+
+
+def test_a_misfire_takes_away_the_gas_of_one_cylinder(diesel):
+    """Its inertia stays; orders that cancelled before shake now."""
+    whole, missing = (
+        ask(diesel, "--speeds", "1000", *options)["response"]
+        for options in ((), ("--misfire", "4"))
+    )
+    assert missing["free_end_deg"][0] > 3 * whole["free_end_deg"][0]
+    said = ask(diesel, "--speeds", "1000", *(f"--misfire={n}" for n in range(1, 7)))["response"]
+    (tmp := diesel.parent / "none.toml").write_text(write_diesel(), encoding="utf-8")
+    without = ask(tmp, "--speeds", "1000")["response"]
+    found, exact = ([s["half_peak_to_peak_Nm"][0] for s in r["shafts"]] for r in (said, without))
+    assert found == pytest.approx(exact, rel=1e-9)
+
+
+def test_the_phase_sum_counts_what_a_misfire_leaves(diesel):
+    """Order 6 in line: without cylinder 6 the sum of the angles lacks its own."""
+    whole, missing = (
+        next(c for c in ask(diesel, *options)["criticals"] if (c["mode"], c["order"]) == (1, 6))
+        for options in ((), ("--misfire", "1"))
+    )
+    shape = ask(diesel)["modes"][0]["shape"]
+    assert whole["phase_sum"] == pytest.approx(sum(shape[2:8]))
+    assert sum(shape[3:8]) < missing["phase_sum"] < whole["phase_sum"]
+
+
+def test_misfires_that_cannot_be(diesel):
+    assert refusal("torsion", diesel, "--misfire", "7") == (
+        "--misfire 7: there is no such cylinder; there are 6 cylinders"
+    )
+    assert refusal("torsion", "-", "--misfire", "1", stdin=write_diesel()) == (
+        "--misfire: the engine has no [gas], so that nothing fires"
+    )
+    chain = '[[node]]\nname = "a"\ninertia = 1\n'
+    assert refusal("torsion", "-", "--misfire", "1", stdin=chain) == (
+        "--misfire: a chain has no cylinders"
+    )
+
+
+def test_crank_inertia_is_shared_by_the_throws():
+    """Instead of throw_inertia; that of the whole [crank], its throws included."""
+    text = write_diesel().replace("throw_inertia = ", "# ")
+    text = text.replace("spacing = 120", "spacing = 120\ninertia = 240000")
+    status, out, _ = run_here("torsion", "-", "--format", "json", stdin=text)
+    assert status == 0
+    nodes = json.loads(out)["nodes"][2:8]
+    assert {node["inertia_kg_m2"] for node in nodes} == {nodes[0]["inertia_kg_m2"]}
+    assert nodes[0]["inertia_kg_m2"] == pytest.approx(0.04 + 0.006086026, rel=1e-7)
+
+
+def test_two_strokes_have_whole_orders(tmp_path):
+    text = write_diesel(extra="").replace("[layout]\n", "[layout]\nstrokes = 2\n")
+    text = text.replace(
+        "[torsion]",
+        '[gas]\ncycle = "wiebe"\ncompression_ratio = 15\nimep = 8\n[torsion]',
+    ).replace("firing_order = [1, 5, 3, 6, 2, 4]", "firing_order = [1, 6, 2, 4, 3, 5]")
+    status, out, _ = run_here("torsion", "-", "--format", "json", stdin=text)
+    assert status == 0
+    assert all(isinstance(c["order"], int) for c in json.loads(out)["criticals"])
