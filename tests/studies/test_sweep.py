@@ -9,17 +9,21 @@ import numpy as np
 import pytest
 from support.engines import GOOD, changed
 
+from balcli.core.phasors import EPS
 from balcli.engine.build import build
 from balcli.engine.load import parse as load
 from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
 from balcli.render.sweep import csv_text, json_text
 from balcli.render.sweep_plot import check_drawable
-from balcli.studies.parameters import parse
+from balcli.studies.parameters import Parameter, parse
 from balcli.studies.sweep import (
+    Chunk,
     Sweep,
     check_corners,
     divide_grid,
+    divide_sweep,
+    evaluate_box,
     evaluate_chunks,
     join_chunks,
     list_columns,
@@ -172,6 +176,29 @@ def test_chunks_do_not_change_figures() -> None:
     whole = np.stack(join_chunks(sweep, evaluate_chunks(sweep))).reshape(2, -1)
     assert np.array_equal(every[2:], whole)
     assert every[:2, [0, 1, 200, -1]].T.tolist() == [[0, 0.2], [0, 0.201], [1, 0.2], [179, 0.399]]
+
+
+@pytest.mark.parametrize("shape", [(3, 5000), (5000, 3), (2, 7, 900)])
+@pytest.mark.parametrize("most", [100, 1000])
+def test_boxes_that_would_be_narrow_are_computed_in_tiles(
+    shape: tuple[int, ...], most: int
+) -> None:
+    """The same figures in the same order, to rounding: powers of a few numbers at a time may be
+    rounded otherwise.
+    """
+    paths = ("layout.bank_angle", "layout.stagger", "rod.ratio")
+    bounds = ((0, 170), (10, 30), (0.2, 0.3))
+    picked = [*zip(paths, bounds, strict=True)][-len(shape) :]
+    axes = zip(picked, shape, strict=True)
+    parameters = tuple(Parameter(path, np.linspace(*ends, n)) for (path, ends), n in axes)
+    sweep = Sweep(load(VEE), parameters, parse_quantity_list("force.2.major,moment.1.x"))
+    boxes = list(divide_sweep(sweep, most))
+    assert shape[-1] < 100 or len(boxes) < math.prod(shape) / most
+    tiled = join_chunks(sweep, (Chunk(box, evaluate_box(sweep, box, most)) for box in boxes))
+    whole = (slice(0, n) for n in shape)
+    at_once = evaluate_box(sweep, tuple(whole))
+    for one, other in zip(tiled, at_once, strict=True):
+        assert np.abs(one.ravel() - other).max() <= 4 * EPS * np.abs(other).max()
 
 
 def test_csv_is_exact_and_an_axis_that_is_none_an_empty_cell() -> None:

@@ -93,7 +93,8 @@ class Phases:
         """
         forward, mirrored = self._add(self._planar, (vectors.forward, vectors.mirrored), arms)
         noise = self.add_figures(vectors.error, sizes)
-        return Phasors(self.orders, forward, mirrored.conj(), noise)
+        np.conjugate(mirrored, out=mirrored)
+        return Phasors(self.orders, forward, mirrored, noise)
 
     def add_scalars(self, series: Series) -> Phasors:
         """Sum of what the cylinders do about z."""

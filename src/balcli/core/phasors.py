@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
@@ -133,17 +134,21 @@ class Phasors:
         """The same with whatever lies within its rounding error set to exactly 0, each of both
         vectors for itself.
         """
-        return Phasors(
-            self.orders,
-            _settled(self.forward, self.noise),
-            _settled(self.backward, self.noise),
-            self.noise,
-        )
+        ahead, astern = self._sizes
+        forward, ahead = _settle(self.forward, ahead, self.noise)
+        backward, astern = _settle(self.backward, astern, self.noise)
+        found = Phasors(self.orders, forward, backward, self.noise)
+        return found._with_sizes(ahead, astern)
 
     def select_orders(self, orders: ArrayLike) -> Phasors:
         """Those of these orders, each of which must be there."""
-        rows = np.searchsorted(self.orders, np.asarray(orders, float))
-        noise = np.broadcast_to(self.noise, self.forward.shape)
+        return self.select_rows(np.searchsorted(self.orders, np.asarray(orders, float)))
+
+    def select_rows(self, rows: NDArray[np.intp]) -> Phasors:
+        """Those of the orders in these rows."""
+        noise = self.noise
+        if noise.shape != self.forward.shape:
+            noise = np.broadcast_to(noise, self.forward.shape)
         return Phasors(self.orders[rows], self.forward[rows], self.backward[rows], noise[rows])
 
     def select_place(self, place: int) -> Phasors:
@@ -153,6 +158,24 @@ class Phasors:
             self.orders, self.forward[:, place], self.backward[:, place], noise[:, place]
         )
 
+    def select_row(self, row: int) -> Phasors:
+        """The order in this row alone."""
+        only = slice(row, row + 1)
+        ahead, astern = self._sizes
+        noise = self.noise[only] if len(self.noise) == len(self.orders) else self.noise
+        found = Phasors(self.orders[only], self.forward[only], self.backward[only], noise)
+        return found._with_sizes(ahead[only], astern[only])
+
+    @cached_property
+    def _sizes(self) -> tuple[Array, Array]:
+        """|forward| and |backward|."""
+        return np.abs(self.forward), np.abs(self.backward)
+
+    def _with_sizes(self, ahead: Array, astern: Array) -> Phasors:
+        """The same, its sizes being known."""
+        vars(self)["_sizes"] = ahead, astern
+        return self
+
     # -------------------------------------------------------------- what a reader asks of an order
     @property
     def balanced(self) -> NDArray[np.bool_]:
@@ -161,12 +184,14 @@ class Phasors:
     @property
     def major(self) -> Array:
         """Longer semi-axis of the ellipse; the amplitude of a scalar."""
-        return np.abs(self.forward) + np.abs(self.backward)
+        ahead, astern = self._sizes
+        return ahead + astern
 
     @property
     def minor(self) -> Array:
         """Shorter semi-axis of the ellipse; 0 for a straight line within its rounding error."""
-        minor = np.abs(np.abs(self.forward) - np.abs(self.backward))
+        ahead, astern = self._sizes
+        minor = np.abs(ahead - astern)
         return np.where(minor <= 2 * self.noise, 0, minor)
 
     @property
@@ -186,18 +211,16 @@ class Phasors:
     def x(self) -> Complex:
         """Components along x as `Re(c_n e^{i n theta})`, exactly 0 within their rounding error."""
         mean = _column(self.orders, self.forward) == 0
-        return _settled(
-            np.where(mean, self.forward.real, self.forward + np.conj(self.backward)), 2 * self.noise
-        )
+        x = np.where(mean, self.forward.real, self.forward + np.conj(self.backward))
+        return _settle(x, np.abs(x), 2 * self.noise)[0]
 
     @property
     def y(self) -> Complex:
         """Components along y as `Re(c_n e^{i n theta})`, exactly 0 within their rounding error."""
         mean = _column(self.orders, self.forward) == 0
-        return _settled(
-            np.where(mean, self.forward.imag, -1j * (self.forward - np.conj(self.backward))),
-            2 * self.noise,
-        )
+        across = -1j * (self.forward - np.conj(self.backward))
+        y = np.where(mean, self.forward.imag, across)
+        return _settle(y, np.abs(y), 2 * self.noise)[0]
 
     def values(self, theta: ArrayLike) -> Complex:
         """The curve at crank angles (radians): the sum over all orders, shape of theta, for phasors
@@ -220,9 +243,12 @@ def join_orders(parts: Sequence[Phasors]) -> Phasors:
     )
 
 
-def _settled(vectors: Complex, noise: Array) -> Complex:
-    nothing = np.abs(vectors) <= noise
-    return np.where(nothing, 0, vectors) if np.count_nonzero(nothing) else vectors
+def _settle(vectors: Complex, sizes: Array, noise: Array) -> tuple[Complex, Array]:
+    """Vectors, of these sizes, and their sizes, with those within the noise set to 0."""
+    nothing = sizes <= noise
+    if not np.count_nonzero(nothing):
+        return vectors, sizes
+    return np.where(nothing, 0, vectors), np.where(nothing, 0, sizes)
 
 
 def _column(orders: Array, like: NDArray[np.generic]) -> Array:

@@ -41,4 +41,4 @@ def ranked(values: ArrayLike) -> Array:
 def shared_column(values: Sequence[Figure], rank: int) -> Array:
     """The same, or a single row, shape (1, *trailing), where all values are equal."""
     rows = column(values, rank)
-    return rows[:1] if (rows == rows[:1]).all() else rows
+    return rows[:1] if len(rows) > 1 and (rows == rows[:1]).all() else rows

@@ -5,7 +5,7 @@ Everything is worked out where it is first asked for, by a rule or by the engine
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
@@ -347,9 +347,9 @@ class Assembly:
     def cylinders(self) -> Cylinders:
         """All cylinders, sorted by bank."""
         axes, pins = self._turned_deg
-        gears = [self.gears[n] for n in self.numbers]
-        radius, rank, rotary = self.radius, self.rank, self.model.layout.rotary
-        at_pistons = shared_column([gear.piston + gear.small_end for gear in gears], rank)
+        gears, radius, rank = self.gears, self.radius, self.rank
+        rotary = self.model.layout.rotary
+        at_pistons = self._of_each(lambda n: gears[n].piston + gears[n].small_end)
         hung = self._hung
         return Cylinders(
             axis_deg=column([axes[bank[0]] for bank in self.banks], rank),
@@ -358,13 +358,20 @@ class Assembly:
             first=next(k for k, bank in enumerate(self.banks) if 1 in bank),
             z=column([self.places[n] for n in self.numbers], rank),
             radius=column([radius], rank)[0],
-            lam=shared_column([radius / gear.length for gear in gears], rank),
-            eps=shared_column([gear.offset / gear.length for gear in gears], rank),
+            lam=self._of_each(lambda n: radius / gears[n].length),
+            eps=self._of_each(lambda n: gears[n].offset / gears[n].length),
             reciprocating=0 * at_pistons if rotary else at_pistons,
-            rotating=shared_column([self._at_pin(n) for n in self.numbers], rank),
-            couple=shared_column([gear.couple for gear in gears], rank),
+            rotating=self._of_each(self._at_pin),
+            couple=self._of_each(lambda n: gears[n].couple),
             linkage=_turn_cylinders(at_pistons, hung) if rotary else hung,
         )
+
+    def _of_each(self, find: Callable[[int], Figure]) -> Array:
+        """A figure of piston and rod for each row of `cylinders`; one row where all are equal."""
+        gears, numbers = self.gears, self.numbers
+        if all(gears[n] is gears[numbers[0]] for n in numbers):  # no cylinder says more of its own
+            numbers = numbers[:1]
+        return shared_column([find(n) for n in numbers], self.rank)
 
     def _at_pin(self, number: int) -> Figure:
         """What turns with a crank pin because of one cylinder, kg; the pins of a rotary engine

@@ -59,12 +59,7 @@ class Quantity:
     def read_from(self, phasors: Phasors) -> Array:
         """Its value by the phasors of its kind, SI or degrees, shape (*trailing)."""
         row = int(np.searchsorted(phasors.orders, self.order))
-        only = slice(row, row + 1)
-        column = (len(phasors.orders), *(1,) * (phasors.forward.ndim - 1))
-        noise = np.broadcast_to(phasors.noise, np.broadcast_shapes(phasors.noise.shape, column))
-        own = Phasors(
-            phasors.orders[only], phasors.forward[only], phasors.backward[only], noise[only]
-        )
+        own = phasors.select_row(row)
         if self.signed:
             c = (own.y if self.part.startswith("y") else own.x)[0]
             return (c.real if self.part.endswith("cos") else -c.imag) + 0.0
@@ -110,6 +105,13 @@ def _parse_quantity(text: str) -> Quantity:
             f"{text} is no quantity: after the order comes one of {', '.join(allowed)}"
         )
     return Quantity(kind, order, part)
+
+
+def leave_out_unknown(engine: Engine, quantities: Iterable[Quantity]) -> tuple[Quantity, ...]:
+    """The quantities without moments of an engine whose file does not say where its throws
+    stand.
+    """
+    return tuple(q for q in quantities if q.kind != "moment" or engine.places_known)
 
 
 def refuse_unknown(engine: Engine, quantities: Iterable[Quantity]) -> None:

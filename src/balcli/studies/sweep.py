@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -23,10 +23,12 @@ from ..engine.load import read
 from ..enginefile.model import EngineFile
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, InputError
+from ..forces.kinds import DEFAULT_QUANTITIES
 from ..forces.quantity import (
     Quantity,
     evaluate_quantities,
     find_orders,
+    leave_out_unknown,
     parse_quantity_list,
     refuse_unknown,
 )
@@ -41,8 +43,10 @@ Box = tuple[slice, ...]
 _OF_MOUNTS = ("mode", "mount", "point")  # beginnings of quantities of an engine on its mounts
 ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
+TILES = 8  # of so many variants in a box that would have few values of some parameter
 BYTES = 1 << 23  # of an array that a box needs: no more than the cache holds
 SAMPLES = 1 << 20  # of revolutions in a box: a tenth of a second
+_LARGE = 31 << 17  # numbers: 31 MB, glibc keeps no more
 
 
 class Chunk(NamedTuple):
@@ -107,8 +111,12 @@ class Sweep:
             raise InputError(error.problems, self.name) from None
 
 
-def read_sweep(file: str, vary: Sequence[str], quantities: str) -> Sweep:
+def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) -> Sweep:
     """The sweep of an engine file that a user asks for.
+
+    Args:
+        vary: parameters and their values, as typed.
+        quantities: by name, with commas; None: the usual ones, as far as they are known.
 
     Raises:
         BalcliError: what is wrong with the file, a parameter or a quantity, or if one of the
@@ -119,7 +127,11 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str) -> Sweep:
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
-    sweep = Sweep(model, parameters, _parse_quantities(quantities), name_file(file))
+    asked = _parse_quantities(DEFAULT_QUANTITIES if quantities is None else quantities)
+    sweep = Sweep(model, parameters, asked, name_file(file))
+    if quantities is None:
+        known = leave_out_unknown(build_corners(sweep), sweep.of_engine)
+        sweep = replace(sweep, quantities=known)
     check_corners(sweep)
     return sweep
 
@@ -167,20 +179,56 @@ def build_corners(sweep: Sweep) -> Engine:
     return Sweep(sweep.file, corners, (), sweep.name).engine((slice(None),) * len(corners))
 
 
-def evaluate_box(sweep: Sweep, box: Box) -> list[Array]:
+def evaluate_box(sweep: Sweep, box: Box, most: int = CHUNK) -> list[Array]:
     """Each quantity for all variants of a box, SI or degrees, shape (variants in it,).
+
+    Args:
+        sweep: what to compute.
+        box: of its grid.
+        most: variants at a time; figures that some axes do not change are computed once for them.
 
     Raises:
         InputError: one of them cannot be.
     """
     shape = tuple(len(range(*cut.indices(n))) for cut, n in zip(box, sweep.shape, strict=True))
+    if math.prod(shape) <= most:
+        values = _evaluate_tile(sweep, box)
+        return [np.broadcast_to(one, shape).ravel() for one in values]
+    found = [np.empty(shape) for _ in sweep.quantities]
+    for tile in _divide_evenly(shape, most):
+        here = tuple(
+            slice(cut.start + part.start, cut.start + part.stop)
+            for cut, part in zip(box, tile, strict=True)
+        )
+        for whole, part_of_it in zip(found, _evaluate_tile(sweep, here), strict=True):
+            whole[tile] = part_of_it
+    return [whole.ravel() for whole in found]
+
+
+def _divide_evenly(shape: tuple[int, ...], most: int) -> Iterator[Box]:
+    """A grid in tiles of at most `most` variants, which are about as long as wide: so their sides,
+    along which most is computed, are short.
+    """
+    steps = list(shape)
+    while math.prod(steps) > most:
+        longest = steps.index(max(steps))
+        steps[longest] = (steps[longest] + 1) // 2
+    cuts = [range(0, n, step) for n, step in zip(shape, steps, strict=True)]
+    for starts in product(*cuts):
+        yield tuple(
+            slice(k, min(k + step, n)) for k, step, n in zip(starts, steps, shape, strict=True)
+        )
+
+
+def _evaluate_tile(sweep: Sweep, box: Box) -> list[Array]:
+    """Each quantity for all variants of a box, of its shape, or of length 1 along some axes."""
     values: dict[Quantity | MountQuantity, Array] = {}
     if sweep.of_engine:
         found = evaluate_quantities(sweep.engine(box), sweep.of_engine)
         values |= dict(zip(sweep.of_engine, found, strict=True))
     if sweep.of_mounts:
         values |= dict(zip(sweep.of_mounts, _evaluate_mounts(sweep, box), strict=True))
-    return [np.broadcast_to(values[q], shape).ravel() for q in sweep.quantities]
+    return [values[q] for q in sweep.quantities]
 
 
 def _evaluate_mounts(sweep: Sweep, box: Box) -> list[Array]:
@@ -218,8 +266,16 @@ def size_boxes(sweep: Sweep) -> int:
     orders = find_orders(engine, sweep.of_engine)
     figures = max(engine.cylinders.count * max(map(len, orders)), 2 * max(map(max, orders)))
     samples = count_samples(engine) // 2 ** len(sweep.parameters)
-    most = min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), CHUNK)
-    return max(most, 1)
+    most = ALONE if sweep.of_mounts else CHUNK
+    return max(min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), most), 1)
+
+
+def divide_sweep(sweep: Sweep, most: int) -> Iterator[Box]:
+    """The boxes of a sweep of which so many variants are computed at a time, in the order of rows.
+    Those of one parameter's value alone, or of a few, are joined, to be computed in tiles.
+    """
+    narrow = len(sweep.shape) > 1 and sweep.shape[-1] * TILES > most and not sweep.of_mounts
+    return divide_grid(sweep.shape, TILES * most if narrow else most)
 
 
 def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
@@ -242,8 +298,17 @@ def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
 
 def evaluate_chunks(sweep: Sweep) -> Iterator[Chunk]:
     """All variants, box by box, in the order of rows."""
-    for box in divide_grid(sweep.shape, size_boxes(sweep)):
-        yield Chunk(box, evaluate_box(sweep, box))
+    keep_freed_memory()
+    most = size_boxes(sweep)
+    for box in divide_sweep(sweep, most):
+        yield Chunk(box, evaluate_box(sweep, box, most))
+
+
+def keep_freed_memory() -> None:
+    """Let the C library keep what arrays leave for the next ones. It does so for blocks as large as
+    the largest that was ever freed, and hands back the others, to be cleared again for every array.
+    """
+    np.empty(_LARGE)  # never touched: it costs nothing
 
 
 def list_columns(sweep: Sweep, chunk: Chunk) -> list[Array]:

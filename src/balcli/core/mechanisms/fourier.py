@@ -47,6 +47,9 @@ class Series:
         """The mechanisms with these numbers; what is left out (`NONE`) has none."""
         if self is NONE:
             return self
+        if which.size == self.c.shape[1] and np.array_equal(which.ravel(), np.arange(which.size)):
+            shape = np.shape(self.noise) and which.shape  # all, in their order
+            return Series(self.c.reshape(-1, *which.shape), np.reshape(self.noise, shape))
         noise = self.noise if np.ndim(self.noise) == 0 else np.asarray(self.noise)[which]
         return Series(self.c[:, which], noise)
 

@@ -56,7 +56,10 @@ def find_distinct_harmonics(
         highest = np.inf if one_engine else float(np.max(orders, initial=0))
         off = ratios[~centred], offsets[~centred]
         found.append(sample_harmonics(orders, *off, wanted, highest))
-    place = np.argsort(np.argsort(~centred, kind="stable"))  # closed forms come first
+    if len(found) == 1:
+        return found[0], few.which
+    place = np.empty(len(centred), np.intp)
+    place[np.r_[np.flatnonzero(centred), np.flatnonzero(~centred)]] = np.arange(len(centred))
     return join_mechanisms(found), place[few.which]
 
 
