@@ -10,10 +10,10 @@ parameter fastest.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,10 +37,14 @@ from .parameters import Parameter, parse
 
 if TYPE_CHECKING:
     from ..mounting.quantity import MountQuantity
+    from ..torque.quantity import TorqueQuantity
+
+    Asked = Quantity | MountQuantity | TorqueQuantity
 
 Array = NDArray[np.float64]
 Box = tuple[slice, ...]
 _OF_MOUNTS = ("mode", "mount", "point")  # beginnings of quantities of an engine on its mounts
+_OF_GAS = ("gas", "torque_total", "roll_total", "fluctuation")  # and of one with gas
 ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
 TILES = 8  # of so many variants in a box that would have few values of some parameter
@@ -62,7 +66,7 @@ class Sweep:
 
     file: EngineFile
     parameters: tuple[Parameter, ...]
-    quantities: tuple[Quantity | MountQuantity, ...]
+    quantities: tuple[Asked, ...]
     name: str = "engine"  # of the file, in messages
 
     @property
@@ -78,7 +82,20 @@ class Sweep:
     @property
     def of_mounts(self) -> tuple[MountQuantity, ...]:
         """Quantities of the engine on its mounts."""
-        return tuple(q for q in self.quantities if not isinstance(q, Quantity))
+        found = [q for q in self.quantities if q.kind in _OF_MOUNTS]
+        return tuple(cast("list[MountQuantity]", found))
+
+    @property
+    def of_torque(self) -> tuple[TorqueQuantity, ...]:
+        """Quantities of an engine with gas."""
+        others = (*self.of_engine, *self.of_mounts)
+        found = [q for q in self.quantities if q not in others]
+        return tuple(cast("list[TorqueQuantity]", found))
+
+    @property
+    def one_by_one(self) -> bool:
+        """Whether some quantities are computed for each variant by itself."""
+        return bool(self.of_mounts or self.of_torque)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -127,7 +144,8 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
-    asked = _parse_quantities(DEFAULT_QUANTITIES if quantities is None else quantities)
+    wanted = DEFAULT_QUANTITIES if quantities is None else quantities
+    asked = _parse_quantities(wanted, with_gas=model.gas is not None)
     sweep = Sweep(model, parameters, asked, name_file(file))
     if quantities is None:
         known = leave_out_unknown(build_corners(sweep), sweep.of_engine)
@@ -136,18 +154,26 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
     return sweep
 
 
-def _parse_quantities(text: str) -> tuple[Quantity | MountQuantity, ...]:
-    """Those of the engine and those of its mounts, in the order in which they are asked for."""
+def _parse_quantities(text: str, *, with_gas: bool = False) -> tuple[Asked, ...]:
+    """Those of the engine, of its mounts and of its gas, in the order in which they are asked
+    for.
+    """
     words = [word.strip() for word in text.split(",") if word.strip()]
-    of_mounts = [word for word in words if word.partition(".")[0] in _OF_MOUNTS]
-    if not of_mounts:
+    if not words:
         return parse_quantity_list(text)
-    from ..mounting.quantity import parse_mount_quantity
+    found: list[Asked] = []
+    for word in words:
+        beginning = word.partition(".")[0]
+        if beginning in _OF_MOUNTS:
+            from ..mounting.quantity import parse_mount_quantity
 
-    found = [
-        parse_mount_quantity(word) if word in of_mounts else parse_quantity_list(word)[0]
-        for word in words
-    ]
+            found.append(parse_mount_quantity(word))
+        elif beginning in _OF_GAS or (with_gas and beginning == "torque"):
+            from ..torque.quantity import parse_torque_quantity
+
+            found.append(parse_torque_quantity(word))
+        else:
+            found += parse_quantity_list(word)
     return tuple(dict.fromkeys(found))
 
 
@@ -165,6 +191,8 @@ def check_corners(sweep: Sweep) -> None:
         from ..mounting.quantity import refuse_unknown_targets
 
         refuse_unknown_targets(sweep.file, sweep.of_mounts)
+    if sweep.of_torque and sweep.file.gas is None:
+        raise BalcliError(f"{sweep.of_torque[0].name}: the engine file has no [gas]")
 
 
 def build_corners(sweep: Sweep) -> Engine:
@@ -222,12 +250,14 @@ def _divide_evenly(shape: tuple[int, ...], most: int) -> Iterator[Box]:
 
 def _evaluate_tile(sweep: Sweep, box: Box) -> list[Array]:
     """Each quantity for all variants of a box, of its shape, or of length 1 along some axes."""
-    values: dict[Quantity | MountQuantity, Array] = {}
+    values: dict[Asked, Array] = {}
     if sweep.of_engine:
         found = evaluate_quantities(sweep.engine(box), sweep.of_engine)
         values |= dict(zip(sweep.of_engine, found, strict=True))
     if sweep.of_mounts:
         values |= dict(zip(sweep.of_mounts, _evaluate_mounts(sweep, box), strict=True))
+    if sweep.of_torque:
+        values |= dict(zip(sweep.of_torque, _evaluate_torque(sweep, box), strict=True))
     return [values[q] for q in sweep.quantities]
 
 
@@ -239,20 +269,35 @@ def _evaluate_mounts(sweep: Sweep, box: Box) -> list[Array]:
     """
     from ..mounting.quantity import MountedVariants
 
+    variants = MountedVariants(sweep.file, sweep.of_mounts)
+    return _evaluate_one_by_one(sweep, box, variants.evaluate)
+
+
+def _evaluate_torque(sweep: Sweep, box: Box) -> list[Array]:
+    """Quantities of gas and torque, likewise."""
+    from ..torque.quantity import evaluate_torque
+
+    asked = sweep.of_torque
+    return _evaluate_one_by_one(sweep, box, lambda own: evaluate_torque(sweep.file, asked, own))
+
+
+def _evaluate_one_by_one(
+    sweep: Sweep, box: Box, evaluate: Callable[[Mapping[str, float]], Sequence[float]]
+) -> list[Array]:
+    """Figures of every variant of a box, by its own figures."""
     axes = [p.values[cut] for p, cut in zip(sweep.parameters, box, strict=True)]
     paths = [p.path for p in sweep.parameters]
-    variants = MountedVariants(sweep.file, sweep.of_mounts)
     rows = []
     for figures in product(*axes):
         own = dict(zip(paths, map(float, figures), strict=True))
         where = ", ".join(f"{path} = {value:g}" for path, value in own.items())
         try:
-            rows.append(variants.evaluate(own))
+            rows.append(evaluate(own))
         except InputError as error:
             raise InputError(error.problems, f"{sweep.name}: {where}") from None
         except BalcliError as error:
             raise BalcliError(f"{sweep.name}: {where}: {error}") from None
-    table = np.array(rows).reshape(*map(len, axes), len(sweep.of_mounts))
+    table = np.array(rows).reshape(*map(len, axes), -1)
     return list(np.moveaxis(table, -1, 0))
 
 
@@ -266,7 +311,7 @@ def size_boxes(sweep: Sweep) -> int:
     orders = find_orders(engine, sweep.of_engine)
     figures = max(engine.cylinders.count * max(map(len, orders)), 2 * max(map(max, orders)))
     samples = count_samples(engine) // 2 ** len(sweep.parameters)
-    most = ALONE if sweep.of_mounts else CHUNK
+    most = ALONE if sweep.one_by_one else CHUNK
     return max(min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), most), 1)
 
 
@@ -274,7 +319,7 @@ def divide_sweep(sweep: Sweep, most: int) -> Iterator[Box]:
     """The boxes of a sweep of which so many variants are computed at a time, in the order of rows.
     Those of one parameter's value alone, or of a few, are joined, to be computed in tiles.
     """
-    narrow = len(sweep.shape) > 1 and sweep.shape[-1] * TILES > most and not sweep.of_mounts
+    narrow = len(sweep.shape) > 1 and sweep.shape[-1] * TILES > most and not sweep.one_by_one
     return divide_grid(sweep.shape, TILES * most if narrow else most)
 
 
