@@ -183,7 +183,7 @@ ON_REQUEST = {
         "balcli.sizing.auto",
         "balcli.sizing.remedy",
     ),
-    "balcli.studies.sweep": ("balcli.mounting.quantity",),
+    "balcli.studies.sweep": ("balcli.mounting.quantity", "balcli.torsion.quantity"),
 }
 
 

@@ -50,7 +50,7 @@ def curves(
     from ..render import curves as renderer
     from .inputs import read_engine
 
-    engine = read_engine(path, parse_speed(speed)).engine
+    engine = read_engine(path, parse_speed(speed), None if cylinder is None else ()).engine
     angles = divide_revolution(read_angle("--step", step), engine.period_revolutions)
     if cylinder is None:
         found = compute_engine_curves(engine, angles)

@@ -205,7 +205,7 @@ def build(
         reference_m=parts.reference_m,
         devices=tuple(build_devices(model, parts.figures, parts.axes_deg[1])),
         weighed=_weigh_cylinders(parts),
-        places_known=are_places_known(model, parts.plan),
+        places_known=are_places_known(model, parts.plan, varied or ()),
         gas=parts.gas,
         crank_inertia=_in_si(parts.figures.take_optional("crank.inertia", model.crank.inertia)),
         flywheel_inertia=None if model.flywheel is None else _find_flywheel(parts, model.flywheel),

@@ -10,7 +10,7 @@ rounding error of the parts that are added up (docs/theory.md) is exactly 0.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 import numpy as np
@@ -24,6 +24,7 @@ from ..limits import FINEST_STEP_DEG
 from .kinds import COUPLE, FORCE, MOMENT, ROLL, TORQUE
 
 AT_ONCE = 200_000  # cylinders x angles, which bounds the memory
+_MOMENTS = (MOMENT.key_along("x"), MOMENT.key_along("y"))
 _EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
 
 
@@ -35,12 +36,20 @@ class Curves:
         name, speed_rpm: of the engine.
         crank_deg: shape (angles,).
         values: by name with unit (`force_x_N`), each of the shape of `crank_deg`.
+        moments_known: whether the engine file says where the throws stand; else moments are of
+            throws in one plane.
     """
 
     name: str
     speed_rpm: float
     crank_deg: Array
     values: Mapping[str, Array]
+    moments_known: bool = True
+
+    def known(self) -> dict[str, Array]:
+        """The values without moments that are not known."""
+        unknown = () if self.moments_known else _MOMENTS
+        return {name: values for name, values in self.values.items() if name not in unknown}
 
 
 def divide_revolution(step: float = 1.0, revolutions: int = 1) -> Array:
@@ -66,7 +75,8 @@ def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
         engine: without trailing axes.
         crank_deg: shape (angles,).
     """
-    return _sum_parts(engine, crank_deg, lambda angles: _compute_engine_parts(engine, angles))
+    curves = _sum_parts(engine, crank_deg, lambda angles: _compute_engine_parts(engine, angles))
+    return replace(curves, moments_known=engine.places_known)
 
 
 def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -23,10 +23,12 @@ from ..engine.load import read
 from ..enginefile.model import EngineFile
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, InputError
+from ..forces.kinds import DEFAULT_QUANTITIES
 from ..forces.quantity import (
     Quantity,
     evaluate_quantities,
     find_orders,
+    leave_out_unknown,
     parse_quantity_list,
     refuse_unknown,
 )
@@ -80,12 +82,14 @@ class Sweep:
     @property
     def of_mounts(self) -> tuple[MountQuantity, ...]:
         """Quantities of the engine on its mounts."""
-        return tuple(q for q in self.quantities if q.name.startswith(_OF_MOUNTS))  # type: ignore[misc]
+        found = [q for q in self.quantities if _begin(q.name) in _OF_MOUNTS]
+        return tuple(found)  # type: ignore[arg-type]
 
     @property
     def of_torsion(self) -> tuple[TorsionQuantity, ...]:
         """Quantities of the crankshaft that twists."""
-        return tuple(q for q in self.quantities if q.name.startswith(_OF_TORSION))  # type: ignore[misc]
+        found = [q for q in self.quantities if _begin(q.name) in _OF_TORSION]
+        return tuple(found)  # type: ignore[arg-type]
 
     @property
     def one_by_one(self) -> bool:
@@ -123,8 +127,12 @@ class Sweep:
             raise InputError(error.problems, self.name) from None
 
 
-def read_sweep(file: str, vary: Sequence[str], quantities: str) -> Sweep:
+def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) -> Sweep:
     """The sweep of an engine file that a user asks for.
+
+    Args:
+        vary: parameters and their values, as typed.
+        quantities: by name, with commas; None: the usual ones, as far as they are known.
 
     Raises:
         BalcliError: what is wrong with the file, a parameter or a quantity, or if one of the
@@ -135,7 +143,11 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str) -> Sweep:
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
-    sweep = Sweep(model, parameters, _parse_quantities(quantities), name_file(file))
+    asked = _parse_quantities(DEFAULT_QUANTITIES if quantities is None else quantities)
+    sweep = Sweep(model, parameters, asked, name_file(file))
+    if quantities is None:
+        known = leave_out_unknown(build_corners(sweep), sweep.of_engine)
+        sweep = replace(sweep, quantities=known)
     check_corners(sweep)
     return sweep
 
@@ -145,18 +157,22 @@ def _parse_quantities(text: str) -> tuple[AnyQuantity, ...]:
     they are asked for.
     """
     words = [word.strip() for word in text.split(",") if word.strip()]
-    if not any(word.partition(".")[0] in (*_OF_MOUNTS, *_OF_TORSION) for word in words):
+    if not any(_begin(word) in (*_OF_MOUNTS, *_OF_TORSION) for word in words):
         return parse_quantity_list(text)
     return tuple(dict.fromkeys(map(_parse_quantity, words)))
 
 
+def _begin(name: str) -> str:
+    """What the name of a quantity begins with: its kind."""
+    return name.partition(".")[0]
+
+
 def _parse_quantity(word: str) -> AnyQuantity:
-    beginning = word.partition(".")[0]
-    if beginning in _OF_MOUNTS:
+    if _begin(word) in _OF_MOUNTS:
         from ..mounting.quantity import parse_mount_quantity  # for those who ask for it
 
         return parse_mount_quantity(word)
-    if beginning in _OF_TORSION:
+    if _begin(word) in _OF_TORSION:
         from ..torsion.quantity import parse_torsion_quantity
 
         return parse_torsion_quantity(word)
