@@ -9,6 +9,8 @@ from typing import Annotated
 import typer
 
 from ..forces.kinds import DEFAULT_QUANTITIES
+from ..limits import MOST_THREADS
+from ..process import count_cores
 from ..render.sweep_plot import check_drawable, draw_sweep
 from .file_names import VARIANTS, VariantsFormat, format_of, picture_form
 from .options import EnginePath, Output
@@ -70,6 +72,17 @@ def sweep(
             ),
         ),
     ] = None,
+    jobs: Annotated[
+        int | None,
+        typer.Option(
+            "--jobs",
+            "-j",
+            min=1,
+            max=MOST_THREADS,
+            show_default=False,
+            help="Threads that compute what takes more than a second; default: a core each.",
+        ),
+    ] = None,
     dask: Annotated[
         str,
         typer.Option(
@@ -93,7 +106,11 @@ def sweep(
     kept: list[Chunk] = []
     cluster = connect_cluster(dask) if dask else nullcontext()
     with out.noting_interrupt() as interrupt, cluster as workers:
-        chunks = evaluate_on_cluster(job, workers) if dask else evaluate_chunks(job)
+        chunks = (
+            evaluate_on_cluster(job, workers)
+            if dask
+            else evaluate_chunks(job, jobs or min(count_cores(), MOST_THREADS))
+        )
         counted = out.until_interrupted(chunks, interrupt)
         shown = out.showing_progress(counted, job.variants, progress)
         all_of_them = shown if drawn is None else out.keeping(shown, kept)
