@@ -643,6 +643,17 @@ def test_what_is_registered_for_the_end_is_done():
     assert (done.returncode, done.stdout) == (0, f"balcli {__version__}\nlast\n")
 
 
+@pytest.mark.parametrize(("asked", "found"), [({}, "1"), ({"OPENBLAS_NUM_THREADS": "3"}, "3")])
+def test_linear_algebra_has_one_thread_unless_a_user_asks_for_more(monkeypatch, asked, found):
+    monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
+    code = (
+        "import atexit, os; from balcli.__main__ import main; "
+        "atexit.register(lambda: print(os.environ['OPENBLAS_NUM_THREADS'])); main()"
+    )
+    done = run_python("-c", code, "--version", env=asked)
+    assert done.stdout.splitlines()[-1] == found
+
+
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
 @pytest.mark.parametrize("args", [["--version"], ["--help"], ["analyze", "--help"]], ids=" ".join)
 def test_help_that_cannot_be_written_is_no_success(args):

@@ -127,6 +127,8 @@ def test_cylinders_with_places_and_a_single_throw_are_known(balcli, twin, tmp_pa
             "moment.2.major: ",
         ),
         ("sweep", ["--vary", "rod.length=150,160", "-q", "peak.moment"], "peak.moment: "),
+        ("scatter", ["-q", "moment.1.major"], "moment.1.major: "),
+        ("plot", ["--what", "inner", "-o", "{file}.svg"], "{file}: inner: "),
     ],
 )
 def test_a_moment_by_name_is_an_error(balcli, twin, command, args, message):
@@ -140,10 +142,9 @@ def test_a_moment_by_name_is_an_error(balcli, twin, command, args, message):
     [
         ("balance", ["--scheme", "couple-shaft"]),
         ("balance", ["--scheme", "couple-shaft", "--order", "1"]),
-        ("scatter", ["-q", "moment.1.major"]),
     ],
 )
-def test_so_is_what_is_sized_or_scattered_by_moments(balcli, twin, command, args):
+def test_so_is_what_is_sized_by_moments(balcli, twin, command, args):
     status, out, err = balcli(command, twin, *args)
     assert (status, out) == (2, "")
     assert err.startswith(warning(twin))
@@ -153,6 +154,67 @@ def test_so_is_what_is_sized_or_scattered_by_moments(balcli, twin, command, args
 def test_forces_are_swept_and_a_spacing_that_is_varied_is_known(balcli, twin):
     swept = balcli("sweep", twin, "--vary", "rod.length=150,160", "-q", "force.2.major")
     assert swept[::2] == (0, "")
+    status, out, err = balcli(
+        "sweep", twin, "--vary", "crank.spacing=80,100", "-q", "moment.1.major"
+    )
+    assert (status, err) == (0, "")
+    rows = [[float(cell) for cell in line.split(",")] for line in out.splitlines()[1:]]
+    assert rows[1][1] / rows[0][1] == pytest.approx(100 / 80)
+
+
+@pytest.mark.parametrize("command", [["sweep", "--vary", "rod.length=150,160"], ["scatter"]])
+def test_the_usual_quantities_are_those_that_are_known(balcli, twin, command):
+    name, *options = command
+    status, out, err = balcli(name, twin, *options, "--format", "csv")
+    assert (status, err) == (0, warning(twin))
+    assert "force.2.major" in out
+    assert "moment" not in out
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["analyze", "--only", "force,roll,couple,torque"],
+        ["compare", "{file}", "--only", "force,roll"],
+        ["scatter", "-q", "force.2.major"],
+        ["curves", "--cylinder", "1"],
+    ],
+)
+def test_nobody_is_warned_of_what_was_not_asked(balcli, twin, command):
+    name, *options = [word.format(file=twin) for word in command]
+    assert balcli(name, twin, *options)[::2] == (0, "")
+
+
+@pytest.mark.parametrize("only", ["verdict", "xy", "textbook", "peak", "sizing", "guide"])
+def test_what_says_something_of_moments_warns(balcli, twin, only):
+    assert balcli("analyze", twin, "--only", only)[::2] == (0, warning(twin))
+
+
+def test_curves_have_no_moments(balcli, twin):
+    status, out, err = balcli("curves", twin, "--step", "90")
+    assert (status, err) == (0, warning(twin))
+    assert out.splitlines()[0].split(",") == [
+        "crank_deg",
+        "force_x_N",
+        "force_y_N",
+        "couple_Nm",
+        "inertia_torque_Nm",
+        "roll_Nm",
+    ]
+    found = json.loads(balcli("curves", twin, "--format", "json")[1])
+    assert found["assumed"] == ["crank.spacing = 0"]
+    assert "moment_x_Nm" in found["curves"]
+
+
+@pytest.mark.parametrize("what", ["all", "polar", "orders", "spectrum", "curves", "factor"])
+def test_pictures_draw_no_moments(balcli, twin, tmp_path, what):
+    picture = tmp_path / "picture.svg"
+    assert balcli("plot", twin, "--what", what, "-o", picture)[::2] == (0, warning(twin))
+    text = picture.read_text(encoding="utf-8")
+    drawn = len(re.findall("not known:", text))
+    assert drawn == {"all": 3, "polar": 1, "spectrum": 1, "curves": 1}.get(what, 0)
+    if what == "factor":
+        assert "moment (dashed grey)" not in text
 
 
 def test_compare_and_sum_have_dashes_beside_what_is_known(balcli, twin, tmp_path):

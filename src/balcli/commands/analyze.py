@@ -70,7 +70,7 @@ def analyze(
     asked, (chosen, parts) = parse_orders(orders), parse_parts(only)
 
     def analyze_file(path: str) -> tuple[str, Analysis]:
-        engine = read_engine(path, rpm, chosen).engine
+        engine = read_engine(path, rpm, None if chosen is None else parts).engine
         wanted = (*list_quantities(engine), "sizing") if chosen is None else chosen
         return path, analyze_engine(engine, asked, wanted, each, why, height_m)
 

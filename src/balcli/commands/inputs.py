@@ -18,6 +18,9 @@ from ..enginefile.suspicious import suspicious
 from ..enginefile.toml_text import name_file, read_bytes
 from ..errors import BalcliError, Exit, legible, say
 
+# What says something of moments besides them, of all that can be asked for.
+ABOUT_MOMENTS = frozenset({"peak", "sizing", "guide", "xy", "textbook", "verdict"})
+
 P = TypeVar("P")
 T = TypeVar("T")
 
@@ -37,7 +40,8 @@ def read_engine(
 
     Args:
         speed_rpm: crank speed of the engine instead of the file's.
-        asked: names of quantities that a user asked for.
+        asked: names of quantities and tables that a user asked for; None: whatever the command
+            shows. What says nothing of moments needs no warning that they are not known.
 
     Raises:
         BalcliError: all mistakes of the file; a moment that was asked for and is not known.
@@ -46,7 +50,7 @@ def read_engine(
     model = parse(text, name_file(path))
     engine = build_named(model, path)
     if not engine.places_known:
-        _tell_unknown(name_file(path), asked or ())
+        _tell_unknown(name_file(path), asked)
     doubts = engine.gas.doubts if engine.gas is not None else ()
     for warning in (*suspicious(model), *doubts):
         say(f"warning: {name_file(path)}: {warning}")
@@ -55,10 +59,19 @@ def read_engine(
     )
 
 
-def _tell_unknown(name: str, asked: Collection[str]) -> None:
-    """Warn that moments are not known; an error where a quantity that needs them was asked for."""
-    if by_name := [quantity for quantity in ("moment", "inner") if quantity in asked]:
+def _tell_unknown(name: str, asked: Collection[str] | None) -> None:
+    """Warn that moments are not known, where something of them was asked for; an error where it was
+    one of them by name.
+    """
+    words = ABOUT_MOMENTS if asked is None else asked
+    if by_name := [quantity for quantity in ("moment", "inner") if quantity in words]:
         raise BalcliError(f"{name}: {by_name[0]}: {MOMENTS_UNKNOWN}")
+    if ABOUT_MOMENTS.intersection(words):
+        warn_of_unknown_moments(name)
+
+
+def warn_of_unknown_moments(name: str) -> None:
+    """Say on standard error that the moments of this file are not known, and why."""
     say(f"warning: {name}: {MOMENTS_UNKNOWN}")
 
 

@@ -66,6 +66,7 @@ def plot(
     from .inputs import read_engine
 
     asked = parse_orders(orders)
-    engine = read_engine(path, parse_speed(speed)).engine
+    shown = {What.INNER: ("inner",), What.BANK: ("force",)}.get(what)
+    engine = read_engine(path, parse_speed(speed), shown).engine
     subject = Subject(system=SYSTEMS[units], **compute_study(engine, what, asked, scheme)._asdict())
     write_file(draw_page(subject, what, form), output)

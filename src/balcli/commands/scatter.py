@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from ..enginefile.toml_text import name_file
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..render import tolerances as renderer
 from .file_names import text_format
@@ -60,11 +61,15 @@ def scatter(
         ),
     ] = Distribution.UNIFORM,
     quantity: Annotated[
-        str,
+        str | None,
         typer.Option(
-            "--quantity", "-q", metavar="WHAT,...", help="As force.1.major, couple.4.amplitude."
+            "--quantity",
+            "-q",
+            metavar="WHAT,...",
+            show_default=DEFAULT_QUANTITIES,
+            help="As force.1.major, couple.4.amplitude.",
         ),
-    ] = DEFAULT_QUANTITIES,
+    ] = None,
     form: FormatOption = None,
     output: Output = None,
 ) -> None:
@@ -73,12 +78,15 @@ def scatter(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = text_format(output, form)
-    from ..forces.quantity import parse_quantity_list
+    from ..forces.quantity import leave_out_unknown, parse_quantity_list
     from ..studies.tolerances import parse_tolerances, scatter_engine
-    from .inputs import read_engine
+    from .inputs import read_engine, warn_of_unknown_moments
 
     tolerances = parse_tolerances(mass, length, angle)
-    model = read_engine(path).model
-    asked = parse_quantity_list(quantity)
+    _, model, engine = read_engine(path, asked=())
+    asked = parse_quantity_list(DEFAULT_QUANTITIES if quantity is None else quantity)
+    if quantity is None and not engine.places_known:
+        asked = leave_out_unknown(engine, asked)
+        warn_of_unknown_moments(name_file(path))
     found = scatter_engine(model, tolerances, asked, samples, seed, distribution.value)
     show([found], renderer, form, output)

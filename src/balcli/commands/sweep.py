@@ -34,11 +34,12 @@ def sweep(
         ),
     ],
     quantity: Annotated[
-        str,
+        str | None,
         typer.Option(
             "--quantity",
             "-q",
             metavar="WHAT,...",
+            show_default=DEFAULT_QUANTITIES,
             help=(
                 "force.2.major (or minor, forward, backward, axis, x, y, x_cos, x_sin, y_cos, "
                 "y_sin), moment...; couple.4.amplitude (or cos, sin), "
@@ -46,7 +47,7 @@ def sweep(
                 "mode.roll.share, mount.left.force, point.lever.motion."
             ),
         ),
-    ] = DEFAULT_QUANTITIES,
+    ] = None,
     form: Annotated[
         VariantsFormat | None,
         typer.Option(
@@ -99,8 +100,11 @@ def sweep(
     from ..studies.dask_cluster import connect_cluster, evaluate_on_cluster
     from ..studies.sweep import Chunk, evaluate_chunks, join_chunks, read_sweep
     from . import sweep_output as out
+    from .inputs import warn_of_unknown_moments
 
     job = read_sweep(path, vary, quantity)
+    if quantity is None and all(asked.kind != "moment" for asked in job.of_engine):
+        warn_of_unknown_moments(job.name)
     if drawn is not None:
         check_drawable(job)
     kept: list[Chunk] = []

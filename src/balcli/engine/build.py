@@ -146,6 +146,11 @@ class Engine:
         return 2 if any(line.order % 1 for line in self.ripple) else 1
 
     @property
+    def cycle_revolutions(self) -> int:
+        """After how many revolutions everything in a cylinder repeats itself."""
+        return 2 if self.gas is not None and self.strokes == 4 else self.period_revolutions
+
+    @property
     def rotary(self) -> bool:
         """Whether the cylinders turn and the crank stands still: then the cylinders have masses on
         a linkage only.
@@ -205,7 +210,7 @@ def build(
         reference_m=parts.reference_m,
         devices=tuple(build_devices(model, parts.figures, parts.axes_deg[1])),
         weighed=_weigh_cylinders(parts),
-        places_known=are_places_known(model, parts.plan),
+        places_known=are_places_known(model, parts.plan, varied or ()),
         gas=parts.gas,
         crank_inertia=_in_si(parts.figures.take_optional("crank.inertia", model.crank.inertia)),
         flywheel_inertia=None if model.flywheel is None else _find_flywheel(parts, model.flywheel),

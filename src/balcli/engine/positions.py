@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from ..enginefile.model import EngineFile
 from .layout import Plan
 
@@ -11,9 +13,13 @@ MOMENTS_UNKNOWN = (
 )
 
 
-def are_places_known(model: EngineFile, plan: Plan) -> bool:
-    """Whether the file says where the throws stand along the crank (of one throw it need not)."""
+def are_places_known(model: EngineFile, plan: Plan, varied: Collection[str] = ()) -> bool:
+    """Whether the file says where the throws stand along the crank (of one throw it need not).
+
+    Args:
+        varied: names of figures that vary, and so are said, too.
+    """
     crank = model.crank
-    said = crank.spacing is not None or crank.positions is not None
+    said = crank.spacing is not None or crank.positions is not None or "crank.spacing" in varied
     own = any(cylinder.position is not None for cylinder in model.cylinder.values())
     return plan.throws == 1 or said or own

@@ -107,6 +107,13 @@ def _parse_quantity(text: str) -> Quantity:
     return Quantity(kind, order, part)
 
 
+def leave_out_unknown(engine: Engine, quantities: Iterable[Quantity]) -> tuple[Quantity, ...]:
+    """The quantities without moments of an engine whose file does not say where its throws
+    stand.
+    """
+    return tuple(q for q in quantities if q.kind != "moment" or engine.places_known)
+
+
 def refuse_unknown(engine: Engine, quantities: Iterable[Quantity]) -> None:
     """Nothing, unless one of these is a moment of an engine whose file does not say where its
     throws stand.

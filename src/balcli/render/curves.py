@@ -6,6 +6,7 @@ from typing import Any
 
 from ..forces.curves import Curves
 from .csv import Rows
+from .figures import assumptions
 
 
 def document(curves: Curves) -> dict[str, Any]:
@@ -16,10 +17,12 @@ def document(curves: Curves) -> dict[str, Any]:
         "speed_rpm": curves.speed_rpm,
         "crank_deg": curves.crank_deg.tolist(),
         "curves": {name: y.tolist() for name, y in curves.values.items()},
+        **assumptions(curves),
     }
 
 
 def rows(curves: Curves) -> Rows:
-    """CSV: a line a crank angle, a column a quantity."""
-    columns = [curves.crank_deg.tolist(), *(y.tolist() for y in curves.values.values())]
-    return Rows(("crank_deg", *curves.values), zip(*columns, strict=True))
+    """CSV: a line a crank angle, a column a quantity that is known."""
+    known = curves.known()
+    columns = [curves.crank_deg.tolist(), *(y.tolist() for y in known.values())]
+    return Rows(("crank_deg", *known), zip(*columns, strict=True))

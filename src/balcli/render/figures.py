@@ -15,7 +15,14 @@ from .sheet import order_number
 from .units import System, Unit
 
 
-class Result(Protocol):
+class Located(Protocol):
+    """What is said of an engine whose file may say where its throws stand."""
+
+    @property
+    def moments_known(self) -> bool: ...
+
+
+class Result(Located, Protocol):
     """What has orders and peaks: an analysis, or the sum of two engines."""
 
     @property
@@ -26,9 +33,6 @@ class Result(Protocol):
 
     @property
     def cylinders(self) -> tuple[tuple[int, Spectra], ...]: ...
-
-    @property
-    def moments_known(self) -> bool: ...
 
 
 class FigureRow(NamedTuple):
@@ -42,9 +46,9 @@ class FigureRow(NamedTuple):
     unit: str
 
 
-def assumptions(analysis: Result) -> dict[str, list[str]]:
+def assumptions(result: Located) -> dict[str, list[str]]:
     """What JSON says of figures that rest on what the engine file does not say."""
-    return {} if analysis.moments_known else {"assumed": ["crank.spacing = 0"]}
+    return {} if result.moments_known else {"assumed": ["crank.spacing = 0"]}
 
 
 def clean(value: Any) -> float | None:

@@ -41,14 +41,24 @@ class Fitting(NamedTuple):
         ]
         return self._replace(remedy=self.remedy.add_devices(tables, reason))
 
-    def cancel(self, slots: Sequence[Slot], parts: Sequence[Part], reason: str) -> Fitting:
+    def cancel(
+        self,
+        slots: Sequence[Slot],
+        parts: Sequence[Part],
+        reason: str,
+        residual: Residual | None = None,
+    ) -> Fitting:
         """With devices in these slots that leave nothing of the parts of their order.
+
+        Args:
+            residual: what is left of these parts with the devices so far, where that is known.
 
         Raises BalcliError if the slots cannot do so.
         """
         if not slots:
             return self
-        fit = solve_exactly(slots, self.find_residual(slots[0].order), parts, SAME_PLACE)
+        left = residual or self.find_residual(slots[0].order)
+        fit = solve_exactly(slots, left, parts, SAME_PLACE)
         fitting = self.add(slots, fit.unbalances, reason)
         if len(slots) > 1 and fit.condition < math.inf:
             return fitting.note(Detail("condition number", "", fit.condition))

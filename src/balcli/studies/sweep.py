@@ -13,7 +13,7 @@ import math
 import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import islice, product
 from typing import TYPE_CHECKING, NamedTuple
@@ -26,10 +26,12 @@ from ..engine.load import read
 from ..enginefile.model import EngineFile
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, InputError
+from ..forces.kinds import DEFAULT_QUANTITIES
 from ..forces.quantity import (
     Quantity,
     evaluate_quantities,
     find_orders,
+    leave_out_unknown,
     parse_quantity_list,
     refuse_unknown,
 )
@@ -113,8 +115,12 @@ class Sweep:
             raise InputError(error.problems, self.name) from None
 
 
-def read_sweep(file: str, vary: Sequence[str], quantities: str) -> Sweep:
+def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) -> Sweep:
     """The sweep of an engine file that a user asks for.
+
+    Args:
+        vary: parameters and their values, as typed.
+        quantities: by name, with commas; None: the usual ones, as far as they are known.
 
     Raises:
         BalcliError: what is wrong with the file, a parameter or a quantity, or if one of the
@@ -125,7 +131,11 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str) -> Sweep:
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
-    sweep = Sweep(model, parameters, _parse_quantities(quantities), name_file(file))
+    asked = _parse_quantities(DEFAULT_QUANTITIES if quantities is None else quantities)
+    sweep = Sweep(model, parameters, asked, name_file(file))
+    if quantities is None:
+        known = leave_out_unknown(build_corners(sweep), sweep.of_engine)
+        sweep = replace(sweep, quantities=known)
     check_corners(sweep)
     return sweep
 

@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def draw_factors(ax: Axes, rows: Sequence[FactorPeaks], force: Unit, moment: Unit) -> None:
+def draw_factors(ax: Axes, rows: Sequence[FactorPeaks], force: Unit, moment: Unit | None) -> None:
     """Draw the largest force and its components over the balance factor; the moment on an axis of
-    its own where there is one.
+    its own where there is one (its unit is None where it is not known).
     """
     share = [row.factor for row in rows]
     s = force.fit(max(row.force for row in rows))
@@ -45,7 +45,7 @@ def draw_factors(ax: Axes, rows: Sequence[FactorPeaks], force: Unit, moment: Uni
     ax.set_ylim(bottom=0)
     ax.set_title(f"Largest free force over the balance factor; best at {best.factor:g}")
     moments = np.array([row.moment for row in rows])
-    if moments.max() > 0:
+    if moment is not None and moments.max() > 0:
         t = moment.fit(float(moments.max()))
         right = ax.twinx()
         right.plot(share, moments / t.size, color=SOFT, linestyle=(0, (4, 2)), linewidth=1.2)

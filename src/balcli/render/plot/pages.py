@@ -51,6 +51,10 @@ class Subject:
     def unit(self, quantity: str) -> Unit:
         return self.system.unit(KINDS[quantity])
 
+    def is_unknown(self, quantity: str) -> bool:
+        """A moment of throws of which nobody has said where they stand."""
+        return quantity == "moment" and not self.now.moments_known
+
     @property
     def scalars(self) -> dict[str, Phasors]:
         return {kind.label: phasors for kind, phasors in self.now.spectra.scalars()}
@@ -112,6 +116,7 @@ def _lay_out_orders(fig: Figure, subject: Subject) -> None:
     shown = {
         q: [k for k in visible_rows(curve) if not curve.balanced[k] and curve.orders[k] >= 1][:4]
         for q in _VECTORS
+        if not subject.is_unknown(q)
         for curve in subject.phasors(q)[:1]
     }
     rows = {q: found for q, found in shown.items() if found} or {"force": []}
@@ -125,11 +130,13 @@ def _lay_out_orders(fig: Figure, subject: Subject) -> None:
             ax.set_axis_on()
             draw_order(ax, subject.phasors(quantity)[0], k, quantity, subject.unit(quantity))
     if not any(rows.values()):
-        grid[0, 0].text(0, 0.5, "no free force and no free moment")
+        more = "; moments are not known" if subject.is_unknown("moment") else " and no free moment"
+        grid[0, 0].text(0, 0.5, f"no free force{more}")
 
 
 def _lay_out_factor(fig: Figure, subject: Subject) -> None:
-    draw_factors(fig.subplots(), subject.factors, subject.system.force, subject.system.moment)
+    moment = None if subject.is_unknown("moment") else subject.system.moment
+    draw_factors(fig.subplots(), subject.factors, subject.system.force, moment)
 
 
 def _lay_out_bank(fig: Figure, subject: Subject) -> None:
@@ -168,7 +175,18 @@ def _lay_out_inner(fig: Figure, subject: Subject) -> None:
 
 
 # ------------------------------------------------------------------ panels
+def _say_unknown(ax: Axes) -> None:
+    """In place of a picture of a moment that is not known."""
+    ax.set_axis_off()
+    ax.set_title("Free moment")
+    told = "not known:\ncrank.spacing is missing"
+    ax.text(0.5, 0.5, told, ha="center", va="center", transform=ax.transAxes)
+
+
 def _locus_panel(ax: Axes, subject: Subject, quantity: str) -> None:
+    if subject.is_unknown(quantity):
+        _say_unknown(ax)
+        return
     curve, before = subject.phasors(quantity)
     draw_locus(ax, curve, quantity, subject.unit(quantity), before)
     ax.set_title(f"Free {quantity}", pad=6 if before is None else None)
@@ -179,6 +197,9 @@ def _bars_panel(ax: Axes, subject: Subject, quantity: str) -> None:
         draw_scalar_bars(ax, subject.scalars, subject.system.moment)
         ax.set_title("About the crank")
         return
+    if subject.is_unknown(quantity):
+        _say_unknown(ax)
+        return
     curve, before = subject.phasors(quantity)
     draw_vector_bars(ax, curve, quantity, subject.unit(quantity), before)
     ax.set_title(f"Free {quantity}")
@@ -188,6 +209,9 @@ def _curves_panel(ax: Axes, subject: Subject, quantity: str) -> None:
     if quantity == "about":
         draw_scalar_curves(ax, subject.scalars, subject.system.moment, subject.phasors("roll")[1])
         ax.set_title("About the crank")
+        return
+    if subject.is_unknown(quantity):
+        _say_unknown(ax)
         return
     curve, before = subject.phasors(quantity)
     draw_vector_curves(ax, curve, quantity, subject.unit(quantity), before)
