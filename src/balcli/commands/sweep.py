@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from contextlib import nullcontext
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -16,6 +17,9 @@ from .file_names import VARIANTS, VariantsFormat, format_of, picture_form
 from .options import EnginePath, Output
 from .output import write_file
 from .overwrite_guard import refuse_overwriting
+
+if TYPE_CHECKING:
+    from ..studies.sweep import Chunk, Sweep
 
 
 def sweep(
@@ -97,8 +101,7 @@ def sweep(
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     kind = format_of(output, form, VARIANTS, VariantsFormat.CSV)
     drawn = picture_form(plot, "--plot") if plot is not None else None
-    from ..studies.dask_cluster import connect_cluster, evaluate_on_cluster
-    from ..studies.sweep import Chunk, evaluate_chunks, join_chunks, read_sweep
+    from ..studies.sweep import join_chunks, read_sweep
     from . import sweep_output as out
     from .inputs import warn_of_unknown_moments
 
@@ -108,13 +111,7 @@ def sweep(
     if drawn is not None:
         check_drawable(job)
     kept: list[Chunk] = []
-    cluster = connect_cluster(dask) if dask else nullcontext()
-    with out.noting_interrupt() as interrupt, cluster as workers:
-        chunks = (
-            evaluate_on_cluster(job, workers)
-            if dask
-            else evaluate_chunks(job, jobs or min(count_cores(), MOST_THREADS))
-        )
+    with out.noting_interrupt() as interrupt, _computing(job, jobs, dask) as chunks:
         counted = out.until_interrupted(chunks, interrupt)
         shown = out.showing_progress(counted, job.variants, progress)
         all_of_them = shown if drawn is None else out.keeping(shown, kept)
@@ -122,3 +119,21 @@ def sweep(
     out.exit_if_interrupted(interrupt, job.variants)
     if plot is not None and drawn is not None:
         write_file(draw_sweep(job, join_chunks(job, kept), drawn), plot)
+
+
+@contextmanager
+def _computing(job: Sweep, jobs: int | None, dask: str) -> Iterator[Iterator[Chunk]]:
+    """The chunks of a sweep, computed by threads, or on a cluster, if an address of one is given.
+
+    Raises:
+        BalcliError: no cluster answers there.
+    """
+    if not dask:
+        from ..studies.sweep import evaluate_chunks
+
+        yield evaluate_chunks(job, jobs or min(count_cores(), MOST_THREADS))
+        return
+    from ..studies.dask_cluster import connect_cluster, evaluate_on_cluster
+
+    with connect_cluster(dask) as client:
+        yield evaluate_on_cluster(job, client)

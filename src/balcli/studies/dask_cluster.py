@@ -16,7 +16,7 @@ from ..errors import BalcliError
 from .sweep import Box, Chunk, Sweep, divide_sweep, evaluate_box, size_boxes
 
 BATCH_S = 0.5  # for which a worker computes before it sends what it has
-MOST_BOXES = 64  # that it computes at a time
+BATCH = 64  # that it computes at a time
 RETRIES = 3  # of a batch that a worker has not finished
 AHEAD = 4  # batches for each thread that may wait to be fetched
 
@@ -60,7 +60,7 @@ def evaluate_on_cluster(sweep: Sweep, client: Any) -> Iterator[Chunk]:
     boxes = divide_sweep(sweep, most)
     start = time.perf_counter()
     yield from _evaluate_batch(sweep, most, [next(boxes)])
-    batch = min(max(int(BATCH_S / (time.perf_counter() - start)), 1), MOST_BOXES)
+    batch = min(max(int(BATCH_S / (time.perf_counter() - start)), 1), BATCH)
 
     def submit(count: int) -> Iterator[Any]:
         for some in islice(_group(boxes, batch), count):
