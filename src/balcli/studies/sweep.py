@@ -16,8 +16,8 @@ from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..core.phasors import Array
 from ..engine.build import Engine, build
 from ..engine.load import read
 from ..enginefile.model import EngineFile
@@ -38,7 +38,6 @@ from .parameters import Parameter, parse
 if TYPE_CHECKING:
     from ..mounting.quantity import MountQuantity
 
-Array = NDArray[np.float64]
 Box = tuple[slice, ...]
 _OF_MOUNTS = ("mode", "mount", "point")  # beginnings of quantities of an engine on its mounts
 ALONE = 64  # variants at a time where each is computed by itself
