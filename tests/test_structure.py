@@ -184,7 +184,7 @@ ON_REQUEST = {
         "balcli.sizing.remedy",
     ),
     "balcli.render.html": ("balcli.render.mounts", "balcli.render.page_mounts"),
-    "balcli.studies.sweep": ("balcli.mounting.quantity",),
+    "balcli.studies.sweep": ("balcli.mounting.quantity", "balcli.torsion.quantity"),
 }
 
 
