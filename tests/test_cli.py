@@ -56,7 +56,7 @@ def test_help_lists_every_command_once_and_in_order(balcli):
     for flag in ("--help", "-h"):
         status, out, err = balcli(flag)
         assert (status, err) == (0, "")
-        listed = re.findall(r"(?m)^  ([a-z]+) +\S", out.partition("Commands:")[2])
+        listed = re.findall(r"(?m)^  ([a-z]+) +\S", out.partition("Analyse:")[2])
         assert listed == list(COMMANDS)
 
 
@@ -641,6 +641,17 @@ def test_what_is_registered_for_the_end_is_done():
     code = "import atexit; from balcli.__main__ import main; atexit.register(print, 'last'); main()"
     done = run_python("-c", code, "--version")
     assert (done.returncode, done.stdout) == (0, f"balcli {__version__}\nlast\n")
+
+
+@pytest.mark.parametrize(("asked", "found"), [({}, "1"), ({"OPENBLAS_NUM_THREADS": "3"}, "3")])
+def test_linear_algebra_has_one_thread_unless_a_user_asks_for_more(monkeypatch, asked, found):
+    monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
+    code = (
+        "import atexit, os; from balcli.__main__ import main; "
+        "atexit.register(lambda: print(os.environ['OPENBLAS_NUM_THREADS'])); main()"
+    )
+    done = run_python("-c", code, "--version", env=asked)
+    assert done.stdout.splitlines()[-1] == found
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")

@@ -183,7 +183,8 @@ ON_REQUEST = {
         "balcli.sizing.auto",
         "balcli.sizing.remedy",
     ),
-    "balcli.studies.sweep": ("balcli.mounting.quantity",),
+    "balcli.render.html": ("balcli.render.mounts", "balcli.render.page_mounts"),
+    "balcli.studies.sweep": ("balcli.mounting.quantity", "balcli.torsion.quantity"),
 }
 
 

@@ -19,6 +19,8 @@ def main() -> NoReturn:
     open_closed_streams()
     gc.set_threshold(100_000)  # start-up makes many objects, but no garbage
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")  # looking for them takes 20 ms
+    # Our matrices are too small for threads, whose start takes another core's time; a user may ask.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     if not sys.stdout.isatty():  # help, too, has no escapes there, whatever FORCE_COLOR says
         os.environ["_TYPER_FORCE_DISABLE_TERMINAL"] = "1"
     status: int = Exit.INTERNAL

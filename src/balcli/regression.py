@@ -15,7 +15,7 @@ from .errors import BalcliError
 from .forces.kinds import KINDS, VECTORS
 from .forces.spectrum import Spectra
 from .render import analysis_data as renderer
-from .results.analysis import Analysis, analyze
+from .results.analysis import analyze
 
 TOLERANCE = 1e-9  # of a quantity's largest order, beyond what rounding may do
 RECORDED = (*KINDS, "peak")
@@ -83,19 +83,21 @@ def find_differences(name: str, engine: Engine, record: Path) -> list[Difference
     if not record.exists():
         missing = f"no result is recorded in {where}; check --update records it"
         return [Difference(name, missing)]
-    shown = analyze(engine, only=RECORDED)
+    found = analyze(engine, only=RECORDED)
     try:
         recorded = json.loads(record.read_text(encoding="utf-8"))
         old, exactly_old = dict(_list_figures(recorded)), _list_exact_figures(recorded)
-        orders = {*(entry["order"] for entry in recorded["orders"]), *shown.orders}
-        found = analyze(engine, orders, RECORDED)
+        orders = {entry["order"] for entry in recorded["orders"]}
+        if not orders <= set(found.orders):
+            found = analyze(engine, {*orders, *found.orders}, RECORDED)
     except _UNREADABLE as error:
         reason = f"{type(error).__name__}: {error}"
         broken = f"the result recorded in {where} cannot be read ({reason})"
         return [Difference(name, f"{broken}; check --update records it anew")]
+    document = renderer.document(found)
     return [
-        *_compare_exact_figures(name, exactly_old, found),
-        *_compare_figures(name, old, found),
+        *_compare_exact_figures(name, exactly_old, _list_exact_figures(document)),
+        *_compare_figures(name, old, dict(_list_figures(document)), _find_roundings(found.spectra)),
     ]
 
 
@@ -108,18 +110,19 @@ def _list_exact_figures(document: dict[str, Any]) -> dict[str, Any]:
 
 
 def _compare_exact_figures(
-    name: str, old: Mapping[str, Any], found: Analysis
+    name: str, old: Mapping[str, Any], new: Mapping[str, Any]
 ) -> Iterator[Difference]:
-    for what, new in _list_exact_figures(renderer.document(found)).items():
-        if old[what] != new:
-            yield Difference(name, f"{what}: {old[what]} -> {new}")
+    for what, now in new.items():
+        if old[what] != now:
+            yield Difference(name, f"{what}: {old[what]} -> {now}")
 
 
 def _compare_figures(
-    name: str, old: Mapping[_Place, float], found: Analysis
+    name: str,
+    old: Mapping[_Place, float],
+    new: Mapping[_Place, float],
+    roundings: Mapping[tuple[str, str], float],
 ) -> Iterator[Difference]:
-    new = dict(_list_figures(renderer.document(found)))
-    roundings = _find_roundings(found.spectra)
     largest: dict[str, float] = {}
     for figures in (old, new):
         for place, value in figures.items():

@@ -160,3 +160,33 @@ def test_an_engine_without_gas_is_refused(tmp_path):
     status, _, err = run_here("torque", str(bare))
     assert status == 2
     assert "bare: has no [gas]; give a diagram, a cycle or harmonics" in err
+
+
+# ------------------------------------------------------------------ loads and curves
+def test_loads_are_told_when_they_are_asked_for(tmp_path):
+    path = tmp_path / "four.toml"
+    bearing = "[bearing]\npin_diameter = 48\npin_width = 20\n"
+    path.write_text(FOUR + WIEBE + bearing)
+    loads = json.loads(torque(str(path), "--loads", "pin,main", "-f", "json"))["loads"]
+    assert [pin["cylinder"] for pin in loads["pin"]] == [1, 2, 3, 4]
+    assert [main["bearing"] for main in loads["main"]] == [1, 2, 3, 4, 5]
+    for pin in loads["pin"]:
+        assert pin["pressure_Pa"] == pytest.approx(pin["max_N"] / 960e-6)
+    assert set(loads["main"][0]) == {"bearing", "position_mm", "max_N", "max_deg", "mean_N"}
+    text = torque(str(path), "--loads", "pin")
+    assert "Crank pins\ncylinder   largest, kN   at, deg   mean, kN   N/mm²" in text
+    assert "Main bearings" not in text
+    rows = torque(str(path), "--loads", "pin,main", "-f", "csv").splitlines()
+    assert any(row.startswith("2,pin,,max,") for row in rows)
+    assert any(row.startswith("0,main,3,mean,") for row in rows)
+    status, _, err = run_here("torque", str(path), "--loads", "wrist")
+    assert (status, err) == (2, 'balcli: --loads "wrist": there are pin and main\n')
+
+
+def test_curves_of_a_cylinder_go_over_its_cycle(four):
+    status, out, err = run_here("curves", four, "--cylinder", "3", "--step", "5", "-f", "json")
+    assert (status, err) == (0, "")
+    curves = json.loads(out)["curves"] if "curves" in json.loads(out) else json.loads(out)
+    names = {"pressure_Pa", "volume_m3", "gas_force_N", "side_thrust_N", "rod_force_N", "pin_x_N"}
+    assert names | {"pin_y_N", "torque_Nm"} <= set(curves)
+    assert len(curves["torque_Nm"]) == 144

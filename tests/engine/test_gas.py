@@ -288,3 +288,45 @@ def test_a_misfire_is_told_of_a_cylinder_that_there_is():
 def test_a_file_without_gas_makes_no_gas():
     assert parse(FOUR).gas is None
     assert engine(FOUR).gas is None
+
+
+RADIAL = """\
+[crank]
+stroke = 120
+[rod]
+length = 240
+[piston]
+mass = 1.3
+bore = 120
+[layout]
+radial = 3
+firing_order = [1, 3, 2]
+[articulation]
+knuckle_radius = 52
+rod = { length = 188 }
+"""
+
+
+def test_articulated_cylinders_have_cycles_of_their_own():
+    gas = engine(RADIAL + WIEBE).gas
+    strokes = {round(c.piston.stroke, 6) for c in gas.cylinders}
+    assert len(strokes) == 2
+    assert len({id(c.torque) for c in gas.cylinders}) == 3
+    for c in gas.cylinders:
+        assert c.torque.work / c.piston.swept == pytest.approx(9e5, rel=1e-10)
+
+
+@pytest.mark.parametrize("strokes", [2, 4])
+def test_cylinders_that_turn_have_gas_too(strokes):
+    """A rotary engine: seen from its cylinder, the crank turns; the torque turns the cylinders."""
+    text = FOUR.replace("throws = [0, 180, 180, 0]", "").replace("spacing = 100", "")
+    text = text.replace(
+        "firing_order = [1, 3, 4, 2]",
+        f"radial = 3\nrotary = true\nstrokes = {strokes}\nfiring_order = [1, 2, 3]",
+    )
+    if strokes == 2:
+        text = text.replace("[1, 2, 3]", "[1, 3, 2]")
+    found = engine(text + WIEBE)
+    fires = [c.nominal_deg for c in found.gas.cylinders]
+    assert fires == pytest.approx([found.fires_deg[number] for number in found.numbers])
+    assert sorted(fires) == pytest.approx([0, 60 * strokes, 120 * strokes])

@@ -7,6 +7,7 @@ import json
 import re
 from io import StringIO
 
+import numpy as np
 import pytest
 from support.commands import refusal, run_here, run_in_terminal
 from support.mounts import ENGINE, block
@@ -128,6 +129,48 @@ def test_picture_of_a_body_alone(tmp_path):
     assert run_here("mounts", path, "--plot", picture).status == 0
     assert b"Force of each mount" not in picture.read_bytes()
     assert b"6: 24.9 Hz" in picture.read_bytes()
+
+
+def rocking_of(page):
+    (text,) = re.findall(r'id="rocking-data">(.*?)</script>', page, re.S)
+    return json.loads(text)
+
+
+def test_the_page_rocks_the_body(four):
+    """Its motion at one speed is that of the point in the answer, to the figures of the page."""
+    status, page, err = run_here("report", four, "-o", "-")
+    assert (status, err) == (0, "")
+    assert "On its mounts" in page
+    assert "feels most" in page
+    data = rocking_of(page)
+    said = json.loads(run_here("mounts", four, "-f", "json").out)["response"]
+    k = 20
+    place = int(np.argmin(np.abs(np.array(said["speeds_rpm"]) - data["speeds"][k])))
+    angles = np.linspace(0, 4 * np.pi, 7201)
+    arm, path = np.array([100, 0, 300]), np.zeros((3, len(angles)))
+    for order, row in zip(data["orders"], data["motion"][k], strict=True):
+        parts = np.array(row)
+        q = np.outer(parts[:6], np.cos(order * angles)) + np.outer(
+            parts[6:], np.sin(order * angles)
+        )
+        path += q[:3] + np.cross(q[3:].T, arm).T
+    largest = np.linalg.norm(path, axis=0).max()
+    assert largest == pytest.approx(said["points"][0]["peak_mm"][place], rel=1e-3)
+
+
+def test_pages_of_engines_without_mounts_know_nothing_of_them(tmp_path):
+    path = tmp_path / "plain.toml"
+    path.write_text(ENGINE, encoding="utf-8")
+    assert "rocking" not in run_here("report", path, "-o", "-").out
+
+
+def test_a_page_that_cannot_show_the_mounts_says_so(tmp_path):
+    path = tmp_path / "undamped.toml"
+    path.write_text(ENGINE.replace("speed = 3000", "speed = 1200") + block(), encoding="utf-8")
+    status, page, err = run_here("report", path, "-o", "-")
+    assert status == 0
+    assert "rocking" not in page
+    assert err.startswith(f"warning: the page does not show the mounts: {path}: mode ")
 
 
 def test_pictures_overwrite_no_engine(four):

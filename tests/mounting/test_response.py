@@ -166,7 +166,7 @@ def test_the_worst_speed_lies_between_those_computed(report):
     for k, worst in enumerate(coarse.worst_force):
         if 210 < worst.omega * 30 / np.pi < 1480:
             near = np.abs(fine.speeds_rpm - worst.omega * 30 / np.pi) < 100
-            assert worst.value >= fine.force_peak[near, k].max() * (1 - 1e-12)
+            assert worst.value >= fine.force_peak[near, k].max() * (1 - 1e-7)
             assert worst.value > coarse.force_peak[:, k].max()
             break
     else:

@@ -405,3 +405,87 @@ def test_what_each_plane_has_and_lacks_is_shown(ford):
 @pytest.mark.parametrize("text", ["51%%", "51 percent", "nan", "0.5:0.6", "a:b:c", "%", "50%:54%"])
 def test_factors_that_say_nothing(ford, text):
     assert "51%" in refusal("balance", ford, "--factor", text)
+
+
+# ------------------------------------------------------------------ the card for the wall
+DRILLED = (
+    "--planes=-220mm,230mm",
+    *("--radius", "2.5 in", "--drill", "1 in", "--max-depth", "40 mm"),
+)
+
+
+def test_the_card_as_a_page(ford):
+    """Grams as summed by hand; ounces of 28.3495 g, ounce inches of 720.078 g mm."""
+    asked = ("--factor", "51%", *DRILLED, "--grade", "G16", "--mass", "46 kg", "--format", "card")
+    page = run_here("balance", ford, *asked).out
+    lines = [" ".join(line.split()) for line in page.splitlines()]
+    wanted = """
+BOBWEIGHT CARD Ford 302
+Balance factor 51 % of all reciprocating mass on the pin
+= 102 % of one cylinder's reciprocating mass
+Pins 1+5, 2+6, 3+7, 4+8
+quantity × each g oz
+Rotating
+big end 2 × 400 800.0 28.22
+rod bearing 2 × 44 88.0 3.10
+oil 2 × 5 10.0 0.35
+rotating sum = 898.0 31.68
+Reciprocating
+piston 2 × 600 1200.0 42.33
+pin 2 × 130 260.0 9.17
+rings 2 × 41 82.0 2.89
+locks 2 × 4 8.0 0.28
+small end 2 × 180 360.0 12.70
+reciprocating sum = 1910.0 67.37
+balanced share 1910 × 51 % 974.1 34.36
+BOBWEIGHT (rotating + share) 4 alike 1872.1 66.04
+throw itself, at the crank radius 1100.0 38.80
+counterweight opposite 2972.1 104.84
+COUNTERWEIGHTS at, deg g·mm oz·in
+1 z = -220 mm (-8.661 in): add at -161.6 88527 122.94
+drill at 18.4 deg: 13 × 25.4 mm (1 in), 38.8 mm (1.53 in) deep
+may be left 586 0.81
+2 z = 230 mm (9.055 in): add at 18.4 88527 122.94
+drill at -161.6 deg: 13 × 25.4 mm (1 in), 38.8 mm (1.53 in) deep
+may be left 586 0.81
+Permitted by ISO 21940-11, G 16, 46 kg, 6000 rpm.
+""".strip().splitlines()
+    assert [line for line in wanted if line not in lines] == []
+    assert max(map(len, page.splitlines())) == 80
+    assert page == run_here("balance", ford, *asked, "--units", "imperial").out
+
+
+def test_a_card_alone_chooses_the_scheme_of_factors(ford, tmp_path):
+    page = run_here("balance", ford, "--format", "card").out
+    assert "Balance factor    50 % of" in page
+    run_here("balance", ford, "--format", "card", "-o", tmp_path / "card.txt")
+    assert (tmp_path / "card.txt").read_text(encoding="utf-8") == page
+    assert refusal("balance", ford, "--format", "card", "--scheme", "auto") == (
+        "--format card: scheme auto has no bobweight card; leave --scheme out, or choose --scheme "
+        "factor"
+    )
+    assert "ends in .txt" in refusal("balance", ford, "--format", "card", "-o", tmp_path / "x.json")
+
+
+def test_a_card_says_what_is_still_missing_or_that_nothing_is(ford):
+    ford.write_text(FORD + "[[counterweight]]\nunbalance = 30000\nangle = 90\nposition = -200\n")
+    page = run_here("balance", ford, "--format", "card", "--planes=-200,250").out
+    assert "STILL MISSING ON THE CRANKSHAFT" in page
+    ford.write_text(insert_remedy(FORD.encode(), fit(FORD)))
+    page = run_here("balance", ford, "--format", "card").out
+    assert "Nothing is missing: the counterweights of the file balance this factor." in page
+
+
+def test_the_card_of_a_radial_stays_within_eighty_columns(tmp_path):
+    """Nine unlike pistons on one pin, and a name longer than the page."""
+    path = tmp_path / "radial.toml"
+    cylinders = "".join(f"[cylinder.{k}]\npiston_mass = 0.5{k}1\n" for k in range(1, 10))
+    layout = changed(
+        ("in-line four", "nine " * 30),
+        ("throws = [0, 180, 180, 0]", "throws = [0]"),
+        ("firing_order = [1, 3, 4, 2]", "radial = 9"),
+    )
+    path.write_text(layout + cylinders)
+    page = run_here("balance", path, "--format", "card").out
+    assert max(map(len, page.splitlines())) == 80
+    assert "9, weighed one by one" in page

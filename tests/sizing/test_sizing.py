@@ -942,3 +942,18 @@ def test_factors_at_their_bounds(share):
         r"or a range such as 50%:54%:1%$",
     ):
         size(engine, "factor", SchemeOptions(factor=(share * (1 + 1e-15), 0.5)))
+
+
+@pytest.mark.parametrize("scheme", ["auto", "counterweights", "factor", "minimax"])
+def test_dust_of_an_unbalance_is_no_device(scheme):
+    """Half of both pistons of a 90-degree twin, and a milliardth of a gram millimetre more or less:
+    more than rounding, less than anybody could drill.
+    """
+    vee = text(0, layout="bank_angle = 90")
+    (whole,) = size(build(parse(vee)), "factor").counterweights
+    for dust in (1e-9, -1e-9):
+        weight = f"[[counterweight]]\nunbalance = {whole.unbalance + dust!r}\nangle = 180\n"
+        remedy = size(build(parse(vee + weight)), scheme)
+        assert not remedy.counterweights
+        if scheme == "counterweights":
+            assert remedy.note.startswith("there is no free force or moment of order 1 turning")

@@ -39,6 +39,8 @@ def figures(engine):
 def test_every_written_engine_reads_back_to_exactly_what_was_promised(path, scheme):
     text = path.read_bytes()
     engine = build(parse(text))
+    if engine.rotary and scheme == "factor":
+        pytest.skip("pins that stand still have no factor")
     remedy = size(engine, scheme)
     assert figures(build(parse(insert_remedy(text, remedy)))) == figures(
         fit_devices(engine, remedy)

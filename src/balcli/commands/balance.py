@@ -5,10 +5,9 @@ from __future__ import annotations
 from ..render.formats import Units
 from ..sizing.schemes import KNUCKLES
 from . import balance_options
-from .file_names import require_ending, text_format
+from .file_names import require_ending
 from .options import (
     EnginePath,
-    FormatOption,
     Orders,
     Output,
     Speed,
@@ -16,7 +15,6 @@ from .options import (
     parse_orders,
     parse_speed,
 )
-from .output import show
 from .overwrite_guard import refuse_overwriting
 
 
@@ -42,15 +40,14 @@ def balance(
     write: balance_options.Write = None,
     speed: Speed = None,
     orders: Orders = None,
-    form: FormatOption = None,
+    form: balance_options.FormatOption = None,
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
     """Size counterweights, balancer shafts or sliders, and show what is left with them."""
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
-    form = text_format(output, form)
+    form = balance_options.choose_format(output, form)
     require_ending(write, ".toml", "--write")
-    from ..render import balance as renderer
     from ..results.balance import balance as balance_engine
     from ..results.permitted_unbalance import permit_unbalance
     from .fitted_engine import write_fitted
@@ -59,7 +56,7 @@ def balance(
     options = balance_options.parse_scheme_options(
         order, at, position, planes, factor, measured, roll, units
     )
-    scheme = balance_options.choose_scheme(scheme, options)
+    scheme = balance_options.choose_scheme(scheme, options, form)
     tools = balance_options.parse_tools(radius, thickness, disc, drill, max_depth, slug, units)
     grading = balance_options.parse_grading(grade, mass, units)
     asked, rpm = parse_orders(orders), parse_speed(speed)
@@ -71,4 +68,4 @@ def balance(
     result = permit_unbalance(result, *grading)
     if write is not None:
         write_fitted(path, text, result.remedy, write, rpm)
-    show([result], renderer, form, output, units)
+    balance_options.show_balance(result, form, output, units)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,11 +12,13 @@ import typer
 from ..core.drilled_hole import SLUGS
 from ..errors import BalcliError
 from ..limits import MOST_FACTORS
-from ..render.formats import Units
+from ..render.formats import Format, Units
 from ..sizing.options import SchemeOptions
 from ..sizing.schemes import KNUCKLES, NAMES
 from .amounts import read_length, read_lengths, read_mass, read_number, read_share
 from .completion import complete_schemes
+from .file_names import format_of, text_format
+from .output import emit, show
 
 if TYPE_CHECKING:
     from ..engine.build import Engine
@@ -23,6 +26,27 @@ if TYPE_CHECKING:
     from ..results.balance import Balance
     from ..sizing.workshop import Tools
 
+
+class BalanceFormat(StrEnum):
+    """How a balance is written: as all results, or as a bobweight card."""
+
+    TABLE = "table"
+    JSON = "json"
+    CSV = "csv"
+    MARKDOWN = "markdown"
+    CARD = "card"
+
+
+FormatOption = Annotated[
+    BalanceFormat | None,
+    typer.Option(
+        "--format",
+        "-f",
+        show_default=False,
+        help="How to write the result; default: by the ending of -o (.txt, .json, .csv, .md), "
+        "else table. card: a page for the wall of a shop, per pin, in g and oz.",
+    ),
+]
 Scheme = Annotated[
     str | None,
     typer.Option(
@@ -207,11 +231,32 @@ def parse_scheme_options(
     )
 
 
-def choose_scheme(asked: str | None, options: SchemeOptions) -> str:
-    """The scheme asked for; without one `factor` where there is a factor, else `auto`."""
+def choose_format(output: Path | None, asked: BalanceFormat | None) -> BalanceFormat:
+    """How to write the balance; errors as `file_names.format_of`."""
+    if asked is BalanceFormat.CARD:
+        return format_of(output, asked, {".txt": asked}, asked)
+    plain = None if asked is None else Format(asked)
+    return BalanceFormat(text_format(output, plain))
+
+
+def choose_scheme(asked: str | None, options: SchemeOptions, form: BalanceFormat) -> str:
+    """The scheme asked for; without one `factor` for a factor or a card, else `auto`."""
     if asked is not None:
         return asked
-    return "factor" if options.factor is not None or options.measured is not None else "auto"
+    by_factor = options.factor is not None or options.measured is not None
+    return "factor" if by_factor or form is BalanceFormat.CARD else "auto"
+
+
+def show_balance(result: Balance, form: BalanceFormat, output: Path | None, units: Units) -> None:
+    """The balance, or its bobweight card, in this format."""
+    if form is BalanceFormat.CARD:
+        from ..render.bobweight_page import write_page
+
+        emit(write_page(result), output)
+    else:
+        from ..render import balance as renderer
+
+        show([result], renderer, Format(form), output, units)
 
 
 def parse_tools(

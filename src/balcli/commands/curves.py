@@ -20,7 +20,8 @@ Cylinder = Annotated[
         "--cylinder",
         metavar="N",
         show_default=False,
-        help="Piston travel, velocity, acceleration and rod angle of this one.",
+        help="Piston travel, velocity, acceleration and rod angle of this one; with [gas] over its "
+        "whole cycle, also pressure, volume, forces and torque.",
     ),
 ]
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
@@ -51,11 +52,16 @@ def curves(
     from .inputs import read_engine
 
     engine = read_engine(path, parse_speed(speed), None if cylinder is None else ()).engine
-    angles = divide_revolution(read_angle("--step", step), engine.period_revolutions)
+    turns = engine.period_revolutions if cylinder is None else engine.cycle_revolutions
+    angles = divide_revolution(read_angle("--step", step), turns)
     if cylinder is None:
         found = compute_engine_curves(engine, angles)
     else:
         found = compute_cylinder_curves(engine, cylinder, angles)
+    if cylinder is not None and engine.gas is not None:
+        from ..torque.cylinder_curves import add_gas_curves
+
+        found = add_gas_curves(engine, cylinder, found)
     match form:
         case SeriesFormat.CSV:
             text = csv_text([renderer.rows(found)])

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..enginefile.toml_text import name_file
+from ..errors import BalcliError, say
 from ..forces.kinds import KINDS
 from ..render.formats import Units
 from ..render.units import SYSTEMS
@@ -14,6 +16,11 @@ from .file_names import format_of, parse_output
 from .options import EnginePath, Orders, Scheme, Speed, UnitsOption, parse_orders, parse_speed
 from .output import emit
 from .overwrite_guard import refuse_overwriting
+
+if TYPE_CHECKING:
+    from ..engine.build import Engine
+    from ..enginefile.model import EngineFile
+    from ..mounting.report import MountReport
 
 Page = Annotated[
     Path,
@@ -47,7 +54,21 @@ def report(
     from .inputs import read_engine
 
     asked = parse_orders(orders)
-    engine = read_engine(path, parse_speed(speed)).engine
+    _, model, engine = read_engine(path, parse_speed(speed))
     result = analyze(engine, asked, {*KINDS, "peak"})
     balanced = balance(engine, scheme or "auto", orders=asked)
-    emit(page(result, balanced, SYSTEMS[units]), output)
+    mounted = _put_on_mounts(model, engine, scheme, name_file(path)) if model.body else None
+    emit(page(result, balanced, SYSTEMS[units], mounted), output)
+
+
+def _put_on_mounts(
+    model: EngineFile, engine: Engine, scheme: str | None, name: str
+) -> MountReport | None:
+    """What the body does on its mounts; None, with a warning, where that cannot be told."""
+    from ..mounting.report import report_mounts
+
+    try:
+        return report_mounts(model, engine, scheme=scheme, name=name)
+    except BalcliError as error:
+        say(f"warning: the page does not show the mounts: {error}")
+        return None

@@ -15,6 +15,7 @@ def torque(
     fluctuation: own.Fluctuation = None,
     cylinder: own.Cylinder = 1,
     misfire: own.Misfire = None,
+    loads: own.LoadsOption = None,
     curve: own.Curve = None,
     load: own.Load = None,
     inertia: own.Inertia = None,
@@ -36,13 +37,15 @@ def torque(
     require_ending(write, ".toml", "--write")
     from ..render import torque as renderer
 
-    engine_alone = {"--misfire": misfire, "--write": write, "--cylinder": cylinder != 1}
-    own.refuse_mixture(path, curve, engine_alone, {"--load": load, "--inertia": inertia})
+    alone = {"--misfire": misfire, "--write": write, "--cylinder": cylinder != 1, "--loads": loads}
+    own.refuse_mixture(path, curve, alone, {"--load": load, "--inertia": inertia})
     if curve is not None:
         given = own.analyze_given(curve, load, inertia, speed, orders, fluctuation)
         show([given], renderer, form, output, units)
         return
-    text, result = own.analyze_file(path or "", speed, orders, cylinder, misfire, fluctuation)
+    text, result = own.analyze_file(
+        path or "", speed, orders, cylinder, misfire, fluctuation, loads
+    )
     if write is not None:
         own.write_uneven(text, result, write)
     show([result], renderer, form, output, units)

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from ..torque.analysis import TorqueAnalysis
     from ..torque.given_curve import CurveAnalysis
 
+LOADS = ("pin", "main")
 Engine = Annotated[
     str | None,
     typer.Argument(
@@ -43,6 +44,15 @@ Misfire = Annotated[
     list[int] | None,
     typer.Option(
         metavar="N", show_default=False, help="A cylinder without gas; may be given again."
+    ),
+]
+LoadsOption = Annotated[
+    str | None,
+    typer.Option(
+        "--loads",
+        metavar="pin,main",
+        show_default=False,
+        help="Also loads of crank pins and of main bearings.",
     ),
 ]
 Curve = Annotated[
@@ -102,6 +112,18 @@ def parse_fluctuation(text: str | None) -> float | None:
     return found
 
 
+def parse_loads(text: str | None) -> tuple[str, ...]:
+    """Names of `--loads`.
+
+    Raises:
+        BalcliError: unknown ones.
+    """
+    words = tuple(dict.fromkeys(word.strip() for word in (text or "").split(",") if word.strip()))
+    if strangers := [word for word in words if word not in LOADS]:
+        raise BalcliError(f'--loads "{strangers[0][:60]}": there are {" and ".join(LOADS)}')
+    return words
+
+
 def parse_inertia(text: str | None) -> float | None:
     """Kg m2.
 
@@ -129,6 +151,7 @@ def analyze_file(
     cylinder: int,
     misfire: list[int] | None,
     fluctuation: str | None,
+    loads: str | None,
 ) -> tuple[bytes, TorqueAnalysis]:
     """Text of an engine file, and the torque of its engine."""
     from ..torque.analysis import analyze_torque
@@ -140,7 +163,10 @@ def analyze_file(
     for number in misfire or ():
         engine = silence(engine, number)
     asked, allowed = parse_orders(orders), parse_fluctuation(fluctuation)
-    return source.text, analyze_torque(engine, asked, cylinder=cylinder, fluctuation=allowed)
+    found = analyze_torque(
+        engine, asked, cylinder=cylinder, fluctuation=allowed, loads=parse_loads(loads)
+    )
+    return source.text, found
 
 
 def analyze_given(

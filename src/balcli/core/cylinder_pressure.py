@@ -152,7 +152,7 @@ def _slung(
         values = getattr(linkage.motion((angle + top).reshape(-1), lam, eps), name)
         return radius * values[0].reshape(angle.shape)
 
-    highest = first(np.zeros(1), "place")
+    highest = float(first(np.zeros(1), "place")[0])
     return lambda c: highest - first(c, "place"), lambda c: -first(c, "velocity")
 
 

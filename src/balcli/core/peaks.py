@@ -119,9 +119,13 @@ def climb_peaks(curve: Phasors, theta: Array, step: float, rounds: int = 12) -> 
     """Newton's method for the maxima of |F|^2 beside the given angles, in steps of at most
     `step`.
     """
-    first, second = _derivative(curve), _derivative(_derivative(curve))
+    first = _derivative(curve)
+    curves = (curve, first, _derivative(first))
     for _ in range(rounds):
-        move = find_move(curve.values(theta), first.values(theta), second.values(theta), step)
+        ahead: Complex = np.exp(1j * np.multiply.outer(theta, curve.orders))
+        against = np.conj(ahead)
+        f, f1, f2 = (ahead @ each.forward + against @ each.backward for each in curves)
+        move = find_move(f, f1, f2, step)
         theta = theta + move
         if np.max(np.abs(move)) < 1e-10:
             break

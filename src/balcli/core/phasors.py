@@ -142,8 +142,13 @@ class Phasors:
 
     def select_orders(self, orders: ArrayLike) -> Phasors:
         """Those of these orders, each of which must be there."""
-        rows = np.searchsorted(self.orders, np.asarray(orders, float))
-        noise = np.broadcast_to(self.noise, self.forward.shape)
+        return self.select_rows(np.searchsorted(self.orders, np.asarray(orders, float)))
+
+    def select_rows(self, rows: NDArray[np.intp]) -> Phasors:
+        """Those of the orders in these rows."""
+        noise = self.noise
+        if noise.shape != self.forward.shape:
+            noise = np.broadcast_to(noise, self.forward.shape)
         return Phasors(self.orders[rows], self.forward[rows], self.backward[rows], noise[rows])
 
     def select_place(self, place: int) -> Phasors:

@@ -146,6 +146,11 @@ class Engine:
         return 2 if any(line.order % 1 for line in self.ripple) else 1
 
     @property
+    def cycle_revolutions(self) -> int:
+        """After how many revolutions everything in a cylinder repeats itself."""
+        return 2 if self.gas is not None and self.strokes == 4 else self.period_revolutions
+
+    @property
     def rotary(self) -> bool:
         """Whether the cylinders turn and the crank stands still: then the cylinders have masses on
         a linkage only.

@@ -77,12 +77,14 @@ class EngineGas:
             `torque`.
         cycle_deg: 720, or 360 of a two-stroke engine.
         mechanical_efficiency: brake over indicated work; None: not known.
+        compression_ratio: None where the file does not say.
         doubts: what is suspicious of the file, in words, each by its path.
     """
 
     cylinders: tuple[CylinderGas, ...]
     cycle_deg: int
     mechanical_efficiency: float | None = None
+    compression_ratio: float | None = None
     doubts: tuple[str, ...] = ()
 
     @property
@@ -148,6 +150,7 @@ class _Builder:
             ),
             180 * self.strokes,
             self.gas.mechanical_efficiency,
+            self.gas.compression_ratio,
             tuple(self.doubts),
         )
 

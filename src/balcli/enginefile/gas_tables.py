@@ -29,7 +29,7 @@ Inertia = Annotated[float, Number(INERTIA, above=0, most=1e24)]
 GOALS = ("imep", "bmep", "max_pressure", "cut_off", "heat")
 DIAGRAM_KEYS = ("zero", "phase", "pressure")
 _CYCLE_KEYS = (
-    *("compression_ratio", "compression_index", "expansion_index", "intake", "exhaust"),
+    *("compression_index", "expansion_index", "intake", "exhaust"),
     *("exhaust_opens", "intake_closes", "bmep", "max_pressure", "cut_off", "heat"),
     *("burn_start", "burn_duration", "burn_shape"),
 )
@@ -62,7 +62,10 @@ class Gas(Table):
         | None
     ) = Field(None, description="a computed cycle, by how it burns", examples=["wiebe"])
     compression_ratio: Ratio | None = Field(
-        None, description="largest over smallest volume of the cylinder", examples=[10.5]
+        None,
+        description="largest over smallest volume of the cylinder; beside a diagram it gives the "
+        "volume",
+        examples=[10.5],
     )
     compression_index: Index = Field(1.32, description="n of p V^n = const", examples=[1.35])
     expansion_index: ExpansionIndex = Field(

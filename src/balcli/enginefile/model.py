@@ -313,9 +313,7 @@ class Layout(Table):
 
 
 class Bobweight(Table):
-    """What turns with a crank pin besides throw and rod, for each rod on it. It counts in the
-    rotating mass, and on the bobweight card.
-    """
+    """What turns with a crank pin besides rod and throw, for each rod; it counts as rotating."""
 
     rod_bearing: Mass = Field(
         0.0, description="big-end bearing shells of one rod", examples=[0.047]

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 
 import numpy as np
 
@@ -102,18 +101,23 @@ def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Cu
     )
 
 
+def compute_cylinder_torque(engine: Engine, row: int, crank_deg: Array) -> Array:
+    """Inertia torque of the cylinder in a row, N m, shape (angles,)."""
+    return _torque_of_cylinders(Motion(engine, crank_deg))[row]
+
+
 def compute_inertia_torque(engine: Engine, crank_deg: Array) -> Array:
     """Inertia torque of all cylinders on the crank, N m, shape (angles,), for an engine without
     trailing axes.
     """
-    return _torque_of_cylinders(_Motion(engine, crank_deg)).sum(axis=0)
+    return _torque_of_cylinders(Motion(engine, crank_deg)).sum(axis=0)
 
 
 def compute_moving_inertia(engine: Engine, crank_deg: Array) -> Array:
     """Moment of inertia about the crank of pistons, rods and what turns with the pins, kg m2, shape
     (angles,), likewise.
     """
-    return _inertia_of_cylinders(_Motion(engine, crank_deg)).sum(axis=0)
+    return _inertia_of_cylinders(Motion(engine, crank_deg)).sum(axis=0)
 
 
 def _sum_parts(
@@ -138,12 +142,12 @@ def _sum_parts(
     for name, some in pieces.items():
         curve = np.concatenate(some)
         values[name] = np.where(np.abs(curve) <= noise[name], 0.0, curve)
-    return Curves(engine.name, float(engine.speed_rpm), crank_deg, MappingProxyType(values))
+    return Curves(engine.name, float(engine.speed_rpm), crank_deg, values)
 
 
 def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     """What each cylinder and device does, shape (cylinders and devices, angles)."""
-    motion = _Motion(engine, crank_deg)
+    motion = Motion(engine, crank_deg)
     force = np.concatenate([_force_of_cylinders(motion), _force_of_devices(engine, motion)])
     x, y, z = engine.reference_m
     levels = np.array([*np.ravel(engine.cylinders.z), *(d.z for d in engine.devices)], float)
@@ -166,7 +170,7 @@ def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
 
 def _compute_cylinder_parts(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
     """Parts of the motion of the cylinder in this row, shape (parts, angles)."""
-    motion = _Motion(engine, crank_deg)
+    motion = Motion(engine, crank_deg)
     r, v, a = motion.radius, motion.v[row], motion.a[row]
     return {
         "travel_m": r * motion.travel()[row : row + 1],
@@ -176,7 +180,7 @@ def _compute_cylinder_parts(engine: Engine, row: int, crank_deg: Array) -> dict[
     }
 
 
-class _Motion:
+class Motion:
     """How all cylinders of an engine stand and move at some crank angles.
 
     Attributes:
@@ -241,7 +245,7 @@ def _find_speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
     return engine.omega * ratio, engine.omega**2 * ratio * slope
 
 
-def _force_of_cylinders(motion: _Motion) -> Complex:
+def _force_of_cylinders(motion: Motion) -> Complex:
     """N, shape (cylinders, angles)."""
     c, r, w2, xi = motion.cylinders, motion.radius, motion.omega**2, motion.xi
     piston: Complex = _column(c.reciprocating) * r * (w2 * motion.a + xi * motion.v) * motion.axis
@@ -252,7 +256,7 @@ def _force_of_cylinders(motion: _Motion) -> Complex:
     return piston + pins
 
 
-def _force_of_devices(engine: Engine, motion: _Motion) -> Complex:
+def _force_of_devices(engine: Engine, motion: Motion) -> Complex:
     """N, shape (devices, angles)."""
     rows = np.empty((len(engine.devices), len(motion.crank_deg)), complex)
     for row, d in enumerate(engine.devices):
@@ -263,7 +267,7 @@ def _force_of_devices(engine: Engine, motion: _Motion) -> Complex:
     return rows
 
 
-def _couple_of_cylinders(motion: _Motion) -> Array:
+def _couple_of_cylinders(motion: Motion) -> Array:
     """Free couple of each cylinder about the crank's axis, N m, shape (cylinders, angles): h =
     -m_rec e s' + m_rot r^2 - H spin (+ the masses on curves), s' = -r v.
     """
@@ -277,7 +281,7 @@ def _couple_of_cylinders(motion: _Motion) -> Array:
     return np.asarray(-(motion.omega**2 * slope + motion.xi * h))
 
 
-def _torque_of_cylinders(motion: _Motion) -> Array:
+def _torque_of_cylinders(motion: Motion) -> Array:
     """Inertia torque of each cylinder on the crank, N m, shape (cylinders, angles): I = m_rec s'^2
     + m_rot r^2 - H spin^2 (+ the masses on curves).
     """
@@ -290,7 +294,7 @@ def _torque_of_cylinders(motion: _Motion) -> Array:
     return np.asarray(-(half_slope * motion.omega**2 + motion.xi * inertia))
 
 
-def _inertia_of_cylinders(motion: _Motion) -> Array:
+def _inertia_of_cylinders(motion: Motion) -> Array:
     """I of each cylinder, kg m2, shape (cylinders, angles)."""
     c, r = motion.cylinders, motion.radius
     mass, couple = _column(c.reciprocating) * r**2, _column(c.couple)

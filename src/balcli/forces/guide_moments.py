@@ -1,4 +1,6 @@
-"""Guide-force moments as builders of large engines state them, of inertia alone, without gas."""
+"""Guide-force moments as builders of large engines state them: of inertia, and of the gas where the
+engine has some.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,12 @@ import numpy as np
 
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
-from .orders import find_relevant_orders, mark_considerable
+from .orders import (
+    find_relevant_orders,
+    list_gas_orders,
+    mark_considerable,
+    merge_orders,
+)
 from .spectrum import compute_each_cylinder
 
 
@@ -45,8 +52,9 @@ def compute_guide_moments(
     """
     z_ref = engine.reference_m[2]
     about_crank = replace(engine, reference_m=(0.0, 0.0, z_ref))
-    every = find_relevant_orders(engine) if orders is None else orders
-    rolls = compute_each_cylinder(about_crank, every, ["roll"])["roll"]
+    roll = "roll" if engine.gas is None else "roll_total"
+    every = _find_orders(engine) if orders is None else orders
+    rolls = compute_each_cylinder(about_crank, every, [roll])[roll]
     z = np.ravel(engine.cylinders.z)
     h = _sum_weighted(rolls, np.ones(engine.cylinders.count))
     due = mark_considerable(h)
@@ -59,6 +67,15 @@ def compute_guide_moments(
         orders = every[due]
     chosen_x = None if x is None else x.select_orders(orders)
     return GuideMoments(h.select_orders(orders), chosen_x, height)
+
+
+def _find_orders(engine: Engine) -> Array:
+    """All that may be worth showing; with gas, no more than is shown of gas."""
+    relevant = find_relevant_orders(engine)
+    if engine.gas is None:
+        return relevant
+    of_gas = list_gas_orders(engine.strokes)
+    return merge_orders(relevant[relevant <= of_gas[-1]], of_gas)
 
 
 def _rod_lengths(engine: Engine) -> Array:

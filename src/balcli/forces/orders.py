@@ -87,7 +87,7 @@ def mark_considerable(phasors: Phasors, highest: float | None = None) -> NDArray
 
 def choose_orders(found: Spectra) -> Array:
     """The orders worth showing: 1 and 2 (and 0), and all in which some kind is considerable."""
-    due = np.isin(found.orders, (0, 1, 2))
+    due = (found.orders <= 2) & (found.orders % 1 == 0)
     for kind, phasors in found.items():
         few = kind.name in GAS_KINDS
         due |= mark_considerable(phasors, HIGHEST_GAS_ORDER_UNASKED if few else None)

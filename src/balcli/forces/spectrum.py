@@ -85,8 +85,9 @@ class Spectra:
         """The same without all other orders."""
         if orders is self.orders:
             return self
-        rows = {kind.name: phasors.select_orders(orders) for kind, phasors in self.items()}
-        return Spectra(np.asarray(orders, float), **rows)
+        wanted = np.asarray(orders, float)
+        rows = np.searchsorted(self.orders, wanted)
+        return Spectra(wanted, **{kind.name: p.select_rows(rows) for kind, p in self.items()})
 
     def select_place(self, place: int) -> Spectra:
         """Those of one place along the trailing axis."""

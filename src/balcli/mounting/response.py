@@ -12,7 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.cycle_peaks import find_longest, largest_of_ellipse
-from ..core.rigid_body import carry_points, load_at_centre, move_points, respond_body
+from ..core.rigid_body import (
+    BodyResponse,
+    carry_points,
+    load_at_centre,
+    move_points,
+    respond_body,
+)
 from ..core.singular_values import Complex, Real
 from ..core.vibration import find_resonances, frequencies
 from ..engine.build import Engine
@@ -31,7 +37,7 @@ from .modes import BodyModes
 
 _KINDS = ("force", "moment", "roll")
 _ROLL = 5  # of the six parts of a load, the moment about the crankshaft's axis
-_CLOSER = 30  # golden sections of the step of speed about a highest peak: 6e-7 of it
+_CLOSER = 20  # golden sections of the step of speed about a highest peak: 1e-4 of it
 _GOLDEN = (3 - 5**0.5) / 2
 
 
@@ -97,6 +103,7 @@ class Response:
         free, passed: (orders, speeds, 6) amplitudes of the load about the centre of gravity, of the
             engine on the body and of the body on the ground: N, N m.
         worst_force: of each mount. worst_motion: of each point.
+        body: (orders, speeds, 6) motion of the centre of gravity, m and rad.
     """
 
     loads: Loads
@@ -109,6 +116,7 @@ class Response:
     passed: Real
     worst_force: tuple[Worst, ...]
     worst_motion: tuple[Worst, ...]
+    body: Complex
 
     @property
     def speeds_rpm(self) -> Real:
@@ -172,34 +180,40 @@ def respond(mounted: MountedBody, modes: BodyModes, loads: Loads, omega: Real) -
     """
     _refuse_too_many(loads, omega, mounted)
     refuse_resonance(modes, loads, omega)
-    forces, moved = _move(mounted, loads, omega)
-    free = loads.at(omega)
+    found = _move(mounted, loads, omega)
+    curves = _list_curves(mounted, found)
+    count = len(mounted.names)
+    free, peak = loads.at(omega), find_longest(loads.orders, curves).value
     arms = carry_points(mounted.dynamic.at, mounted.body.centre)
-    passed = np.einsum("pij,nspi->nsj", arms, forces)
-    force_peak = find_longest(loads.orders, forces).value
-    motion_peak = find_longest(loads.orders, moved).value
-
+    passed = np.einsum("pij,nspi->nsj", arms, curves[:, :, :count])
+    by_order = largest_of_ellipse(curves)
+    worst = _find_worst(
+        loads, omega, peak, lambda at: _list_curves(mounted, _move(mounted, loads, at))
+    )
     return Response(
         loads,
         omega,
-        largest_of_ellipse(forces),
-        force_peak,
-        largest_of_ellipse(moved),
-        motion_peak,
+        by_order[:, :, :count],
+        peak[:, :count],
+        by_order[:, :, count:],
+        peak[:, count:],
         np.abs(free),
         np.abs(passed),
-        _find_worst(loads, omega, force_peak, lambda at: _move(mounted, loads, at)[0]),
-        _find_worst(loads, omega, motion_peak, lambda at: _move(mounted, loads, at)[1]),
+        worst[:count],
+        worst[count:],
+        found.motion,
     )
 
 
-def _move(mounted: MountedBody, loads: Loads, omega: Real) -> tuple[Complex, Complex]:
-    """Forces on mounts (orders, speeds, mounts, 3) and motion of points (orders, speeds, points,
-    3).
-    """
-    body, w = mounted.body, frequencies(loads.orders, omega)
-    found = respond_body(body, mounted.dynamic, w, loads.at(omega))
-    return found.forces, move_points(mounted.points, body.centre, found.motion)
+def _move(mounted: MountedBody, loads: Loads, omega: Real) -> BodyResponse:
+    w = frequencies(loads.orders, omega)
+    return respond_body(mounted.body, mounted.dynamic, w, loads.at(omega))
+
+
+def _list_curves(mounted: MountedBody, found: BodyResponse) -> Complex:
+    """Forces of mounts (N), then motion of points (m): (orders, speeds, mounts + points, 3)."""
+    moved = move_points(mounted.points, mounted.body.centre, found.motion)
+    return np.concatenate([found.forces, moved], axis=2)
 
 
 def _refuse_too_many(loads: Loads, omega: Real, mounted: MountedBody) -> None:
@@ -238,8 +252,6 @@ def _find_worst(
     Args:
         press: speeds -> vectors (orders, speeds, curves, 3).
     """
-    if not peaks.shape[1]:
-        return ()
     each = np.arange(peaks.shape[1])
     top = peaks.argmax(axis=0)
     low, high = omega[np.maximum(top - 1, 0)], omega[np.minimum(top + 1, len(omega) - 1)]

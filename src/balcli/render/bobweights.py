@@ -29,3 +29,8 @@ def multiply(line: CardLine) -> str:
     if len(set(line.each_g)) == 1:
         return f"{len(line.each_g)} × {number(line.each_g[0])}"
     return " + ".join(map(number, line.each_g))
+
+
+def percent(share: float) -> str:
+    """A balance factor as shops say it."""
+    return f"{number(100 * share, 4)} %"

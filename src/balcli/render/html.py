@@ -5,7 +5,7 @@ loaded from elsewhere.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .. import __version__
 from ..results.analysis import Analysis
@@ -15,6 +15,9 @@ from .page_scene import scene
 from .plot.pages import Subject, draw_panel
 from .sheet import Facts, Grid, Sheet, Text
 from .units import System
+
+if TYPE_CHECKING:
+    from ..mounting.report import MountReport
 
 FOLDER = Path(__file__).with_name("page")
 _PICTURES = (
@@ -30,12 +33,23 @@ _PICTURES = (
 _COMPARED = (("polar", "force"), ("polar", "moment"), ("spectrum", "force"), ("spectrum", "moment"))
 
 
-def page(result: Analysis, balanced: Balance, system: System) -> str:
-    """The report of an engine and of a remedy for it. Whatever comes from the engine file is
-    escaped.
+def page(
+    result: Analysis, balanced: Balance, system: System, mounted: MountReport | None = None
+) -> str:
+    """The report of an engine, of a remedy for it, and of what it does on its mounts. Whatever
+    comes from the engine file is escaped.
     """
     from markupsafe import Markup
 
+    on_mounts: dict[str, Any] = {"mounts": None}
+    if mounted is not None:
+        from . import mounts, page_mounts  # for files that have mounts
+
+        on_mounts = {
+            "mounts": mounts.sheet(mounted, system),
+            "rocking": page_mounts.rocking(mounted),
+            "rocking_script": Markup((FOLDER / "rocking.js").read_text(encoding="utf-8")),
+        }
     own, remedy = analysis.sheet(result, system), balance.sheet(balanced, system)
     told = ("force", "about", *(["moment"] if result.moments_known else []))
     fitted = bool(balanced.remedy.reasons)
@@ -54,6 +68,7 @@ def page(result: Analysis, balanced: Balance, system: System) -> str:
         compared=[Markup(draw_panel(after, *each)) for each in compared if each[1] in told],
         style=Markup((FOLDER / "report.css").read_text(encoding="utf-8")),
         script=Markup((FOLDER / "report.js").read_text(encoding="utf-8")),
+        **on_mounts,
     )
 
 

@@ -19,6 +19,7 @@ _RPM = 30 / math.pi
 _COLUMNS = 6  # of orders and speeds in a table of a page's width
 _ROWS = 9  # speeds of a table
 _NEAR = 0.05  # distance of a speed from that at which an order meets a mode
+_SAME = 0.005  # change of a force that is none
 _SHARE = 1e-3  # of the largest free load: less is not worth a line
 _FORCES, _MOMENTS = ("force x", "force y", "force z"), ("moment x", "moment y", "roll z")
 
@@ -59,7 +60,8 @@ def _answer(result: MountReport, system: System) -> Iterator[str]:
     if result.fitted is not None:
         after = max(result.fitted.response.worst_force, key=lambda one: one.value)
         change = after.value / worst.value - 1 if worst.value else 0.0
-        less = f"{abs(change):.0%} {'less' if change <= 0 else 'more'}"
+        less = f"{abs(change):.0%} {'less' if change < 0 else 'more'}"
+        less = "as much" if abs(change) < _SAME else less
         yield (
             f"With {result.fitted.remedy.scheme} the largest force of any mount is "
             f"{number(force.of(after.value), 4)} {force.name} at {number(after.omega * _RPM, 4)} "

@@ -19,8 +19,7 @@ from ..sizing.details import (
     Range,
 )
 from ..sizing.device_tables import measure_direction
-from .bobweights import group_equal_pins, multiply, name_pins
-from .devices import ANGLES
+from .bobweights import group_equal_pins, multiply, name_pins, percent
 from .figures import clean
 from .sheet import Facts, Grid, degrees, number
 from .units import System, Unit
@@ -162,7 +161,7 @@ def _figure(value: float, dimension: Dimension, system: System) -> str:
     if dimension == "":
         return number(value)
     if dimension == "share":
-        return f"{number(100 * value)} %"
+        return percent(value)
     if dimension == "grams":
         return f"{number(1e3 * value)} g"
     if dimension == "angle":
@@ -174,22 +173,16 @@ def _figure(value: float, dimension: Dimension, system: System) -> str:
 def _needs_grid(needs: tuple[PlaneNeed, ...], system: System) -> Grid:
     """What the file has in each plane, and what is missing."""
     unit, length = system.unbalance, system.length
-    heads = (
-        f"z, {length.name}",
-        f"wanted, {unit.name}",
-        "at, deg",
-        f"in the file, {unit.name}",
-        "at, deg",
-        f"missing, {unit.name}",
-        "at, deg",
-    )
+    at = "at, deg"
+    heads = (f"z, {length.name}", "wanted", at, "in the file", at, "missing", at)
 
     def row(need: PlaneNeed) -> tuple[str, ...]:
         vectors = (need.wanted, need.present, need.missing)
         cells = ((number(unit.of(abs(v))), _direction(v)) for v in vectors)
         return number(length.of(need.z)), *(cell for pair in cells for cell in pair)
 
-    return Grid("What each plane has, and lacks", heads, tuple(map(row, needs)), note=ANGLES)
+    title = f"What each plane has, and lacks, {unit.name}"
+    return Grid(title, heads, tuple(map(row, needs)))
 
 
 def _direction(vector: complex) -> str:
@@ -203,13 +196,13 @@ def _card_grid(card: tuple[Bobweight, ...]) -> Grid:
     """
     columns = group_equal_pins(card)
     heads = [name_pins(pins) for pins in columns]
-    labels = list(dict.fromkeys(line.part for pins in columns for line in pins[0].lines))
+    weighed = (line for pins in columns for line in pins[0].lines if line.sum_g)
+    labels = list(dict.fromkeys(line.part for line in weighed))
     rows = [(part, *(_line_cell(pins[0], part) for pins in columns)) for part in labels]
-    share = f"{number(100 * card[0].factor)} %"
     sums = (
         ("rotating", [pins[0].rotating_g for pins in columns]),
         ("reciprocating", [pins[0].reciprocating_g for pins in columns]),
-        (f"bobweight ({share})", [pins[0].bobweight_g for pins in columns]),
+        (f"bobweight ({percent(card[0].factor)})", [pins[0].bobweight_g for pins in columns]),
     )
     rows += [(name, *(number(value, 5) for value in values)) for name, values in sums]
     return Grid("Bobweight card, g for each pin", ("", *heads), tuple(rows))
@@ -233,7 +226,7 @@ def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
     )
     rows = tuple(
         (
-            f"{number(100 * peaks.factor)} %",
+            percent(peaks.factor),
             number(peaks.bobweight_g),
             number(unbalance.of(peaks.counterweight)),
             number(force.of(peaks.force)),

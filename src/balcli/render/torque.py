@@ -13,6 +13,7 @@ from ..forces.spectrum import Spectra
 from ..torque.analysis import KINDS_OF_TORQUE, TorqueAnalysis, degrees_in_cycle
 from ..torque.flywheel import Flywheel, Speed
 from ..torque.given_curve import CurveAnalysis
+from ..torque.loads import Load
 from .csv import Rows
 from .figures import FigureRow, clean, order_entries, order_rows, peak_deg
 from .sheet import NAMELESS, Facts, Grid, Sheet, degrees, number, order_name, order_number
@@ -52,7 +53,31 @@ def document(result: Result) -> dict[str, Any]:
         "orders": orders,
         "energy": _energy_entry(result.surplus, result.cycle_deg),
         **_flywheel_entry(result.flywheel),
+        **_load_entries(result),
     }
+
+
+def _load_entries(result: TorqueAnalysis) -> dict[str, Any]:
+    """What was asked for and is known."""
+    kinds = (("pin", "cylinder", result.loads.pin), ("main", "bearing", result.loads.main))
+    found = {
+        kind: [_load_entry(word, load, result.cycle_deg) for load in loads]
+        for kind, word, loads in kinds
+        if loads is not None
+    }
+    return {"loads": found} if found else {}
+
+
+def _load_entry(word: str, load: Load, cycle_deg: float) -> dict[str, Any]:
+    entry: dict[str, Any] = {word: load.name}
+    if word == "bearing":
+        entry["position_mm"] = clean(load.z_m * 1e3)
+    entry |= {
+        "max_N": clean(load.largest.value),
+        "max_deg": clean(degrees_in_cycle(load.largest.angle, cycle_deg)),
+        "mean_N": clean(load.mean),
+    }
+    return entry if load.pressure is None else entry | {"pressure_Pa": clean(load.pressure)}
 
 
 def _curve_document(result: CurveAnalysis) -> dict[str, Any]:
@@ -83,6 +108,11 @@ def _scalar_entry(c: complex, order: float) -> dict[str, Any]:
         "peak_deg": peak_deg(c, order),
         "balanced": bool(c == 0),
     }
+
+
+def tenths(angle_deg: float) -> str:
+    """An angle within a cycle, to a tenth of a degree."""
+    return f"{round(angle_deg, 6) + 0.0:.1f}"
 
 
 def _whole(value: float) -> float | int:
@@ -138,7 +168,9 @@ def _all_rows(result: Result, system: System) -> Iterator[FigureRow]:
     found = document(result)
     units = {"Nm": system.moment, "J": system.moment}
     for key, value in found.items():
-        if isinstance(value, dict):
+        if key == "loads":
+            yield from _load_rows(value, system)
+        elif isinstance(value, dict):
             for figure, inner in value.items():
                 yield _figure_row(key, figure, inner, units)
         elif key not in ("format", "orders"):
@@ -147,7 +179,12 @@ def _all_rows(result: Result, system: System) -> Iterator[FigureRow]:
         for entry in found["orders"]:
             values = entry["torque_Nm"]
             yield from order_rows("torque", entry["order"], values, system.moment)
-        return
+    else:
+        yield from _order_rows(result, system)
+
+
+def _order_rows(result: TorqueAnalysis, system: System) -> Iterator[FigureRow]:
+    """Of the engine (cylinder 0), and of the one cylinder."""
     for number_of, spectra in ((0, result.spectra), (result.cylinder, result.single)):
         entries = order_entries(spectra)
         for kind, _ in spectra.items():
@@ -155,6 +192,19 @@ def _all_rows(result: Result, system: System) -> Iterator[FigureRow]:
                 values = entry[kind.key]
                 unit = system.unit(kind)
                 yield from order_rows(kind.name, entry["order"], values, unit, number_of)
+
+
+def _load_rows(loads: dict[str, Any], system: System) -> Iterator[FigureRow]:
+    """Pins by cylinder; bearings by their number, in place of an order."""
+    unit = system.force
+    for kind, entries in loads.items():
+        for entry in entries:
+            at = (entry.get("cylinder", 0), kind, entry.get("bearing"))
+            yield FigureRow(*at, "max", unit.of(entry["max_N"]), unit.name)
+            yield FigureRow(*at, "max_deg", entry["max_deg"], "deg")
+            yield FigureRow(*at, "mean", unit.of(entry["mean_N"]), unit.name)
+            if "pressure_Pa" in entry:
+                yield FigureRow(*at, "pressure", entry["pressure_Pa"], "Pa")
 
 
 def _figure_row(quantity: str, key: str, value: Any, units: dict[str, Unit]) -> FigureRow:
@@ -184,8 +234,39 @@ def sheet(result: Result, system: System) -> Sheet:
     parts = [_work_facts(result, system)]
     parts.append(_course_facts(result.curves.total, result.surplus, result.cycle_deg, system))
     parts += _flywheel_facts(result.flywheel, result.cycle_deg)
+    parts += _load_tables(result, system)
     parts.append(_order_table(result, system))
     return Sheet(f"{name}: torque on the crank", tuple(parts))
+
+
+def _load_tables(result: TorqueAnalysis, system: System) -> Iterator[Grid]:
+    if result.loads.pin:
+        yield _load_table("Crank pins", "cylinder", result.loads.pin, result.cycle_deg, system)
+    if result.loads.main:
+        grid = _load_table("Main bearings", "bearing", result.loads.main, result.cycle_deg, system)
+        yield grid._replace(
+            note="Half-way between neighbouring throws and as far outside the end ones; the shaft "
+            "counts as cut in each."
+        )
+
+
+def _load_table(
+    title: str, word: str, loads: tuple[Load, ...], cycle_deg: float, system: System
+) -> Grid:
+    unit = system.force.fit(max(load.largest.value for load in loads))
+    pressed = all(load.pressure is not None for load in loads)
+
+    def row(load: Load) -> Iterator[str]:
+        yield str(load.name)
+        yield number(unit.of(load.largest.value))
+        yield tenths(degrees_in_cycle(load.largest.angle, cycle_deg))
+        yield number(unit.of(load.mean))
+        if load.pressure is not None and pressed:
+            yield number(load.pressure / 1e6, 4)
+
+    heads = (word, f"largest, {unit.name}", "at, deg", f"mean, {unit.name}")
+    rows = tuple(tuple(row(load)) for load in loads)
+    return Grid(title, (*heads, "N/mm²") if pressed else heads, rows)
 
 
 def _work_facts(result: TorqueAnalysis, system: System) -> Facts:
@@ -232,10 +313,10 @@ def _course_facts(
 ) -> Facts:
     lowest, highest = torque.extremes()
     unit = system.moment
-    start, end = (degrees(degrees_in_cycle(a, cycle_deg)) for a in (surplus.start, surplus.end))
+    start, end = (tenths(degrees_in_cycle(a, cycle_deg)) for a in (surplus.start, surplus.end))
 
     def told(value: float, angle: float) -> str:
-        at = degrees(degrees_in_cycle(angle, cycle_deg))
+        at = tenths(degrees_in_cycle(angle, cycle_deg))
         return f"{number(unit.of(value))} {unit.name} at {at} deg"
 
     pairs = (
@@ -273,7 +354,7 @@ def _speed_pairs(speed: Speed, cycle_deg: float) -> Iterator[tuple[str, str]]:
         f"{number(100 * speed.fluctuation, 4)} % ({share}); {small} % by the rule for small ones",
     )
     low, high = (
-        f"{number(e.value * RPM, 6)} rpm at {degrees(degrees_in_cycle(e.angle, cycle_deg))} deg"
+        f"{number(e.value * RPM, 6)} rpm at {tenths(degrees_in_cycle(e.angle, cycle_deg))} deg"
         for e in (speed.lowest, speed.highest)
     )
     yield "speed", f"{low} to {high}"

@@ -13,8 +13,6 @@ from .reasons import explain_counterweights, explain_shaft
 from .remedy import Remedy
 from .residual import BACKWARD, FORWARD
 
-_SHAFTS = ((1, -1), (2, 1), (2, -1))  # order and sense
-
 
 def size_auto(engine: Engine, options: SchemeOptions | None = None) -> Remedy:
     """Counterweights for the forward part of order 1, then shafts at -1, +2 and -2, each only where
@@ -25,12 +23,14 @@ def size_auto(engine: Engine, options: SchemeOptions | None = None) -> Remedy:
     moment too, else two; two opposite ones where only a moment remains.
     """
     fitting = Fitting.start(engine, "auto")
-    residual = fitting.find_residual(1)
-    slots = [Slot("counterweight", 1, 1, z) for z in find_counterweight_planes(engine, residual)]
-    fitting = fitting.cancel(slots, FORWARD, explain_counterweights(residual))
-    for order, sense in _SHAFTS:
-        residual = fitting.find_residual(order)
-        slots = [Slot("shaft", order, sense, z) for z in find_planes(engine, residual, sense)]
+    # A device leaves other orders, and what turns the other way, as they are.
+    first, second = fitting.find_residual(1), fitting.find_residual(2)
+    slots = [Slot("counterweight", 1, 1, z) for z in find_counterweight_planes(engine, first)]
+    fitting = fitting.cancel(slots, FORWARD, explain_counterweights(first), first)
+    for residual, sense in ((first, -1), (second, 1), (second, -1)):
+        planes = find_planes(engine, residual, sense)
+        slots = [Slot("shaft", residual.order, sense, z) for z in planes]
         parts = FORWARD if sense > 0 else BACKWARD
-        fitting = fitting.cancel(slots, parts, explain_shaft(residual, sense, len(slots)))
+        reason = explain_shaft(residual, sense, len(slots))
+        fitting = fitting.cancel(slots, parts, reason, residual)
     return fitting.remedy

@@ -11,7 +11,11 @@ from .options import SchemeOptions
 from .planes import SAME_PLACE, find_counterweight_planes, read_planes
 from .reasons import explain_counterweights
 from .remedy import Remedy
-from .residual import FORWARD, FORWARD_FORCE, FORWARD_MOMENT, NothingToBalanceError
+from .residual import FORWARD, FORWARD_FORCE, FORWARD_MOMENT, NothingToBalanceError, Residual
+
+NOT_NEEDED = (
+    "there is no free force or moment of order 1 turning with the crank: no counterweight is needed"
+)
 
 
 def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
@@ -30,17 +34,23 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     fitting = Fitting.start(engine, "counterweights", 1)
     residual = fitting.find_residual(1)
     if not any(residual.parts[part] for part in FORWARD):
-        raise NothingToBalanceError(
-            "there is no free force or moment of order 1 turning with the crank: no counterweight "
-            "is needed"
-        )
+        raise NothingToBalanceError(NOT_NEEDED)
     if options.planes is None:
         planes = find_counterweight_planes(engine, residual)
     else:
         planes = read_planes(engine, options)
     slots = [Slot("counterweight", 1, 1, z) for z in planes]
     if len(slots) > 1:
-        return fitting.cancel(slots, FORWARD, explain_counterweights(residual)).remedy
+        remedy = fitting.cancel(slots, FORWARD, explain_counterweights(residual)).remedy
+    else:
+        remedy = _compromise(fitting, slots, residual)
+    if not remedy.devices and not remedy.note:  # dust was left
+        raise NothingToBalanceError(NOT_NEEDED)
+    return remedy
+
+
+def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Remedy:
+    """A weight in one plane, which cannot take a moment that acts elsewhere."""
     fit = solve(slots, residual, FORWARD)
     fitting = fitting.add(
         slots,

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from ..engine.build import Engine
 from .details import Detail
-from .effects import Slot, solve_exactly
+from .effects import LEFT, Slot, solve_exactly
 from .planes import SAME_PLACE
 from .remedy import Remedy, fit_devices
 from .residual import Part, Residual, find_residual, hold_steady
@@ -32,23 +32,40 @@ class Fitting(NamedTuple):
         return find_residual(fit_devices(self.engine, self.remedy), order)
 
     def add(self, slots: Sequence[Slot], unbalances: Iterable[complex], reason: str) -> Fitting:
-        """With devices of these unbalances (kg m) in these slots; those of none are left out."""
-        first_axis_deg = float(self.engine.first_axis_deg)
+        """With devices of these unbalances (kg m) in these slots; those of none are left out, and
+        counterweights that are dust beside what moves.
+        """
+        first_axis_deg, dust = float(self.engine.first_axis_deg), LEFT * self._find_moving()
         tables = [
             slot.make_table(unbalance, first_axis_deg)
             for slot, unbalance in zip(slots, unbalances, strict=True)
-            if unbalance
+            if abs(unbalance) > (dust if slot.kind == "counterweight" else 0)
         ]
         return self._replace(remedy=self.remedy.add_devices(tables, reason))
 
-    def cancel(self, slots: Sequence[Slot], parts: Sequence[Part], reason: str) -> Fitting:
+    def _find_moving(self) -> float:
+        """All masses that move, at the crank radius, kg m."""
+        masses = (w.rotating + w.share + w.reciprocating for w in self.engine.weighed)
+        return float(sum(masses) * self.engine.cylinders.radius)
+
+    def cancel(
+        self,
+        slots: Sequence[Slot],
+        parts: Sequence[Part],
+        reason: str,
+        residual: Residual | None = None,
+    ) -> Fitting:
         """With devices in these slots that leave nothing of the parts of their order.
+
+        Args:
+            residual: what is left of these parts with the devices so far, where that is known.
 
         Raises BalcliError if the slots cannot do so.
         """
         if not slots:
             return self
-        fit = solve_exactly(slots, self.find_residual(slots[0].order), parts, SAME_PLACE)
+        left = residual or self.find_residual(slots[0].order)
+        fit = solve_exactly(slots, left, parts, SAME_PLACE)
         fitting = self.add(slots, fit.unbalances, reason)
         if len(slots) > 1 and fit.condition < math.inf:
             return fitting.note(Detail("condition number", "", fit.condition))

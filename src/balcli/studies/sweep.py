@@ -10,14 +10,17 @@ parameter fastest.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+import time
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
+from functools import partial
+from itertools import islice, product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..core.phasors import Array
 from ..engine.build import Engine, build
 from ..engine.load import read
 from ..enginefile.model import EngineFile
@@ -37,10 +40,14 @@ from .parameters import Parameter, parse
 
 if TYPE_CHECKING:
     from ..mounting.quantity import MountQuantity
+    from ..torsion.quantity import TorsionQuantity
 
-Array = NDArray[np.float64]
+    AnyQuantity = Quantity | MountQuantity | TorsionQuantity
+
 Box = tuple[slice, ...]
 _OF_MOUNTS = ("mode", "mount", "point")  # beginnings of quantities of an engine on its mounts
+_OF_TORSION = ("torsion", "shaft")  # of its crankshaft that twists
+ALONE_S = 1.0  # of a sweep, before several threads share what is left of it
 ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
 TILES = 8  # of so many variants in a box that would have few values of some parameter
@@ -62,7 +69,7 @@ class Sweep:
 
     file: EngineFile
     parameters: tuple[Parameter, ...]
-    quantities: tuple[Quantity | MountQuantity, ...]
+    quantities: tuple[AnyQuantity, ...]
     name: str = "engine"  # of the file, in messages
 
     @property
@@ -78,7 +85,19 @@ class Sweep:
     @property
     def of_mounts(self) -> tuple[MountQuantity, ...]:
         """Quantities of the engine on its mounts."""
-        return tuple(q for q in self.quantities if not isinstance(q, Quantity))
+        found = [q for q in self.quantities if _begin(q.name) in _OF_MOUNTS]
+        return tuple(found)  # type: ignore[arg-type]
+
+    @property
+    def of_torsion(self) -> tuple[TorsionQuantity, ...]:
+        """Quantities of the crankshaft that twists."""
+        found = [q for q in self.quantities if _begin(q.name) in _OF_TORSION]
+        return tuple(found)  # type: ignore[arg-type]
+
+    @property
+    def one_by_one(self) -> bool:
+        """Whether variants are computed each by itself."""
+        return bool(self.of_mounts or self.of_torsion)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -136,19 +155,31 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
     return sweep
 
 
-def _parse_quantities(text: str) -> tuple[Quantity | MountQuantity, ...]:
-    """Those of the engine and those of its mounts, in the order in which they are asked for."""
+def _parse_quantities(text: str) -> tuple[AnyQuantity, ...]:
+    """Those of the engine, of its mounts and of its crankshaft's torsion, in the order in which
+    they are asked for.
+    """
     words = [word.strip() for word in text.split(",") if word.strip()]
-    of_mounts = [word for word in words if word.partition(".")[0] in _OF_MOUNTS]
-    if not of_mounts:
+    if not any(_begin(word) in (*_OF_MOUNTS, *_OF_TORSION) for word in words):
         return parse_quantity_list(text)
-    from ..mounting.quantity import parse_mount_quantity
+    return tuple(dict.fromkeys(map(_parse_quantity, words)))
 
-    found = [
-        parse_mount_quantity(word) if word in of_mounts else parse_quantity_list(word)[0]
-        for word in words
-    ]
-    return tuple(dict.fromkeys(found))
+
+def _begin(name: str) -> str:
+    """What the name of a quantity begins with: its kind."""
+    return name.partition(".")[0]
+
+
+def _parse_quantity(word: str) -> AnyQuantity:
+    if _begin(word) in _OF_MOUNTS:
+        from ..mounting.quantity import parse_mount_quantity  # for those who ask for it
+
+        return parse_mount_quantity(word)
+    if _begin(word) in _OF_TORSION:
+        from ..torsion.quantity import parse_torsion_quantity
+
+        return parse_torsion_quantity(word)
+    return parse_quantity_list(word)[0]
 
 
 def check_corners(sweep: Sweep) -> None:
@@ -165,6 +196,15 @@ def check_corners(sweep: Sweep) -> None:
         from ..mounting.quantity import refuse_unknown_targets
 
         refuse_unknown_targets(sweep.file, sweep.of_mounts)
+    if sweep.of_torsion:
+        from ..torsion.quantity import refuse_unknown_shafts
+
+        try:
+            refuse_unknown_shafts(sweep.file, sweep.of_torsion)
+        except InputError as error:
+            raise InputError(error.problems, sweep.name) from None
+        except BalcliError as error:
+            raise BalcliError(f"{sweep.name}: {error}") from None
 
 
 def build_corners(sweep: Sweep) -> Engine:
@@ -222,37 +262,57 @@ def _divide_evenly(shape: tuple[int, ...], most: int) -> Iterator[Box]:
 
 def _evaluate_tile(sweep: Sweep, box: Box) -> list[Array]:
     """Each quantity for all variants of a box, of its shape, or of length 1 along some axes."""
-    values: dict[Quantity | MountQuantity, Array] = {}
+    values: dict[AnyQuantity, Array] = {}
     if sweep.of_engine:
         found = evaluate_quantities(sweep.engine(box), sweep.of_engine)
         values |= dict(zip(sweep.of_engine, found, strict=True))
     if sweep.of_mounts:
         values |= dict(zip(sweep.of_mounts, _evaluate_mounts(sweep, box), strict=True))
+    if sweep.of_torsion:
+        values |= dict(zip(sweep.of_torsion, _evaluate_torsion(sweep, box), strict=True))
     return [values[q] for q in sweep.quantities]
 
 
 def _evaluate_mounts(sweep: Sweep, box: Box) -> list[Array]:
-    """Quantities of the mounts for all variants of a box, one by one, of the box's shape.
+    """Quantities of the mounts for all variants of a box."""
+    from ..mounting.quantity import MountedVariants
+
+    variants = MountedVariants(sweep.file, sweep.of_mounts)
+    return _evaluate_one_by_one(sweep, box, variants.evaluate, len(sweep.of_mounts))
+
+
+def _evaluate_torsion(sweep: Sweep, box: Box) -> list[Array]:
+    """Quantities of torsion for all variants of a box."""
+    from ..torsion.quantity import TorsionVariants
+
+    variants = TorsionVariants(sweep.file, sweep.of_torsion)
+    return _evaluate_one_by_one(sweep, box, variants.evaluate, len(sweep.of_torsion))
+
+
+def _evaluate_one_by_one(
+    sweep: Sweep, box: Box, evaluate: Callable[[Mapping[str, float]], list[float]], count: int
+) -> list[Array]:
+    """So many quantities for all variants of a box, each of the box's shape.
+
+    Args:
+        evaluate: gives them for one variant, by the figures that vary.
 
     Raises:
         InputError, BalcliError: one of them cannot be, with its figures.
     """
-    from ..mounting.quantity import MountedVariants
-
     axes = [p.values[cut] for p, cut in zip(sweep.parameters, box, strict=True)]
     paths = [p.path for p in sweep.parameters]
-    variants = MountedVariants(sweep.file, sweep.of_mounts)
     rows = []
     for figures in product(*axes):
         own = dict(zip(paths, map(float, figures), strict=True))
         where = ", ".join(f"{path} = {value:g}" for path, value in own.items())
         try:
-            rows.append(variants.evaluate(own))
+            rows.append(evaluate(own))
         except InputError as error:
             raise InputError(error.problems, f"{sweep.name}: {where}") from None
         except BalcliError as error:
             raise BalcliError(f"{sweep.name}: {where}: {error}") from None
-    table = np.array(rows).reshape(*map(len, axes), len(sweep.of_mounts))
+    table = np.array(rows).reshape(*map(len, axes), count)
     return list(np.moveaxis(table, -1, 0))
 
 
@@ -266,7 +326,7 @@ def size_boxes(sweep: Sweep) -> int:
     orders = find_orders(engine, sweep.of_engine)
     figures = max(engine.cylinders.count * max(map(len, orders)), 2 * max(map(max, orders)))
     samples = count_samples(engine) // 2 ** len(sweep.parameters)
-    most = ALONE if sweep.of_mounts else CHUNK
+    most = ALONE if sweep.one_by_one else CHUNK
     return max(min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), most), 1)
 
 
@@ -274,7 +334,7 @@ def divide_sweep(sweep: Sweep, most: int) -> Iterator[Box]:
     """The boxes of a sweep of which so many variants are computed at a time, in the order of rows.
     Those of one parameter's value alone, or of a few, are joined, to be computed in tiles.
     """
-    narrow = len(sweep.shape) > 1 and sweep.shape[-1] * TILES > most and not sweep.of_mounts
+    narrow = len(sweep.shape) > 1 and sweep.shape[-1] * TILES > most and not sweep.one_by_one
     return divide_grid(sweep.shape, TILES * most if narrow else most)
 
 
@@ -296,12 +356,45 @@ def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
             )
 
 
-def evaluate_chunks(sweep: Sweep) -> Iterator[Chunk]:
-    """All variants, box by box, in the order of rows."""
+def evaluate_chunks(sweep: Sweep, threads: int = 1, alone_s: float = ALONE_S) -> Iterator[Chunk]:
+    """All variants, box by box, in the order of rows; the same figures by any number of threads.
+
+    Args:
+        sweep: what to compute.
+        threads: that compute it; numpy does most of its work outside Python's lock.
+        alone_s: seconds for which one does it alone: most sweeps have ended by then.
+    """
     keep_freed_memory()
     most = size_boxes(sweep)
-    for box in divide_sweep(sweep, most):
-        yield Chunk(box, evaluate_box(sweep, box, most))
+    boxes = divide_sweep(sweep, most)
+    compute = partial(_evaluate_chunk, sweep, most)
+    end = time.monotonic() + (alone_s if threads > 1 else math.inf)
+    for box in boxes:
+        yield compute(box)
+        if time.monotonic() > end:
+            break
+    yield from _share(compute, boxes, threads)
+
+
+def _evaluate_chunk(sweep: Sweep, most: int, box: Box) -> Chunk:
+    return Chunk(box, evaluate_box(sweep, box, most))
+
+
+def _share(compute: Callable[[Box], Chunk], boxes: Iterator[Box], threads: int) -> Iterator[Chunk]:
+    """The chunks of the boxes in their order, computed by so many threads a little ahead."""
+    first = list(islice(boxes, 2 * threads))
+    if not first:
+        return
+    from concurrent.futures import ThreadPoolExecutor  # most sweeps have ended without it
+
+    pool = ThreadPoolExecutor(threads)
+    try:
+        waiting = deque(pool.submit(compute, box) for box in first)
+        while waiting:
+            yield waiting.popleft().result()
+            waiting.extend(pool.submit(compute, box) for box in islice(boxes, 1))
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 def keep_freed_memory() -> None:

@@ -23,6 +23,7 @@ from .course import (
     find_torque_curves,
 )
 from .flywheel import Flywheel, Question, find_flywheel
+from .loads import Loads, analyze_loads
 
 KINDS_OF_TORQUE = ("gas", "torque", "torque_total")
 
@@ -42,6 +43,7 @@ class TorqueAnalysis:
             pressures are not known.
         surplus: of the total torque above its mean.
         flywheel: None where the file gives no inertia and none was asked for.
+        loads: of pins and bearings, as far as they were asked for.
     """
 
     engine: Engine
@@ -53,6 +55,7 @@ class TorqueAnalysis:
     max_pressure: Extreme | None
     surplus: Surplus
     flywheel: Flywheel | None
+    loads: Loads
 
     @property
     def orders(self) -> Array:
@@ -87,6 +90,7 @@ def analyze_torque(
     *,
     cylinder: int = 1,
     fluctuation: float | None = None,
+    loads: tuple[str, ...] = (),
 ) -> TorqueAnalysis:
     """Torque of gas and inertia on the crank of an engine.
 
@@ -96,9 +100,10 @@ def analyze_torque(
             HIGHEST_GAS_ORDER_UNASKED.
         cylinder: whose torque is shown beside the engine's.
         fluctuation: (highest - lowest)/mean speed, for which the inertia is wanted.
+        loads: any of KINDS_OF_LOAD.
 
     Raises:
-        BalcliError: no gas; no such cylinder; the crank stalls.
+        BalcliError: no gas; no such cylinder; the crank stalls; loads that are not known.
     """
     gas = take_gas(engine)
     steady = replace(engine, ripple=())
@@ -125,6 +130,7 @@ def analyze_torque(
         _find_highest(engine),
         above,
         find_flywheel(asked),
+        analyze_loads(engine, loads),
     )
 
 

@@ -33,6 +33,8 @@ def find_distinct(*figures: NDArray[Any]) -> Distinct:
         figures: each of shape (cylinders or 1, *trailing); trailing axes broadcast.
     """
     shape = np.broadcast_shapes(*(values.shape for values in figures))
+    if math.prod(shape) == 1:
+        return Distinct(tuple(values.ravel() for values in figures), np.zeros(shape, np.intp))
     starts: dict[tuple[tuple[tuple[int, ...], bytes], ...], int] = {}
     different: list[list[NDArray[Any]]] = []
     which = np.empty(shape, np.intp)

@@ -15,6 +15,7 @@ from ...core.singular_values import Real
 from ...mounting.modes import BodyMode
 from ...mounting.report import MountReport
 from ...mounting.response import Response
+from ..body_block import PROJECTION, find_corners
 from ..sheet import NAMELESS, number, order_number
 from ..units import System, Unit
 from .style import (
@@ -39,8 +40,6 @@ _MOST_CURVES = 12  # that are told apart
 _WIDEST, _THINNEST = 7.0, 0.6  # lines of orders, points
 _SWING = 0.22  # of the body's size, by which its farthest corner moves in a picture of a mode
 _SIZE, _SHAPES_ALONE = (11.0, 8.6), (11.0, 3.2)
-# x of the engine is up on the page, z runs to the right, y to the left and towards the reader
-_PROJECTION = np.array([[0.0, -0.62, 0.86], [1.0, -0.34, -0.28]])
 
 
 def draw_mounts(result: MountReport, form: Form, system: System) -> bytes:
@@ -145,19 +144,18 @@ def _draw_mode(ax: Axes, k: int, mode: BodyMode, result: MountReport) -> None:
     mounts.
     """
     body = result.mounted.body
-    half = _find_half_sizes(body.mass, np.diagonal(body.inertia))
-    corners = np.array(list(product((-1, 1), repeat=3))) * half
+    corners = find_corners(body)
     turned = mode.shape[:3] + np.cross(mode.shape[3:], corners)
     farthest = float(np.linalg.norm(turned, axis=1).max()) or 1.0
-    scale = _SWING * 2 * float(half.max()) / farthest
+    scale = _SWING * 2 * float(corners.max()) / farthest
     places = result.mounted.dynamic.at - body.centre
     moved = places + scale * (mode.shape[:3] + np.cross(mode.shape[3:], places))
     for points, colour, width in ((corners, FAINT, 1.0), (corners + scale * turned, BLUE, 1.4)):
-        flat = points @ _PROJECTION.T
+        flat = points @ PROJECTION.T
         for i, j in combinations(range(8), 2):
             if np.sum(corners[i] != corners[j]) == 1:
                 ax.plot(*flat[[i, j]].T, color=colour, linewidth=width)
-    rest, away = places @ _PROJECTION.T, moved @ _PROJECTION.T
+    rest, away = places @ PROJECTION.T, moved @ PROJECTION.T
     ax.plot(*rest.T, "o", color=SOFT, markersize=3, markerfacecolor=PAPER)
     for one, other in zip(rest, away, strict=True):
         ax.plot(*np.stack([one, other]).T, color=SOFT, linewidth=0.8)
@@ -165,9 +163,3 @@ def _draw_mode(ax: Axes, k: int, mode: BodyMode, result: MountReport) -> None:
     ax.set_aspect("equal")
     ax.set_axis_off()
     ax.set_title(f"{k}: {number(mode.hertz, 3)} Hz\n{fill(mode.motion, 22)}", fontsize=8.5, pad=4)
-
-
-def _find_half_sizes(mass: float, moments: Real) -> Real:
-    """(3,) of an even block of this mass and these moments of inertia, m."""
-    squares = 1.5 * (moments.sum() - 2 * moments) / mass
-    return np.sqrt(np.maximum(squares, 0.05 * squares.max()))

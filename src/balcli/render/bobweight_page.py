@@ -1,0 +1,155 @@
+"""The bobweight card as one page for the wall of a shop: 80 columns, g and oz, every figure as
+quantity x each = sum, and below what to add or drill where.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from textwrap import wrap
+from typing import TYPE_CHECKING
+
+from ..errors import BalcliError, legible
+from ..limits import MOST_HOLES
+from ..sizing.device_tables import find_unbalance
+from .bobweights import group_equal_pins, multiply, name_pins, percent
+from .sheet import NAMELESS, capitalized, degrees, number
+from .units import IMPERIAL, INCH, POUND
+
+if TYPE_CHECKING:
+    from ..enginefile.model import Counterweight
+    from ..results.balance import Balance
+    from ..sizing.details import Bobweight
+    from ..sizing.workshop import Practical
+
+WIDTH = 80
+OUNCE_G = 1e3 * POUND / 16
+_RULE, _HEAVY = "─" * WIDTH, "═" * WIDTH
+_INDENT = "  "
+_NAMES = 56  # width of the first two columns
+_WHERE = (
+    "Angles from cylinder 1's crank pin in the sense of rotation, clockwise seen from the free end "
+    "(front); z as in the engine file, + towards the flywheel."
+)
+
+
+def write_page(result: Balance) -> str:
+    """The page as text.
+
+    Raises BalcliError for a scheme that has no card.
+    """
+    if not result.remedy.card:
+        raise BalcliError(
+            f"--format card: scheme {result.remedy.scheme} has no bobweight card; leave --scheme "
+            "out, or choose --scheme factor"
+        )
+    return "\n".join(legible(line).rstrip() for line in _lines(result)) + "\n"
+
+
+def _lines(result: Balance) -> Iterator[str]:
+    engine, card = result.before.engine, result.remedy.card
+    yield _HEAVY
+    yield _row("BOBWEIGHT CARD", (engine.name or NAMELESS)[: WIDTH - 20])
+    yield _HEAVY
+    factor, rods = card[0].factor, len(card[0].cylinders)
+    yield f"Balance factor    {percent(factor)} of all reciprocating mass on the pin"
+    if rods > 1:
+        yield f"                  = {percent(factor * rods)} of one cylinder's reciprocating mass"
+    for pins in group_equal_pins(card):
+        yield ""
+        yield from _weigh_pins(pins)
+    yield ""
+    yield from _correct(result)
+    yield _RULE
+    yield "Weighed by ____________________   Date ______________   Checked ________________"
+
+
+# ------------------------------------------------------------------ what to weigh
+def _weigh_pins(pins: Sequence[Bobweight]) -> Iterator[str]:
+    """One bobweight, for all pins that are alike."""
+    one = pins[0]
+    yield from wrap(capitalized(name_pins(pins)), WIDTH)
+    yield _line("", "quantity × each", "g", "oz")
+    yield _RULE
+    yield "Rotating"
+    yield from _list_parts(one, rotates=True)
+    yield _sum("rotating", one.rotating_g)
+    yield "Reciprocating"
+    yield from _list_parts(one, rotates=False)
+    yield _sum("reciprocating", one.reciprocating_g)
+    share = f"{number(one.reciprocating_g)} × {percent(one.factor)}"
+    yield _line(f"{_INDENT}balanced share", share, *_weight(one.factor * one.reciprocating_g))
+    yield _HEAVY
+    each = f"{len(pins)} alike" if len(pins) > 1 else ""
+    yield _line("BOBWEIGHT (rotating + share)", each, *_weight(one.bobweight_g))
+    yield _HEAVY
+    if one.throw_g:
+        yield _line("throw itself, at the crank radius", "", *_weight(one.throw_g))
+        yield _line("counterweight opposite", "", *_weight(one.bobweight_g + one.throw_g))
+
+
+def _list_parts(one: Bobweight, *, rotates: bool) -> Iterator[str]:
+    for line in one.lines:
+        if line.rotates == rotates and line.sum_g:
+            part, how = _INDENT + line.part, multiply(line)
+            if len(part) + len(how) >= _NAMES:
+                how = f"{len(line.each_g)}, weighed one by one"
+            yield _line(part, how, *_weight(line.sum_g))
+
+
+def _sum(name: str, grams: float) -> str:
+    return _line(f"{_INDENT}{name} sum", "=", *_weight(grams))
+
+
+# ------------------------------------------------------------------ what to do
+def _correct(result: Balance) -> Iterator[str]:
+    """Every counterweight to add, with holes and what may be left, where they were asked for."""
+    remedy = result.remedy
+    weights = remedy.counterweights
+    if not weights:
+        yield capitalized(f"{remedy.note}.")
+        return
+    there = "STILL MISSING ON THE CRANKSHAFT" if remedy.needs else "COUNTERWEIGHTS"
+    yield _line(there, "at, deg", "g·mm", "oz·in")
+    yield _RULE
+    for k, (weight, figures) in enumerate(zip(weights, result.practical, strict=True), 1):
+        yield from _correct_plane(k, weight, figures, result)
+    yield from wrap(_WHERE, WIDTH)
+    speed = f"{number(float(result.before.engine.speed_rpm))} rpm"
+    if (permitted := result.permitted) is not None:
+        yield f"Permitted by ISO 21940-11, G {permitted.grade:g}, {permitted.mass:g} kg, {speed}."
+
+
+def _correct_plane(
+    k: int, weight: Counterweight, figures: Practical, result: Balance
+) -> Iterator[str]:
+    place = f"{k}  z = {number(weight.position)} mm ({number(weight.position / 1e3 / INCH, 4)} in)"
+    unbalance = find_unbalance(weight)
+    yield _line(f"{place}: add at", degrees(weight.angle), *_unbalance(unbalance))
+    holes, drill = figures.holes, result.tools.drill
+    if holes is not None and drill is not None:
+        size = f"{number(1e3 * drill)} mm ({number(drill / INCH, 3)} in)"
+        what = "drill" if result.tools.slug is None else "slugs"
+        depth = f"{number(1e3 * holes.depth, 3)} mm ({number(holes.depth / INCH, 3)} in) deep"
+        told = f"{holes.number} × {size}, {depth}"
+        if holes.number > MOST_HOLES:
+            told = f"more than {MOST_HOLES} holes of {size}"
+        yield f"   {what} at {degrees(holes.angle_deg)} deg: {told}"
+    if result.permitted is not None:
+        yield _line("   may be left", "", *_unbalance(result.permitted.each))
+
+
+# ------------------------------------------------------------------ figures in their columns
+def _line(name: str, how: str, grams: str, ounces: str) -> str:
+    return f"{name}{how:>{_NAMES - len(name)}}{grams:>13}{ounces:>11}"
+
+
+def _row(left: str, right: str) -> str:
+    return f"{left}{right:>{WIDTH - len(left)}}"
+
+
+def _weight(grams: float) -> tuple[str, str]:
+    return f"{grams:.1f}", f"{grams / OUNCE_G:.2f}"
+
+
+def _unbalance(kg_m: float) -> tuple[str, str]:
+    return f"{1e6 * kg_m:.0f}", f"{IMPERIAL.unbalance.of(kg_m):.2f}"
