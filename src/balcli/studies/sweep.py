@@ -29,18 +29,17 @@ from ..forces.quantity import (
     evaluate_quantities,
     find_orders,
     leave_out_unknown,
-    parse_quantity_list,
     refuse_unknown,
 )
 from ..forces.spectrum import count_samples
 from .parameters import Parameter, parse
+from .quantities import parse_quantities
 
 if TYPE_CHECKING:
     from ..mounting.quantity import MountQuantity
 
 Array = NDArray[np.float64]
 Box = tuple[slice, ...]
-_OF_MOUNTS = ("mode", "mount", "point")  # beginnings of quantities of an engine on its mounts
 ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
 TILES = 8  # of so many variants in a box that would have few values of some parameter
@@ -127,28 +126,13 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
-    asked = _parse_quantities(DEFAULT_QUANTITIES if quantities is None else quantities)
+    asked = parse_quantities(DEFAULT_QUANTITIES if quantities is None else quantities)
     sweep = Sweep(model, parameters, asked, name_file(file))
     if quantities is None:
         known = leave_out_unknown(build_corners(sweep), sweep.of_engine)
         sweep = replace(sweep, quantities=known)
     check_corners(sweep)
     return sweep
-
-
-def _parse_quantities(text: str) -> tuple[Quantity | MountQuantity, ...]:
-    """Those of the engine and those of its mounts, in the order in which they are asked for."""
-    words = [word.strip() for word in text.split(",") if word.strip()]
-    of_mounts = [word for word in words if word.partition(".")[0] in _OF_MOUNTS]
-    if not of_mounts:
-        return parse_quantity_list(text)
-    from ..mounting.quantity import parse_mount_quantity
-
-    found = [
-        parse_mount_quantity(word) if word in of_mounts else parse_quantity_list(word)[0]
-        for word in words
-    ]
-    return tuple(dict.fromkeys(found))
 
 
 def check_corners(sweep: Sweep) -> None:
