@@ -56,7 +56,7 @@ def test_help_lists_every_command_once_and_in_order(balcli):
     for flag in ("--help", "-h"):
         status, out, err = balcli(flag)
         assert (status, err) == (0, "")
-        listed = re.findall(r"(?m)^  ([a-z]+) +\S", out.partition("Commands:")[2])
+        listed = re.findall(r"(?m)^  ([a-z]+) +\S", out.partition("Analyse:")[2])
         assert listed == list(COMMANDS)
 
 

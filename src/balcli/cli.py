@@ -21,45 +21,59 @@ from . import __version__
 from .errors import BalcliError, Exit, say
 
 # What each does in a line; the first paragraph of its own help says the same.
-COMMANDS = {
-    "analyze": "Free forces and moments of an engine, order by order, and what balances them.",
-    "balance": "Size counterweights, balancer shafts or sliders, and show what is left with them.",
-    "tables": "The printed coefficient tables of five books and papers, recomputed, and every "
-    "misprint in them.",
-    "check": "Recompute engines and compare with their recorded results; exit status 1 if anything "
-    "moved.",
-    "new": "Write a commented, valid engine file (or file of runs, for `field`, or chain file, "
-    "for `torsion`) to start from.",
-    "curves": "Force, moment, couple, torque and roll over the crank angle, or the motion of one "
-    "piston.",
-    "schema": "Print the JSON Schema of the engine file, a file of runs or a chain file, for "
-    "editors.",
-    "plot": "Draw free forces and moments: loci over a revolution, order by order, and over the "
-    "crank angle.",
-    "report": "Write one self-contained page: the engine in motion, what it shakes, and a balance "
-    "scheme before and after.",
-    "sweep": "Figures of many variants of an engine: numbers of its file over ranges, as CSV, "
-    "JSON or (by the name of -o) Parquet.",
-    "search": "The best crank, firing order, bank angle or splay; mirror images and rotations "
-    "once.",
-    "scatter": "How free forces and moments spread when masses (rod lengths, throw angles) vary, "
-    "and which tolerance matters most.",
-    "compare": "Engines side by side: free forces and moments by order, peaks, and their ratios "
-    "to the first engine's.",
-    "sum": "Two engines on one frame, geared one to one: H, U and opposed-piston engines.",
-    "torque": "Torque of gas and inertia on the crank: by order and over the cycle, mean torque "
-    "and power, the uneven speed and the flywheel; or what a given torque curve does.",
-    "field": "Balance a rotor on the machine or in its bearings: from readings with trial weights "
-    "to correction weights, places or drill holes, and what is left.",
-    "mounts": "What the frame feels of an engine on its mounts: natural modes, rest, forces of the "
-    "mounts and motion of points over a range of speeds.",
-    "torsion": "Torsional vibration of a crankshaft, or of any shafts: natural modes, critical "
-    "speeds, Holzer tables, vibratory torque and stress over a range of speeds, dampers, barred "
-    "speeds.",
-    "engines": "List the example engines that come with balcli, print one, or copy it.",
-    "bench": "Run time against error of every way to the same figures, on this machine; with -o "
-    "X.svg also as a picture.",
+GROUPS = {
+    "Analyse": {
+        "analyze": "Free forces and moments of an engine, order by order, and what balances them.",
+        "compare": "Engines side by side: free forces and moments by order, peaks, and their "
+        "ratios to the first engine's.",
+        "sum": "Two engines on one frame, geared one to one: H, U and opposed-piston engines.",
+        "layouts": "Free forces and moments of common engines at a glance, as multiples of "
+        "one cylinder's.",
+        "torque": "Torque of gas and inertia on the crank: by order and over the cycle, "
+        "mean torque and power, the uneven speed and the flywheel; or what a "
+        "given torque curve does.",
+        "curves": "Force, moment, couple, torque and roll over the crank angle, or the "
+        "motion of one piston.",
+        "plot": "Draw free forces and moments: loci over a revolution, order by order, "
+        "and over the crank angle.",
+        "report": "Write one self-contained page: the engine in motion, what it shakes, and "
+        "a balance scheme before and after.",
+    },
+    "Balance": {
+        "balance": "Size counterweights, balancer shafts or sliders, and show what is left "
+        "with them.",
+        "field": "Balance a rotor on the machine or in its bearings: from readings with "
+        "trial weights to correction weights, places or drill holes, and what is "
+        "left.",
+    },
+    "Study": {
+        "sweep": "Figures of many variants of an engine: numbers of its file over ranges, "
+        "as CSV, JSON or (by the name of -o) Parquet.",
+        "search": "The best crank, firing order, bank angle or splay; mirror images and "
+        "rotations once.",
+        "scatter": "How free forces and moments spread when masses (rod lengths, throw "
+        "angles) vary, and which tolerance matters most.",
+        "mounts": "What the frame feels of an engine on its mounts: natural modes, rest, "
+        "forces of the mounts and motion of points over a range of speeds.",
+        "torsion": "Torsional vibration of a crankshaft, or of any shafts: natural modes, "
+        "critical speeds, Holzer tables, vibratory torque and stress over a range "
+        "of speeds, dampers, barred speeds.",
+    },
+    "Files and tables": {
+        "new": "Write a commented, valid engine file (or file of runs, for `field`, or "
+        "chain file, for `torsion`) to start from.",
+        "engines": "List the example engines that come with balcli, print one, or copy it.",
+        "schema": "Print the JSON Schema of the engine file, a file of runs or a chain "
+        "file, for editors.",
+        "check": "Recompute engines and compare with their recorded results; exit status 1 "
+        "if anything moved.",
+        "tables": "The printed coefficient tables of five books and papers, recomputed, and "
+        "every misprint in them.",
+        "bench": "Run time against error of every way to the same figures, on this "
+        "machine; with -o X.svg also as a picture.",
+    },
 }
+COMMANDS = {name: text for group in GROUPS.values() for name, text in group.items()}
 
 
 class _OnDemand(TyperGroup):
@@ -81,8 +95,9 @@ class _OnDemand(TyperGroup):
         return get_command(single)
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
-        with formatter.section("Commands"):
-            formatter.write_dl(list(COMMANDS.items()))
+        for title, group in GROUPS.items():
+            with formatter.section(title):
+                formatter.write_dl(list(group.items()))
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         try:

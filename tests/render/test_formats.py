@@ -26,6 +26,7 @@ SHOWN = {  # by renderer
     "comparison": ("compare", V6, V8),
     "errata": ("tables", "liu-3", "--errata"),
     "field_balancing": ("field", "-"),
+    "layouts": ("layouts",),
     "mounts": ("mounts", PACKAGE / "enginefile" / "starting_files" / "mounts.toml"),
     "printed_table": ("tables", "liu-1"),
     "search": ("search", V8, "--over", "throws", "--minimise", "moment.1.major"),

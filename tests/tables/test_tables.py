@@ -219,7 +219,7 @@ def test_words_are_folded_in_a_pipe_and_figures_are_not():
     assert {word for t in document() for word in (t["title"] + " " + t["source"]).split()} <= set(
         listed.split()
     )
-    figures = run("layouts").out.splitlines()
+    figures = run("layouts", "--digits", "4").out.splitlines()
     assert len([line for line in figures if line.startswith("i4 ")]) == 1
     assert max(map(len, figures)) > 200
 
@@ -279,3 +279,14 @@ def test_wrong_names_and_options_are_refused(arguments, message):
 
 def test_select_without_a_name_gives_all():
     assert tuple(t.name for t in select_tables(None)) == NAMES
+
+
+def test_layouts_at_a_glance():
+    """The same by either command and by the names people look for; figures are the handbook's."""
+    out = run_here("layouts").out
+    assert out == run("layouts").out == run("bosch").out == run("layout").out
+    (five,) = (line.split() for line in out.splitlines() if line.startswith("in-line five"))
+    assert five[2:] == ["0", "0", "0.449", "4.98", "144"]
+    (twin,) = (line.split() for line in out.splitlines() if line.startswith("90-degree V-twin"))
+    assert twin[-5:] == ["1", "1.414", "0", "0", "270/450"]
+    assert run_here("layouts", "--format", "json").out == run("layouts", "--format", "json").out

@@ -42,7 +42,8 @@ def sweep(
                 "force.2.major (or minor, forward, backward, axis, x, y, x_cos, x_sin, y_cos, "
                 "y_sin), moment...; couple.4.amplitude (or cos, sin), "
                 "torque..., roll...; peak.force, peak.moment; on mounts: mode.3.Hz, "
-                "mode.roll.share, mount.left.force, point.lever.motion."
+                "mode.roll.share, mount.left.force, point.lever.motion; of torsion: torsion.1.Hz, "
+                "shaft.flywheel.torque (or stress)."
             ),
         ),
     ] = None,

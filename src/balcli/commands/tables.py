@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from ..render import errata as errata_renderer
-from ..render import printed_table, table_list
+from ..render import layouts, printed_table, table_list
 from .amounts import as_bare_angles
 from .completion import complete_tables
 from .file_names import text_format
@@ -70,6 +70,7 @@ def tables(
     them.
     """
     form = text_format(output, form)
+    from ..tables.layouts import add_firing
     from ..tables.registry import select_tables
 
     if angle:
@@ -77,6 +78,8 @@ def tables(
     chosen = select_tables(name, lam, angle, power)
     if errata:
         show([chosen], errata_renderer, form, output)
+    elif name and chosen[0].name == "layouts" and digits is None:
+        show([add_firing(chosen[0])], layouts, form, output)
     elif name:
         show([printed_table.RoundedTable(chosen[0], digits)], printed_table, form, output)
     else:

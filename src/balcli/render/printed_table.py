@@ -74,7 +74,7 @@ def count_deviations(table: Table) -> str:
     )
     wrong = len(table.errata)
     if not printed:
-        return "nothing printed to compare with"
+        return "no printed source"
     if not wrong:
         return f"all {printed} printed figures agree"
     return f"{wrong} of {printed} printed figures deviate (exact ≠ printed)"

@@ -10,14 +10,14 @@ parameter fastest.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..core.phasors import Array
 from ..engine.build import Engine, build
 from ..engine.load import read
 from ..enginefile.model import EngineFile
@@ -33,12 +33,18 @@ from ..forces.quantity import (
 )
 from ..forces.spectrum import count_samples
 from .parameters import Parameter, parse
-from .quantities import parse_quantities
+from .quantities import (
+    choose_of_engine,
+    choose_of_mounts,
+    choose_of_torsion,
+    parse_quantities,
+)
 
 if TYPE_CHECKING:
     from ..mounting.quantity import MountQuantity
+    from ..torsion.quantity import TorsionQuantity
+    from .quantities import AnyQuantity
 
-Array = NDArray[np.float64]
 Box = tuple[slice, ...]
 ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
@@ -61,7 +67,7 @@ class Sweep:
 
     file: EngineFile
     parameters: tuple[Parameter, ...]
-    quantities: tuple[Quantity | MountQuantity, ...]
+    quantities: tuple[AnyQuantity, ...]
     name: str = "engine"  # of the file, in messages
 
     @property
@@ -72,12 +78,22 @@ class Sweep:
     @property
     def of_engine(self) -> tuple[Quantity, ...]:
         """Quantities of forces and moments."""
-        return tuple(q for q in self.quantities if isinstance(q, Quantity))
+        return choose_of_engine(self.quantities)
 
     @property
     def of_mounts(self) -> tuple[MountQuantity, ...]:
         """Quantities of the engine on its mounts."""
-        return tuple(q for q in self.quantities if not isinstance(q, Quantity))
+        return choose_of_mounts(self.quantities)
+
+    @property
+    def of_torsion(self) -> tuple[TorsionQuantity, ...]:
+        """Quantities of the crankshaft that twists."""
+        return choose_of_torsion(self.quantities)
+
+    @property
+    def one_by_one(self) -> bool:
+        """Whether variants are computed each by itself."""
+        return bool(self.of_mounts or self.of_torsion)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -149,6 +165,15 @@ def check_corners(sweep: Sweep) -> None:
         from ..mounting.quantity import refuse_unknown_targets
 
         refuse_unknown_targets(sweep.file, sweep.of_mounts)
+    if sweep.of_torsion:
+        from ..torsion.quantity import refuse_unknown_shafts
+
+        try:
+            refuse_unknown_shafts(sweep.file, sweep.of_torsion)
+        except InputError as error:
+            raise InputError(error.problems, sweep.name) from None
+        except BalcliError as error:
+            raise BalcliError(f"{sweep.name}: {error}") from None
 
 
 def build_corners(sweep: Sweep) -> Engine:
@@ -206,37 +231,57 @@ def _divide_evenly(shape: tuple[int, ...], most: int) -> Iterator[Box]:
 
 def _evaluate_tile(sweep: Sweep, box: Box) -> list[Array]:
     """Each quantity for all variants of a box, of its shape, or of length 1 along some axes."""
-    values: dict[Quantity | MountQuantity, Array] = {}
+    values: dict[AnyQuantity, Array] = {}
     if sweep.of_engine:
         found = evaluate_quantities(sweep.engine(box), sweep.of_engine)
         values |= dict(zip(sweep.of_engine, found, strict=True))
     if sweep.of_mounts:
         values |= dict(zip(sweep.of_mounts, _evaluate_mounts(sweep, box), strict=True))
+    if sweep.of_torsion:
+        values |= dict(zip(sweep.of_torsion, _evaluate_torsion(sweep, box), strict=True))
     return [values[q] for q in sweep.quantities]
 
 
 def _evaluate_mounts(sweep: Sweep, box: Box) -> list[Array]:
-    """Quantities of the mounts for all variants of a box, one by one, of the box's shape.
+    """Quantities of the mounts for all variants of a box."""
+    from ..mounting.quantity import MountedVariants
+
+    variants = MountedVariants(sweep.file, sweep.of_mounts)
+    return _evaluate_one_by_one(sweep, box, variants.evaluate, len(sweep.of_mounts))
+
+
+def _evaluate_torsion(sweep: Sweep, box: Box) -> list[Array]:
+    """Quantities of torsion for all variants of a box."""
+    from ..torsion.quantity import TorsionVariants
+
+    variants = TorsionVariants(sweep.file, sweep.of_torsion)
+    return _evaluate_one_by_one(sweep, box, variants.evaluate, len(sweep.of_torsion))
+
+
+def _evaluate_one_by_one(
+    sweep: Sweep, box: Box, evaluate: Callable[[Mapping[str, float]], list[float]], count: int
+) -> list[Array]:
+    """So many quantities for all variants of a box, each of the box's shape.
+
+    Args:
+        evaluate: gives them for one variant, by the figures that vary.
 
     Raises:
         InputError, BalcliError: one of them cannot be, with its figures.
     """
-    from ..mounting.quantity import MountedVariants
-
     axes = [p.values[cut] for p, cut in zip(sweep.parameters, box, strict=True)]
     paths = [p.path for p in sweep.parameters]
-    variants = MountedVariants(sweep.file, sweep.of_mounts)
     rows = []
     for figures in product(*axes):
         own = dict(zip(paths, map(float, figures), strict=True))
         where = ", ".join(f"{path} = {value:g}" for path, value in own.items())
         try:
-            rows.append(variants.evaluate(own))
+            rows.append(evaluate(own))
         except InputError as error:
             raise InputError(error.problems, f"{sweep.name}: {where}") from None
         except BalcliError as error:
             raise BalcliError(f"{sweep.name}: {where}: {error}") from None
-    table = np.array(rows).reshape(*map(len, axes), len(sweep.of_mounts))
+    table = np.array(rows).reshape(*map(len, axes), count)
     return list(np.moveaxis(table, -1, 0))
 
 
@@ -250,7 +295,7 @@ def size_boxes(sweep: Sweep) -> int:
     orders = find_orders(engine, sweep.of_engine)
     figures = max(engine.cylinders.count * max(map(len, orders)), 2 * max(map(max, orders)))
     samples = count_samples(engine) // 2 ** len(sweep.parameters)
-    most = ALONE if sweep.of_mounts else CHUNK
+    most = ALONE if sweep.one_by_one else CHUNK
     return max(min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), most), 1)
 
 
@@ -258,7 +303,7 @@ def divide_sweep(sweep: Sweep, most: int) -> Iterator[Box]:
     """The boxes of a sweep of which so many variants are computed at a time, in the order of rows.
     Those of one parameter's value alone, or of a few, are joined, to be computed in tiles.
     """
-    narrow = len(sweep.shape) > 1 and sweep.shape[-1] * TILES > most and not sweep.of_mounts
+    narrow = len(sweep.shape) > 1 and sweep.shape[-1] * TILES > most and not sweep.one_by_one
     return divide_grid(sweep.shape, TILES * most if narrow else most)
 
 

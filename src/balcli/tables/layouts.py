@@ -8,7 +8,9 @@ else that textbooks leave out, `forces.textbook` takes off.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -18,6 +20,7 @@ from .ranges import Ranges
 from .recomputed import Row, Table
 
 if TYPE_CHECKING:
+    from ..engine.build import Engine
     from ..enginefile.model import EngineFile
 
 ORDERS = (1, 2, 4, 6)
@@ -32,13 +35,45 @@ def tabulate_layouts(printed: Print, ranges: Ranges) -> Table:
     return printed.compare(("engine", "layout", "cylinders", *ends), rows, stub=3)
 
 
-def _row(name: str) -> Row:
-    from ..engine.build import build
+class Layouts(NamedTuple):
+    """The table, and the different intervals between firings of each engine, deg, ascending; none
+    where its file gives no firing order.
+    """
+
+    table: Table
+    gaps_deg: Mapping[str, tuple[float, ...]]
+
+
+def add_firing(table: Table) -> Layouts:
+    """The table of layouts with the firing intervals of its engines."""
+    names = [str(row[0]) for row in table.rows]
+    return Layouts(table, {name: _find_gaps(_build(_read(name))) for name in names})
+
+
+def _find_gaps(engine: Engine) -> tuple[float, ...]:
+    if not engine.fires_deg:
+        return ()
+    instants = [*map(float, engine.fires_deg.values()), 180.0 * engine.strokes]
+    return tuple(sorted({round(b - a, 1) for a, b in pairwise(instants)}))
+
+
+def _read(name: str) -> EngineFile:
     from ..engine.load import parse
+
+    return parse((folder() / f"{name}.toml").read_text(encoding="utf-8"), name)
+
+
+def _build(file: EngineFile) -> Engine:
+    from ..engine.build import build
+
+    return build(_without_offset(file))
+
+
+def _row(name: str) -> Row:
     from ..forces.textbook import find_textbook
 
-    file = parse((folder() / f"{name}.toml").read_text(encoding="utf-8"), name)
-    engine = build(_without_offset(file))
+    file = _read(name)
+    engine = _build(file)
     found = find_textbook(engine, np.array(ORDERS, float), ("force", "moment"))
     vectors = found.reciprocating.vectors()
     axes = [

@@ -39,6 +39,7 @@ REGISTRY: dict[str, Entry] = {
     "layouts": Entry(layouts.tabulate_layouts),
 }
 NAMES = tuple(REGISTRY)
+OTHER_NAMES = {"layout": "layouts", "bosch": "layouts"}  # what people look for
 
 
 def recompute(name: str, ranges: Ranges | None = None) -> Table:
@@ -47,6 +48,7 @@ def recompute(name: str, ranges: Ranges | None = None) -> Table:
     Raises:
         BalcliError: there is no such table, or it does not take an option that is given.
     """
+    name = OTHER_NAMES.get(name.lower(), name)
     entry = REGISTRY.get(name)
     if entry is None:
         near = nearest(name, NAMES)

@@ -1,0 +1,17 @@
+"""`balcli layouts`: free forces and moments of common engines at a glance."""
+
+from __future__ import annotations
+
+from ..render import layouts as renderer
+from .file_names import text_format
+from .options import FormatOption, Output
+from .output import show
+
+
+def layouts(form: FormatOption = None, output: Output = None) -> None:
+    """Free forces and moments of common engines at a glance, as multiples of one cylinder's."""
+    form = text_format(output, form)
+    from ..tables.layouts import add_firing
+    from ..tables.registry import recompute
+
+    show([add_firing(recompute("layouts"))], renderer, form, output)
