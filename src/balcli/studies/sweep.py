@@ -10,9 +10,12 @@ parameter fastest.
 from __future__ import annotations
 
 import math
+import time
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
+from functools import partial
+from itertools import islice, product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -46,6 +49,7 @@ if TYPE_CHECKING:
     from .quantities import AnyQuantity
 
 Box = tuple[slice, ...]
+ALONE_S = 1.0  # of a sweep, before several threads share what is left of it
 ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
 TILES = 8  # of so many variants in a box that would have few values of some parameter
@@ -325,12 +329,45 @@ def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
             )
 
 
-def evaluate_chunks(sweep: Sweep) -> Iterator[Chunk]:
-    """All variants, box by box, in the order of rows."""
+def evaluate_chunks(sweep: Sweep, threads: int = 1, alone_s: float = ALONE_S) -> Iterator[Chunk]:
+    """All variants, box by box, in the order of rows; the same figures by any number of threads.
+
+    Args:
+        sweep: what to compute.
+        threads: that compute it; numpy does most of its work outside Python's lock.
+        alone_s: seconds for which one does it alone: most sweeps have ended by then.
+    """
     keep_freed_memory()
     most = size_boxes(sweep)
-    for box in divide_sweep(sweep, most):
-        yield Chunk(box, evaluate_box(sweep, box, most))
+    boxes = divide_sweep(sweep, most)
+    compute = partial(_evaluate_chunk, sweep, most)
+    end = time.monotonic() + (alone_s if threads > 1 else math.inf)
+    for box in boxes:
+        yield compute(box)
+        if time.monotonic() > end:
+            break
+    yield from _share(compute, boxes, threads)
+
+
+def _evaluate_chunk(sweep: Sweep, most: int, box: Box) -> Chunk:
+    return Chunk(box, evaluate_box(sweep, box, most))
+
+
+def _share(compute: Callable[[Box], Chunk], boxes: Iterator[Box], threads: int) -> Iterator[Chunk]:
+    """The chunks of the boxes in their order, computed by so many threads a little ahead."""
+    first = list(islice(boxes, 2 * threads))
+    if not first:
+        return
+    from concurrent.futures import ThreadPoolExecutor  # most sweeps have ended without it
+
+    pool = ThreadPoolExecutor(threads)
+    try:
+        waiting = deque(pool.submit(compute, box) for box in first)
+        while waiting:
+            yield waiting.popleft().result()
+            waiting.extend(pool.submit(compute, box) for box in islice(boxes, 1))
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 def keep_freed_memory() -> None:
