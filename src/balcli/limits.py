@@ -68,6 +68,7 @@ MOST_PLACES = 720  # blades or holes of a plane: every pair of them may be looke
 # Engine mounts -------------------------------------------------------------------------------
 MOST_MOUNTS = 100  # and points: each has a curve for every speed
 MOST_MOUNT_SPEEDS = 20_000  # of a range
+MOST_MOUNT_SAMPLES = 20_000  # of random mounts, each computed by itself: 2 ms, with an engine 50
 MOST_MOUNT_RESULTS = 4_000_000  # orders x speeds x mounts and points: 300 MB
 
 # Torsion -------------------------------------------------------------------------------------
