@@ -31,6 +31,14 @@ def _end(number: int, _frame: object) -> None:
     os._exit(128 + number)
 
 
+def count_cores() -> int:
+    """Processor cores that this process may use."""
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:  # of Linux alone
+        return os.cpu_count() or 1
+
+
 def open_closed_streams() -> None:
     """Put something in the place of standard streams that are closed (`>&-`), which Python has as
     None: where reading or writing fails with an OSError, as it does for every other program.

@@ -28,7 +28,7 @@ OFFSET_SHARE = 0.2  # of the stroke; pin offsets have up to 0.05, narrow-angle v
 UNBALANCE_SHARE = 5.0  # of all moving masses x crank radius; balancing needs 1 or 2
 
 
-def suspicious(model: EngineFile) -> list[str]:
+def find_suspicious(model: EngineFile) -> list[str]:
     """Warnings for what is allowed and yet unlikely; empty for an ordinary engine."""
     parts = (_piston, _proportions, _rod, _inertia, _motion, _layout, _counterweights)
     return [warning for part in parts for warning in part(model)]

@@ -67,17 +67,24 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     best = min(sweep, key=lambda peaks: (round(peaks.force, 6), peaks.moment)).factor
     fitting = _fit_factor(engine, best, planes).note(*_describe(engine, options, best))
     own = _find_counterweights(engine)[1].any()
-    remedy = fitting.remedy
     needs = _find_needs(engine, best, planes)
-    note = COMPLETE if own and not remedy.devices else ""
-    if planes is not None and len(planes) == 1 and fitting.find_residual(1).moment(1):
-        note = SAME_PLACE
-    return remedy._replace(
-        note=note,
+    return fitting.remedy._replace(
+        note=_note(fitting, best, planes, complete=bool(own) and not fitting.remedy.devices),
         card=fill_card(engine, best),
         needs=tuple(_count_from_pin(engine, need) for need in needs) if own else (),
         sweep=sweep if len(sweep) > 1 else (),
     )
+
+
+def _note(
+    fitting: Fitting, factor: float, planes: tuple[float, ...] | None, *, complete: bool
+) -> str:
+    """What to know besides."""
+    if planes is not None and len(planes) == 1 and fitting.find_residual(1).moment(1):
+        return SAME_PLACE
+    if factor < 0:
+        return "a factor below 0: not even all rotating mass is balanced"
+    return COMPLETE if complete else ""
 
 
 def find_factor_peaks(
@@ -168,7 +175,7 @@ def _describe(engine: Engine, options: SchemeOptions, factor: float) -> list[Det
             "factor of one cylinder",
             "share",
             factor * rods,
-            what="the same, as a share of one cylinder's reciprocating mass",
+            what="of one cylinder's reciprocating mass: the same weight",
         ),
         Detail("definition", "", DEFINITION),
     ]

@@ -10,14 +10,17 @@ parameter fastest.
 from __future__ import annotations
 
 import math
+import time
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
+from functools import partial
+from itertools import islice, product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..core.phasors import Array
 from ..engine.build import Engine, build
 from ..engine.load import read
 from ..enginefile.model import EngineFile
@@ -29,22 +32,24 @@ from ..forces.quantity import (
     evaluate_quantities,
     find_orders,
     leave_out_unknown,
-    parse_quantity_list,
     refuse_unknown,
 )
 from ..forces.spectrum import count_samples
 from .parameters import Parameter, parse
+from .quantities import (
+    choose_of_engine,
+    choose_of_mounts,
+    choose_of_torsion,
+    parse_quantities,
+)
 
 if TYPE_CHECKING:
     from ..mounting.quantity import MountQuantity
     from ..torsion.quantity import TorsionQuantity
+    from .quantities import AnyQuantity
 
-    AnyQuantity = Quantity | MountQuantity | TorsionQuantity
-
-Array = NDArray[np.float64]
 Box = tuple[slice, ...]
-_OF_MOUNTS = ("mode", "mount", "point")  # beginnings of quantities of an engine on its mounts
-_OF_TORSION = ("torsion", "shaft")  # of its crankshaft that twists
+ALONE_S = 1.0  # of a sweep, before several threads share what is left of it
 ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
 TILES = 8  # of so many variants in a box that would have few values of some parameter
@@ -77,19 +82,17 @@ class Sweep:
     @property
     def of_engine(self) -> tuple[Quantity, ...]:
         """Quantities of forces and moments."""
-        return tuple(q for q in self.quantities if isinstance(q, Quantity))
+        return choose_of_engine(self.quantities)
 
     @property
     def of_mounts(self) -> tuple[MountQuantity, ...]:
         """Quantities of the engine on its mounts."""
-        found = [q for q in self.quantities if _begin(q.name) in _OF_MOUNTS]
-        return tuple(found)  # type: ignore[arg-type]
+        return choose_of_mounts(self.quantities)
 
     @property
     def of_torsion(self) -> tuple[TorsionQuantity, ...]:
         """Quantities of the crankshaft that twists."""
-        found = [q for q in self.quantities if _begin(q.name) in _OF_TORSION]
-        return tuple(found)  # type: ignore[arg-type]
+        return choose_of_torsion(self.quantities)
 
     @property
     def one_by_one(self) -> bool:
@@ -143,40 +146,13 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
-    asked = _parse_quantities(DEFAULT_QUANTITIES if quantities is None else quantities)
+    asked = parse_quantities(DEFAULT_QUANTITIES if quantities is None else quantities)
     sweep = Sweep(model, parameters, asked, name_file(file))
     if quantities is None:
         known = leave_out_unknown(build_corners(sweep), sweep.of_engine)
         sweep = replace(sweep, quantities=known)
     check_corners(sweep)
     return sweep
-
-
-def _parse_quantities(text: str) -> tuple[AnyQuantity, ...]:
-    """Those of the engine, of its mounts and of its crankshaft's torsion, in the order in which
-    they are asked for.
-    """
-    words = [word.strip() for word in text.split(",") if word.strip()]
-    if not any(_begin(word) in (*_OF_MOUNTS, *_OF_TORSION) for word in words):
-        return parse_quantity_list(text)
-    return tuple(dict.fromkeys(map(_parse_quantity, words)))
-
-
-def _begin(name: str) -> str:
-    """What the name of a quantity begins with: its kind."""
-    return name.partition(".")[0]
-
-
-def _parse_quantity(word: str) -> AnyQuantity:
-    if _begin(word) in _OF_MOUNTS:
-        from ..mounting.quantity import parse_mount_quantity  # for those who ask for it
-
-        return parse_mount_quantity(word)
-    if _begin(word) in _OF_TORSION:
-        from ..torsion.quantity import parse_torsion_quantity
-
-        return parse_torsion_quantity(word)
-    return parse_quantity_list(word)[0]
 
 
 def check_corners(sweep: Sweep) -> None:
@@ -353,12 +329,45 @@ def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
             )
 
 
-def evaluate_chunks(sweep: Sweep) -> Iterator[Chunk]:
-    """All variants, box by box, in the order of rows."""
+def evaluate_chunks(sweep: Sweep, threads: int = 1, alone_s: float = ALONE_S) -> Iterator[Chunk]:
+    """All variants, box by box, in the order of rows; the same figures by any number of threads.
+
+    Args:
+        sweep: what to compute.
+        threads: that compute it; numpy does most of its work outside Python's lock.
+        alone_s: seconds for which one does it alone: most sweeps have ended by then.
+    """
     keep_freed_memory()
     most = size_boxes(sweep)
-    for box in divide_sweep(sweep, most):
-        yield Chunk(box, evaluate_box(sweep, box, most))
+    boxes = divide_sweep(sweep, most)
+    compute = partial(_evaluate_chunk, sweep, most)
+    end = time.monotonic() + (alone_s if threads > 1 else math.inf)
+    for box in boxes:
+        yield compute(box)
+        if time.monotonic() > end:
+            break
+    yield from _share(compute, boxes, threads)
+
+
+def _evaluate_chunk(sweep: Sweep, most: int, box: Box) -> Chunk:
+    return Chunk(box, evaluate_box(sweep, box, most))
+
+
+def _share(compute: Callable[[Box], Chunk], boxes: Iterator[Box], threads: int) -> Iterator[Chunk]:
+    """The chunks of the boxes in their order, computed by so many threads a little ahead."""
+    first = list(islice(boxes, 2 * threads))
+    if not first:
+        return
+    from concurrent.futures import ThreadPoolExecutor  # most sweeps have ended without it
+
+    pool = ThreadPoolExecutor(threads)
+    try:
+        waiting = deque(pool.submit(compute, box) for box in first)
+        while waiting:
+            yield waiting.popleft().result()
+            waiting.extend(pool.submit(compute, box) for box in islice(boxes, 1))
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 def keep_freed_memory() -> None:

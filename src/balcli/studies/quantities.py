@@ -1,0 +1,85 @@
+"""Quantities that a user asks for: of the engine (`force.2.major`), of it on its mounts
+(`mode.roll.Hz`), or of its crankshaft that twists (`torsion.1.Hz`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from ..errors import BalcliError
+from ..forces.quantity import Quantity, parse_quantity_list
+
+if TYPE_CHECKING:
+    from ..mounting.quantity import MountQuantity
+    from ..torsion.quantity import TorsionQuantity
+
+    AnyQuantity = Quantity | MountQuantity | TorsionQuantity
+
+_OF_MOUNTS = ("mode", "mount", "point")  # beginnings of their names
+_OF_TORSION = ("torsion", "shaft")
+
+
+def parse_quantities(text: str) -> tuple[AnyQuantity, ...]:
+    """All that are named, in this order, each once.
+
+    Raises:
+        BalcliError: what is none, with what there is.
+    """
+    words = [word.strip() for word in text.split(",") if word.strip()]
+    if not any(_begin(word) in (*_OF_MOUNTS, *_OF_TORSION) for word in words):
+        return parse_quantity_list(text)
+    return tuple(dict.fromkeys(map(_parse_quantity, words)))
+
+
+def _begin(name: str) -> str:
+    """What the name of a quantity begins with: its kind."""
+    return name.partition(".")[0]
+
+
+def _parse_quantity(word: str) -> AnyQuantity:
+    if _begin(word) in _OF_MOUNTS:
+        from ..mounting.quantity import parse_mount_quantity  # for those who ask for it
+
+        return parse_mount_quantity(word)
+    if _begin(word) in _OF_TORSION:
+        from ..torsion.quantity import parse_torsion_quantity
+
+        return parse_torsion_quantity(word)
+    return parse_quantity_list(word)[0]
+
+
+def choose_of_engine(wanted: Sequence[AnyQuantity]) -> tuple[Quantity, ...]:
+    """Those of forces and moments."""
+    return tuple(q for q in wanted if isinstance(q, Quantity))
+
+
+def choose_of_mounts(wanted: Sequence[AnyQuantity]) -> tuple[MountQuantity, ...]:
+    """Those of the engine on its mounts."""
+    found = [q for q in wanted if _begin(q.name) in _OF_MOUNTS]
+    return tuple(found)  # type: ignore[arg-type]
+
+
+def choose_of_torsion(wanted: Sequence[AnyQuantity]) -> tuple[TorsionQuantity, ...]:
+    """Those of the crankshaft that twists."""
+    found = [q for q in wanted if _begin(q.name) in _OF_TORSION]
+    return tuple(found)  # type: ignore[arg-type]
+
+
+def part_quantities(
+    wanted: Sequence[AnyQuantity],
+) -> tuple[tuple[Quantity, ...], tuple[MountQuantity, ...]]:
+    """Those of the engine, or those of it on its mounts: what scatters.
+
+    Raises:
+        BalcliError: there are both, or others.
+    """
+    of_engine, on_mounts = choose_of_engine(wanted), choose_of_mounts(wanted)
+    if others := choose_of_torsion(wanted):
+        raise BalcliError(f"{others[0].name} has no scatter; vary single figures with sweep")
+    if of_engine and on_mounts:
+        raise BalcliError(
+            f"{of_engine[0].name} and {on_mounts[0].name} have tolerances of their own; ask for "
+            "quantities of the engine and of its mounts one after the other"
+        )
+    return of_engine, on_mounts
