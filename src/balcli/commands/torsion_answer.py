@@ -73,5 +73,11 @@ def write_damper(source: Source, result: TorsionAnalysis) -> str:
 
 
 def draw(result: TorsionAnalysis, what: str, form: Form) -> bytes:
-    """The content of a file with pictures."""
+    """The content of a file with pictures.
+
+    Raises:
+        BalcliError: there is no shaft whose torque could be drawn.
+    """
+    if what == "waterfall" and not result.system.shafts:
+        raise BalcliError("--what waterfall: there is no shaft whose torque could be drawn")
     return draw_torsion(result, what, form)

@@ -45,7 +45,7 @@ def parse_speeds(text: str | None) -> Real | None:
     count = int((last - first) / step + 1e-9) + 1
     if count > MOST_TORSION_SPEEDS:
         raise BalcliError(f"{start}has {count} speeds; at most {MOST_TORSION_SPEEDS} are computed")
-    speeds = first + step * np.arange(count)
+    speeds = np.round(first + step * np.arange(count), 9)
     return speeds if speeds[-1] >= last - 1e-9 * step else np.append(speeds, last)
 
 

@@ -37,19 +37,19 @@ def draw_torsion(result: TorsionAnalysis, what: str, form: Form) -> bytes:
         parts.append(lambda ax: _draw_modes(ax, result))
     if what in ("all", "campbell"):
         parts.append(lambda ax: _draw_campbell(ax, result))
-    if result.response is not None:
-        response = result.response
-        if what in ("all", "response"):
+    response, shafts = result.response, result.system.shafts
+    if response is not None:
+        if what in ("all", "response") and shafts:
             parts.append(lambda ax: _draw_torque(ax, result, response))
         if what == "response":
             parts.append(lambda ax: _draw_swing(ax, result, response))
-        if what in ("all", "waterfall"):
+        if what in ("all", "waterfall") and shafts:
             parts.append(lambda ax: _draw_waterfall(ax, result, response))
     rows, columns = (2, 2) if len(parts) > 2 else (len(parts), 1) if what != "all" else (1, 2)
     with open_figure(5.6 * columns + 1.2 * (columns == 1), 4.1 * rows + 0.3, form) as fig:
         for ax, draw in zip(_lay_out(fig, rows, columns), parts, strict=False):
             draw(ax)
-        name = fit_name(result.system.name) or "chain without a name"
+        name = fit_name(result.system.name) or "shafts without a name"
         fig.suptitle(f"{name}: torsion", x=0.01, ha="left")
         return save_figure(fig, form)
 
@@ -75,7 +75,8 @@ def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
     ax.set_xticks(range(len(names)), [fit_name(name, 14) for name in names])
     ax.tick_params(axis="x", labelrotation=90 if len(names) > 5 else 0)
     ax.set_ylim(-1.1, 1.1)
-    ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0, handlelength=1)
+    if result.modes:
+        ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0, handlelength=1)
     ax.set_title("Shapes of modes: angle of each node", pad=22)
 
 
