@@ -27,7 +27,13 @@ class What(StrEnum):
     FACTOR = "factor"
     BANK = "bank"
     INNER = "inner"
+    MODES = "modes"
+    CAMPBELL = "campbell"
+    RESPONSE = "response"
+    WATERFALL = "waterfall"
 
+
+_TORSION = (What.MODES, What.CAMPBELL, What.RESPONSE, What.WATERFALL)
 
 Picture = Annotated[
     Path,
@@ -42,7 +48,7 @@ Page = Annotated[
         help="polar: loci; orders: the two vectors of each; spectrum: bars; curves: over the "
         "crank angle; "
         "factor: over the balance factor; bank: a vee over its bank angle; inner: along the "
-        "crankshaft.",
+        "crankshaft; modes, campbell, response, waterfall: of its torsion.",
     ),
 ]
 
@@ -54,13 +60,26 @@ def plot(
     scheme: Scheme = None,
     speed: Speed = None,
     orders: Orders = None,
+    speeds: Annotated[
+        str | None,
+        typer.Option(
+            metavar="A:B:STEP",
+            show_default=False,
+            help="Of torsion, rpm; default: half to one and a half times the file's speed.",
+        ),
+    ] = None,
     units: UnitsOption = Units.SI,
 ) -> None:
     """Draw free forces and moments: loci over a revolution, order by order, and over the crank
-    angle.
+    angle; or torsional vibration.
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = picture_form(output)
+    if what in _TORSION:
+        from .torsion_answer import draw_file
+
+        write_file(draw_file(path, what, speeds, orders, form), output)
+        return
     from ..render.plot.pages import Subject, draw_page
     from ..studies.pictures import compute_study
     from .inputs import read_engine

@@ -11,8 +11,10 @@ from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, say
 from ..render.plot.torsion import draw_torsion
 from ..torsion.analysis import Question, TorsionAnalysis, analyze_torsion
-from ..torsion.load import Source, load_source
+from ..torsion.load import ChainSource, Source, load_source
+from ..torsion.quantity import choose_speeds
 from ..torsion.write_damper import insert_damper
+from .torsion_options import parse_half_orders, parse_speeds
 
 if TYPE_CHECKING:
     from ..render.plot.style import Form
@@ -70,6 +72,21 @@ def write_damper(source: Source, result: TorsionAnalysis) -> str:
     if result.damper is None:
         raise BalcliError("--write: there is no damper to write")
     return insert_damper(source.text, result.damper.node, result.damper.damper)
+
+
+def draw_file(path: str, what: str, speeds: str | None, orders: str | None, form: Form) -> bytes:
+    """The content of a file with one of the pictures of the chain or engine at a path.
+
+    Args:
+        speeds: range, as typed; None: that of an engine's own speed.
+    """
+    asked = Question(parse_speeds(speeds), parse_half_orders(orders))
+    source = load_source(path, asked.orders)
+    if asked.speeds_rpm is None and what in ("response", "waterfall"):
+        if isinstance(source, ChainSource):
+            raise BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")
+        asked = asked._replace(speeds_rpm=choose_speeds(source.engine))
+    return draw(analyze_torsion(source, asked), what, form)
 
 
 def draw(result: TorsionAnalysis, what: str, form: Form) -> bytes:
