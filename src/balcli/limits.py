@@ -51,7 +51,7 @@ MOST_TABLE_VALUES = 100_000  # steps of a range of a printed table
 LARGEST_TABLE_VALUE = 10**9  # in such a range
 
 # Variants ------------------------------------------------------------------------------------
-MOST_PARAMETER_VALUES = 1_000_000_000  # of one parameter: all are kept, 8 bytes each
+MOST_PARAMETER_VALUES = 10_000_000  # of one parameter: all are kept, 80 MB; grids may have more
 MOST_THREADS = 64  # of a sweep: each computes a few boxes ahead, of some 10 MB each
 MOST_PICTURE_VARIANTS = 4_000_000  # of a sweep: a picture keeps all of them in memory
 MOST_TOLERANCE_SAMPLES = 20_000_000  # percentiles keep all of them in memory
