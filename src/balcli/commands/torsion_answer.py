@@ -14,7 +14,8 @@ from ..torsion.analysis import Question, TorsionAnalysis, analyze_torsion
 from ..torsion.load import ChainSource, Source, load_source
 from ..torsion.quantity import choose_speeds
 from ..torsion.write_damper import insert_damper
-from .torsion_options import parse_half_orders, parse_speeds
+from .speed_range import parse_speeds
+from .torsion_options import parse_half_orders
 
 if TYPE_CHECKING:
     from ..render.plot.style import Form
