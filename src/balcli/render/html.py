@@ -18,6 +18,7 @@ from .units import System
 
 if TYPE_CHECKING:
     from ..mounting.report import MountReport
+    from ..torque.pictures import Running
 
 FOLDER = Path(__file__).with_name("page")
 _PICTURES = (
@@ -34,12 +35,25 @@ _COMPARED = (("polar", "force"), ("polar", "moment"), ("spectrum", "force"), ("s
 
 
 def page(
-    result: Analysis, balanced: Balance, system: System, mounted: MountReport | None = None
+    result: Analysis,
+    balanced: Balance,
+    system: System,
+    mounted: MountReport | None = None,
+    turning: Running | None = None,
 ) -> str:
-    """The report of an engine, of a remedy for it, and of what it does on its mounts. Whatever
-    comes from the engine file is escaped.
+    """The report of an engine, of a remedy for it, of what it does on its mounts, and of what its
+    gas does. Whatever comes from the engine file is escaped.
     """
     from markupsafe import Markup
+
+    of_gas: dict[str, Any] = {"running": None}
+    if turning is not None:
+        from . import page_torque  # for files with gas
+
+        of_gas = {
+            "running": page_torque.running(turning, system),
+            "running_script": Markup((FOLDER / "running.js").read_text(encoding="utf-8")),
+        }
 
     on_mounts: dict[str, Any] = {"mounts": None}
     if mounted is not None:
@@ -69,6 +83,7 @@ def page(
         style=Markup((FOLDER / "report.css").read_text(encoding="utf-8")),
         script=Markup((FOLDER / "report.js").read_text(encoding="utf-8")),
         **on_mounts,
+        **of_gas,
     )
 
 
