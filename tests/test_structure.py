@@ -185,8 +185,16 @@ ON_REQUEST = {
     ),
     "balcli.render.html": ("balcli.render.mounts", "balcli.render.page_mounts"),
     "balcli.commands.scatter": ("balcli.studies.mount_scatter",),
-    "balcli.studies.quantities": ("balcli.mounting.quantity", "balcli.torsion.quantity"),
-    "balcli.studies.sweep": ("balcli.mounting.quantity", "balcli.torsion.quantity"),
+    "balcli.studies.quantities": (
+        "balcli.mounting.quantity",
+        "balcli.torque.quantity",
+        "balcli.torsion.quantity",
+    ),
+    "balcli.studies.sweep": (
+        "balcli.mounting.quantity",
+        "balcli.torque.quantity",
+        "balcli.torsion.quantity",
+    ),
 }
 
 

@@ -70,7 +70,7 @@ def mounts(
 
     model, engine = read_mounted(paths[0])
     others = [read_engine(path).engine for path in paths[1:]]
-    names = name_columns([model.name, *(other.name for other in others)], paths)
+    names = name_columns([model.name or paths[0], *(other.name for other in others)], paths)
     beside = list(zip(names[1:], others, strict=True))
     result = report_mounts(model, engine, rpm, asked, scheme, beside, name_file(paths[0]))
     if plot is not None and drawn is not None:

@@ -39,12 +39,14 @@ from .parameters import Parameter, parse
 from .quantities import (
     choose_of_engine,
     choose_of_mounts,
+    choose_of_torque,
     choose_of_torsion,
     parse_quantities,
 )
 
 if TYPE_CHECKING:
     from ..mounting.quantity import MountQuantity
+    from ..torque.quantity import TorqueQuantity
     from ..torsion.quantity import TorsionQuantity
     from .quantities import AnyQuantity
 
@@ -95,9 +97,14 @@ class Sweep:
         return choose_of_torsion(self.quantities)
 
     @property
+    def of_torque(self) -> tuple[TorqueQuantity, ...]:
+        """Quantities of gas and torque."""
+        return choose_of_torque(self.quantities)
+
+    @property
     def one_by_one(self) -> bool:
         """Whether variants are computed each by itself."""
-        return bool(self.of_mounts or self.of_torsion)
+        return bool(self.of_mounts or self.of_torsion or self.of_torque)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -146,7 +153,8 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
-    asked = parse_quantities(DEFAULT_QUANTITIES if quantities is None else quantities)
+    wanted = DEFAULT_QUANTITIES if quantities is None else quantities
+    asked = parse_quantities(wanted, with_gas=model.gas is not None)
     sweep = Sweep(model, parameters, asked, name_file(file))
     if quantities is None:
         known = leave_out_unknown(build_corners(sweep), sweep.of_engine)
@@ -169,6 +177,8 @@ def check_corners(sweep: Sweep) -> None:
         from ..mounting.quantity import refuse_unknown_targets
 
         refuse_unknown_targets(sweep.file, sweep.of_mounts)
+    if sweep.of_torque and sweep.file.gas is None:
+        raise BalcliError(f"{sweep.of_torque[0].name}: the engine file has no [gas]")
     if sweep.of_torsion:
         from ..torsion.quantity import refuse_unknown_shafts
 
@@ -243,6 +253,8 @@ def _evaluate_tile(sweep: Sweep, box: Box) -> list[Array]:
         values |= dict(zip(sweep.of_mounts, _evaluate_mounts(sweep, box), strict=True))
     if sweep.of_torsion:
         values |= dict(zip(sweep.of_torsion, _evaluate_torsion(sweep, box), strict=True))
+    if sweep.of_torque:
+        values |= dict(zip(sweep.of_torque, _evaluate_torque(sweep, box), strict=True))
     return [values[q] for q in sweep.quantities]
 
 
@@ -260,6 +272,14 @@ def _evaluate_torsion(sweep: Sweep, box: Box) -> list[Array]:
 
     variants = TorsionVariants(sweep.file, sweep.of_torsion)
     return _evaluate_one_by_one(sweep, box, variants.evaluate, len(sweep.of_torsion))
+
+
+def _evaluate_torque(sweep: Sweep, box: Box) -> list[Array]:
+    """Quantities of gas and torque for all variants of a box."""
+    from ..torque.quantity import evaluate_torque
+
+    evaluate = partial(evaluate_torque, sweep.file, sweep.of_torque)
+    return _evaluate_one_by_one(sweep, box, evaluate, len(sweep.of_torque))
 
 
 def _evaluate_one_by_one(
