@@ -208,11 +208,11 @@ def test_units(four):
 
 
 SPEEDS = [
-    ("900:100:100", '--speeds "900:100:100": a range rises; give first:last:step in rpm'),
-    ("1:2", '--speeds "1:2": give first:last:step in rpm, such as 600:6500:25, or speeds'),
+    ("900:100:100", '--speeds "900:100:100": must rise; give first:last:step in rpm'),
+    ("1:2:3:4", '--speeds "1:2:3:4": give first:last:step in rpm, such as 1000:2500:25, or speeds'),
     ("a", '--speeds "a": give first:last:step in rpm'),
     ("0,100", '--speeds "0,100": give first:last:step in rpm'),
-    ("1:1e6:1", '--speeds "1:1e6:1": at most 20000 speeds are computed; take longer steps'),
+    ("1:1e6:1", '--speeds "1:1e6:1": has 1000000 speeds; at most 20000 are computed'),
 ]
 
 

@@ -124,7 +124,7 @@ def report_mounts(
     try:
         return _run(title, mounted, engine, speeds_rpm, orders, scheme, others)
     except BalcliError as error:
-        raise BalcliError(f"{name}: {error}") from None
+        raise BalcliError(f"{name}: {error}" if name else str(error)) from None
 
 
 def _run(
