@@ -184,8 +184,8 @@ ON_REQUEST = {
         "balcli.sizing.remedy",
     ),
     "balcli.render.html": (
-        "balcli.render.mounts",
-        "balcli.render.page_mounts",
+        *("balcli.render.mounts", "balcli.render.page_mounts"),
+        *("balcli.render.torsion", "balcli.render.plot.torsion"),
         "balcli.render.page_torque",
     ),
     "balcli.commands.scatter": ("balcli.studies.mount_scatter",),

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from ..enginefile.model import EngineFile
     from ..mounting.report import MountReport
     from ..torque.pictures import Running
+    from ..torsion.analysis import TorsionAnalysis
 
 Page = Annotated[
     Path,
@@ -60,8 +61,9 @@ def report(
     result = analyze(engine, asked, shown)
     balanced = balance(engine, scheme or "auto", orders=asked)
     mounted = _put_on_mounts(model, engine, scheme, name_file(path)) if model.body else None
+    twisted = _twist(model, engine, name_file(path)) if model.torsion else None
     turning = None if engine.gas is None else _turn_gas(engine)
-    emit(page(result, balanced, SYSTEMS[units], mounted, turning), output)
+    emit(page(result, balanced, SYSTEMS[units], mounted, twisted, turning), output)
 
 
 def _turn_gas(engine: Engine) -> Running:
@@ -69,6 +71,20 @@ def _turn_gas(engine: Engine) -> Running:
     from ..torque.pictures import compute_running
 
     return compute_running(engine)
+
+
+def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | None:
+    """How its crankshaft twists; None, with a warning, where that cannot be told."""
+    from ..torsion.analysis import Question, analyze_torsion
+    from ..torsion.load import make_source
+    from ..torsion.quantity import choose_speeds
+
+    try:
+        source = make_source(model, engine, name)
+        return analyze_torsion(source, Question(choose_speeds(engine)))
+    except BalcliError as error:
+        say(f"warning: the page does not show the torsion: {error}")
+        return None
 
 
 def _put_on_mounts(
