@@ -13,7 +13,7 @@ from typing import Any
 
 from balcli.enginefile.messages import find_table, import_lists, import_tables
 from balcli.enginefile.model import EngineFile, Override, Table
-from balcli.enginefile.schema import schema
+from balcli.enginefile.schema import describe_engine_file
 
 DOCUMENT = Path(__file__).resolve().parent.parent / "docs" / "engine-file.md"
 BEGIN, END = "<!-- tables: python tools/engine_file_reference.py -->\n", "<!-- end of tables -->\n"
@@ -21,13 +21,13 @@ BEGIN, END = "<!-- tables: python tools/engine_file_reference.py -->\n", "<!-- e
 
 def tables() -> str:
     """Every table of the engine file, each key with unit, default, meaning and an example."""
-    definitions = schema()["$defs"]
+    definitions = describe_engine_file()["$defs"]
     parts = [
         _part(
             "At the top",
             "What stands before the first table.",
             EngineFile,
-            schema(),
+            describe_engine_file(),
             ("name", "source"),
         )
     ]

@@ -1,6 +1,7 @@
 """What the system does to the process: signals that end it, and standard streams that are closed.
 
-Little is imported here, for until `end_on_signals` has been called, Ctrl-C is a traceback.
+Little is imported here, for until `end_on_signals` has been called, a signal ends the process as
+the system does, and leaves what is unfinished.
 """
 
 from __future__ import annotations
@@ -29,6 +30,14 @@ def _end(number: int, _frame: object) -> None:
         with suppress(OSError):  # not made yet, or in its place already
             os.unlink(path)
     os._exit(128 + number)
+
+
+def count_cores() -> int:
+    """Processor cores that this process may use."""
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:  # of Linux alone
+        return os.cpu_count() or 1
 
 
 def open_closed_streams() -> None:

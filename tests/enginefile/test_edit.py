@@ -87,3 +87,48 @@ def test_what_is_written_in_an_unusual_way_is_right_all_the_same(text):
         **tomllib.loads(text),
         "operation": {"speed": 5.0},
     }
+
+
+DOTTED = "# mine\nlayout.bank_angle = 75   # as built\nlayout.firing_order = [1, 2]\n[rod]\nlength = 1  # l\n"
+INLINE = "# mine\nlayout = { bank_angle = 75, firing_order = [1, 2] }   # as built\n[rod]\nlength = 1  # l\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "keys", "old", "new"),
+    [
+        (
+            DOTTED,
+            {"bank_angle": 90.0},
+            "bank_angle = 75   # as built",
+            "bank_angle = 90.0   # as built (a note)",
+        ),
+        (DOTTED, {"firing_order": None}, "layout.firing_order = [1, 2]\n", ""),
+        (DOTTED, {"stagger": 3}, "# mine\n", "# mine\nlayout.stagger = 3    # a note\n"),
+        (
+            INLINE,
+            {"bank_angle": 90.0},
+            "bank_angle = 75, firing_order = [1, 2] }   # as built",
+            "bank_angle = 90.0, firing_order = [1, 2] }   # as built (a note)",
+        ),
+        (
+            INLINE,
+            {"firing_order": None},
+            "bank_angle = 75, firing_order = [1, 2] }   # as built",
+            "bank_angle = 75 }   # as built (a note)",
+        ),
+        (
+            INLINE,
+            {"stagger": 3, "bank_angle": None},
+            "bank_angle = 75, firing_order = [1, 2] }   # as built",
+            "stagger = 3, firing_order = [1, 2] }   # as built (a note)",
+        ),
+        (
+            INLINE.replace("   # as built", ""),
+            {"bank_angle": 60},
+            "bank_angle = 75, firing_order = [1, 2] }",
+            "bank_angle = 60, firing_order = [1, 2] }    # a note",
+        ),
+    ],
+)
+def test_dotted_keys_and_braces_keep_comments_too(text, keys, old, new):
+    assert edited(text, "layout", keys, "a note") == text.replace(old, new, 1)

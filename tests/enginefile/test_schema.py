@@ -11,9 +11,9 @@ from support.commands import run_python
 
 from balcli.enginefile.messages import import_lists, import_tables
 from balcli.enginefile.model import Override, Pendulum, Ripple, Table
-from balcli.enginefile.schema import DIALECT, schema
+from balcli.enginefile.schema import DIALECT, describe_engine_file
 
-DOCUMENT = schema()
+DOCUMENT = describe_engine_file()
 MODELS: list[type[Table]] = [
     *import_tables().values(),
     *import_lists().values(),
@@ -93,8 +93,7 @@ def test_units_and_bounds():
 
 def test_it_needs_no_numpy():
     code = (
-        "import sys; from balcli.enginefile.schema import schema; schema(); sys.exit('numpy' "
-        "in "
-        "sys.modules)"
+        "import sys; from balcli.enginefile.schema import describe_engine_file; "
+        "describe_engine_file(); sys.exit('numpy' in sys.modules)"
     )
     assert run_python("-c", code).returncode == 0

@@ -7,12 +7,12 @@ from support.engines import GOOD, changed
 
 from balcli.engine.load import parse
 from balcli.enginefile import templates as new
-from balcli.enginefile.suspicious import suspicious
+from balcli.enginefile.suspicious import find_suspicious
 
 
 @pytest.mark.parametrize("text", [GOOD, *map(new.template, new.KINDS)], ids=["good", *new.KINDS])
 def test_ordinary_engines_pass(text):
-    assert suspicious(parse(text)) == []
+    assert find_suspicious(parse(text)) == []
 
 
 @pytest.mark.parametrize(
@@ -127,7 +127,7 @@ def test_ordinary_engines_pass(text):
     ],
 )
 def test_warnings(text, warning):
-    assert suspicious(parse(text)) == [warning]
+    assert find_suspicious(parse(text)) == [warning]
 
 
 def test_moving_masses_count_every_rod_of_a_vee():
@@ -135,16 +135,23 @@ def test_moving_masses_count_every_rod_of_a_vee():
     radial's nine.
     """
     weight = "[[counterweight]]\nunbalance = 2.4e6\n"
-    assert len(suspicious(parse(changed(more=weight)))) == 1
+    assert len(find_suspicious(parse(changed(more=weight)))) == 1
     assert (
-        suspicious(parse(changed(("firing_order = [1, 3, 4, 2]", "bank_angle = 90"), more=weight)))
+        find_suspicious(
+            parse(changed(("firing_order = [1, 3, 4, 2]", "bank_angle = 90"), more=weight))
+        )
         == []
     )
     assert (
-        suspicious(parse(changed(("firing_order = [1, 3, 4, 2]", "radial = 9"), more=weight))) == []
+        find_suspicious(parse(changed(("firing_order = [1, 3, 4, 2]", "radial = 9"), more=weight)))
+        == []
     )
     alternating = 'banks = [-90, 90]\nrods = "alternating"'
     assert (
-        len(suspicious(parse(changed(("firing_order = [1, 3, 4, 2]", alternating), more=weight))))
+        len(
+            find_suspicious(
+                parse(changed(("firing_order = [1, 3, 4, 2]", alternating), more=weight))
+            )
+        )
         == 1
     )

@@ -83,6 +83,30 @@ def test_a_scheme_is_shown_beside(four):
     assert refusal("mounts", four, "--scheme", "nonsense").startswith(f"{four}: there is no scheme")
 
 
+def test_other_engines_on_the_same_mounts(four, tmp_path):
+    """Beside each other, each as if it stood there alone; a body without an engine takes any."""
+    light = tmp_path / "light.toml"
+    text = ENGINE.replace("mass = 0.5\n", "mass = 0.4\n").replace('"four"', '"light four"')
+    light.write_text(text, encoding="utf-8")
+    out = run_here("mounts", four, light).out
+    assert re.search(r"^With light four the largest force .* rpm: ", out, re.M)
+    said = json.loads(run_here("mounts", four, light, "-f", "json").out)
+    (other,) = said["others"]
+    alone = tmp_path / "alone.toml"
+    alone.write_text(DAMPED.replace(ENGINE, text), encoding="utf-8")
+    own = json.loads(run_here("mounts", alone, "-f", "json").out)
+    assert (other["name"], other["response"]) == ("light four", own["response"])
+    bare = tmp_path / "bare.toml"
+    bare.write_text(DAMPED.replace(ENGINE, ""), encoding="utf-8")
+    on_bare = json.loads(run_here("mounts", bare, light, "-f", "json").out)
+    assert (on_bare["name"], on_bare["response"]) == ("light four", own["response"])
+    parts = {
+        row["part"]
+        for row in csv.DictReader(StringIO(run_here("mounts", four, light, "-f", "csv").out))
+    }
+    assert {"mount", "light four: mount", "light four: point"} <= parts
+
+
 def test_without_an_engine_modes_and_rest_are_told(tmp_path):
     path = tmp_path / "block.toml"
     path.write_text(block(), encoding="utf-8")

@@ -14,6 +14,11 @@ from support.engines import engine_text
 from balcli import analyze, balance, load
 from balcli.engine.build import build
 from balcli.engine.load import parse
+from balcli.forces.curves import (
+    compute_cylinder_curves,
+    compute_engine_curves,
+    divide_revolution,
+)
 from balcli.results.knuckles import balance_knuckles
 from balcli.sizing.schemes import SCHEMES
 
@@ -84,3 +89,13 @@ def test_even_knuckles_come_back_equal(way):
     model = parse((ENGINES / "radial7_articulated.toml").read_bytes())
     result = balance_knuckles(model)
     assert difference(result, WAYS[way](result)) == ""
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_curves_come_back_equal(way):
+    angles = divide_revolution(30.0)
+    for result in (
+        compute_engine_curves(load(ENGINES / "i3.toml"), angles),
+        compute_cylinder_curves(load(ENGINES / "i3.toml"), 2, angles),
+    ):
+        assert difference(result, WAYS[way](result)) == ""

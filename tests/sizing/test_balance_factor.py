@@ -5,6 +5,7 @@ calculation on a grid.
 from __future__ import annotations
 
 import math
+import shlex
 import tomllib
 
 import numpy as np
@@ -12,8 +13,10 @@ import pytest
 from oracle import momentum
 from support.commands import refusal, run_here
 from support.engines import build_text, changed
+from support.paths import ENGINES
 from support.remedies import figures
 
+from balcli.commands.balance import balance
 from balcli.errors import BalcliError
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import Remedy
@@ -289,6 +292,12 @@ def test_what_was_measured_is_the_factor_it_stands_for():
     assert remedy.counterweights[0].unbalance == pytest.approx((1375 + 900) * 48.4, rel=1e-12)
 
 
+def test_less_than_the_rotating_mass_is_told():
+    remedy = size(build_text(TWIN), "factor", SchemeOptions(measured=0.8))
+    assert figures(remedy)["factor"] == pytest.approx(-100 / 1440, rel=1e-12)
+    assert remedy.note == "a factor below 0: not even all rotating mass is balanced"
+
+
 def test_unequal_pins_share_what_was_measured():
     """The mean of all pins counts."""
     engine = build_text(UNEQUAL)
@@ -360,6 +369,19 @@ def ford(tmp_path):
     path = tmp_path / "ford.toml"
     path.write_text(FORD)
     return path
+
+
+@pytest.mark.parametrize(
+    "line", [line for line in str(balance.__doc__).splitlines() if "balcli balance" in line]
+)
+def test_the_examples_of_the_help_work(ford, line):
+    _, command, file, *options = shlex.split(line)
+    engines = {
+        "i4.toml": ENGINES / "i4.toml",
+        "v8.toml": ford,
+        "twin.toml": ENGINES / "vtwin45.toml",
+    }
+    assert run_here(command, engines[file], *options).status == 0
 
 
 def test_a_factor_alone_chooses_its_scheme(ford):

@@ -18,6 +18,8 @@ from balcli.render.sweep import csv_text, json_text
 from balcli.render.sweep_plot import check_drawable
 from balcli.studies.parameters import Parameter, parse
 from balcli.studies.sweep import (
+    Array,
+    Box,
     Chunk,
     Sweep,
     check_corners,
@@ -232,16 +234,52 @@ def test_a_picture_of_too_many_variants_is_refused() -> None:
         check_drawable(asked(GOOD, "piston.mass=0:2:0.001", "crank.stroke=80:100:0.01"))
 
 
+GRID = ("layout.bank_angle=0:100:1", "rod.ratio=0.2:0.3:0.0002")
+
+
+@pytest.mark.parametrize("threads", [2, 5, 64])
+def test_threads_give_identical_rows(monkeypatch: pytest.MonkeyPatch, threads: int) -> None:
+    """From the first box on, many more boxes than threads or fewer."""
+    monkeypatch.setattr("balcli.studies.sweep.CHUNK", 2_500)
+    sweep = asked(VEE, *GRID, of="force.2.major,moment.1.backward")
+    there = "".join(csv_text(sweep, evaluate_chunks(sweep, threads, alone_s=0.0)))
+    assert there == "".join(csv_text(sweep, evaluate_chunks(sweep)))
+
+
+def test_threads_end_with_who_asks_for_their_figures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """After three of 51 boxes no more than what was under way is computed."""
+    boxes: list[object] = []
+
+    def counted(sweep: Sweep, box: Box, most: int) -> list[Array]:
+        boxes.append(box)
+        return evaluate_box(sweep, box, most)
+
+    monkeypatch.setattr("balcli.studies.sweep.CHUNK", 1_000)
+    monkeypatch.setattr("balcli.studies.sweep.evaluate_box", counted)
+    sweep = asked(VEE, *GRID, of="force.2.major")
+    chunks = evaluate_chunks(sweep, 2, alone_s=0.0)
+    assert len([next(chunks) for _ in range(3)]) == 3
+    chunks.close()  # type: ignore[attr-defined]
+    assert len(boxes) <= 1 + 2 * 2 + 2
+
+
+def test_a_mistake_in_a_later_box_is_told_by_threads_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A ripple that stops the crank between the corners of the grid."""
+    ripple = "[[operation.speed_ripple]]\norder = 1\namplitude = 0.6\n"
+    ripple += "[[operation.speed_ripple]]\norder = 2\namplitude = 0.5\n"
+    sweep = asked(VEE + ripple, "operation.speed_ripple.2.angle=0:360:0.01", of="force.1.major")
+    monkeypatch.setattr("balcli.studies.sweep.CHUNK", 1_000)
+    chunks = evaluate_chunks(sweep, 2, alone_s=0.0)
+    assert len(next(chunks).values[0]) <= 1_000
+    with pytest.raises(InputError, match="the crank would"):
+        list(chunks)
+
+
 def test_cluster_gives_identical_rows() -> None:
     distributed = pytest.importorskip("distributed")
     from balcli.studies import dask_cluster as cluster
 
-    sweep = asked(
-        VEE,
-        "layout.bank_angle=0:100:1",
-        "rod.ratio=0.2:0.3:0.0002",
-        of="force.2.major,moment.1.backward",
-    )
+    sweep = asked(VEE, *GRID, of="force.2.major,moment.1.backward")
     with (
         distributed.LocalCluster(
             n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None

@@ -14,7 +14,7 @@ from ..engine.build import Engine
 from ..engine.load import build_named, parse
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..enginefile.model import EngineFile
-from ..enginefile.suspicious import suspicious
+from ..enginefile.suspicious import find_suspicious
 from ..enginefile.toml_text import name_file, read_bytes
 from ..errors import BalcliError, Exit, legible, say
 from ..forces.kinds import KINDS
@@ -61,7 +61,7 @@ def read_engine(
     if not engine.places_known:
         _tell_unknown(name_file(path), asked)
     doubts = engine.gas.doubts if engine.gas is not None else ()
-    for warning in (*suspicious(model), *doubts):
+    for warning in (*find_suspicious(model), *doubts):
         say(f"warning: {name_file(path)}: {warning}")
     return Source(
         text, model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)

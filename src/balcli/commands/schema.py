@@ -33,7 +33,7 @@ def schema(
 ) -> None:
     """Print the JSON Schema of the engine file, a file of runs or a chain file, for editors."""
     require_ending(output, ".json")
-    from ..enginefile.schema import schema as describe_engine_file  # pydantic
+    from ..enginefile.schema import describe_engine_file  # pydantic
     from ..field_balancing.schema import describe_runs_file
     from ..torsion.schema import describe_chain_file
 

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-from contextlib import nullcontext
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ..forces.kinds import DEFAULT_QUANTITIES
+from ..limits import MOST_THREADS
+from ..process import count_cores
 from ..render.sweep_plot import check_drawable, draw_sweep
 from .file_names import VARIANTS, VariantsFormat, format_of, picture_form
 from .options import EnginePath, Output
 from .output import write_file
 from .overwrite_guard import refuse_overwriting
+
+if TYPE_CHECKING:
+    from ..studies.sweep import Chunk, Sweep
 
 
 def sweep(
@@ -42,7 +48,8 @@ def sweep(
                 "force.2.major (or minor, forward, backward, axis, x, y, x_cos, x_sin, y_cos, "
                 "y_sin), moment...; couple.4.amplitude (or cos, sin), "
                 "torque..., roll...; peak.force, peak.moment; on mounts: mode.3.Hz, "
-                "mode.roll.share, mount.left.force, point.lever.motion."
+                "mode.roll.share, mount.left.force, point.lever.motion; of torsion: torsion.1.Hz, "
+                "shaft.flywheel.torque (or stress)."
             ),
         ),
     ] = None,
@@ -71,6 +78,17 @@ def sweep(
             ),
         ),
     ] = None,
+    jobs: Annotated[
+        int | None,
+        typer.Option(
+            "--jobs",
+            "-j",
+            min=1,
+            max=MOST_THREADS,
+            show_default=False,
+            help="Threads that compute what takes more than a second; default: a core each.",
+        ),
+    ] = None,
     dask: Annotated[
         str,
         typer.Option(
@@ -80,12 +98,13 @@ def sweep(
 ) -> None:
     """Figures of many variants of an engine: numbers of its file over ranges, as CSV, JSON or (by
     the name of -o) Parquet.
+
+    Ctrl-C ends it with the variants computed so far, in -o's FILE.part if there is a -o.
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     kind = format_of(output, form, VARIANTS, VariantsFormat.CSV)
     drawn = picture_form(plot, "--plot") if plot is not None else None
-    from ..studies.dask_cluster import connect_cluster, evaluate_on_cluster
-    from ..studies.sweep import Chunk, evaluate_chunks, join_chunks, read_sweep
+    from ..studies.sweep import join_chunks, read_sweep
     from . import sweep_output as out
     from .inputs import warn_of_unknown_moments
 
@@ -95,9 +114,7 @@ def sweep(
     if drawn is not None:
         check_drawable(job)
     kept: list[Chunk] = []
-    cluster = connect_cluster(dask) if dask else nullcontext()
-    with out.noting_interrupt() as interrupt, cluster as workers:
-        chunks = evaluate_on_cluster(job, workers) if dask else evaluate_chunks(job)
+    with out.noting_interrupt() as interrupt, _computing(job, jobs, dask) as chunks:
         counted = out.until_interrupted(chunks, interrupt)
         shown = out.showing_progress(counted, job.variants, progress)
         all_of_them = shown if drawn is None else out.keeping(shown, kept)
@@ -105,3 +122,21 @@ def sweep(
     out.exit_if_interrupted(interrupt, job.variants)
     if plot is not None and drawn is not None:
         write_file(draw_sweep(job, join_chunks(job, kept), drawn), plot)
+
+
+@contextmanager
+def _computing(job: Sweep, jobs: int | None, dask: str) -> Iterator[Iterator[Chunk]]:
+    """The chunks of a sweep, computed by threads, or on a cluster, if an address of one is given.
+
+    Raises:
+        BalcliError: no cluster answers there.
+    """
+    if not dask:
+        from ..studies.sweep import evaluate_chunks
+
+        yield evaluate_chunks(job, jobs or min(count_cores(), MOST_THREADS))
+        return
+    from ..studies.dask_cluster import connect_cluster, evaluate_on_cluster
+
+    with connect_cluster(dask) as client:
+        yield evaluate_on_cluster(job, client)

@@ -17,9 +17,10 @@ import numpy as np
 import typer
 
 from .. import __version__
+from ..core.phasors import Array
 from ..errors import BalcliError, Exit, say
 from ..render.sweep import csv_text, json_text
-from ..studies.sweep import Array, Chunk, Sweep, list_columns
+from ..studies.sweep import Chunk, Sweep, list_columns
 from .output import replacing, standard_output
 
 ROWS_A_GROUP = 1 << 20  # of a Parquet file

@@ -20,9 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .least_squares import Solution, solve
-
-Complex = NDArray[np.complex128]
-Array = NDArray[np.float64]
+from .phasors import Array, Complex
 
 _GAP = 1e-8  # of the objective, at which the barrier ends
 _STEEPER = 10.0  # how much steeper the barrier gets from round to round

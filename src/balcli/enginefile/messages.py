@@ -6,12 +6,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from importlib import import_module
-from typing import Any, NamedTuple, get_args
+from typing import TYPE_CHECKING, NamedTuple, get_args
 
 from ..errors import Problem
 from ..limits import MOST_LIST_VALUES
 from . import model
 from .fields import counted, nearest, printable, shorten
+
+if TYPE_CHECKING:
+    from pydantic_core import ErrorDetails
 
 TEXTS = ("name", "source")
 TABLES: dict[str, type[model.Table]] = {
@@ -120,14 +123,14 @@ def join_path(start: str, parts: Iterable[int | str]) -> str:
     return ".".join([start, *names])
 
 
-def is_miscounted(finding: Mapping[str, Any]) -> bool:
+def is_miscounted(finding: ErrorDetails) -> bool:
     """Whether a list is called too short only because members of it, which have findings of their
     own, were not counted.
     """
     return finding["type"] == "too_short" and len(finding["input"]) >= finding["ctx"]["min_length"]
 
 
-def describe_finding(path: str, finding: Mapping[str, Any], table: type[model.Table]) -> Problem:
+def describe_finding(path: str, finding: ErrorDetails, table: type[model.Table]) -> Problem:
     """One finding of pydantic in the table at `path`; a member of a list is named in words (`the
     2nd value`).
     """
@@ -157,7 +160,7 @@ def find_inner_table(table: type[model.Table], loc: Sequence[str | int]) -> type
     return table
 
 
-def find_table(annotation: Any) -> type[model.Table] | None:
+def find_table(annotation: object) -> type[model.Table] | None:
     """The table of which a field's type is made, alone or in a list; None: it is none."""
     if isinstance(annotation, type) and issubclass(annotation, model.Table):
         return annotation
@@ -179,7 +182,7 @@ def _describe_missing(table: type[model.Table], loc: Sequence[str | int]) -> str
     return f"is missing; give it, such as {key} = {example}"
 
 
-def _describe_length(value: list[Any], context: Mapping[str, Any]) -> str:
+def _describe_length(value: list[object], context: Mapping[str, object]) -> str:
     wanted = context.get("min_length") or context.get("max_length")
     if not value:
         return "is an empty list; give at least one value, or leave the key out"

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from itertools import combinations, product
-from typing import Any
+from typing import Any, TypeAlias
 
 from .messages import CHAPTER_LISTS, CHAPTERS, DEVICES, TABLES, import_table
 from .model import EngineFile, Override, Table
 
+Node: TypeAlias = dict[str, Any]  # of a JSON Schema, whose members are of many kinds
+
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
-def schema() -> dict[str, Any]:
+def describe_engine_file() -> Node:
     """JSON Schema (draft 2020-12) of an engine file: every key with description, unit, bounds and
     an example.
     """
@@ -25,22 +27,18 @@ def schema() -> dict[str, Any]:
     EngineFile.model_rebuild(_types_namespace=chapters)
     for table in tables:
         table.model_rebuild()  # pydantic before 2.13 writes no default of a table not built yet
-    document: dict[str, Any] = tidy_schema(EngineFile.model_json_schema())
+    document = tidy_schema(EngineFile.model_json_schema())
     for table in tables:
         document["$defs"][table.__name__] |= _exclusions(table)
     document["properties"]["cylinder"]["propertyNames"] = {"pattern": "^[1-9][0-9]*$"}
     return {"$schema": DIALECT, **document, "title": "balcli engine file"}
 
 
-def tidy_schema(node: Any) -> Any:
+def tidy_schema(schema: Node) -> Node:
     """Without what pydantic adds for Python's sake: null (TOML has none), titles of keys, empty
     defaults.
     """
-    if isinstance(node, list):
-        return [tidy_schema(item) for item in node]
-    if not isinstance(node, dict):
-        return node
-    node = {key: tidy_schema(value) for key, value in node.items()}
+    node: Node = {key: _tidy_member(value) for key, value in schema.items()}
     if isinstance(node.get("description"), str):
         node["description"] = " ".join(node["description"].split())  # docstrings are wrapped
     options = [option for option in node.get("anyOf", ()) if option != {"type": "null"}]
@@ -57,9 +55,16 @@ def tidy_schema(node: Any) -> Any:
     return node
 
 
-def _exclusions(table: type[Table]) -> dict[str, Any]:
+def _tidy_member(value: object) -> object:
+    """A schema, or what holds schemas, tidied; anything else as it is."""
+    if isinstance(value, dict):
+        return tidy_schema(value)
+    return [_tidy_member(item) for item in value] if isinstance(value, list) else value
+
+
+def _exclusions(table: type[Table]) -> Node:
     """What `Table.choices` says, in the words of JSON Schema."""
-    rules: list[dict[str, Any]] = []
+    rules: list[Node] = []
     for choice in table.choices:
         if choice.required:
             rules.append({"anyOf": [{"required": list(group)} for group in choice.groups]})

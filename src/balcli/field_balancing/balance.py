@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.least_squares import find_dependent_columns, solve
+from ..core.phasors import Array, Complex
 from ..core.smallest_largest import (
     Region,
     Smallest,
@@ -25,8 +25,6 @@ from .model import RunsFile
 from .permitted import find_permitted_eccentricity, find_permitted_unbalance
 from .shop import Piece, find_shop, find_unbalance_per_weight
 
-Complex = NDArray[np.complex128]
-Array = NDArray[np.float64]
 Minimise = Literal["squares", "max"]
 
 _NEARLY_ALIKE = 0.2  # of a plane's effect, that no other plane has: below, planes are nearly one

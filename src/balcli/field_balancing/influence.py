@@ -9,13 +9,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.least_squares import solve
+from ..core.phasors import Complex
 from ..errors import InputError, Problem
 from .model import Run, RunsFile
-
-Complex = NDArray[np.complex128]
 
 _ROUNDING = 1e-13  # share of the largest reading below which a change is none
 

@@ -7,9 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.phasors import Array, Complex
 from ..core.smallest_largest import Region
-
-Array = NDArray[np.float64]
 
 _ROUNDING = 1e-9  # share of a weight that is rounding
 
@@ -97,7 +96,7 @@ def find_region(angles_deg: Array, most: float) -> Region:
 
 def _sort_places(
     angles_deg: Array,
-) -> tuple[Array, NDArray[np.intp], NDArray[np.complex128]]:
+) -> tuple[Array, NDArray[np.intp], Complex]:
     """Angles in [0, 360), each once; which of the given ones they are, from 1; and as complex
     numbers.
     """
@@ -106,9 +105,7 @@ def _sort_places(
     return angles, first + 1, np.exp(1j * np.radians(angles))
 
 
-def _resolve(
-    wanted: NDArray[np.complex128], one: NDArray[np.complex128], other: NDArray[np.complex128]
-) -> tuple[Array, Array]:
+def _resolve(wanted: Complex, one: Complex, other: Complex) -> tuple[Array, Array]:
     """Weights at two places, the other less than half a turn on from the one, that add up to what
     is wanted; negative where the other is farther on.
     """

@@ -6,9 +6,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from pydantic import ValidationError
+from pydantic_core import ErrorDetails
 
 from ..enginefile.fields import counted, nearest, printable, shorten
 from ..enginefile.messages import describe_finding, is_miscounted, join_path
@@ -100,7 +101,7 @@ def _refuse_key(path: str, key: str, table: type[Table]) -> Problem:
     return Problem(_join(path, printable(key)), f"unknown key {place}; {hint}")
 
 
-def _translate(path: str, finding: Mapping[str, Any], table: type[Table]) -> Problem:
+def _translate(path: str, finding: ErrorDetails, table: type[Table]) -> Problem:
     if finding["type"] == "missing" and str(finding["loc"][-1]) in _NEEDED:
         return Problem(str(finding["loc"][-1]), _NEEDED[str(finding["loc"][-1])])
     if finding["type"] == "tuple_type" and finding["loc"][-1] in BY_PLANE:

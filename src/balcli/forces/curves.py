@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 
 import numpy as np
 
@@ -143,7 +142,7 @@ def _sum_parts(
     for name, some in pieces.items():
         curve = np.concatenate(some)
         values[name] = np.where(np.abs(curve) <= noise[name], 0.0, curve)
-    return Curves(engine.name, float(engine.speed_rpm), crank_deg, MappingProxyType(values))
+    return Curves(engine.name, float(engine.speed_rpm), crank_deg, values)
 
 
 def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:

@@ -87,4 +87,4 @@ def _rod_lengths(engine: Engine) -> Array:
 def _sum_weighted(rolls: Phasors, weights: Array) -> Phasors:
     """Sum over the cylinders of phasors of shape (orders, cylinders), each times its weight."""
     total = [float(weight) * rolls.select_place(row) for row, weight in enumerate(weights)]
-    return sum(total[1:], total[0]).settled()
+    return sum(total[1:], total[0]).drop_noise()

@@ -10,8 +10,9 @@ from ..limits import MOST_PICTURE_VARIANTS
 from .plot import style
 
 if TYPE_CHECKING:
+    from ..core.phasors import Array
     from ..studies.parameters import Parameter
-    from ..studies.sweep import Array, Sweep
+    from ..studies.sweep import Sweep
 
 LEVELS = 12
 

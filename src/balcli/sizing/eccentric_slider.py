@@ -15,16 +15,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from itertools import combinations, product
-from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.mechanisms import closed_form
+from ..core.phasors import Array, Complex
 from ..errors import BalcliError
 from .details import Optimum
-
-Floats: TypeAlias = NDArray[np.float64]
 
 DESIGNS = ("a", "b")  # pin on the shaft, slot in the disc; pin on the disc, slot on the shaft
 CRITERIA = ("largest", "mean")
@@ -85,7 +83,7 @@ def find_optima(lam: float) -> tuple[Optimum, ...]:
     return tuple(optima)
 
 
-def expand_shaft_wave(design: str, k: float) -> tuple[Floats, Floats]:
+def expand_shaft_wave(design: str, k: float) -> tuple[Array, Array]:
     """Cosine coefficients of cos phi over the crank angle, and their derivatives by k."""
     theta = np.arange(_COUNT) * np.float64(2 * np.pi / _COUNT)
     step = 1e-30  # complex step: the derivative to rounding
@@ -93,9 +91,9 @@ def expand_shaft_wave(design: str, k: float) -> tuple[Floats, Floats]:
     return _find_cosines(wave.real), _find_cosines(wave.imag / step)
 
 
-def _find_cos_phi(design: str, theta: Floats, k: complex) -> NDArray[np.complex128]:
+def _find_cos_phi(design: str, theta: Array, k: complex) -> Complex:
     """cos phi at crank angles theta, same shape; phi is the angle of the shafts."""
-    wave: NDArray[np.complex128]
+    wave: Complex
     if design == "a":
         wave = (np.cos(theta) * np.sqrt(k**2 - np.sin(theta) ** 2) - np.sin(theta) ** 2) / k
     else:
@@ -103,44 +101,44 @@ def _find_cos_phi(design: str, theta: Floats, k: complex) -> NDArray[np.complex1
     return wave
 
 
-def _find_cosines(samples: Floats) -> Floats:
+def _find_cosines(samples: Array) -> Array:
     """Cosine coefficients of an even function from samples of one revolution."""
     c = np.fft.rfft(samples).real / _COUNT * 2
     return np.where(np.abs(c) > _NOISE, c, 0)[: len(_ORDERS)]
 
 
-def _expand_engine_force(engine_force: str, lam: float) -> Floats:
+def _expand_engine_force(engine_force: str, lam: float) -> Array:
     """Cosine coefficients of the force of the piston in units of m r omega^2."""
     if engine_force == "all orders":
         return closed_form.piston(_ORDERS, lam)
     return np.where(_ORDERS == 1, 1.0, np.where(_ORDERS == 2, lam, 0.0))
 
 
-def _find_remaining(design: str, engine: Floats, x: Floats) -> Floats:
+def _find_remaining(design: str, engine: Array, x: Array) -> Array:
     """Cosine coefficients of P, what remains of the engine's force."""
     if not (1.2 < x[0] < 1e12):
         raise ArithmeticError("k must stay above 1")
     return engine - 2 * x[1] * _ORDERS**2 * expand_shaft_wave(design, x[0])[0]
 
 
-def _find_slopes(design: str, x: Floats) -> Floats:
+def _find_slopes(design: str, x: Array) -> Array:
     """Derivatives of the coefficients of P by k and by mu, shape (2, orders)."""
     wave, by_k = expand_shaft_wave(design, x[0])
     return -2 * _ORDERS**2 * np.stack([x[1] * by_k, wave])
 
 
 # ------------------------------------------------------------------ even series
-def _evaluate(c: Floats, theta: Floats, derivative: int = 0) -> Floats:
+def _evaluate(c: Array, theta: Array, derivative: int = 0) -> Array:
     """Values at some angles, shape (angles,), or (angles, 2) for two series in rows; differentiated
     so many times, or integrated (-1).
     """
     rate = (np.where(_ORDERS, _ORDERS, np.inf) if derivative < 0 else _ORDERS) ** float(derivative)
     angle = np.multiply.outer(theta, _ORDERS) + derivative * np.pi / 2
-    values: Floats = np.cos(angle) @ (rate * c).T
+    values: Array = np.cos(angle) @ (rate * c).T
     return values
 
 
-def _find_extremes(c: Floats) -> Floats:
+def _find_extremes(c: Array) -> Array:
     """Angles in [0, pi] of the extremes, the two ends among them."""
     slope = _evaluate(c, _GRID, 1)
     inside = _find_roots(
@@ -151,7 +149,7 @@ def _find_extremes(c: Floats) -> Floats:
     return np.concatenate([[0.0], inside, [np.pi]])
 
 
-def _find_zeros(c: Floats) -> Floats:
+def _find_zeros(c: Array) -> Array:
     """0, the zeros in between, and pi."""
     values = _evaluate(c, _GRID)
     inside = _find_roots(
@@ -163,8 +161,8 @@ def _find_zeros(c: Floats) -> Floats:
 
 
 def _find_roots(
-    f: Callable[[Floats], Floats], slope: Callable[[Floats], Floats], cells: NDArray[np.intp]
-) -> Floats:
+    f: Callable[[Array], Array], slope: Callable[[Array], Array], cells: NDArray[np.intp]
+) -> Array:
     """The root in each of these cells of the grid, by Newton's method kept inside."""
     low, high = _GRID[cells], _GRID[cells + 1]
     theta = (low + high) / 2
@@ -174,7 +172,7 @@ def _find_roots(
 
 
 # ------------------------------------------------------------------ the two criteria
-def _minimise_peak(design: str, engine: Floats, x: Floats) -> Floats:
+def _minimise_peak(design: str, engine: Array, x: Array) -> Array:
     """Exchange: the linearised problem over the extremes of P, whose solution three of them fix,
     until nothing moves.
     """
@@ -190,7 +188,7 @@ def _minimise_peak(design: str, engine: Floats, x: Floats) -> Floats:
     raise ArithmeticError("no convergence")
 
 
-def _exchange(values: Floats, slopes: Floats) -> Floats:
+def _exchange(values: Array, slopes: Array) -> Array:
     """The step d that makes the largest of `values + slopes d` smallest: that of the triple whose
     bound is highest (de la Vallee-Poussin).
 
@@ -211,16 +209,16 @@ def _exchange(values: Floats, slopes: Floats) -> Floats:
     return np.asarray(best)
 
 
-def _minimise_mean(design: str, engine: Floats, x: Floats) -> Floats:
+def _minimise_mean(design: str, engine: Array, x: Array) -> Array:
     """Newton's method on the gradient of the integral of |P|, which the zeros of P give in closed
     form.
     """
 
-    def find_gradient(x: Floats) -> Floats:
+    def find_gradient(x: Array) -> Array:
         remaining = _find_remaining(design, engine, x)
         zeros = _find_zeros(remaining)
         signs = np.sign(_evaluate(remaining, (zeros[:-1] + zeros[1:]) / 2))
-        gradient: Floats = signs @ np.diff(_evaluate(_find_slopes(design, x), zeros, -1), axis=0)
+        gradient: Array = signs @ np.diff(_evaluate(_find_slopes(design, x), zeros, -1), axis=0)
         return gradient
 
     for _ in range(_ROUNDS):
@@ -235,7 +233,7 @@ def _minimise_mean(design: str, engine: Floats, x: Floats) -> Floats:
     raise ArithmeticError("no convergence")
 
 
-def _move(x: Floats, move: Floats, share: float) -> Floats:
+def _move(x: Array, move: Array, share: float) -> Array:
     """The unknowns moved so far that k changes by this share of itself at most."""
     farthest: float = share * x[0] / max(abs(move[0]), 1e-300)
     return x + move * min(1.0, farthest)

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import time
 from collections import deque
 from collections.abc import Iterator
 from concurrent.futures import CancelledError
@@ -12,9 +13,10 @@ from itertools import islice
 from typing import Any
 
 from ..errors import BalcliError
-from .sweep import Box, Chunk, Sweep, divide_grid, evaluate_box, size_boxes
+from .sweep import Box, Chunk, Sweep, divide_sweep, evaluate_box, size_boxes
 
-BATCH = 16  # boxes that a worker computes at a time
+BATCH_S = 0.5  # for which a worker computes before it sends what it has
+BATCH = 64  # that it computes at a time
 RETRIES = 3  # of a batch that a worker has not finished
 AHEAD = 4  # batches for each thread that may wait to be fetched
 
@@ -46,22 +48,25 @@ def connect_cluster(address: str) -> Iterator[Any]:
 
 def evaluate_on_cluster(sweep: Sweep, client: Any) -> Iterator[Chunk]:
     """All variants, computed by the workers of a client's cluster, in the order of rows; a bounded
-    number of batches is under way at a time. The sweep goes with each of them, so that one whose
-    worker is lost can be given to another.
+    number of batches is under way at a time. The first box is computed here, to see how long one
+    takes. The sweep goes with each batch, so that one whose worker is lost can be given to another.
 
     Raises:
         BalcliError: all workers are lost, again and again.
     """
     from distributed import KilledWorker  # an extra
 
-    batches = _group(divide_grid(sweep.shape, size_boxes(sweep)))
-    most = AHEAD * max(sum(client.nthreads().values()), 1)
+    most = size_boxes(sweep)
+    boxes = divide_sweep(sweep, most)
+    start = time.perf_counter()
+    yield from _evaluate_batch(sweep, most, [next(boxes)])
+    batch = min(max(int(BATCH_S / (time.perf_counter() - start)), 1), BATCH)
 
     def submit(count: int) -> Iterator[Any]:
-        for batch in islice(batches, count):
-            yield client.submit(_evaluate_batch, sweep, batch, pure=False, retries=RETRIES)
+        for some in islice(_group(boxes, batch), count):
+            yield client.submit(_evaluate_batch, sweep, most, some, pure=False, retries=RETRIES)
 
-    waiting = deque(submit(most))
+    waiting = deque(submit(AHEAD * max(sum(client.nthreads().values()), 1)))
     while waiting:
         try:
             found = waiting.popleft().result()
@@ -74,11 +79,11 @@ def evaluate_on_cluster(sweep: Sweep, client: Any) -> Iterator[Chunk]:
         waiting.extend(submit(1))
 
 
-def _evaluate_batch(sweep: Sweep, batch: list[Box]) -> list[Chunk]:
-    return [Chunk(box, evaluate_box(sweep, box)) for box in batch]
+def _evaluate_batch(sweep: Sweep, most: int, batch: list[Box]) -> list[Chunk]:
+    return [Chunk(box, evaluate_box(sweep, box, most)) for box in batch]
 
 
-def _group(boxes: Iterator[Box]) -> Iterator[list[Box]]:
-    """So many boxes at a time as a worker computes."""
-    while batch := list(islice(boxes, BATCH)):
+def _group(boxes: Iterator[Box], count: int) -> Iterator[list[Box]]:
+    """So many boxes at a time."""
+    while batch := list(islice(boxes, count)):
         yield batch

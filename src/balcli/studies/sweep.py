@@ -10,14 +10,17 @@ parameter fastest.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+import time
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
+from functools import partial
+from itertools import islice, product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..core.phasors import Array
 from ..engine.build import Engine, build
 from ..engine.load import read
 from ..enginefile.model import EngineFile
@@ -29,18 +32,26 @@ from ..forces.quantity import (
     evaluate_quantities,
     find_orders,
     leave_out_unknown,
-    parse_quantity_list,
     refuse_unknown,
 )
 from ..forces.spectrum import count_samples
 from .parameters import Parameter, parse
+from .quantities import (
+    choose_of_engine,
+    choose_of_mounts,
+    choose_of_torque,
+    choose_of_torsion,
+    parse_quantities,
+)
 
 if TYPE_CHECKING:
     from ..mounting.quantity import MountQuantity
+    from ..torque.quantity import TorqueQuantity
+    from ..torsion.quantity import TorsionQuantity
+    from .quantities import AnyQuantity
 
-Array = NDArray[np.float64]
 Box = tuple[slice, ...]
-_OF_MOUNTS = ("mode", "mount", "point")  # beginnings of quantities of an engine on its mounts
+ALONE_S = 1.0  # of a sweep, before several threads share what is left of it
 ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
 TILES = 8  # of so many variants in a box that would have few values of some parameter
@@ -62,7 +73,7 @@ class Sweep:
 
     file: EngineFile
     parameters: tuple[Parameter, ...]
-    quantities: tuple[Quantity | MountQuantity, ...]
+    quantities: tuple[AnyQuantity, ...]
     name: str = "engine"  # of the file, in messages
 
     @property
@@ -73,12 +84,27 @@ class Sweep:
     @property
     def of_engine(self) -> tuple[Quantity, ...]:
         """Quantities of forces and moments."""
-        return tuple(q for q in self.quantities if isinstance(q, Quantity))
+        return choose_of_engine(self.quantities)
 
     @property
     def of_mounts(self) -> tuple[MountQuantity, ...]:
         """Quantities of the engine on its mounts."""
-        return tuple(q for q in self.quantities if not isinstance(q, Quantity))
+        return choose_of_mounts(self.quantities)
+
+    @property
+    def of_torsion(self) -> tuple[TorsionQuantity, ...]:
+        """Quantities of the crankshaft that twists."""
+        return choose_of_torsion(self.quantities)
+
+    @property
+    def of_torque(self) -> tuple[TorqueQuantity, ...]:
+        """Quantities of gas and torque."""
+        return choose_of_torque(self.quantities)
+
+    @property
+    def one_by_one(self) -> bool:
+        """Whether variants are computed each by itself."""
+        return bool(self.of_mounts or self.of_torsion or self.of_torque)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -127,28 +153,14 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
-    asked = _parse_quantities(DEFAULT_QUANTITIES if quantities is None else quantities)
+    wanted = DEFAULT_QUANTITIES if quantities is None else quantities
+    asked = parse_quantities(wanted, with_gas=model.gas is not None)
     sweep = Sweep(model, parameters, asked, name_file(file))
     if quantities is None:
         known = leave_out_unknown(build_corners(sweep), sweep.of_engine)
         sweep = replace(sweep, quantities=known)
     check_corners(sweep)
     return sweep
-
-
-def _parse_quantities(text: str) -> tuple[Quantity | MountQuantity, ...]:
-    """Those of the engine and those of its mounts, in the order in which they are asked for."""
-    words = [word.strip() for word in text.split(",") if word.strip()]
-    of_mounts = [word for word in words if word.partition(".")[0] in _OF_MOUNTS]
-    if not of_mounts:
-        return parse_quantity_list(text)
-    from ..mounting.quantity import parse_mount_quantity
-
-    found = [
-        parse_mount_quantity(word) if word in of_mounts else parse_quantity_list(word)[0]
-        for word in words
-    ]
-    return tuple(dict.fromkeys(found))
 
 
 def check_corners(sweep: Sweep) -> None:
@@ -165,6 +177,17 @@ def check_corners(sweep: Sweep) -> None:
         from ..mounting.quantity import refuse_unknown_targets
 
         refuse_unknown_targets(sweep.file, sweep.of_mounts)
+    if sweep.of_torque and sweep.file.gas is None:
+        raise BalcliError(f"{sweep.of_torque[0].name}: the engine file has no [gas]")
+    if sweep.of_torsion:
+        from ..torsion.quantity import refuse_unknown_shafts
+
+        try:
+            refuse_unknown_shafts(sweep.file, sweep.of_torsion)
+        except InputError as error:
+            raise InputError(error.problems, sweep.name) from None
+        except BalcliError as error:
+            raise BalcliError(f"{sweep.name}: {error}") from None
 
 
 def build_corners(sweep: Sweep) -> Engine:
@@ -222,37 +245,67 @@ def _divide_evenly(shape: tuple[int, ...], most: int) -> Iterator[Box]:
 
 def _evaluate_tile(sweep: Sweep, box: Box) -> list[Array]:
     """Each quantity for all variants of a box, of its shape, or of length 1 along some axes."""
-    values: dict[Quantity | MountQuantity, Array] = {}
+    values: dict[AnyQuantity, Array] = {}
     if sweep.of_engine:
         found = evaluate_quantities(sweep.engine(box), sweep.of_engine)
         values |= dict(zip(sweep.of_engine, found, strict=True))
     if sweep.of_mounts:
         values |= dict(zip(sweep.of_mounts, _evaluate_mounts(sweep, box), strict=True))
+    if sweep.of_torsion:
+        values |= dict(zip(sweep.of_torsion, _evaluate_torsion(sweep, box), strict=True))
+    if sweep.of_torque:
+        values |= dict(zip(sweep.of_torque, _evaluate_torque(sweep, box), strict=True))
     return [values[q] for q in sweep.quantities]
 
 
 def _evaluate_mounts(sweep: Sweep, box: Box) -> list[Array]:
-    """Quantities of the mounts for all variants of a box, one by one, of the box's shape.
+    """Quantities of the mounts for all variants of a box."""
+    from ..mounting.quantity import MountedVariants
+
+    variants = MountedVariants(sweep.file, sweep.of_mounts)
+    return _evaluate_one_by_one(sweep, box, variants.evaluate, len(sweep.of_mounts))
+
+
+def _evaluate_torsion(sweep: Sweep, box: Box) -> list[Array]:
+    """Quantities of torsion for all variants of a box."""
+    from ..torsion.quantity import TorsionVariants
+
+    variants = TorsionVariants(sweep.file, sweep.of_torsion)
+    return _evaluate_one_by_one(sweep, box, variants.evaluate, len(sweep.of_torsion))
+
+
+def _evaluate_torque(sweep: Sweep, box: Box) -> list[Array]:
+    """Quantities of gas and torque for all variants of a box."""
+    from ..torque.quantity import evaluate_torque
+
+    evaluate = partial(evaluate_torque, sweep.file, sweep.of_torque)
+    return _evaluate_one_by_one(sweep, box, evaluate, len(sweep.of_torque))
+
+
+def _evaluate_one_by_one(
+    sweep: Sweep, box: Box, evaluate: Callable[[Mapping[str, float]], list[float]], count: int
+) -> list[Array]:
+    """So many quantities for all variants of a box, each of the box's shape.
+
+    Args:
+        evaluate: gives them for one variant, by the figures that vary.
 
     Raises:
         InputError, BalcliError: one of them cannot be, with its figures.
     """
-    from ..mounting.quantity import MountedVariants
-
     axes = [p.values[cut] for p, cut in zip(sweep.parameters, box, strict=True)]
     paths = [p.path for p in sweep.parameters]
-    variants = MountedVariants(sweep.file, sweep.of_mounts)
     rows = []
     for figures in product(*axes):
         own = dict(zip(paths, map(float, figures), strict=True))
         where = ", ".join(f"{path} = {value:g}" for path, value in own.items())
         try:
-            rows.append(variants.evaluate(own))
+            rows.append(evaluate(own))
         except InputError as error:
             raise InputError(error.problems, f"{sweep.name}: {where}") from None
         except BalcliError as error:
             raise BalcliError(f"{sweep.name}: {where}: {error}") from None
-    table = np.array(rows).reshape(*map(len, axes), len(sweep.of_mounts))
+    table = np.array(rows).reshape(*map(len, axes), count)
     return list(np.moveaxis(table, -1, 0))
 
 
@@ -266,7 +319,7 @@ def size_boxes(sweep: Sweep) -> int:
     orders = find_orders(engine, sweep.of_engine)
     figures = max(engine.cylinders.count * max(map(len, orders)), 2 * max(map(max, orders)))
     samples = count_samples(engine) // 2 ** len(sweep.parameters)
-    most = ALONE if sweep.of_mounts else CHUNK
+    most = ALONE if sweep.one_by_one else CHUNK
     return max(min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), most), 1)
 
 
@@ -274,7 +327,7 @@ def divide_sweep(sweep: Sweep, most: int) -> Iterator[Box]:
     """The boxes of a sweep of which so many variants are computed at a time, in the order of rows.
     Those of one parameter's value alone, or of a few, are joined, to be computed in tiles.
     """
-    narrow = len(sweep.shape) > 1 and sweep.shape[-1] * TILES > most and not sweep.of_mounts
+    narrow = len(sweep.shape) > 1 and sweep.shape[-1] * TILES > most and not sweep.one_by_one
     return divide_grid(sweep.shape, TILES * most if narrow else most)
 
 
@@ -296,12 +349,45 @@ def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
             )
 
 
-def evaluate_chunks(sweep: Sweep) -> Iterator[Chunk]:
-    """All variants, box by box, in the order of rows."""
+def evaluate_chunks(sweep: Sweep, threads: int = 1, alone_s: float = ALONE_S) -> Iterator[Chunk]:
+    """All variants, box by box, in the order of rows; the same figures by any number of threads.
+
+    Args:
+        sweep: what to compute.
+        threads: that compute it; numpy does most of its work outside Python's lock.
+        alone_s: seconds for which one does it alone: most sweeps have ended by then.
+    """
     keep_freed_memory()
     most = size_boxes(sweep)
-    for box in divide_sweep(sweep, most):
-        yield Chunk(box, evaluate_box(sweep, box, most))
+    boxes = divide_sweep(sweep, most)
+    compute = partial(_evaluate_chunk, sweep, most)
+    end = time.monotonic() + (alone_s if threads > 1 else math.inf)
+    for box in boxes:
+        yield compute(box)
+        if time.monotonic() > end:
+            break
+    yield from _share(compute, boxes, threads)
+
+
+def _evaluate_chunk(sweep: Sweep, most: int, box: Box) -> Chunk:
+    return Chunk(box, evaluate_box(sweep, box, most))
+
+
+def _share(compute: Callable[[Box], Chunk], boxes: Iterator[Box], threads: int) -> Iterator[Chunk]:
+    """The chunks of the boxes in their order, computed by so many threads a little ahead."""
+    first = list(islice(boxes, 2 * threads))
+    if not first:
+        return
+    from concurrent.futures import ThreadPoolExecutor  # most sweeps have ended without it
+
+    pool = ThreadPoolExecutor(threads)
+    try:
+        waiting = deque(pool.submit(compute, box) for box in first)
+        while waiting:
+            yield waiting.popleft().result()
+            waiting.extend(pool.submit(compute, box) for box in islice(boxes, 1))
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 def keep_freed_memory() -> None:

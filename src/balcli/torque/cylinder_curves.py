@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from types import MappingProxyType
 
 import numpy as np
 
@@ -40,7 +39,7 @@ def add_gas_curves(engine: Engine, number: int, curves: Curves) -> Curves:
     inertia = compute_cylinder_torque(engine, row, curves.crank_deg)
     found["torque_Nm"] = inertia + cylinder.share * cylinder.torque.at(at)
     settled = {name: _settle(values) for name, values in found.items()}
-    return replace(curves, values=MappingProxyType(settled))
+    return replace(curves, values=settled)
 
 
 def compute_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:

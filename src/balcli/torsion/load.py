@@ -11,7 +11,7 @@ from ..engine.build import Engine
 from ..engine.load import build_named, parse
 from ..enginefile.model import EngineFile
 from ..enginefile.shafting import Damper
-from ..enginefile.suspicious import suspicious
+from ..enginefile.suspicious import find_suspicious
 from ..enginefile.toml_text import name_file, parse_toml, read_bytes
 from ..errors import BalcliError
 from .build_chain import build_chain
@@ -70,7 +70,7 @@ class EngineSource:
     def doubts(self) -> tuple[str, ...]:
         """What is suspicious of the file, in words, each by its path."""
         gas = () if self.engine.gas is None else self.engine.gas.doubts
-        return (*suspicious(self.model), *gas)
+        return (*find_suspicious(self.model), *gas)
 
     def dampers(self) -> Mapping[str, Damper | None]:
         """What may carry a damper, by name, and those that do."""

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, TypeVar
 
 from pydantic import ValidationError
+from pydantic_core import ErrorDetails
 
 from ..enginefile.fields import counted, nearest, printable, shorten
 from ..enginefile.messages import describe_finding, find_inner_table, is_miscounted, join_path
@@ -97,7 +98,7 @@ def _refuse_key(path: str, key: str, table: type[Table]) -> Problem:
     return Problem(join_path(path, [key]).lstrip("."), f"unknown key {place}; {hint}")
 
 
-def _describe(path: str, finding: Mapping[str, Any], table: type[Table]) -> Problem:
+def _describe(path: str, finding: ErrorDetails, table: type[Table]) -> Problem:
     if finding["type"] == "extra_forbidden":
         hint = f"it has {', '.join(find_inner_table(table, finding['loc']).keys())}"
         return Problem(join_path(path, finding["loc"]), f"unknown key in a damper; {hint}")

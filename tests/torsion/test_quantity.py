@@ -1,0 +1,101 @@
+"""Quantities of torsion in sweeps: what the command itself says of each variant."""
+
+from __future__ import annotations
+
+import csv
+import json
+from io import StringIO
+
+import pytest
+from support.commands import refusal, run_here
+from support.diesel import write_diesel
+
+GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 16\nimep = 15\n'
+
+
+@pytest.fixture
+def diesel(tmp_path):
+    path = tmp_path / "diesel.toml"
+    path.write_text(write_diesel(extra=GAS), encoding="utf-8")
+    return path
+
+
+def sweep(path, vary, quantities):
+    status, out, err = run_here("sweep", path, "--vary", vary, "--quantity", quantities)
+    assert (status, err) == (0, "")
+    return [[float(x) for x in line] for line in list(csv.reader(StringIO(out)))[1:]]
+
+
+def test_each_variant_is_what_the_command_says(diesel):
+    rows = sweep(
+        diesel,
+        "torsion.rear.1.stiffness=1.5e6,2.5e6",
+        "torsion.1.Hz,shaft.flywheel.torque,shaft.flywheel.stress,force.2.major",
+    )
+    for stiffness, hertz, torque, stress, _ in rows:
+        text = diesel.read_text().replace("stiffness = 1976000.0", f"stiffness = {stiffness}")
+        options = ("--speeds", "1000:3000:20", "--format", "json")
+        said = json.loads(run_here("torsion", "-", *options, stdin=text).out)
+        assert said["modes"][0]["frequency_Hz"] == hertz
+        flywheel = said["response"]["shafts"][-1]
+        assert max(flywheel["half_peak_to_peak_Nm"]) == pytest.approx(torque, rel=1e-12)
+        assert max(flywheel["stress_Pa"]) == pytest.approx(stress, rel=1e-12)
+
+
+def test_figures_of_lists_and_dampers_vary(tmp_path):
+    own = 'damper = { kind = "rubber", inertia = 20000, stiffness = 40000, loss = 0.1 }\n'
+    path = tmp_path / "damped.toml"
+    path.write_text(write_diesel().replace('name = "pulley"\n', f'name = "pulley"\n{own}'))
+    (soft, low), (stiff, high) = sweep(
+        path, "torsion.front.2.damper.stiffness=20000,60000", "torsion.1.Hz"
+    )
+    assert (soft, stiff) == (20000, 60000)
+    assert low < high
+    (_, one), (_, two) = sweep(path, "torsion.throw_stiffness.3=1e6,2e6", "torsion.2.Hz")
+    assert one < two
+
+
+def test_without_gas_figures_of_the_engine_vary_too(tmp_path):
+    path = tmp_path / "bare.toml"
+    path.write_text(write_diesel(), encoding="utf-8")
+    (_, light), (_, heavy) = sweep(path, "piston.mass=2,3", "shaft.flywheel.torque")
+    assert 1.3 < heavy / light < 1.7, "inertia torque grows with the mass"
+
+
+@pytest.mark.parametrize(
+    ("quantity", "message"),
+    [
+        (
+            "torsion.first.Hz",
+            "torsion.first.Hz is no quantity: give torsion.1.Hz, shaft.flywheel.torque or "
+            "shaft.flywheel.stress",
+        ),
+        ("torsion.9.Hz", "FILE: torsion.9.Hz: there are 8 modes"),
+        (
+            "shaft.flywhel.torque",
+            'FILE: shaft.flywhel.torque: there is no shaft "flywhel"; did you mean flywheel?',
+        ),
+        (
+            "shaft.pulley.stress",
+            "FILE: shaft.pulley.stress: this shaft has no diameter, so its stress is not known",
+        ),
+    ],
+)
+def test_what_is_no_quantity(diesel, quantity, message):
+    told = refusal("sweep", diesel, "--vary", "torsion.loss=0.01,0.02", "-q", quantity)
+    assert told == message.replace("FILE", str(diesel))
+
+
+def test_torque_with_gas_takes_figures_of_torsion(diesel):
+    assert refusal("sweep", diesel, "--vary", "rod.length=200,210", "-q", "shaft.gear.torque") == (
+        f"{diesel}: rod.length = 200: with [gas], torque of shafts is told only while figures of "
+        "[torsion] vary, not rod.length"
+    )
+
+
+def test_files_without_torsion_have_none(tmp_path):
+    path = tmp_path / "plain.toml"
+    path.write_text(write_diesel().partition("[torsion]")[0], encoding="utf-8")
+    assert refusal("sweep", path, "--vary", "rod.length=200,210", "-q", "torsion.1.Hz") == (
+        f"{path}: has no [torsion]; balcli torsion --help says what it needs"
+    )
