@@ -9,7 +9,7 @@ import tomllib
 import pytest
 from support.engines import changed
 
-from balcli.enginefile.edit import changed as edited
+from balcli.enginefile.edit import set_keys
 
 COMMENTED = changed(
     ("throws = [0, 180, 180, 0]", "throws     = [0, 180,\n  180, 0]   # deg, free end first"),
@@ -60,14 +60,14 @@ COMMENTED = changed(
 @pytest.mark.parametrize("ends", ["\n", "\r\n"])
 def test_only_the_key_changes(table, keys, old, new, ends):
     text, wanted = (t.replace("\n", ends) for t in (COMMENTED, COMMENTED.replace(old, new, 1)))
-    found = edited(text, table, keys, "a note")
+    found = set_keys(text, table, keys, "a note")
     assert found == wanted
-    assert edited(found, table, keys, "a note") == wanted
+    assert set_keys(found, table, keys, "a note") == wanted
 
 
 def test_a_last_line_without_an_end():
     assert (
-        edited("[operation]", "operation", {"speed": 5.0}, "a note")
+        set_keys("[operation]", "operation", {"speed": 5.0}, "a note")
         == "[operation]\nspeed = 5.0    # a note\n"
     )
 
@@ -83,7 +83,7 @@ def test_a_last_line_without_an_end():
     ],
 )
 def test_what_is_written_in_an_unusual_way_is_right_all_the_same(text):
-    assert tomllib.loads(edited(text, "operation", {"speed": 5.0}, "a note")) == {
+    assert tomllib.loads(set_keys(text, "operation", {"speed": 5.0}, "a note")) == {
         **tomllib.loads(text),
         "operation": {"speed": 5.0},
     }
@@ -131,4 +131,4 @@ INLINE = "# mine\nlayout = { bank_angle = 75, firing_order = [1, 2] }   # as bui
     ],
 )
 def test_dotted_keys_and_braces_keep_comments_too(text, keys, old, new):
-    assert edited(text, "layout", keys, "a note") == text.replace(old, new, 1)
+    assert set_keys(text, "layout", keys, "a note") == text.replace(old, new, 1)

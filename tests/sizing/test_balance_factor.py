@@ -405,6 +405,10 @@ def test_grams_are_what_a_shop_measures(ford):
         '--measured "775 gr": has the unit "gr": g, or grain (65 mg)?'
     )
     assert "1872.1" in refusal("balance", ford, "--measured", "1872.1", "--units", "imperial")
+    assert run_here("balance", ford, "--measured", "1.8721e3").out == bare
+    assert refusal("balance", ford, "--measured", "-5 g") == (
+        '--measured "-5 g": a mass on the pin is not negative'
+    )
 
 
 def test_a_table_with_a_row_for_each_factor(ford):

@@ -7,46 +7,16 @@ import re
 import numpy as np
 
 from ..core.singular_values import Real
-from ..enginefile.units import INERTIA, Dimension, Powers, convert, wanted
+from ..enginefile.units import Dimension, Powers, convert
 from ..errors import BalcliError
-from ..limits import HIGHEST_TORSION_ORDER, MOST_TORSION_SPEEDS
+from ..limits import HIGHEST_TORSION_ORDER
 from ..torsion.analysis import HolzerAsked, Question
 from ..torsion.damper_sizing import DamperAsked
+from .amounts import read_inertia
+from .speed_range import parse_speeds
 
 _FREQUENCY = Dimension("rad/s", "a frequency", Powers(time=-1, angle=1), ("20 rad/s",))
 _HERTZ = re.compile(r"\s*([0-9.eE+-]+)\s*Hz\s*")
-
-
-def parse_speeds(text: str | None) -> Real | None:
-    """Speeds of `1000:2500:25` (first, last, step), `1000:2500` (100 steps) or `1500,2000`, rpm,
-    rising.
-
-    Raises:
-        BalcliError: anything else, with the text.
-    """
-    if text is None:
-        return None
-    right = "give first:last:step in rpm, such as 1000:2500:25, or speeds such as 1500,2000"
-    start = f'--speeds "{text[:60]}": '
-    try:
-        ranged = ":" in text
-        figures = [float(part) for part in text.split(":" if ranged else ",")]
-    except ValueError:
-        raise BalcliError(start + right) from None
-    if not all(0 < figure < 1e9 for figure in figures) or (ranged and len(figures) > 3):
-        raise BalcliError(start + right)
-    if not ranged:
-        return np.unique(figures)
-    first, last, step = (*figures, (figures[1] - figures[0]) / 100)[:3]
-    if not (first <= last and (step > 0 or first == last)):
-        raise BalcliError(f"{start}must rise; {right}")
-    if first == last:
-        return np.array([first])
-    count = int((last - first) / step + 1e-9) + 1
-    if count > MOST_TORSION_SPEEDS:
-        raise BalcliError(f"{start}has {count} speeds; at most {MOST_TORSION_SPEEDS} are computed")
-    speeds = first + step * np.arange(count)
-    return speeds if speeds[-1] >= last - 1e-9 * step else np.append(speeds, last)
 
 
 def parse_half_orders(text: str | None) -> Real | None:
@@ -116,24 +86,10 @@ def parse_question(
     """
     asked = None
     if damper is not None:
-        asked = DamperAsked(damper, damper_at, _parse_inertia(damper_inertia))
+        said = damper_inertia
+        inertia = None if said is None else read_inertia("--damper-inertia", said)
+        asked = DamperAsked(damper, damper_at, inertia)
     elif damper_at is not None or damper_inertia is not None:
         option = "--damper-inertia" if damper_at is None else "--damper-at"
         raise BalcliError(f"{option}: say which damper, such as --damper viscous")
     return Question(parse_speeds(speeds), parse_half_orders(orders), parse_holzer(holzer), asked)
-
-
-def _parse_inertia(text: str | None) -> float | None:
-    """kg m2 of a figure in kg mm2, or with its own unit."""
-    if text is None:
-        return None
-    try:
-        bare = float(text)
-    except ValueError:
-        try:
-            bare = convert(text, INERTIA)
-        except ValueError as error:
-            raise BalcliError(f'--damper-inertia "{text[:60]}" {error}') from None
-    if not 0 < bare < 1e24:
-        raise BalcliError(f'--damper-inertia "{text[:60]}": {wanted(INERTIA)}, above 0')
-    return bare / 1e6

@@ -15,7 +15,7 @@ _VALUE = r"""\[[^\[\]]*\]|"[^"\n]*"|'[^'\n]*'|[^\s,#\[\]{}"']+"""
 _COMMENT = r"([ \t]*#.*)|[ \t]*$"
 
 
-def changed(text: str, table: str, keys: Mapping[str, Any], note: str) -> str:
+def set_keys(text: str, table: str, keys: Mapping[str, Any], note: str) -> str:
     """With these keys of a table set (None: left out), comments kept.
 
     A key keeps its place and its comment, to which the note is added; a new one comes first in its
@@ -34,7 +34,7 @@ def changed(text: str, table: str, keys: Mapping[str, Any], note: str) -> str:
             ways = (edit(new, table, key, value, note) for edit in _EDITS)
             new = next((found for found in ways if _says(found, table, wanted)), None)
     if new is None:
-        return anew(wanted, f"its [{table}] is written in an unusual way")
+        return rewrite(wanted, f"its [{table}] is written in an unusual way")
     return new.replace("\n", "\r\n") if "\r\n" in text else new
 
 
@@ -46,7 +46,7 @@ def _says(text: str, table: str, wanted: Mapping[str, Any]) -> bool:
         return False
 
 
-def anew(data: Mapping[str, Any], reason: str) -> str:
+def rewrite(data: Mapping[str, Any], reason: str) -> str:
     """All of a file in the order of its keys, under a comment that says why no other is left."""
     import tomli_w
 
@@ -56,14 +56,16 @@ def anew(data: Mapping[str, Any], reason: str) -> str:
     )
 
 
-def written(value: Any) -> str:
+def format_value(value: Any) -> str:
     """A number, or lists and tables of them, as TOML has it: the shortest decimals that read back
     to the same number.
     """
     if isinstance(value, (list, tuple)):
-        return f"[{', '.join(map(written, value))}]"
+        return f"[{', '.join(map(format_value, value))}]"
     if isinstance(value, Mapping):
-        return f"{{ {', '.join(f'{key} = {written(inner)}' for key, inner in value.items())} }}"
+        return (
+            f"{{ {', '.join(f'{key} = {format_value(inner)}' for key, inner in value.items())} }}"
+        )
     return repr(value)
 
 
@@ -71,7 +73,7 @@ def written(value: Any) -> str:
 def _change_in_table(text: str, table: str, key: str, value: Any, note: str) -> str:
     """Under the table's own heading; with a new one at the end where there is none."""
     head = re.search(rf"(?m)^[ \t]*\[[ \t]*{table}[ \t]*\][ \t]*(?:#.*)?$", text)
-    line = f"{key} = {written(value)}    # {note}\n"
+    line = f"{key} = {format_value(value)}    # {note}\n"
     if head is None:
         return text if value is None else f"{text.rstrip()}\n\n[{table}]\n{line}"
     following = HEAD.search(text, head.end())
@@ -91,7 +93,7 @@ def _change_dotted(text: str, table: str, key: str, value: Any, note: str) -> st
     dotted = rf"{table}[ \t]*\.[ \t]*"
     found = _change_line(top, dotted + key, value, note)
     if found is None:
-        line = f"{table}.{key} = {written(value)}    # {note}\n" if value is not None else ""
+        line = f"{table}.{key} = {format_value(value)}    # {note}\n" if value is not None else ""
         found = re.sub(rf"(?m)^(?=[ \t]*{dotted}\w)", lambda _: line, top, count=1)
     return found + rest
 
@@ -103,7 +105,7 @@ def _change_line(lines: str, key: str, value: Any, note: str) -> str | None:
     old = re.search(rf"(?m)^([ \t]*{key}[ \t]*=[ \t]*)(?:{_VALUE})(?:{_COMMENT})\n?", lines)
     if old is None:
         return None
-    line = "" if value is None else f"{old[1]}{written(value)}{_add_note(old[2], note)}\n"
+    line = "" if value is None else f"{old[1]}{format_value(value)}{_add_note(old[2], note)}\n"
     return lines[: old.start()] + line + lines[old.end() :]
 
 
@@ -113,7 +115,7 @@ def _change_inline(text: str, table: str, key: str, value: Any, note: str) -> st
     old = re.search(braces, text)
     if old is None:
         return text
-    item = "" if value is None else f" {key} = {written(value)}"
+    item = "" if value is None else f" {key} = {format_value(value)}"
     place = rf"(^|,)[ \t]*{key}[ \t]*=[ \t]*(?:{_VALUE})[ \t]*(?=,|$)"
     inside, there = re.subn(place, lambda found: (found[1] + item) if item else "", old[2])
     items = [part for part in ("" if there else item, inside) if part.strip(" \t,")]

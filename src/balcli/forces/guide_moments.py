@@ -29,11 +29,13 @@ class GuideMoments:
             where all cylinders stand at one place, or it is not known where they stand.
         height_m: L of each row of `engine.numbers`, from the crankshaft to the middle of the
             guide, shape (cylinders,).
+        with_gas: whether the roll of the gas is in it.
     """
 
     h: Phasors
     x: Phasors | None
     height_m: Array
+    with_gas: bool = False
 
 
 def compute_guide_moments(
@@ -66,7 +68,7 @@ def compute_guide_moments(
     if orders is None:
         orders = every[due]
     chosen_x = None if x is None else x.select_orders(orders)
-    return GuideMoments(h.select_orders(orders), chosen_x, height)
+    return GuideMoments(h.select_orders(orders), chosen_x, height, engine.gas is not None)
 
 
 def _find_orders(engine: Engine) -> Array:
