@@ -736,6 +736,23 @@ main()
 
 
 @unix
+def test_ctrl_c_ends_it_without_a_word_from_the_first_import_on():
+    """The signal comes while the program's own first module is being imported."""
+    code = f"""
+import os, sys
+class Import:
+    def find_spec(self, name, path=None, target=None):
+        if name == "balcli.errors":
+            os.kill(os.getpid(), {int(signal.SIGINT)})
+sys.meta_path.insert(0, Import())
+from balcli.__main__ import main
+main()
+"""
+    done = run_python("-c", code, "analyze", I4)
+    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, "", "")
+
+
+@unix
 def test_a_hangup_that_was_ignored_stays_ignored():
     code = (
         "import os, signal; signal.signal(signal.SIGHUP, signal.SIG_IGN);"

@@ -184,7 +184,17 @@ ON_REQUEST = {
         "balcli.sizing.remedy",
     ),
     "balcli.render.html": ("balcli.render.mounts", "balcli.render.page_mounts"),
-    "balcli.studies.sweep": ("balcli.mounting.quantity", "balcli.torsion.quantity"),
+    "balcli.commands.scatter": ("balcli.studies.mount_scatter",),
+    "balcli.studies.quantities": (
+        "balcli.mounting.quantity",
+        "balcli.torque.quantity",
+        "balcli.torsion.quantity",
+    ),
+    "balcli.studies.sweep": (
+        "balcli.mounting.quantity",
+        "balcli.torque.quantity",
+        "balcli.torsion.quantity",
+    ),
 }
 
 

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from .errors import BalcliError, InputError
     from .field_balancing.balance import FieldBalance, balance_rotor
     from .field_balancing.read import parse_runs, read_runs
+    from .mounting.read import read_mounted
+    from .mounting.report import MountReport, report_mounts
     from .results.analysis import Analysis, analyze
     from .results.balance import Balance, balance
 
@@ -28,13 +30,16 @@ __all__ = [
     "Engine",
     "FieldBalance",
     "InputError",
+    "MountReport",
     "__version__",
     "analyze",
     "balance",
     "balance_rotor",
     "load",
     "parse_runs",
+    "read_mounted",
     "read_runs",
+    "report_mounts",
 ]
 
 _ROOMS = {
@@ -50,6 +55,9 @@ _ROOMS = {
     "balance_rotor": "field_balancing.balance",
     "parse_runs": "field_balancing.read",
     "read_runs": "field_balancing.read",
+    "MountReport": "mounting.report",
+    "read_mounted": "mounting.read",
+    "report_mounts": "mounting.report",
 }
 
 

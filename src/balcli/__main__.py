@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+import signal
+
+if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+    # Before anything else is imported: until `end_on_signals`, Ctrl-C would be a traceback.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
 import atexit
 import gc
 import os

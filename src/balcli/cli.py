@@ -111,8 +111,10 @@ class _OnDemand(TyperGroup):
 
 
 def _unwrapped(text: str) -> str:
-    """Paragraphs as one line each: the terminal wraps them to its own width."""
-    return re.sub(r"(?<=\S)\n(?=\S)", " ", text)
+    """Paragraphs as one line each: the terminal wraps them to its own width. One that begins with a
+    backspace keeps its lines (examples).
+    """
+    return re.sub(r"(?<=[^\s\b])\n(?=\S)", " ", text)
 
 
 app = typer.Typer(

@@ -51,7 +51,7 @@ MOST_TABLE_VALUES = 100_000  # steps of a range of a printed table
 LARGEST_TABLE_VALUE = 10**9  # in such a range
 
 # Variants ------------------------------------------------------------------------------------
-MOST_PARAMETER_VALUES = 1_000_000_000  # of one parameter: all are kept, 8 bytes each
+MOST_PARAMETER_VALUES = 10_000_000  # of one parameter: all are kept, 80 MB; grids may have more
 MOST_THREADS = 64  # of a sweep: each computes a few boxes ahead, of some 10 MB each
 MOST_PICTURE_VARIANTS = 4_000_000  # of a sweep: a picture keeps all of them in memory
 MOST_TOLERANCE_SAMPLES = 20_000_000  # percentiles keep all of them in memory
@@ -65,13 +65,15 @@ MOST_SENSORS = 200  # readings of one run
 MOST_RUNS = 500  # nobody starts a machine more often
 MOST_PLACES = 720  # blades or holes of a plane: every pair of them may be looked at
 
+# Ranges of speeds ---------------------------------------------------------------------------
+MOST_SPEEDS = 20_000  # of mounts and torsion: all figures of each are kept
+
 # Engine mounts -------------------------------------------------------------------------------
 MOST_MOUNTS = 100  # and points: each has a curve for every speed
-MOST_MOUNT_SPEEDS = 20_000  # of a range
+MOST_MOUNT_SAMPLES = 20_000  # of random mounts, each computed by itself: 2 ms, with an engine 50
 MOST_MOUNT_RESULTS = 4_000_000  # orders x speeds x mounts and points: 300 MB
 
 # Torsion -------------------------------------------------------------------------------------
 MOST_TORSION_NODES = 200  # of a chain: modes of all of them take a second
 HIGHEST_TORSION_ORDER = 256  # a cycle is sampled 16 times as often
 HIGHEST_TORSION_ORDER_UNASKED = 12  # by which cylinders excite: tables of builders end here
-MOST_TORSION_SPEEDS = 20_000  # of a range: all figures of each are kept

@@ -1,6 +1,7 @@
 """What the system does to the process: signals that end it, and standard streams that are closed.
 
-Little is imported here, for until `end_on_signals` has been called, Ctrl-C is a traceback.
+Little is imported here, for until `end_on_signals` has been called, a signal ends the process as
+the system does, and leaves what is unfinished.
 """
 
 from __future__ import annotations

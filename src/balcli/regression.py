@@ -12,7 +12,7 @@ import numpy as np
 
 from .engine.build import Engine
 from .errors import BalcliError
-from .forces.kinds import KINDS, VECTORS
+from .forces.kinds import GAS, GAS_KINDS, KINDS, VECTORS
 from .forces.spectrum import Spectra
 from .render import analysis_data as renderer
 from .results.analysis import analyze
@@ -73,7 +73,7 @@ def find_record(engine_file: Path) -> Path:
 
 def record_result(engine: Engine) -> str:
     """The text to record of an engine."""
-    document = renderer.document(analyze(engine, only=RECORDED))
+    document = renderer.document(analyze(engine, only=_list_recorded(engine)))
     return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
 
 
@@ -83,13 +83,14 @@ def find_differences(name: str, engine: Engine, record: Path) -> list[Difference
     if not record.exists():
         missing = f"no result is recorded in {where}; check --update records it"
         return [Difference(name, missing)]
-    found = analyze(engine, only=RECORDED)
+    wanted = _list_recorded(engine)
+    found = analyze(engine, only=wanted)
     try:
         recorded = json.loads(record.read_text(encoding="utf-8"))
         old, exactly_old = dict(_list_figures(recorded)), _list_exact_figures(recorded)
         orders = {entry["order"] for entry in recorded["orders"]}
         if not orders <= set(found.orders):
-            found = analyze(engine, {*orders, *found.orders}, RECORDED)
+            found = analyze(engine, {*orders, *found.orders}, wanted)
     except _UNREADABLE as error:
         reason = f"{type(error).__name__}: {error}"
         broken = f"the result recorded in {where} cannot be read ({reason})"
@@ -99,6 +100,11 @@ def find_differences(name: str, engine: Engine, record: Path) -> list[Difference
         *_compare_exact_figures(name, exactly_old, _list_exact_figures(document)),
         *_compare_figures(name, old, dict(_list_figures(document)), _find_roundings(found.spectra)),
     ]
+
+
+def _list_recorded(engine: Engine) -> tuple[str, ...]:
+    """What is recorded of an engine: with gas, also what that does."""
+    return RECORDED if engine.gas is None else (*RECORDED, GAS.name)
 
 
 def _list_exact_figures(document: dict[str, Any]) -> dict[str, Any]:
@@ -152,7 +158,9 @@ def _find_roundings(found: Spectra) -> dict[tuple[str, str], float]:
 def _list_figures(document: dict[str, Any]) -> Iterator[tuple[_Place, float]]:
     """Everything that is compared within a tolerance."""
     for entry in document["orders"]:
-        for kind in KINDS.values():
+        gas = [kind for kind in GAS_KINDS.values() if kind.key in entry]
+        there = [*KINDS.values(), *gas]
+        for kind in there:
             for part, value in _list_parts(entry[kind.key]):
                 place = _Place(kind.name, f"order {entry['order']}", f"{part}, {kind.si_unit}")
                 yield place, value

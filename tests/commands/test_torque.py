@@ -190,3 +190,67 @@ def test_curves_of_a_cylinder_go_over_its_cycle(four):
     names = {"pressure_Pa", "volume_m3", "gas_force_N", "side_thrust_N", "rod_force_N", "pin_x_N"}
     assert names | {"pin_y_N", "torque_Nm"} <= set(curves)
     assert len(curves["torque_Nm"]) == 144
+
+
+# ------------------------------------------------------------------ sweeps and pictures
+def test_sweeps_of_gas_and_torque_are_what_torque_says(four, tmp_path):
+    """Each variant as if the file said so."""
+    asked = (
+        "gas.1.5.amplitude,torque.2.amplitude,roll_total.2.cos,torque.mean,torque.max,fluctuation"
+    )
+    lines = run_here(
+        "sweep", four, "--vary", "gas.imep=6,9", "--vary", "cylinder.3.gas=0,1", "--quantity", asked
+    )
+    assert lines.err == ""
+    header, *rows = lines.out.splitlines()
+    assert header == f"gas.imep,cylinder.3.gas,{asked}"
+    other = tmp_path / "other.toml"
+    with open(four) as file:
+        text = file.read().replace("imep = 9", "imep = 6") + "[cylinder.3]\ngas = 0\n"
+    other.write_text(text)
+    found = json.loads(torque(str(other), "-f", "json", "--orders", "0.5-2"))
+    by_order = {entry["order"]: entry for entry in found["orders"]}
+    row = [float(cell) for cell in rows[0].split(",")]
+    assert row[:2] == [6, 0]
+    assert row[2] == pytest.approx(by_order[1.5]["gas_torque_Nm"]["amplitude"], rel=1e-12)
+    assert row[3] == pytest.approx(by_order[2]["torque_Nm"]["amplitude"], rel=1e-12)
+    assert row[4] == pytest.approx(-by_order[2]["torque_Nm"]["cos"], rel=1e-9)
+    assert row[5] == pytest.approx(found["mean_torque_Nm"], rel=1e-12)
+    assert row[6] == pytest.approx(found["torque"]["max_Nm"], rel=1e-12)
+    assert row[7] == pytest.approx(found["flywheel"]["fluctuation"], rel=1e-9)
+
+
+def test_sweeps_of_engines_without_gas_have_the_inertia_torque(tmp_path):
+    bare = tmp_path / "bare.toml"
+    bare.write_text(FOUR)
+    status, out, _ = run_here(
+        "sweep", str(bare), "--vary", "rod.length=140,150", "--quantity", "torque.2.amplitude"
+    )
+    assert status == 0
+    assert out.startswith("rod.length,torque.2.amplitude")
+    refused = ("sweep", str(bare), "--vary", "rod.length=140,150", "--quantity", "gas.2.amplitude")
+    assert run_here(*refused).err == "balcli: gas.2.amplitude: the engine file has no [gas]\n"
+
+
+@pytest.mark.parametrize("what", ["pressure", "p-v", "torque", "pin", "main"])
+def test_pictures_of_gas(four, tmp_path, what):
+    target = tmp_path / "x.svg"
+    status, _, err = run_here("plot", four, "--what", what, "-o", str(target))
+    assert (status, err) == (0, "")
+    assert target.read_text().startswith("<?xml")
+
+
+def test_pictures_that_cannot_be(tmp_path):
+    bare = tmp_path / "bare.toml"
+    bare.write_text(FOUR)
+    target = str(tmp_path / "x.svg")
+    err = run_here("plot", str(bare), "--what", "pressure", "-o", target).err
+    assert "has no [gas]" in err
+    (tmp_path / "h.csv").write_text("order,cos,sin\n0,2,0\n0.5,1,3\n")
+    bare.write_text(FOUR + '[gas]\nharmonics = "h.csv"\n')
+    err = run_here("plot", str(bare), "--what", "p-v", "-o", target).err
+    assert err == "balcli: the file has harmonics of the torque, and no pressures\n"
+    err = run_here("plot", str(bare), "--what", "pin", "-o", target).err
+    assert err == "balcli: loads of pins need pressures; harmonics of the torque have none\n"
+    found = json.loads(torque(str(bare), "-f", "json"))
+    assert not {"max_pressure_Pa", "max_pressure_deg"} & set(found)

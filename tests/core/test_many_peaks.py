@@ -9,7 +9,7 @@ import pytest
 
 from balcli.core import many_peaks
 from balcli.core.many_peaks import find_largest
-from balcli.core.peaks import peak
+from balcli.core.peaks import find_peak
 from balcli.core.phasors import Phasors
 
 DENSE = np.linspace(0, 4 * np.pi, 200_001)
@@ -42,7 +42,7 @@ def test_against_a_dense_grid_and_the_peak_of_each_alone(orders):
     assert np.all(found <= dense * (1 + 1e-6))
     for k, value in enumerate(found):
         forward, backward = many.forward[:, k], many.backward[:, k]
-        one = peak(curves(many.orders, forward, backward)).value
+        one = find_peak(curves(many.orders, forward, backward)).value
         assert value == pytest.approx(one, rel=4e-15, abs=0)
 
 
@@ -70,4 +70,4 @@ def test_trailing_axes_and_blocks(monkeypatch):
     monkeypatch.setattr(many_peaks, "_AT_ONCE", 5 * 48)
     assert np.array_equal(find_largest(grid), whole)
     one = curves(many.orders, grid.forward[:, 1, 2], grid.backward[:, 0, 0])
-    assert whole[1, 2] == pytest.approx(peak(one).value, rel=4e-15, abs=0)
+    assert whole[1, 2] == pytest.approx(find_peak(one).value, rel=4e-15, abs=0)

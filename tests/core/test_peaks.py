@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balcli.core.peaks import peak
+from balcli.core.peaks import find_peak
 from balcli.core.phasors import Phasors
 
 RELATIVE = 1e-14
@@ -23,44 +23,44 @@ def curve(*terms: tuple[float, complex, complex]) -> Phasors:
 
 
 def test_nothing_has_no_peak():
-    assert tuple(peak(curve((1, 0, 0), (2, 0, 0)))) == (0, 0)
+    assert tuple(find_peak(curve((1, 0, 0), (2, 0, 0)))) == (0, 0)
 
 
 @pytest.mark.parametrize("order", [1, 2, 7, 40, 300])
 @pytest.mark.parametrize(("forward", "backward"), [(3 + 4j, 1 - 2j), (1, 1), (0.2j, 1)])
 def test_of_one_order_it_is_the_longer_semi_axis(order, forward, backward):
-    found = peak(curve((order, forward, backward)))
+    found = find_peak(curve((order, forward, backward)))
     assert found.value == pytest.approx(abs(forward) + abs(backward), rel=RELATIVE)
     assert 0 <= found.theta < 2 * np.pi
 
 
 def test_half_orders_repeat_themselves_after_two_revolutions():
     """cos(theta/2) - 1 is largest, 2 away from 0, when the crank has turned once."""
-    found = peak(curve((0, -1, 0), (0.5, 0.5, 0.5)))
+    found = find_peak(curve((0, -1, 0), (0.5, 0.5, 0.5)))
     assert found.value == pytest.approx(2, rel=RELATIVE)
     assert found.theta == pytest.approx(2 * np.pi, rel=1e-9)
 
 
 def test_of_a_circle_every_angle_will_do():
-    found = peak(curve((1, 3 + 4j, 0)))
+    found = find_peak(curve((1, 3 + 4j, 0)))
     assert found.value == pytest.approx(5, rel=RELATIVE)
 
 
 @pytest.mark.parametrize("noise", [1e-15, 1e-15j, -1e-15, -1e-15j])
 def test_a_level_curve_has_its_peak_at_0(noise):
     """What other orders of its rounding make of it is no peak."""
-    assert peak(curve((1, 3 + 4j, 0), (4, noise, noise))).theta == 0
+    assert find_peak(curve((1, 3 + 4j, 0), (4, noise, noise))).theta == 0
 
 
 @pytest.mark.parametrize("turn", [-1e-14, 0, 1e-14])
 def test_a_peak_at_0_is_not_at_a_whole_turn(turn):
     vector = 0.5 * np.exp(1j * turn)
-    assert peak(curve((1, vector, vector.conjugate()), (2, 0.125, 0.125))).theta == 0
+    assert find_peak(curve((1, vector, vector.conjugate()), (2, 0.125, 0.125))).theta == 0
 
 
 def test_piston_acceleration_of_two_terms():
     """cos t + lambda cos 2t: 1 + lambda at top dead centre; without the first, the second alone."""
-    found = peak(curve((1, 0.5, 0.5), (2, 0.125, 0.125)))
+    found = find_peak(curve((1, 0.5, 0.5), (2, 0.125, 0.125)))
     assert found.value == pytest.approx(1.25, rel=RELATIVE)
     assert np.cos(found.theta) == pytest.approx(1)
 
@@ -69,15 +69,15 @@ def test_beside_top_dead_centre():
     """|cos t - lambda cos 2t| is largest where cos t = 1/(4 lambda) if lambda > 1/4: lambda + 1/(8
     lambda); but at pi it is 1 + lambda, which is more.
     """
-    found = peak(curve((1, 0.5, 0.5), (2, -0.25, -0.25)))
+    found = find_peak(curve((1, 0.5, 0.5), (2, -0.25, -0.25)))
     assert found.value == pytest.approx(1.5, rel=RELATIVE)
     assert found.theta == pytest.approx(np.pi, abs=1e-7)
 
 
 def test_a_mean_counts():
-    found = peak(curve((0, 2, 0), (1, 0.5, 0.5)))
+    found = find_peak(curve((0, 2, 0), (1, 0.5, 0.5)))
     assert found.value == pytest.approx(3, rel=RELATIVE)
-    assert tuple(peak(curve((0, -2j, 0)))) == pytest.approx((2, 0))
+    assert tuple(find_peak(curve((0, -2j, 0)))) == pytest.approx((2, 0))
 
 
 def test_a_narrow_peak_between_samples():
@@ -85,7 +85,7 @@ def test_a_narrow_peak_between_samples():
     itself.
     """
     orders, at = np.arange(1, 41), 1.2345678
-    found = peak(
+    found = find_peak(
         curve(*[(n, 0.5 * np.exp(-1j * n * at), 0.5 * np.exp(1j * n * at)) for n in orders])
     )
     assert found.value == pytest.approx(40, rel=RELATIVE)
@@ -94,7 +94,7 @@ def test_a_narrow_peak_between_samples():
 
 def test_the_highest_of_hundreds():
     """cos 100 t + 0.01 cos t: two hundred peaks, all within 2 %."""
-    assert peak(curve((1, 0.005, 0.005), (100, 0.5, 0.5))).value == pytest.approx(
+    assert find_peak(curve((1, 0.005, 0.005), (100, 0.5, 0.5))).value == pytest.approx(
         1.01, rel=RELATIVE
     )
 
@@ -106,7 +106,7 @@ def test_random_curves_against_many_samples(seed):
     vectors = (random.normal(size=(4, len(orders))) * 0.7**orders).astype(complex)
     backward = np.where(orders > 0, vectors[2] + 1j * vectors[3], 0)
     phasors = Phasors(orders.astype(float), vectors[0] + 1j * vectors[1], backward, np.zeros(1))
-    found = peak(phasors)
+    found = find_peak(phasors)
     sampled = np.abs(phasors.values(np.linspace(0, 2 * np.pi, 40_001))).max()
     assert sampled * (1 - RELATIVE) <= found.value <= sampled * (1 + 1e-5)
     assert abs(phasors.values(found.theta)) == pytest.approx(found.value, rel=RELATIVE)
@@ -129,7 +129,7 @@ def test_of_equal_peaks_the_first_counts():
         (1 + 1e-13j, 0.0),
     ):  # the last a whole turn, nearly
         half = np.array([turned / 2])
-        found = peak(Phasors(np.array([3.0]), half, np.conj(half), np.zeros(1)))
+        found = find_peak(Phasors(np.array([3.0]), half, np.conj(half), np.zeros(1)))
         assert found.value == pytest.approx(1, rel=1e-14)
         assert (np.degrees(found.theta) + 1e-9) % 360 == pytest.approx(first, abs=1e-7)
 
@@ -144,7 +144,7 @@ def test_more_near_maxima_than_are_climbed(order):
         (order - 1, 0, np.exp(1.7453j)),
         (order, np.exp(0.2967j), 0),
     )
-    found = peak(many)
+    found = find_peak(many)
     theta = np.linspace(0, 2 * np.pi, 400 * order, endpoint=False)
     dense = max(np.abs(many.values(part)).max() for part in np.array_split(theta, 100))
     assert found.value >= dense * (1 - 1e-9)
@@ -155,5 +155,5 @@ def test_more_near_maxima_than_are_climbed(order):
 def test_of_many_equal_peaks_the_first():
     """cos 200 t, turned by a little, has 400 of them."""
     turned = np.exp(-0.1j)
-    found = peak(curve((200, turned / 2, turned.conjugate() / 2)))
+    found = find_peak(curve((200, turned / 2, turned.conjugate() / 2)))
     assert found.theta == pytest.approx(0.1 / 200)

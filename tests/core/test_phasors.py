@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from balcli.core.phasors import EPS, Phasors, reduced, unit
+from balcli.core.phasors import EPS, Phasors, unit, wrap_degrees
 
 RELATIVE = 4 * EPS
 THETA = np.linspace(0, 2 * np.pi, 7201)
@@ -104,7 +104,7 @@ def test_an_axis_across_is_at_90_degrees_whatever_the_rounding(slip):
 @pytest.mark.parametrize("turn", [180, 360])
 def test_a_direction_is_reduced_to_half_a_turn_either_way(turn):
     barely = math.nextafter(turn / 2, math.inf)  # its remainder rounds to a whole turn
-    assert list(reduced([barely, -turn / 2, 1.5 * turn, 0, turn], turn)) == [
+    assert list(wrap_degrees([barely, -turn / 2, 1.5 * turn, 0, turn], turn)) == [
         turn / 2,
         turn / 2,
         turn / 2,
@@ -177,7 +177,7 @@ def test_settled_clears_each_vector_for_itself():
     """At its bound a vector is rounding, just above it is not."""
     orders = np.array([1.0, 2.0, 3.0])
     vectors = np.array([[1e-3, 1.1e-3j, 5e-4], [7, 5e-4, -1e-3]])
-    phasors = Phasors(orders, *vectors, np.full(3, 1e-3)).settled()
+    phasors = Phasors(orders, *vectors, np.full(3, 1e-3)).drop_noise()
     assert list(phasors.forward) == [0, 1.1e-3j, 0]
     assert list(phasors.backward) == [7, 0, 0]
     assert list(phasors.balanced) == [False, False, True]

@@ -9,7 +9,7 @@ import tomllib
 import pytest
 from support.engines import changed
 
-from balcli.enginefile.edit import changed as edited
+from balcli.enginefile.edit import set_keys
 
 COMMENTED = changed(
     ("throws = [0, 180, 180, 0]", "throws     = [0, 180,\n  180, 0]   # deg, free end first"),
@@ -60,14 +60,14 @@ COMMENTED = changed(
 @pytest.mark.parametrize("ends", ["\n", "\r\n"])
 def test_only_the_key_changes(table, keys, old, new, ends):
     text, wanted = (t.replace("\n", ends) for t in (COMMENTED, COMMENTED.replace(old, new, 1)))
-    found = edited(text, table, keys, "a note")
+    found = set_keys(text, table, keys, "a note")
     assert found == wanted
-    assert edited(found, table, keys, "a note") == wanted
+    assert set_keys(found, table, keys, "a note") == wanted
 
 
 def test_a_last_line_without_an_end():
     assert (
-        edited("[operation]", "operation", {"speed": 5.0}, "a note")
+        set_keys("[operation]", "operation", {"speed": 5.0}, "a note")
         == "[operation]\nspeed = 5.0    # a note\n"
     )
 
@@ -83,7 +83,52 @@ def test_a_last_line_without_an_end():
     ],
 )
 def test_what_is_written_in_an_unusual_way_is_right_all_the_same(text):
-    assert tomllib.loads(edited(text, "operation", {"speed": 5.0}, "a note")) == {
+    assert tomllib.loads(set_keys(text, "operation", {"speed": 5.0}, "a note")) == {
         **tomllib.loads(text),
         "operation": {"speed": 5.0},
     }
+
+
+DOTTED = "# mine\nlayout.bank_angle = 75   # as built\nlayout.firing_order = [1, 2]\n[rod]\nlength = 1  # l\n"
+INLINE = "# mine\nlayout = { bank_angle = 75, firing_order = [1, 2] }   # as built\n[rod]\nlength = 1  # l\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "keys", "old", "new"),
+    [
+        (
+            DOTTED,
+            {"bank_angle": 90.0},
+            "bank_angle = 75   # as built",
+            "bank_angle = 90.0   # as built (a note)",
+        ),
+        (DOTTED, {"firing_order": None}, "layout.firing_order = [1, 2]\n", ""),
+        (DOTTED, {"stagger": 3}, "# mine\n", "# mine\nlayout.stagger = 3    # a note\n"),
+        (
+            INLINE,
+            {"bank_angle": 90.0},
+            "bank_angle = 75, firing_order = [1, 2] }   # as built",
+            "bank_angle = 90.0, firing_order = [1, 2] }   # as built (a note)",
+        ),
+        (
+            INLINE,
+            {"firing_order": None},
+            "bank_angle = 75, firing_order = [1, 2] }   # as built",
+            "bank_angle = 75 }   # as built (a note)",
+        ),
+        (
+            INLINE,
+            {"stagger": 3, "bank_angle": None},
+            "bank_angle = 75, firing_order = [1, 2] }   # as built",
+            "stagger = 3, firing_order = [1, 2] }   # as built (a note)",
+        ),
+        (
+            INLINE.replace("   # as built", ""),
+            {"bank_angle": 60},
+            "bank_angle = 75, firing_order = [1, 2] }",
+            "bank_angle = 60, firing_order = [1, 2] }    # a note",
+        ),
+    ],
+)
+def test_dotted_keys_and_braces_keep_comments_too(text, keys, old, new):
+    assert set_keys(text, "layout", keys, "a note") == text.replace(old, new, 1)

@@ -80,6 +80,16 @@ def test_alternatives_say_the_same(kind):
 
 
 @pytest.mark.parametrize("kind", KINDS)
+def test_the_parts_of_a_piston_weigh_as_much_as_the_whole(kind):
+    text = template(kind)
+    table = text.partition("[piston]")[2].partition("[layout]")[0]
+    parts = [OPTION.sub(r"\1", line) for line in table.splitlines() if "instead of mass" in line]
+    given = tomllib.loads("\n".join(parts))
+    assert list(given) == ["piston", "pin", "rings", "locks"]
+    assert sum(given.values()) == pytest.approx(parse(text).piston.mass, abs=1e-9)
+
+
+@pytest.mark.parametrize("kind", KINDS)
 def test_every_key_is_explained_and_lines_are_short(kind):
     lines = template(kind).splitlines()
     assert max(map(len, lines)) <= 120

@@ -9,7 +9,7 @@ import pytest
 from support.engines import INLINE, alone, inline_engine
 from support.paths import ENGINES
 
-from balcli.core.peaks import peak
+from balcli.core.peaks import find_peak
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
 from balcli.errors import BalcliError
@@ -212,7 +212,7 @@ def test_near_the_lock_only_orders_to_512_are_told_unasked_but_the_largest_value
     assert found.bending.phasors.orders[-1] <= 512
     force = spectrum.compute_spectra(subject, find_relevant_orders(subject), ["force"]).force
     assert force is not None
-    assert found.shear.peaks[-1].value == pytest.approx(peak(force).value, rel=1e-12)
+    assert found.shear.peaks[-1].value == pytest.approx(find_peak(force).value, rel=1e-12)
     assert list(compute_inner_loads(subject, np.array([1.0, 4096.0])).shear.phasors.orders) == [
         1,
         4096,

@@ -83,6 +83,30 @@ def test_a_scheme_is_shown_beside(four):
     assert refusal("mounts", four, "--scheme", "nonsense").startswith(f"{four}: there is no scheme")
 
 
+def test_other_engines_on_the_same_mounts(four, tmp_path):
+    """Beside each other, each as if it stood there alone; a body without an engine takes any."""
+    light = tmp_path / "light.toml"
+    text = ENGINE.replace("mass = 0.5\n", "mass = 0.4\n").replace('"four"', '"light four"')
+    light.write_text(text, encoding="utf-8")
+    out = run_here("mounts", four, light).out
+    assert re.search(r"^With light four the largest force .* rpm: ", out, re.M)
+    said = json.loads(run_here("mounts", four, light, "-f", "json").out)
+    (other,) = said["others"]
+    alone = tmp_path / "alone.toml"
+    alone.write_text(DAMPED.replace(ENGINE, text), encoding="utf-8")
+    own = json.loads(run_here("mounts", alone, "-f", "json").out)
+    assert (other["name"], other["response"]) == ("light four", own["response"])
+    bare = tmp_path / "bare.toml"
+    bare.write_text(DAMPED.replace(ENGINE, ""), encoding="utf-8")
+    on_bare = json.loads(run_here("mounts", bare, light, "-f", "json").out)
+    assert (on_bare["name"], on_bare["response"]) == ("light four", own["response"])
+    parts = {
+        row["part"]
+        for row in csv.DictReader(StringIO(run_here("mounts", four, light, "-f", "csv").out))
+    }
+    assert {"mount", "light four: mount", "light four: point"} <= parts
+
+
 def test_without_an_engine_modes_and_rest_are_told(tmp_path):
     path = tmp_path / "block.toml"
     path.write_text(block(), encoding="utf-8")
@@ -184,11 +208,11 @@ def test_units(four):
 
 
 SPEEDS = [
-    ("900:100:100", '--speeds "900:100:100": a range rises; give first:last:step in rpm'),
-    ("1:2", '--speeds "1:2": give first:last:step in rpm, such as 600:6500:25, or speeds'),
+    ("900:100:100", '--speeds "900:100:100": must rise; give first:last:step in rpm'),
+    ("1:2:3:4", '--speeds "1:2:3:4": give first:last:step in rpm, such as 1000:2500:25, or speeds'),
     ("a", '--speeds "a": give first:last:step in rpm'),
     ("0,100", '--speeds "0,100": give first:last:step in rpm'),
-    ("1:1e6:1", '--speeds "1:1e6:1": at most 20000 speeds are computed; take longer steps'),
+    ("1:1e6:1", '--speeds "1:1e6:1": has 1000000 speeds; at most 20000 are computed'),
 ]
 
 

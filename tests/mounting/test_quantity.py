@@ -115,3 +115,50 @@ def test_variants_that_cannot_be_are_told_with_their_figures(four):
     )
     told = refusal("sweep", four, "--vary", "mount.9.loss=0,1", "-q", "mode.1.Hz")
     assert told.startswith("mount.9.loss is no number of this engine file; did you mean")
+
+
+# ------------------------------------------------------------------ tolerances of mounts
+def scatter(path, *args):
+    done = run_here("scatter", path, *args, "-f", "json")
+    assert (done.status, done.err) == (0, "")
+    return json.loads(done.out)
+
+
+def test_stiffness_scatters(tmp_path):
+    """Up and down of the block is sqrt(sum k / m): by hand, with the same random numbers."""
+    path = tmp_path / "four.toml"
+    path.write_text(NAMED, encoding="utf-8")
+    said = scatter(
+        path, "-q", "mode.z.Hz", "--samples", "400", "--seed", "7", "--stiffness-scatter", "10%"
+    )
+    found = said["quantities"]["mode.z.Hz"]
+    factors = 1 + 0.1 * (2 * np.random.default_rng(7).random((400, 4)) - 1)
+    own = np.sqrt(400e3 * factors.sum(axis=1) / 200) / (2 * np.pi)
+    assert found["nominal"] == pytest.approx(np.sqrt(8000) / (2 * np.pi), rel=1e-12)
+    assert found["mean"] == pytest.approx(own.mean(), rel=2e-3)
+    assert found["p95"] == pytest.approx(np.percentile(own, 95), rel=5e-3)
+    assert said["samples"] == 400
+    each = found["nominal"] * 0.1 / 8
+    assert list(found["sensitivity"]) == ["stiffness left", *list(found["sensitivity"])[1:]]
+    assert found["sensitivity"]["stiffness left"] == pytest.approx(each, rel=0.05)
+    assert found["bound"] == pytest.approx(found["nominal"] + 4 * each, rel=0.01)
+
+
+def test_what_scatters_is_of_the_engine_or_of_its_mounts(four):
+    told = refusal("scatter", four, "-q", "mode.1.Hz,force.2.major")
+    assert told.startswith("force.2.major and mode.1.Hz have tolerances of their own")
+    told = refusal("scatter", four, "-q", "mode.1.Hz", "--samples", "100000")
+    assert told == (
+        "100000 samples: on mounts, where each is computed by itself, from 1 to 20000 are allowed"
+    )
+    told = refusal("scatter", four, "-q", "mode.1.Hz", "--stiffness-scatter", "0%")
+    assert told == "nothing deviates; give a tolerance, such as --stiffness-scatter 15%"
+    told = refusal("scatter", four, "-q", "mount.lef.force", "--samples", "2")
+    assert told.startswith('mount.lef.force: the file has no mount "lef"')
+
+
+def test_normal_deviations_of_mounts(four):
+    args = ("-q", "mode.1.Hz,mount.left.force", "--samples", "20", "--seed", "1")
+    out = run_here("scatter", four, *args, "--distribution", "normal").out
+    assert "Spread of 20 sets of mounts" in out
+    assert "to first order" in out

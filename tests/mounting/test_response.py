@@ -25,7 +25,7 @@ def report(tmp_path):
         path = tmp_path / "engine.toml"
         path.write_text(text, encoding="utf-8")
         file = read_mounted(path)
-        return report_mounts(file.model, file.engine, speeds, orders, scheme, "engine.toml")
+        return report_mounts(file.model, file.engine, speeds, orders, scheme, name="engine.toml")
 
     return of
 

@@ -23,9 +23,10 @@ from balcli.render.plot.locus import draw_locus, find_period_deg
 from balcli.render.plot.pages import PAGES, Subject, draw_page
 from balcli.render.units import IMPERIAL, SI
 from balcli.results.analysis import QUANTITIES, analyze
+from balcli.torque.pictures import PAGES as PAGES_OF_GAS
 
 HOSTILE = '$x_{1}$ </text><script>alert(1)</script> 发动机 №5 & "q" \u0001 _'
-ANALYSES = [what for what in PAGES if what not in ("factor", "bank", "inner")]
+ANALYSES = [what for what in PAGES if what not in ("factor", "bank", "inner", *PAGES_OF_GAS)]
 MAGIC = {"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF"}
 
 

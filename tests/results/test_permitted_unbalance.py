@@ -33,7 +33,7 @@ def test_all_counterweights_share_what_is_permitted():
 def test_it_is_shown_beside_each():
     out = run_here(*ASKED).out
     assert "Permitted residual unbalance, ISO 21940-11, G 16\n" in out
-    assert "A crankshaft of 31 kg at 6000 rpm; all counterweights share alike." in out
+    assert "A crankshaft of 31 kg at 6000 rpm; all share alike." in out
     assert f"{WHOLE / 2:.1f}" in out
     assert "oz·in" in run_here(*ASKED, "--mass", "31 kg", "--units", "imperial").out
 
@@ -46,6 +46,23 @@ def test_a_grade_may_be_written_as_the_standard_writes_it():
     assert refusal("balance", V8, "--grade", "good", "--mass", 3) == (
         '--grade "good": give a grade of ISO 21940-11 such as G16 or 6.3'
     )
+
+
+def test_planes_that_have_their_weights_already_share_it_too(tmp_path):
+    """Two planes, of which the first lacks nothing."""
+    whole, half = tmp_path / "whole.toml", tmp_path / "half.toml"
+    asked = ("--factor", "51%", "--planes=-200,200", "--grade", "G16", "--mass", 31)
+    run_here("balance", V8, "--factor", "51%", "--planes=-200,200", "--write", whole)
+    text = whole.read_text()
+    half.write_text(text[: text.rindex("[[counterweight]]")])
+    for file, complete in ((whole, [True, True]), (half, [True, False])):
+        result = run_here("balance", file, *asked)
+        assert result.status == 0, result.err
+        table = result.out.partition("ISO 21940-11, G 16\n")[2].splitlines()
+        assert [row.split()[0] for row in table[2:4]] == ["-200", "200"]
+        assert [row.split()[1] == "0" for row in table[2:4]] == complete
+        said = json.loads(run_here("balance", file, *asked, "-f", "json").out)["permitted"]
+        assert said["each_g_mm"] == pytest.approx(WHOLE * 6000 / 5000 / 2, rel=1e-12)
 
 
 def test_nothing_is_said_unasked():

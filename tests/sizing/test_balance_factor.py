@@ -5,6 +5,7 @@ calculation on a grid.
 from __future__ import annotations
 
 import math
+import shlex
 import tomllib
 
 import numpy as np
@@ -12,8 +13,10 @@ import pytest
 from oracle import momentum
 from support.commands import refusal, run_here
 from support.engines import build_text, changed
+from support.paths import ENGINES
 from support.remedies import figures
 
+from balcli.commands.balance import balance
 from balcli.errors import BalcliError
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import Remedy
@@ -289,6 +292,12 @@ def test_what_was_measured_is_the_factor_it_stands_for():
     assert remedy.counterweights[0].unbalance == pytest.approx((1375 + 900) * 48.4, rel=1e-12)
 
 
+def test_less_than_the_rotating_mass_is_told():
+    remedy = size(build_text(TWIN), "factor", SchemeOptions(measured=0.8))
+    assert figures(remedy)["factor"] == pytest.approx(-100 / 1440, rel=1e-12)
+    assert remedy.note == "a factor below 0: not even all rotating mass is balanced"
+
+
 def test_unequal_pins_share_what_was_measured():
     """The mean of all pins counts."""
     engine = build_text(UNEQUAL)
@@ -362,6 +371,19 @@ def ford(tmp_path):
     return path
 
 
+@pytest.mark.parametrize(
+    "line", [line for line in str(balance.__doc__).splitlines() if "balcli balance" in line]
+)
+def test_the_examples_of_the_help_work(ford, line):
+    _, command, file, *options = shlex.split(line)
+    engines = {
+        "i4.toml": ENGINES / "i4.toml",
+        "v8.toml": ford,
+        "twin.toml": ENGINES / "vtwin45.toml",
+    }
+    assert run_here(command, engines[file], *options).status == 0
+
+
 def test_a_factor_alone_chooses_its_scheme(ford):
     in_full = run_here("balance", ford, "--scheme", "factor", "--factor", "0.51").out
     for alone in (("--factor", "51%"), ("--factor", "51 %"), ("--measured", "1872.1 g")):
@@ -383,6 +405,10 @@ def test_grams_are_what_a_shop_measures(ford):
         '--measured "775 gr": has the unit "gr": g, or grain (65 mg)?'
     )
     assert "1872.1" in refusal("balance", ford, "--measured", "1872.1", "--units", "imperial")
+    assert run_here("balance", ford, "--measured", "1.8721e3").out == bare
+    assert refusal("balance", ford, "--measured", "-5 g") == (
+        '--measured "-5 g": a mass on the pin is not negative'
+    )
 
 
 def test_a_table_with_a_row_for_each_factor(ford):

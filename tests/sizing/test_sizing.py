@@ -14,7 +14,7 @@ from support.engines import engine_text
 from support.remedies import figures
 
 from balcli.core import enclosing_circle as circle
-from balcli.core.peaks import peak
+from balcli.core.peaks import find_peak
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.enginefile.model import Counterweight
@@ -792,14 +792,14 @@ def test_minimax_reaches_what_it_says_where_it_says(more):
     engine = build(parse(ENGINES["one"] + more))
     remedy = size(engine, "minimax")
     told, curve = figures(remedy), forces(fit_devices(engine, remedy))
-    assert peak(curve).value == pytest.approx(told["peak force"], rel=1e-12)
+    assert find_peak(curve).value == pytest.approx(told["peak force"], rel=1e-12)
     assert len(told["reached"]) == 3
     assert all(0 <= degree < 360 for degree in told["reached"])
     assert np.abs(curve.values(np.radians(told["reached"]))) == pytest.approx(
         told["peak force"], rel=1e-9
     )
     plain = build(parse(ENGINES["one"]))
-    half = peak(forces(fit_devices(plain, size(plain, "factor")))).value
+    half = find_peak(forces(fit_devices(plain, size(plain, "factor")))).value
     assert told["factor half peak"] == pytest.approx(
         half, rel=1e-12
     )  # without the engine's own weights

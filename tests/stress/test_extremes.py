@@ -16,7 +16,7 @@ from support.paths import DOCS
 
 from balcli.core.mechanisms import closed_form, fourier, harmonics
 from balcli.core.mechanisms.fourier import SERIES
-from balcli.core.peaks import peak
+from balcli.core.peaks import find_peak
 from balcli.core.phasors import EPS
 from balcli.engine.build import Engine
 from balcli.errors import InputError
@@ -509,7 +509,7 @@ def test_peaks_of_32768_orders_and_64_cylinders_are_the_sum_of_all():
         whole = engine(crank={"stroke": 100, "throws": [0] * count}, rod={"ratio": NEAREST})
         orders = find_relevant_orders(whole)
         assert len(orders) == 1 << 15
-        return peak(compute_spectra(whole, orders, ("force",)).force).value
+        return find_peak(compute_spectra(whole, orders, ("force",)).force).value
 
     assert highest(64) == pytest.approx(64 * highest(1), rel=1e-12)
 

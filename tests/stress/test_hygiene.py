@@ -85,14 +85,14 @@ def alone_each(whole: Engine) -> list:
 LARGEST = """
 import tracemalloc
 from support.engines import alone, engine
-from balcli.core.peaks import peak
+from balcli.core.peaks import find_peak
 from balcli.forces.orders import find_relevant_orders
 from balcli.forces.spectrum import compute_spectra
 whole = engine(crank={"stroke": 100, "throws": [7.3 * k % 360 for k in range(512)], "spacing": 1}, rod={"ratio": 1 - 1e-6})
 orders = find_relevant_orders(whole)
 tracemalloc.start()
 found = compute_spectra(whole, orders, ["force", "moment"])
-assert len(orders) == 32768 and peak(found.force).value > 0 and peak(found.moment).value > 0
+assert len(orders) == 32768 and find_peak(found.force).value > 0 and find_peak(found.moment).value > 0
 print(tracemalloc.get_traced_memory()[1] / 1e6)
 """
 

@@ -125,3 +125,12 @@ def test_a_bank_angle_is_that_of_a_vee() -> None:
             BalcliError, match=r"^layout\.bank_angle is no number of this engine file"
         ):
             parse("layout.bank_angle=0:90:10", load(other))
+
+
+def test_more_values_than_are_kept_are_refused_before_there_are_any() -> None:
+    with pytest.raises(BalcliError) as found:
+        parse("rod.ratio=0.2:0.3:1e-10", load(GOOD))
+    assert str(found.value) == (
+        '"rod.ratio=0.2:0.3:1e-10": has 1000000001 values; give a step that leads from the first to '
+        "the last in at most 1e+07 steps"
+    )

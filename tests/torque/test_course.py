@@ -10,11 +10,14 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from support.gas_engines import FOUR, WIEBE, draw_engine, engine
+from support.paths import ENGINES
 
+from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
 from balcli.torque.analysis import analyze_torque
 from balcli.torque.course import (
+    count_repeats,
     find_inertia_torque,
     find_moving_inertia,
     find_torque_curves,
@@ -183,3 +186,22 @@ def test_without_inertia_nothing_is_said_of_the_speed():
     assert asked.mean is None
     assert asked.speed is None
     assert asked.needed > asked.moving > 0
+
+
+@pytest.mark.parametrize(("name", "times"), [("i4_wiebe", 4), ("v8_wiebe", 8), ("marine6", 6)])
+def test_what_repeats_itself_is_computed_once(name, times):
+    """And is still what the orders say."""
+    found = load(ENGINES / f"{name}.toml")
+    assert count_repeats(found) == times
+    assert count_repeats(silence(found, 2)) == 1
+    curves = find_torque_curves(found)
+    assert curves.total.period == pytest.approx(found.gas.cycle, rel=1e-15)
+    orders = HALVES / 2
+    phasors = compute_spectra(found, orders, ["torque_total"])["torque_total"]
+    want = phasors.forward + np.conj(phasors.backward)
+    per_order = round(found.gas.cycle / (2 * np.pi))
+    every = curves.total.harmonics(12 * per_order)
+    assert every == pytest.approx(want[:: 2 // per_order], abs=1e-12 * np.abs(want).max())
+    heavy = replace(found, flywheel_inertia=1e9)
+    whole = analyze_torque(heavy)
+    assert whole.flywheel.speed.fluctuation == pytest.approx(whole.flywheel.speed.small, rel=1e-6)

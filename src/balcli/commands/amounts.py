@@ -52,6 +52,11 @@ def read_mass(option: str, text: str, units: Units = Units.SI) -> float:
     return _read(option, text, MASS, units)
 
 
+def is_bare(text: str) -> bool:
+    """Whether a number has no unit."""
+    return _as_bare(text) is not None
+
+
 def read_angle(option: str, text: str) -> float:
     """An angle in degrees; BalcliError with the option and its text."""
     return _read(option, text, ANGLE, Units.SI)

@@ -44,7 +44,16 @@ def balance(
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """Size counterweights, balancer shafts or sliders, and show what is left with them."""
+    """Size counterweights, balancer shafts or sliders, and show what is left with them.
+
+    \b
+    Examples:
+      balcli balance i4.toml --scheme two-shaft --at=-60,80
+      balcli balance v8.toml --factor 51% --planes=-8.5in,9in --format card
+      balcli balance v8.toml --factor 50%:54%:1% --planes ends
+      balcli balance v8.toml --factor 51% --planes ends --drill 19 --max-depth 32
+      balcli balance twin.toml --measured "812 g"
+    """
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     form = balance_options.choose_format(output, form)
     require_ending(write, ".toml", "--write")

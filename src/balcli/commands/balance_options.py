@@ -15,7 +15,7 @@ from ..limits import MOST_FACTORS
 from ..render.formats import Format, Units
 from ..sizing.options import SchemeOptions
 from ..sizing.schemes import KNUCKLES, NAMES
-from .amounts import read_length, read_lengths, read_mass, read_number, read_share
+from .amounts import is_bare, read_length, read_lengths, read_mass, read_number, read_share
 from .completion import complete_schemes
 from .file_names import format_of, text_format
 from .output import emit, show
@@ -350,8 +350,10 @@ def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
 
 def _parse_measured(text: str, units: Units) -> float:
     """A mass in kg; a bare number is in g, as on the scales of a shop."""
-    in_grams = units is Units.SI and text.strip().replace(".", "", 1).isdigit()
-    return read_mass("--measured", f"{text} g" if in_grams else text, units)
+    mass = read_mass("--measured", text, units)
+    if mass < 0:
+        raise BalcliError(f'--measured "{text[:60]}": a mass on the pin is not negative')
+    return mass / 1e3 if is_bare(text) else mass
 
 
 def _parse_factors(text: str) -> tuple[float, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..enginefile.edit import changed
+from ..enginefile.edit import set_keys
 from ..enginefile.toml_text import name_file
 from ..sizing.remedy import Remedy
 from ..sizing.write import insert_remedy
@@ -22,5 +22,5 @@ def write_fitted(
     """
     new = insert_remedy(text, remedy, name_file(source))
     if speed_rpm is not None:
-        new = changed(new, "operation", {"speed": speed_rpm}, "as balanced by balcli")
+        new = set_keys(new, "operation", {"speed": speed_rpm}, "as balanced by balcli")
     write_file(new, target)

@@ -12,7 +12,7 @@ from ..render.formats import Units
 from ..render.units import SYSTEMS
 from .file_names import picture_form, text_format
 from .options import (
-    EnginePath,
+    EnginePaths,
     FormatOption,
     Output,
     Scheme,
@@ -35,7 +35,7 @@ Orders = Annotated[
 
 
 def mounts(
-    path: EnginePath,
+    paths: EnginePaths,
     speeds: Speeds = None,
     orders: Orders = None,
     scheme: Scheme = None,
@@ -56,18 +56,23 @@ def mounts(
     and motion of points over a range of speeds.
 
     The file has [body], [[mount]] and, if motion of points is wanted, [[point]]; `balcli new
-    mounts` writes one to start from. Without an engine in it, modes and rest are told.
+    mounts` writes one to start from. Without an engine in it, modes and rest are told. Engines of
+    further files are put on the same mounts and shown beside.
     """
-    refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
+    refuse_overwriting(reads=paths, writes={"--output": output, "--plot": plot})
     form = text_format(output, form)
     drawn = picture_form(plot, "--plot") if plot is not None else None
     rpm, asked = parse_speeds(speeds), parse_orders(orders)
     from ..mounting.read import read_mounted
     from ..mounting.report import report_mounts
     from ..render import mounts as renderer
+    from .inputs import name_columns, read_engine
 
-    model, engine = read_mounted(path)
-    result = report_mounts(model, engine, rpm, asked, scheme, name_file(path))
+    model, engine = read_mounted(paths[0])
+    others = [read_engine(path).engine for path in paths[1:]]
+    names = name_columns([model.name or paths[0], *(other.name for other in others)], paths)
+    beside = list(zip(names[1:], others, strict=True))
+    result = report_mounts(model, engine, rpm, asked, scheme, beside, name_file(paths[0]))
     if plot is not None and drawn is not None:
         from ..render.plot.mounts import draw_mounts  # brings matplotlib
 

@@ -27,6 +27,11 @@ class What(StrEnum):
     FACTOR = "factor"
     BANK = "bank"
     INNER = "inner"
+    PRESSURE = "pressure"
+    P_V = "p-v"
+    TORQUE = "torque"
+    PIN = "pin"
+    MAIN = "main"
 
 
 Picture = Annotated[
@@ -42,7 +47,8 @@ Page = Annotated[
         help="polar: loci; orders: the two vectors of each; spectrum: bars; curves: over the "
         "crank angle; "
         "factor: over the balance factor; bank: a vee over its bank angle; inner: along the "
-        "crankshaft.",
+        "crankshaft; with [gas]: pressure, p-v, torque (with its surplus areas), pin and main "
+        "(polar diagrams of bearing loads).",
     ),
 ]
 

@@ -15,6 +15,8 @@ from .options import EnginePath, FormatOption, Output
 from .output import show
 from .overwrite_guard import refuse_overwriting
 
+_ENGINES, _SETS_OF_MOUNTS = 100_000, 500
+
 
 class Distribution(StrEnum):
     """How figures deviate within their tolerances."""
@@ -43,7 +45,22 @@ def scatter(
             "--angle-scatter", metavar="ANGLE", help="Tolerance of every throw angle, as 0.2 deg."
         ),
     ] = "0",
-    samples: Annotated[int, typer.Option("--samples", help="Number of random engines.")] = 100_000,
+    stiffness: Annotated[
+        str,
+        typer.Option(
+            "--stiffness-scatter",
+            metavar="PERCENT",
+            help="Tolerance of the stiffness of every mount, for quantities on mounts.",
+        ),
+    ] = "15%",
+    samples: Annotated[
+        int | None,
+        typer.Option(
+            "--samples",
+            help="Number of random engines, 100000; of random mounts, 500.",
+            show_default=False,
+        ),
+    ] = None,
     seed: Annotated[
         int | None,
         typer.Option(
@@ -67,7 +84,8 @@ def scatter(
             "-q",
             metavar="WHAT,...",
             show_default=DEFAULT_QUANTITIES,
-            help="As force.1.major, couple.4.amplitude.",
+            help="As force.1.major, couple.4.amplitude; or on mounts, as mode.roll.Hz, "
+            "mount.left.force.",
         ),
     ] = None,
     form: FormatOption = None,
@@ -78,15 +96,24 @@ def scatter(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = text_format(output, form)
-    from ..forces.quantity import leave_out_unknown, parse_quantity_list
-    from ..studies.tolerances import parse_tolerances, scatter_engine
+    from ..forces.quantity import leave_out_unknown
+    from ..studies.quantities import parse_quantities, part_quantities
+    from ..studies.tolerances import parse_percentage, parse_tolerances, scatter_engine
     from .inputs import read_engine, warn_of_unknown_moments
 
     tolerances = parse_tolerances(mass, length, angle)
+    share = parse_percentage(stiffness, "--stiffness-scatter")
+    wanted = parse_quantities(DEFAULT_QUANTITIES if quantity is None else quantity)
+    asked, on_mounts = part_quantities(wanted)
     _, model, engine = read_engine(path, asked=())
-    asked = parse_quantity_list(DEFAULT_QUANTITIES if quantity is None else quantity)
     if quantity is None and not engine.places_known:
         asked = leave_out_unknown(engine, asked)
         warn_of_unknown_moments(name_file(path))
-    found = scatter_engine(model, tolerances, asked, samples, seed, distribution.value)
+    count = samples if samples is not None else _SETS_OF_MOUNTS if on_mounts else _ENGINES
+    if on_mounts:
+        from ..studies.mount_scatter import scatter_mounts
+
+        found = scatter_mounts(model, share, on_mounts, count, seed, distribution.value)
+    else:
+        found = scatter_engine(model, tolerances, asked, count, seed, distribution.value)
     show([found], renderer, form, output)

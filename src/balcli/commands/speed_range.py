@@ -7,12 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import BalcliError
-from ..limits import MOST_MOUNT_SPEEDS
+from ..limits import MOST_SPEEDS
 
 if TYPE_CHECKING:
     from ..core.singular_values import Real
-
-_WANTED = "first:last:step in rpm, such as 600:6500:25, or speeds such as 750,3000"
 
 Speeds = Annotated[
     str | None,
@@ -26,7 +24,8 @@ Speeds = Annotated[
 
 
 def parse_speeds(text: str | None) -> Real | None:
-    """Speeds of `600:6500:25` (both ends included) or `750,3000`, rpm, rising.
+    """Speeds of `1000:2500:25` (first, last, step), `1000:2500` (100 steps) or `1500,2000`, rpm,
+    rising.
 
     Raises:
         BalcliError: anything else, with the text.
@@ -35,23 +34,24 @@ def parse_speeds(text: str | None) -> Real | None:
         return None
     import numpy as np
 
+    right = "give first:last:step in rpm, such as 1000:2500:25, or speeds such as 1500,2000"
     start = f'--speeds "{text[:60]}": '
-    ranged = ":" in text
     try:
+        ranged = ":" in text
         figures = [float(part) for part in text.split(":" if ranged else ",")]
     except ValueError:
-        raise BalcliError(f"{start}give {_WANTED}") from None
-    if not all(0 < figure < 1e9 for figure in figures) or (ranged and len(figures) != 3):
-        raise BalcliError(f"{start}give {_WANTED}")
+        raise BalcliError(start + right) from None
+    if not all(0 < figure < 1e9 for figure in figures) or (ranged and len(figures) > 3):
+        raise BalcliError(start + right)
     if not ranged:
         return np.unique(figures)
-    first, last, step = figures
-    if last < first:
-        raise BalcliError(f"{start}a range rises; give {_WANTED}")
-    count = (last - first) / step
-    if count >= MOST_MOUNT_SPEEDS:
-        raise BalcliError(
-            f"{start}at most {MOST_MOUNT_SPEEDS} speeds are computed; take longer steps"
-        )
-    found = first + step * np.arange(int(count + 1e-9) + 1)
-    return found if found[-1] >= last - 1e-9 * step else np.append(found, last)
+    first, last, step = (*figures, (figures[1] - figures[0]) / 100)[:3]
+    if not (first <= last and (step > 0 or first == last)):
+        raise BalcliError(f"{start}must rise; {right}")
+    if first == last:
+        return np.array([first])
+    count = int((last - first) / step + 1e-9) + 1
+    if count > MOST_SPEEDS:
+        raise BalcliError(f"{start}has {count} speeds; at most {MOST_SPEEDS} are computed")
+    speeds = np.round(first + step * np.arange(count), 9)
+    return speeds if speeds[-1] >= last - 1e-9 * step else np.append(speeds, last)

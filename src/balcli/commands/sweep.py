@@ -98,6 +98,8 @@ def sweep(
 ) -> None:
     """Figures of many variants of an engine: numbers of its file over ranges, as CSV, JSON or (by
     the name of -o) Parquet.
+
+    Ctrl-C ends it with the variants computed so far, in -o's FILE.part if there is a -o.
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     kind = format_of(output, form, VARIANTS, VariantsFormat.CSV)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..enginefile.edit import changed
+from ..enginefile.edit import set_keys
 from ..enginefile.units import INERTIA, convert
 from ..errors import BalcliError
 from .options import parse_orders, parse_speed
@@ -229,4 +229,4 @@ def write_uneven(source: bytes, result: TorqueAnalysis, target: Path) -> None:
         for line in result.flywheel.speed.lines
     ]
     keys = {"speed": float(result.engine.speed_rpm), "speed_ripple": lines}
-    write_file(changed(source.decode("utf-8-sig"), "operation", keys, "by balcli torque"), target)
+    write_file(set_keys(source.decode("utf-8-sig"), "operation", keys, "by balcli torque"), target)

@@ -9,44 +9,13 @@ import numpy as np
 from ..core.singular_values import Real
 from ..enginefile.units import INERTIA, Dimension, Powers, convert, wanted
 from ..errors import BalcliError
-from ..limits import HIGHEST_TORSION_ORDER, MOST_TORSION_SPEEDS
+from ..limits import HIGHEST_TORSION_ORDER
 from ..torsion.analysis import HolzerAsked, Question
 from ..torsion.damper_sizing import DamperAsked
+from .speed_range import parse_speeds
 
 _FREQUENCY = Dimension("rad/s", "a frequency", Powers(time=-1, angle=1), ("20 rad/s",))
 _HERTZ = re.compile(r"\s*([0-9.eE+-]+)\s*Hz\s*")
-
-
-def parse_speeds(text: str | None) -> Real | None:
-    """Speeds of `1000:2500:25` (first, last, step), `1000:2500` (100 steps) or `1500,2000`, rpm,
-    rising.
-
-    Raises:
-        BalcliError: anything else, with the text.
-    """
-    if text is None:
-        return None
-    right = "give first:last:step in rpm, such as 1000:2500:25, or speeds such as 1500,2000"
-    start = f'--speeds "{text[:60]}": '
-    try:
-        ranged = ":" in text
-        figures = [float(part) for part in text.split(":" if ranged else ",")]
-    except ValueError:
-        raise BalcliError(start + right) from None
-    if not all(0 < figure < 1e9 for figure in figures) or (ranged and len(figures) > 3):
-        raise BalcliError(start + right)
-    if not ranged:
-        return np.unique(figures)
-    first, last, step = (*figures, (figures[1] - figures[0]) / 100)[:3]
-    if not (first <= last and (step > 0 or first == last)):
-        raise BalcliError(f"{start}must rise; {right}")
-    if first == last:
-        return np.array([first])
-    count = int((last - first) / step + 1e-9) + 1
-    if count > MOST_TORSION_SPEEDS:
-        raise BalcliError(f"{start}has {count} speeds; at most {MOST_TORSION_SPEEDS} are computed")
-    speeds = first + step * np.arange(count)
-    return speeds if speeds[-1] >= last - 1e-9 * step else np.append(speeds, last)
 
 
 def parse_half_orders(text: str | None) -> Real | None:

@@ -252,7 +252,9 @@ class PressureOnPiston(GasTorque):
 
 
 def crank_torque(
-    cylinders: Sequence[tuple[GasTorque, float, float]], also: Function | None = None
+    cylinders: Sequence[tuple[GasTorque, float, float]],
+    also: Function | None = None,
+    period: float | None = None,
 ) -> PiecewiseCurve:
     """Torque of several cylinders over one cycle, N m, at crank angles in [0, period].
 
@@ -260,11 +262,12 @@ def crank_torque(
         cylinders: each with the crank angle (rad) of its firing dead centre and its share, by which
             its gas torque is multiplied.
         also: any further smooth torque at crank angles (rad), such as that of inertia.
+        period: after which all of it repeats itself, rad; None: after a cycle.
     """
-    period = cylinders[0][0].curve.period
+    span = cylinders[0][0].curve.period if period is None else period
 
     def total(angle: Array) -> Array:
         rest = np.zeros(angle.shape) if also is None else also(angle)
         return sum((share * gas.curve.at(angle - fires) for gas, fires, share in cylinders), rest)
 
-    return resolved(total, merged_breaks([(g.breaks, fires) for g, fires, _ in cylinders], period))
+    return resolved(total, merged_breaks([(g.breaks, fires) for g, fires, _ in cylinders], span))

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .peaks import MOST_CANDIDATES, NEAR_TOP, find_move, peak
+from .peaks import MOST_CANDIDATES, NEAR_TOP, find_move, find_peak
 from .phasors import Array, Complex, Phasors
 
 _AT_ONCE = 1 << 16  # samples of curves
@@ -70,7 +70,7 @@ def _climb_all(curves: _Curves) -> Array:
     largest: Array = np.maximum.reduceat(values, starts)
     for k in np.flatnonzero(np.bincount(curve) > MOST_CANDIDATES):  # level but for little
         orders, noise = curves.orders.astype(float), np.zeros(1)
-        largest[k] = peak(Phasors(orders, curves.forward[k], curves.backward[k], noise)).value
+        largest[k] = find_peak(Phasors(orders, curves.forward[k], curves.backward[k], noise)).value
     return largest
 
 

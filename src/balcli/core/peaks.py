@@ -31,7 +31,7 @@ _ROUNDS = 4  # of Newton's method on it
 _DIGITS = 8  # to which they are
 
 
-def peak(curve: Phasors) -> Peak:
+def find_peak(curve: Phasors) -> Peak:
     """The global maximum of |F|, to rounding, or to 1e-8 where more than 64 maxima are that near to
     it.
 
@@ -45,7 +45,7 @@ def peak(curve: Phasors) -> Peak:
         return Peak(0.0, 0.0)
     curve = Phasors(curve.orders[there], curve.forward[there], curve.backward[there], np.zeros(1))
     if np.count_nonzero(curve.orders % 1):  # of half the crank angle all are whole
-        value, half = peak(replace(curve, orders=2 * curve.orders))
+        value, half = find_peak(replace(curve, orders=2 * curve.orders))
         return Peak(value, 2 * half)
     theta = find_candidates(curve)
     step = np.pi / (8 * max(curve.orders[-1], 1))

@@ -63,7 +63,7 @@ def compose(real: Array, imaginary: Array) -> Complex:
     return result
 
 
-def reduced(degrees: ArrayLike, turn: float) -> Array:
+def wrap_degrees(degrees: ArrayLike, turn: float) -> Array:
     """The same direction in (-turn/2, turn/2], any shape; `turn` is 180 for lines, 360 for
     vectors.
     """
@@ -130,7 +130,7 @@ class Phasors:
         moment = np.conjugate(p) * self.forward - p * np.conjugate(self.backward)
         return Phasors.from_scalar(self.orders, -1j * moment, 2 * np.abs(p) * self.noise)
 
-    def settled(self) -> Phasors:
+    def drop_noise(self) -> Phasors:
         """The same with whatever lies within its rounding error set to exactly 0, each of both
         vectors for itself.
         """
@@ -200,7 +200,7 @@ class Phasors:
         mean.
         """
         angle = np.degrees((np.angle(self.forward) + np.angle(self.backward)) / 2)
-        turned = reduced(angle, 180)
+        turned = wrap_degrees(angle, 180)
         turned = np.where(
             turned < 1e-9 - 90, 90.0, turned
         )  # rounding shall not turn an axis end for end

@@ -142,6 +142,13 @@ class PiecewiseCurve:
         series[0] += constant
         return PiecewiseCurve(self.breaks, series)
 
+    def repeated(self, times: int) -> PiecewiseCurve:
+        """The same over a period so many times as long."""
+        start = self.period * np.arange(times)[:, None]
+        inner = (self.breaks[:-1] + start).reshape(-1)
+        end = self.breaks[0] + self.period * times
+        return PiecewiseCurve(np.append(inner, end), np.tile(self.series, (1, times)))
+
     def harmonics(self, highest: int) -> Complex:
         """Coefficients c_k, k = 0 .. `highest`, of `Re sum c_k e^{2 pi i k angle/period}`; c_0 is
         the mean.

@@ -16,7 +16,7 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from .peaks import Peak, peak
+from .peaks import Peak, find_peak
 from .phasors import EPS, Complex, Figure, Phasors, unit
 
 Line: TypeAlias = tuple[float, Figure, Figure]  # order, amplitude, angle in degrees
@@ -54,7 +54,7 @@ def find_slowest(lines: Sequence[tuple[float, float, float]]) -> Peak:
     w, size = find_speed(lines, step), sum(abs(amplitude) for _, amplitude, _ in lines)
     orders = np.arange(len(w) // 2 + 1.0) * step
     rest = np.where(orders, -w[len(w) // 2 :], size)
-    top = peak(Phasors(orders, rest, np.where(orders, rest.conj(), 0), np.zeros(1)))
+    top = find_peak(Phasors(orders, rest, np.where(orders, rest.conj(), 0), np.zeros(1)))
     return Peak(1 + size - top.value, top.theta)
 
 

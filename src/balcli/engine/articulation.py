@@ -173,11 +173,12 @@ def _sample_leans(hung: Articulated, lam: Array, eps: Array) -> Array:
     lock, over a revolution: shape (cylinders, STEPS).
     """
     count = len(hung.master)
+    given = hung.figures(lam, eps)
+    _, *variants_shape = np.broadcast_shapes(*(np.shape(f) for f in given))
     doubtful = np.any(hung.bound_lean(lam, eps) > 1 - NEAREST_TO_LOCK, axis=0)
-    variants = np.flatnonzero(doubtful)
-    shape = count, *doubtful.shape
+    variants = np.flatnonzero(np.broadcast_to(doubtful, variants_shape))
     figures: list[NDArray[Any]] = [
-        np.broadcast_to(f, shape).reshape(count, -1) for f in hung.figures(lam, eps)
+        np.broadcast_to(f, (count, *variants_shape)).reshape(count, -1) for f in given
     ]
     leans = np.zeros((count, STEPS))
     step = max(_AT_ONCE // leans.size, 1)

@@ -71,13 +71,14 @@ class Assembly:
     ) -> None:
         self.model = model
         self.figures = Figures(varied or {}, model)
-        self.varies = bool(varied) or rank > 0
         self.rank = max(rank, *map(np.ndim, (varied or {}).values()), 0)
         self.legible = frozenset(legible)
         self._gears: dict[tuple[int, bool], RunningGear] = {}
-        # Beside given throws a firing order would have to fit every variant, and adds nothing.
+        # Beside given throws a firing order would have to fit every variant, and adds nothing, but
+        # to the gas of a single one.
         self.order = model.layout.firing_order
-        if varied and "crank" in self.legible and model.crank.throws is not None:
+        needed = model.gas is not None and not self.rank
+        if varied and not needed and "crank" in self.legible and model.crank.throws is not None:
             self.order = None
         # In which the crank turns, seen from a cylinder.
         self.sense = -1 if model.layout.rotary else 1
@@ -412,7 +413,7 @@ class Assembly:
     @cached_property
     def gas(self) -> EngineGas | None:
         """Gas of the cylinders; None without [gas], and for variants, whose figures are arrays."""
-        if self.model.gas is None or self.varies:
+        if self.model.gas is None or self.rank:
             return None
         from .gas import build_gas  # files without [gas] do not pay for it
 

@@ -89,7 +89,8 @@ class Engine:
         weighed: masses behind each row of `cylinders`.
         places_known: whether the file says where its throws stand along the crank; if not, they
             count as standing in one plane, and what is said of moments means nothing.
-        gas: what the gas does in the cylinders; None where the file does not say, and for variants.
+        gas: what the gas does in the cylinders; None where the file does not say, and for arrays
+            of variants.
         crank_inertia: polar moment of inertia of the crankshaft with throws and counterweights, kg
             m2; None where the file gives none.
         flywheel_inertia: that of the flywheel, kg m2, likewise.

@@ -47,6 +47,14 @@ class Figures:
         """All members of a list, which vary one by one (`crank.throws.2`)."""
         return tuple(self._varied.get(f"{path}.{k}", value) for k, value in enumerate(given, 1))
 
+    def of_table(self, start: str) -> dict[str, Figure]:
+        """What varies of a table's own figures, by their keys."""
+        return {
+            path[len(start) + 1 :]: value
+            for path, value in self._varied.items()
+            if path.rpartition(".")[0] == start
+        }
+
     def is_displaced(self, path: str) -> bool:
         """Whether a figure, list or table of the file counts as not given."""
         return path in self._displaced

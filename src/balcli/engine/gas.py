@@ -7,7 +7,7 @@ fires; which of the two revolutions of a four-stroke cycle that is, the firing o
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -25,9 +25,10 @@ from ..core.cylinder_pressure import (
 )
 from ..core.gas_cycle import Goal, Process, gas_cycle
 from ..core.gas_cycle import mistakes as cycle_mistakes
+from ..core.phasors import Figure
 from ..core.tangential_force import tangential_torque
 from ..enginefile.csv_columns import Columns, locate_beside, read_columns
-from ..enginefile.gas_tables import DIAGRAM_KEYS, Gas
+from ..enginefile.gas_tables import DIAGRAM_KEYS, GOALS, Gas
 from ..errors import BalcliError, InputError, Problem
 
 if TYPE_CHECKING:
@@ -123,7 +124,7 @@ class _Builder:
         gas = parts.model.gas
         if gas is None:
             raise ValueError("an engine file without [gas]")
-        self.parts, self.gas = parts, gas
+        self.parts, self.gas = parts, _vary(gas, parts.figures.of_table("gas"))
         self.strokes = parts.model.layout.strokes
         self.problems: list[Problem] = []
         self.doubts: list[str] = []
@@ -133,7 +134,7 @@ class _Builder:
     def build(self) -> EngineGas:
         self.problems += self._check_tables()
         self._refuse()
-        c, bore = self.parts.cylinders, self.parts.model.piston.bore or 0.0
+        c, bore = self.parts.cylinders, self._bore or 0.0
         found = pistons(c, math.pi / 4 * (bore / 1e3) ** 2)
         mechanisms = self._name_mechanisms()
         torques = [
@@ -161,7 +162,7 @@ class _Builder:
     # -------------------------------------------------------------- what does not fit together
     def _check_tables(self) -> Iterator[Problem]:
         model, gas = self.parts.model, self.gas
-        if model.piston.bore is None:
+        if self._bore is None:
             yield Problem("piston.bore", "is missing; gas presses on its area, such as bore = 86")
         if self.strokes == 4 and self.parts.order is None and len(self.parts.numbers) > 1:
             yield Problem(
@@ -179,10 +180,18 @@ class _Builder:
                 "gas.zero", 'a two-stroke cycle has no gas-exchange dead centre; give "firing"'
             )
 
+    @property
+    def _bore(self) -> float | None:
+        """Mm."""
+        given = self.parts.model.piston.bore
+        found = self.parts.figures.take_optional("piston.bore", given)
+        return None if found is None else float(found)
+
     # -------------------------------------------------------------- one cylinder
     def _share(self, number: int) -> float:
         own = self.parts.model.cylinder.get(number)
-        return 1.0 if own is None or own.gas is None else own.gas
+        given = 1.0 if own is None or own.gas is None else own.gas
+        return float(self.parts.figures.take(f"cylinder.{number}.gas", given))
 
     def _source(self, number: int) -> _Source:
         own = self.parts.model.cylinder.get(number)
@@ -355,6 +364,17 @@ class _Builder:
             at += 360.0 * round((wanted - top - at) / 360.0)
             found.append(at % cycle)
         return found
+
+
+def _vary(gas: Gas, varied: Mapping[str, Figure]) -> Gas:
+    """With other figures in place of some; a goal in place of another one."""
+    if not varied:
+        return gas
+    update: dict[str, float | None] = {key: float(value) for key, value in varied.items()}
+    if new := [key for key in GOALS if key in varied]:
+        kept = ("max_pressure",) if gas.cycle == "dual" else ()
+        update = dict.fromkeys((g for g in GOALS if g not in (*new, *kept)), None) | update
+    return gas.model_copy(update=update)
 
 
 def find_goal(gas: Gas) -> Goal:

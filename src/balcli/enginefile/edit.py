@@ -11,35 +11,42 @@ from typing import Any
 
 HEAD = re.compile(r"(?m)^[ \t]*\[\[?[ \t\w.\"'-]+\]\]?[ \t]*(?:#.*)?$")
 # that can be replaced: a flat list, a string, a number
-_VALUE = r"""\[[^\[\]]*\]|"[^"\n]*"|'[^'\n]*'|[^\s#\[\]{"']+"""
+_VALUE = r"""\[[^\[\]]*\]|"[^"\n]*"|'[^'\n]*'|[^\s,#\[\]{}"']+"""
+_COMMENT = r"([ \t]*#.*)|[ \t]*$"
 
 
-def changed(text: str, table: str, keys: Mapping[str, Any], note: str) -> str:
+def set_keys(text: str, table: str, keys: Mapping[str, Any], note: str) -> str:
     """With these keys of a table set (None: left out), comments kept.
 
     A key keeps its place and its comment, to which the note is added; a new one comes first in its
-    table. Where the table is written in an unusual way (inline, dotted), so that a key cannot be
-    put in, the file is written anew, without comments.
+    table. The table may have its own heading, dotted keys or braces; where it is written in a more
+    unusual way, so that a key cannot be put in, the file is written anew, without comments.
     """
-    new = text.replace("\r\n", "\n")
-    wanted = tomllib.loads(new)
+    wanted = tomllib.loads(text)
+    new: str | None = text.replace("\r\n", "\n")
     for key, value in keys.items():
         if wanted.get(table, {}).get(key) == value:
             continue
         wanted[table] = {
             k: v for k, v in {**wanted.get(table, {}), key: value}.items() if v is not None
         }
-        new = _changed(new, table, key, value, note)
-    try:
-        done = {table: {}, **tomllib.loads(new)} == {table: {}, **wanted}
-    except tomllib.TOMLDecodeError:
-        done = False
-    if not done:
-        return anew(wanted, f"its [{table}] is written in an unusual way")
+        if new is not None:
+            ways = (edit(new, table, key, value, note) for edit in _EDITS)
+            new = next((found for found in ways if _says(found, table, wanted)), None)
+    if new is None:
+        return rewrite(wanted, f"its [{table}] is written in an unusual way")
     return new.replace("\n", "\r\n") if "\r\n" in text else new
 
 
-def anew(data: Mapping[str, Any], reason: str) -> str:
+def _says(text: str, table: str, wanted: Mapping[str, Any]) -> bool:
+    """Whether a text is TOML that says what is wanted, but for an empty table."""
+    try:
+        return {table: {}, **tomllib.loads(text)} == {table: {}, **wanted}
+    except tomllib.TOMLDecodeError:
+        return False
+
+
+def rewrite(data: Mapping[str, Any], reason: str) -> str:
     """All of a file in the order of its keys, under a comment that says why no other is left."""
     import tomli_w
 
@@ -49,30 +56,79 @@ def anew(data: Mapping[str, Any], reason: str) -> str:
     )
 
 
-def written(value: Any) -> str:
+def format_value(value: Any) -> str:
     """A number, or lists and tables of them, as TOML has it: the shortest decimals that read back
     to the same number.
     """
     if isinstance(value, (list, tuple)):
-        return f"[{', '.join(map(written, value))}]"
+        return f"[{', '.join(map(format_value, value))}]"
     if isinstance(value, Mapping):
-        return f"{{ {', '.join(f'{key} = {written(inner)}' for key, inner in value.items())} }}"
+        return (
+            f"{{ {', '.join(f'{key} = {format_value(inner)}' for key, inner in value.items())} }}"
+        )
     return repr(value)
 
 
-def _changed(text: str, table: str, key: str, value: Any, note: str) -> str:
+# ------------------------------------------------------------------ one key, in one way of writing
+def _change_in_table(text: str, table: str, key: str, value: Any, note: str) -> str:
+    """Under the table's own heading; with a new one at the end where there is none."""
     head = re.search(rf"(?m)^[ \t]*\[[ \t]*{table}[ \t]*\][ \t]*(?:#.*)?$", text)
-    line = f"{key} = {written(value)}    # {note}\n"
+    line = f"{key} = {format_value(value)}    # {note}\n"
     if head is None:
         return text if value is None else f"{text.rstrip()}\n\n[{table}]\n{line}"
     following = HEAD.search(text, head.end())
     end = following.start() if following else len(text)
     before, body, after = text[: head.end()] + "\n", text[head.end() + 1 : end], text[end:]
-    old = re.search(rf"(?m)^([ \t]*{key}[ \t]*=[ \t]*)(?:{_VALUE})(?:([ \t]*#.*)|[ \t]*$)\n?", body)
+    changed_body = _change_line(body, key, value, note)
+    if changed_body is None:
+        changed_body = line * (value is not None) + body
+    return before + changed_body + after
+
+
+def _change_dotted(text: str, table: str, key: str, value: Any, note: str) -> str:
+    """As `table.key = value`, above all headings; a new key before the others of its table."""
+    first = HEAD.search(text)
+    end = first.start() if first else len(text)
+    top, rest = text[:end], text[end:]
+    dotted = rf"{table}[ \t]*\.[ \t]*"
+    found = _change_line(top, dotted + key, value, note)
+    if found is None:
+        line = f"{table}.{key} = {format_value(value)}    # {note}\n" if value is not None else ""
+        found = re.sub(rf"(?m)^(?=[ \t]*{dotted}\w)", lambda _: line, top, count=1)
+    return found + rest
+
+
+def _change_line(lines: str, key: str, value: Any, note: str) -> str | None:
+    """Lines with the value of a key (a regular expression) changed, or without it; None if there is
+    no such line.
+    """
+    old = re.search(rf"(?m)^([ \t]*{key}[ \t]*=[ \t]*)(?:{_VALUE})(?:{_COMMENT})\n?", lines)
     if old is None:
-        return before + line * (value is not None) + body + after
-    comment = (
-        f"    # {note}" if old[2] is None else old[2].rstrip() + f" ({note})" * (note not in old[2])
-    )
-    line = "" if value is None else f"{old[1]}{written(value)}{comment}\n"
-    return before + body[: old.start()] + line + body[old.end() :] + after
+        return None
+    line = "" if value is None else f"{old[1]}{format_value(value)}{_add_note(old[2], note)}\n"
+    return lines[: old.start()] + line + lines[old.end() :]
+
+
+def _change_inline(text: str, table: str, key: str, value: Any, note: str) -> str:
+    """Within `table = { key = value, ... }`; a new key comes first."""
+    braces = rf"(?m)^([ \t]*{table}[ \t]*=[ \t]*\{{)(.*)\}}(?:{_COMMENT})"
+    old = re.search(braces, text)
+    if old is None:
+        return text
+    item = "" if value is None else f" {key} = {format_value(value)}"
+    place = rf"(^|,)[ \t]*{key}[ \t]*=[ \t]*(?:{_VALUE})[ \t]*(?=,|$)"
+    inside, there = re.subn(place, lambda found: (found[1] + item) if item else "", old[2])
+    items = [part for part in ("" if there else item, inside) if part.strip(" \t,")]
+    inside = ",".join(items).strip(" \t,")
+    line = f"{old[1]} {inside} }}{_add_note(old[3], note)}"
+    return text[: old.start()] + line + text[old.end() :]
+
+
+def _add_note(comment: str | None, note: str) -> str:
+    """A comment, or none, with the note after it."""
+    if comment is None:
+        return f"    # {note}"
+    return comment.rstrip() + f" ({note})" * (note not in comment)
+
+
+_EDITS = (_change_in_table, _change_dotted, _change_inline)

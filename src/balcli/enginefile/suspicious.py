@@ -16,6 +16,8 @@ from .model import Counterweight, EngineFile
 # (racing to lorry), in cast iron up to 3000. The limits leave room beyond; a slip from g to kg is a
 # factor of 1000.
 PISTON_LIGHT, PISTON_HEAVY = 100.0, 5000.0  # kg/m^3
+CROSSHEAD_HEAVY = 40_000.0  # with piston rod and crosshead, where the stroke is LONG_STROKE bores
+LONG_STROKE = 2.5
 LAMBDA_LOW, LAMBDA_HIGH = 0.15, 0.4  # crank radius / rod length: engines have 0.2 to 0.35
 BORE_SHORT, BORE_LONG = 0.2, 3.0  # bore / stroke: crosshead from 0.25, racing engines to 2.5
 ROD_LIGHT, ROD_HEAVY = 0.1, 8.0  # rod mass / piston mass: engines have 0.7 to 2.5
@@ -41,8 +43,12 @@ def _piston(model: EngineFile) -> Iterator[str]:
             "piston.mass is 0: only the rod moves to and fro; give the mass of piston, pin, rings "
             "and locks"
         )
-    elif bore is not None and not PISTON_LIGHT <= mass / (bore * 1e-3) ** 3 <= PISTON_HEAVY:
-        low, high = (limit * (bore * 1e-3) ** 3 for limit in (PISTON_LIGHT, PISTON_HEAVY))
+        return
+    if bore is None:
+        return
+    heavy = CROSSHEAD_HEAVY if model.crank.stroke > LONG_STROKE * bore else PISTON_HEAVY
+    low, high = (limit * (bore * 1e-3) ** 3 for limit in (PISTON_LIGHT, heavy))
+    if not low <= mass <= high:
         yield (
             f"piston.mass is {mass:.4g} kg in a bore of {bore:g} mm, where {low:.2g} to "
             f"{high:.2g} kg is usual; "

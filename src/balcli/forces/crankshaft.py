@@ -15,7 +15,7 @@ import numpy as np
 
 from ..core.cylinders import Device
 from ..core.levers import share_by_lever
-from ..core.peaks import Peak, peak
+from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Phasors
 from ..engine.arrays import ranked
 from ..engine.build import Engine
@@ -149,12 +149,12 @@ def _sum_weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
         loads.forward @ weights.T,
         loads.backward @ weights.T,
         loads.noise @ np.abs(size).T,
-    ).settled()
+    ).drop_noise()
 
 
 def _with_peaks(places: Array, phasors: Phasors, orders: Array) -> AlongCrank:
     """Phasors of all orders, shape (orders, places), and their peaks; only these orders are
     kept.
     """
-    peaks = tuple(peak(phasors.select_place(place)) for place in range(len(places)))
+    peaks = tuple(find_peak(phasors.select_place(place)) for place in range(len(places)))
     return AlongCrank(places, phasors.select_orders(orders), peaks)

@@ -47,7 +47,7 @@ def take_gas(engine: Engine) -> EngineGas:
 
 
 def compute_gas_torque(engine: Engine, orders: Array) -> Phasors:
-    """Torque of all cylinders' gas on the crank, N m, not settled.
+    """Torque of all cylinders' gas on the crank, N m, noise included.
 
     Args:
         engine: without trailing axes.

@@ -29,11 +29,13 @@ class GuideMoments:
             where all cylinders stand at one place, or it is not known where they stand.
         height_m: L of each row of `engine.numbers`, from the crankshaft to the middle of the
             guide, shape (cylinders,).
+        with_gas: whether the roll of the gas is in it.
     """
 
     h: Phasors
     x: Phasors | None
     height_m: Array
+    with_gas: bool = False
 
 
 def compute_guide_moments(
@@ -66,7 +68,7 @@ def compute_guide_moments(
     if orders is None:
         orders = every[due]
     chosen_x = None if x is None else x.select_orders(orders)
-    return GuideMoments(h.select_orders(orders), chosen_x, height)
+    return GuideMoments(h.select_orders(orders), chosen_x, height, engine.gas is not None)
 
 
 def _find_orders(engine: Engine) -> Array:
@@ -87,4 +89,4 @@ def _rod_lengths(engine: Engine) -> Array:
 def _sum_weighted(rolls: Phasors, weights: Array) -> Phasors:
     """Sum over the cylinders of phasors of shape (orders, cylinders), each times its weight."""
     total = [float(weight) * rolls.select_place(row) for row, weight in enumerate(weights)]
-    return sum(total[1:], total[0]).settled()
+    return sum(total[1:], total[0]).drop_noise()

@@ -54,6 +54,14 @@ def parse_order(text: str) -> float | None:
     return number if is_order(number) else None
 
 
+def split_order(text: str) -> tuple[float | None, str]:
+    """`1.5.amplitude` as the order 1.5 and what comes after it; None where there is no order."""
+    match = re.fullmatch(r"([^.]*(?:\.[05](?=\.|$))?)(?:\.(.*))?", text, re.DOTALL)
+    if match is None:
+        return None, text
+    return parse_order(match[1]), match[2] or ""
+
+
 def find_relevant_orders(engine: Engine) -> Array:
     """The orders 1 .. n beyond which nothing exceeds rounding errors, shape (orders,); 0 .. n at
     uneven speed, with halves where its lines have some.

@@ -17,7 +17,7 @@ from ..enginefile.fields import nearest
 from ..errors import BalcliError
 from ..limits import HIGHEST_ORDER
 from .kinds import KINDS, VECTORS
-from .orders import find_relevant_orders, parse_order
+from .orders import find_relevant_orders, split_order
 from .spectrum import compute_spectra
 
 _SIZES = ("major", "minor", "forward", "backward")
@@ -92,8 +92,7 @@ def _parse_quantity(text: str) -> Quantity:
         near = nearest(kind, (*KINDS, "peak"))
         hint = f"did you mean {near}?" if near else f"it begins with {', '.join(KINDS)} or peak"
         raise BalcliError(f"{text} is no quantity: {hint}")
-    number, _, part = rest.partition(".")
-    order = parse_order(number)
+    order, part = split_order(rest)
     allowed = VECTOR_PARTS if KINDS[kind].vector else SCALAR_PARTS
     if order is None:
         raise BalcliError(

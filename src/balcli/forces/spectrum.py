@@ -158,10 +158,10 @@ def count_samples(engine: Engine) -> int:
 def compute_device_force(engine: Engine, device: Device, orders: Array) -> Phasors:
     """Force of one device of an engine without trailing axes, N, for these orders."""
     if not engine.ripple:
-        return find_device_force(device, orders, engine.omega**2).settled()
+        return find_device_force(device, orders, engine.omega**2).drop_noise()
     w, dense = _mix_orders(engine, orders)
-    steady = find_device_force(device, dense, engine.omega**2).settled()
-    return ripple.apply_to_force(steady, w).select_orders(orders).settled()
+    steady = find_device_force(device, dense, engine.omega**2).drop_noise()
+    return ripple.apply_to_force(steady, w).select_orders(orders).drop_noise()
 
 
 def _compute(engine: Engine, orders: ArrayLike, kinds: Collection[str], *, apart: bool) -> Spectra:
@@ -174,7 +174,7 @@ def _compute(engine: Engine, orders: ArrayLike, kinds: Collection[str], *, apart
         found, _ = _compute_steady(engine, wanted, inertia, apart)
     if "gas" in parts:
         found["gas"] = _compute_gas(engine, wanted, apart=apart)
-    every = {name: add_parts(EVERY_KIND[name], found).settled() for name in kinds}
+    every = {name: add_parts(EVERY_KIND[name], found).drop_noise() for name in kinds}
     return Spectra(wanted, **every)
 
 
@@ -252,7 +252,7 @@ def _compute_uneven(
     """Phasors of some parts by name at an uneven speed."""
     w, dense = _mix_orders(engine, orders)
     steady, loads = _compute_steady(engine, dense, parts, apart)
-    found = {name: phasors.settled() for name, phasors in steady.items()}
+    found = {name: phasors.drop_noise() for name, phasors in steady.items()}
     for name, phasors in found.items():
         if name == "torque":
             uneven = ripple.apply_to_torque(phasors, w, loads.mean_inertia)

@@ -37,6 +37,13 @@ class Fitted(NamedTuple):
     response: Response
 
 
+class Other(NamedTuple):
+    """What is shown beside: the engine with a scheme, or another engine on the same mounts."""
+
+    name: str
+    response: Response
+
+
 @dataclass(frozen=True, eq=False)
 class MountReport:
     """The answer.
@@ -47,6 +54,7 @@ class MountReport:
         modes: what it is by itself.
         response: to its engine; None where the file has no engine.
         fitted: with a scheme, if one was asked for.
+        others: other engines on the same body and mounts.
     """
 
     name: str
@@ -54,6 +62,14 @@ class MountReport:
     modes: BodyModes
     response: Response | None = None
     fitted: Fitted | None = None
+    others: tuple[Other, ...] = ()
+
+    @property
+    def beside(self) -> tuple[Other, ...]:
+        """All that is shown beside the engine itself."""
+        if self.fitted is None:
+            return self.others
+        return (Other(self.fitted.remedy.scheme, self.fitted.response), *self.others)
 
     @property
     def meetings(self) -> tuple[Meeting, ...]:
@@ -81,16 +97,18 @@ def report_mounts(
     speeds_rpm: Real | None = None,
     orders: Sequence[float] | None = None,
     scheme: str | None = None,
+    others: Sequence[tuple[str, Engine]] = (),
     name: str = "",
 ) -> MountReport:
     """Modes and rest of a body on its mounts, and its response to its engine.
 
     Args:
         model: with [body] and [[mount]].
-        engine: None: modes and rest alone.
+        engine: None: the first of the others, or modes and rest alone.
         speeds_rpm: (speeds,), rising; default: from an eighth of the engine's speed to this.
         orders: default: all that are considerable.
         scheme: of `sizing.schemes.SCHEMES`; the response is also that with its devices.
+        others: names and engines that are put on the same body and mounts, at the same speeds.
         name: of the file, for messages.
 
     Raises:
@@ -98,12 +116,15 @@ def report_mounts(
         BalcliError: as of `respond`; a scheme that cannot be fitted.
     """
     mounted = build_mounted_body(model, name)
+    title = model.name
+    if engine is None and others:
+        (title, engine), *others = others
     if engine is None:
-        return MountReport(model.name, mounted, find_mounted_modes(mounted))
+        return MountReport(title, mounted, find_mounted_modes(mounted))
     try:
-        return _run(model.name, mounted, engine, speeds_rpm, orders, scheme)
+        return _run(title, mounted, engine, speeds_rpm, orders, scheme, others)
     except BalcliError as error:
-        raise BalcliError(f"{name}: {error}") from None
+        raise BalcliError(f"{name}: {error}" if name else str(error)) from None
 
 
 def _run(
@@ -113,6 +134,7 @@ def _run(
     speeds_rpm: Real | None,
     orders: Sequence[float] | None,
     scheme: str | None,
+    others: Sequence[tuple[str, Engine]],
 ) -> MountReport:
     rpm = choose_speeds(engine) if speeds_rpm is None else speeds_rpm
     omega = rpm * (np.pi / 30)
@@ -126,4 +148,11 @@ def _run(
         balanced = fit_devices(engine, remedy)
         left = find_loads(balanced, mounted.body.centre, asked)
         fitted = Fitted(remedy, respond(mounted, modes, left, omega))
-    return MountReport(name, mounted, modes, response, fitted)
+    beside = tuple(
+        Other(
+            label,
+            respond(mounted, modes, find_loads(other, mounted.body.centre, asked), omega),
+        )
+        for label, other in others
+    )
+    return MountReport(name, mounted, modes, response, fitted, beside)

@@ -70,25 +70,34 @@ def sheet(result: Balance, system: System) -> Sheet:
 
 
 def _permitted(result: Balance, system: System) -> Iterator[Grid]:
-    """What a grade permits beside each counterweight, if one was asked for."""
+    """What a grade permits beside each counterweight, or in each plane that has some already, if
+    one was asked for.
+    """
     if result.permitted is None:
         return
-    unit, each = system.unbalance, result.permitted.each
-    rows = [
+    remedy, unit, length = result.remedy, system.unbalance, system.length
+    each, rpm = result.permitted.each, result.before.engine.speed_rpm
+    if remedy.needs:
+        head, what = f"plane at z, {length.name}", "missing"
+        found = [(number(length.of(need.z)), abs(need.missing)) for need in remedy.needs]
+    else:
+        head, what = "counterweight", "unbalance"
+        weights = result.practical[: len(remedy.counterweights)]
+        found = [(str(k), weight.unbalance) for k, weight in enumerate(weights, 1)]
+    rows = tuple(
         (
-            str(k),
-            number(unit.of(p.unbalance)),
+            name,
+            number(unit.of(size)),
             number(unit.of(each), 4),
-            f"{each / p.unbalance:.2%}" if p.unbalance else "–",
+            f"{each / size:.2%}" if size else "–",
         )
-        for k, p in enumerate(result.practical[: len(result.remedy.counterweights)], 1)
-    ]
+        for name, size in found
+    )
     yield Grid(
         f"Permitted residual unbalance, ISO 21940-11, G {result.permitted.grade:g}",
-        ("counterweight", f"unbalance, {unit.name}", f"permitted, {unit.name}", "share"),
-        tuple(rows),
-        f"A crankshaft of {result.permitted.mass:g} kg at {result.before.engine.speed_rpm:g} rpm; "
-        "all counterweights share alike.",
+        (head, f"{what}, {unit.name}", f"permitted, {unit.name}", "share"),
+        rows,
+        f"A crankshaft of {result.permitted.mass:g} kg at {rpm:g} rpm; all share alike.",
     )
 
 

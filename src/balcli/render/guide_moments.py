@@ -13,13 +13,15 @@ if TYPE_CHECKING:
     from ..forces.guide_moments import GuideMoments
     from .units import System, Unit
 
+_ALONE = "of inertia alone, without gas"
+
 
 def sheet_parts(guide: GuideMoments, system: System) -> Iterator[Grid]:
     """One table, an order a row."""
     both = [moment for moment in (guide.h, guide.x) if moment is not None]
     unit = system.moment.fit(max(float(moment.major.max(initial=0)) for moment in both))
     yield Grid(
-        f"Guide-force moments of inertia alone, without gas, {unit.name}",
+        f"Guide-force moments {'of inertia and gas' if guide.with_gas else _ALONE}, {unit.name}",
         ("order", "H-type", "X-type"),
         tuple(
             (
@@ -45,7 +47,7 @@ def document(guide: GuideMoments) -> dict[str, Any]:
             for order, entry in zip(orders, scalar_entries(moment), strict=True):
                 order[key] = entry
     return {
-        "includes": "inertia, without gas",
+        "includes": "inertia and gas" if guide.with_gas else "inertia, without gas",
         "height_m": [clean(height) for height in guide.height_m],
         "orders": orders,
     }

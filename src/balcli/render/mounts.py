@@ -57,13 +57,13 @@ def _answer(result: MountReport, system: System) -> Iterator[str]:
         yield "Of inertia alone: the torque of the gas, which rolls an engine too, is not in this."
     else:
         yield "Of inertia and the torque of the gas, the same diagram at every speed."
-    if result.fitted is not None:
-        after = max(result.fitted.response.worst_force, key=lambda one: one.value)
+    for other in result.beside:
+        after = max(other.response.worst_force, key=lambda one: one.value)
         change = after.value / worst.value - 1 if worst.value else 0.0
         less = f"{abs(change):.0%} {'less' if change < 0 else 'more'}"
         less = "as much" if abs(change) < _SAME else less
         yield (
-            f"With {result.fitted.remedy.scheme} the largest force of any mount is "
+            f"With {other.name} the largest force of any mount is "
             f"{number(force.of(after.value), 4)} {force.name} at {number(after.omega * _RPM, 4)} "
             f"rpm: {less}."
         )
@@ -119,9 +119,9 @@ def _worst_motions(result: MountReport, system: System) -> Grid:
 
 
 def _responses(result: MountReport) -> list[Response]:
-    """Without a scheme, and with it."""
-    fitted = [] if result.fitted is None else [result.fitted.response]
-    return fitted if result.response is None else [result.response, *fitted]
+    """Of the engine itself, and of all beside it."""
+    own = [] if result.response is None else [result.response]
+    return [*own, *(other.response for other in result.beside)]
 
 
 def _worst(
@@ -133,15 +133,15 @@ def _worst(
     convert: Any,
 ) -> Grid:
     heads = [head, "all orders", "at, rpm", "largest order", "alone"]
-    if result.fitted is not None:
-        heads += [f"with {result.fitted.remedy.scheme}", "at, rpm"]
+    for other in result.beside:
+        heads += [f"with {other.name}", "at, rpm"]
     rows = []
     for k, name in enumerate(names):
         first = several[0][k]
         cells = [name, number(convert(first.value), 4), _rpm(first.omega)]
         cells += [str(order_number(first.order)), number(convert(first.alone), 4)]
-        for other in several[1:]:
-            cells += [number(convert(other[k].value), 4), _rpm(other[k].omega)]
+        for beside in several[1:]:
+            cells += [number(convert(beside[k].value), 4), _rpm(beside[k].omega)]
         rows.append(tuple(cells))
     note = (
         "The largest value over the cycle, orders added up in time; over all speeds of the range."
@@ -246,8 +246,8 @@ def _by_speed(result: MountReport, system: System) -> Grid:
     response = _responses(result)[0]
     heads = ["rpm", *result.mounted.names]
     several = _responses(result)
-    if result.fitted is not None:
-        heads += [f"{name}, {result.fitted.remedy.scheme}" for name in result.mounted.names]
+    for other in result.beside:
+        heads += [f"{name}, {other.name}" for name in result.mounted.names]
     rows = [
         (
             number(response.speeds_rpm[s], 4),
@@ -328,6 +328,11 @@ def document(result: MountReport) -> dict[str, Any]:
             "scheme": result.fitted.remedy.scheme,
             "response": _response(result, result.fitted.response),
         }
+    if result.others:
+        found["others"] = [
+            {"name": other.name, "response": _response(result, other.response)}
+            for other in result.others
+        ]
     return found
 
 
@@ -414,8 +419,12 @@ def _lines(result: MountReport, system: System) -> Iterator[tuple[Any, ...]]:
             yield "static", name_cell(name), None, None, f"force {axis}", own, force.name
             own = clean(length.of(settled.travel[k, j]))
             yield "static", name_cell(name), None, None, f"travel {axis}", own, length.name
-    for response, part in zip(_responses(result), ("", "with scheme "), strict=False):
-        yield from _curves(result, response, part, system)
+    if result.response is not None:
+        yield from _curves(result, result.response, "", system)
+    if result.fitted is not None:
+        yield from _curves(result, result.fitted.response, "with scheme ", system)
+    for other in result.others:
+        yield from _curves(result, other.response, f"{name_cell(other.name)}: ", system)
 
 
 def _curves(

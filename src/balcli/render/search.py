@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from ..forces.kinds import KINDS
@@ -27,6 +28,7 @@ def document(result: Search) -> dict[str, Any]:
             {**one.design.given(), "objective": one.objective, "quantities": dict(one.figures)}
             for one in result.results
         ],
+        **({"locked": [list(ends) for ends in result.locked]} if result.locked else {}),
     }
 
 
@@ -58,10 +60,20 @@ def sheet(result: Search, _system: System) -> Sheet:
         f"Best {result.over.replace('_', ' ')}",
         tuple(heads),
         tuple(_cells(result, one) for one in result.results),
-        note=_AS_BUILT if _textbook(result, first) else "",
+        note=" ".join(_notes(result)),
         words=tuple(range(len(first.design.given()))),
     )
     return Sheet(result.model.name or NAMELESS, (grid,))
+
+
+def _notes(result: Search) -> Iterator[str]:
+    if result.locked:
+        spans = " and ".join(
+            f"{round(low, 1):g} to {round(high, 1):g}" for low, high in result.locked
+        )
+        yield f"No candidates: at {spans} deg the articulated rods cannot follow the crank."
+    if _textbook(result, result.results[0]):
+        yield _AS_BUILT
 
 
 def _cells(result: Search, one: Found) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..core.peaks import Peak, peak
+from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array
 from ..engine.build import Engine
 from ..errors import BalcliError
@@ -161,8 +161,8 @@ def analyze(
     return Analysis(
         engine,
         visible,
-        peak(everything["force"]) if peaked else None,
-        peak(everything["moment"]) if peaked else None,
+        find_peak(everything["force"]) if peaked else None,
+        find_peak(everything["moment"]) if peaked else None,
         sizing=_size_and_analyze(engine, asked, wanted) if "sizing" in wanted else None,
         cylinders=cylinders,
         why=_explain(engine, visible.orders, shown) if reasons else None,

@@ -24,7 +24,8 @@ class PermittedUnbalance(NamedTuple):
 
     Attributes:
         grade: permitted speed of the centre of mass, mm/s. mass: of the crankshaft, kg.
-        each: permitted unbalance at each counterweight, kg m; all share alike.
+        each: permitted unbalance at each counterweight, or in each plane of the remedy's `needs`,
+            kg m; all share alike.
     """
 
     grade: float

@@ -28,7 +28,7 @@ def permit_unbalance(result: Balance, grade: float | None, mass: float | None) -
         )
     if not (0 < grade < math.inf and 0 < mass < math.inf):
         raise BalcliError(f"--grade {grade:g} --mass {mass:g}: both must be positive numbers")
-    count = len(result.remedy.counterweights)
+    count = len(result.remedy.needs or result.remedy.counterweights)
     if not count:
         raise BalcliError(
             f"--grade: scheme {result.remedy.scheme} fits no counterweights to the crankshaft, so "

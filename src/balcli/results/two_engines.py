@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from ..core.peaks import Peak, peak
+from ..core.peaks import Peak, find_peak
 from ..core.phasors import Complex, Figure, Phasors, unit
 from ..engine.assembly import Ripple
 from ..engine.build import Engine
@@ -105,8 +105,8 @@ def combine_engines(
         (first, second),
         arrangement,
         everything.select_orders(choose_orders(everything) if asked is None else asked),
-        peak(everything["force"]),
-        peak(everything["moment"]),
+        find_peak(everything["force"]),
+        find_peak(everything["moment"]),
     )
 
 
@@ -176,4 +176,4 @@ def _add_spectra(one: Spectra, other: Spectra, arrangement: Arrangement) -> Spec
         "both": one["torque"] + other["torque"],
     }
     parts["roll"] = parts["couple"] - taken[arrangement.load]
-    return Spectra(one.orders, **{name: parts[name].settled() for name in KINDS})
+    return Spectra(one.orders, **{name: parts[name].drop_noise() for name in KINDS})

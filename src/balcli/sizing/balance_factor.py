@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.levers import share_by_lever
-from ..core.peaks import peak
+from ..core.peaks import find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..engine.build import Engine
 from ..engine.positions import MOMENTS_UNKNOWN
@@ -65,19 +65,26 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     factors = _choose_factors(engine, options)
     sweep = tuple(find_factor_peaks(engine, factor, planes) for factor in factors)
     best = min(sweep, key=lambda peaks: (round(peaks.force, 6), peaks.moment)).factor
-    fitting = _fit_factor(engine, best, planes).note(*_describe(engine, options, best))
+    fitting = _fit_factor(engine, best, planes).add_details(*_describe(engine, options, best))
     own = _find_counterweights(engine)[1].any()
-    remedy = fitting.remedy
     needs = _find_needs(engine, best, planes)
-    note = COMPLETE if own and not remedy.devices else ""
-    if planes is not None and len(planes) == 1 and fitting.find_residual(1).moment(1):
-        note = SAME_PLACE
-    return remedy._replace(
-        note=note,
+    return fitting.remedy._replace(
+        note=_note(fitting, best, planes, complete=bool(own) and not fitting.remedy.devices),
         card=fill_card(engine, best),
         needs=tuple(_count_from_pin(engine, need) for need in needs) if own else (),
         sweep=sweep if len(sweep) > 1 else (),
     )
+
+
+def _note(
+    fitting: Fitting, factor: float, planes: tuple[float, ...] | None, *, complete: bool
+) -> str:
+    """What to know besides."""
+    if planes is not None and len(planes) == 1 and fitting.find_residual(1).moment(1):
+        return SAME_PLACE
+    if factor < 0:
+        return "a factor below 0: not even all rotating mass is balanced"
+    return COMPLETE if complete else ""
 
 
 def find_factor_peaks(
@@ -90,10 +97,10 @@ def find_factor_peaks(
     along = complex(unit(float(engine.cylinders.axis_deg[0])))
     return FactorPeaks(
         factor=factor,
-        force=peak(force).value,
+        force=find_peak(force).value,
         along=_find_largest_component(force, along),
         across=_find_largest_component(force, 1j * along),
-        moment=peak(moment).value,
+        moment=find_peak(moment).value,
         bobweight_g=fill_card(engine, factor)[0].bobweight_g,
         counterweight=max((w.unbalance or 0.0 for w in fitting.remedy.counterweights), default=0.0)
         / 1e6,
@@ -168,7 +175,7 @@ def _describe(engine: Engine, options: SchemeOptions, factor: float) -> list[Det
             "factor of one cylinder",
             "share",
             factor * rods,
-            what="the same, as a share of one cylinder's reciprocating mass",
+            what="of one cylinder's reciprocating mass: the same weight",
         ),
         Detail("definition", "", DEFINITION),
     ]
@@ -264,4 +271,6 @@ def _find_centre(masses: Array, places: Array) -> float:
 def _find_largest_component(curve: Phasors, direction: complex) -> float:
     """Largest component of a force along a direction (a unit vector), N."""
     coefficients = curve.forward * direction.conjugate() + np.conj(curve.backward) * direction
-    return peak(Phasors.from_scalar(curve.orders, coefficients, curve.noise).settled()).value
+    return find_peak(
+        Phasors.from_scalar(curve.orders, coefficients, curve.noise).drop_noise()
+    ).value

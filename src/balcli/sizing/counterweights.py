@@ -59,7 +59,7 @@ def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Reme
         "one can (least squares of force, and of moment over its arm)",
     )
     left = fitting.find_residual(1)
-    fitting = fitting.note(
+    fitting = fitting.add_details(
         Detail("left force", "force", left.size(FORWARD_FORCE)),
         Detail("left moment", "moment", left.size(FORWARD_MOMENT)),
     )

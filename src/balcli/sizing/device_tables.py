@@ -9,7 +9,7 @@ import math
 from collections.abc import Sequence
 from typing import TypeAlias, TypeGuard
 
-from ..core.phasors import EPS, reduced
+from ..core.phasors import EPS, wrap_degrees
 from ..enginefile.model import Counterweight, Shaft, Slider
 
 DeviceTable: TypeAlias = Counterweight | Shaft | Slider
@@ -108,7 +108,7 @@ def make_slider(
 
 def measure_direction(vector: complex, origin_deg: float = 0.0) -> float:
     """Direction of a vector, degrees from `origin_deg`, in (-180, 180]."""
-    return _plain(float(reduced(math.degrees(cmath.phase(vector)) - origin_deg, 360)), 360)
+    return _plain(float(wrap_degrees(math.degrees(cmath.phase(vector)) - origin_deg, 360)), 360)
 
 
 def _polar(unbalance: complex, origin_deg: float = 0.0) -> tuple[float, float]:

@@ -68,9 +68,9 @@ class Fitting(NamedTuple):
         fit = solve_exactly(slots, left, parts, SAME_PLACE)
         fitting = self.add(slots, fit.unbalances, reason)
         if len(slots) > 1 and fit.condition < math.inf:
-            return fitting.note(Detail("condition number", "", fit.condition))
+            return fitting.add_details(Detail("condition number", "", fit.condition))
         return fitting
 
-    def note(self, *details: Detail) -> Fitting:
+    def add_details(self, *details: Detail) -> Fitting:
         """With further details in the remedy."""
         return self._replace(remedy=self.remedy.add_details(*details))

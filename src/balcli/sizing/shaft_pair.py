@@ -77,7 +77,7 @@ def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> F
         fitting = fitting.add(slots, unbalances, reason)
     left = fitting.find_residual(residual.order)
     group = f"order {residual.order}"
-    return fitting.note(
+    return fitting.add_details(
         *_describe_places(places, group),
         Detail("moment left", "moment", left.size(FORWARD_MOMENT, BACKWARD_MOMENT), group),
         Detail("roll left", "moment", left.size(ROLL), group),

@@ -59,9 +59,11 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     else:
         fitting = _add_one_eccentric(fitting, residual, options)
     left = fitting.find_residual(residual.order)
-    fitting = fitting.note(Detail("roll left", "moment", left.size(ROLL)))
+    fitting = fitting.add_details(Detail("roll left", "moment", left.size(ROLL)))
     if residual.order > 1:
-        fitting = fitting.note(Detail("force with crank left", "force", left.size(FORWARD_FORCE)))
+        fitting = fitting.add_details(
+            Detail("force with crank left", "force", left.size(FORWARD_FORCE))
+        )
     return fitting.remedy
 
 
@@ -72,7 +74,7 @@ def _add_one_eccentric(fitting: Fitting, residual: Residual, options: SchemeOpti
     reason = explain_one_eccentric(residual, -1, takes_moment(residual, -1, z), more)
     fitting = fitting.cancel([slot], [BACKWARD_FORCE], reason)
     left = fitting.find_residual(residual.order)
-    return fitting.note(
+    return fitting.add_details(
         Detail("couple left", "moment", left.size(BACKWARD_MOMENT)),
         Detail("axial distance", "length", _round_off(z - locate_force(residual, -1))),
     )
@@ -97,7 +99,7 @@ def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
         unbalance = residual.moment(sense) / (high - low)
         fitting = fitting.add(slots, (unbalance, -unbalance), explain_couple(residual, sense))
     left = fitting.find_residual(residual.order)
-    return fitting.note(
+    return fitting.add_details(
         Detail("moment left", "moment", left.size(FORWARD_MOMENT, BACKWARD_MOMENT)),
         Detail("force left", "force", left.size(FORWARD_FORCE, BACKWARD_FORCE)),
     ).remedy

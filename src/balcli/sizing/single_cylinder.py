@@ -53,7 +53,7 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
         found=find_optima(float(np.ravel(c.lam)[0])),
     )
     fitting = _balance_rotating_mass(Fitting.start(engine, "eccentric-slider"))
-    fitting = fitting.note(Detail("definition", "", _ECCENTRIC_SLIDER))
+    fitting = fitting.add_details(Detail("definition", "", _ECCENTRIC_SLIDER))
     return fitting.remedy._replace(optima=optima, beyond=_make_shafts(engine, optima.found[0]))
 
 
@@ -98,7 +98,7 @@ def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
             Device(residual.order, 0j, -residual.force(-1), 0j, z),
         )
     ]
-    fitting = fitting.note(
+    fitting = fitting.add_details(
         Detail("first order", "unbalance", abs(first.force(-1))),
         Detail("block", "unbalance", abs(second.force(-1))),
         Detail("definition", "", _OLDHAM),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 
-from ..core.phasors import reduced
+from ..core.phasors import wrap_degrees
 from ..engine.build import Engine
 from .details import Detail
 from .device_tables import measure_direction
@@ -34,7 +34,7 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
     forward, backward = residual.force(1), residual.force(-1)
     stronger = 1 if abs(forward) >= abs(backward) else -1
     z, place = choose_plane(engine, options, residual, stronger), options.read_place()
-    axis = float(reduced(measure_direction(cmath.sqrt(forward * backward)), 180))
+    axis = float(wrap_degrees(measure_direction(cmath.sqrt(forward * backward)), 180))
     across = axis + 90 if axis <= 0 else axis - 90
     slots = [Slot("slider", residual.order, 0, z, place, direction) for direction in (axis, across)]
     fit = solve(slots, residual, (FORWARD_FORCE, BACKWARD_FORCE))
@@ -43,7 +43,7 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
     fitting = Fitting.start(engine, "slider", residual.order)
     fitting = fitting.add(slots, unbalances, explain_sliders(residual))
     left = fitting.find_residual(residual.order)
-    return fitting.note(
+    return fitting.add_details(
         Detail("moment left", "moment", left.size(FORWARD_MOMENT, BACKWARD_MOMENT)),
         Detail("roll left", "moment", left.size(ROLL)),
     ).remedy

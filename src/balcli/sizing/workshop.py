@@ -8,7 +8,7 @@ import math
 from typing import NamedTuple
 
 from ..core.drilled_hole import STEEL, find_drill_depth, find_drilled_unbalance
-from ..core.phasors import reduced
+from ..core.phasors import wrap_degrees
 from ..engine.build import Engine
 from ..enginefile.model import Counterweight, Shaft, Slider
 from ..errors import BalcliError
@@ -127,7 +127,7 @@ def _plan_holes(device: DeviceTable, unbalance: float, rim: float, tools: Tools)
         return None
     density = STEEL if tools.slug is None else tools.slug - STEEL
     deepest = min(rim, tools.max_depth or rim)
-    angle = reduced(device.angle + (180 if tools.slug is None else 0), 360)
+    angle = wrap_degrees(device.angle + (180 if tools.slug is None else 0), 360)
     of_one = find_drilled_unbalance(deepest, rim, tools.drill, density)
     share = unbalance / of_one * (1 - ROUNDING) if of_one else math.inf
     count = max(math.ceil(share), 1) if share <= MOST_HOLES else MOST_HOLES + 1

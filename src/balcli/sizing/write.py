@@ -8,7 +8,7 @@ from typing import Any
 
 from ..engine.build import build
 from ..engine.load import parse
-from ..enginefile.edit import anew, changed, written
+from ..enginefile.edit import format_value, rewrite, set_keys
 from ..errors import BalcliError, InputError
 from .device_tables import FIELDS, DeviceTable, name_kind
 from .remedy import Remedy, fit_devices
@@ -40,7 +40,7 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
 
 
 def _insert_knuckle_angles(text: str, angles_deg: tuple[float, ...], file: str) -> str:
-    new = changed(text, "articulation", {"knuckle_angles": list(angles_deg)}, "even, by balcli")
+    new = set_keys(text, "articulation", {"knuckle_angles": list(angles_deg)}, "even, by balcli")
     parse(new, file)
     return new
 
@@ -70,7 +70,7 @@ def _write_tables(remedy: Remedy) -> Iterator[str]:
         notes = {"at": "  # free: it may stand anywhere"} if anywhere else {}
         entries = _list_entries(device)
         lines = "".join(
-            f"{key} = {written(value)}{notes.get(key, '')}\n" for key, value in entries.items()
+            f"{key} = {format_value(value)}{notes.get(key, '')}\n" for key, value in entries.items()
         )
         yield f"{head}[[{name_kind(device)}]]\n{lines}\n"
 
@@ -89,4 +89,4 @@ def _rewrite(text: str, remedy: Remedy) -> str:
     for device in remedy.devices:
         kind = name_kind(device)
         data[kind] = [*data.get(kind, []), _list_entries(device)]
-    return anew(data, "it has devices in one list, to which TOML lets nothing be added")
+    return rewrite(data, "it has devices in one list, to which TOML lets nothing be added")

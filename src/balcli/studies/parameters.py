@@ -167,7 +167,7 @@ def ladder(first: Fraction, step: Fraction, count: int) -> NDArray[np.float64]:
     start, rise = int(first * scale), int(step * scale)
     if max(abs(start), abs(start + rise * count), scale) < _EXACT:
         return (start + rise * np.arange(count)) / scale
-    return np.array([(start + rise * k) / scale for k in range(count)])
+    return np.fromiter(((start + rise * k) / scale for k in range(count)), float, count)
 
 
 def _read_exactly(text: str, number: Number) -> Fraction:

@@ -21,9 +21,10 @@ from ..results.balance import balance
 from ..sizing.details import FactorPeaks
 from ..sizing.options import SchemeOptions
 from ..sizing.sizing import size
+from ..torque.pictures import PAGES, GasPictures, compute_pictures
 
 FACTORS = tuple(k / 20 for k in range(21))
-_ALONE = ("factor", "bank")  # studies of the engine as it is
+_ALONE = ("factor", "bank", *PAGES)  # studies of the engine as it is
 
 
 class Banks(NamedTuple):
@@ -49,6 +50,7 @@ class Study(NamedTuple):
         factors: rows of peaks over the balance factor.
         banks: an order over the bank angle.
         bent: what bends the crankshaft now, and before.
+        gas: pressures, torque or loads of an engine with gas.
     """
 
     now: Analysis
@@ -56,6 +58,7 @@ class Study(NamedTuple):
     factors: Sequence[FactorPeaks] = ()
     banks: Banks | None = None
     bent: tuple[InnerLoads, ...] = ()
+    gas: GasPictures | None = None
 
 
 def compute_study(
@@ -83,6 +86,8 @@ def compute_study(
         )
         return Study(found.after, found.before, bent=bent)
     now = analyze(engine, orders, KINDS)
+    if what in PAGES:
+        return Study(now, gas=compute_pictures(engine, what))
     if what == "inner":
         return Study(now, bent=(compute_inner_loads(engine),))
     if what == "factor":

@@ -32,21 +32,25 @@ from ..forces.quantity import (
     evaluate_quantities,
     find_orders,
     leave_out_unknown,
-    parse_quantity_list,
     refuse_unknown,
 )
 from ..forces.spectrum import count_samples
 from .parameters import Parameter, parse
+from .quantities import (
+    choose_of_engine,
+    choose_of_mounts,
+    choose_of_torque,
+    choose_of_torsion,
+    parse_quantities,
+)
 
 if TYPE_CHECKING:
     from ..mounting.quantity import MountQuantity
+    from ..torque.quantity import TorqueQuantity
     from ..torsion.quantity import TorsionQuantity
-
-    AnyQuantity = Quantity | MountQuantity | TorsionQuantity
+    from .quantities import AnyQuantity
 
 Box = tuple[slice, ...]
-_OF_MOUNTS = ("mode", "mount", "point")  # beginnings of quantities of an engine on its mounts
-_OF_TORSION = ("torsion", "shaft")  # of its crankshaft that twists
 ALONE_S = 1.0  # of a sweep, before several threads share what is left of it
 ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
@@ -80,24 +84,27 @@ class Sweep:
     @property
     def of_engine(self) -> tuple[Quantity, ...]:
         """Quantities of forces and moments."""
-        return tuple(q for q in self.quantities if isinstance(q, Quantity))
+        return choose_of_engine(self.quantities)
 
     @property
     def of_mounts(self) -> tuple[MountQuantity, ...]:
         """Quantities of the engine on its mounts."""
-        found = [q for q in self.quantities if _begin(q.name) in _OF_MOUNTS]
-        return tuple(found)  # type: ignore[arg-type]
+        return choose_of_mounts(self.quantities)
 
     @property
     def of_torsion(self) -> tuple[TorsionQuantity, ...]:
         """Quantities of the crankshaft that twists."""
-        found = [q for q in self.quantities if _begin(q.name) in _OF_TORSION]
-        return tuple(found)  # type: ignore[arg-type]
+        return choose_of_torsion(self.quantities)
+
+    @property
+    def of_torque(self) -> tuple[TorqueQuantity, ...]:
+        """Quantities of gas and torque."""
+        return choose_of_torque(self.quantities)
 
     @property
     def one_by_one(self) -> bool:
         """Whether variants are computed each by itself."""
-        return bool(self.of_mounts or self.of_torsion)
+        return bool(self.of_mounts or self.of_torsion or self.of_torque)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -146,40 +153,14 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
-    asked = _parse_quantities(DEFAULT_QUANTITIES if quantities is None else quantities)
+    wanted = DEFAULT_QUANTITIES if quantities is None else quantities
+    asked = parse_quantities(wanted, with_gas=model.gas is not None)
     sweep = Sweep(model, parameters, asked, name_file(file))
     if quantities is None:
         known = leave_out_unknown(build_corners(sweep), sweep.of_engine)
         sweep = replace(sweep, quantities=known)
     check_corners(sweep)
     return sweep
-
-
-def _parse_quantities(text: str) -> tuple[AnyQuantity, ...]:
-    """Those of the engine, of its mounts and of its crankshaft's torsion, in the order in which
-    they are asked for.
-    """
-    words = [word.strip() for word in text.split(",") if word.strip()]
-    if not any(_begin(word) in (*_OF_MOUNTS, *_OF_TORSION) for word in words):
-        return parse_quantity_list(text)
-    return tuple(dict.fromkeys(map(_parse_quantity, words)))
-
-
-def _begin(name: str) -> str:
-    """What the name of a quantity begins with: its kind."""
-    return name.partition(".")[0]
-
-
-def _parse_quantity(word: str) -> AnyQuantity:
-    if _begin(word) in _OF_MOUNTS:
-        from ..mounting.quantity import parse_mount_quantity  # for those who ask for it
-
-        return parse_mount_quantity(word)
-    if _begin(word) in _OF_TORSION:
-        from ..torsion.quantity import parse_torsion_quantity
-
-        return parse_torsion_quantity(word)
-    return parse_quantity_list(word)[0]
 
 
 def check_corners(sweep: Sweep) -> None:
@@ -196,6 +177,8 @@ def check_corners(sweep: Sweep) -> None:
         from ..mounting.quantity import refuse_unknown_targets
 
         refuse_unknown_targets(sweep.file, sweep.of_mounts)
+    if sweep.of_torque and sweep.file.gas is None:
+        raise BalcliError(f"{sweep.of_torque[0].name}: the engine file has no [gas]")
     if sweep.of_torsion:
         from ..torsion.quantity import refuse_unknown_shafts
 
@@ -270,6 +253,8 @@ def _evaluate_tile(sweep: Sweep, box: Box) -> list[Array]:
         values |= dict(zip(sweep.of_mounts, _evaluate_mounts(sweep, box), strict=True))
     if sweep.of_torsion:
         values |= dict(zip(sweep.of_torsion, _evaluate_torsion(sweep, box), strict=True))
+    if sweep.of_torque:
+        values |= dict(zip(sweep.of_torque, _evaluate_torque(sweep, box), strict=True))
     return [values[q] for q in sweep.quantities]
 
 
@@ -287,6 +272,14 @@ def _evaluate_torsion(sweep: Sweep, box: Box) -> list[Array]:
 
     variants = TorsionVariants(sweep.file, sweep.of_torsion)
     return _evaluate_one_by_one(sweep, box, variants.evaluate, len(sweep.of_torsion))
+
+
+def _evaluate_torque(sweep: Sweep, box: Box) -> list[Array]:
+    """Quantities of gas and torque for all variants of a box."""
+    from ..torque.quantity import evaluate_torque
+
+    evaluate = partial(evaluate_torque, sweep.file, sweep.of_torque)
+    return _evaluate_one_by_one(sweep, box, evaluate, len(sweep.of_torque))
 
 
 def _evaluate_one_by_one(

@@ -7,7 +7,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -20,6 +20,10 @@ from ..errors import BalcliError
 from ..forces.quantity import Quantity, evaluate_quantities, refuse_unknown
 from ..limits import MOST_TOLERANCE_SAMPLES
 from .deviations import DeviatingEngine, Source, Tolerances
+
+if TYPE_CHECKING:
+    from ..mounting.quantity import MountQuantity
+    from .mount_scatter import MountSource
 
 CHUNK = 8_192  # samples at a time
 AT_ONCE = 400_000  # deviations at a time, where there are many sources
@@ -36,8 +40,8 @@ def parse_tolerances(mass: str, length: str, angle: str) -> Tolerances:
     Raises:
         BalcliError: what is neither, negative or absurdly large.
     """
-    masses = _parse_percentage(mass, "--mass-scatter")
-    lengths = _parse_percentage(length, "--length-scatter")
+    masses = parse_percentage(mass, "--mass-scatter")
+    lengths = parse_percentage(length, "--length-scatter")
     degrees = Number(ANGLE, least=0, most=90)
     try:
         angles = degrees.read(float(angle) if _NUMBER.fullmatch(angle.strip()) else angle)
@@ -46,7 +50,7 @@ def parse_tolerances(mass: str, length: str, angle: str) -> Tolerances:
     return Tolerances(masses, lengths, angles)
 
 
-def _parse_percentage(text: str, option: str) -> float:
+def parse_percentage(text: str, option: str) -> float:
     """The share that a percentage is."""
     number = text.strip().removesuffix("%")
     percentage = number != text.strip() and _NUMBER.fullmatch(number.strip())
@@ -68,13 +72,13 @@ class Spread:
         shares: by source, the change that its tolerance alone makes, to first order; largest first.
     """
 
-    quantity: Quantity
+    quantity: Quantity | MountQuantity
     nominal: float
     mean: float
     percentiles: dict[str, float]
     largest: float
     bound: float
-    shares: tuple[tuple[Source, float], ...]
+    shares: tuple[tuple[Source | MountSource, float], ...]
 
 
 @dataclass(frozen=True)
@@ -83,12 +87,14 @@ class Scatter:
 
     Attributes:
         shape: of the distribution of each deviation.
+        of_mounts: whether it is the mounts that deviate, not the engine.
     """
 
     model: EngineFile
     samples: int
     shape: Shape
     spreads: tuple[Spread, ...]
+    of_mounts: bool = False
 
 
 def scatter_engine(

@@ -113,7 +113,7 @@ def analyze_torque(
     above = surplus(curves.total)
     swept = sum(c.piston.swept for c in gas.cylinders)
     asked = Question(
-        curves.gas,
+        curves.gas_once,
         above.energy,
         float(engine.omega),
         find_constant_inertia(engine),

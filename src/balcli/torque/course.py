@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core.cylinder_pressure import crank_torque
 from ..core.phasors import Array
-from ..core.piecewise import Function, PiecewiseCurve
+from ..core.piecewise import Function, PiecewiseCurve, resolved
 from ..engine.build import Engine
 from ..engine.gas import EngineGas
 from ..errors import BalcliError
@@ -28,10 +28,13 @@ class TorqueCurves(NamedTuple):
     Attributes:
         gas: of all cylinders' gas.
         total: with the inertia torque.
+        gas_once: the gas torque until everything repeats itself, inertia too: after one interval of
+            equal cylinders that fire evenly, else after the cycle.
     """
 
     gas: PiecewiseCurve
     total: PiecewiseCurve
+    gas_once: PiecewiseCurve
 
 
 def find_torque_curves(engine: Engine) -> TorqueCurves:
@@ -40,8 +43,27 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
     Raises:
         BalcliError: it has no gas.
     """
-    gas = [(c.torque, c.fires, c.share) for c in take_gas(engine).cylinders]
-    return TorqueCurves(crank_torque(gas), crank_torque(gas, find_inertia_torque(engine)))
+    gas, times = take_gas(engine), count_repeats(engine)
+    cylinders = [(c.torque, c.fires, c.share) for c in gas.cylinders]
+    once = crank_torque(cylinders, period=gas.cycle / times)
+    inertia = find_inertia_torque(engine)
+    total = resolved(lambda angle: once.at(angle) + inertia(angle), once.breaks)
+    return TorqueCurves(once.repeated(times), total.repeated(times), once)
+
+
+def count_repeats(engine: Engine) -> int:
+    """How often everything repeats itself in a cycle: as often as equal cylinders fire, if they
+    fire evenly to the last digit.
+    """
+    gas, c = take_gas(engine), engine.cylinders
+    alike = {(id(cylinder.torque), cylinder.share) for cylinder in gas.cylinders}
+    columns = (c.lam, c.eps, c.reciprocating, c.rotating, c.couple)
+    if len(alike) > 1 or c.linkage is not None or any(len(column) > 1 for column in columns):
+        return 1
+    count = len(gas.cylinders)
+    fires = sorted(cylinder.nominal_deg for cylinder in gas.cylinders)
+    even = [k * gas.cycle_deg / count for k in range(count)]
+    return count if np.allclose(fires, even, rtol=0, atol=1e-12) else 1
 
 
 def find_inertia_torque(engine: Engine) -> Function:

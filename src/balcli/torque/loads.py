@@ -56,6 +56,8 @@ def analyze_loads(engine: Engine, asked: tuple[str, ...] = KINDS_OF_LOAD) -> Loa
         BalcliError: no gas of known pressure; articulated or turning cylinders; main bearings of
             throws whose places are not known.
     """
+    if not asked:
+        return Loads()
     steady = replace(engine, ripple=())
     breaks = _find_breaks(engine)
     sizes = engine.bearings

@@ -12,7 +12,7 @@ import numpy as np
 from ..core.cycle_peaks import find_swing, sum_amplitudes
 from ..core.singular_values import Complex, Real
 from ..core.torsional_modes import chain_loss, find_chain_modes
-from ..core.torsional_response import balance_power, respond_chain
+from ..core.torsional_response import respond_chain
 from ..core.vibration import UndampedResonanceError, find_resonances, frequencies
 from ..errors import BalcliError
 from .system import Excitation, TorsionalSystem
@@ -140,14 +140,21 @@ def move(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> Motion:
         twist = respond_chain(system.chain, system.damping, w, load, attached)
     except UndampedResonanceError as error:
         raise BalcliError(_tell_resonance(system, error.frequency / (2 * np.pi))) from None
-    power = balance_power(system.chain, system.damping, w, load, twist, attached)
-    heat = [_heat_of_rings(system, w, twist.angle)]
-    rubber = len(system.nodes) - 1 - system.last
-    heat.append(power.shafts[..., len(system.shafts) - rubber :])
+    heat = _heat_of_oil(system, w, twist.angle), _heat_of_rubber(system, w, twist.torque)
     return Motion(twist.angle, twist.torque, np.concatenate(heat, axis=-1))
 
 
-def _heat_of_rings(system: TorsionalSystem, w: Real, angle: Complex) -> Real:
+def _heat_of_rubber(system: TorsionalSystem, w: Real, torque: Complex) -> Real:
+    """Power (orders, speeds, rings) that rubber turns to heat: `w loss |T|^2/(2 k (1 + loss^2))`;
+    its shafts are the last ones.
+    """
+    first = len(system.shafts) - (len(system.nodes) - 1 - system.last)
+    loss, stiffness = system.damping.loss[first:], system.chain.stiffness[first:]
+    softness = loss / (stiffness * (1 + loss**2))
+    return np.asarray(w[..., None] / 2 * softness * np.abs(torque[..., first:]) ** 2)
+
+
+def _heat_of_oil(system: TorsionalSystem, w: Real, angle: Complex) -> Real:
     """Power (orders, speeds, rings) that rings in oil turn to heat: `-w^3 Im J |x|^2/2`."""
     found = np.zeros((*w.shape, len(system.rings)))
     for k, ring in enumerate(system.rings):
@@ -166,6 +173,9 @@ def stress_by_torque(system: TorsionalSystem) -> Real:
 def _refuse_resonance(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> None:
     """Refuse a range in which an undamped mode is driven at its own frequency."""
     if system.pendulums:  # their inertia differs from order to order, and so do the modes
+        return
+    lossy = (system.damping.loss > 0) | (system.damping.dashpots > 0)
+    if np.all(lossy | np.isinf(system.chain.stiffness)):  # whatever twists, loses
         return
     modes = find_chain_modes(system.chain)
     loss = chain_loss(system.chain, system.damping, modes, system.attached(modes.omega))

@@ -7,7 +7,7 @@ import tomllib
 from collections.abc import Mapping
 from typing import Any
 
-from ..enginefile.edit import HEAD, anew, written
+from ..enginefile.edit import HEAD, format_value, rewrite
 from ..enginefile.shafting import Damper
 
 _INLINE = r"\{[^{}\n]*\}"
@@ -30,7 +30,7 @@ def insert_damper(text: bytes, name: str, damper: Damper) -> str:
     except tomllib.TOMLDecodeError:
         done = False
     if not done:
-        new = anew(data, f"the table of {name} is written in an unusual way")
+        new = rewrite(data, f"the table of {name} is written in an unusual way")
     return new.replace("\n", "\r\n") if b"\r\n" in text else new
 
 
@@ -52,7 +52,7 @@ def _find_table(data: Mapping[str, Any], name: str) -> tuple[str, int, dict[str,
 
 def _write_inline(table: Mapping[str, Any]) -> str:
     figures = [f'kind = "{table["kind"]}"']
-    figures += [f"{key} = {written(value)}" for key, value in table.items() if key != "kind"]
+    figures += [f"{key} = {format_value(value)}" for key, value in table.items() if key != "kind"]
     return f"{{ {', '.join(figures)} }}"
 
 

@@ -17,6 +17,7 @@ from balcli.enginefile.model import EngineFile
 from balcli.errors import BalcliError
 from balcli.forces.quantity import evaluate_quantities
 from balcli.forces.symmetry import explain_symmetry
+from balcli.render import search as renderer
 from balcli.render.search import rows
 from balcli.render.units import SYSTEMS
 from balcli.studies.search.angles import Span, find_minima, neaten
@@ -338,3 +339,64 @@ def test_no_permutation_of_throws_is_better(seed: int) -> None:
     wanted = parse_objective(goal, [f"{limited}<{bound!r}"])
     angles = search_arrangements(file, "throws", wanted, 1).results
     assert angles[0].objective == pytest.approx(float(values(wanted).min()), rel=1e-9, abs=1e-7)
+
+
+# ------------------------------------------------------------------ bank angles that lock
+LOCKING = """\
+[crank]
+stroke = 120
+throws = [0, 120, 240]
+spacing = 160
+[rod]
+length = 200
+mass = 1.9
+cg = 55
+[piston]
+mass = 1.3
+[layout]
+bank_angle = 60
+[articulation]
+knuckle_radius = 90
+knuckle_angles = [0, 60]
+rod = { length = 115, mass = 0.62, cg = 60 }
+"""
+
+
+def test_bank_angles_at_which_articulated_rods_lock_are_no_candidates() -> None:
+    file, wanted = load(LOCKING), parse_objective("force.6.major")
+    found = search_arrangements(file, "bank_angle", wanted)
+    (low_from, low_to), (high_from, high_to) = found.locked
+    assert (low_from, high_to) == (0, 180)
+    for locked, free in ((low_to, low_to + 1), (high_from, high_from - 1)):
+        with pytest.raises(BalcliError, match="the crank cannot turn"):
+            sweep(file, "bank_angle", wanted, np.array([locked]))
+        assert np.isfinite(sweep(file, "bank_angle", wanted, np.array([free]))).all()
+    dense = np.arange(low_to + 1, high_from - 1, 0.5)
+    best = found.results[0]
+    assert best.objective <= sweep(file, "bank_angle", wanted, dense).min() * (1 + 1e-9)
+    assert low_to < best.design.bank_angle < high_from
+
+
+def test_even_firing_is_looked_for_where_nothing_locks() -> None:
+    twelve = load(LOCKING.replace("[0, 120, 240]", "[0, 120, 240, 240, 120, 0]"))
+    found = search_arrangements(
+        twelve, "bank_angle", parse_objective("force.6.major"), even_firing=True
+    )
+    assert [round(one.design.bank_angle, 9) for one in found.results] == [60.0]
+
+
+def test_locked_angles_are_told() -> None:
+    found = search_arrangements(load(LOCKING), "bank_angle", parse_objective("force.6.major"))
+    (grid,) = renderer.sheet(found, SYSTEMS["si"]).parts
+    assert grid.note.startswith("No candidates: at 0 to 4.7 and 93.8 to 180 deg the articulated")
+    assert renderer.document(found)["locked"] == [list(ends) for ends in found.locked]
+    plain = search_arrangements(vee(), "bank_angle", parse_objective("force.1.major"))
+    assert "locked" not in renderer.document(plain)
+
+
+def test_bank_angles_vary_beside_given_knuckle_angles() -> None:
+    """Their axes vary, their knuckle pins do not."""
+    file, wanted = load(LOCKING), parse_objective("force.6.major")
+    together = sweep(file, "bank_angle", wanted, np.array([50.0, 60.0, 70.0]))
+    one = [sweep(file, "bank_angle", wanted, np.array([x]))[0] for x in (50.0, 60.0, 70.0)]
+    assert together == pytest.approx(one, rel=1e-9)

@@ -80,9 +80,7 @@ def _draw_motions(ax: Axes, result: MountReport, unit: Unit) -> None:
 def _responses(result: MountReport) -> list[tuple[Response, str]]:
     """Without a scheme, and with it, with what to add to a name."""
     found = [] if result.response is None else [(result.response, "")]
-    if result.fitted is not None:
-        found.append((result.fitted.response, f", {result.fitted.remedy.scheme}"))
-    return found
+    return found + [(other.response, f", {fit_name(other.name, 20)}") for other in result.beside]
 
 
 def _draw_curves(

@@ -12,6 +12,7 @@ from ...forces.kinds import KINDS, VECTORS
 from ...results.analysis import Analysis
 from ...sizing.details import FactorPeaks
 from ...studies.pictures import Banks
+from ...torque.pictures import GasPictures
 from ..sheet import NAMELESS
 from ..units import SI, System, Unit
 from .along_crankshaft import draw_along
@@ -19,6 +20,7 @@ from .balance_factor import draw_factors
 from .bank_angle import draw_end_curves, draw_roses
 from .bars import draw_scalar_bars, draw_vector_bars, visible_rows
 from .crank_curves import draw_scalar_curves, draw_vector_curves
+from .gas import draw_main, draw_p_v, draw_pin, draw_pressure, draw_torque
 from .locus import draw_locus
 from .style import Form, fit_name, inline_svg, open_figure, save_figure
 from .two_vectors import draw_order
@@ -43,6 +45,7 @@ class Subject:
     factors: Sequence[FactorPeaks] = ()
     banks: Banks | None = None
     bent: tuple[InnerLoads, ...] = ()
+    gas: GasPictures | None = None
 
     def phasors(self, quantity: str) -> tuple[Phasors, Phasors | None]:
         old = None if self.before is None else self.before.spectra[quantity]
@@ -174,6 +177,31 @@ def _lay_out_inner(fig: Figure, subject: Subject) -> None:
         ax.label_outer()
 
 
+def _lay_out_pressure(fig: Figure, subject: Subject) -> None:
+    if subject.gas is not None and subject.gas.pressures is not None:
+        draw_pressure(fig.subplots(), subject.gas.pressures)
+
+
+def _lay_out_p_v(fig: Figure, subject: Subject) -> None:
+    if subject.gas is not None and subject.gas.pressures is not None:
+        draw_p_v(fig.subplots(), subject.gas.pressures)
+
+
+def _lay_out_torque(fig: Figure, subject: Subject) -> None:
+    if subject.gas is not None and subject.gas.torques is not None:
+        draw_torque(fig.subplots(), subject.gas.torques, subject.system.moment)
+
+
+def _lay_out_pin(fig: Figure, subject: Subject) -> None:
+    if subject.gas is not None and subject.gas.pin is not None:
+        draw_pin(fig, subject.gas.pin, subject.system.force)
+
+
+def _lay_out_main(fig: Figure, subject: Subject) -> None:
+    if subject.gas is not None and subject.gas.main is not None:
+        draw_main(fig, subject.gas.main, subject.system.force)
+
+
 # ------------------------------------------------------------------ panels
 def _say_unknown(ax: Axes) -> None:
     """In place of a picture of a moment that is not known."""
@@ -228,6 +256,11 @@ PAGES: dict[str, tuple[float, float, Layout]] = {
     "factor": (7.2, 4.6, _lay_out_factor),
     "bank": (9.6, 5.4, _lay_out_bank),
     "inner": (7.5, 7.6, _lay_out_inner),
+    "pressure": (7.2, 4.4, _lay_out_pressure),
+    "p-v": (6.4, 4.8, _lay_out_p_v),
+    "torque": (8.4, 4.8, _lay_out_torque),
+    "pin": (9.6, 5.2, _lay_out_pin),
+    "main": (9.6, 6.4, _lay_out_main),
 }
 _PANELS: dict[str, Callable[[Figure, Subject, str], None]] = {
     "polar": lambda fig, subject, quantity: _locus_panel(fig.subplots(), subject, quantity),

@@ -6,12 +6,14 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.phasors import Array
 from ...engine.arrays import ranked
 from ...engine.build import Engine, build
 from ...engine.layout import plan_cylinders
 from ...enginefile.model import EngineFile
+from ...errors import InputError
 from ...forces.quantity import Quantity, evaluate_quantities
 from .objective import Objective
 
@@ -60,6 +62,21 @@ def build_candidates(model: EngineFile, candidates: Candidates) -> Engine:
     if "splay" in candidates:
         paths["crank.splay"] = candidates["splay"]
     return build(model, paths)
+
+
+def find_buildable(model: EngineFile, key: str, angles: Array) -> NDArray[np.bool_]:
+    """At which of these values of an angle of the file (deg) there is an engine, and not a
+    mechanism that locks: shape (candidates,).
+    """
+    try:
+        if len(angles):
+            build_candidates(model, {key: angles})
+    except InputError:
+        if len(angles) == 1:
+            return np.array([False])
+        halves = np.array_split(angles, 2)
+        return np.concatenate([find_buildable(model, key, half) for half in halves])
+    return np.ones(len(angles), bool)
 
 
 def _without_firing_order(model: EngineFile) -> EngineFile:

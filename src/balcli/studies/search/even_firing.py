@@ -12,8 +12,8 @@ from ...engine.build import Engine
 from ...engine.firing import TOLERANCE_DEG
 from ...engine.layout import TURN, cycle_deg
 from ...enginefile.model import EngineFile
-from .angles import Span, neaten
-from .designs import build_candidates
+from .angles import STEP, Span, neaten
+from .designs import build_candidates, find_buildable
 
 
 def fires_evenly(engine: Engine, model: EngineFile) -> NDArray[np.bool_]:
@@ -35,20 +35,33 @@ def find_even_angles(
     Where the crank stands at a cylinder's top dead centre depends on the angle in proportion: that
     of one cylinder that moves against cylinder 1 has to be at one of the slots of the cycle_deg.
     """
-    two = build_candidates(model, {key: np.array([0.0, 1.0])})
+    some = find_two_buildable(model, key, span)
+    two = build_candidates(model, {key: some})
     ready = _find_top_dead_centres(two, model)
-    speeds = np.round(ready[:, 1] - ready[:, 0], 9)
+    speeds = np.round((ready[:, 1] - ready[:, 0]) / (some[1] - some[0]), 9)
     moving = np.flatnonzero(speeds)
     if not len(moving):
         return None if fires_evenly(two, model).all() else np.empty(0)
     row = moving[0]
     turns = TURN * np.arange(-len(ready), len(ready) + 1)
-    places = (_list_slots(len(ready), model) + turns[:, None] - ready[row, 0]) / speeds[row]
+    ahead = (_list_slots(len(ready), model) + turns[:, None] - ready[row, 0]) / speeds[row]
+    places = some[0] + ahead
     places = neaten(places[(span.low <= places) & (places <= span.high)])
     angles = np.unique(span.bring_inside(places))
+    angles = angles[find_buildable(model, key, angles)]
     if not len(angles):
         return angles
     return angles[fires_evenly(build_candidates(model, {key: angles}), model)]
+
+
+def find_two_buildable(model: EngineFile, key: str, span: Span) -> Array:
+    """Two angles of a span at which nothing locks, deg: 0 and 1, if that can be."""
+    first = np.array([0.0, 1.0])
+    if find_buildable(model, key, first).all():
+        return first
+    grid = span.divide(STEP)
+    there = grid[find_buildable(model, key, grid)]
+    return there[[0, -1]]
 
 
 def _list_slots(count: int, model: EngineFile) -> Array:

@@ -9,6 +9,7 @@ from itertools import islice
 from typing import Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.phasors import Array
 from ...engine.build import assemble, build
@@ -18,8 +19,14 @@ from ...enginefile.model import EngineFile
 from ...errors import BalcliError
 from ...forces.quantity import Quantity, refuse_unknown
 from ...forces.textbook import TextbookUnits, find_textbook_units
-from .angles import Curve, Span, find_minima
-from .designs import Found, build_candidates, evaluate_engine, rank_candidates
+from .angles import STEP, Curve, Span, find_minima
+from .designs import (
+    Found,
+    build_candidates,
+    evaluate_engine,
+    find_buildable,
+    rank_candidates,
+)
 from .even_firing import find_even_angles, fires_evenly
 from .firing_orders import Slots
 from .mirror_images import drop_mirror_images
@@ -28,6 +35,8 @@ from .throws import count_from, find_best_throws
 
 Angle = Literal["bank_angle", "splay"]
 What = Literal["throws", "firing_order", "bank_angle", "splay"]
+SPANS: dict[str, Span] = {"bank_angle": Span(0.0, 180.0), "splay": Span(-180.0, 180.0)}
+_LOCK_STEP = 5.0  # deg: bank angles at which it is first tried whether the mechanism locks
 IMAGES = 8  # candidates kept for each that is asked for, as many are mirror images
 
 
@@ -38,6 +47,8 @@ class Search:
     Attributes:
         over: what was arranged.
         scale: what textbooks measure its forces and moments by.
+        locked: from where to where (deg, to STEP) the mechanism locks, so that no angle there was a
+            candidate.
     """
 
     model: EngineFile
@@ -45,15 +56,19 @@ class Search:
     objective: Objective
     results: tuple[Found, ...]
     scale: TextbookUnits
+    locked: tuple[tuple[float, float], ...] = ()
 
 
 class _Task(NamedTuple):
-    """What to search in, by what, for how many, and whether they have to fire evenly."""
+    """What to search in, by what, for how many, and whether they have to fire evenly; where the
+    mechanism locks.
+    """
 
     model: EngineFile
     objective: Objective
     wanted: int
     even_firing: bool
+    locked: tuple[tuple[float, float], ...]
 
 
 def search_arrangements(
@@ -74,13 +89,14 @@ def search_arrangements(
     what = _parse_over(over)
     engine = build(model)
     refuse_unknown(engine, objective.quantities)
-    candidates = _SEARCHES[what](_Task(model, objective, count, even_firing))
+    locked = _find_locked(model, what)
+    candidates = _SEARCHES[what](_Task(model, objective, count, even_firing, locked))
     found = tuple(islice(drop_mirror_images(candidates, model), count))
     if not found:
         also = " and fires evenly" if even_firing else ""
         raise BalcliError(f"no {what.replace('_', ' ')} keeps these limits{also}")
     orders = np.unique([float(quantity.order) for quantity in objective.quantities])
-    return Search(model, what, objective, found, find_textbook_units(engine, orders))
+    return Search(model, what, objective, found, find_textbook_units(engine, orders), locked)
 
 
 def _parse_over(text: str) -> What:
@@ -143,8 +159,41 @@ def _search_firing_order(task: _Task) -> Iterator[Found]:
     )
 
 
-def _search_angle(key: Angle, span: Span, task: _Task) -> Iterator[Found]:
+def _find_locked(model: EngineFile, what: What) -> tuple[tuple[float, float], ...]:
+    """From where to where a bank angle leaves articulated rods that cannot follow, deg, to STEP."""
+    if what != "bank_angle" or model.articulation is None:
+        return ()
+    grid = SPANS[what].divide(_LOCK_STEP)
+    try:
+        there = find_buildable(model, what, grid)
+    except BalcliError:  # this angle is none of the file's
+        return ()
+    runs = np.split(np.arange(len(grid)), np.flatnonzero(np.diff(there)) + 1)
+    return tuple(
+        (_find_lock(model, grid, run[0], -1), _find_lock(model, grid, run[-1], 1))
+        for run in runs
+        if not there[run[0]]
+    )
+
+
+def _find_lock(model: EngineFile, grid: Array, row: np.intp, side: int) -> float:
+    """How far a locked bank angle of the grid may go to a side and stay locked, deg, to STEP."""
+    locked = float(grid[row])
+    if not 0 <= row + side < len(grid):
+        return locked
+    free = float(grid[row + side])
+    while abs(free - locked) > STEP:
+        middle = (free + locked) / 2
+        if find_buildable(model, "bank_angle", np.array([middle]))[0]:
+            free = middle
+        else:
+            locked = middle
+    return locked
+
+
+def _search_angle(key: Angle, task: _Task) -> Iterator[Found]:
     """Over an angle of the engine file."""
+    span = SPANS[key]
     model, objective, name = task.model, task.objective, key.replace("_", " ")
     one_bank = plan_cylinders(model.crank, model.layout).banks < 2
     if one_bank or (key == "bank_angle" and model.layout.bank_angle is None):
@@ -157,32 +206,45 @@ def _search_angle(key: Angle, span: Span, task: _Task) -> Iterator[Found]:
             "crank.throws, so that the crank stays as it is"
         )
 
-    isolated = find_even_angles(model, key, span) if task.even_firing else None
-    angles = _find_best_angles(model, key, span, objective) if isolated is None else isolated
+    even = find_even_angles(model, key, span) if task.even_firing else None
+    angles = _find_best_angles(key, task) if even is None else even
     return rank_candidates(model, {key: angles}, objective)
 
 
-def _find_best_angles(model: EngineFile, key: Angle, span: Span, objective: Objective) -> Array:
-    """All local minima of the objective where the limits are kept, deg."""
+def _find_best_angles(key: Angle, task: _Task) -> Array:
+    """All local minima of the objective where the limits are kept and nothing locks, deg."""
+    model, objective = task.model, task.objective
+
+    def can_be(angles: Array) -> NDArray[np.bool_]:
+        there = np.ones(len(angles), bool)
+        if model.articulation is not None:
+            for low, high in task.locked:
+                there &= (angles < low) | (angles > high)
+            there[there] = find_buildable(model, key, angles[there])
+        return there
 
     def draw(weights: Mapping[Quantity, float]) -> Curve:
         """A weighted sum over the angle."""
         alone = Objective(dict(weights), {})
 
         def evaluate(angles: Array) -> Array:
-            engine = build_candidates(model, {key: angles})
-            return evaluate_engine(engine, alone, len(angles))[1]
+            there = can_be(angles)
+            values = np.full(len(angles), np.inf)
+            if there.any():
+                engine = build_candidates(model, {key: angles[there]})
+                values[there] = evaluate_engine(engine, alone, int(there.sum()))[1]
+            return values
 
         return evaluate
 
     limits = [(draw({q: 1.0}), limit) for q, limit in objective.limits.items()]
     highest = max(q.order for q in objective.quantities)
-    return find_minima(draw(objective.weights), limits, span, highest)
+    return find_minima(draw(objective.weights), limits, SPANS[key], highest)
 
 
 _SEARCHES: dict[What, Callable[[_Task], Iterator[Found]]] = {
     "throws": _search_throws,
     "firing_order": _search_firing_order,
-    "bank_angle": partial(_search_angle, "bank_angle", Span(0.0, 180.0)),
-    "splay": partial(_search_angle, "splay", Span(-180.0, 180.0)),
+    "bank_angle": partial(_search_angle, "bank_angle"),
+    "splay": partial(_search_angle, "splay"),
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...engine.build import build
 from ...engine.load import parse
-from ...enginefile.edit import changed
+from ...enginefile.edit import set_keys
 from ...errors import InputError
 from .designs import Design
 
@@ -18,11 +18,11 @@ def write_design(text: bytes, design: Design) -> str:
     """
     new = text.decode("utf-8-sig")
     for key, value in design.given().items():
-        new = changed(new, TABLES[key], {key: value}, NOTE)
+        new = set_keys(new, TABLES[key], {key: value}, NOTE)
     if design.firing_order is not None:
-        new = changed(new, "layout", {"firing_intervals": None}, NOTE)
+        new = set_keys(new, "layout", {"firing_intervals": None}, NOTE)
     try:
         build(parse(new))
     except InputError:
-        new = changed(new, "layout", {"firing_order": None, "firing_intervals": None}, NOTE)
+        new = set_keys(new, "layout", {"firing_order": None, "firing_intervals": None}, NOTE)
     return new

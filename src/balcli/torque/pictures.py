@@ -1,0 +1,162 @@
+"""What pictures of gas, torque and loads show: curves at close angles over one cycle."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.cylinder_pressure import PressureOnPiston
+from ..core.phasors import Array, Complex, unit
+from ..core.speed_variation import Surplus, surplus
+from ..engine.build import Engine
+from ..errors import BalcliError
+from ..forces.gas import take_gas
+from ..forces.rod_forces import compute_rod_forces
+from .course import find_torque_curves
+from .loads import find_bearing_loads
+
+PAGES = ("pressure", "p-v", "torque", "pin", "main")
+_STEP = 0.5  # deg
+_BESIDE = 1e-7  # deg, on both sides of a jump
+
+
+class Pressures(NamedTuple):
+    """Pressure in cylinder 1 over its cycle.
+
+    Attributes:
+        cycle_deg: from the gas-exchange dead centre to the next, 0 at firing, shape (angles,).
+        pressure: Pa, shape (angles,).
+        volume: m3, shape (angles,); above the smallest, where the compression ratio is not known.
+        clearance_known: whether it is.
+    """
+
+    cycle_deg: Array
+    pressure: Array
+    volume: Array
+    clearance_known: bool
+
+
+class Torques(NamedTuple):
+    """Torque over a cycle, N m, each of shape (angles,).
+
+    Attributes:
+        crank_deg: angles.
+        gas, inertia, total: torques.
+        mean: of the total.
+        surplus: energy above it.
+    """
+
+    crank_deg: Array
+    gas: Array
+    inertia: Array
+    total: Array
+    mean: float
+    surplus: Surplus
+
+
+class PinLoads(NamedTuple):
+    """Force of cylinder 1's rod on its crank pin, N, shape (angles,).
+
+    Attributes:
+        crank_deg: angles.
+        in_crank: seen from the crank, real outward along the throw.
+        in_rod: seen from the rod, real towards the piston.
+    """
+
+    crank_deg: Array
+    in_crank: Complex
+    in_rod: Complex
+
+
+class MainLoads(NamedTuple):
+    """Force of the shaft on each main bearing, N, shape (bearings, angles).
+
+    Attributes:
+        crank_deg: angles.
+        in_block: x + iy.
+        in_shaft: the same seen from the shaft.
+    """
+
+    crank_deg: Array
+    in_block: Complex
+    in_shaft: Complex
+
+
+class GasPictures(NamedTuple):
+    """What one of PAGES shows; the others are None."""
+
+    pressures: Pressures | None = None
+    torques: Torques | None = None
+    pin: PinLoads | None = None
+    main: MainLoads | None = None
+
+
+def compute_pictures(engine: Engine, what: str) -> GasPictures:
+    """What one of PAGES shows, at the mean speed.
+
+    Raises:
+        BalcliError: the engine has no gas, or not what this page needs.
+    """
+    steady = replace(engine, ripple=())
+    match what:
+        case "pressure" | "p-v":
+            return GasPictures(pressures=_find_pressures(steady))
+        case "torque":
+            return GasPictures(torques=_find_torques(steady))
+        case "pin":
+            return GasPictures(pin=_find_pin(steady))
+        case _:
+            return GasPictures(main=_find_main(steady))
+
+
+def _find_pressures(engine: Engine) -> Pressures:
+    gas = take_gas(engine)
+    cylinder = gas.cylinders[engine.numbers.index(1)]
+    if not isinstance(cylinder.torque, PressureOnPiston):
+        raise BalcliError("the file has harmonics of the torque, and no pressures")
+    half = gas.cycle_deg / 2
+    angle = _divide(-half, half, np.degrees(cylinder.torque.breaks), gas.cycle_deg)
+    at = np.radians(angle)
+    known = gas.compression_ratio is not None
+    swept = cylinder.piston.area * cylinder.piston.travel(at)
+    volume = cylinder.piston.volume(at, gas.compression_ratio) if gas.compression_ratio else swept
+    return Pressures(angle, cylinder.torque.pressure.at(at), volume, known)
+
+
+def _find_torques(engine: Engine) -> Torques:
+    curves = find_torque_curves(engine)
+    cycle = take_gas(engine).cycle_deg
+    angle = _divide(0.0, cycle, np.degrees(curves.gas.breaks), cycle)
+    at = np.radians(angle)
+    gas, total = curves.gas.at(at), curves.total.at(at)
+    return Torques(angle, gas, total - gas, total, curves.total.mean, surplus(curves.total))
+
+
+def _find_pin(engine: Engine) -> PinLoads:
+    row = engine.numbers.index(1)
+    angle = np.arange(0.0, take_gas(engine).cycle_deg + _STEP / 2, _STEP)
+    pin = compute_rod_forces(engine, angle).pin[row]
+    c = engine.cylinders
+    lam, eps = (float(np.broadcast_to(np.ravel(v), c.count)[row]) for v in (c.lam, c.eps))
+    psi = angle + float(np.ravel(c.angle_deg)[row])
+    lean = np.degrees(np.arcsin(lam * unit(psi).imag - eps))
+    return PinLoads(angle, pin * unit(-psi), pin * unit(lean))
+
+
+def _find_main(engine: Engine) -> MainLoads:
+    angle = np.arange(0.0, take_gas(engine).cycle_deg + _STEP / 2, _STEP)
+    found = find_bearing_loads(engine)
+    if found is None:
+        raise BalcliError("a crank with one throw does not tell where its main bearings stand")
+    loads = found[1](angle)
+    return MainLoads(angle, loads, loads * unit(-angle))
+
+
+def _divide(low: float, high: float, breaks: Array, cycle: float) -> Array:
+    """Close angles from one to another, also on both sides of each break."""
+    inside = low + np.remainder(breaks - low, cycle)
+    every = [np.arange(low, high + _STEP / 2, _STEP), inside - _BESIDE, inside + _BESIDE]
+    found = np.sort(np.concatenate(every))
+    return found[(found >= low) & (found <= high)]
