@@ -86,7 +86,7 @@ def test_it_says_what_the_terminal_says():
         "Verdict",
         "1-3-4-2",
         "Second order: ",
-        "Practical figures",
+        "Sizes of the weights",
         "What the figures mean",
     ):
         assert expected in text
