@@ -127,7 +127,11 @@ def test_the_load_takes_its_share(curve, tmp_path):
         (["{four}", "--fluctuation", "x"], '--fluctuation "x": give (highest - lowest)/mean sp'),
         (["{four}", "--fluctuation", "1/0"], '--fluctuation "1/0": give (highest - lowest)/mea'),
         (["{four}", "--cylinder", "7"], "--cylinder 7: four has the cylinders 1, 2, 3, 4"),
-        (["--curve", "{curve}", "--inertia", "0"], "--inertia 0: give a moment of inertia above 0"),
+        (
+            ["--curve", "{curve}", "--inertia", "0"],
+            '--inertia "0": a moment of inertia is wanted: a bare number in kg mm^2, or '
+            '"4200 kg mm^2" or "8.1 lb in^2", above 0',
+        ),
         (["--curve", "{curve}", "--inertia", "3 s"], '--inertia "3 s": is a time, but a moment of'),
         (
             ["--curve", "{curve}", "--fluctuation", "1/100"],

@@ -221,6 +221,30 @@ def test_speeds_that_are_none(four, text, message):
     assert refusal("mounts", four, "--speeds", text).startswith(message)
 
 
+def test_orders_that_do_not_vibrate(four):
+    told = refusal("mounts", four, "--orders", "0-2")
+    assert told.endswith("order 0 does not vibrate: what is steady is told as rest; leave it out")
+
+
+def test_an_engine_that_shakes_nothing(tmp_path):
+    path = tmp_path / "still.toml"
+    text = (
+        ENGINE.replace("0.7", "0")
+        .replace("mass = 0.6", "mass = 0")
+        .replace("inertia = 2500", "inertia = 0")
+    )
+    text = text.replace("mass = 0.5\n", "mass = 0\n").replace("0.55", "0")
+    path.write_text(text + block("loss = 0.1"), encoding="utf-8")
+    status, out, _ = run_here("mounts", path)
+    assert status == 0
+    assert "The mounts feel nothing of the orders that count." in out
+
+
+def test_one_speed(four):
+    out = run_here("mounts", four, "--speeds", "1000").out
+    assert "range" not in out.partition("Largest force")[0]
+
+
 def test_too_much_is_refused(tmp_path):
     mounts = "".join(
         f'[[mount]]\nname = "{k}"\nat = [{k}, {k % 7}, {k % 3}]\nstiffness = [9, 9, 9]\nloss = 1\n'

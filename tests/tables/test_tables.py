@@ -32,6 +32,7 @@ ERRATA = {  # printed figures that are not the exact ones rounded
     "kvasnikov-1": 2,
     "kvasnikov-2": 3,
     "liang-examples": 4,
+    "torque-examples": 3,
     "series": 3,
     "layouts": 0,
 }

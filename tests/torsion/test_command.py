@@ -285,3 +285,57 @@ def test_orders_are_those_asked_for():
     said = ask(read_starting_file(), "--speeds", "2315", "--orders", "3-8")
     assert said["criticals"] == []  # order 4 meets no mode at this speed
     assert [x["order"] for x in said["response"]["shafts"][0]["worst"]["orders"]] == [4]
+
+
+LONE = '[[node]]\nname = "a"\ninertia = 1e6\n[[excitation]]\nnode = "a"\norder = 1\ncos = 3\n'
+
+
+def test_a_node_alone_swings_rigidly(tmp_path):
+    """No shaft, no mode: what is left is `T/(J w^2)`."""
+    said = ask(LONE, "--speeds", "100,200")
+    assert (said["modes"], said["shafts"], said["criticals"]) == ([], [], [])
+    swing = [np.degrees(3 / (rpm * np.pi / 30) ** 2) for rpm in (100, 200)]
+    assert said["response"]["free_end_deg"] == pytest.approx(swing)
+    out = run_here("torsion", "-", "--speeds", "100,200", stdin=LONE).out
+    assert "None: nothing has inertia that could swing on a shaft." in out
+    assert "a swings by ±1.567 deg at 100 rpm." in out
+    assert refusal("torsion", "-", "--holzer", "1", stdin=LONE) == (
+        "has 0 modes, but --holzer asks for 1"
+    )
+    told = refusal("torsion", "-", "--speeds", "100,200", "--damper", "viscous", stdin=LONE)
+    assert told == "--damper: the system has no mode that could be damped"
+    picture = tmp_path / "lone.svg"
+    for what in ("all", "modes", "campbell", "response"):
+        options = ("--speeds", "100,200", "--plot", picture, "--what", what)
+        assert run_here("torsion", "-", *options, stdin=LONE).status == 0
+    options = ("--speeds", "100,200", "--plot", picture, "--what", "waterfall")
+    assert refusal("torsion", "-", *options, stdin=LONE) == (
+        "--what waterfall: there is no shaft whose torque could be drawn"
+    )
+
+
+def test_loops_have_no_holzer_table():
+    loop = """
+        node = [{ name = "a", inertia = 1 }, { name = "b", inertia = 2 }, { name = "c", inertia = 3 }]
+        shaft = [
+            { from = "a", to = "b", stiffness = 3 },
+            { from = "b", to = "c", stiffness = 3 },
+            { from = "a", to = "c", stiffness = 3 },
+        ]
+        """
+    assert len(ask(loop)["modes"]) == 2
+    assert refusal("torsion", "-", "--holzer", "1", stdin=loop) == (
+        "--holzer: Holzer's table needs a chain in one piece, without loops"
+    )
+
+
+def test_markdown_has_the_same_tables():
+    out = run_here("torsion", "-", "-f", "markdown", stdin=read_starting_file()).out
+    assert "| mode | Hz | 1/min | nodes | node in |" in out
+
+
+def test_progress_says_nothing_where_nobody_looks():
+    status, _, err = run_here(
+        "torsion", "-", "--speeds", "1000:1100", "--progress", stdin=read_starting_file()
+    )
+    assert (status, err.strip()) == (0, "")

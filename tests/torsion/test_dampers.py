@@ -183,7 +183,7 @@ def test_a_file_in_inline_tables_is_written_anew(tmp_path):
         ),
         (
             ("--damper", "viscous", "--damper-inertia", "3 kg", *RANGE),
-            '--damper-inertia "3 kg" is a mass, but a moment of inertia is wanted: a bare number in '
+            '--damper-inertia "3 kg": is a mass, but a moment of inertia is wanted: a bare number in '
             'kg mm^2, or "4200 kg mm^2" or "8.1 lb in^2"',
         ),
         (
@@ -221,7 +221,7 @@ def test_pictures_are_the_same_for_the_same_question(tmp_path, what):
         "modes": "Shapes of modes: angle of each node",
         "campbell": "Campbell diagram: orders, and criticals by work",
         "response": "Vibratory stress",
-        "waterfall": "by order; the largest",
+        "waterfall": "by order, its width; the largest",
     }
     for name, title in titles.items():
         assert (title in text) == (what in ("all", name))
@@ -235,3 +235,21 @@ def test_pictures_without_a_range_show_modes_and_criticals(tmp_path):
     assert "Shapes of modes" in text
     assert "Campbell" in text
     assert "Vibratory" not in text
+
+
+def test_plot_draws_torsion_too(tmp_path):
+    """Over half to one and a half times the file's speed; the same picture as of `torsion`."""
+    engine = tmp_path / "six.toml"
+    engine.write_text(write_diesel(), encoding="utf-8")
+    for what in ("modes", "campbell", "response", "waterfall"):
+        one, other = tmp_path / "one.svg", tmp_path / "other.svg"
+        assert run_here("plot", engine, "--what", what, "-o", one).status == 0
+        speeds = () if what in ("modes", "campbell") else ("--speeds", "1000:3000:20")
+        told = run_here("torsion", engine, *speeds, "--plot", other, "--what", what)
+        assert told.status == 0
+        assert one.read_bytes() == other.read_bytes()
+    chain = tmp_path / "chain.toml"
+    chain.write_text(SINGLE, encoding="utf-8")
+    assert refusal("plot", chain, "--what", "response", "-o", tmp_path / "x.svg") == (
+        "--what response: give the range, such as --speeds 1000:2500"
+    )

@@ -32,7 +32,13 @@ class What(StrEnum):
     TORQUE = "torque"
     PIN = "pin"
     MAIN = "main"
+    MODES = "modes"
+    CAMPBELL = "campbell"
+    RESPONSE = "response"
+    WATERFALL = "waterfall"
 
+
+_TORSION = (What.MODES, What.CAMPBELL, What.RESPONSE, What.WATERFALL)
 
 Picture = Annotated[
     Path,
@@ -48,7 +54,7 @@ Page = Annotated[
         "crank angle; "
         "factor: over the balance factor; bank: a vee over its bank angle; inner: along the "
         "crankshaft; with [gas]: pressure, p-v, torque (with its surplus areas), pin and main "
-        "(polar diagrams of bearing loads).",
+        "(polar diagrams of bearing loads); modes, campbell, response, waterfall: of its torsion.",
     ),
 ]
 
@@ -60,13 +66,26 @@ def plot(
     scheme: Scheme = None,
     speed: Speed = None,
     orders: Orders = None,
+    speeds: Annotated[
+        str | None,
+        typer.Option(
+            metavar="A:B:STEP",
+            show_default=False,
+            help="Of torsion, rpm; default: half to one and a half times the file's speed.",
+        ),
+    ] = None,
     units: UnitsOption = Units.SI,
 ) -> None:
     """Draw free forces and moments: loci over a revolution, order by order, and over the crank
-    angle.
+    angle; or torsional vibration.
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = picture_form(output)
+    if what in _TORSION:
+        from .torsion_answer import draw_file
+
+        write_file(draw_file(path, what, speeds, orders, form), output)
+        return
     from ..render.plot.pages import Subject, draw_page
     from ..studies.pictures import compute_study
     from .inputs import read_engine

@@ -11,8 +11,11 @@ from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, say
 from ..render.plot.torsion import draw_torsion
 from ..torsion.analysis import Question, TorsionAnalysis, analyze_torsion
-from ..torsion.load import Source, load_source
+from ..torsion.load import ChainSource, Source, load_source
+from ..torsion.quantity import choose_speeds
 from ..torsion.write_damper import insert_damper
+from .speed_range import parse_speeds
+from .torsion_options import parse_half_orders
 
 if TYPE_CHECKING:
     from ..render.plot.style import Form
@@ -72,6 +75,27 @@ def write_damper(source: Source, result: TorsionAnalysis) -> str:
     return insert_damper(source.text, result.damper.node, result.damper.damper)
 
 
+def draw_file(path: str, what: str, speeds: str | None, orders: str | None, form: Form) -> bytes:
+    """The content of a file with one of the pictures of the chain or engine at a path.
+
+    Args:
+        speeds: range, as typed; None: that of an engine's own speed.
+    """
+    asked = Question(parse_speeds(speeds), parse_half_orders(orders))
+    source = load_source(path, asked.orders)
+    if asked.speeds_rpm is None and what in ("response", "waterfall"):
+        if isinstance(source, ChainSource):
+            raise BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")
+        asked = asked._replace(speeds_rpm=choose_speeds(source.engine))
+    return draw(analyze_torsion(source, asked), what, form)
+
+
 def draw(result: TorsionAnalysis, what: str, form: Form) -> bytes:
-    """The content of a file with pictures."""
+    """The content of a file with pictures.
+
+    Raises:
+        BalcliError: there is no shaft whose torque could be drawn.
+    """
+    if what == "waterfall" and not result.system.shafts:
+        raise BalcliError("--what waterfall: there is no shaft whose torque could be drawn")
     return draw_torsion(result, what, form)

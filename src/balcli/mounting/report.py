@@ -12,6 +12,7 @@ from ..core.singular_values import Real
 from ..engine.build import Engine
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
+from ..forces.orders import check_orders
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
 from .build import MountedBody, build_mounted_body
@@ -138,7 +139,9 @@ def _run(
 ) -> MountReport:
     rpm = choose_speeds(engine) if speeds_rpm is None else speeds_rpm
     omega = rpm * (np.pi / 30)
-    asked = None if orders is None else np.array(sorted(set(orders)), float)
+    asked = None if orders is None else check_orders(orders)
+    if asked is not None and asked[0] == 0:
+        raise BalcliError("order 0 does not vibrate: what is steady is told as rest; leave it out")
     loads = find_loads(engine, mounted.body.centre, asked)
     modes = find_mounted_modes(mounted, loads.mean)
     response = respond(mounted, modes, loads, omega)

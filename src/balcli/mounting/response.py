@@ -154,8 +154,10 @@ def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Load
 
 
 def _leave_out_none(loads: Loads) -> Loads:
-    """Without orders that have no load."""
+    """Without orders that have no load, as far as some have."""
     there = loads.there
+    if not there.any():
+        return loads
     gas = None if loads.gas is None else loads.gas[there]
     return replace(loads, orders=loads.orders[there], inertia=loads.inertia[there], gas=gas)
 

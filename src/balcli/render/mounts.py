@@ -47,11 +47,15 @@ def _answer(result: MountReport, system: System) -> Iterator[str]:
     if response is None:
         return
     name, worst = _find_hardest(result, response)
+    if worst.value == 0:
+        yield "The mounts feel nothing of the orders that count."
+        return
     force, rpm = system.force, worst.omega * _RPM
+    why = f" {_explain(result, response, worst)}".rstrip()
     yield (
         f"The mount {name} feels most: {number(force.of(worst.value), 4)} {force.name} at "
         f"{number(rpm, 4)} rpm, of which order {order_number(worst.order)} alone makes "
-        f"{number(force.of(worst.alone), 4)} {force.name}. {_explain(result, response, worst)}"
+        f"{number(force.of(worst.alone), 4)} {force.name}.{why}"
     )
     if response.loads.gas is None:
         yield "Of inertia alone: the torque of the gas, which rolls an engine too, is not in this."
@@ -88,6 +92,8 @@ def _explain(result: MountReport, response: Response, worst: Worst) -> str:
             "resonance."
         )
     highest = result.modes.six[-1].hertz
+    if len(response.omega) == 1:
+        return ""
     if worst.omega <= response.omega[0] * (1 + 1e-9):
         return "That is the slowest speed of the range, nearest to the modes below it."
     if worst.omega >= response.omega[-1] * (1 - 1e-9):

@@ -35,7 +35,7 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
         parts.append(_response(result, result.response))
     if result.barred_rpm is not None:
         parts.append(_barred(result))
-    return Sheet(f"{result.system.name or 'chain without a name'}: torsion", tuple(parts))
+    return Sheet(f"{result.system.name or 'shafts without a name'}: torsion", tuple(parts))
 
 
 _DAMPER_KEYS = {
@@ -69,7 +69,9 @@ def _damper(sized: SizedDamper) -> Facts:
     return Facts(tuple(pairs), f"Sized: a {sized.damper.kind} damper")
 
 
-def _modes(result: TorsionAnalysis) -> Grid:
+def _modes(result: TorsionAnalysis) -> Grid | Text:
+    if not result.modes:
+        return Text("Natural modes", ("None: nothing has inertia that could swing on a shaft.",))
     rows = tuple(
         (
             str(mode.number),
@@ -168,7 +170,11 @@ def _settle(asked: HolzerTable, value: float) -> float:
     return 0.0 if abs(value) <= 1e-9 * size else value
 
 
-def _response(result: TorsionAnalysis, response: Response) -> Grid:
+def _response(result: TorsionAnalysis, response: Response) -> Grid | Text:
+    first, last = (number(float(response.speeds_rpm[k])) for k in (0, -1))
+    span = f"{first} to {last} rpm"
+    if not result.system.shafts:
+        return Text(f"Vibration, {span}", (_tell_swing(result, response),))
     rows = []
     stressed = bool(np.any(np.isfinite(response.stress)))
     for k, name in enumerate(result.system.shafts):
@@ -182,12 +188,9 @@ def _response(result: TorsionAnalysis, response: Response) -> Grid:
         if stressed:
             cells.append(number(float(response.stress[worst, k]) / 1e6, 4))
         rows.append((*cells, _name_orders(response, worst, k)))
-    worst = int(np.argmax(response.free_end))
-    swing = number(float(np.degrees(response.free_end[worst])), 4)
     note = (
         "Largest half of peak to peak, orders added up in time; sum: of their amplitudes, which "
-        f"do not peak together. {result.system.nodes[0]} swings by ±{swing} deg at "
-        f"{number(float(response.speeds_rpm[worst]))} rpm."
+        f"do not peak together. {_tell_swing(result, response)}"
     )
     for k, name in enumerate(response.dampers):
         hottest = int(np.argmax(response.heat[:, k]))
@@ -197,11 +200,16 @@ def _response(result: TorsionAnalysis, response: Response) -> Grid:
             f"{number(float(response.speeds_rpm[hottest]))} rpm."
         )
     heads = ["shaft", "± N·m", "at rpm", "sum, N·m", *["N/mm²"] * stressed, "largest orders"]
-    span = (
-        f"{number(float(response.speeds_rpm[0]))} to {number(float(response.speeds_rpm[-1]))} rpm"
-    )
     title = f"Vibratory torque, {span}"
     return Grid(title, tuple(heads), tuple(rows), note, words=(0, len(heads) - 1))
+
+
+def _tell_swing(result: TorsionAnalysis, response: Response) -> str:
+    """The largest swing of the first node, and where."""
+    worst = int(np.argmax(response.free_end))
+    swing = number(float(np.degrees(response.free_end[worst])), 4)
+    speed = number(float(response.speeds_rpm[worst]))
+    return f"{result.system.nodes[0]} swings by ±{swing} deg at {speed} rpm."
 
 
 def _name_orders(response: Response, speed: int, shaft: int) -> str:

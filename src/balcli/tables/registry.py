@@ -7,7 +7,16 @@ from dataclasses import dataclass
 
 from ..enginefile.fields import nearest
 from ..errors import BalcliError
-from . import kvasnikov, layouts, liang, liu, series_coefficients, tsinghua, wang
+from . import (
+    kvasnikov,
+    layouts,
+    liang,
+    liu,
+    series_coefficients,
+    torque_examples,
+    tsinghua,
+    wang,
+)
 from .printed import Print, load_print
 from .ranges import Ranges, parse_crank_ratios, parse_range
 from .recomputed import Table
@@ -35,6 +44,7 @@ REGISTRY: dict[str, Entry] = {
     "kvasnikov-1": Entry(kvasnikov.tabulate_piston, ("lambda",)),
     "kvasnikov-2": Entry(kvasnikov.tabulate_rod, ("lambda",)),
     "liang-examples": Entry(liang.tabulate_examples),
+    "torque-examples": Entry(torque_examples.tabulate_examples),
     "series": Entry(series_coefficients.tabulate_series, ("power",)),
     "layouts": Entry(layouts.tabulate_layouts),
 }

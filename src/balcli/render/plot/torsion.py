@@ -23,7 +23,7 @@ PAGES = ("all", "modes", "campbell", "response", "waterfall")
 _STYLES = tuple(product(("-", "--", ":"), (BLUE, RED, GREEN, INK)))  # told apart in grey, too
 _MOST_MODES = 4  # whose shapes are drawn: more lie on one another
 _MOST_SHAFTS = 8  # whose torque is drawn: the largest
-_MOST_LINES = 40  # of a waterfall
+_WIDEST = 1.6  # of an order in a waterfall, over the gap between orders
 _MOST_ORDERS = 12  # that are named in a Campbell diagram
 _WORTH = 1e-3  # share of work from which a critical is drawn
 
@@ -37,19 +37,19 @@ def draw_torsion(result: TorsionAnalysis, what: str, form: Form) -> bytes:
         parts.append(lambda ax: _draw_modes(ax, result))
     if what in ("all", "campbell"):
         parts.append(lambda ax: _draw_campbell(ax, result))
-    if result.response is not None:
-        response = result.response
-        if what in ("all", "response"):
+    response, shafts = result.response, result.system.shafts
+    if response is not None:
+        if what in ("all", "response") and shafts:
             parts.append(lambda ax: _draw_torque(ax, result, response))
         if what == "response":
             parts.append(lambda ax: _draw_swing(ax, result, response))
-        if what in ("all", "waterfall"):
+        if what in ("all", "waterfall") and shafts:
             parts.append(lambda ax: _draw_waterfall(ax, result, response))
     rows, columns = (2, 2) if len(parts) > 2 else (len(parts), 1) if what != "all" else (1, 2)
     with open_figure(5.6 * columns + 1.2 * (columns == 1), 4.1 * rows + 0.3, form) as fig:
         for ax, draw in zip(_lay_out(fig, rows, columns), parts, strict=False):
             draw(ax)
-        name = fit_name(result.system.name) or "chain without a name"
+        name = fit_name(result.system.name) or "shafts without a name"
         fig.suptitle(f"{name}: torsion", x=0.01, ha="left")
         return save_figure(fig, form)
 
@@ -75,7 +75,8 @@ def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
     ax.set_xticks(range(len(names)), [fit_name(name, 14) for name in names])
     ax.tick_params(axis="x", labelrotation=90 if len(names) > 5 else 0)
     ax.set_ylim(-1.1, 1.1)
-    ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0, handlelength=1)
+    if result.modes:
+        ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0, handlelength=1)
     ax.set_title("Shapes of modes: angle of each node", pad=22)
 
 
@@ -109,8 +110,9 @@ def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
         ax.plot([0, end], [0, order * end / 60], color=FAINT, linewidth=0.9, zorder=1)
         if order in named[:_MOST_ORDERS]:
             ax.text(end, order * end / 60, f"{order_number(order)}", fontsize=7, color=SOFT)
+    most = max((critical.work for critical in drawn), default=1.0)
     for critical in drawn:
-        size = 12 + 240 * critical.work_share
+        size = 12 + 240 * critical.work / most
         height = modes[critical.mode].frequency_hz
         ax.scatter([critical.speed_rpm], [height], s=size, color=RED, alpha=0.7, zorder=3)
     ax.set(xlim=(0, 1.03 * top), ylim=(0, ceiling), xlabel="rpm", ylabel="Hz")
@@ -164,21 +166,20 @@ def _finish(ax: Axes, response: Response, unit: str) -> None:
 
 
 def _draw_waterfall(ax: Axes, result: TorsionAnalysis, response: Response) -> None:
-    """Torque of the shaft with the largest, by order, one line a speed, the fastest behind."""
+    """Torque of the shaft with the largest: every order a stream up the speeds, as wide as it is
+    large.
+    """
     shaft = int(np.argmax(response.torque.max(axis=0)))
     amplitudes = response.amplitudes[:, :, shaft]
-    count = min(len(response.speeds_rpm), _MOST_LINES)
-    chosen = np.unique(np.linspace(0, len(response.speeds_rpm) - 1, count).astype(int))
-    speeds = response.speeds_rpm[chosen]
-    spacing = float(np.diff(speeds).mean()) if len(speeds) > 1 else 1.0
-    scale = 6 * spacing / (float(amplitudes.max()) or 1.0)
-    for k, speed in zip(chosen[::-1], speeds[::-1], strict=True):
-        heights = speed + scale * amplitudes[:, k]
-        ax.vlines(response.orders, speed, heights, color=BLUE, linewidth=1.3)
-        ax.axhline(speed, color=FAINT, linewidth=0.5, zorder=0)
+    gap = float(np.diff(response.orders).min()) if len(response.orders) > 1 else 1.0
+    half = _WIDEST * gap / 2 / (float(amplitudes.max()) or 1.0)
+    for order, sizes in zip(response.orders, amplitudes, strict=True):
+        left, right = order - half * sizes, order + half * sizes
+        ax.axvline(order, color=FAINT, linewidth=0.5, zorder=0)
+        ax.fill_betweenx(response.speeds_rpm, left, right, color=BLUE, linewidth=0.4)
     ax.set(xlabel="order", ylabel="rpm")
-    ax.grid(visible=False)
-    ax.set_xlim(0, float(response.orders[-1]) + 0.5)
+    ax.grid(visible=False, axis="x")
+    ax.set_xlim(0, float(response.orders[-1]) + gap)
     name = fit_name(result.system.shafts[shaft], 22)
     largest = number(float(amplitudes.max()), 3)
-    ax.set_title(f"Torque of {name} by order; the largest {largest} N·m", pad=22)
+    ax.set_title(f"Torque of {name} by order, its width; the largest {largest} N·m", pad=22)
