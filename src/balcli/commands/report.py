@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ..engine.build import Engine
     from ..enginefile.model import EngineFile
     from ..mounting.report import MountReport
+    from ..torsion.analysis import TorsionAnalysis
 
 Page = Annotated[
     Path,
@@ -58,7 +59,22 @@ def report(
     result = analyze(engine, asked, {*KINDS, "peak"})
     balanced = balance(engine, scheme or "auto", orders=asked)
     mounted = _put_on_mounts(model, engine, scheme, name_file(path)) if model.body else None
-    emit(page(result, balanced, SYSTEMS[units], mounted), output)
+    twisted = _twist(model, engine, name_file(path)) if model.torsion else None
+    emit(page(result, balanced, SYSTEMS[units], mounted, twisted), output)
+
+
+def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | None:
+    """How its crankshaft twists; None, with a warning, where that cannot be told."""
+    from ..torsion.analysis import Question, analyze_torsion
+    from ..torsion.load import make_source
+    from ..torsion.quantity import choose_speeds
+
+    try:
+        source = make_source(model, engine, name)
+        return analyze_torsion(source, Question(choose_speeds(engine)))
+    except BalcliError as error:
+        say(f"warning: the page does not show the torsion: {error}")
+        return None
 
 
 def _put_on_mounts(
