@@ -20,7 +20,7 @@ import pytest
 import typer
 from support.commands import run_command, run_in_terminal, run_python
 from support.engines import GOOD, changed
-from support.paths import ENGINES, ROOT
+from support.paths import ENGINES, ROOT, SOURCE
 
 from balcli import __version__
 from balcli.cli import COMMANDS
@@ -190,7 +190,7 @@ def test_mistakes_of_a_file(balcli, bad):
     assert balcli("analyze", bad) == (
         2,
         "",
-        f"balcli: {bad}: crank.strok: is no key of [crank]; did you mean stroke?\n",
+        f"balcli: {bad}: crank.strok: unknown key in [crank]; did you mean stroke?\n",
     )
 
 
@@ -413,7 +413,7 @@ def test_several_files_and_a_bad_one_among_them(balcli, good, bad):
     status, out, err = balcli("analyze", good, bad, V8, "--format", "json")
     assert status == 2
     assert [json.loads(line)["engine"]["cylinders"] for line in out.splitlines()] == [4, 8]
-    assert err == f"balcli: {bad}: crank.strok: is no key of [crank]; did you mean stroke?\n"
+    assert err == f"balcli: {bad}: crank.strok: unknown key in [crank]; did you mean stroke?\n"
     status, out, err = balcli("analyze", good, V8, "--format", "table")
     assert (status, err) == (0, "")
     assert out.index("in-line four") < out.index("90-degree cross-plane V8")
@@ -487,7 +487,7 @@ def test_new_never_overwrites_without_force(balcli, tmp_path):
     assert balcli("new", "vee", target) == (
         2,
         "",
-        f"balcli: {target}: is there already; choose another name, or --force to overwrite it\n",
+        f"balcli: {target}: already exists; choose another name, or --force to overwrite it\n",
     )
     assert target.read_text() == written
     assert balcli("new", "vee", target, "--force") == (0, "", "")
@@ -733,6 +733,15 @@ main()
 """
     done = run_python("-c", code, "analyze", I4)
     assert (done.returncode, done.stdout, done.stderr) == (128 + number, "", "")
+
+
+def test_the_package_imports_nothing_before_ctrl_c_is_heeded():
+    """What Python itself has imported by then is not the program's to choose."""
+    code = (
+        f"import sys; sys.path.insert(0, {str(SOURCE)!r}); before = {{*sys.modules}}; import balcli;"
+        "print(sorted({*sys.modules} - before))"
+    )
+    assert run_python("-S", "-c", code).stdout == "['__future__', 'balcli']\n"
 
 
 @unix

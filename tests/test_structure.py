@@ -183,7 +183,11 @@ ON_REQUEST = {
         "balcli.sizing.auto",
         "balcli.sizing.remedy",
     ),
-    "balcli.render.html": ("balcli.render.mounts", "balcli.render.page_mounts"),
+    "balcli.render.html": (
+        *("balcli.render.mounts", "balcli.render.page_mounts"),
+        *("balcli.render.torsion", "balcli.render.plot.torsion"),
+        "balcli.render.page_torque",
+    ),
     "balcli.commands.scatter": ("balcli.studies.mount_scatter",),
     "balcli.studies.quantities": (
         "balcli.mounting.quantity",

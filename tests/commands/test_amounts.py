@@ -6,7 +6,7 @@ import json
 
 import pytest
 from support.commands import refusal, run_here
-from support.paths import ENGINES
+from support.paths import ENGINES, PACKAGE
 
 from balcli.commands.amounts import as_bare_angles, read_share
 from balcli.errors import BalcliError
@@ -18,6 +18,7 @@ WEIGHTS = ("balance", V8, "--scheme", "counterweights")
 SHAFT = ("balance", V8, "--scheme", "two-shaft", "--order", 4)
 GUIDE = ("analyze", V8, "--only", "guide")
 SUM = ("sum", V8, V8)
+MOUNTS = PACKAGE / "enginefile" / "starting_files" / "mounts.toml"
 CURVES = ("curves", V8, "--format", "json")
 
 
@@ -46,6 +47,15 @@ def test_a_figure_with_its_unit_is_the_bare_one(command, bare, said):
     texts = [run_here(*command, *options, "-f", "json") for options in (bare, said)]
     assert [text.status for text in texts] == [0, 0], texts[1].err
     assert json.loads(texts[0].out) == json.loads(texts[1].out)
+
+
+def test_speeds_of_a_range_have_units_too():
+    bare = run_here("mounts", MOUNTS, "--speeds", "600:1200:300", "-f", "json")
+    assert bare.status == 0
+    assert bare == run_here("mounts", MOUNTS, "--speeds", "10turn/s:20turn/s:5turn/s", "-f", "json")
+    assert refusal("mounts", MOUNTS, "--speeds", "1 mm:2 mm:1 mm").startswith(
+        '--speeds "1 mm:2 mm:1 mm": give first:last:step in rpm'
+    )
 
 
 @pytest.mark.parametrize(

@@ -127,7 +127,11 @@ def test_the_load_takes_its_share(curve, tmp_path):
         (["{four}", "--fluctuation", "x"], '--fluctuation "x": give (highest - lowest)/mean sp'),
         (["{four}", "--fluctuation", "1/0"], '--fluctuation "1/0": give (highest - lowest)/mea'),
         (["{four}", "--cylinder", "7"], "--cylinder 7: four has the cylinders 1, 2, 3, 4"),
-        (["--curve", "{curve}", "--inertia", "0"], "--inertia 0: give a moment of inertia above 0"),
+        (
+            ["--curve", "{curve}", "--inertia", "0"],
+            '--inertia "0": a moment of inertia is wanted: a bare number in kg mm^2, or '
+            '"4200 kg mm^2" or "8.1 lb in^2", above 0',
+        ),
         (["--curve", "{curve}", "--inertia", "3 s"], '--inertia "3 s": is a time, but a moment of'),
         (
             ["--curve", "{curve}", "--fluctuation", "1/100"],
@@ -254,3 +258,46 @@ def test_pictures_that_cannot_be(tmp_path):
     assert err == "balcli: loads of pins need pressures; harmonics of the torque have none\n"
     found = json.loads(torque(str(bare), "-f", "json"))
     assert not {"max_pressure_Pa", "max_pressure_deg"} & set(found)
+
+
+# ------------------------------------------------------------------ other commands
+def test_what_names_a_file_beside_it_is_written_beside_it(tmp_path):
+    """A diagram would be left behind."""
+    (tmp_path / "far").mkdir()
+    rows = "\n".join(f"{angle},{5 if angle == 10 else 1}" for angle in range(0, 721, 10))
+    (tmp_path / "p.csv").write_text(f"angle_deg,pressure_bar\n{rows}\n")
+    path = tmp_path / "four.toml"
+    path.write_text(FOUR + '[gas]\nindicator = "p.csv"\n[flywheel]\ninertia = 9e6\n')
+    for command in ("torque", "balance"):
+        far = tmp_path / "far" / "out.toml"
+        status, _, err = run_here(command, str(path), "--write", str(far))
+        assert status == 2
+        assert f'{far}: the engine file names "p.csv", which stands beside it in' in err
+        assert not far.exists()
+        near = tmp_path / f"{command}.toml"
+        status, _, err = run_here(command, str(path), "--write", str(near))
+        assert (status, err) == (0, "")
+        assert run_here("torque", str(near)).status == 0
+
+
+def test_engines_with_gas_are_compared_by_what_it_does(four, tmp_path):
+    found = json.loads(run_here("compare", four, four, "-f", "json", "--orders", "2").out)
+    assert "torque_Nm" in json.dumps(found)
+    bare = tmp_path / "bare.toml"
+    bare.write_text(FOUR)
+    mixed = run_here("compare", four, str(bare), "-f", "json", "--orders", "2")
+    assert (mixed.status, mixed.err) == (0, "")
+    assert "gas_torque_Nm" not in mixed.out
+
+
+def test_guide_moments_include_the_gas(four, tmp_path):
+    arguments = ("--only", "guide", "--orders", "0.5-4", "-f", "json")
+    found = json.loads(run_here("analyze", four, *arguments).out)["guide"]
+    assert found["includes"] == "inertia and gas"
+    roll = json.loads(run_here("analyze", four, "--orders", "2", "--only", "gas", "-f", "json").out)
+    by_order = {entry["order"]: entry for entry in found["orders"]}
+    assert by_order[2]["h_Nm"]["amplitude"] == pytest.approx(
+        roll["orders"][0]["roll_total_Nm"]["amplitude"], rel=1e-12
+    )
+    assert by_order[0.5]["h_Nm"]["balanced"]
+    assert by_order[0.5]["x_Nm"]["amplitude"] > 1

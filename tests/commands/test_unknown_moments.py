@@ -48,6 +48,7 @@ def test_a_table_has_dashes_and_the_verdict_judges_forces_alone(balcli, twin):
     assert "no moment" not in told
     assert "no free force of orders 1 and 2 (moments are not known)" in told
     brief = balcli("analyze", twin)[1]
+    assert "moment – N" not in brief
     assert re.search(r"^1 +balanced +– +– +–$", brief, re.MULTILINE)
     assert "leave no free force (moments are not known) of orders 1 and 2" in brief
 

@@ -233,7 +233,7 @@ def test_what_is_suspicious_of_a_diagram(beside):
         (
             FOUR + WIEBE + "heat = 3\nburn_strat = 3\n",
             [
-                "gas.burn_strat: is no key of [gas]; did you mean burn_start?",
+                "gas.burn_strat: unknown key in [gas]; did you mean burn_start?",
                 "gas: has imep and heat; give one of imep, bmep, max_pressure, cut_off and heat",
             ],
         ),

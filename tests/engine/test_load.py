@@ -96,29 +96,32 @@ def test_standard_input(monkeypatch):
         (changed(("stroke = 90\n", "")), "crank.stroke: is missing; give it, such as stroke = 90"),
         (
             changed(("stroke = 90", "strok = 90")),
-            "crank.strok: is no key of [crank]; did you mean stroke?",
+            "crank.strok: unknown key in [crank]; did you mean stroke?",
         ),
         (
             changed(("stroke = 90", "stroke = 90\nbore = 86")),
-            "crank.bore: is no key of [crank]; bore belongs to [piston]",
+            "crank.bore: unknown key in [crank]; bore belongs to [piston]",
         ),
         (
             changed(("stroke = 90", "stroke = 90\nratios = 1")),
-            "crank.ratios: is no key of [crank]; did you mean ratio of [rod]?",
+            "crank.ratios: unknown key in [crank]; did you mean ratio of [rod]?",
         ),
         (
             changed(("stroke = 90", "stroke = 90\nxyz = 1")),
-            "crank.xyz: is no key of [crank]; it has stroke, throws, spacing, positions, "
+            "crank.xyz: unknown key in [crank]; it has stroke, throws, spacing, positions, "
             "throw_mass, inertia, splay",
         ),
         (
             changed(("[piston]", "[pistons]\nmass = 0.5\n[piston]")),
-            "pistons: is no key of an engine file; did you mean piston?",
+            "pistons: unknown key in an engine file; did you mean piston?",
         ),
-        ("stroke = 90\n" + GOOD, "stroke: is no key of an engine file; stroke belongs to [crank]"),
+        (
+            "stroke = 90\n" + GOOD,
+            "stroke: unknown key in an engine file; stroke belongs to [crank]",
+        ),
         (
             changed(("[0, 180, 180, 0]", "180")),
-            "crank.throws: 180 is not a list; write it in square brackets, such as [0, 180]",
+            "crank.throws: 180 is not a list; write it in square brackets, such as [0, 180, 180, 0]",
         ),
         (
             changed(("[0, 180, 180, 0]", '[0, "half", 180, 0]')),
@@ -168,7 +171,7 @@ def test_standard_input(monkeypatch):
         ),
         (
             changed(("speed = 3000", "speed_ripple = [{ order = 1, amplitud = 0.1 }]")),
-            "operation.speed_ripple.1.amplitud: is no key of [operation]; did you mean amplitude?",
+            "operation.speed_ripple.1.amplitud: unknown key in [operation]; did you mean amplitude?",
         ),
         (
             GOOD + "[frame]\nreference = [0, 0]\n",
@@ -203,7 +206,7 @@ def test_standard_input(monkeypatch):
         ),
         (
             GOOD + "[bobweight]\noverbalance = 0.51\n",
-            "bobweight.overbalance: is no key of [bobweight]; did you mean --factor? The balance "
+            "bobweight.overbalance: unknown key in [bobweight]; did you mean --factor? The balance "
             "factor is no figure of the engine: balcli balance FILE --factor 51%",
         ),
         (
@@ -230,7 +233,7 @@ def test_standard_input(monkeypatch):
         ),
         (
             GOOD + "[cylinder.2]\npiston_mas = 1\n",
-            "cylinder.2.piston_mas: is no key of [cylinder]; did you mean piston_mass?",
+            "cylinder.2.piston_mas: unknown key in [cylinder]; did you mean piston_mass?",
         ),
     ],
 )
@@ -249,7 +252,7 @@ def test_all_mistakes_at_once():
     assert (
         refusal(text)
         == f"""5 mistakes
-  piston.bor: is no key of [piston]; did you mean bore?
+  piston.bor: unknown key in [piston]; did you mean bore?
   crank.stroke: -90 is not above 0; {LENGTH}, above 0
   rod: has length and ratio; give either length or ratio
   rod.mass: "heavy" is not a number followed by a unit; {MASS}
@@ -343,7 +346,7 @@ def test_messages_carry_no_control_characters():
     assert (
         refusal(text)
         == f"""2 mistakes
-  crank.st?[31mroke: is no key of [crank]; did you mean stroke?
+  crank.st?[31mroke: unknown key in [crank]; did you mean stroke?
   crank.stroke: "?]0;x" is not a number followed by a unit; {LENGTH}"""
     )
 
@@ -440,5 +443,5 @@ def test_without_its_layout_nothing_is_said_of_a_cranks_throws():
     )
     assert (
         refusal(text)
-        == "layout.firing_order: 5 is not a list; write it in square brackets, such as [0, 180]"
+        == "layout.firing_order: 5 is not a list; write it in square brackets, such as [1, 3, 4, 2]"
     )

@@ -72,7 +72,10 @@ CASES = [
         three_runs("radius = [200, -1]"),
         'radius: the 2nd value -1 is not above 0; a length is wanted: a bare number in mm, or "90 mm" or "3.5 in", above 0',
     ),
-    (three_runs("rotaton = 'lag'"), "rotaton: is no key of a file of runs; did you mean rotation?"),
+    (
+        three_runs("rotaton = 'lag'"),
+        "rotaton: unknown key in a file of runs; did you mean rotation?",
+    ),
     (three_runs("rotation = 'left'"), 'rotation: "left" is not "lag" or "lead"'),
     (
         three_runs("weight_unit = 'mm'"),

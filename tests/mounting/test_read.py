@@ -52,7 +52,7 @@ CASES = [
         block("loss = -0.1"),
         "mount.1.loss: -0.1 is less than 0; a plain number is wanted, without quotes, 0 or more",
     ),
-    (block("los = 0.1"), "mount.1.los: is no key of [mount]; did you mean loss?"),
+    (block("los = 0.1"), "mount.1.los: unknown key in [mount]; did you mean loss?"),
     (
         ENGINE.replace("mass = 0.5\n", "") + block().replace("mass = 200", ""),
         "piston: has neither mass nor piston, pin, rings and locks; give either mass or piston, pin, "

@@ -32,6 +32,7 @@ SHOWN = {  # by renderer
     "search": ("search", V8, "--over", "throws", "--minimise", "moment.1.major"),
     "table_list": ("tables",),
     "tolerances": ("scatter", V8, "--samples", "100", "--seed", "1"),
+    "torque": ("torque", ENGINES / "v8_wiebe.toml"),
     "two_engines": ("sum", V6, SINGLE),
 }
 

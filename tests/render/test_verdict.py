@@ -28,13 +28,13 @@ CASES = [
         (0, 5),
         "First order: force of 5 N, turning against the crank: nothing on the crankshaft cancels "
         "it; "
-        "it takes a shaft at -1 times crank speed.",
+        "it needs a balancer shaft at -1 times crank speed.",
     ),
     (
         1,
         "moment",
         (20j, 10j),
-        "First order: moment of up to 30 N·m about y (20 turns with the crank, 10 against it): "
+        "First order: moment of up to 30 N·m pitching (about y) (20 turns with the crank, 10 against it): "
         "counterweights "
         "cancel the first part, a shaft at -1 times crank speed the second.",
     ),
@@ -44,14 +44,14 @@ CASES = [
         (2, 2),
         "Second order: force of up to 4 N along x (2 turns with the crank, 2 against it): nothing "
         "on the "
-        "crankshaft cancels it; it takes shafts at +2 and -2 times crank speed.",
+        "crankshaft cancels it; it needs two balancer shafts, at +2 and -2 times crank speed.",
     ),
     (
         2,
         "force",
         (2, 0),
         "Second order: force of 2 N, turning with the crank: nothing on the crankshaft cancels it; "
-        "it takes a shaft at +2 times crank speed.",
+        "it needs a balancer shaft at +2 times crank speed.",
     ),
     (
         2,
@@ -59,7 +59,7 @@ CASES = [
         (3, cmath.rect(1, math.radians(60))),
         "Second order: moment of up to 4 N·m about an axis at 30.0 deg (3 turns with the crank, 1 "
         "against it): nothing on the "
-        "crankshaft cancels it; it takes shafts at +2 and -2 times crank speed.",
+        "crankshaft cancels it; it needs two balancer shafts, at +2 and -2 times crank speed.",
     ),
     (
         4,

@@ -183,7 +183,7 @@ def test_a_file_in_inline_tables_is_written_anew(tmp_path):
         ),
         (
             ("--damper", "viscous", "--damper-inertia", "3 kg", *RANGE),
-            '--damper-inertia "3 kg" is a mass, but a moment of inertia is wanted: a bare number in '
+            '--damper-inertia "3 kg": is a mass, but a moment of inertia is wanted: a bare number in '
             'kg mm^2, or "4200 kg mm^2" or "8.1 lb in^2"',
         ),
         (

@@ -343,7 +343,7 @@ def test_every_misfit_of_torsion_is_told_by_its_path():
         ),
         (
             '[[torsion.front]]\nname = "a"\nstiffness = 1\ninertja = 3',
-            "torsion.front.1.inertja: is no key of [torsion]; did you mean inertia?",
+            "torsion.front.1.inertja: unknown key in [torsion]; did you mean inertia?",
         ),
         (
             '[[torsion.front]]\nname = "a"\ninertia = 0\nstiffness = 1',

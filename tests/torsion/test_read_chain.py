@@ -162,7 +162,7 @@ order = 1.3
 """
     assert mistakes(text) == [
         "19 mistakes",
-        "  limt: is no key of a chain file; did you mean limit?",
+        "  limt: unknown key in a chain file; did you mean limit?",
         "  loss: -1 is less than 0; a plain number is wanted, without quotes, 0 or more",
         "  node.1.inertia: is 0; leave it out where a node has no inertia",
         "  node.2.inertia: -5 is not above 0; a moment of inertia is wanted: a bare number in kg mm^2, "
@@ -172,7 +172,7 @@ order = 1.3
         'kg mm^2, or "4200 kg mm^2" or "8.1 lb in^2"',
         "  node.3.damper: is viscous and lacks damping; is viscous, which has no mass",
         '  node.4.damper.kind: "spring" is not "viscous" or "rubber" or "pendulum"',
-        "  node.4.damper.foo: is no key of a damper; it has kind, inertia, damping, stiffness, loss, "
+        "  node.4.damper.foo: unknown key in a damper; it has kind, inertia, damping, stiffness, loss, "
         "mass, radius, length",
         '  shaft.1.to: is missing; give it, such as to = "flywheel"',
         "  shaft.2.stiffness: 0 is not above 0; a torsional stiffness is wanted: a bare number in "

@@ -10,11 +10,12 @@ from __future__ import annotations
 import math
 import re
 
-from ..enginefile.units import ANGLE, LENGTH, MASS, SPEED, Dimension, convert
+from ..enginefile.units import ANGLE, INERTIA, LENGTH, MASS, SPEED, Dimension, convert, wanted
 from ..errors import BalcliError
 from ..limits import LONGEST_SHOWN
 from ..render.formats import Units
 
+_LARGEST_INERTIA = 1e24  # kg mm2: its square is no overflow
 _IMPERIAL_AND_SI = {LENGTH: ("in", "mm"), MASS: ("lb", "kg")}
 
 
@@ -50,6 +51,16 @@ def read_lengths(
 def read_mass(option: str, text: str, units: Units = Units.SI) -> float:
     """A mass in kg; BalcliError with the option and its text."""
     return _read(option, text, MASS, units)
+
+
+def read_inertia(option: str, text: str) -> float:
+    """A moment of inertia in kg m2; BalcliError with the option and its text, or for one that is
+    not above 0.
+    """
+    found = _read(option, text, INERTIA, Units.SI)
+    if not 0 < found < _LARGEST_INERTIA:
+        raise BalcliError(f"{_shown(option, text)}: {wanted(INERTIA)}, above 0")
+    return found / 1e6
 
 
 def is_bare(text: str) -> bool:
@@ -88,6 +99,12 @@ def read_number(option: str, text: str, needed: str) -> float:
     if value is None or not math.isfinite(value):
         raise BalcliError(f"{_shown(option, text)}: give {needed}")
     return value
+
+
+def convert_speed(text: str) -> float:
+    """A speed in rpm, for one of a range; ValueError for anything else."""
+    value = _as_bare(text)
+    return convert(text, SPEED) if value is None else value
 
 
 def read_share(option: str, text: str, needed: str) -> float:

@@ -42,6 +42,7 @@ FormatOption = Annotated[
     typer.Option(
         "--format",
         "-f",
+        case_sensitive=False,
         show_default=False,
         help="How to write the result; default: by the ending of -o (.txt, .json, .csv, .md), "
         "else table. card: a page for the wall of a shop, per pin, in g and oz.",

@@ -17,12 +17,16 @@ from ..enginefile.model import EngineFile
 from ..enginefile.suspicious import find_suspicious
 from ..enginefile.toml_text import name_file, read_bytes
 from ..errors import BalcliError, Exit, legible, say
+from ..forces.kinds import KINDS
 
 # What says something of moments besides them, of all that can be asked for.
 ABOUT_MOMENTS = frozenset({"peak", "sizing", "guide", "xy", "textbook", "verdict"})
 
 P = TypeVar("P")
 T = TypeVar("T")
+
+
+WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "inner", "guide", "xy", "textbook", "verdict")
 
 
 class Source(NamedTuple):
@@ -46,6 +50,11 @@ def read_engine(
     Raises:
         BalcliError: all mistakes of the file; a moment that was asked for and is not known.
     """
+    if path in WORDS_OF_ONLY and not os.path.exists(path):
+        raise BalcliError(
+            f"{path}: no such file; several words of --only stand with commas between them: "
+            f"--only force,{path}"
+        )
     text = read_bytes(path)
     model = parse(text, name_file(path))
     engine = build_named(model, path)

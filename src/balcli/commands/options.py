@@ -36,13 +36,17 @@ FormatOption = Annotated[
     typer.Option(
         "--format",
         "-f",
+        case_sensitive=False,
         show_default=False,
         help="How to write the result; default: by the ending of -o (.txt, .json, .csv, .md), "
         "else table.",
     ),
 ]
 UnitsOption = Annotated[
-    Units, typer.Option("--units", help="imperial: lbf, lbf·ft, oz·in; JSON stays SI.")
+    Units,
+    typer.Option(
+        "--units", case_sensitive=False, help="imperial: lbf, lbf·ft, oz·in; JSON stays SI."
+    ),
 ]
 Output = Annotated[
     Path | None,
@@ -60,7 +64,11 @@ Output = Annotated[
 Speed = Annotated[
     str | None,
     typer.Option(
-        "--speed", metavar="RPM", help="Crank speed instead of the file's, rpm.", show_default=False
+        "--speed",
+        "--rpm",
+        metavar="RPM",
+        help="Crank speed instead of the file's, rpm.",
+        show_default=False,
     ),
 ]
 Orders = Annotated[

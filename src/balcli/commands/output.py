@@ -88,7 +88,7 @@ def refuse_existing(path: Path | None, force: bool) -> None:
     """
     if path is not None and os.path.lexists(path) and not force:
         raise BalcliError(
-            f"{path}: is there already; choose another name, or --force to overwrite it"
+            f"{path}: already exists; choose another name, or --force to overwrite it"
         )
 
 

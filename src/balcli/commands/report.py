@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from ..engine.build import Engine
     from ..enginefile.model import EngineFile
     from ..mounting.report import MountReport
+    from ..torque.pictures import Running
+    from ..torsion.analysis import TorsionAnalysis
 
 Page = Annotated[
     Path,
@@ -55,10 +57,34 @@ def report(
 
     asked = parse_orders(orders)
     _, model, engine = read_engine(path, parse_speed(speed))
-    result = analyze(engine, asked, {*KINDS, "peak"})
+    shown = {*KINDS, "peak", *(["gas"] if engine.gas is not None else [])}
+    result = analyze(engine, asked, shown)
     balanced = balance(engine, scheme or "auto", orders=asked)
     mounted = _put_on_mounts(model, engine, scheme, name_file(path)) if model.body else None
-    emit(page(result, balanced, SYSTEMS[units], mounted), output)
+    twisted = _twist(model, engine, name_file(path)) if model.torsion else None
+    turning = None if engine.gas is None else _turn_gas(engine)
+    emit(page(result, balanced, SYSTEMS[units], mounted, twisted, turning), output)
+
+
+def _turn_gas(engine: Engine) -> Running:
+    """What runs with the crank."""
+    from ..torque.pictures import compute_running
+
+    return compute_running(engine)
+
+
+def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | None:
+    """How its crankshaft twists; None, with a warning, where that cannot be told."""
+    from ..torsion.analysis import Question, analyze_torsion
+    from ..torsion.load import make_source
+    from ..torsion.quantity import choose_speeds
+
+    try:
+        source = make_source(model, engine, name)
+        return analyze_torsion(source, Question(choose_speeds(engine)))
+    except BalcliError as error:
+        say(f"warning: the page does not show the torsion: {error}")
+        return None
 
 
 def _put_on_mounts(

@@ -8,6 +8,7 @@ import typer
 
 from ..errors import BalcliError
 from ..limits import MOST_SPEEDS
+from .amounts import convert_speed
 
 if TYPE_CHECKING:
     from ..core.singular_values import Real
@@ -38,7 +39,7 @@ def parse_speeds(text: str | None) -> Real | None:
     start = f'--speeds "{text[:60]}": '
     try:
         ranged = ":" in text
-        figures = [float(part) for part in text.split(":" if ranged else ",")]
+        figures = [convert_speed(part) for part in text.split(":" if ranged else ",")]
     except ValueError:
         raise BalcliError(start + right) from None
     if not all(0 < figure < 1e9 for figure in figures) or (ranged and len(figures) > 3):

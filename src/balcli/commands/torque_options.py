@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..enginefile.edit import set_keys
-from ..enginefile.units import INERTIA, convert
 from ..errors import BalcliError
+from .amounts import read_inertia
+from .named_files import refuse_leaving_files
 from .options import parse_orders, parse_speed
 from .output import write_file
 
@@ -124,26 +125,6 @@ def parse_loads(text: str | None) -> tuple[str, ...]:
     return words
 
 
-def parse_inertia(text: str | None) -> float | None:
-    """Kg m2.
-
-    Raises:
-        BalcliError: unless it is positive and finite.
-    """
-    if text is None:
-        return None
-    try:
-        found = float(text)
-    except ValueError:
-        try:
-            found = convert(text, INERTIA)
-        except ValueError as error:
-            raise BalcliError(f'--inertia "{text[:60]}": {error}') from None
-    if not 0 < found < 1e24:
-        raise BalcliError(f"--inertia {text[:60]}: give a moment of inertia above 0, in kg mm^2")
-    return found * 1e-6
-
-
 def analyze_file(
     path: str,
     speed: str | None,
@@ -181,7 +162,10 @@ def analyze_given(
     from ..torque.given_curve import Shaft, analyze_curve, read_curve
 
     rpm = parse_speed(speed)
-    shaft = Shaft(None if rpm is None else rpm * math.pi / 30, parse_inertia(inertia))
+    shaft = Shaft(
+        None if rpm is None else rpm * math.pi / 30,
+        None if inertia is None else read_inertia("--inertia", inertia),
+    )
     return analyze_curve(
         curve.stem,
         read_curve(curve),
@@ -213,12 +197,13 @@ def refuse_mixture(
             raise BalcliError(f"{option} needs {needs}")
 
 
-def write_uneven(source: bytes, result: TorqueAnalysis, target: Path) -> None:
+def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path) -> None:
     """The engine file with its speed as uneven as the torque makes it.
 
     Raises:
         BalcliError: the inertia is not known; the target cannot be written.
     """
+    refuse_leaving_files(source, path, target)
     if result.flywheel is None or result.flywheel.speed is None:
         raise BalcliError(
             "--write: the speed is not known; give inertia in [crank] or [flywheel], such as "

@@ -7,11 +7,12 @@ import re
 import numpy as np
 
 from ..core.singular_values import Real
-from ..enginefile.units import INERTIA, Dimension, Powers, convert, wanted
+from ..enginefile.units import Dimension, Powers, convert
 from ..errors import BalcliError
 from ..limits import HIGHEST_TORSION_ORDER
 from ..torsion.analysis import HolzerAsked, Question
 from ..torsion.damper_sizing import DamperAsked
+from .amounts import read_inertia
 from .speed_range import parse_speeds
 
 _FREQUENCY = Dimension("rad/s", "a frequency", Powers(time=-1, angle=1), ("20 rad/s",))
@@ -85,24 +86,10 @@ def parse_question(
     """
     asked = None
     if damper is not None:
-        asked = DamperAsked(damper, damper_at, _parse_inertia(damper_inertia))
+        said = damper_inertia
+        inertia = None if said is None else read_inertia("--damper-inertia", said)
+        asked = DamperAsked(damper, damper_at, inertia)
     elif damper_at is not None or damper_inertia is not None:
         option = "--damper-inertia" if damper_at is None else "--damper-at"
         raise BalcliError(f"{option}: say which damper, such as --damper viscous")
     return Question(parse_speeds(speeds), parse_half_orders(orders), parse_holzer(holzer), asked)
-
-
-def _parse_inertia(text: str | None) -> float | None:
-    """kg m2 of a figure in kg mm2, or with its own unit."""
-    if text is None:
-        return None
-    try:
-        bare = float(text)
-    except ValueError:
-        try:
-            bare = convert(text, INERTIA)
-        except ValueError as error:
-            raise BalcliError(f'--damper-inertia "{text[:60]}" {error}') from None
-    if not 0 < bare < 1e24:
-        raise BalcliError(f'--damper-inertia "{text[:60]}": {wanted(INERTIA)}, above 0')
-    return bare / 1e6

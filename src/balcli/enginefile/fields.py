@@ -5,6 +5,7 @@ schema.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -47,6 +48,13 @@ def shorten(value: object) -> str:
 def counted(count: int, what: str) -> str:
     """ "1 place", "2 places"."""
     return f"{count} {what}{'s' * (count != 1)}"
+
+
+def split_hyphens(value: object) -> object:
+    """A firing order as tables print it (`"1-3-4-2"`) as a list; anything else as it is."""
+    if isinstance(value, str) and re.fullmatch(r"\s*\d{1,5}(?:\s*[-, ]\s*\d{1,5})+\s*", value):
+        return [int(number) for number in re.findall(r"\d+", value)]
+    return value
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

@@ -44,7 +44,7 @@ DEVICES: dict[str, type[model.Table]] = {
 }
 KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES, *CHAPTER_LISTS)
 WORDS = {
-    "tuple_type": "{value} is not a list; write it in square brackets, such as [0, 180]",
+    "tuple_type": "{value} is not a list; write it in square brackets, such as {example}",
     "model_type": "{value} is not a table; write it in braces with its keys",
     "model_attributes_type": "{value} is not a table; write it in braces with its keys",
 }
@@ -56,6 +56,31 @@ OF_COMMANDS = dict.fromkeys(
     "did you mean --factor? The balance factor is no figure of the engine: "
     "balcli balance FILE --factor 51%",
 )
+
+
+# What people call a key, and keys that mean it; the first that the table has
+SYNONYMS = {
+    "conrod": ("rod",),
+    "con_rod": ("rod",),
+    "connecting_rod": ("rod",),
+    "engine": ("layout",),
+    "rpm": ("speed",),
+    "pin_offset": ("splay", "offset"),
+    "offset": ("splay",),
+    "pins": ("throws",),
+    "pin_angles": ("throws",),
+    "crank_angles": ("throws",),
+    "bore_spacing": ("spacing",),
+    "vee_angle": ("bank_angle",),
+    "v_angle": ("bank_angle",),
+    "angle": ("bank_angle",),
+    "diameter": ("bore",),
+    "weight": ("mass",),
+    "order": ("firing_order",),
+    "lambda": ("ratio",),
+    "wrist_pin": ("pin",),
+    "clips": ("locks",),
+}
 
 
 def import_table(key: str) -> type[model.Table]:
@@ -120,7 +145,8 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[model.Table])
     elif kind == "tuple_type" and isinstance(value, Mapping):
         message = f"is one of several; write [[{join_path(path, loc)}]] in double brackets"
     else:
-        message = WORDS.get(kind, OTHER).format(value=shorten(value))
+        example = _find_example(table, loc) if kind == "tuple_type" else ""
+        message = WORDS.get(kind, OTHER).format(value=shorten(value), example=example)
     if loc and isinstance(loc[-1], int) and not isinstance(value, Mapping):
         return Problem(join_path(path, loc[:-1]), f"the {_ordinal(loc[-1] + 1)} value {message}")
     return Problem(join_path(path, loc), message)
@@ -139,6 +165,13 @@ def find_table(annotation: object) -> type[model.Table] | None:
     if isinstance(annotation, type) and issubclass(annotation, model.Table):
         return annotation
     return next(filter(None, map(find_table, get_args(annotation))), None)
+
+
+def _find_example(table: type[model.Table], loc: Sequence[str | int]) -> str:
+    """A list that a key may hold."""
+    field = find_inner_table(table, loc).keys().get(str(loc[-1])) if loc else None
+    listed = [each for each in (field.examples or () if field else ()) if isinstance(each, list)]
+    return shorten(listed[0]) if listed else "[0, 180]"
 
 
 def _describe_missing(table: type[model.Table], loc: Sequence[str | int]) -> str:
@@ -170,15 +203,21 @@ def describe_unknown_key(unknown: UnknownKey) -> tuple[Problem, str]:
     """An unknown key in words, and the path of the key that was probably meant, or ""."""
     path, key, table = unknown
     own = list(table.model_fields) if table else KNOWN
-    place = f"of [{path.partition('.')[0]}]" if path else "of an engine file"
+    place = f"in [{path.partition('.')[0]}]" if path else "in an engine file"
     start = f"{path}." if path else ""
     full = start + printable(key)
     if key in OF_COMMANDS:
-        return Problem(full, f"is no key {place}; {OF_COMMANDS[key]}"), ""
-    if near := nearest(key, own):
-        return Problem(full, f"is no key {place}; did you mean {near}?"), start + near
+        return Problem(full, f"unknown key {place}; {OF_COMMANDS[key]}"), ""
+    if near := _find_synonym(key, own) or nearest(key, own):
+        return Problem(full, f"unknown key {place}; did you mean {near}?"), start + near
     hint = next(_tables_with(key), f"it has {', '.join(own)}")
-    return Problem(full, f"is no key {place}; {hint}"), ""
+    return Problem(full, f"unknown key {place}; {hint}"), ""
+
+
+def _find_synonym(key: str, own: Iterable[str]) -> str:
+    """The key of this table that means what others call so; empty if there is none."""
+    meant = SYNONYMS.get(key.lower().replace("-", "_"), ())
+    return next(filter(set(own).__contains__, meant), "")
 
 
 def _tables_with(key: str) -> Iterator[str]:

@@ -12,12 +12,12 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PrivateAttr, model_validator
 from pydantic.fields import FieldInfo
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
 from .exclusive import Choice, find_repeated, join_words
-from .fields import FileName, Flag, Halves, Number, OneOf, Whole, counted
+from .fields import FileName, Flag, Halves, Number, OneOf, Whole, counted, split_hyphens
 from .units import (
     ANGLE,
     INERTIA,
@@ -265,7 +265,7 @@ class Layout(Table):
         description="axial distance of adjacent rods on a throw, first bank towards the free end",
         examples=[22],
     )
-    firing_order: Numbers | None = Field(
+    firing_order: Annotated[Numbers | None, BeforeValidator(split_hyphens)] = Field(
         None, description="numbers of the cylinders as they fire", examples=[[1, 3, 4, 2]]
     )
     firing_intervals: Intervals | None = Field(

@@ -4,6 +4,7 @@ the keys.
 
 from __future__ import annotations
 
+import re
 from difflib import get_close_matches
 from pathlib import Path
 
@@ -17,6 +18,27 @@ SCHEMA = """\
 """
 _FOLDER = Path(__file__).with_name("starting_files")
 
+# what people call the kinds
+_CALLED = {
+    r"v|v-?\d+|v-?twin|vee-?\w*": "vee",
+    r"[il]-?\d+|r\d+|straight-?\w+|in-?line-?\w+|line|twin|four|six": "inline",
+    r"h?flat-?\w*|boxer-?\w+|b\d+|[fh]\d+": "boxer",
+    r"w-?\d+": "w",
+    r"one|thumper|mono|1": "single",
+    r"star|radial-?\w+": "radial",
+}
+
+
+def _known_as(kind: str) -> str:
+    """What a layout such as v8 or i4 is called here, and where there is one that is finished."""
+    for pattern, name in _CALLED.items():
+        if re.fullmatch(pattern, kind):
+            return (
+                f" That is {name}: balcli new {name}. A finished one may be among the examples: "
+                "balcli engines."
+            )
+    return ""
+
 
 def template(kind: str) -> str:
     """The engine file of a kind as TOML text. BalcliError for an unknown kind, with the nearest one
@@ -25,6 +47,7 @@ def template(kind: str) -> str:
     if kind not in KINDS:
         near = get_close_matches(kind.lower()[:100], KINDS, 1)
         hint = f" Did you mean {near[0]}?" if near else ""
+        hint = _known_as(kind.lower()) or hint
         raise BalcliError(
             f'"{kind[:60]}" is no kind of engine; there are {", ".join(KINDS)}.{hint}'
         )

@@ -7,6 +7,7 @@ from __future__ import annotations
 import re
 import sys
 import tomllib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -31,11 +32,17 @@ def read_bytes(source: str | Path) -> bytes:
     except IsADirectoryError:
         raise BalcliError(f"{source}: is a folder; name an engine file in it") from None
     except FileNotFoundError:
-        raise BalcliError(f"{source}: no such file") from None
+        raise BalcliError(f"{source}: no such file{_near_file(source)}") from None
     except (OSError, ValueError) as error:  # ValueError: a zero byte in the name
         reason = error.strerror if isinstance(error, OSError) else error
         name = "standard input" if str(source) == "-" else repr(str(source)[:200])
         raise BalcliError(f"{name}: cannot be read ({reason})") from None
+
+
+def _near_file(source: str | Path) -> str:
+    """The file that was probably meant, in words."""
+    with_ending = f"{source}.toml"
+    return f"; {with_ending} is there: did you mean it?" if Path(with_ending).is_file() else ""
 
 
 def name_file(source: str | Path) -> str:
@@ -52,7 +59,7 @@ def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
     try:
         return _load_toml(text.decode("utf-8-sig") if isinstance(text, bytes) else text)
     except tomllib.TOMLDecodeError as error:
-        message = f"is not valid TOML: {str(error)[:300]}"
+        message = f"is not valid TOML: {str(error)[:300]}{_explain(text, str(error))}"
     except OverflowError as error:
         message = str(error)
     except RecursionError:
@@ -65,6 +72,32 @@ def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
     except ValueError as error:  # int() of very many digits
         message = f"a number cannot be read: {str(error).split(';')[0][:300]}"
     raise InputError([Problem("", message)], file)
+
+
+def _explain(text: str | bytes, error: str) -> str:
+    """The line that TOML does not understand, and what is meant, where that can be guessed."""
+    place = re.search(r"\(at line (\d+), ", error)
+    lines = (text.decode("utf-8-sig") if isinstance(text, bytes) else text).splitlines()
+    line = lines[int(place[1]) - 1] if place and int(place[1]) <= len(lines) else ""
+    assigned = re.fullmatch(r"\s*([\w.-]{1,40})\s*=\s*([^#\"'\[\]{}]{1,60}?)\s*(?:#.*)?", line)
+    if assigned is None or not assigned[2].isprintable():
+        return ""
+    key, value = assigned[1], assigned[2]
+    return next(
+        (f": {key} = {value}: {hint.format(key=key, value=value)}" for hint in _guess(value)), ""
+    )
+
+
+def _guess(value: str) -> Iterator[str]:
+    """What is meant by a value without quotes and brackets that TOML does not take."""
+    if re.fullmatch(r"[+-]?\d+,\d+", value):
+        yield "write a decimal point, not a comma; a list stands in brackets, such as [{value}]"
+    elif re.fullmatch(r"[+-]?[\d.]+(\s*,\s*[+-]?[\d.]+)+,?", value):
+        yield "a list stands in brackets: {key} = [{value}]"
+    elif re.fullmatch(r"[+-]?[\d./]+\s*[A-Za-z°%].*", value):
+        yield 'a value with a unit stands in quotes: {key} = "{value}"'
+    elif re.fullmatch(r"[A-Za-z].*", value):
+        yield 'words stand in quotes: {key} = "{value}"'
 
 
 def _load_toml(text: str) -> dict[str, Any]:

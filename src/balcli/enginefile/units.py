@@ -128,6 +128,7 @@ _UNIT = rf"{_FACTOR}(?:(?:{_JOINT}){_FACTOR})*"
 FIGURE = (
     rf"\s*([+-]?{_NUMBER})(?:\s*/\s*({_NUMBER}))?\s*({_UNIT})?\s*"  # compiled when a string is met
 )
+_INCH_MARK = r'^([^"”″]*\d)\s*["”″]\s*$'  # 3.5"
 _PART = r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([²³]))?"
 
 
@@ -135,7 +136,8 @@ def convert(text: str, dimension: Dimension) -> float:
     """The figure in the bare unit of `dimension`, correctly rounded. ValueError: what is wrong,
     what would be right.
     """
-    match = re.fullmatch(FIGURE, text, re.ASCII) if len(text) <= LONGEST_FIGURE else None
+    inches = re.sub(_INCH_MARK, r"\1 in", text[:LONGEST_FIGURE])
+    match = re.fullmatch(FIGURE, inches, re.ASCII) if len(text) <= LONGEST_FIGURE else None
     if match is None:
         raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
     above, below, names = match.groups()
@@ -165,13 +167,18 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
     for joint, name, power, superscript in re.findall(_PART, names, re.ASCII):
         if name in AMBIGUOUS:
             raise ValueError(f'has the unit "{name}": {AMBIGUOUS[name]} {wanted(dimension)}')
-        part = COMMON.get(name) or _ask_pint(name)
+        part = COMMON.get(name) or COMMON.get(_in_small(name)) or _ask_pint(name)
         if part is None:
             raise ValueError(f'has the unknown unit "{name}"; {wanted(dimension)}')
         exponent = int(power or {"²": 2, "³": 3}.get(superscript, 1)) * (-1 if joint == "/" else 1)
         scale *= part.scale**exponent
         powers = Powers(*(p + exponent * q for p, q in zip(powers, part.powers, strict=True)))
     return Unit(scale, powers)
+
+
+def _in_small(name: str) -> str:
+    """A unit of several letters that is written in capitals throughout, such as RPM."""
+    return name.lower() if len(name) > 1 and name.isupper() else name
 
 
 def wanted(dimension: Dimension) -> str:

@@ -95,10 +95,10 @@ def _read_table(path: str, value: object, table: type[T], problems: list[Problem
 
 
 def _refuse_key(path: str, key: str, table: type[Table]) -> Problem:
-    place = "of [[run]]" if path else "of a file of runs"
+    place = "in [[run]]" if path else "in a file of runs"
     near = nearest(key, table.model_fields)
     hint = f"did you mean {near}?" if near else f"it has {', '.join(table.model_fields)}"
-    return Problem(_join(path, printable(key)), f"is no key {place}; {hint}")
+    return Problem(_join(path, printable(key)), f"unknown key {place}; {hint}")
 
 
 def _translate(path: str, finding: ErrorDetails, table: type[Table]) -> Problem:

@@ -36,7 +36,7 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
     """One row a device."""
     heads = (
         "device",
-        "turns",
+        "speed ratio",
         f"{system.unbalance.name}",
         "angle, deg",
         f"x, y, {system.length.name}",
@@ -64,7 +64,7 @@ def _grid_row(device: DeviceTable, free: bool, system: System) -> tuple[str, ...
     match device:
         case Counterweight():
             turns, angle = "1", f"{degrees(device.angle)} from pin 1"
-            place = "on the crank"
+            place = "crank axis"
         case Shaft():
             turns, angle = f"{device.ratio:+d}", degrees(device.angle)
             place = "free" if free else _place(device.at, system.length)
@@ -97,7 +97,7 @@ def practical_grid(practical: tuple[Practical, ...], system: System) -> Grid:
     names = [
         "device",
         "rpm",
-        f"pulls, {system.force.name}",
+        f"centrifugal force, {system.force.name}",
         f"mass, {system.mass.name}",
         f"disc r, {system.length.name}",
         f"thick, {system.length.name}",
@@ -107,7 +107,7 @@ def practical_grid(practical: tuple[Practical, ...], system: System) -> Grid:
         "disc: a semicircular one of steel"
     )
     rows = tuple((str(k), *_practical_row(p, system)) for k, p in enumerate(practical, 1))
-    return Grid("Practical figures", tuple(names), rows, note=f"{note}.")
+    return Grid("Sizes of the weights", tuple(names), rows, note=f"{note}.")
 
 
 def _practical_row(p: Practical, system: System) -> list[str]:

@@ -13,11 +13,14 @@ from ..results.balance import Balance
 from . import analysis, balance
 from .page_scene import scene
 from .plot.pages import Subject, draw_panel
+from .plot.style import inline_svg
 from .sheet import Facts, Grid, Sheet, Text
 from .units import System
 
 if TYPE_CHECKING:
     from ..mounting.report import MountReport
+    from ..torque.pictures import Running
+    from ..torsion.analysis import TorsionAnalysis
 
 FOLDER = Path(__file__).with_name("page")
 _PICTURES = (
@@ -30,26 +33,46 @@ _PICTURES = (
     ("spectrum", "about"),
     ("curves", "about"),
 )
+_OF_TORSION = ("modes", "campbell", "response", "waterfall")
 _COMPARED = (("polar", "force"), ("polar", "moment"), ("spectrum", "force"), ("spectrum", "moment"))
 
 
 def page(
-    result: Analysis, balanced: Balance, system: System, mounted: MountReport | None = None
+    result: Analysis,
+    balanced: Balance,
+    system: System,
+    mounted: MountReport | None = None,
+    twisted: TorsionAnalysis | None = None,
+    turning: Running | None = None,
 ) -> str:
-    """The report of an engine, of a remedy for it, and of what it does on its mounts. Whatever
-    comes from the engine file is escaped.
+    """The report of an engine, of a remedy for it, of what it does on its mounts, of how its
+    crankshaft twists, and of what its gas does. Whatever comes from the engine file is escaped.
     """
     from markupsafe import Markup
 
-    on_mounts: dict[str, Any] = {"mounts": None}
+    chapters: dict[str, Any] = {"mounts": None, "torsion": None, "running": None}
+    if turning is not None:
+        from . import page_torque  # for files with gas
+
+        chapters |= {
+            "running": page_torque.running(turning, system),
+            "running_script": Markup((FOLDER / "running.js").read_text(encoding="utf-8")),
+        }
     if mounted is not None:
         from . import mounts, page_mounts  # for files that have mounts
 
-        on_mounts = {
+        chapters |= {
             "mounts": mounts.sheet(mounted, system),
             "rocking": page_mounts.rocking(mounted),
             "rocking_script": Markup((FOLDER / "rocking.js").read_text(encoding="utf-8")),
         }
+    if twisted is not None:
+        from . import torsion  # for files that have it
+        from .plot.torsion import draw_torsion
+
+        drawn = [(what, draw_torsion(twisted, what, "svg", titled=False)) for what in _OF_TORSION]
+        chapters["torsion"] = torsion.sheet(twisted, system)
+        chapters["twists"] = [Markup(inline_svg(svg, f"torsion-{what}")) for what, svg in drawn]
     own, remedy = analysis.sheet(result, system), balance.sheet(balanced, system)
     told = ("force", "about", *(["moment"] if result.moments_known else []))
     fitted = bool(balanced.remedy.reasons)
@@ -68,7 +91,7 @@ def page(
         compared=[Markup(draw_panel(after, *each)) for each in compared if each[1] in told],
         style=Markup((FOLDER / "report.css").read_text(encoding="utf-8")),
         script=Markup((FOLDER / "report.js").read_text(encoding="utf-8")),
-        **on_mounts,
+        **chapters,
     )
 
 

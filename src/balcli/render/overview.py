@@ -84,7 +84,7 @@ def tell_others(spectra: Spectra, shown: list[float], system: System) -> str:
     sizes = [
         f"{kind.name} {size_text(largest, system.unit(kind))}"
         for kind, p in rest.items()
-        if (largest := float(p.major.max()))
+        if (largest := float(p.major.max())) > 0  # nan where it is not known
     ]
     names = ", ".join(map(order_name, others[:6]))
     more = ", …" if len(others) > 6 else ""

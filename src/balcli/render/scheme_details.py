@@ -37,6 +37,10 @@ _JSON_UNITS: dict[Dimension, tuple[str, float]] = {
 }
 
 
+# how well a system was solved, and the like: in JSON and CSV only
+_FOR_PROGRAMS = {"condition number", "relative error bound", "axial distance", "improvement"}
+
+
 # ------------------------------------------------------------------ for programs
 def details_document(result: Balance) -> dict[str, Any]:
     """All that the scheme says besides its devices."""
@@ -125,6 +129,7 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
         details.append(Detail("speed", "", result.speed_note))
     if not result.before.moments_known:
         details = [d._replace(value=nan) if d.dimension == "moment" else d for d in details]
+    details = [detail for detail in details if detail.label not in _FOR_PROGRAMS]
     if details:
         pairs = tuple(pair for detail in details for pair in _list_facts(detail, system))
         yield Facts(pairs, "Details")

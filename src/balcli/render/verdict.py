@@ -24,6 +24,7 @@ _NAMES: dict[float, str] = {
     8: "Eighth",
 }
 _AXES = {"0.0": "x", "90.0": "y"}
+_SWAYS = {"x": "yawing", "y": "pitching"}
 _UNKNOWN: Mapping[str, float] = MappingProxyType({})
 
 
@@ -117,13 +118,15 @@ def _tell_vector(k: int, order: int, vector: _Vector) -> str:
     forward, backward = abs(phasors.forward[k]), abs(phasors.backward[k])
     if backward == 0:
         by_weights = "counterweights on the crankshaft cancel it"
-        cure = by_weights if order == 1 else _cure_by_shafts(f"a shaft at +{order}")
+        cure = by_weights if order == 1 else _cure_by_shafts(f"a balancer shaft at +{order}")
         return f"{what} of {size}, turning with the crank: {cure}."
     if forward == 0:
-        cure = _cure_by_shafts(f"a shaft at -{order}")
+        cure = _cure_by_shafts(f"a balancer shaft at -{order}")
         return f"{what} of {size}, turning against the crank: {cure}."
     by_both = "counterweights cancel the first part, a shaft at -1 times crank speed the second"
-    cure = by_both if order == 1 else _cure_by_shafts(f"shafts at +{order} and -{order}")
+    cure = (
+        by_both if order == 1 else _cure_by_shafts(f"two balancer shafts, at +{order} and -{order}")
+    )
     ahead, against = number(unit.of(forward), 4), number(unit.of(backward), 4)
     parts = f"{ahead} turns with the crank, {against} against it"
     direction = _tell_direction(what, float(phasors.axis_deg[k]))
@@ -134,8 +137,10 @@ def _tell_direction(what: str, axis_deg: float) -> str:
     """A force acts along an axis, a moment about it."""
     angle = degrees(axis_deg, 180)
     axis = _AXES.get(angle) or f"an axis at {angle} deg"
-    return f"{'about' if what == 'moment' else 'along'} {axis}"
+    if what != "moment":
+        return f"along {axis}"
+    return f"{_SWAYS[axis]} (about {axis})" if axis in _SWAYS else f"about {axis}"
 
 
 def _cure_by_shafts(which: str) -> str:
-    return f"nothing on the crankshaft cancels it; it takes {which} times crank speed"
+    return f"nothing on the crankshaft cancels it; it needs {which} times crank speed"

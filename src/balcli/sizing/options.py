@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import NamedTuple
 
 from ..enginefile.fields import nearest
@@ -41,6 +42,10 @@ class SchemeOptions(NamedTuple):
         taken = find_taken(scheme)
         given = [name for name, value in self._asdict().items() if value is not None]
         if strangers := [name for name in given if name not in taken]:
+            if scheme == "auto" and (others := _find_schemes_taking(given)):
+                raise BalcliError(
+                    f"scheme auto has no --{strangers[0]}; add --scheme with {others}"
+                )
             names = ", ".join(f"--{name}" for name in taken)
             has = f"it takes {names}" if taken else "it takes no options"
             takers = [name for name, options in SCHEMES.items() if strangers[0] in options]
@@ -62,6 +67,11 @@ class SchemeOptions(NamedTuple):
         if len(at) > 1:
             raise BalcliError("--at: this scheme has one place; give it once")
         return at[0]
+
+
+def _find_schemes_taking(given: Collection[str]) -> str:
+    """The schemes that take all of these options, in words."""
+    return " or ".join(name for name, taken in SCHEMES.items() if set(given) <= set(taken))
 
 
 def find_taken(scheme: str) -> tuple[str, ...]:

@@ -128,7 +128,7 @@ def _describe_unknown(path: str, known: Mapping[str, Number]) -> str:
         first = path.partition(".")[0]
         alike = [name for name in known if name.partition(".")[0] == first] or list(known)
         hint = f"there are {', '.join(alike[:6])}{' ...' if len(alike) > 6 else ''}"
-    return f"{path} is no number of this engine file; {hint}"
+    return f"{path} unknown parameter; {hint}"
 
 
 def _check_bounds(path: str, number: Number, values: NDArray[np.float64]) -> None:

@@ -121,3 +121,10 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] =
             "[[torsion.rear]] for the flywheel, or a chain of [[node]] and [[shaft]]"
         )
     return EngineSource(name, text, model, engine, excite_engine(model, engine, orders, misfires))
+
+
+def make_source(model: EngineFile, engine: Engine, name: str) -> EngineSource:
+    """Of an engine file that has been read and built; without its text, so that nothing can be
+    written into it.
+    """
+    return EngineSource(name, b"", model, engine, excite_engine(model, engine, None))

@@ -92,16 +92,16 @@ class _Reader:
 
 
 def _refuse_key(path: str, key: str, table: type[Table]) -> Problem:
-    place = f"of [[{path.partition('.')[0]}]]" if path else "of a chain file"
+    place = f"in [[{path.partition('.')[0]}]]" if path else "in a chain file"
     near = nearest(key, table.keys())
     hint = f"did you mean {near}?" if near else f"it has {', '.join(table.keys())}"
-    return Problem(join_path(path, [key]).lstrip("."), f"is no key {place}; {hint}")
+    return Problem(join_path(path, [key]).lstrip("."), f"unknown key {place}; {hint}")
 
 
 def _describe(path: str, finding: ErrorDetails, table: type[Table]) -> Problem:
     if finding["type"] == "extra_forbidden":
         hint = f"it has {', '.join(find_inner_table(table, finding['loc']).keys())}"
-        return Problem(join_path(path, finding["loc"]), f"is no key of a damper; {hint}")
+        return Problem(join_path(path, finding["loc"]), f"unknown key in a damper; {hint}")
     problem = describe_finding(path, finding, table)
     return problem._replace(path=problem.path.lstrip("."))
 

@@ -41,7 +41,7 @@ def draw_end_curves(ax: Axes, banks: Banks, unit: Unit) -> None:
         ax.text(
             spot.imag, spot.real, f"{banks.angles_deg[k]:g}°", ha="center", va="center", fontsize=7
         )
-    ax.set_title(f"Force of order {banks.order:g}: way of its tip by bank angle", pad=6)
+    ax.set_title(f"Force of order {banks.order:g}: path of its tip by bank angle", pad=6)
 
 
 def draw_roses(ax: Any, banks: Banks, unit: Unit) -> None:

@@ -28,9 +28,9 @@ _MOST_ORDERS = 12  # that are named in a Campbell diagram
 _WORTH = 1e-3  # share of work from which a critical is drawn
 
 
-def draw_torsion(result: TorsionAnalysis, what: str, form: Form) -> bytes:
+def draw_torsion(result: TorsionAnalysis, what: str, form: Form, *, titled: bool = True) -> bytes:
     """The content of a file with a page of pictures, as far as they were asked for; `what` is one
-    of PAGES.
+    of PAGES. With the system's name above them, unless they are not to be titled.
     """
     parts: list[Callable[[Axes], None]] = []
     if what in ("all", "modes"):
@@ -50,7 +50,8 @@ def draw_torsion(result: TorsionAnalysis, what: str, form: Form) -> bytes:
         for ax, draw in zip(_lay_out(fig, rows, columns), parts, strict=False):
             draw(ax)
         name = fit_name(result.system.name) or "shafts without a name"
-        fig.suptitle(f"{name}: torsion", x=0.01, ha="left")
+        if titled:
+            fig.suptitle(f"{name}: torsion", x=0.01, ha="left")
         return save_figure(fig, form)
 
 

@@ -1,0 +1,91 @@
+"""What people type by mistake, and what balcli makes of it: understood, or answered with the right
+word.
+"""
+
+import pytest
+from support.commands import run_here
+from support.engines import GOOD, changed
+
+from balcli.enginefile.units import LENGTH, SPEED, convert
+
+NOT_TOML = "is not valid TOML: "
+
+
+def told(tmp_path, *changes, args=()):
+    file = tmp_path / "slip.toml"
+    file.write_text(changed(*changes), encoding="utf-8")
+    return run_here("analyze", file, "--only", "verdict", *args)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "answer"),
+    [
+        ("stroke = 90", "stroke = 3.00 in", ': stroke = 3.00 in: a value with a unit stands in quotes: stroke = "3.00 in"'),
+        ("stroke = 90", "stroke = 68,6", ": stroke = 68,6: write a decimal point, not a comma; a list stands in brackets, such as [68,6]"),
+        ("throws = [0, 180, 180, 0]", "throws = 0, 90", ": throws = 0, 90: a list stands in brackets: throws = [0, 90]"),
+        ("throws = [0, 180, 180, 0]", "throws = 0,180,180,0", ": throws = 0,180,180,0: a list stands in brackets: throws = [0,180,180,0]"),
+    ],
+)  # fmt: skip
+def test_a_line_that_is_no_toml_is_shown_with_what_it_should_be(tmp_path, old, new, answer):
+    err = told(tmp_path, (old, new)).err
+    assert NOT_TOML in err
+    assert err.endswith(f"{answer}\n")
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("firing_order = [1, 3, 4, 2]", 'firing_order = "1-3-4-2"'),
+        ("firing_order = [1, 3, 4, 2]", 'firing_order = "1, 3, 4, 2"'),
+        ("stroke = 90", 'stroke = "90 MM"'),
+    ],
+)
+def test_what_can_mean_one_thing_only_is_understood(tmp_path, old, new):
+    assert told(tmp_path, (old, new)) == told(tmp_path, (old, old))
+
+
+def test_units_in_capitals_and_the_mark_of_inches():
+    assert convert("6000 RPM", SPEED) == 6000
+    assert convert('3.5"', LENGTH) == convert("3.5 ″", LENGTH) == convert("3.5 in", LENGTH)
+    with pytest.raises(ValueError, match="is not a number followed by a unit"):
+        convert('"', LENGTH)
+
+
+def test_an_example_of_a_list_is_of_its_key(tmp_path):
+    err = told(tmp_path, ("firing_order = [1, 3, 4, 2]", "firing_order = 5")).err
+    assert err.endswith("5 is not a list; write it in square brackets, such as [1, 3, 4, 2]\n")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "meant"),
+    [
+        ("[rod]", "[conrod]", "conrod: unknown key in an engine file; did you mean rod?"),
+        ("stroke = 90", "stroke = 90\npin_offset = 30", "unknown key in [crank]; did you mean splay?"),
+        ("[operation]", "[operation]\nrpm = 9000", "unknown key in [operation]; did you mean speed?"),
+    ],
+)  # fmt: skip
+def test_other_words_for_a_key_lead_to_it(tmp_path, old, new, meant):
+    text = changed() if old in GOOD else f"{GOOD}\n[operation]\n"
+    file = tmp_path / "words.toml"
+    file.write_text(text.replace(old, new, 1))
+    assert meant in run_here("analyze", file).err
+
+
+def test_files_words_and_options_that_were_nearly_right(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "ford.toml").write_text(GOOD)
+    assert run_here("analyze", "ford").err == (
+        "balcli: ford: no such file; ford.toml is there: did you mean it?\n"
+    )
+    err = run_here("analyze", "ford.toml", "--only", "force", "moment").err
+    assert "--only force,moment" in err
+    assert "That is vee: balcli new vee" in run_here("new", "v8").err
+    assert "That is inline: balcli new inline" in run_here("new", "i4").err
+    assert (
+        "scheme auto has no --at; add --scheme with single-shaft or two-shaft"
+        in run_here("balance", "ford.toml", "--at", "1,2").err
+    )
+    slow = run_here("analyze", "ford.toml", "--rpm", "900", "--only", "force")
+    assert slow == run_here("analyze", "ford.toml", "--speed", "900", "--only", "forces")
+    assert "such as -o X.svg" in run_here("plot", "ford.toml", "ford.png").err
+    assert run_here("analyze", "ford.toml", "--units", "SI").status == 0

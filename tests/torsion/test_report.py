@@ -1,0 +1,47 @@
+"""The page of an engine that has [torsion] shows how its crankshaft twists."""
+
+from __future__ import annotations
+
+import re
+
+from support.commands import run_here
+from support.diesel import write_diesel
+
+
+def test_the_page_shows_torsion(tmp_path):
+    engine, page = tmp_path / "six.toml", tmp_path / "six.html"
+    engine.write_text(write_diesel("limit = 20"), encoding="utf-8")
+    status, _, err = run_here("report", engine, "-o", page)
+    assert (status, err) == (0, "")
+    text = page.read_text(encoding="utf-8")
+    section = text[text.index('<section id="torsion">') :]
+    section = section[: section.index("</section>")]
+    for what in ("modes", "campbell", "response", "waterfall"):
+        assert f'id="torsion-{what}-' in section
+    for title in (
+        "Natural modes",
+        "Critical speeds",
+        "Vibratory torque, 1000 to 3000 rpm",
+        "Limits",
+    ):
+        assert title in section
+    ids = re.findall(r' id="([^"]+)"', text)
+    assert len(ids) == len(set(ids))
+
+
+def test_pages_of_other_engines_have_no_such_section(tmp_path):
+    engine, page = tmp_path / "six.toml", tmp_path / "six.html"
+    engine.write_text(write_diesel().partition("[torsion]")[0], encoding="utf-8")
+    assert run_here("report", engine, "-o", page).status == 0
+    assert 'id="torsion"' not in page.read_text(encoding="utf-8")
+
+
+def test_what_cannot_be_told_is_a_warning(tmp_path):
+    """Nothing damps it, and the range runs through order 3 of the first mode."""
+    engine, page = tmp_path / "six.toml", tmp_path / "six.html"
+    text = write_diesel().replace("loss = 0.035", "loss = 0").replace("damping = 2", "damping = 0")
+    engine.write_text(text.replace("speed = 2000", "speed = 4000"), encoding="utf-8")
+    status, _, err = run_here("report", engine, "-o", page)
+    assert status == 0
+    assert err.startswith("warning: the page does not show the torsion: six: the natural frequency")
+    assert 'id="torsion"' not in page.read_text(encoding="utf-8")
