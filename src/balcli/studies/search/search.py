@@ -168,13 +168,10 @@ def _search_firing_order(task: _Task) -> Iterator[Found]:
 
 def _find_locked(model: EngineFile, what: What) -> tuple[tuple[float, float], ...]:
     """From where to where a bank angle leaves articulated rods that cannot follow, deg, to STEP."""
-    if what != "bank_angle" or model.articulation is None:
+    if what != "bank_angle" or model.articulation is None or model.layout.bank_angle is None:
         return ()
     grid = SPANS[what].divide(_LOCK_STEP)
-    try:
-        there = find_buildable(model, what, grid)
-    except BalcliError:  # this angle is none of the file's
-        return ()
+    there = find_buildable(model, what, grid)
     runs = np.split(np.arange(len(grid)), np.flatnonzero(np.diff(there)) + 1)
     return tuple(
         (_find_lock(model, grid, run[0], -1), _find_lock(model, grid, run[-1], 1))
