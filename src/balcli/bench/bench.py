@@ -21,7 +21,7 @@ from ..results.analysis import analyze
 from ..studies.parameters import Parameter, ladder
 from ..studies.sweep import CHUNK, Sweep
 from . import methods
-from .cold_start import start_balcli, start_libraries
+from .cold_start import start_balcli, start_libraries, start_smallest
 from .stopwatch import compare_times, time_run
 from .sweeps import OuterProduct, run_sweep, sample_sweeps, sweep_peaks
 
@@ -265,6 +265,10 @@ def _start_ratios() -> Iterator[Ratio]:  # pragma: no cover: cold starts for min
         what = f"imports: cold balcli {argv} to importing numpy, typer and pydantic"
         start = partial(start_balcli, argv.split(), V8)
         yield Ratio(what, compare_times(start, start_libraries))
+    argv = "analyze - --format json"
+    what = f"imports: cold balcli {argv} to a program of these that reads one option"
+    start = partial(start_balcli, argv.split(), V8)
+    yield Ratio(what, compare_times(start, start_smallest))
 
 
 def _sweep_ratios() -> Iterator[Ratio]:
