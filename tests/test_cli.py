@@ -20,7 +20,7 @@ import pytest
 import typer
 from support.commands import run_command, run_in_terminal, run_python
 from support.engines import GOOD, changed
-from support.paths import ENGINES, ROOT
+from support.paths import ENGINES, ROOT, SOURCE
 
 from balcli import __version__
 from balcli.cli import COMMANDS
@@ -733,6 +733,15 @@ main()
 """
     done = run_python("-c", code, "analyze", I4)
     assert (done.returncode, done.stdout, done.stderr) == (128 + number, "", "")
+
+
+def test_the_package_imports_nothing_before_ctrl_c_is_heeded():
+    """What Python itself has imported by then is not the program's to choose."""
+    code = (
+        f"import sys; sys.path.insert(0, {str(SOURCE)!r}); before = {{*sys.modules}}; import balcli;"
+        "print(sorted({*sys.modules} - before))"
+    )
+    assert run_python("-S", "-c", code).stdout == "['__future__', 'balcli']\n"
 
 
 @unix

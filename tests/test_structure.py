@@ -186,6 +186,7 @@ ON_REQUEST = {
     "balcli.render.html": (
         *("balcli.render.mounts", "balcli.render.page_mounts"),
         *("balcli.render.torsion", "balcli.render.plot.torsion"),
+        "balcli.render.page_torque",
     ),
     "balcli.commands.scatter": ("balcli.studies.mount_scatter",),
     "balcli.studies.quantities": (

@@ -9,9 +9,12 @@ print(analyze(engine).spectra.moment.major)
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
+TYPE_CHECKING = (
+    False  # typing takes longer than all else here, and until then Ctrl-C is a traceback
+)
 if TYPE_CHECKING:
+    from typing import Any
+
     from .engine.build import Engine
     from .engine.load import load
     from .errors import BalcliError, InputError

@@ -258,3 +258,93 @@ def test_pictures_that_cannot_be(tmp_path):
     assert err == "balcli: loads of pins need pressures; harmonics of the torque have none\n"
     found = json.loads(torque(str(bare), "-f", "json"))
     assert not {"max_pressure_Pa", "max_pressure_deg"} & set(found)
+
+
+# ------------------------------------------------------------------ other commands
+def test_what_names_a_file_beside_it_is_written_beside_it(tmp_path):
+    """A diagram would be left behind."""
+    (tmp_path / "far").mkdir()
+    rows = "\n".join(f"{angle},{5 if angle == 10 else 1}" for angle in range(0, 721, 10))
+    (tmp_path / "p.csv").write_text(f"angle_deg,pressure_bar\n{rows}\n")
+    path = tmp_path / "four.toml"
+    path.write_text(FOUR + '[gas]\nindicator = "p.csv"\n[flywheel]\ninertia = 9e6\n')
+    for command in ("torque", "balance"):
+        far = tmp_path / "far" / "out.toml"
+        status, _, err = run_here(command, str(path), "--write", str(far))
+        assert status == 2
+        assert f'{far}: the engine file names "p.csv", which stands beside it in' in err
+        assert not far.exists()
+        near = tmp_path / f"{command}.toml"
+        status, _, err = run_here(command, str(path), "--write", str(near))
+        assert (status, err) == (0, "")
+        assert run_here("torque", str(near)).status == 0
+
+
+def test_engines_with_gas_are_compared_by_what_it_does(four, tmp_path):
+    found = json.loads(run_here("compare", four, four, "-f", "json", "--orders", "2").out)
+    assert "torque_Nm" in json.dumps(found)
+    bare = tmp_path / "bare.toml"
+    bare.write_text(FOUR)
+    mixed = run_here("compare", four, str(bare), "-f", "json", "--orders", "2")
+    assert (mixed.status, mixed.err) == (0, "")
+    assert "gas_torque_Nm" not in mixed.out
+
+
+def test_guide_moments_include_the_gas(four, tmp_path):
+    arguments = ("--only", "guide", "--orders", "0.5-4", "-f", "json")
+    found = json.loads(run_here("analyze", four, *arguments).out)["guide"]
+    assert found["includes"] == "inertia and gas"
+    roll = json.loads(run_here("analyze", four, "--orders", "2", "--only", "gas", "-f", "json").out)
+    by_order = {entry["order"]: entry for entry in found["orders"]}
+    assert by_order[2]["h_Nm"]["amplitude"] == pytest.approx(
+        roll["orders"][0]["roll_total_Nm"]["amplitude"], rel=1e-12
+    )
+    assert by_order[0.5]["h_Nm"]["balanced"]
+    assert by_order[0.5]["x_Nm"]["amplitude"] > 1
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        ("angle_deg,torque_Nm\n0,1\n", "has no two angles; the last row has to close the period"),
+        (
+            "angle_deg,torque_Nm\n0,1\n90,2\n80,2\n360,1\n",
+            "line 4: the angle 80 deg is below the 90",
+        ),
+        ("angle_deg,torque_Nm\n0,1\n90\n", "line 3: has 1 of 2 columns"),
+        ("angle_deg,torque\n0,1\n", 'the heading "angle_deg,torque" has no torque_Nm; head the'),
+        ("angle_deg,torque_Nm\n0,inf\n", 'line 2: "inf" is not a number'),
+    ],
+)
+def test_curves_that_cannot_be(tmp_path, content, told):
+    path = tmp_path / "t.csv"
+    path.write_text(content)
+    status, out, err = run_here("torque", "--curve", str(path))
+    assert (status, out) == (2, "")
+    assert told in err
+
+
+def test_curves_that_are_no_text(tmp_path):
+    path = tmp_path / "t.csv"
+    path.write_bytes(b"angle_deg,torque_Nm\n0,\xff\n")
+    assert "is not UTF-8 text" in run_here("torque", "--curve", str(path)).err
+
+
+def test_a_curve_as_csv_and_markdown(curve):
+    rows = torque("--curve", curve, "-f", "csv").splitlines()
+    assert "0,torque,,max,1000.0,N·m" in rows
+    assert any(row.startswith("0,torque,1,amplitude,") for row in rows)
+    assert torque("--curve", curve, "-f", "markdown").startswith("# press: torque")
+
+
+@pytest.mark.parametrize("text", ["gas.x.amplitude", "torque.2.axis", "fluctuation.2", "gas.2"])
+def test_quantities_that_are_none(four, text):
+    err = run_here("sweep", four, "--vary", "gas.imep=6,9", "--quantity", text).err
+    assert f"{text} is no quantity: give gas, torque or roll_total with an order" in err
+
+
+def test_a_fluctuation_needs_inertia(tmp_path):
+    bare = tmp_path / "bare.toml"
+    bare.write_text(FOUR + WIEBE)
+    arguments = ("--vary", "gas.imep=6,9", "--quantity", "fluctuation")
+    assert "fluctuation: the file gives no inertia" in run_here("sweep", str(bare), *arguments).err

@@ -9,7 +9,9 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 from support.browser import CHROMIUM, Browser
+from support.commands import run_here
 from support.engines import GOOD, changed
+from support.paths import ENGINES
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
@@ -299,3 +301,23 @@ def test_it_prints_in_light_and_without_controls(show):
     assert page.run("getComputedStyle(document.querySelector('.controls')).display") == "none"
     assert page.run("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
     page.call("Emulation.setEmulatedMedia", media="")
+
+
+def test_torque_and_pressure_run_with_the_crank(tmp_path):
+    """Of an engine with gas, over its cycle; of others nothing is said of it."""
+    target = tmp_path / "x.html"
+    for name, there in (("i4_wiebe", True), ("i4", False)):
+        status, _, err = run_here("report", ENGINES / f"{name}.toml", "-o", target)
+        assert (status, err) == (0, "")
+        text = target.read_text(encoding="utf-8")
+        assert ('id="torque-curve"' in text) == there
+        assert ("Gas torque" in text) == there
+    run_here("report", ENGINES / "i4_wiebe.toml", "-o", target)
+    data = re.search(r'id="running">(.*?)</script>', target.read_text(encoding="utf-8"), re.DOTALL)
+    running = json.loads(data[1])
+    assert running["cycle"] == 720
+    torque, pressure = running["curves"]
+    assert len(torque["total"]) == len(pressure["total"]) == 361
+    assert max(pressure["total"]) == pytest.approx(61.3, abs=0.2)
+    assert torque["mean"] == pytest.approx(206.7, abs=0.1)
+    assert torque["total"][0] == pytest.approx(torque["total"][-1], abs=1e-3)

@@ -224,6 +224,17 @@ def test_nothing_is_missing_once_it_is_there(planes):
     assert {need.missing for need in again.needs} == {0}
 
 
+def test_a_weight_in_a_plane_counts_in_that_plane_alone():
+    """Also where its place is another decimal of the same number."""
+    for place, plane in (("-220.1", -0.2201), ('"-8.7 in"', -0.22098), ('"1/3 m"', 1 / 3)):
+        weight = f"[[counterweight]]\nunbalance = 30000\nangle = 77\nposition = {place}\n"
+        for slip in (-1, 0, 1):
+            here = plane * (1 + slip * 2e-16)
+            needs = fit(FORD + weight, 0.5, planes=(here, 0.05)).needs
+            at = {abs(need.z - plane) < 1e-9: abs(need.present) for need in needs}
+            assert at == {True: pytest.approx(0.03, rel=1e-12), False: 0}
+
+
 def test_shafts_of_the_file_are_no_counterweights():
     shaft = "[[shaft]]\nratio = 1\nunbalance = 9000\n"
     assert fit(TWIN + shaft).counterweights == fit(TWIN).counterweights

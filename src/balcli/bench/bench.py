@@ -19,10 +19,11 @@ from ..forces.quantity import parse_quantity_list
 from ..forces.spectrum import compute_spectra
 from ..results.analysis import analyze
 from ..studies.parameters import Parameter, ladder
-from ..studies.sweep import CHUNK, Sweep, evaluate_chunks
+from ..studies.sweep import CHUNK, Sweep
 from . import methods
-from .cold_start import start_balcli, start_libraries
+from .cold_start import start_balcli, start_libraries, start_smallest
 from .stopwatch import compare_times, time_run
+from .sweeps import OuterProduct, run_sweep, sample_sweeps, sweep_peaks
 
 LAM = 0.28
 ORDERS = [1, 2, 4, 6, 8]
@@ -150,13 +151,19 @@ def _sweep_cases() -> Iterator[Case]:
         run = partial(_run_one_by_one, few, way)
         yield Case(task, name, run, _largest_error_of_sweep(few, way), few.variants)
     yield _exponential_case()
+    for name, sweep, each in sample_sweeps(V8):
+        task = "sweeps of sampled mechanisms, a variant and cylinder"
+        yield Case(task, name, partial(run_sweep, sweep), None, sweep.variants * each)
+    peaks = sweep_peaks(V8)
+    task, name = "peaks of a sweep, each", "force and moment of a V8"
+    yield Case(task, name, partial(run_sweep, peaks), None, 2 * peaks.variants)
 
 
 def _array_case() -> Case:
     """The sweep as balcli computes it."""
     grid = _grid(512, 128)
     error = _largest_error_of_sweep(_grid(2, 2), methods.of_engine)
-    run = partial(_run_sweep, grid)
+    run = partial(run_sweep, grid)
     return Case("sweep of a V8, a variant", "closed form, as arrays", run, error, grid.variants)
 
 
@@ -177,11 +184,6 @@ def _grid(banks: int, ratios: int) -> Sweep:
 
 def _sweep(*parameters: Parameter) -> Sweep:
     return Sweep(parse(V8), parameters, parse_quantity_list(DEFAULT_QUANTITIES))
-
-
-def _run_sweep(sweep: Sweep) -> None:
-    for _ in evaluate_chunks(sweep):
-        pass
 
 
 def _run_one_by_one(sweep: Sweep, way: methods.Vectors) -> None:
@@ -263,13 +265,21 @@ def _start_ratios() -> Iterator[Ratio]:  # pragma: no cover: cold starts for min
         what = f"imports: cold balcli {argv} to importing numpy, typer and pydantic"
         start = partial(start_balcli, argv.split(), V8)
         yield Ratio(what, compare_times(start, start_libraries))
+    argv = "analyze - --format json"
+    what = f"imports: cold balcli {argv} to a program of these that reads one option"
+    start = partial(start_balcli, argv.split(), V8)
+    yield Ratio(what, compare_times(start, start_smallest))
 
 
 def _sweep_ratios() -> Iterator[Ratio]:
     exponential = _exponential_case().time()
+    grid = _grid(512, 128)
+    outer = OuterProduct(*grid.shape)
+    what = "a variant of a sweep to the outer product of its phases and coefficients in numpy"
+    yield Ratio(what, compare_times(partial(run_sweep, grid), outer.run))
     what = "a variant of a sweep to np.exp(1j*x) of its 8 crank angles"
     yield Ratio(what, _array_case().time() / exponential)
     angles = ladder(Fraction(40), Fraction(1, 1000), 2 * CHUNK)
     throw = _sweep(Parameter("crank.throws.2", angles))
-    seconds = time_run(partial(_run_sweep, throw)) / throw.variants
+    seconds = time_run(partial(run_sweep, throw)) / throw.variants
     yield Ratio("a variant of a sweep of one throw to the same", seconds / exponential)

@@ -7,6 +7,16 @@ import sys
 from collections.abc import Sequence
 
 LIBRARIES = "import numpy, typer; from pydantic import BaseModel"
+# To read an option, typer loads a good deal more of pydantic.
+SMALLEST = """
+import numpy, typer
+from pydantic import BaseModel
+
+def main(number: float = 1.0) -> None:
+    pass
+
+typer.run(main)
+"""
 
 
 def start_balcli(argv: Sequence[str], engine_file: str) -> None:
@@ -17,6 +27,11 @@ def start_balcli(argv: Sequence[str], engine_file: str) -> None:
 def start_libraries() -> None:
     """What no program with these libraries is quicker than."""
     _start(["-c", LIBRARIES])
+
+
+def start_smallest() -> None:
+    """The smallest program with these libraries that reads an option."""
+    _start(["-c", SMALLEST])
 
 
 def _start(argv: Sequence[str], text: str = "") -> None:

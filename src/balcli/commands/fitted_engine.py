@@ -8,6 +8,7 @@ from ..enginefile.edit import set_keys
 from ..enginefile.toml_text import name_file
 from ..sizing.remedy import Remedy
 from ..sizing.write import insert_remedy
+from .named_files import refuse_leaving_files
 from .output import write_file
 
 
@@ -18,8 +19,10 @@ def write_fitted(
     is not its own.
 
     Raises:
-        BalcliError: the target cannot be written, or the devices cannot be described.
+        BalcliError: the target cannot be written, or the devices cannot be described; files that
+            the engine file names would be left behind.
     """
+    refuse_leaving_files(text, source, target)
     new = insert_remedy(text, remedy, name_file(source))
     if speed_rpm is not None:
         new = set_keys(new, "operation", {"speed": speed_rpm}, "as balanced by balcli")

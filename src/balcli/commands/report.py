@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ..engine.build import Engine
     from ..enginefile.model import EngineFile
     from ..mounting.report import MountReport
+    from ..torque.pictures import Running
     from ..torsion.analysis import TorsionAnalysis
 
 Page = Annotated[
@@ -56,11 +57,20 @@ def report(
 
     asked = parse_orders(orders)
     _, model, engine = read_engine(path, parse_speed(speed))
-    result = analyze(engine, asked, {*KINDS, "peak"})
+    shown = {*KINDS, "peak", *(["gas"] if engine.gas is not None else [])}
+    result = analyze(engine, asked, shown)
     balanced = balance(engine, scheme or "auto", orders=asked)
     mounted = _put_on_mounts(model, engine, scheme, name_file(path)) if model.body else None
     twisted = _twist(model, engine, name_file(path)) if model.torsion else None
-    emit(page(result, balanced, SYSTEMS[units], mounted, twisted), output)
+    turning = None if engine.gas is None else _turn_gas(engine)
+    emit(page(result, balanced, SYSTEMS[units], mounted, twisted, turning), output)
+
+
+def _turn_gas(engine: Engine) -> Running:
+    """What runs with the crank."""
+    from ..torque.pictures import compute_running
+
+    return compute_running(engine)
 
 
 def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | None:

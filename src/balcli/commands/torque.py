@@ -47,5 +47,5 @@ def torque(
         path or "", speed, orders, cylinder, misfire, fluctuation, loads
     )
     if write is not None:
-        own.write_uneven(text, result, write)
+        own.write_uneven(path or "", text, result, write)
     show([result], renderer, form, output, units)

@@ -13,6 +13,7 @@ import typer
 from ..enginefile.edit import set_keys
 from ..errors import BalcliError
 from .amounts import read_inertia
+from .named_files import refuse_leaving_files
 from .options import parse_orders, parse_speed
 from .output import write_file
 
@@ -196,12 +197,13 @@ def refuse_mixture(
             raise BalcliError(f"{option} needs {needs}")
 
 
-def write_uneven(source: bytes, result: TorqueAnalysis, target: Path) -> None:
+def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path) -> None:
     """The engine file with its speed as uneven as the torque makes it.
 
     Raises:
         BalcliError: the inertia is not known; the target cannot be written.
     """
+    refuse_leaving_files(source, path, target)
     if result.flywheel is None or result.flywheel.speed is None:
         raise BalcliError(
             "--write: the speed is not known; give inertia in [crank] or [flywheel], such as "

@@ -154,9 +154,10 @@ def find_pulls(
     square of the speed, and that of a linkage's masses on their curves.
     """
     c, rounding = cylinders, phases.rounding
-    along = Series(np.zeros_like(phases.n))
     if _has_pistons(c):
         along = (c.reciprocating * c.radius * square / 2) * harmonics.piston
+    else:
+        along = Series(np.zeros_like(phases.n))
     turning = (phases.n == 1) * (c.rotating * (c.radius * square))
     forward: Array | Complex = along.c + turning
     mirrored = along.c

@@ -19,6 +19,7 @@ from .units import System
 
 if TYPE_CHECKING:
     from ..mounting.report import MountReport
+    from ..torque.pictures import Running
     from ..torsion.analysis import TorsionAnalysis
 
 FOLDER = Path(__file__).with_name("page")
@@ -42,13 +43,21 @@ def page(
     system: System,
     mounted: MountReport | None = None,
     twisted: TorsionAnalysis | None = None,
+    turning: Running | None = None,
 ) -> str:
-    """The report of an engine, of a remedy for it, of what it does on its mounts, and of how its
-    crankshaft twists. Whatever comes from the engine file is escaped.
+    """The report of an engine, of a remedy for it, of what it does on its mounts, of how its
+    crankshaft twists, and of what its gas does. Whatever comes from the engine file is escaped.
     """
     from markupsafe import Markup
 
-    chapters: dict[str, Any] = {"mounts": None, "torsion": None}
+    chapters: dict[str, Any] = {"mounts": None, "torsion": None, "running": None}
+    if turning is not None:
+        from . import page_torque  # for files with gas
+
+        chapters |= {
+            "running": page_torque.running(turning, system),
+            "running_script": Markup((FOLDER / "running.js").read_text(encoding="utf-8")),
+        }
     if mounted is not None:
         from . import mounts, page_mounts  # for files that have mounts
 

@@ -10,7 +10,7 @@ from ..core.peaks import Peak
 from ..core.phasors import Array
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..forces.kinds import MOMENT, VECTORS, Kind
+from ..forces.kinds import GAS, MOMENT, VECTORS, Kind
 from ..forces.orders import merge_orders
 from ..forces.spectrum import Spectra
 from .analysis import QUANTITIES, Analysis, analyze
@@ -80,7 +80,7 @@ def compare_engines(
         names: what to call them.
         orders: default: all that `analyze` shows for one of them.
         only: as in `analyze`; of sizing, the peaks that are left with the devices; default: all
-            but sizing, inner and guide.
+            but sizing, inner and guide, and gas where all engines have some.
         whole: whether people are shown orders that are negligible, too; they are if orders are
             given.
 
@@ -90,6 +90,8 @@ def compare_engines(
     if len(engines) < 2:
         raise BalcliError("compare needs at least two engine files")
     wanted = set(QUANTITIES) - {"sizing"} if only is None else set(only)
+    if only is None and all(engine.gas is not None for engine in engines):
+        wanted.add(GAS.name)
     analyses = [analyze(engine, orders, wanted) for engine in engines]
     every = merge_orders(*(orders for one in analyses for orders in _list_orders(one)))
     if orders is None:

@@ -224,9 +224,9 @@ def _find_needs(
     of_pins = np.eye(len(z)) if planes is None else share_by_lever(at, distinct)
     wanted, present = -(of_pins @ pins), of_weights @ weights
     parts = np.abs(of_pins) @ np.abs(pins) + np.abs(of_weights) @ np.abs(weights)
-    missing = np.where(np.abs(wanted - present) <= LEFT * parts, 0, wanted - present)
-    rows = zip(z.tolist(), wanted.tolist(), present.tolist(), missing.tolist(), strict=True)
-    return tuple(PlaneNeed(*row) for row in rows)
+    vectors = np.stack([wanted, present, wanted - present])
+    settled = np.where(np.abs(vectors) <= LEFT * parts, 0, vectors)  # dust of what cancels is none
+    return tuple(PlaneNeed(*row) for row in zip(z.tolist(), *settled.tolist(), strict=True))
 
 
 def _count_from_pin(engine: Engine, need: PlaneNeed) -> PlaneNeed:

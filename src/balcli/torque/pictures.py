@@ -93,6 +93,33 @@ class GasPictures(NamedTuple):
     main: MainLoads | None = None
 
 
+class Running(NamedTuple):
+    """What runs with the crank.
+
+    Attributes:
+        torques: over the cycle.
+        pressures: in cylinder 1; None where the file has harmonics of the torque alone.
+        fires_deg: crank angle at which cylinder 1 fires.
+    """
+
+    torques: Torques
+    pressures: Pressures | None
+    fires_deg: float
+
+
+def compute_running(engine: Engine) -> Running:
+    """Torque and pressure over a cycle, at the mean speed.
+
+    Raises:
+        BalcliError: the engine has no gas.
+    """
+    steady = replace(engine, ripple=())
+    cylinder = take_gas(engine).cylinders[engine.numbers.index(1)]
+    known = isinstance(cylinder.torque, PressureOnPiston)
+    pressures = _find_pressures(steady) if known else None
+    return Running(_find_torques(steady), pressures, float(np.degrees(cylinder.fires)))
+
+
 def compute_pictures(engine: Engine, what: str) -> GasPictures:
     """What one of PAGES shows, at the mean speed.
 

@@ -85,6 +85,8 @@ class Harmonics(NamedTuple):
 
     def select_cylinders(self, which: Rows) -> Harmonics:
         """The mechanisms with these numbers."""
+        if which.shape == self.piston.c.shape[1:] == (1,):  # there is but one
+            return self
         return self._change_each(lambda series: series.select_cylinders(which))
 
     def _change_each(self, change: Callable[[Series], Series]) -> Harmonics:

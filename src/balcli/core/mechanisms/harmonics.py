@@ -46,6 +46,8 @@ def find_distinct_harmonics(
     centred = offsets == 0
     if np.max(orders, initial=0) > CLOSED_FORM:
         centred[:] = False
+    elif few.which.shape == (1,) and centred[0]:  # most engines: one mechanism for all cylinders
+        return closed_form.find_harmonics(orders, ratios, wanted), few.which
     one_engine = few.which.ndim == 1  # of one an order is the same among any others
     found = []
     if np.count_nonzero(centred):

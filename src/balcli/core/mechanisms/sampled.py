@@ -138,19 +138,22 @@ def _take_samples(
 def _is_enough(spectrum: Complex, rounding: Array, highest: float) -> NDArray[np.bool_]:
     """Whether these samples are enough for orders up to the highest.
 
-    They are where the upper half of the spectrum holds rounding errors alone. Orders of the lower
-    half are mixed with those from 3/2 of its length on alone; spectra decay like powers, so that
-    what is there is less than the third power of what the upper half holds.
+    They are where the upper half of the spectrum holds rounding errors alone. Low orders need less:
+    order n of N samples is mixed with N - n, and what is there follows from how the
+    upper half falls. From one half of it to the other it does so by some factor, and by that factor
+    again for every N/8 orders from there on.
 
     Args:
         spectrum: shape (mechanisms, samples/2 + 1).
         rounding: `amplify_rounding` of the samples, shape (mechanisms,).
     """
-    half = spectrum.shape[-1] - 1
-    sizes = spectrum.real**2 + spectrum.imag**2
-    tail = np.sqrt(sizes[:, half // 2 :].max(axis=-1)) / (2 * half)
-    most = _LIMIT * np.maximum(rounding, 1.0)
-    if highest <= half / 2:
-        largest = np.sqrt(sizes.max(axis=-1)) / (2 * half)
-        most = np.maximum(most, _LIMIT ** (1 / 3) * largest)
-    return np.asarray(tail <= most)
+    count = 2 * (spectrum.shape[-1] - 1)
+    upper = spectrum[:, count // 4 :]
+    sizes = np.sqrt(upper.real**2 + upper.imag**2) / count
+    before, last = sizes[:, : count // 8].max(axis=-1), sizes[:, count // 8 :].max(axis=-1)
+    enough = np.maximum(before, last) <= _LIMIT * np.maximum(rounding, 1.0)
+    if highest <= count / 8:
+        factor = last / np.maximum(before, last + 1e-300)
+        mixed = last * factor ** ((count - highest) / (count / 8) - 3)
+        enough |= mixed <= _LIMIT / 16 * rounding
+    return np.asarray(enough)

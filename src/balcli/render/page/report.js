@@ -306,6 +306,7 @@
     moment: locusView("moment", scene.units.moment),
   };
   const angle = byId("angle"), play = byId("play"), chain = byId("chain");
+  const cycle = Number(angle.max);                        // 720 where the gas of a four-stroke runs, too
   const switchFor = (parent, type, name, value, text, checked) => {
     const label = document.createElement("label"), input = document.createElement("input");
     Object.assign(input, { type, name, value, checked });
@@ -329,10 +330,11 @@
   }
   function turn() {
     const theta = Number(angle.value);
-    byId("angle-now").textContent = `${Math.round(theta) % 360}°`;
+    byId("angle-now").textContent = `${Math.round(theta) % cycle}°`;
     end(theta, scene.variants[chosen()]);
     side(theta);
     for (const view of Object.values(views)) view.turn(theta, chain.checked);
+    document.dispatchEvent(new CustomEvent("crank", { detail: theta }));
   }
   angle.addEventListener("input", turn);
   chain.addEventListener("change", turn);
@@ -344,7 +346,7 @@
     if (play.getAttribute("aria-pressed") !== "true") { last = null; return; }
     if (last !== null) {
       angle.step = "any";
-      angle.value = (Number(angle.value) + DEGREES_PER_SECOND * (time - last) / 1000) % 360;
+      angle.value = (Number(angle.value) + DEGREES_PER_SECOND * (time - last) / 1000) % cycle;
       turn();
     }
     last = time;

@@ -1,0 +1,76 @@
+"""As many samples as each mechanism needs: no fewer than its bound of errors allows, whatever
+stands beside it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from balcli.core.mechanisms import sampled
+from balcli.core.mechanisms.articulated import hang
+from balcli.core.mechanisms.fourier import SERIES
+from balcli.core.mechanisms.rotary import Rotary
+from balcli.core.mechanisms.slidercrank import SliderCrank
+
+MANY = 4096  # samples: of nothing here an order is left beyond them
+FEW = 32
+
+
+def random_rods(count: int = 400) -> list[np.ndarray]:
+    """Articulated rods up to near their lock: lambda, offset, knuckle, lead, and the master's lambda
+    and offset.
+    """
+    rng = np.random.default_rng(5)
+    lam, master = rng.uniform(0.05, 0.6, count), rng.uniform(0.1, 0.5, count)
+    offset, offset_of_master = rng.uniform(-0.1, 0.1, (2, count))
+    knuckle = rng.uniform(0.05, 1.2, count) * np.exp(1j * rng.uniform(-0.2, 0.2, count))
+    turns = (lam * (1 + np.abs(knuckle)) + np.abs(offset)) < 0.97
+    turns &= master + np.abs(offset_of_master) < 0.97
+    figures = lam, offset, knuckle, rng.uniform(0, 360, count), master, offset_of_master
+    return [values[turns] for values in figures]
+
+
+@pytest.mark.parametrize("orders", [[1, 2], [0, 1, 2, 3, 4], [8], [40]], ids=str)
+@pytest.mark.parametrize("kind", ["articulated", "rotary", "both"])
+def test_few_samples_keep_the_bound(kind, orders):
+    rods = random_rods()
+    share = np.full(len(rods[0]), 0.3)
+    rotary = Rotary(np.ones(1)).move
+    figures = {"articulated": rods, "rotary": rods[:2], "both": [*rods, share]}[kind]
+    move = hang if kind == "articulated" else rotary
+    first = np.full(len(rods[0]), FEW)
+    few = sampled.sample_mechanisms(orders, SERIES, move, figures, first, max(orders))
+    many = sampled.sample_mechanisms(orders, SERIES, move, figures, np.full(len(first), MANY))
+    assert few.counts.max() < MANY
+    assert (few.counts.min() == FEW) == (max(orders) <= FEW / 8)
+    for name in SERIES:
+        error = np.abs(few.series[name].c - many.series[name].c)
+        assert np.all(error <= 0.5 * many.series[name].noise), name
+
+
+def test_a_mechanism_is_the_same_among_any_others(monkeypatch):
+    """To the last bit, in large blocks and in small ones."""
+    rods = random_rods(60)
+    first = np.full(len(rods[0]), FEW)
+    together = sampled.sample_mechanisms([1, 2], SERIES, hang, rods, first, 2)
+    monkeypatch.setattr(sampled, "_AT_ONCE", 5 * FEW)
+    parted = sampled.sample_mechanisms([1, 2], SERIES, hang, rods, first, 2)
+    for k in range(0, len(first), 7):
+        own = [values[k : k + 1] for values in rods]
+        alone = sampled.sample_mechanisms([1, 2], SERIES, hang, own, first[:1], 2)
+        assert together.counts[k] == parted.counts[k] == alone.counts[0]
+        for name in SERIES:
+            values = together.series[name].c[:, k]
+            assert np.array_equal(values, parted.series[name].c[:, k]), name
+            assert np.array_equal(values, alone.series[name].c[:, 0]), name
+
+
+def test_only_what_is_wanted_and_there_is_sampled():
+    figures = [np.array([0.3]), np.array([0.01])]
+    found = sampled.sample_mechanisms([1], SERIES, SliderCrank, figures, np.array([FEW]))
+    assert found.series.keys() == {"piston", "rod", "kinetic", "rod_kinetic"}
+    assert found.as_harmonics().curve is None
+    first = np.full(len(random_rods()[0]), FEW)
+    found = sampled.sample_mechanisms([1], {"along"}, hang, random_rods(), first)
+    assert found.series.keys() == {"along"}
