@@ -76,4 +76,5 @@ MOST_MOUNT_RESULTS = 4_000_000  # orders x speeds x mounts and points: 300 MB
 # Torsion -------------------------------------------------------------------------------------
 MOST_TORSION_NODES = 200  # of a chain: modes of all of them take a second
 HIGHEST_TORSION_ORDER = 256  # a cycle is sampled 16 times as often
+MOST_TORSION_TORQUES = 10_000_000  # orders x speeds x shafts: all are kept, 8 bytes each
 HIGHEST_TORSION_ORDER_UNASKED = 12  # by which cylinders excite: tables of builders end here

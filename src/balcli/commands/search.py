@@ -78,6 +78,7 @@ def search(
     from ..studies.search.objective import parse_objective
     from ..studies.search.search import search_arrangements
     from ..studies.search.write import write_design
+    from .search_watch import watching_search
 
     if require not in ("", "even-firing"):
         raise typer.BadParameter(
@@ -87,7 +88,8 @@ def search(
     model = parse(text, name)
     build_named(model, name)  # what is wrong with the file itself is told with its name
     goal = parse_objective(minimise, limit or ())
-    found = search_arrangements(model, over, goal, top, bool(require))
-    show([found], renderer, form, output)
-    if write is not None:
-        write_file(write_design(text, found.results[0].design), write)
+    with watching_search(over) as watch:
+        found = search_arrangements(model, over, goal, top, bool(require), watch)
+        show([found], renderer, form, output)
+        if write is not None:
+            write_file(write_design(text, found.results[0].design), write)

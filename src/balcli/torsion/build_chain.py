@@ -6,13 +6,13 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ..core.torsional_chain import Chain, Damping, Shaft, find_pieces, join_chain, rigid_motions
+from ..core.torsional_chain import Chain, Shaft, find_pieces, rigid_motions
 from ..enginefile.fields import shorten
-from ..enginefile.shafting import ShaftKeys, find_stiffness
+from ..enginefile.shafting import find_stiffness
 from ..errors import InputError, Problem
+from .assembly import Limits, PlannedNode, PlannedShaft, assemble_system, find_section
 from .chain_file import ChainFile
-from .dampers import fit_dampers
-from .system import Excitation, Section, TorsionalSystem
+from .system import Excitation, TorsionalSystem
 
 
 def build_chain(file: ChainFile, name: str = "") -> TorsionalSystem:
@@ -23,38 +23,32 @@ def build_chain(file: ChainFile, name: str = "") -> TorsionalSystem:
     """
     names = [node.name for node in file.node]
     index = {each: k for k, each in enumerate(names)}
-    fitted = fit_dampers(names, [node.damper for node in file.node])
-    joined = [
-        Shaft(index[shaft.from_], index[shaft.to], find_stiffness(shaft)) for shaft in file.shaft
+    nodes = [
+        PlannedNode(node.name, (node.inertia or 0.0) / 1e6, node.damping, node.damper)
+        for node in file.node
     ]
-    meshes = [Shaft(index[g.from_], index[g.to], np.inf, g.ratio) for g in file.gear]
-    inertia = [(node.inertia or 0.0) / 1e6 for node in file.node] + list(fitted.inertias)
-    clamped = [index[each] for each in file.fixed]
-    shafts = [*joined, *meshes, *fitted.shafts]
-    chain = _join(names, inertia, shafts, clamped, name, len(file.shaft))
-    losses = [file.loss if shaft.loss is None else shaft.loss for shaft in file.shaft]
-    dashpots = [shaft.damping for shaft in file.shaft]
-    extra = len(meshes) + len(fitted.shafts)
     joints = [f"{shaft.from_}-{shaft.to}" for shaft in file.shaft]
     joints += [f"{gear.from_}-{gear.to}" for gear in file.gear]
-    return TorsionalSystem(
-        file.name or "",
-        (*names, *fitted.names),
-        (*_tell_apart(joints), *fitted.names),
-        chain,
-        Damping(
-            np.array([*losses, *[0.0] * len(meshes), *fitted.losses]),
-            np.array([*dashpots, *[0.0] * extra]),
-            np.array([*(node.damping for node in file.node), *[0.0] * len(fitted.inertias)]),
-        ),
-        (*map(find_section, file.shaft), *[None] * extra),
-        fitted.rings,
-        fitted.pendulums,
-        _excite(file, index),
-        None if file.limit is None else file.limit * 1e6,
-        None if file.angle_limit is None else float(np.radians(file.angle_limit)),
-        len(names) - 1,
-    )
+    called = list(_tell_apart(joints))
+    shafts = [
+        PlannedShaft(
+            label,
+            Shaft(index[shaft.from_], index[shaft.to], find_stiffness(shaft)),
+            file.loss if shaft.loss is None else shaft.loss,
+            shaft.damping,
+            find_section(shaft),
+        )
+        for label, shaft in zip(called, file.shaft, strict=False)
+    ]
+    shafts += [
+        PlannedShaft(label, Shaft(index[gear.from_], index[gear.to], np.inf, gear.ratio))
+        for label, gear in zip(called[len(file.shaft) :], file.gear, strict=True)
+    ]
+    clamped = [index[each] for each in file.fixed]
+    if problems := list(_find_faults(nodes, shafts, clamped, len(file.shaft))):
+        raise InputError(problems, name)
+    limits = Limits(file.limit, file.angle_limit)
+    return assemble_system(file.name or "", nodes, shafts, _excite(file, index), limits, clamped)
 
 
 def _tell_apart(names: Sequence[str]) -> Iterator[str]:
@@ -62,13 +56,6 @@ def _tell_apart(names: Sequence[str]) -> Iterator[str]:
     for k, name in enumerate(names):
         before = names[:k].count(name)
         yield f"{name} ({before + 1})" if before else name
-
-
-def find_section(shaft: ShaftKeys) -> Section | None:
-    """Diameters in m, where they are given."""
-    if shaft.diameter is None:
-        return None
-    return Section(shaft.diameter / 1e3, (shaft.bore or 0.0) / 1e3)
 
 
 def _excite(file: ChainFile, index: dict[str, int]) -> Excitation | None:
@@ -83,26 +70,18 @@ def _excite(file: ChainFile, index: dict[str, int]) -> Excitation | None:
     return Excitation(orders, np.array(sources), steady, np.zeros_like(steady))
 
 
-def _join(
-    names: Sequence[str],
-    inertia: Sequence[float],
-    shafts: Sequence[Shaft],
+def _find_faults(
+    nodes: Sequence[PlannedNode],
+    shafts: Sequence[PlannedShaft],
     clamped: Sequence[int],
-    file: str,
     first_gear: int,
-) -> Chain:
-    """The chain, or an error by the paths of what is wrong."""
-    table = np.array(shafts, float).reshape(-1, 4)
+) -> Iterator[Problem]:
+    """What hangs together wrongly; gears are the shafts from `first_gear` on."""
+    names = [node.name for node in nodes]
+    table = np.array([each.shaft for each in shafts], float).reshape(-1, 4)
     ends = table[:, :2].astype(np.intp)
-    held = np.isin(np.arange(len(inertia)), clamped)
-    loose = Chain(np.array(inertia), ends[:, 0], ends[:, 1], table[:, 3], table[:, 2], held)
-    problems = list(_find_faults(names, loose, first_gear))
-    if problems:
-        raise InputError(problems, file)
-    return join_chain(inertia, shafts, clamped)
-
-
-def _find_faults(names: Sequence[str], chain: Chain, first_gear: int) -> Iterator[Problem]:
+    inertia, held = np.array([n.inertia for n in nodes]), np.isin(np.arange(len(nodes)), clamped)
+    chain = Chain(inertia, ends[:, 0], ends[:, 1], table[:, 3], table[:, 2], held)
     apart = np.unique(find_pieces(chain).first)[1:].tolist()
     for node in apart:
         text = f"{shorten(names[node])} hangs on nothing that hangs on {shorten(names[0])}"

@@ -13,7 +13,7 @@ import numpy as np
 from ..core.loads import find_inertia, find_needed_series
 from ..core.mechanisms import harmonics
 from ..core.singular_values import Real
-from ..core.torsional_chain import Damping, Shaft, join_chain
+from ..core.torsional_chain import Shaft
 from ..engine.build import Engine
 from ..enginefile.fields import counted, nearest, printable, shorten
 from ..enginefile.model import EngineFile
@@ -22,8 +22,7 @@ from ..enginefile.torsion_tables import Part, Torsion
 from ..errors import BalcliError, InputError, Problem
 from ..forces.spectrum import compute_each_cylinder
 from ..limits import HIGHEST_TORSION_ORDER_UNASKED
-from .build_chain import find_section
-from .dampers import fit_dampers
+from .assembly import Limits, PlannedNode, PlannedShaft, assemble_system, find_section
 from .system import Excitation, Section, TorsionalSystem
 
 
@@ -33,16 +32,6 @@ class _Joint(NamedTuple):
     path: str
     part: Part
     of: str
-
-
-class _Spring(NamedTuple):
-    """A shaft with its name, loss factor, dashpot (N m s/rad) and diameters."""
-
-    name: str
-    shaft: Shaft
-    loss: float
-    dashpot: float
-    section: Section | None
 
 
 def build_engine_system(
@@ -67,76 +56,62 @@ def build_engine_system(
     problems = list(_find_misfits(torsion, model, engine, throws))
     if problems:
         raise InputError(problems, name)
+    nodes = [
+        *map(_plan_part, reversed(torsion.front)),
+        *_plan_throws(torsion, model, engine, throws),
+        *map(_plan_part, torsion.rear),
+    ]
+    leading = list(_lead_shafts(torsion, [node.name for node in nodes], throws))
+    front = len(torsion.front)
+    shafts = [
+        *reversed(leading[:front]),
+        *_join_throws(torsion, front, throws),
+        *leading[front:],
+    ]
+    limits = Limits(torsion.limit, torsion.angle_limit)
+    own_speed = "speed" in model.operation.model_fields_set
+    rated = model.operation.speed if own_speed else None
+    return assemble_system(engine.name, nodes, shafts, excitation, limits, rated_rpm=rated)
+
+
+def _plan_part(part: Part) -> PlannedNode:
+    return PlannedNode(part.name, (part.inertia or 0.0) / 1e6, part.node_damping, part.damper)
+
+
+def _plan_throws(
+    torsion: Torsion, model: EngineFile, engine: Engine, throws: int
+) -> Iterator[PlannedNode]:
+    """A node for each throw, with what runs on it and the damping of every cylinder."""
+    gear, on_throw = weigh_running_gear(engine), [weighed.throw for weighed in engine.weighed]
+    bare = _weigh_throws(torsion, model, throws)
+    for throw, name in enumerate(_name_throws(throws)):
+        here = np.equal(on_throw, throw)
+        inertia = bare[throw] + float(gear[here].sum())
+        yield PlannedNode(name, inertia, torsion.damping * int(here.sum()))
+
+
+def _join_throws(torsion: Torsion, front: int, throws: int) -> Iterator[PlannedShaft]:
+    """The shafts between neighbouring throws, the first of which is the node `front`."""
+    section = None
+    if torsion.throw_diameter is not None:
+        section = Section(torsion.throw_diameter / 1e3, (torsion.throw_bore or 0.0) / 1e3)
+    stiffnesses = _each(torsion.throw_stiffness or (), throws - 1)
+    for k, (name, stiffness) in enumerate(zip(_name_between(throws), stiffnesses, strict=True)):
+        shaft = Shaft(front + k, front + k + 1, stiffness)
+        yield PlannedShaft(name, shaft, torsion.loss, section=section)
+
+
+def _lead_shafts(torsion: Torsion, names: Sequence[str], throws: int) -> Iterator[PlannedShaft]:
+    """Shaft of every part, front ones first, from what it hangs on; its stiffness counts in its
+    own speed.
+    """
     joints = _join_parts(torsion, throws)
-    names = [part.name for part in reversed(torsion.front)]
-    front = len(names)
-    names += [*_name_throws(throws), *(part.name for part in torsion.rear)]
-    parts = {names.index(joint.part.name): joint.part for joint in joints}
-    fitted = fit_dampers(
-        names, [parts[k].damper if k in parts else None for k in range(len(names))]
-    )
-    inertia, damping = np.zeros((2, len(names)))
-    inertia[front : front + throws] = _weigh_throws(torsion, model, throws)
-    on_throw = front + np.array([weighed.throw for weighed in engine.weighed])
-    np.add.at(inertia, on_throw, weigh_running_gear(engine))
-    np.add.at(damping, on_throw, torsion.damping)
-    for k, part in parts.items():
-        inertia[k], damping[k] = (part.inertia or 0.0) / 1e6, part.node_damping
-    between = _each(torsion.throw_stiffness or (), throws - 1)
-    springs = [
-        _Spring(
-            f"throw {k + 1}-{k + 2}",
-            Shaft(front + k, front + k + 1, stiffness),
-            torsion.loss,
-            0.0,
-            _find_throw_section(torsion),
-        )
-        for k, stiffness in enumerate(between)
-    ]
-    leading = list(_lead_shafts(torsion, joints, names, throws))
-    springs = [*reversed(leading[:front]), *springs, *leading[front:]]
-    springs += [
-        _Spring(*each, 0.0, None)
-        for each in zip(fitted.names, fitted.shafts, fitted.losses, strict=True)
-    ]
-    rubber = [0.0] * len(fitted.inertias)
-    return TorsionalSystem(
-        engine.name,
-        (*names, *fitted.names),
-        tuple(spring.name for spring in springs),
-        join_chain([*inertia, *fitted.inertias], [spring.shaft for spring in springs]),
-        Damping(
-            np.array([spring.loss for spring in springs]),
-            np.array([spring.dashpot for spring in springs]),
-            np.array([*damping, *rubber]),
-        ),
-        tuple(spring.section for spring in springs),
-        fitted.rings,
-        fitted.pendulums,
-        excitation,
-        None if torsion.limit is None else torsion.limit * 1e6,
-        None if torsion.angle_limit is None else float(np.radians(torsion.angle_limit)),
-        len(names) - 1,
-        model.operation.speed if "speed" in model.operation.model_fields_set else None,
-    )
-
-
-def _lead_shafts(
-    torsion: Torsion, joints: Sequence[_Joint], names: Sequence[str], throws: int
-) -> Iterator[_Spring]:
-    """Shaft of every part, from what it hangs on; its stiffness counts in its own speed."""
     gears = _find_gears(joints, throws)
     for _, part, of in joints:
         ends, ratio = (names.index(of), names.index(part.name)), gears[part.name] / gears[of]
         loss = torsion.loss if part.loss is None else part.loss
         shaft = Shaft(*ends, find_stiffness(part), ratio)
-        yield _Spring(part.name, shaft, loss, part.damping, find_section(part))
-
-
-def _find_throw_section(torsion: Torsion) -> Section | None:
-    if torsion.throw_diameter is None:
-        return None
-    return Section(torsion.throw_diameter / 1e3, (torsion.throw_bore or 0.0) / 1e3)
+        yield PlannedShaft(part.name, shaft, loss, part.damping, find_section(part))
 
 
 def _name_throws(throws: int) -> list[str]:

@@ -15,6 +15,7 @@ from ..core.torsional_modes import chain_loss, find_chain_modes
 from ..core.torsional_response import respond_chain
 from ..core.vibration import UndampedResonanceError, find_resonances, frequencies
 from ..errors import BalcliError
+from ..limits import MOST_TORSION_TORQUES
 from .system import Excitation, TorsionalSystem
 
 _AT_A_TIME = 1 << 20  # samples of a cycle, of all shafts and speeds, that are computed together
@@ -78,6 +79,7 @@ def find_response(
     Raises:
         BalcliError: an undamped mode is driven at its own frequency.
     """
+    _refuse_too_many(len(excitation.orders), len(speeds_rpm), len(system.shafts))
     _refuse_resonance(system, excitation, speeds_rpm)
     parts = []
     for some in _split(system, excitation, speeds_rpm):
@@ -101,6 +103,14 @@ def find_response(
         heat,
         names,
     )
+
+
+def _refuse_too_many(orders: int, speeds: int, shafts: int) -> None:
+    if orders * speeds * shafts > MOST_TORSION_TORQUES:
+        raise BalcliError(
+            f"{orders} orders at {speeds} speeds in {shafts} shafts are {orders * speeds * shafts} "
+            f"torques, and at most {MOST_TORSION_TORQUES} are kept: take fewer speeds or orders"
+        )
 
 
 _AXES = (0, 0, 0, 1, 1, 0)  # the axis of speeds in what is summed up

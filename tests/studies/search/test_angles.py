@@ -10,6 +10,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from support.engines import RADIAL
 
 from balcli.engine.build import build
 from balcli.engine.load import parse as load
@@ -400,3 +401,8 @@ def test_bank_angles_vary_beside_given_knuckle_angles() -> None:
     together = sweep(file, "bank_angle", wanted, np.array([50.0, 60.0, 70.0]))
     one = [sweep(file, "bank_angle", wanted, np.array([x]))[0] for x in (50.0, 60.0, 70.0)]
     assert together == pytest.approx(one, rel=1e-9)
+
+
+def test_an_articulated_radial_has_no_bank_angle_to_look_for() -> None:
+    with pytest.raises(BalcliError, match="there is no bank angle to look for"):
+        search_arrangements(load(RADIAL), "bank_angle", parse_objective("force.6.major"))

@@ -93,6 +93,44 @@ def test_eight_distinct_throws_are_all_tried() -> None:
     assert len(np.unique(np.mod(rows, 360), axis=0)) == len(rows) == count
 
 
+NINE = [0, 31, 67, 95, 140, 170, 222, 260, 301]
+
+
+def test_who_watches_hears_of_all_arrangements_and_changes_nothing() -> None:
+    file, wanted = engine(NINE), parse_objective("moment.1.major")
+    shares: list[float] = []
+    watched = find_best_throws(file, wanted, 3, watch=lambda share: bool(shares.append(share)))
+    assert np.array_equal(watched, find_best_throws(file, wanted, 3))
+    assert shares == sorted(shares)
+    assert shares[-1] == pytest.approx(1, abs=1e-12)
+    assert len(shares) > 9
+
+
+def test_who_has_seen_enough_gets_the_best_so_far() -> None:
+    """The first 7! of 9 x 8! arrangements, which are tried at once: none of those is better."""
+    file, wanted = engine(NINE), parse_objective("moment.1.major")
+    shares: list[float] = []
+
+    def enough(share: float) -> bool:
+        shares.append(share)
+        return True
+
+    (best,) = find_best_throws(file, wanted, 1, watch=enough)
+    assert shares == [pytest.approx(1 / (9 * 8))]
+    among = [(0.0, 31.0, *rest) for rest in permutations(NINE[2:])]
+    tried = np.array(among[:: len(among) // 200])
+    values = [evaluate_alone(file, throws) for throws in (best, *tried)]
+    assert values[0] <= min(values[1:])
+
+
+def evaluate_alone(file: EngineFile, throws: np.ndarray) -> float:
+    crank = file.crank.model_copy(update={"throws": tuple(map(float, throws))})
+    (value,) = evaluate_quantities(
+        build(file.model_copy(update={"crank": crank})), parse_quantity_list("moment.1.major")
+    )
+    return float(value)
+
+
 def test_limits_are_kept() -> None:
     file = engine([0, 90, 270, 180], "bank_angle = 90")
     free = search_arrangements(file, "throws", parse_objective("moment.1.major")).results

@@ -31,7 +31,7 @@ from .even_firing import find_even_angles, fires_evenly
 from .firing_orders import Slots
 from .mirror_images import drop_mirror_images
 from .objective import Objective
-from .throws import count_from, find_best_throws
+from .throws import Watch, count_from, find_best_throws
 
 Angle = Literal["bank_angle", "splay"]
 What = Literal["throws", "firing_order", "bank_angle", "splay"]
@@ -69,10 +69,16 @@ class _Task(NamedTuple):
     wanted: int
     even_firing: bool
     locked: tuple[tuple[float, float], ...]
+    watch: Watch | None
 
 
 def search_arrangements(
-    model: EngineFile, over: str, objective: Objective, count: int = 10, even_firing: bool = False
+    model: EngineFile,
+    over: str,
+    objective: Objective,
+    count: int = 10,
+    even_firing: bool = False,
+    watch: Watch | None = None,
 ) -> Search:
     """The best arrangements, mirror images and rotations once.
 
@@ -81,6 +87,7 @@ def search_arrangements(
             the file gives no throws), bank_angle (of a vee) or splay.
         count: at most so many.
         even_firing: only arrangements that can fire evenly.
+        watch: of a search over throws, which alone takes long: `throws.find_best_throws`.
 
     Raises:
         BalcliError: an engine that has nothing to arrange, or no arrangement that keeps the limits,
@@ -90,7 +97,7 @@ def search_arrangements(
     engine = build(model)
     refuse_unknown(engine, objective.quantities)
     locked = _find_locked(model, what)
-    candidates = _SEARCHES[what](_Task(model, objective, count, even_firing, locked))
+    candidates = _SEARCHES[what](_Task(model, objective, count, even_firing, locked, watch))
     found = tuple(islice(drop_mirror_images(candidates, model), count))
     if not found:
         also = " and fires evenly" if even_firing else ""
@@ -127,7 +134,7 @@ def _search_throws(task: _Task) -> Iterator[Found]:
         return fires_evenly(build_candidates(model, {"throws": throws}), model)
 
     allowed = can_fire if task.even_firing else None
-    throws = find_best_throws(model, objective, IMAGES * task.wanted, allowed)
+    throws = find_best_throws(model, objective, IMAGES * task.wanted, allowed, task.watch)
     if len(throws):
         throws = count_from(throws[:, :1], throws)
     return rank_candidates(model, {"throws": throws}, objective)
@@ -161,13 +168,10 @@ def _search_firing_order(task: _Task) -> Iterator[Found]:
 
 def _find_locked(model: EngineFile, what: What) -> tuple[tuple[float, float], ...]:
     """From where to where a bank angle leaves articulated rods that cannot follow, deg, to STEP."""
-    if what != "bank_angle" or model.articulation is None:
+    if what != "bank_angle" or model.articulation is None or model.layout.bank_angle is None:
         return ()
     grid = SPANS[what].divide(_LOCK_STEP)
-    try:
-        there = find_buildable(model, what, grid)
-    except BalcliError:  # this angle is none of the file's
-        return ()
+    there = find_buildable(model, what, grid)
     runs = np.split(np.arange(len(grid)), np.flatnonzero(np.diff(there)) + 1)
     return tuple(
         (_find_lock(model, grid, run[0], -1), _find_lock(model, grid, run[-1], 1))

@@ -28,19 +28,26 @@ from .throw_contributions import Key, tabulate_contributions
 
 Indices = NDArray[np.int8]
 Allowed = Callable[[Array], NDArray[np.bool_]]
+Watch = Callable[[float], bool]
 Left = tuple[int, ...]  # how often each angle is still to be given
 _DECIMALS = 9  # of angles that are equal, deg
 BLOCK = 7  # throws of which all arrangements are tried at a time (7! = 5040)
 
 
 def find_best_throws(
-    model: EngineFile, objective: Objective, count: int, allowed: Allowed | None = None
+    model: EngineFile,
+    objective: Objective,
+    count: int,
+    allowed: Allowed | None = None,
+    watch: Watch | None = None,
 ) -> Array:
     """The best arrangements of the file's throw angles, shape (at most count, throws), cylinder 1's
     throw at 0, best first, deg.
 
     Args:
         allowed: which of some arrangements (shape (candidates, throws)) may be; None: all.
+        watch: is told, time and again, which share of all arrangements has been decided on, and
+            says whether that is enough: then the result is the best of those.
 
     Raises:
         BalcliError: more than MOST_ARRANGEMENTS.
@@ -54,10 +61,13 @@ def find_best_throws(
     fixed = next(c.throw for c in plan_cylinders(model.crank, model.layout).cells if c.number == 1)
     free = [t for t in range(len(given)) if t != fixed]
     best = _BestSoFar(count)
-    for angles in _turn_to_cylinder_1(given):
+    turned = list(_turn_to_cylinder_1(given))
+    decided = _Decided(watch, sum(map(_count_arrangements_of_others, turned)))
+    for angles in turned:
         levels, times = np.unique(angles, return_counts=True)
-        tree = _Tree(model, objective, _Places(levels, fixed, free), best, allowed)
-        tree.grow((), (times[0] - 1, *times[1:]))
+        tree = _Tree(model, objective, _Places(levels, fixed, free), best, allowed, decided)
+        if not tree.grow((), (int(times[0]) - 1, *map(int, times[1:]))):
+            break
     return best.rows
 
 
@@ -65,6 +75,17 @@ def _count_arrangements(given: Array) -> int:
     """In how many ways throws at these angles can follow each other."""
     times = np.unique(given, return_counts=True)[1].tolist()
     return math.factorial(len(given)) // math.prod(map(math.factorial, times))
+
+
+def _count_arrangements_of_others(angles: Array) -> int:
+    """The same beside one throw that stands at the first of them, ascending."""
+    times = np.unique(angles, return_counts=True)[1].tolist()
+    return _count_sequences((times[0] - 1, *times[1:]))
+
+
+def _count_sequences(left: Left) -> int:
+    """In how many ways what is left can follow."""
+    return math.factorial(sum(left)) // math.prod(map(math.factorial, left))
 
 
 def _turn_to_cylinder_1(given: Array) -> Iterator[Array]:
@@ -115,6 +136,18 @@ class _BestSoFar:
         self.worst = self._values[-1] if len(order) == self.count else np.inf
 
 
+class _Decided:
+    """How many of all arrangements have been tried, or cannot be good."""
+
+    def __init__(self, watch: Watch | None, total: int) -> None:
+        self._watch, self._total, self._count = watch, total, 0
+
+    def add(self, count: int) -> bool:
+        """So many more; whether to go on."""
+        self._count += count
+        return self._watch is None or not self._watch(self._count / self._total)
+
+
 class _Tree:
     """All arrangements of one set of angles, beginnings of the crank first."""
 
@@ -125,8 +158,10 @@ class _Tree:
         places: _Places,
         best: _BestSoFar,
         allowed: Allowed | None,
+        decided: _Decided,
     ) -> None:
         self._objective, self._places, self._best, self._allowed = objective, places, best, allowed
+        self._decided = decided
         self._table = tabulate_contributions(
             model, places.levels, places.fixed, objective.quantities
         )
@@ -135,16 +170,15 @@ class _Tree:
             ahead, astern = own.add_throws([places.fixed], np.zeros((1, 1), np.int8))
             self._start[key] = ahead + own.devices[0], astern + own.devices[1]
 
-    def grow(self, prefix: tuple[int, ...], left: Left) -> None:
-        """Try everything that begins so."""
-        if prefix and self._find_bound(prefix) >= self._best.worst:
-            return
-        if sum(left) <= BLOCK:
-            self._try(_prepend(prefix, _list_arrangements(left)))
-            return
-        for level, times in enumerate(left):
-            if times:
-                self.grow((*prefix, level), _take_one(left, level))
+    def grow(self, prefix: tuple[int, ...], left: Left) -> bool:
+        """Try everything that begins so; False: who watches has seen enough, and there is some."""
+        hopeless = prefix and self._find_bound(prefix) >= self._best.worst
+        if hopeless or sum(left) <= BLOCK:
+            if not hopeless:
+                self._try(_prepend(prefix, _list_arrangements(left)))
+            return self._decided.add(_count_sequences(left)) or not len(self._best.rows)
+        levels = (level for level, times in enumerate(left) if times)
+        return all(self.grow((*prefix, level), _take_one(left, level)) for level in levels)
 
     def _find_angles(self, rows: Indices) -> Array:
         """Angles of all throws by the indices of the free ones, deg, shape (candidates, throws)."""
