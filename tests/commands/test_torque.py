@@ -301,3 +301,50 @@ def test_guide_moments_include_the_gas(four, tmp_path):
     )
     assert by_order[0.5]["h_Nm"]["balanced"]
     assert by_order[0.5]["x_Nm"]["amplitude"] > 1
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        ("angle_deg,torque_Nm\n0,1\n", "has no two angles; the last row has to close the period"),
+        (
+            "angle_deg,torque_Nm\n0,1\n90,2\n80,2\n360,1\n",
+            "line 4: the angle 80 deg is below the 90",
+        ),
+        ("angle_deg,torque_Nm\n0,1\n90\n", "line 3: has 1 of 2 columns"),
+        ("angle_deg,torque\n0,1\n", 'the heading "angle_deg,torque" has no torque_Nm; head the'),
+        ("angle_deg,torque_Nm\n0,inf\n", 'line 2: "inf" is not a number'),
+    ],
+)
+def test_curves_that_cannot_be(tmp_path, content, told):
+    path = tmp_path / "t.csv"
+    path.write_text(content)
+    status, out, err = run_here("torque", "--curve", str(path))
+    assert (status, out) == (2, "")
+    assert told in err
+
+
+def test_curves_that_are_no_text(tmp_path):
+    path = tmp_path / "t.csv"
+    path.write_bytes(b"angle_deg,torque_Nm\n0,\xff\n")
+    assert "is not UTF-8 text" in run_here("torque", "--curve", str(path)).err
+
+
+def test_a_curve_as_csv_and_markdown(curve):
+    rows = torque("--curve", curve, "-f", "csv").splitlines()
+    assert "0,torque,,max,1000.0,N·m" in rows
+    assert any(row.startswith("0,torque,1,amplitude,") for row in rows)
+    assert torque("--curve", curve, "-f", "markdown").startswith("# press: torque")
+
+
+@pytest.mark.parametrize("text", ["gas.x.amplitude", "torque.2.axis", "fluctuation.2", "gas.2"])
+def test_quantities_that_are_none(four, text):
+    err = run_here("sweep", four, "--vary", "gas.imep=6,9", "--quantity", text).err
+    assert f"{text} is no quantity: give gas, torque or roll_total with an order" in err
+
+
+def test_a_fluctuation_needs_inertia(tmp_path):
+    bare = tmp_path / "bare.toml"
+    bare.write_text(FOUR + WIEBE)
+    arguments = ("--vary", "gas.imep=6,9", "--quantity", "fluctuation")
+    assert "fluctuation: the file gives no inertia" in run_here("sweep", str(bare), *arguments).err

@@ -171,6 +171,18 @@ def test_largest_in_polygons(case):
         assert (weights * np.abs(target - matrix @ near)).max() >= found.bound * (1 - 1e-12)
 
 
+@pytest.mark.parametrize("seed", [1, 2, 3, 22, 40, 57])
+def test_regions_of_very_different_size(seed):
+    """Each is a tenth or a hundred times as large as another: the bound is reached all the same."""
+    rng = np.random.default_rng(seed)
+    matrix, target, weights = problem(seed, 5, 4)
+    sizes = np.abs(solve(matrix, target, weights).x) * 10 ** rng.uniform(-2, 1, 4)
+    _, most, regions = regions_of(rng, sizes)
+    found = minimise_largest(matrix, target, weights, regions)
+    assert found.bound == pytest.approx(found.largest, rel=1e-5)
+    assert all(r.has(x, 1e-9 * m) for r, x, m in zip(regions, found.x, most, strict=True))
+
+
 def test_one_unknown_in_a_wedge():
     """By hand: -1 is nearest to 0 among all weights at 0 and 60 deg, 1j to its edge at 60 deg."""
     wedge, one = [find_region(np.array([0.0, 60]), np.inf)], np.ones(1)

@@ -14,6 +14,9 @@ from balcli.errors import BalcliError
 from balcli.forces.gas import compute_gas_torque, compute_gas_torque_of_each
 from balcli.forces.spectrum import compute_spectra
 from balcli.forces.symmetry import explain_symmetry
+from balcli.render.analysis import sheet
+from balcli.render.table import plain_text
+from balcli.render.units import SI
 from balcli.results.analysis import analyze
 
 ORDERS = np.arange(0, 24.5, 0.5)
@@ -159,3 +162,23 @@ def test_only_gas_is_all_that_gas_does():
         "roll_total_Nm",
     ]
     assert found.spectra.gas.balanced.tolist() == [True, False]
+
+
+def test_shares_that_are_fractions_of_each_other_may_cancel():
+    """Two weak cylinders opposite each other leave order 1/2 balanced."""
+    weak = "[cylinder.2]\ngas = 0.5\n[cylinder.3]\ngas = 0.5\n"
+    found = engine(FOUR + WIEBE + weak)
+    why = {r.order: r.verdict for r in explain_symmetry(found, [0.5, 1], ["gas"]).reasons}
+    assert why == {0.5: "exact", 1: "free"}
+    silent = engine(FOUR + WIEBE + "".join(f"[cylinder.{n}]\ngas = 0\n" for n in (1, 2, 3, 4)))
+    reasons = explain_symmetry(silent, [0.5], ["gas"]).reasons
+    assert [r.verdict for r in reasons] == ["none"]
+
+
+def test_people_read_which_order_rocks_the_engine():
+    text = plain_text([sheet(analyze(engine(FOUR + WIEBE)), SI)])
+    assert " rocks the engine most: roll of " in text
+    assert "About the crank axis with gas, N·m" in text
+    assert "balcli torque" in text
+    inner = plain_text([sheet(analyze(engine(FOUR + WIEBE), only=["inner"]), SI)])
+    assert "bearing loads with gas: balcli torque --loads main" in inner

@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import re
+from functools import cache
 from math import sqrt
 
 import numpy as np
@@ -77,6 +78,7 @@ def _reasons(text: str) -> dict[tuple[str, int], float]:
     return found
 
 
+@cache
 def _layouts() -> dict[str, dict[tuple[str, int], float]]:
     """Semi-major axes of `tables layouts`, by engine."""
     found = csv.DictReader(io.StringIO(run_here("tables", "layouts", "--format", "csv").out))

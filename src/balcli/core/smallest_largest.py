@@ -24,7 +24,7 @@ from .phasors import Array, Complex
 
 _GAP = 1e-8  # of the objective, at which the barrier ends
 _STEEPER = 10.0  # how much steeper the barrier gets from round to round
-_CENTRING_STEPS = 40
+_CENTRING_STEPS = 400  # 10 are usual; the first round takes 80 where regions differ in size
 _SETTLED = 1e-10  # half the squared Newton decrement
 _SHORTEST_STEP = 1e-10
 _FINAL_STEPS = 8  # of Newton's method on the conditions of the optimum

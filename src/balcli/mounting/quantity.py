@@ -16,7 +16,7 @@ from ..core.vibration import frequencies
 from ..engine.build import Engine, build
 from ..enginefile.fields import nearest, shorten
 from ..enginefile.model import EngineFile, Table, label_table
-from ..enginefile.mounting_tables import find_tensor_faults
+from ..enginefile.mounting_tables import Body, find_tensor_faults
 from ..errors import BalcliError, InputError, Problem
 from .build import MountedBody, build_mounted_body
 from .modes import BodyModes, find_mounted_modes
@@ -117,7 +117,7 @@ def vary_mounting(model: EngineFile, values: Mapping[str, float]) -> EngineFile:
             table = changed.get(start, tables[start])
             changed[start] = _change(table, path[len(start) + 1 :], value)
     body = changed.get("body", model.body)
-    if "body" in changed and (faults := list(find_tensor_faults(body.inertia))):  # type: ignore[union-attr]
+    if isinstance(body, Body) and (faults := list(find_tensor_faults(body.inertia))):
         raise InputError([Problem("body", fault) for fault in faults])
     rows = {
         key: tuple(
