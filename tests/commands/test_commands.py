@@ -257,6 +257,7 @@ def test_workers_that_are_all_killed_are_a_message(monkeypatch, four):
     from balcli.studies.sweep import read_sweep
 
     monkeypatch.setitem(sys.modules, "distributed", dask(KilledWorker=KilledError))
+    monkeypatch.setattr(cluster, "size_boxes", lambda sweep: 1)  # the first box is computed here
     sweep, client = read_sweep(str(four), ["crank.stroke=80,90"], "force.2.major"), Lost()
     with pytest.raises(
         BalcliError, match=r"--dask: the cluster has lost its workers \(KilledError\)"

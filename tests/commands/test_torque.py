@@ -348,3 +348,16 @@ def test_a_fluctuation_needs_inertia(tmp_path):
     bare.write_text(FOUR + WIEBE)
     arguments = ("--vary", "gas.imep=6,9", "--quantity", "fluctuation")
     assert "fluctuation: the file gives no inertia" in run_here("sweep", str(bare), *arguments).err
+
+
+def test_the_torque_is_drawn_in_a_terminal(four, curve):
+    """And nowhere else."""
+    for arguments, what in (
+        ((four,), "Gas and inertia"),
+        (("--curve", curve), "Torque over the p"),
+    ):
+        seen = run_here("torque", *arguments, "--plot", terminal=True).out
+        assert what in seen
+        assert any(0x2800 < ord(letter) <= 0x28FF for letter in seen)
+        piped = torque(*arguments, "--plot")
+        assert piped == torque(*arguments)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.paths import ROOT
 
 from balcli.core.cycle_peaks import find_swing, sum_amplitudes
 from balcli.core.torsional_chain import Damping, Shaft, join_chain
@@ -17,6 +18,7 @@ from balcli.core.torsional_modes import count_nodes, find_chain_modes
 from balcli.core.torsional_response import balance_power, respond_chain
 from balcli.core.vibration import frequencies
 
+DOCUMENT = ROOT / "docs" / "torsion.md"
 LOSS = 0.035
 STIFFNESS = np.array([1.106e6, 1.631e6, 1.253e6, 1.253e6, 1.678e6, 1.253e6, 1.253e6, 1.976e6])
 CHAIN = join_chain(
@@ -210,3 +212,18 @@ def test_exact_orders_synthesised_in_time(rpm):
     power = balance_power(CHAIN, DAMPING, w, load, twist)
     lost = power.shafts.sum(axis=-1) + power.nodes.sum(axis=-1)
     assert power.fed == pytest.approx(lost, rel=1e-9)
+
+
+def test_figures_of_the_document():
+    """docs/torsion.md shows both at 2000 rpm."""
+    orders, load = exact_loads(2000)
+    twist = respond_chain(CHAIN, DAMPING, frequencies(orders, 2000 * np.pi / 30), load)
+    shown = [
+        [float(cell) for cell in line.split("|")[2:5]]
+        for line in DOCUMENT.read_text(encoding="utf-8")
+        .partition("At 2000 rpm")[2]
+        .splitlines()[4:12]
+    ]
+    half = find_swing(orders, twist.torque).half
+    columns = SUMS_OF_AMPLITUDES[2000], sum_amplitudes(twist.torque), half
+    assert np.transpose(shown) == pytest.approx(np.array(columns), abs=0.06)

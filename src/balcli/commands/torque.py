@@ -6,7 +6,7 @@ from ..render.formats import Units
 from . import torque_options as own
 from .file_names import require_ending, text_format
 from .options import FormatOption, Orders, Output, Speed, UnitsOption
-from .output import show
+from .output import is_seen, show
 from .overwrite_guard import refuse_overwriting
 
 
@@ -20,6 +20,7 @@ def torque(
     load: own.Load = None,
     inertia: own.Inertia = None,
     write: own.Write = None,
+    plot: own.Plot = False,
     speed: Speed = None,
     orders: Orders = None,
     form: FormatOption = None,
@@ -35,8 +36,9 @@ def torque(
     refuse_overwriting(reads=reads, writes={"--output": output, "--write": write})
     form = text_format(output, form)
     require_ending(write, ".toml", "--write")
-    from ..render import torque as renderer
+    from ..render import torque, torque_sketch
 
+    renderer = torque_sketch if plot and is_seen(output) else torque
     alone = {"--misfire": misfire, "--write": write, "--cylinder": cylinder != 1, "--loads": loads}
     own.refuse_mixture(path, curve, alone, {"--load": load, "--inertia": inertia})
     if curve is not None:

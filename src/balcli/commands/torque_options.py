@@ -80,6 +80,9 @@ Inertia = Annotated[
         help="With --curve: of all that turns, in kg mm^2 or as '2 kg m^2'.",
     ),
 ]
+Plot = Annotated[
+    bool, typer.Option("--plot", help="In a terminal: also the torque over the cycle.")
+]
 Write = Annotated[
     Path | None,
     typer.Option(

@@ -66,10 +66,10 @@ def locus(phasors: Phasors) -> list[str]:
     dots, grid = 4 * SIDE, np.zeros((SIDE, 2 * SIDE), int)
     middle = dots // 2
     for k in range(0, dots, 4):
-        _set_dot(grid, k, middle)
-        _set_dot(grid, middle, k)
+        set_dot(grid, k, middle)
+        set_dot(grid, middle, k)
     for row, column in sorted({_dot_place(v, middle) for v in curve / (largest or 1)}):
-        _set_dot(grid, row, column)
+        set_dot(grid, row, column)
     lines = [[chr(0x2800 + bits) if bits else " " for bits in row] for row in grid]
     if largest:
         row, column = _dot_place(complex(curve[0] / largest), middle)
@@ -82,7 +82,8 @@ def _dot_place(v: complex, middle: int) -> tuple[int, int]:
     return round(middle - (middle - 1) * v.real), round(middle + (middle - 1) * v.imag)
 
 
-def _set_dot(grid: np.ndarray, row: int, column: int) -> None:
+def set_dot(grid: np.ndarray, row: int, column: int) -> None:
+    """Set one of the 4 x 2 dots of a Braille character in a grid of characters."""
     grid[row // 4, column // 2] |= _DOTS[row % 4][column % 2]
 
 

@@ -14,7 +14,7 @@ from ..enginefile.model import EngineFile, label_table
 from ..errors import BalcliError
 from ..limits import MOST_MOUNT_SAMPLES
 from ..mounting.quantity import MountedVariants, MountQuantity, refuse_unknown_targets
-from .tolerances import PERCENTILES, Scatter, Shape, Spread
+from .tolerances import PERCENTILES, TOLD, Scatter, Shape, Spread
 
 
 class MountSource(NamedTuple):
@@ -100,8 +100,10 @@ def _spread(
     sources: Sequence[MountSource],
     changes: Array,
 ) -> Spread:
+    unit = np.abs(changes).max() * TOLD or 1.0
     shares = sorted(
-        zip(sources, map(float, changes), strict=True), key=lambda share: -abs(share[1])
+        zip(sources, map(float, changes), strict=True),
+        key=lambda share: -round(abs(share[1]) / unit),
     )
     percentiles = np.percentile(values, list(PERCENTILES.values())).tolist()
     return Spread(
