@@ -245,7 +245,7 @@ class Lost:
     def nthreads(self):
         return {"one": 1}
 
-    def submit(self, work, sweep, batch, **options):
+    def submit(self, work, sweep, most, batch, **options):
         self.given.append((sweep, options["retries"] > 0))
         return self
 
