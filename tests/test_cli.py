@@ -627,6 +627,31 @@ def test_only_what_is_needed_is_imported(args, allowed):
     assert "balcli" in loaded
 
 
+OWN = """
+import atexit, sys
+from balcli.__main__ import main
+own = lambda: " ".join(name for name in sys.modules if name.startswith("balcli."))
+atexit.register(lambda: sys.stderr.write(own()))
+main()
+"""
+CHAPTERS = ("bench", "field_balancing", "mounting", "studies", "tables", "torque", "torsion")
+FOR_WHO_ASKS = ("core.strokes", "forces.crankshaft", "forces.guide_moments", "forces.symmetry")
+FOR_PEOPLE = ("render.analysis", "render.verdict", "render.markdown", "render.terminal")
+
+
+@pytest.mark.parametrize(
+    ("form", "left_out"),
+    [("json", (*FOR_PEOPLE, "render.table")), ("table", ("render.markdown", "render.terminal"))],
+)
+def test_a_plain_analysis_imports_no_other_format_chapter_or_kind_of_engine(form, left_out):
+    loaded = run_python("-c", OWN, "analyze", V8, "--format", form).stderr.split()
+    rare = ("engine.articulation", "core.mechanisms.rotary", "core.mechanisms.articulated")
+    names = {name.removeprefix("balcli.") for name in loaded}
+    assert "results.analysis" in names
+    assert names & {*left_out, *rare, *FOR_WHO_ASKS, "sizing.sizing", "commands.balance"} == set()
+    assert {name.partition(".")[0] for name in names} & {*CHAPTERS} == set()
+
+
 # ------------------------------------------------------------------ the end of the process
 def test_an_interruption_has_its_own_status(balcli, monkeypatch, good):
     def interrupted(**_):

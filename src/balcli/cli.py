@@ -35,7 +35,7 @@ GROUPS = {
         "curves": "Force, moment, couple, torque and roll over the crank angle, or the "
         "motion of one piston.",
         "plot": "Draw free forces and moments: loci over a revolution, order by order, "
-        "and over the crank angle.",
+        "and over the crank angle; or torsional vibration.",
         "report": "Write one self-contained page: the engine in motion, what it shakes, and "
         "a balance scheme before and after.",
     },

@@ -6,6 +6,8 @@ import pytest
 from support.commands import run_here
 from support.engines import GOOD, changed
 
+from balcli.engine.load import parse
+from balcli.enginefile.suspicious import find_suspicious
 from balcli.enginefile.units import LENGTH, SPEED, convert
 
 NOT_TOML = "is not valid TOML: "
@@ -89,3 +91,11 @@ def test_files_words_and_options_that_were_nearly_right(tmp_path, monkeypatch):
     assert slow == run_here("analyze", "ford.toml", "--speed", "900", "--only", "forces")
     assert "such as -o X.svg" in run_here("plot", "ford.toml", "ford.png").err
     assert run_here("analyze", "ford.toml", "--units", "SI").status == 0
+
+
+def test_a_crosshead_engine_is_ordinary():
+    slow = parse(
+        "[crank]\nstroke = 2000\n[rod]\nlength = 2214\nmass = 1600\ncg = 800\n"
+        "[piston]\nbore = 500\nmass = 4800\n[layout]\nstrokes = 2\n[operation]\nspeed = 124\n"
+    )
+    assert find_suspicious(slow) == []

@@ -114,7 +114,7 @@ def test_variants_that_cannot_be_are_told_with_their_figures(four):
         "within 9.79796e+06"
     )
     told = refusal("sweep", four, "--vary", "mount.9.loss=0,1", "-q", "mode.1.Hz")
-    assert told.startswith("mount.9.loss unknown parameter; did you mean")
+    assert told.startswith("mount.9.loss: unknown parameter; did you mean")
 
 
 # ------------------------------------------------------------------ tolerances of mounts

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from support.commands import run_here
 from support.mounts import ENGINE, block
 
 from balcli.errors import InputError
@@ -100,3 +101,18 @@ def test_units_of_their_own(tmp_path):
     assert read_mounted(path).model.mount[0].stiffness == pytest.approx(
         (175.12683524647636, 150, 400), rel=1e-12
     )
+
+
+def test_moments_that_no_body_has_are_doubted(tmp_path):
+    path = tmp_path / "x.toml"
+    path.write_text(block().replace("12e6, 14e6", "12e6, 24e6"), encoding="utf-8")
+    assert read_mounted(path).doubts == (
+        "body.inertia: zz of 2.4e+07 is more than xx and yy together (2e+07), which no body has; are "
+        "the axes right? z is the crankshaft's",
+    )
+    status, _, err = run_here("mounts", path)
+    assert (status, err.startswith(f"warning: {path}: body.inertia: zz")) == (0, True)
+    path.write_text(
+        ENGINE.replace("speed = 3000", "speed = 30000") + block("loss = 0.1"), encoding="utf-8"
+    )
+    assert "piston speed" in read_mounted(path).doubts[0]

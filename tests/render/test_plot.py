@@ -12,7 +12,7 @@ from typing import get_args
 import numpy as np
 import pytest
 from support.commands import run_python
-from support.engines import GOOD, changed
+from support.engines import GOOD, changed, inline_engine
 
 from balcli.commands.plot import What
 from balcli.engine.build import build
@@ -68,6 +68,16 @@ def test_a_hostile_name_stays_text_and_warns_of_nothing(form, four):
         assert style.fit_name(HOSTILE) + ", 3000 rpm" in [
             e.text for e in root.iter() if e.tag.endswith("text")
         ]
+
+
+def test_what_is_negligible_beside_one_cylinder_is_said_and_not_drawn():
+    """A five has a free force of 1e-6 of one cylinder's, and a moment."""
+    five = analyze(inline_engine([0, 144, 216, 288, 72]))
+    root = ET.fromstring(draw_page(Subject(five), "polar", "svg"))
+    texts = [e.text or "" for e in root.iter() if e.tag.endswith("text")]
+    assert len([text for text in texts if text.startswith("negligible (")]) == 1
+    assert "moment along x, N·m" in texts
+    assert "force along x, N" not in texts
 
 
 def test_names_are_cut_to_a_title():

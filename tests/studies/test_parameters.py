@@ -76,13 +76,13 @@ def test_numbers_of_devices_and_cylinders(path: str) -> None:
     [
         (
             "rod.raito=0.2,0.3",
-            "rod.raito unknown parameter; did you mean rod.ratio?",
+            "rod.raito: unknown parameter; did you mean rod.ratio?",
         ),
         (
             "crank.throws.5=0",
-            "crank.throws.5 unknown parameter; did you mean crank.throws.4?",
+            "crank.throws.5: unknown parameter; did you mean crank.throws.4?",
         ),
-        ("shaft.1.ratio=1,2", "shaft.1.ratio unknown parameter"),
+        ("shaft.1.ratio=1,2", "shaft.1.ratio: unknown parameter"),
         (
             "rod.ratio",
             '"rod.ratio": give a number of the engine file and its values, such as '
@@ -121,7 +121,7 @@ def test_a_bank_angle_is_that_of_a_vee() -> None:
     vee = changed(("firing_order = [1, 3, 4, 2]", "banks = [-30, 60]"))
     assert "layout.bank_angle" in find_numbers(load(vee))
     for other in (GOOD, changed(("firing_order = [1, 3, 4, 2]", "banks = [-60, 0, 60]"))):
-        with pytest.raises(BalcliError, match=r"^layout\.bank_angle unknown parameter"):
+        with pytest.raises(BalcliError, match=r"^layout\.bank_angle: unknown parameter"):
             parse("layout.bank_angle=0:90:10", load(other))
 
 

@@ -1,12 +1,39 @@
-"""What tests ask of a remedy."""
+"""Engines for which tests size devices, and what they ask of a remedy."""
 
 from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+from support.engines import engine_text
+
+from balcli.core.phasors import Phasors
+from balcli.engine.build import Engine
+from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.remedy import Remedy
 
 
 def figures(remedy: Remedy, group: str = "") -> dict[str, Any]:
     """The details of a group by their labels, SI."""
     return {detail.label: detail.value for detail in remedy.details if detail.group == group}
+
+
+def find_orders(engine: Engine, kind: str = "force") -> Phasors:
+    """Phasors of a kind, all orders."""
+    return compute_spectra(engine, np.arange(1, 41), (kind,))[kind]
+
+
+def write_engine(*throws: float, **tables: str) -> str:
+    """The text of an engine with throws of 1 kg at these angles, 100 mm apart."""
+    return engine_text(
+        crank=f"stroke = 100\nthrows = {list(throws)}\nspacing = 100\nthrow_mass = 1", **tables
+    )
+
+
+SMALL = {  # engine files by what they are
+    "one": write_engine(0, piston="mass = 1\noffset = 4"),
+    "two": write_engine(0, 180) + "[cylinder.2]\npiston_mass = 3\n",
+    "three": write_engine(0, 240, 120),
+    "four": write_engine(0, 180, 180, 0),
+    "vee": write_engine(0, 100, layout="bank_angle = 50\nstagger = 20"),
+}

@@ -288,7 +288,7 @@ def test_eccentric_stands_where_the_force_acts():
             r"too much alike: .*condition number .*e\+09",
         ),
         ("two-shaft", SchemeOptions(order=0), "must be a whole number from 1 to 1000"),
-        ("auto", SchemeOptions(order=2), "scheme auto has no --order; it takes no options"),
+        ("auto", SchemeOptions(order=2), "scheme auto has no --order; add --scheme with "),
         (
             "magic",
             SchemeOptions(),

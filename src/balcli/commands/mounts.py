@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from ..enginefile.toml_text import name_file
+from ..errors import say
 from ..render.formats import Units
 from ..render.units import SYSTEMS
 from .file_names import picture_form, text_format
@@ -68,7 +69,9 @@ def mounts(
     from ..render import mounts as renderer
     from .inputs import name_columns, read_engine
 
-    model, engine = read_mounted(paths[0])
+    model, engine, doubts = read_mounted(paths[0])
+    for doubt in doubts:
+        say(f"warning: {name_file(paths[0])}: {doubt}")
     others = [read_engine(path).engine for path in paths[1:]]
     names = name_columns([model.name or paths[0], *(other.name for other in others)], paths)
     beside = list(zip(names[1:], others, strict=True))

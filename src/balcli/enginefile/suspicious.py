@@ -18,6 +18,7 @@ from .model import Counterweight, EngineFile
 PISTON_LIGHT, PISTON_HEAVY = 100.0, 5000.0  # kg/m^3
 CROSSHEAD_HEAVY = 40_000.0  # with piston rod and crosshead, where the stroke is LONG_STROKE bores
 LONG_STROKE = 2.5
+CROSSHEAD_LAMBDA = 0.6  # with a crosshead rods are short
 LAMBDA_LOW, LAMBDA_HIGH = 0.15, 0.4  # crank radius / rod length: engines have 0.2 to 0.35
 BORE_SHORT, BORE_LONG = 0.2, 3.0  # bore / stroke: crosshead from 0.25, racing engines to 2.5
 ROD_LIGHT, ROD_HEAVY = 0.1, 8.0  # rod mass / piston mass: engines have 0.7 to 2.5
@@ -46,21 +47,22 @@ def _piston(model: EngineFile) -> Iterator[str]:
         return
     if bore is None:
         return
-    heavy = CROSSHEAD_HEAVY if model.crank.stroke > LONG_STROKE * bore else PISTON_HEAVY
+    heavy = CROSSHEAD_HEAVY if _has_crosshead(model) else PISTON_HEAVY
     low, high = (limit * (bore * 1e-3) ** 3 for limit in (PISTON_LIGHT, heavy))
     if not low <= mass <= high:
         yield (
-            f"piston.mass is {mass:.4g} kg in a bore of {bore:g} mm, where {low:.2g} to "
-            f"{high:.2g} kg is usual; "
+            f"piston.mass is {mass:.4g} kg in a bore of {bore:g} mm, where {_round(low)} to "
+            f"{_round(high)} kg is usual; "
             "are the units right? Bare numbers are kg and mm"
         )
 
 
 def _proportions(model: EngineFile) -> Iterator[str]:
     ratio = _lambda(model)
-    if ratio is not None and not LAMBDA_LOW <= ratio <= LAMBDA_HIGH:
+    most = CROSSHEAD_LAMBDA if _has_crosshead(model) else LAMBDA_HIGH
+    if ratio is not None and not LAMBDA_LOW <= ratio <= most:
         yield (
-            f"crank radius / rod length is {ratio:.4g}, where {LAMBDA_LOW:g} to {LAMBDA_HIGH:g} "
+            f"crank radius / rod length is {ratio:.4g}, where {LAMBDA_LOW:g} to {most:g} "
             "is usual; "
             "crank.stroke is twice the crank radius, rod.length the distance of its two centres"
         )
@@ -151,6 +153,17 @@ def _counterweights(model: EngineFile) -> Iterator[str]:
                 f"{UNBALANCE_SHARE:g} times all moving masses at the crank radius ({limit:.3g}); "
                 "is it in g mm?"
             )
+
+
+def _has_crosshead(model: EngineFile) -> bool:
+    """Whether the stroke is as long as only engines with a crosshead have it."""
+    bore = model.piston.bore
+    return bore is not None and model.crank.stroke > LONG_STROKE * bore
+
+
+def _round(value: float) -> str:
+    """Two significant digits, without an exponent where it can be read."""
+    return f"{float(f'{value:.2g}'):.12g}"
 
 
 def _lambda(model: EngineFile) -> float | None:

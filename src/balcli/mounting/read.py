@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
@@ -11,15 +12,19 @@ from ..engine.load import build_named
 from ..engine.rules import find_contradictions
 from ..enginefile.model import EngineFile
 from ..enginefile.read import REQUIRED, read_tables
+from ..enginefile.suspicious import find_suspicious
 from ..enginefile.toml_text import name_file, read_bytes
 from .build import find_mounting_faults
 
 
 class MountedFile(NamedTuple):
-    """A file with [body] and [[mount]], and its engine, if it has one."""
+    """A file with [body] and [[mount]], its engine, if it has one, and what is valid in it but
+    suspicious.
+    """
 
     model: EngineFile
     engine: Engine | None
+    doubts: tuple[str, ...]
 
 
 def read_mounted(path: str | Path) -> MountedFile:
@@ -38,4 +43,20 @@ def read_mounted(path: str | Path) -> MountedFile:
         contradictions = find_contradictions(whole) if has_engine and draft.has_mistakes else []
         raise draft.refusal([*contradictions, *faults], name)
     engine = build_named(draft.model, path) if has_engine else None
-    return MountedFile(draft.model, engine)
+    of_engine = find_suspicious(draft.model) if engine is not None else []
+    return MountedFile(draft.model, engine, (*of_engine, *_doubt_tensor(draft.model)))
+
+
+def _doubt_tensor(model: EngineFile) -> Iterator[str]:
+    """Moments of inertia of which one is more than the other two together: no body has such."""
+    if model.body is None:
+        return
+    moments = dict(zip(("xx", "yy", "zz"), model.body.inertia, strict=False))
+    for name, value in moments.items():
+        first, second = (other for other in moments if other != name)
+        together = moments[first] + moments[second]
+        if value > together:
+            yield (
+                f"body.inertia: {name} of {value:g} is more than {first} and {second} together "
+                f"({together:g}), which no body has; are the axes right? z is the crankshaft's"
+            )

@@ -13,9 +13,10 @@ from ..core.mechanisms.articulated import Articulated
 from ..core.mechanisms.rotary import Rotary
 from ..core.phasors import Phasors
 from ..engine.build import Engine
+from ..forces.kinds import VECTORS, Kind
 from ..results.analysis import Analysis
 from .figures import clean
-from .sheet import order_number
+from .sheet import NEGLIGIBLE, order_number
 from .units import System, Unit
 
 _SHAFT_WIDTH = 1.6  # crank radii that a shaft takes in the picture
@@ -36,7 +37,7 @@ def scene(now: Analysis, after: Analysis | None, system: System) -> dict[str, An
         "rotary": isinstance(engine.cylinders.linkage, Rotary),
         "cylinders": _cylinder_entries(engine),
         "variants": variants,
-        "units": {"force": _unit_entry(system.force), "moment": _unit_entry(system.moment)},
+        "units": {kind.name: _unit_entry(system.unit(kind), kind, now) for kind in VECTORS},
         "orders": [
             order_number(n)
             for n in now.orders
@@ -101,8 +102,14 @@ def _vector_rows(phasors: Phasors, unit: Unit) -> list[list[float]]:
     ]
 
 
-def _unit_entry(unit: Unit) -> dict[str, str]:
-    return {"name": unit.name, "thousand": f"k{unit.name}" if unit.size == 1 else ""}
+def _unit_entry(unit: Unit, kind: Kind, now: Analysis) -> dict[str, Any]:
+    """Names of the unit and of its thousand, and the value below which all is negligible."""
+    least = unit.of(NEGLIGIBLE * now.of_one_cylinder[kind.name])
+    return {
+        "name": unit.name,
+        "thousand": f"k{unit.name}" if unit.size == 1 else "",
+        "least": least,
+    }
 
 
 def place_beside(engine: Engine, bore: float) -> dict[int, complex]:

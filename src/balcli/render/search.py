@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from .units import System
 
 
+_FORWARD = (
+    "Counterweights can take the part that turns with the crank: force.1.backward finds what they "
+    "cannot."
+)
 _AS_BUILT = "Fn, Fn·a: the textbook's units of order n; figures are as built, with rotating masses."
 
 
@@ -74,6 +78,8 @@ def _notes(result: Search) -> Iterator[str]:
         yield f"No candidates: at {spans} deg the articulated rods cannot follow the crank."
     if _textbook(result, result.results[0]):
         yield _AS_BUILT
+    if any(q.order == 1 and q.part == "major" for q in result.objective.quantities):
+        yield _FORWARD
 
 
 def _cells(result: Search, one: Found) -> tuple[str, ...]:

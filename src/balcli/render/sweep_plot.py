@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import BalcliError
 from ..limits import MOST_PICTURE_VARIANTS
 from .plot import style
+from .units import SI, Unit
 
 if TYPE_CHECKING:
     from ..core.phasors import Array
@@ -53,8 +54,9 @@ def draw_sweep(sweep: Sweep, values: list[Array], form: style.Form) -> bytes:
     with style.open_figure(6 * len(values), 4.8, form) as page:
         places = page.subplots(1, len(values), squeeze=False)[0]
         for axes, quantity, value in zip(places, sweep.quantities, values, strict=True):
-            title = f"{quantity.name}, {quantity.unit}"
-            _draw_contours(page, axes, several, value.squeeze(), title)
+            unit = _fit(quantity.unit, value)
+            title = f"{quantity.name}, {unit.name}"
+            _draw_contours(page, axes, several, value.squeeze() / unit.size, title)
         return style.save_figure(page, form)
 
 
@@ -68,19 +70,32 @@ def _draw_curves(axes: Any, sweep: Sweep, values: list[Array]) -> None:
     for quantity, value, (colour, line) in zip(
         sweep.quantities, values, cycle(looks), strict=False
     ):
+        unit = _fit(quantity.unit, value)
         axes.plot(
             parameter.values,
-            value.ravel(),
+            value.ravel() / unit.size,
             color=colour,
             linestyle=line,
-            label=f"{quantity.name}, {quantity.unit}",
+            label=f"{quantity.name}, {unit.name}",
         )
-    axes.set_xlabel(parameter.path)
+    axes.set(xlabel=_name_axis(parameter), title=style.fit_name(sweep.file.name))
+    axes.ticklabel_format(axis="y", useOffset=False, style="plain")
     axes.legend()
+
+
+def _fit(name: str, value: Array) -> Unit:
+    """The unit for the largest of these values, which are in SI units of this name."""
+    own = {unit.name: unit for unit in (SI.force, SI.moment)}.get(name, Unit(name, 1))
+    return own.fit(float(abs(value[value == value]).max(initial=0)))
+
+
+def _name_axis(parameter: Parameter) -> str:
+    """`operation.speed, rpm`: the parameter with its unit."""
+    return f"{parameter.path}, {parameter.unit}" if parameter.unit else parameter.path
 
 
 def _draw_contours(figure: Any, axes: Any, parameters: Any, value: Array, title: str) -> None:
     first, second = parameters
     filled = axes.contourf(second.values, first.values, value, LEVELS)
     figure.colorbar(filled, ax=axes)
-    axes.set(xlabel=second.path, ylabel=first.path, title=title)
+    axes.set(xlabel=_name_axis(second), ylabel=_name_axis(first), title=title)

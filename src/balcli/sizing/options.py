@@ -48,11 +48,7 @@ class SchemeOptions(NamedTuple):
                 )
             names = ", ".join(f"--{name}" for name in taken)
             has = f"it takes {names}" if taken else "it takes no options"
-            takers = [name for name, options in SCHEMES.items() if strangers[0] in options]
-            raise BalcliError(
-                f"scheme {scheme} has no --{strangers[0]}; {has}. --{strangers[0]} belongs to "
-                f"--scheme {', '.join(takers)}"
-            )
+            raise BalcliError(f"scheme {scheme} has no --{strangers[0]}; {has}")
         if self.order is not None and not 1 <= self.order <= HIGHEST_SHAFT_ORDER:
             raise BalcliError(
                 f"--order {self.order}: the order must be a whole number from 1 to "

@@ -28,10 +28,11 @@ _FIGURE = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?")
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number of the file, and the values that it takes, shape (values,)."""
+    """A number of the file, and the values that it takes, shape (values,), in its bare unit."""
 
     path: str
     values: NDArray[np.float64]
+    unit: str = ""
 
     def __len__(self) -> int:
         return len(self.values)
@@ -117,18 +118,19 @@ def parse(text: str, model: EngineFile) -> Parameter:
     except (ValueError, OverflowError) as error:
         raise BalcliError(f'"{text}": {error}') from None
     _check_bounds(path, known[path], values)
-    return Parameter(path, values)
+    return Parameter(path, values, known[path].dimension.unit)
 
 
 def _describe_unknown(path: str, known: Mapping[str, Number]) -> str:
     """With the nearest name, or some that begin alike."""
-    if near := nearest(path, known):
+    inside = [name for name in known if name.rpartition(".")[2] == path]
+    if near := (inside[0] if inside else nearest(path, known)):
         hint = f"did you mean {near}?"
     else:
         first = path.partition(".")[0]
         alike = [name for name in known if name.partition(".")[0] == first] or list(known)
         hint = f"there are {', '.join(alike[:6])}{' ...' if len(alike) > 6 else ''}"
-    return f"{path} unknown parameter; {hint}"
+    return f"{path}: unknown parameter; {hint}"
 
 
 def _check_bounds(path: str, number: Number, values: NDArray[np.float64]) -> None:

@@ -197,7 +197,8 @@ def build_corners(sweep: Sweep) -> Engine:
         InputError: one of them cannot be.
     """
     corners = tuple(
-        Parameter(p.path, np.array([p.values.min(), p.values.max()])) for p in sweep.parameters
+        Parameter(p.path, np.array([p.values.min(), p.values.max()]), p.unit)
+        for p in sweep.parameters
     )
     return Sweep(sweep.file, corners, (), sweep.name).engine((slice(None),) * len(corners))
 

@@ -20,6 +20,7 @@ from ..errors import BalcliError
 from ..forces.quantity import Quantity, evaluate_quantities, refuse_unknown
 from ..limits import MOST_TOLERANCE_SAMPLES
 from .deviations import DeviatingEngine, Source, Tolerances
+from .percentiles import Sample
 
 if TYPE_CHECKING:
     from ..mounting.quantity import MountQuantity
@@ -130,33 +131,32 @@ def scatter_engine(
     engines = DeviatingEngine(model, tolerances)
     if not engines.sources:
         raise BalcliError("nothing deviates; give a tolerance, such as --mass-scatter 0.5%")
-    values = np.empty((len(quantities), samples))
-    for chunk, deviations in _draw(engines.sources, samples, seed, shape):
+    drawn = [Sample() for _ in quantities]
+    for deviations in _draw(engines.sources, samples, seed, shape):
         found = evaluate_quantities(engines.deviate(deviations), quantities)
-        for row, value in zip(values, found, strict=True):
-            row[chunk] = value
-    spreads = [_spread(engines, q, row) for q, row in zip(quantities, values, strict=True)]
+        for sample, values in zip(drawn, found, strict=True):
+            sample.add(np.broadcast_to(values, deviations.shape[1:]))
+    spreads = [_spread(engines, q, sample) for q, sample in zip(quantities, drawn, strict=True)]
     return Scatter(model, samples, shape, tuple(spreads))
 
 
 def _draw(
     sources: Sequence[Source], samples: int, seed: int | None, shape: Shape
-) -> Iterator[tuple[slice, Array]]:
-    """Random deviations chunk by chunk: which samples, and an array of shape (sources, samples)."""
+) -> Iterator[Array]:
+    """Random deviations chunk by chunk, shape (sources, samples)."""
     random = np.random.default_rng(seed)
     tolerance = np.array([source.tolerance for source in sources])[:, None]
     most = min(CHUNK, max(AT_ONCE // len(sources), 1))
     for start in range(0, samples, most):
-        chunk = slice(start, min(start + most, samples))
-        size = (len(sources), chunk.stop - start)
+        size = len(sources), min(most, samples - start)
         if shape == "uniform":
-            yield chunk, tolerance * (2 * random.random(size) - 1)
+            yield tolerance * (2 * random.random(size) - 1)
         else:
-            yield chunk, tolerance / 3 * random.standard_normal(size)
+            yield tolerance / 3 * random.standard_normal(size)
 
 
-def _spread(engines: DeviatingEngine, quantity: Quantity, values: Array) -> Spread:
-    """What the samples (values of shape (samples,)) and the slopes say of a quantity."""
+def _spread(engines: DeviatingEngine, quantity: Quantity, sample: Sample) -> Spread:
+    """What the samples and the slopes say of a quantity."""
     nominal, change = engines.find_slopes(quantity)
     vectors, changes = _sides(nominal, quantity.part), _sides(change, quantity.part)
     sizes = [float(np.abs(vector).sum()) for vector in vectors]
@@ -171,13 +171,13 @@ def _spread(engines: DeviatingEngine, quantity: Quantity, values: Array) -> Spre
         zip(engines.sources, map(float, slopes), strict=True),
         key=lambda share: -round(abs(share[1]) / unit),
     )
-    percentiles = np.percentile(values, list(PERCENTILES.values())).tolist()
+    percentiles = sample.find_percentiles([*PERCENTILES.values()])
     return Spread(
         quantity,
         nominal=sum(sizes),
-        mean=float(values.mean()),
+        mean=sample.mean,
         percentiles=dict(zip(PERCENTILES, percentiles, strict=True)),
-        largest=float(values.max()),
+        largest=sample.largest,
         bound=sum(reaches),
         shares=tuple(shares),
     )

@@ -5,6 +5,7 @@ engine or stand still while others vary.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -32,6 +33,8 @@ def find_distinct(*figures: NDArray[Any]) -> Distinct:
     Args:
         figures: each of shape (cylinders or 1, *trailing); trailing axes broadcast.
     """
+    if figures[0].ndim == 1:
+        return _find_distinct_of_one(figures)
     shape = np.broadcast_shapes(*(values.shape for values in figures))
     if math.prod(shape) == 1:
         return Distinct(tuple(values.ravel() for values in figures), np.zeros(shape, np.intp))
@@ -51,6 +54,16 @@ def find_distinct(*figures: NDArray[Any]) -> Distinct:
         which[row] = starts[key] + np.arange(count).reshape(own_shape)
     joined = tuple(np.concatenate(parts) for parts in zip(*different, strict=True))
     return Distinct(joined, which)
+
+
+def _find_distinct_of_one(figures: Sequence[NDArray[Any]]) -> Distinct:
+    """Those of one engine, each figure of shape (cylinders or 1,)."""
+    count = max(map(len, figures))
+    rows = [values.tolist() * (count if len(values) == 1 else 1) for values in figures]
+    each = list(zip(*rows, strict=True))
+    place = {one: k for k, one in enumerate(dict.fromkeys(each))}
+    which = np.array([place[one] for one in each])
+    return Distinct(tuple(map(np.array, zip(*place, strict=True))), which)
 
 
 def narrow(values: NDArray[Any]) -> NDArray[Any]:

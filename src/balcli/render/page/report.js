@@ -153,9 +153,9 @@
   function sideView() {
     const svg = byId("side"), all = plain.concat(scene.cylinders);
     const spread = (f) => all.reduce((sum, c) => sum + f(rad(c.axis)) ** 2, 0);
-    const above = !scene.rotary && spread(Math.sin) > spread(Math.cos) * 1.01;      // flat engines are seen from above
+    const above = !scene.rotary && spread(Math.sin) > spread(Math.cos) * 1.01;      // flat engines are seen from below
     const height = ([x, y]) => above ? y : x;
-    byId("side-caption").textContent = `From ${above ? "above" : "the side"}: `
+    byId("side-caption").textContent = `From ${above ? "below" : "the side"}: `
       + `z to the right, free end on the left; ${above ? "y" : "x"} up`;
     const corners = [[near - bore * 0.75, -1.4 * r], [far + bore * 0.75, 1.4 * r]];
     for (const c of scene.cylinders) {
@@ -229,6 +229,7 @@
     return STEPS.map((k) => k * power).find((v) => v >= value * 0.999999);
   };
   const digits = (value) => value >= 1000 ? value.toFixed(0) : value.toPrecision(4);
+  const round = (value) => String(Number(value.toPrecision(4)));
   function figure(value, { name, thousand }, write = digits) {
     return thousand && value >= 5000 ? `${write(value / 1000)} ${thousand}` : `${write(value)} ${name}`;
   }
@@ -257,9 +258,10 @@
     return {
       choose(all, before) {
         rows = all;
-        const most = Math.max(largest(rows), before ? largest(before) : 0), full = most ? nice(most) : 1;
+        const most = Math.max(largest(rows), before ? largest(before) : 0), matters = most && most >= unit.least;
+        const full = nice(matters ? most : 1000 * unit.least || 1);
         scale = HALF / full;
-        for (const { share, label } of rings) label.textContent = most ? figure(full * share, unit, String) : "";
+        for (const { share, label } of rings) label.textContent = most ? figure(full * share, unit, round) : "";
         set(curve, { d: path(rows) });
         set(old, { d: before ? path(before) : "" });
       },
@@ -268,7 +270,8 @@
         set(vector, { x2: (y * scale).toFixed(3), y2: (-x * scale).toFixed(3) });
         set(tip, { cx: y * scale, cy: -x * scale });
         const direction = (Math.atan2(y, x) * 180 / Math.PI).toFixed(0);
-        now.textContent = size ? `${figure(size, unit)} at ${direction}° from x` : "balanced";
+        const where = size < unit.least ? "negligible" : `at ${direction}° from x`;
+        now.textContent = size ? `${figure(size, unit)} ${where}` : "balanced";
         chain.replaceChildren();
         let at = [0, 0];
         const links = (showChain ? rows : []).flatMap(([n, a, b, c, d]) => [

@@ -6,6 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ...core.phasors import Phasors
 from ...forces.crankshaft import InnerLoads
 from ...forces.kinds import KINDS, VECTORS
@@ -13,9 +15,10 @@ from ...results.analysis import Analysis
 from ...sizing.details import FactorPeaks
 from ...studies.pictures import Banks
 from ...torque.pictures import GasPictures
-from ..sheet import NAMELESS
+from ..sheet import NAMELESS, NEGLIGIBLE, size_text
 from ..units import SI, System, Unit
 from .along_crankshaft import draw_along
+from .axes import divide_cycle
 from .balance_factor import draw_factors
 from .bank_angle import draw_end_curves, draw_roses
 from .bars import draw_scalar_bars, draw_vector_bars, visible_rows
@@ -50,6 +53,12 @@ class Subject:
     def phasors(self, quantity: str) -> tuple[Phasors, Phasors | None]:
         old = None if self.before is None else self.before.spectra[quantity]
         return self.now.spectra[quantity], old
+
+    def find_largest(self, quantity: str) -> float:
+        """The largest value over a revolution, with devices and without, SI."""
+        there = [phasors for phasors in self.phasors(quantity) if phasors is not None]
+        sizes = (np.abs(p.values(divide_cycle(p.orders))).max(initial=0) for p in there)
+        return float(max(sizes))
 
     def unit(self, quantity: str) -> Unit:
         return self.system.unit(KINDS[quantity])
@@ -203,6 +212,23 @@ def _lay_out_main(fig: Figure, subject: Subject) -> None:
 
 
 # ------------------------------------------------------------------ panels
+def _is_told(ax: Axes, subject: Subject, quantity: str) -> bool:
+    """Whether words stand in place of a picture: of a moment that is not known, and of what is
+    negligible beside one cylinder's.
+    """
+    if subject.is_unknown(quantity):
+        _say_unknown(ax)
+        return True
+    largest = subject.find_largest(quantity)
+    if not 0 < largest < NEGLIGIBLE * subject.now.of_one_cylinder[quantity]:
+        return False
+    told = f"negligible ({size_text(largest, subject.unit(quantity), 2)})"
+    ax.set_axis_off()
+    ax.set_title(f"Free {quantity}")
+    ax.text(0.5, 0.5, told, ha="center", va="center", transform=ax.transAxes)
+    return True
+
+
 def _say_unknown(ax: Axes) -> None:
     """In place of a picture of a moment that is not known."""
     ax.set_axis_off()
@@ -212,8 +238,7 @@ def _say_unknown(ax: Axes) -> None:
 
 
 def _locus_panel(ax: Axes, subject: Subject, quantity: str) -> None:
-    if subject.is_unknown(quantity):
-        _say_unknown(ax)
+    if _is_told(ax, subject, quantity):
         return
     curve, before = subject.phasors(quantity)
     draw_locus(ax, curve, quantity, subject.unit(quantity), before)
@@ -225,8 +250,7 @@ def _bars_panel(ax: Axes, subject: Subject, quantity: str) -> None:
         draw_scalar_bars(ax, subject.scalars, subject.system.moment)
         ax.set_title("About the crank")
         return
-    if subject.is_unknown(quantity):
-        _say_unknown(ax)
+    if _is_told(ax, subject, quantity):
         return
     curve, before = subject.phasors(quantity)
     draw_vector_bars(ax, curve, quantity, subject.unit(quantity), before)
@@ -238,8 +262,7 @@ def _curves_panel(ax: Axes, subject: Subject, quantity: str) -> None:
         draw_scalar_curves(ax, subject.scalars, subject.system.moment, subject.phasors("roll")[1])
         ax.set_title("About the crank")
         return
-    if subject.is_unknown(quantity):
-        _say_unknown(ax)
+    if _is_told(ax, subject, quantity):
         return
     curve, before = subject.phasors(quantity)
     draw_vector_curves(ax, curve, quantity, subject.unit(quantity), before)

@@ -1,0 +1,121 @@
+"""The smallest peak: reached where it is said, with a known error."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+import pytest
+from support.remedies import SMALL, figures, find_orders, write_engine
+
+from balcli.core import enclosing_circle as circle
+from balcli.core.peaks import find_peak
+from balcli.engine.build import build
+from balcli.engine.load import parse
+from balcli.errors import BalcliError
+from balcli.forces.spectrum import compute_spectra
+from balcli.sizing.options import SchemeOptions
+from balcli.sizing.remedy import fit_devices
+from balcli.sizing.sizing import size
+
+
+@pytest.mark.parametrize("more", ["", "[[counterweight]]\nunbalance = 30000\nangle = 170\n"])
+def test_minimax_reaches_what_it_says_where_it_says(more):
+    """The peak, the crank angles at which it is reached, and the gain over half the reciprocating
+    mass, by the analysis.
+    """
+    engine = build(parse(SMALL["one"] + more))
+    remedy = size(engine, "minimax")
+    told, curve = figures(remedy), find_orders(fit_devices(engine, remedy))
+    assert find_peak(curve).value == pytest.approx(told["peak force"], rel=1e-12)
+    assert len(told["reached"]) == 3
+    assert all(0 <= degree < 360 for degree in told["reached"])
+    assert np.abs(curve.values(np.radians(told["reached"]))) == pytest.approx(
+        told["peak force"], rel=1e-9
+    )
+    plain = build(parse(SMALL["one"]))
+    half = find_peak(find_orders(fit_devices(plain, size(plain, "factor")))).value
+    assert told["factor half peak"] == pytest.approx(
+        half, rel=1e-12
+    )  # without the engine's own weights
+    assert told["improvement"] == pytest.approx(1 - told["peak force"] / half, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["one", "two", "vee"])
+def test_minimax_knows_its_error(name):
+    assert 0 <= figures(size(build(parse(SMALL[name])), "minimax"))["relative error bound"] < 1e-14
+
+
+def test_minimax_puts_its_angles_in_order_after_they_are_wrapped(monkeypatch):
+    """A hair before a whole turn is 0, and stands first."""
+    found = circle.Circle(3 + 4j, 1e3, np.array([1.0, 4.0, 2 * np.pi - 1e-14]), 0.0)
+    monkeypatch.setattr(circle, "enclose_curve", lambda curve: found)
+    told = figures(size(build(parse(SMALL["one"])), "minimax"))
+    assert told["reached"] == (0, round(math.degrees(1), 9), round(math.degrees(4), 9))
+
+
+def test_minimax_with_nothing_to_fit_says_so_and_fits_no_rounding():
+    """An in-line four in two planes: neither a force nor a moment turns with the crank."""
+    remedy = size(build(parse(SMALL["four"])), "minimax", SchemeOptions(planes="ends"))
+    assert remedy.devices == ()
+    assert remedy.note.startswith("no counterweight makes the largest force smaller than it is: ")
+    assert (figures(remedy)["improvement"], figures(remedy)["relative error bound"]) == (0, 0)
+
+
+@pytest.mark.parametrize("slip", [-1e-15, 1e-15])
+def test_a_gain_of_rounding_is_none(monkeypatch, slip):
+    exact = circle.enclose_curve
+    monkeypatch.setattr(
+        circle,
+        "enclose_curve",
+        lambda curve: (found := exact(curve))._replace(radius=found.radius * (1 + slip)),
+    )
+    engine = build(parse(SMALL["three"]))
+    told = figures(size(engine, "minimax", SchemeOptions(planes="ends")))
+    assert told["improvement"] == 0
+
+
+def test_minimax_in_several_planes_takes_the_moment_too():
+    engine = build(parse(SMALL["vee"]))
+    one, several = (
+        size(engine, "minimax", SchemeOptions(planes=planes)) for planes in (None, (-0.1, 0.17))
+    )
+    assert sum(
+        cmath.rect(d.unbalance, math.radians(d.angle)) for d in several.devices
+    ) == pytest.approx(
+        cmath.rect(one.devices[0].unbalance, math.radians(one.devices[0].angle)), rel=1e-12
+    )
+    after = compute_spectra(fit_devices(engine, several), [1], ("moment",)).moment
+    assert abs(after.forward[0]) <= 1e-13 * abs(after.backward[0])
+    with pytest.raises(
+        BalcliError,
+        match=r"--planes: one plane, or planes at the same z, cannot take a moment; "
+        r"choose two planes with some distance between them$",
+    ):
+        size(engine, "minimax", SchemeOptions(planes=(0.1,)))
+
+
+def test_minimax_without_a_force():
+    """Nothing can be gained; a moment turning with the crank is still taken if planes are named."""
+    engine = build(parse(SMALL["three"]))
+    remedy = size(engine, "minimax")
+    assert not remedy.devices
+    assert "no counterweight makes the largest force smaller than it is" in remedy.note
+    in_planes = size(engine, "minimax", SchemeOptions(planes="ends"))
+    assert [d.position for d in in_planes.counterweights] == [-100, 100]
+    assert (figures(in_planes)["improvement"], figures(in_planes)["relative error bound"]) == (0, 0)
+
+
+def test_minimax_of_an_engine_without_any_force():
+    """A boxer twin: whatever one piston does, the other does against it; its moment has a part that
+    turns with the crank.
+    """
+    engine = build(parse(write_engine(0, 180, layout='banks = [0, 180]\nrods = "alternating"')))
+    told = figures(size(engine, "minimax", SchemeOptions(planes="ends")))
+    assert (
+        told["peak force"],
+        told["relative error bound"],
+        told["factor half peak"],
+        told["improvement"],
+    ) == (0, 0, 0, 0)
