@@ -11,7 +11,7 @@ MOST_TOML_MARKS = 180_000  # of "[", "{", ".", ",", "=": each stands for up to 1
 DEEPEST_KEY = 32  # parts of a dotted key: the memory of tomllib grows with their square
 LONGEST_NAME = 200  # characters; the name stands in every line of a CSV
 LONGEST_FILE_NAME = 255  # of a file that an engine file names: file systems have no longer ones
-MOST_ROWS = 100_000  # of such a file: a diagram of 720 deg in steps of 0.01 has 72 000
+MOST_ROWS = 20_000  # of such a file: a diagram of 720 deg in steps of 0.05 has 14 400
 LONGEST_FIGURE = 100  # characters of a number with its unit: no regular expression sees more
 LONGEST_SHOWN = 60  # characters of a value that a message repeats: it stays one line
 MOST_MISTAKES_SHOWN = 20  # of one file: they stay on the screen
@@ -35,6 +35,7 @@ MOST_SAMPLES = 1 << 19
 HIGHEST_ORDER = 4096  # that may be asked for: closed forms are good to here
 HIGHEST_ORDER_UNASKED = 512  # that is shown otherwise: only a mechanism near its lock has more
 HIGHEST_GAS_ORDER_UNASKED = 12  # of gas torque: it falls off slowly
+HIGHEST_TABLE_ORDER = 100  # of tangential pressure: builders' tables end at 12 to 24
 HIGHEST_ORDER_SOUGHT = 8  # where a scheme looks for something to balance: engines have it below
 MOST_RESULTS_BY_CYLINDER = 1 << 14  # cylinders x orders that are told one by one
 MOST_RESULTS_ALONG_CRANK = 1 << 15  # loads x orders, whose peaks are looked for place by place

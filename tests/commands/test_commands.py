@@ -19,6 +19,7 @@ from support.paths import ENGINES
 from balcli.bench import bench, stopwatch
 from balcli.bench.bench import Bench, Case, Ratio, Row
 from balcli.errors import BalcliError, InputError
+from balcli.sizing.schemes import SCHEMES
 
 MEASURED = Bench(
     (
@@ -471,3 +472,11 @@ def test_more_devices_than_any_engine_has():
         f"counterweight: stands {MOST_PARTS + 1} times; no engine has more than {MOST_PARTS}"
         in refused(counterweight=[{"mass": 1, "radius": 10}] * (MOST_PARTS + 1))
     )
+
+
+def test_schemes_are_explained_with_their_options_within_80_columns(balcli):
+    out = balcli("balance", "--schemes")[1]
+    assert max(map(len, out.splitlines())) <= 80
+    for name, taken in SCHEMES.items():
+        place = out.index(f"{name} ")
+        assert all(f"--{option}" in out[place : place + 250] for option in taken), name

@@ -158,6 +158,11 @@ def test_harmonics_are_of_the_mean_tangential_pressure(beside):
         ),
         (
             'harmonics = "p.csv"',
+            "order,cos,sin\n1,1,0\n1e300,1,0\n",
+            "gas.harmonics: p.csv: line 3: order 1e+300 is above 100, where no table goes",
+        ),
+        (
+            'harmonics = "p.csv"',
             "order,cos,sin\n1,1,0\n1,1,0\n",
             "gas.harmonics: p.csv: line 3: orders have to rise",
         ),

@@ -21,6 +21,7 @@ from .overwrite_guard import refuse_overwriting
 def balance(
     path: EnginePath,
     scheme: balance_options.Scheme = None,
+    _schemes: balance_options.Schemes = False,
     order: balance_options.Order = None,
     at: balance_options.At = None,
     position: balance_options.Position = None,

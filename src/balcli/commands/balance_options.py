@@ -14,7 +14,7 @@ from ..errors import BalcliError
 from ..limits import MOST_FACTORS
 from ..render.formats import Format, Units
 from ..sizing.options import SchemeOptions
-from ..sizing.schemes import KNUCKLES, NAMES
+from ..sizing.schemes import KNUCKLES, MEANINGS, NAMES, SCHEMES
 from .amounts import is_bare, read_length, read_lengths, read_mass, read_number, read_share
 from .completion import complete_schemes
 from .file_names import format_of, text_format
@@ -56,7 +56,32 @@ Scheme = Annotated[
         metavar="NAME",
         autocompletion=complete_schemes,
         show_default="auto; factor where --factor or --measured is given",
-        help=f"What to fit: {', '.join(NAMES[:-1])} or {NAMES[-1]}.",
+        help=f"What to fit: {', '.join(NAMES[:-1])} or {NAMES[-1]}; --schemes explains them.",
+    ),
+]
+
+
+def _list_schemes(wanted: bool) -> None:
+    """Print what each scheme does and which options it takes, and end."""
+    if not wanted:
+        return
+    width = max(map(len, MEANINGS))
+    lines = []
+    for name, meaning in MEANINGS.items():
+        options = " ".join(f"--{option}" for option in SCHEMES.get(name, ("even",)))
+        lines.append(f"{name:{width}}  {meaning}")
+        lines += [f"{'':{width}}    {options}"] if options else []
+    emit("\n".join(lines))
+    raise typer.Exit
+
+
+Schemes = Annotated[
+    bool,
+    typer.Option(
+        "--schemes",
+        callback=_list_schemes,
+        is_eager=True,
+        help="Say what each scheme does and which options it takes.",
     ),
 ]
 Order = Annotated[

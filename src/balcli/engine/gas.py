@@ -30,6 +30,7 @@ from ..core.tangential_force import tangential_torque
 from ..enginefile.csv_columns import Columns, locate_beside, read_columns
 from ..enginefile.gas_tables import DIAGRAM_KEYS, GOALS, Gas
 from ..errors import BalcliError, InputError, Problem
+from ..limits import HIGHEST_TABLE_ORDER
 
 if TYPE_CHECKING:
     from .assembly import Assembly
@@ -292,6 +293,11 @@ class _Builder:
         if len(not_rising := np.flatnonzero(np.diff(orders) <= 0)):
             line = columns.lines[not_rising[0] + 1]
             raise BalcliError(f"{name}: line {line}: orders have to rise")
+        if len(high := np.flatnonzero(orders > HIGHEST_TABLE_ORDER)):
+            raise BalcliError(
+                f"{name}: line {columns.lines[high[0]]}: order {orders[high[0]]:g} is above "
+                f"{HIGHEST_TABLE_ORDER}, where no table goes"
+            )
         radius = float(self.parts.cylinders.radius)
         try:
             return tangential_torque(

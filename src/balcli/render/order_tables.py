@@ -203,8 +203,8 @@ def _direction_table(spectra: Spectra, system: System) -> Grid:
         f"Along x (vertical) and y (horizontal), {', '.join(unit.name for _, unit in vectors)}",
         ("order", *(head for axis in axes for head in (axis, "deg"))),
         _shown_rows(spectra.orders, [phasors for phasors, _ in vectors], lambda k: (*cells(k),)),
-        note="Value = amplitude · cos(order · θ − angle). The moment about y is that of the "
-        "forces along x.",
+        note="Value = amplitude · cos(order · θ − angle). My is the moment of the "
+        "forces along x (marine: M1V, M2V), Mx of those along y (M1H).",
     )
 
 
