@@ -52,8 +52,8 @@ def _piston(model: EngineFile) -> Iterator[str]:
     low, high = (limit * (bore * 1e-3) ** 3 for limit in (PISTON_LIGHT, heavy))
     if not low <= mass <= high:
         yield (
-            f"{_name_piston_mass(model)} {mass:.4g} kg in a bore of {bore:g} mm, where {_round(low)} to "
-            f"{_round(high)} kg is usual; "
+            f"{_name_piston_mass(model)} {mass:.4g} kg in a bore of {bore:g} mm, where "
+            f"{_round(low)} to {_round(high)} kg is usual; "
             "are the units right? Bare numbers are kg and mm"
         )
 
