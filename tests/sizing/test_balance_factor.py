@@ -153,14 +153,13 @@ def test_what_is_left_is_the_engine_without_what_the_factor_takes(name, weights,
     assert find_orders(left.force) == pytest.approx(
         find_orders(bare.force - force), abs=1e-11 * scale
     )
-    one_throw = name == "twin" and weights and planes in (None, "throws")
+    one_throw = name == "twin" and weights and planes == "throws"
     if planes != (0.02,) and not one_throw:
         assert find_orders(left.moment) == pytest.approx(
             find_orders(bare.moment - moment), abs=1e-11 * scale
         )
     else:
-        unmet = planes is not None
-        assert remedy.note.startswith("one plane, or planes at the same z") == unmet
+        assert remedy.note.startswith("one plane, or planes at the same z")
 
 
 def find_orders(curve: np.ndarray) -> np.ndarray:
@@ -212,6 +211,26 @@ position = 25
     assert "what the counterweights of the file do is counted" in remedy.reasons[0]
     assert not bare.needs
     assert "counted" not in bare.reasons[0]
+
+
+def test_what_is_missing_is_told_where_the_counterweights_of_the_file_stand():
+    """At its ends, not at the four throws between them; whatever decimals say a place twice."""
+    ends = "".join(
+        f"[[counterweight]]\nunbalance = 40000\nangle = {angle}\nposition = {place}\n"
+        for angle, place in ((-162, '"-9 in"'), (-160, "-228.6"), (18, 228.6))
+    )
+    chosen, asked = fit(FORD + ends), fit(FORD + ends, planes=(-0.2286, 0.2286))
+    assert chosen.devices == asked.devices
+    assert [need.z for need in chosen.needs] == [-0.2286, 0.2286]
+    assert chosen.note == (
+        "these planes are where the counterweights of the file stand; --planes throws asks what "
+        "is missing at every throw instead"
+    )
+    assert asked.note == ""
+    assert len(fit(FORD + ends, planes="throws").devices) == 4
+    one_place = "[[counterweight]]\nunbalance = 40000\nangle = 9\nposition = 0\n"
+    assert len(fit(FORD + one_place).devices) == 4
+    assert fit(FORD + one_place).note == ""
 
 
 @pytest.mark.parametrize("planes", [None, "ends", (-0.25, 0.3)])
@@ -508,6 +527,9 @@ def test_a_card_says_what_is_still_missing_or_that_nothing_is(ford):
     ford.write_text(FORD + "[[counterweight]]\nunbalance = 30000\nangle = 90\nposition = -200\n")
     page = run_here("balance", ford, "--format", "card", "--planes=-200,250").out
     assert "STILL MISSING ON THE CRANKSHAFT" in page
+    ford.write_text(FORD + WEIGHTS)
+    page = run_here("balance", ford, "--format", "card").out
+    assert "These planes are where the counterweights of the file stand; --planes throws" in page
     ford.write_text(insert_remedy(FORD.encode(), fit(FORD)))
     page = run_here("balance", ford, "--format", "card").out
     assert "Nothing is missing: the counterweights of the file balance this factor." in page

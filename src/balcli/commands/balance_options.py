@@ -109,7 +109,10 @@ Planes = Annotated[
     typer.Option(
         metavar="ends|throws|Z,Z...",
         show_default=False,
-        help=("Where along the crank: at its end throws, at every throw, or at these z in mm."),
+        help=(
+            "Where along the crank: at its end throws, at every throw, or at these z in mm. With a "
+            "factor the default is where the counterweights of the file stand, else every throw."
+        ),
     ),
 ]
 Factor = Annotated[

@@ -113,6 +113,8 @@ def _correct(result: Balance) -> Iterator[str]:
     yield _RULE
     for k, (weight, figures) in enumerate(zip(weights, result.practical, strict=True), 1):
         yield from _correct_plane(k, weight, figures, result)
+    if remedy.note:
+        yield from wrap(capitalized(f"{remedy.note}."), WIDTH)
     yield from wrap(_WHERE, WIDTH)
     speed = f"{number(float(result.before.engine.speed_rpm))} rpm"
     if (permitted := result.permitted) is not None:

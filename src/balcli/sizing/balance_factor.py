@@ -27,6 +27,10 @@ from .planes import SAME_PLACE, read_planes
 from .remedy import Remedy, fit_devices
 
 COMPLETE = "nothing is missing: the counterweights of the file balance this factor"
+OWN_PLACES = (
+    "these planes are where the counterweights of the file stand; --planes throws asks what is "
+    "missing at every throw instead"
+)
 
 
 class PinLoad(NamedTuple):
@@ -46,8 +50,9 @@ class PinLoad(NamedTuple):
 def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     """Counterweights by the factor asked for, 0.5 if none is, or by what was measured on a pin.
 
-    What the file's own counterweights do counts, and what is missing is fitted: opposite each pin,
-    or in the planes asked for, to which pins and weights are carried by the lever.
+    What the file's own counterweights do counts, and what is missing is fitted: in the planes asked
+    for, to which pins and weights are carried by the lever; by default where the file's own stand,
+    or opposite each pin if they stand in fewer than two places.
 
     Of several factors all peaks are told, and the one that leaves the smallest peak force (among
     equals, moment) is fitted.
@@ -69,7 +74,13 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     own = _find_counterweights(engine)[1].any()
     needs = _find_needs(engine, best, planes)
     return fitting.remedy._replace(
-        note=_note(fitting, best, planes, complete=bool(own) and not fitting.remedy.devices),
+        note=_note(
+            fitting,
+            best,
+            planes,
+            complete=bool(own) and not fitting.remedy.devices,
+            chosen=options.planes is None,
+        ),
         card=fill_card(engine, best),
         needs=tuple(_count_from_pin(engine, need) for need in needs) if own else (),
         sweep=sweep if len(sweep) > 1 else (),
@@ -77,14 +88,21 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def _note(
-    fitting: Fitting, factor: float, planes: tuple[float, ...] | None, *, complete: bool
+    fitting: Fitting,
+    factor: float,
+    planes: tuple[float, ...] | None,
+    *,
+    complete: bool,
+    chosen: bool,
 ) -> str:
-    """What to know besides."""
+    """What to know besides; the planes may have been `chosen` without being asked for."""
     if planes is not None and len(planes) == 1 and fitting.find_residual(1).moment(1):
         return SAME_PLACE
     if factor < 0:
         return "a factor below 0: not even all rotating mass is balanced"
-    return COMPLETE if complete else ""
+    if complete:
+        return COMPLETE
+    return OWN_PLACES if chosen and planes is not None else ""
 
 
 def find_factor_peaks(
@@ -157,9 +175,12 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
 
 
 def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] | None:
-    """The planes asked for (z, m), ascending, each once; None: those of the pins."""
+    """The planes asked for (z, m), ascending, each once; by default those of the file's own
+    counterweights if they stand in at least two; None: those of the pins.
+    """
     if options.planes is None:
-        return None
+        own = np.unique(np.round(_find_counterweights(engine)[0], 12))  # decimals of one place: one
+        return tuple(own.tolist()) if len(own) > 1 and engine.places_known else None
     if not engine.places_known:
         raise BalcliError(f"--planes: {MOMENTS_UNKNOWN}")
     return tuple(sorted(set(read_planes(engine, options))))
