@@ -211,7 +211,13 @@ def test_standard_input(monkeypatch):
         ),
         (
             changed(("mass = 0.5\n", "pin = 0.1\nlocks = 0.004\n")),
-            "piston: has pin and locks without piston; give the bare piston, too",
+            "piston: has pin and locks without piston and rings; give every part: 0 for one that "
+            "is not there or was weighed with another",
+        ),
+        (
+            changed(("mass = 0.5\n", "piston = 0.4\n")),
+            "piston: has piston without pin, rings and locks; give every part: 0 for one that is "
+            "not there or was weighed with another",
         ),
         (
             changed(("mass = 0.5\n", "mass = 0.5\npin = 0.1\n")),

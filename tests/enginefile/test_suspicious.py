@@ -29,6 +29,12 @@ def test_ordinary_engines_pass(text):
             ),
         ),
         (
+            changed(("mass = 0.5\n", "piston = 0.4\npin = 0.1\nrings = 3.6\nlocks = 0\n")),
+            "piston.piston, piston.pin, piston.rings and piston.locks (most of it piston.rings, 3.6 "
+            "kg) are together 4.1 kg in a bore of 86 mm, where 0.064 to 3.2 kg is usual; are the "
+            "units right? Bare numbers are kg and mm",
+        ),
+        (
             changed(("mass = 0.5", "mass = 0")),
             "piston.mass is 0: only the rod moves to and fro; give the mass of piston, pin, rings "
             "and locks",

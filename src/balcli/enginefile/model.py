@@ -237,9 +237,14 @@ class Piston(Table):
     )
 
     def contradictions(self) -> Iterator[str]:
-        others = [key for key in ("pin", "rings", "locks") if getattr(self, key) is not None]
-        if others and self.mass is self.piston is None:
-            yield f"has {join_words(others)} without piston; give the bare piston, too"
+        parts = ("piston", "pin", "rings", "locks")
+        given = [key for key in parts if getattr(self, key) is not None]
+        missing = [key for key in parts if key not in given]
+        if given and missing and self.mass is None:
+            yield (
+                f"has {join_words(given)} without {join_words(missing)}; give every part: 0 for "
+                "one that is not there or was weighed with another"
+            )
 
 
 class Layout(Table):

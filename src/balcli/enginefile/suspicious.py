@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 
+from .exclusive import join_words
 from .model import Counterweight, EngineFile
 
 # Pistons of like design weigh as the cube of the bore: in aluminium with pin and rings 300 to 1000
@@ -51,8 +52,8 @@ def _piston(model: EngineFile) -> Iterator[str]:
     low, high = (limit * (bore * 1e-3) ** 3 for limit in (PISTON_LIGHT, heavy))
     if not low <= mass <= high:
         yield (
-            f"piston.mass is {mass:.4g} kg in a bore of {bore:g} mm, where {_round(low)} to "
-            f"{_round(high)} kg is usual; "
+            f"{_name_piston_mass(model)} {mass:.4g} kg in a bore of {bore:g} mm, where "
+            f"{_round(low)} to {_round(high)} kg is usual; "
             "are the units right? Bare numbers are kg and mm"
         )
 
@@ -181,6 +182,17 @@ def _piston_mass(model: EngineFile) -> float:
     piston = model.piston
     parts = (piston.mass, piston.piston, piston.pin, piston.rings, piston.locks)
     return sum(mass for mass in parts if mass is not None)
+
+
+def _name_piston_mass(model: EngineFile) -> str:
+    """The keys that it is read from, with their verb."""
+    keys = ("piston", "pin", "rings", "locks")
+    parts = {key: mass for key in keys if (mass := getattr(model.piston, key)) is not None}
+    if not parts:
+        return "piston.mass is"
+    heaviest = max(parts, key=parts.__getitem__)
+    together = join_words([f"piston.{key}" for key in parts])
+    return f"{together} (most of it piston.{heaviest}, {parts[heaviest]:.4g} kg) are together"
 
 
 def _rod_mass(model: EngineFile) -> float | None:
