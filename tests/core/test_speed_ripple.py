@@ -280,7 +280,9 @@ def test_variants_side_by_side_are_what_each_is_alone():
 def test_a_speed_of_half_orders_mixes_into_half_orders_as_the_curves_over_the_angle_say():
     """`curves` evaluates the motion at each angle and knows no orders."""
     lines = [{"order": 0.5, "amplitude": 0.1, "angle": 30}, {"order": 2, "amplitude": 0.05}]
-    single = engine(operation={"speed": 2000, "speed_ripple": lines})
+    gas = {"cycle": "otto", "compression_ratio": 9, "imep": 8}
+    operation = {"speed": 2000, "speed_ripple": lines}
+    single = engine(gas=gas, piston={"mass": 1, "bore": 90}, operation=operation)
     assert single.period_revolutions == 2
     angles = np.arange(0.0, 720.0, 11.0)
     direct = compute_engine_curves(single, angles).values

@@ -242,6 +242,11 @@ def test_uneven_speed():
     ("parts", "message"),
     [
         (
+            {"operation": {"speed_ripple": [{"order": 1.5, "amplitude": 0.01}]}},
+            "operation.speed_ripple.1.order: 1.5 is no whole number; half orders take four strokes "
+            "and [gas]",
+        ),
+        (
             {"cylinder": {"3": {"piston_mass": 1}}},
             "cylinder.3: there is no cylinder 3: crank.throws and layout make 1 cylinder; give "
             "every throw its angle in crank.throws",

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.paths import ENGINES
 
 from balcli.core.phasors import Phasors
+from balcli.engine.load import load
+from balcli.errors import BalcliError
 from balcli.forces.orders import (
     choose_orders,
     is_order,
@@ -14,6 +17,7 @@ from balcli.forces.orders import (
     parse_order,
 )
 from balcli.forces.spectrum import Spectra
+from balcli.results.analysis import analyze
 
 
 @pytest.mark.parametrize(
@@ -70,3 +74,15 @@ def test_orders_to_2_and_all_considerable_ones_are_shown() -> None:
         np.array(orders), force=curve(orders, [0, 0, 1, 0]), couple=curve(orders, [1, 0, 0, 0])
     )
     assert choose_orders(found).tolist() == [1, 2, 3]
+
+
+def test_half_orders_take_gas_in_four_strokes():
+    """Without it nothing repeats itself after two revolutions only: a half order is a slip."""
+    with pytest.raises(BalcliError) as refused:
+        analyze(load(ENGINES / "i4.toml"), [1, 1.5])
+    assert str(refused.value) == (
+        "orders 1.5: half orders are those of gas pressure in four strokes; give [gas], or ask "
+        "for whole orders"
+    )
+    found = analyze(load(ENGINES / "i4_wiebe.toml"), [1, 1.5])
+    assert found.spectra.orders.tolist() == [1, 1.5]

@@ -6,10 +6,11 @@ import json
 
 import pytest
 from support.commands import refusal, run_here
-from support.engines import engine
+from support.engines import STAGGERED_TWIN, engine
 from support.paths import ENGINES
 
-from balcli.engine.load import load
+from balcli.engine.build import build
+from balcli.engine.load import load, parse
 from balcli.forces.spectrum import compute_spectra
 from balcli.render.page_scene import place_beside, scene
 from balcli.render.units import SYSTEMS
@@ -227,3 +228,49 @@ def test_the_page_has_no_shaft_inside_the_crank():
     shafts = [device for device in shown["variants"][-1]["devices"] if device["beside"]]
     assert len(shafts) == 6
     assert all(max(map(abs, shaft["at"])) > shown["stroke"] for shaft in shafts)
+
+
+# ------------------------------------------------------------------ an order that was not asked for
+def test_lower_orders_that_stay_as_they_are_are_named():
+    """Pins split by 2 x 75 - 180 degrees: no force of order 1 turns against the crank."""
+    twin = build(parse(STAGGERED_TWIN))
+    remedy = size(twin, "single-shaft")
+    assert remedy.order == 2
+    assert remedy.note == (
+        "Order 2 is the lowest with a free force turning against the crank. Order 1 stays as it is "
+        "(its force and moment turning with the crank: --scheme counterweights; its moment turning "
+        "against the crank: --order 1 --planes)."
+    )
+    assert not size(twin, "single-shaft", SchemeOptions(order=2)).note
+    assert not size(twin, "single-shaft", SchemeOptions(planes=(-0.01, 0.01))).note
+    assert not size(load(I4), "single-shaft").note  # order 1 is balanced
+
+
+def test_what_turns_with_the_crank_is_said_with_its_size():
+    twin = build(parse(STAGGERED_TWIN))
+    remedy = size(twin, "single-shaft", SchemeOptions(order=1))
+    assert remedy.note == (
+        "order 1 has no free force turning against the crank: nothing to balance; its force and "
+        "moment turning with the crank: --scheme counterweights; its moment turning against the "
+        "crank: --order 1 --planes"
+    )
+    force = analyze(twin, [1], ["force"]).spectra.force
+    (detail,) = remedy.details
+    assert detail.label == "force with crank left"
+    assert detail.value == pytest.approx(abs(force.forward[0]), rel=1e-12)
+
+
+def test_a_shaft_that_turns_as_the_crank_does_names_counterweights():
+    twin = build(parse(STAGGERED_TWIN))
+    reasons = [*size(twin, "couple-shaft").reasons, *size(twin, "two-shaft").reasons]
+    told = [reason for reason in reasons if "+1 times crank speed" in reason]
+    assert len(told) == 3
+    assert all("--scheme counterweights" in reason for reason in told)
+    assert not any("nothing on the crankshaft" in reason for reason in told)
+
+
+def test_what_is_left_is_said_with_its_order():
+    table = run_here("balance", I3, "--scheme", "couple-shaft").out
+    assert "order 1 moment left  0 N" in table
+    document = json.loads(run_here("balance", I3, "--scheme=couple-shaft", "--format=json").out)
+    assert "moment_left_Nm" in document["details"]

@@ -420,8 +420,11 @@ def test_couple_shafts_say_what_they_do_and_what_is_left():
     assert list(remedy.reasons[::2]) == [
         f"Order 1 moment turning {turning} the crank: two opposite eccentrics on a shaft at "
         f"{ratio} times crank speed make the opposite "
-        "moment and no force, wherever the shaft stands"
-        for turning, ratio in (("with", "+1"), ("against", "-1"))
+        f"moment and no force, wherever the shaft stands{weights}"
+        for turning, ratio, weights in (
+            ("with", "+1", "; counterweights would do so without a shaft: --scheme counterweights"),
+            ("against", "-1", ""),
+        )
     ]
     after = compute_spectra(fit_devices(engine, remedy), [1], ("force", "moment"))
     assert after.moment.balanced.all()

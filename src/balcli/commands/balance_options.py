@@ -89,7 +89,10 @@ Order = Annotated[
     typer.Option(
         metavar="N",
         show_default=False,
-        help=("Order to balance; default: the lowest that is not balanced."),
+        help=(
+            "Order to balance; default: the lowest that has what the scheme takes (single-shaft: a "
+            "force turning against the crank); a note says what it leaves at lower ones."
+        ),
     ),
 ]
 At = Annotated[
@@ -97,7 +100,10 @@ At = Annotated[
     typer.Option(
         metavar="X,Y",
         show_default=False,
-        help=("Place in mm of a shaft, of a pair that against the crank; given twice: of both."),
+        help=(
+            "Place in mm of the shaft; of a pair, of the one turning against the crank. Given "
+            "twice: of that one, then of the other."
+        ),
     ),
 ]
 Position = Annotated[

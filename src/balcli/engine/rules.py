@@ -134,6 +134,18 @@ def _weigh_rod(parts: Assembly, place: RodPlace) -> RunningGear | None:
     return None if place.rod.length is None else weigh_rod(place.rod, place.rod.length)
 
 
+def check_half_orders(parts: Assembly) -> Iterator[Problem]:
+    """Half orders of an uneven speed come of four strokes, and of the gas that makes them."""
+    if parts.model.gas is not None and parts.model.layout.strokes == 4:
+        return
+    for number, line in enumerate(parts.model.operation.speed_ripple, 1):
+        if line.order % 1:
+            yield Problem(
+                f"operation.speed_ripple.{number}.order",
+                f"{line.order:g} is no whole number; half orders take four strokes and [gas]",
+            )
+
+
 def check_speed(parts: Assembly) -> Iterator[Problem]:
     """An uneven speed stays above 0."""
     if not parts.ripple:
@@ -248,6 +260,7 @@ RULES = (
         Rule(check_cylinders, frozenset({"crank", "layout"})),
         Rule(check_masters, frozenset({"crank", "layout", "articulation"})),
         Rule(check_rods, frozenset({"rod"})),
+        Rule(check_half_orders, frozenset({"operation", "layout", "gas"})),
         Rule(check_speed, frozenset({"operation"})),
     ),
     (Rule(check_dead_centres, _WHOLE),),

@@ -9,7 +9,7 @@ orders are therefore multiples of 1/2, and exact as floating-point numbers.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,16 +32,26 @@ def is_order(number: float) -> bool:
     return 0 <= number <= HIGHEST_ORDER and number % 0.5 == 0
 
 
-def check_orders(orders: Iterable[float]) -> Array:
+def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> Array:
     """Orders that were asked for, ascending, each once.
 
+    Args:
+        orders: as asked for.
+        engines: whose they are: one at least has to have half orders if some are asked for.
+
     Raises:
-        BalcliError: there are none, or some are no orders.
+        BalcliError: there are none, some are no orders, or half orders that no engine has.
     """
     asked = sorted(set(orders))
     if not asked or not all(map(is_order, asked)):
         named = ", ".join(f"{n:g}" for n in asked[:8]) or "none"
         raise BalcliError(f"orders must be multiples of 1/2 from 0 to {HIGHEST_ORDER}, not {named}")
+    halves = ", ".join(f"{n:g}" for n in asked if n % 1)
+    if halves and engines and all(engine.cycle_revolutions == 1 for engine in engines):
+        raise BalcliError(
+            f"orders {halves}: half orders are those of gas pressure in four strokes; give [gas], "
+            "or ask for whole orders"
+        )
     return np.array(asked, float)
 
 

@@ -129,7 +129,9 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
         details.append(Detail("speed", "", result.speed_note))
     if not result.before.moments_known:
         details = [d._replace(value=nan) if d.dimension == "moment" else d for d in details]
-    details = [detail for detail in details if detail.label not in _FOR_PROGRAMS]
+    details = [
+        _name_order(detail, remedy.order) for detail in details if detail.label not in _FOR_PROGRAMS
+    ]
     if details:
         pairs = tuple(pair for detail in details for pair in _list_facts(detail, system))
         yield Facts(pairs, "Details")
@@ -143,6 +145,13 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
         yield _sweep_grid(peaks, system)
     if remedy.optima:
         yield _optima_grid(remedy.optima)
+
+
+def _name_order(detail: Detail, order: int | None) -> Detail:
+    """What a scheme for one order leaves, with that order: others may leave more."""
+    of_order = {"left", "before"}.intersection(detail.label.split())
+    named = of_order and order is not None and not detail.group
+    return detail._replace(group=f"order {order}") if named else detail
 
 
 def _list_facts(detail: Detail, system: System) -> Iterator[tuple[str, str]]:

@@ -150,7 +150,7 @@ def analyze(
             orders of too many cylinders.
     """
     wanted = _choose_quantities(engine, only)
-    asked = None if orders is None else check_orders(orders)
+    asked = None if orders is None else check_orders(orders, [engine])
     peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
     shown = wanted.intersection(EVERY_KIND)
     computed = _choose_computed(engine, asked, whole=bool(peaked))

@@ -91,7 +91,7 @@ def combine_engines(
     Raises:
         BalcliError: orders that are negative or too high.
     """
-    asked = None if orders is None else check_orders(orders)
+    asked = None if orders is None else check_orders(orders, [first, second])
     second = gear_to(second, first, arrangement.phase_deg)
     computed = merge_orders(
         find_relevant_orders(first),

@@ -23,9 +23,13 @@ class Fitting(NamedTuple):
     remedy: Remedy
 
     @classmethod
-    def start(cls, engine: Engine, scheme: str, order: int | None = None) -> Fitting:
-        """Nothing is fitted yet; `order` is the one that the scheme balances, if it is one."""
-        return cls(hold_steady(engine), Remedy(scheme, order))
+    def start(
+        cls, engine: Engine, scheme: str, order: int | None = None, note: str = ""
+    ) -> Fitting:
+        """Nothing is fitted yet; `order` is the one that the scheme balances, if it is one, and
+        `note` what there is to say of that choice.
+        """
+        return cls(hold_steady(engine), Remedy(scheme, order, note=note))
 
     def find_residual(self, order: int) -> Residual:
         """What is left of an order with the devices so far."""

@@ -14,6 +14,7 @@ from ..engine.positions import MOMENTS_UNKNOWN
 from ..errors import BalcliError
 from ..forces.spectrum import compute_spectra
 from ..limits import HIGHEST_ORDER_SOUGHT
+from .details import Detail
 from .options import SchemeOptions
 
 Quantity = Literal["force", "moment", "roll"]
@@ -53,6 +54,7 @@ class Residual(NamedTuple):
         noise: rounding error of each part, in the same units.
         reference: moments and roll are taken about it.
         newtons_per_kg_m: `n^2 omega^2`, in N/(kg m).
+        note: why lower orders stay as they are, where this one was not asked for.
     """
 
     order: int
@@ -60,6 +62,7 @@ class Residual(NamedTuple):
     noise: dict[Part, float]
     reference: Point
     newtons_per_kg_m: float
+    note: str = ""
 
     def force(self, sense: int) -> complex:
         """Force turning in this sense (1 with the crank, -1 against it), kg m."""
@@ -84,7 +87,14 @@ class Residual(NamedTuple):
 
 
 class NothingToBalanceError(Exception):
-    """There is nothing to balance, as its text says: a scheme then fits no device."""
+    """There is nothing to balance, as its text says: a scheme then fits no device.
+
+    `details`: figures of what is there nevertheless.
+    """
+
+    def __init__(self, text: str, details: tuple[Detail, ...] = ()) -> None:
+        super().__init__(text)
+        self.details = details
 
 
 def hold_steady(engine: Engine) -> Engine:
@@ -134,14 +144,12 @@ def choose_residual(
     residual = find_residual(engine, options.order)
     if _has_any(residual, quantities, senses):
         return residual
-    hint = ""
-    if "moment" not in quantities and residual.has("moment", senses):
-        hint = "; it has a free moment: couple-shaft"
-    if "force" not in quantities and residual.has("force", senses):
-        hint = "; it has a free force: two-shaft"
+    rest = _tell_rest(residual, quantities, senses)
+    with_crank = Detail("force with crank left", "force", residual.size(FORWARD_FORCE))
     raise NothingToBalanceError(
-        f"order {options.order} has no free {' or '.join(quantities)}{_turning(senses)}: nothing "
-        f"to balance{hint}"
+        f"order {options.order} has no free {' or '.join(quantities)}{_turning(senses)}: "
+        + "; ".join(["nothing to balance", *rest]),
+        (with_crank,) if with_crank.value and 1 not in senses else (),
     )
 
 
@@ -150,15 +158,40 @@ def _has_any(residual: Residual, quantities: Sequence[Quantity], senses: Sequenc
 
 
 def _find_lowest(engine: Engine, quantities: Sequence[Quantity], senses: Sequence[int]) -> Residual:
-    """That of the lowest order at which something of these quantities is left."""
+    """That of the lowest order at which something of these quantities is left; its note says what
+    shakes at lower ones.
+    """
+    what = f"{' or '.join(quantities)}{_turning(senses)}"
+    left_alone = ""
     for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
         residual = find_residual(engine, order)
         if _has_any(residual, quantities, senses):
-            return residual
+            lowest = f"Order {order} is the lowest with a free {what}.{left_alone}"
+            return residual._replace(note=lowest if left_alone else "")
+        if rest := _tell_rest(residual, quantities, senses):
+            left_alone += f" Order {order} stays as it is ({'; '.join(rest)})."
     raise NothingToBalanceError(
-        f"there is no free {' or '.join(quantities)}{_turning(senses)} of orders 1 to "
-        f"{HIGHEST_ORDER_SOUGHT}: nothing to balance; --order names a higher one"
+        f"there is no free {what} of orders 1 to {HIGHEST_ORDER_SOUGHT}: nothing to balance; "
+        f"--order names a higher one{'.' if left_alone else ''}{left_alone.removesuffix('.')}"
     )
+
+
+def _tell_rest(
+    residual: Residual, quantities: Sequence[Quantity], senses: Sequence[int]
+) -> list[str]:
+    """What an order has besides what is sought, and what takes it."""
+    if 1 in senses:
+        takes: dict[Quantity, str] = {"moment": "couple-shaft", "force": "two-shaft"}
+        others = [what for what in takes if what not in quantities and residual.has(what, senses)]
+        return [f"it has a free {what}: {takes[what]}" for what in others]
+    order, rest = residual.order, []
+    forward = [part.quantity for part in FORWARD if residual.parts[part]]
+    if forward:
+        cure = "--scheme counterweights" if order == 1 else f"a shaft at +{order}"
+        rest.append(f"its {' and '.join(forward)} turning with the crank: {cure}")
+    if "moment" not in quantities and residual.has("moment", senses):
+        rest.append(f"its moment turning against the crank: --order {order} --planes")
+    return rest
 
 
 def _turning(senses: Sequence[int]) -> str:

@@ -43,7 +43,7 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
                 f"{reason}; shafts without unbalance can do nothing about the roll"
             ) from None
         raise
-    fitting = Fitting.start(engine, "two-shaft", residual.order)
+    fitting = Fitting.start(engine, "two-shaft", residual.order, residual.note)
     return _add_pair(fitting, residual, options).remedy
 
 

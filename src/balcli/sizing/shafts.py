@@ -49,7 +49,7 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     if two and options.position is not None:
         raise BalcliError("--planes and --position both say where along the shaft: give one")
     residual = choose_residual(engine, options, ("force", "moment") if two else ("force",), (-1,))
-    fitting = Fitting.start(engine, "single-shaft", residual.order)
+    fitting = Fitting.start(engine, "single-shaft", residual.order, residual.note)
     if residual.order == 1:
         planes = find_counterweight_planes(engine, residual)
         weights = [Slot("counterweight", 1, 1, z) for z in planes]
@@ -59,7 +59,10 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     else:
         fitting = _add_one_eccentric(fitting, residual, options)
     left = fitting.find_residual(residual.order)
-    fitting = fitting.add_details(Detail("roll left", "moment", left.size(ROLL)))
+    fitting = fitting.add_details(
+        Detail("roll left", "moment", left.size(ROLL)),
+        Detail("roll before", "moment", residual.size(ROLL)),
+    )
     if residual.order > 1:
         fitting = fitting.add_details(
             Detail("force with crank left", "force", left.size(FORWARD_FORCE))
@@ -93,7 +96,7 @@ def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     residual = choose_residual(engine, options, ("moment",))
     low, high = read_two_planes(engine, options)
     places = _read_places(options, [sense for sense in (-1, 1) if residual.moment(sense)])
-    fitting = Fitting.start(engine, "couple-shaft", residual.order)
+    fitting = Fitting.start(engine, "couple-shaft", residual.order, residual.note)
     for sense in sorted(places, reverse=True):
         slots = [Slot("shaft", residual.order, sense, z, places[sense]) for z in (low, high)]
         unbalance = residual.moment(sense) / (high - low)

@@ -49,4 +49,4 @@ def size(engine: Engine, scheme: str = "auto", options: SchemeOptions | None = N
     try:
         return SIZE[scheme](engine, asked)
     except NothingToBalanceError as reason:
-        return Remedy(scheme, asked.order, note=str(reason))
+        return Remedy(scheme, asked.order, note=str(reason), details=reason.details)

@@ -40,7 +40,7 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
     fit = solve(slots, residual, (FORWARD_FORCE, BACKWARD_FORCE))
     rounding = 2 * residual.noise[FORWARD_FORCE]
     unbalances = [u if abs(u) > rounding else 0j for u in fit.unbalances]
-    fitting = Fitting.start(engine, "slider", residual.order)
+    fitting = Fitting.start(engine, "slider", residual.order, residual.note)
     fitting = fitting.add(slots, unbalances, explain_sliders(residual))
     left = fitting.find_residual(residual.order)
     return fitting.add_details(
