@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import BalcliError, legible
 from ..limits import MOST_HOLES
+from ..sizing.bobweight_card import NO_THROW
 from ..sizing.device_tables import find_unbalance
 from .bobweights import group_equal_pins, multiply, name_pins, percent
 from .sheet import NAMELESS, capitalized, degrees, number
@@ -85,6 +86,8 @@ def _weigh_pins(pins: Sequence[Bobweight]) -> Iterator[str]:
     if one.throw_g:
         yield _line("throw itself, at the crank radius", "", *_weight(one.throw_g))
         yield _line("counterweight opposite", "", *_weight(one.bobweight_g + one.throw_g))
+    else:
+        yield from wrap(f"The throw itself {NO_THROW}.", WIDTH)
 
 
 def _list_parts(one: Bobweight, *, rotates: bool) -> Iterator[str]:
