@@ -186,6 +186,31 @@ def test_an_order_that_takes_more_than_a_cycle():
     )
 
 
+def test_banks_that_are_the_other_way_round_are_told():
+    """A cross-plane V8 with odd numbers on the driver's left, which is the right bank seen from the
+    free end.
+    """
+    crank = {"throws": [0, 90, 270, 180]}
+    layout = {"bank_angle": 90, "firing_order": [1, 8, 4, 3, 6, 5, 7, 2]}
+    odd, even = [1, 3, 5, 7], [2, 4, 6, 8]
+    hint = (
+        "leave crank.throws out. They fit with the banks exchanged: layout.numbering = [[2, 4, 6, "
+        "8], [1, 3, 5, 7]], where the first bank is the left one seen from the free end (front), "
+        "the driver's right"
+    )
+    assert refused(crank=crank, layout=layout | {"numbering": [odd, even]}).endswith(hint)
+    banks = {"banks": [-45, 45], "firing_order": layout["firing_order"], "numbering": [odd, even]}
+    assert refused(crank=crank, layout=banks).endswith("= [[2, 4, 6, 8], [1, 3, 5, 7]]")
+    intervals = {"firing_intervals": [90] * 8}
+    told = refused(crank=crank, layout=layout | intervals | {"numbering": [odd, even]})
+    assert told.endswith(hint)
+    assert list(fires(crank=crank, layout=layout | {"numbering": [even, odd]}).values()) == [
+        90 * k for k in range(8)
+    ]
+    wrong = {"numbering": [odd, even], "firing_order": [1, 2, 3, 4, 5, 6, 7, 8]}
+    assert "exchanged" not in refused(crank=crank, layout=layout | wrong)
+
+
 def test_shared_pins_that_an_order_cannot_have():
     """Throws from the first bank, and then the second bank must agree with them."""
     assert refused(layout={"firing_order": [1, 2, 3, 4], "bank_angle": 60}) == (

@@ -175,12 +175,44 @@ def _describe_standstill(least: float, theta: float) -> str:
 
 
 def check_dead_centres(parts: Assembly) -> Iterator[Problem]:
-    """Cylinders fire when they are at top dead centre."""
+    """Cylinders fire when they are at top dead centre; where they would with the banks the other
+    way round, the mistake says so.
+    """
+    for problem in _find_dead_centres_missed(parts):
+        hint = _suggest_swapped_banks(parts)
+        yield problem._replace(message=problem.message + hint)
+
+
+def _find_dead_centres_missed(parts: Assembly) -> list[Problem]:
     if parts.order is None:
-        return
+        return []
     throws_given = parts.model.crank.throws is not None
-    yield from check_firing(
-        parts.fires_deg, parts.leads_deg, parts.tops_deg, parts.sense, throws_given=throws_given
+    pins, tops, sense = parts.leads_deg, parts.tops_deg, parts.sense
+    try:
+        fires = parts.fires_deg
+    except InputError as error:
+        return list(error.problems)
+    return list(check_firing(fires, pins, tops, sense, throws_given=throws_given))
+
+
+def _suggest_swapped_banks(parts: Assembly) -> str:
+    """The numbering of a vee with its banks exchanged, if all would fire at top dead centre by it;
+    else empty.
+    """
+    cells, layout = parts.plan.cells, parts.model.layout
+    if parts.plan.banks != 2 or parts.model.crank.throws is None or parts.rank:
+        return ""
+    first, second = (tuple(c.number for c in cells if c.bank == bank) for bank in (0, 1))
+    swapped = layout.model_copy(update={"numbering": (second, first)})
+    other = Assembly(parts.model.model_copy(update={"layout": swapped}))
+    if len(first) != len(second) or _find_dead_centres_missed(other):
+        return ""
+    hint = f". They fit with the banks exchanged: layout.numbering = {[list(second), list(first)]}"
+    if layout.bank_angle is None:
+        return hint
+    return (
+        f"{hint}, where the first bank is the left one seen from the free end (front), the "
+        "driver's right"
     )
 
 
