@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING
 
 from ..errors import BalcliError, legible
 from ..limits import MOST_HOLES
+from ..sizing.bobweight_card import NO_THROW
 from ..sizing.device_tables import find_unbalance
 from .bobweights import group_equal_pins, multiply, name_pins, percent
+from .devices import explain_holes
 from .sheet import NAMELESS, capitalized, degrees, number
-from .units import IMPERIAL, INCH, POUND
+from .units import IMPERIAL, INCH, POUND, SI
 
 if TYPE_CHECKING:
     from ..enginefile.model import Counterweight
@@ -85,6 +87,8 @@ def _weigh_pins(pins: Sequence[Bobweight]) -> Iterator[str]:
     if one.throw_g:
         yield _line("throw itself, at the crank radius", "", *_weight(one.throw_g))
         yield _line("counterweight opposite", "", *_weight(one.bobweight_g + one.throw_g))
+    else:
+        yield from wrap(f"The throw itself {NO_THROW}.", WIDTH)
 
 
 def _list_parts(one: Bobweight, *, rotates: bool) -> Iterator[str]:
@@ -113,6 +117,8 @@ def _correct(result: Balance) -> Iterator[str]:
     yield _RULE
     for k, (weight, figures) in enumerate(zip(weights, result.practical, strict=True), 1):
         yield from _correct_plane(k, weight, figures, result)
+    told = " ".join(explain_holes(result.practical, result.tools, SI.length))
+    yield from wrap(told, WIDTH)
     if remedy.note:
         yield from wrap(capitalized(f"{remedy.note}."), WIDTH)
     yield from wrap(_WHERE, WIDTH)

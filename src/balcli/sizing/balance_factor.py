@@ -18,7 +18,7 @@ from ..errors import BalcliError
 from ..forces.orders import find_relevant_orders
 from ..forces.spectrum import compute_spectra
 from ..limits import LARGEST_FACTOR
-from .bobweight_card import DEFINITION, fill_card
+from .bobweight_card import DEFINITION, NO_THROW, fill_card
 from .details import Detail, FactorPeaks, PlaneNeed
 from .effects import LEFT, Slot
 from .fitting import Fitting
@@ -200,6 +200,8 @@ def _describe(engine: Engine, options: SchemeOptions, factor: float) -> list[Det
         ),
         Detail("definition", "", DEFINITION),
     ]
+    if not any(float(weighed.share) for weighed in engine.weighed):
+        details.append(Detail("throw", "", NO_THROW))
     if options.measured is not None:
         what = "balance each bare pin, at the crank radius, without rods"
         details.insert(0, Detail("measured", "grams", options.measured, what=what))

@@ -12,6 +12,10 @@ DEFINITION = (
     "pin; rotating: rod big ends, rod bearings, oil; reciprocating: pistons with rings, pins and "
     "locks, rod small ends"
 )
+NO_THROW = (
+    "counts as 0, as crank.throw_mass is 0 or not given: with it the counterweights are heavier by "
+    "what the throw itself weighs at the crank radius"
+)
 WHOLE_PISTON = "piston complete"
 PISTON = (WHOLE_PISTON, "piston", "pin", "rings", "locks")
 

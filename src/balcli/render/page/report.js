@@ -230,8 +230,9 @@
   };
   const digits = (value) => value >= 1000 ? value.toFixed(0) : value.toPrecision(4);
   const round = (value) => String(Number(value.toPrecision(4)));
-  function figure(value, { name, thousand }, write = digits) {
-    return thousand && value >= 5000 ? `${write(value / 1000)} ${thousand}` : `${write(value)} ${name}`;
+  // A value with its unit: the thousandfold one where the value, or the largest beside it, asks for it.
+  function figure(value, { name, thousand }, write = digits, largest = value) {
+    return thousand && largest >= 5000 ? `${write(value / 1000)} ${thousand}` : `${write(value)} ${name}`;
   }
   const HALF = 100;
 
@@ -261,7 +262,7 @@
         const most = Math.max(largest(rows), before ? largest(before) : 0), matters = most && most >= unit.least;
         const full = nice(matters ? most : 1000 * unit.least || 1);
         scale = HALF / full;
-        for (const { share, label } of rings) label.textContent = most ? figure(full * share, unit, round) : "";
+        for (const { share, label } of rings) label.textContent = most ? figure(full * share, unit, round, full) : "";
         set(curve, { d: path(rows) });
         set(old, { d: before ? path(before) : "" });
       },

@@ -7,13 +7,21 @@
     parent.append(made);
     return made;
   };
-  const WIDE = 600, HIGH = 170, LEFT = 8, TOP = 12;
+  const WIDE = 600, HIGH = 170, LEFT = 48, RIGHT = 8, TOP = 12;
+  const STEPS = [1, 2, 5, 10];
+  // Round values between the least and the most, three to six of them, 0 among them.
+  const chooseTicks = (least, most) => {
+    const rough = (most - least || 1) / 5, power = 10 ** Math.floor(Math.log10(rough));
+    const step = STEPS.map((k) => k * power).find((v) => v >= rough * 0.999999);
+    const from = Math.ceil(least / step - 1e-9), to = Math.floor(most / step + 1e-9);
+    return Array.from({ length: to - from + 1 }, (_, k) => (from + k) * step);
+  };
   const slider = document.getElementById("angle");
   slider.max = running.cycle;
 
   const views = running.curves.map((curve) => {
     const svg = document.getElementById(`${curve.id}-curve`), now = document.getElementById(`${curve.id}-now`);
-    svg.setAttribute("viewBox", `0 0 ${WIDE + 2 * LEFT} ${HIGH + 2 * TOP + 14}`);
+    svg.setAttribute("viewBox", `0 0 ${LEFT + WIDE + RIGHT} ${HIGH + 2 * TOP + 14}`);
     const all = [...curve.total, ...(curve.gas || []), 0];
     const most = Math.max(...all), least = Math.min(...all);
     const x = (k) => LEFT + WIDE * k * running.step / running.cycle;
@@ -25,6 +33,12 @@
       element("path", { class: "axis", d: `M ${LEFT} ${y(curve.mean)} H ${LEFT + WIDE}` }, svg);
     }
     element("path", { class: "axis", d: `M ${LEFT} ${y(0)} H ${LEFT + WIDE}` }, svg);
+    for (const value of chooseTicks(least, most)) {
+      element("path", { class: "axis", d: `M ${LEFT - 4} ${y(value)} H ${LEFT}` }, svg);
+      const place = { class: "scale", x: LEFT - 7, y: y(value) + 3, "text-anchor": "end" };
+      element("text", place, svg).textContent = String(Number(value.toPrecision(6)));
+    }
+    element("text", { class: "scale", x: 2, y: TOP - 3 }, svg).textContent = curve.unit;
     for (let mark = 0; mark <= running.cycle; mark += 90) {
       const at = x(mark / running.step);
       element("path", { class: "axis", d: `M ${at} ${TOP} V ${TOP + HIGH}` }, svg);
@@ -40,7 +54,8 @@
       line.setAttribute("d", `M ${x(place)} ${y(0)} V ${y(value)}`);
       tip.setAttribute("cx", x(place));
       tip.setAttribute("cy", y(value));
-      now.textContent = `${value.toPrecision(4)} ${curve.unit}`;
+      const shown = Math.abs(value) < 1e-9 * (most - least) ? "0" : value.toPrecision(4);  // rounding
+      now.textContent = `${shown} ${curve.unit}`;
     };
   });
   document.addEventListener("crank", (event) => { for (const view of views) view(event.detail); });
