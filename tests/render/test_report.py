@@ -236,7 +236,7 @@ def test_orders_are_switched(show):
     assert before != [0]
     force = analyze(build(parse(GOOD))).spectra.force.select_orders([4])
     assert float(fourth.split()[0]) == pytest.approx(float(force.major[0]), rel=1e-3)
-    assert page.run("document.getElementById('force-now').textContent") == "none"
+    assert page.run("document.getElementById('force-now').textContent") == "balanced"
 
 
 @live
