@@ -229,7 +229,8 @@ def test_a_firing_order_beside_throws_is_left_out():
 
 def test_shells_and_parts_of_a_piston_vary_as_the_whole_does():
     """To vary a part is to vary the sum; `piston.mass` stands for all parts."""
-    parts = GOOD.replace("mass = 0.5\n", "piston = 0.3\npin = 0.2\n") + "[bobweight]\noil = 0.1\n"
+    weighed = "piston = 0.3\npin = 0.2\nrings = 0\nlocks = 0\n"
+    parts = GOOD.replace("mass = 0.5\n", weighed) + "[bobweight]\noil = 0.1\n"
     masses = np.array([0.4, 0.55])
     for path, varied in (("piston.mass", masses), ("piston.pin", masses - 0.3)):
         found = build(parse(parts), {path: varied}).cylinders.reciprocating.ravel()

@@ -82,7 +82,7 @@ CASES = {
     "shells, oil, pistons in parts": {
         "layout": "bank_angle = 70\nstagger = 20",
         "crank": "throws = [0, 130, 265]\nspacing = 110",
-        "piston": "piston = 0.8\npin = 0.3\nlocks = 0.01",
+        "piston": "piston = 0.8\npin = 0.3\nrings = 0\nlocks = 0.01",
         "more": BOBWEIGHT,
     },
     "shells on the master rods alone": {"layout": "radial = 5", "more": ARTICULATED + BOBWEIGHT},

@@ -11,7 +11,7 @@ from io import StringIO
 from types import SimpleNamespace
 
 import pytest
-from support.engines import RADIAL, build_text, inline_engine, rotary_engine
+from support.engines import RADIAL, STAGGERED_TWIN, build_text, inline_engine, rotary_engine
 
 from balcli.commands.options import parse_parts
 from balcli.errors import BalcliError
@@ -213,3 +213,31 @@ def test_an_unknown_quantity_is_refused_with_those_there_are():
         "there is no quantity bending: choose from force, moment, couple, torque, roll, peak, "
         "sizing, gas, inner, guide"
     )
+
+
+# ------------------------------------------------------------------ one throw, pins split, rods apart
+def find_throws(text):
+    found = analysis.sheet(analyze(build_text(text)), SYSTEMS["si"])
+    facts = next(part for part in found.parts if isinstance(part, Facts))
+    return [value for name, value in facts.pairs if name == "throws"]
+
+
+def test_split_pins_of_one_throw_stand_in_the_header():
+    assert find_throws(STAGGERED_TWIN) == ["0 deg, split pins: the next bank's at -30 deg"]
+    assert not find_throws(STAGGERED_TWIN.replace("splay = -30", ""))
+
+
+def test_one_throw_has_a_length_beside_which_moments_are_small():
+    """Rods 20 mm apart; without stagger, the stroke."""
+    twin = build_text(STAGGERED_TWIN)
+    of_one = analyze(twin).of_one_cylinder
+    assert of_one["moment"] == pytest.approx(0.020 * of_one["force"], rel=1e-12)
+    of_one = analyze(build_text(STAGGERED_TWIN.replace("stagger = 20", ""))).of_one_cylinder
+    assert of_one["moment"] == pytest.approx(0.067 * of_one["force"], rel=1e-12)
+    assert parts(twin)[1] == ["1", "2", "4"]
+
+
+def test_the_sizing_in_brief_says_where_its_planes_are():
+    twin = analyze(build_text(STAGGERED_TWIN), only=QUANTITIES)
+    lines = analysis.sheet(twin, SYSTEMS["si"]).parts[-1].paragraphs
+    assert lines[0].endswith("; all at z = -10, 10 mm.")

@@ -17,7 +17,7 @@ from support.engines import GOOD, changed, inline_engine
 from balcli.commands.plot import What
 from balcli.engine.build import build
 from balcli.engine.load import parse
-from balcli.render.plot import style
+from balcli.render.plot import style, torsion
 from balcli.render.plot.bars import draw_vector_bars, visible_rows
 from balcli.render.plot.locus import draw_locus, find_period_deg
 from balcli.render.plot.pages import PAGES, Subject, draw_page
@@ -105,7 +105,7 @@ def test_matplotlib_is_imported_for_pictures_only():
 
 
 def test_the_command_offers_every_page():
-    assert list(What) == list(PAGES)
+    assert list(What) == [*PAGES, *torsion.PAGES[1:]]
 
 
 # ------------------------------------------------------------------ what is drawn

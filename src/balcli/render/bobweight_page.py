@@ -13,8 +13,9 @@ from ..limits import MOST_HOLES
 from ..sizing.bobweight_card import NO_THROW
 from ..sizing.device_tables import find_unbalance
 from .bobweights import group_equal_pins, multiply, name_pins, percent
+from .devices import explain_holes
 from .sheet import NAMELESS, capitalized, degrees, number
-from .units import IMPERIAL, INCH, POUND
+from .units import IMPERIAL, INCH, POUND, SI
 
 if TYPE_CHECKING:
     from ..enginefile.model import Counterweight
@@ -116,6 +117,8 @@ def _correct(result: Balance) -> Iterator[str]:
     yield _RULE
     for k, (weight, figures) in enumerate(zip(weights, result.practical, strict=True), 1):
         yield from _correct_plane(k, weight, figures, result)
+    told = " ".join(explain_holes(result.practical, result.tools, SI.length))
+    yield from wrap(told, WIDTH)
     if remedy.note:
         yield from wrap(capitalized(f"{remedy.note}."), WIDTH)
     yield from wrap(_WHERE, WIDTH)

@@ -142,7 +142,26 @@ def holes_grid(
     note = f"{what}; radial, from a rim at {rim} (--radius) inwards, side by side along the crank."
     for reason in dict.fromkeys(p.holes.reason for p in practical if p.holes and p.holes.reason):
         note += f" {capitalized(reason)}."
+    note = " ".join([note, *explain_holes(practical, tools, unit)])
     return Grid(title, heads, rows, note)
+
+
+def explain_holes(practical: Sequence[Practical], tools: Tools, unit: Unit) -> Iterator[str]:
+    """What the largest row of holes takes of the crank's length, and that they go deep where nobody
+    has said how deep they may.
+    """
+    planned = [p.holes for p in practical if p.holes and not math.isnan(p.holes.depth)]
+    most = max((holes.number for holes in planned), default=0)
+    if most > 1 and tools.drill is not None:
+        length = f"{number(unit.of(most * tools.drill), 3)} {unit.name}"
+        yield f"{most} holes side by side take {length} of the crank at the least."
+    deepest = max((holes.depth for holes in planned), default=0.0)
+    if tools.max_depth is None and deepest > practical[0].radius / 2:
+        depth, rim = (number(unit.of(way), 3) for way in (deepest, practical[0].radius))
+        yield (
+            f"They go {depth} of {rim} {unit.name} towards the axis of the crank: --max-depth says "
+            "how deep they may."
+        )
 
 
 def _holes_row(holes: Holes, unit: Unit) -> tuple[str, ...]:

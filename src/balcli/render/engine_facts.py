@@ -57,17 +57,18 @@ def _speed(engine: Engine) -> str:
 
 
 def _throws(engine: Engine) -> str:
-    """Angles of several throws after cylinder 1's pin, free end to flywheel end; of split pins,
-    first those of one bank.
+    """Angles of the throws after cylinder 1's pin, free end to flywheel end; of split pins, first
+    those of one bank. Empty of one throw with one pin.
     """
     pins: dict[int, list[float]] = {}
     for weighed, pin in zip(engine.weighed, engine.pins_deg.values(), strict=True):
         pins.setdefault(weighed.throw, []).append(float(pin))
-    if len(pins) == 1 or engine.rotary:
+    splay = _splay(pins[min(pins)])
+    if (len(pins) == 1 and not splay) or engine.rotary:
         return ""
     shown = ", ".join(_angle(pins[throw][0]) for throw in sorted(pins)[:THROWS_SHOWN])
     more = ", …" if len(pins) > THROWS_SHOWN else ""
-    return f"{shown}{more} deg{_splay(pins[min(pins)])}"
+    return f"{shown}{more} deg{splay}"
 
 
 def _splay(pins: list[float]) -> str:

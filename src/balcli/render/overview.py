@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import groupby
 from typing import TYPE_CHECKING
 
@@ -110,15 +110,29 @@ def sizing_in_brief(sizing: Sizing, system: System) -> Text:
         what = "Orders 1 and 2 need" if known else "The forces of orders 1 and 2 need"
         unknown = "" if known else "; moments are not known"
         return Text("Sizing", (f"{what} no counterweight and no shaft{unknown}.",))
-    fitted = "; ".join(
-        f"{place} {tell_sizes([find_unbalance(device) for device in group], system.unbalance)}"
-        for place, group in groupby(devices, _tell_place)
-    )
+    groups = [list(group) for _, group in groupby(devices, _tell_place)]
+    places = [_tell_planes(group, system.length) for group in groups]
+    alike = len(groups) > 1 and len(set(places)) == 1
+    told = [
+        f"{_tell_place(group[0])} {tell_sizes(map(find_unbalance, group), system.unbalance)}"
+        for group in groups
+    ]
+    if alike:
+        told.append(f"all {places[0]}")
+    else:
+        told = [f"{text} {place}" for text, place in zip(told, places, strict=True)]
+    fitted = "; ".join(told)
     result = f"They leave {left} of orders 1 and 2. Details: balcli balance."
     return Text("Sizing", (f"{capitalized(fitted)}.", result))
 
 
-def tell_sizes(unbalances: list[float], unit: Unit) -> str:
+def _tell_planes(devices: Iterable[DeviceTable], unit: Unit) -> str:
+    """`at z = -48, 48 mm`."""
+    planes = sorted({device.position for device in devices})
+    return f"at z = {', '.join(number(unit.of(z / 1e3)) for z in planes)} {unit.name}"
+
+
+def tell_sizes(unbalances: Iterable[float], unit: Unit) -> str:
     """`2 x 35057 g mm`, in the order in which they stand."""
     counted: dict[str, int] = {}
     for unbalance in unbalances:

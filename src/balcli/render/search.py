@@ -78,6 +78,9 @@ def _notes(result: Search) -> Iterator[str]:
         yield f"No candidates: at {spans} deg the articulated rods cannot follow the crank."
     if _textbook(result, result.results[0]):
         yield _AS_BUILT
+    added = list(dict.fromkeys(q.unit for q in result.objective.weights))
+    if len(added) > 1:
+        yield f"Objective: {' and '.join(added)} added as plain numbers; NAME=W weighs them."
     if any(q.order == 1 and q.part == "major" for q in result.objective.quantities):
         yield _FORWARD
 

@@ -110,18 +110,20 @@ class Analysis:
     def of_one_cylinder(self) -> dict[str, float]:
         """Force of cylinder 1's piston and rod end, `m r omega^2` (N), its moment over the length
         of the crank and its torque at the radius of the crank (N m), by kind: what is small beside
-        them is small.
+        them is small. The length is that between the outermost throws; of throws in one plane,
+        between the outermost cylinders (stagger), or else the stroke.
         """
         engine = self.engine
         masses = engine.weighed[engine.numbers.index(1)]
         force = float(
             (masses.piston + masses.small_end) * engine.cylinders.radius * engine.omega**2
         )
-        torque = force * float(engine.cylinders.radius)
+        radius = float(engine.cylinders.radius)
+        length = float(np.ptp(engine.throws_m)) or float(np.ptp(engine.cylinders.z)) or 2 * radius
         return {
             "force": force,
-            "moment": force * float(np.ptp(engine.throws_m)),
-            **{kind.name: torque for kind in SCALARS},
+            "moment": force * length,
+            **{kind.name: force * radius for kind in SCALARS},
         }
 
 

@@ -14,6 +14,8 @@ from balcli.engine.load import parse as load
 from balcli.enginefile.model import EngineFile
 from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
+from balcli.render.search import sheet
+from balcli.render.units import SYSTEMS
 from balcli.studies.search.designs import Design
 from balcli.studies.search.even_firing import fires_evenly
 from balcli.studies.search.objective import parse_objective
@@ -409,3 +411,13 @@ def test_articulated_rods_count_once_for_their_throw() -> None:
         assert found[q.kind, q.order].read(q, forward, backward)[0] == pytest.approx(
             float(whole), rel=1e-9
         )
+
+
+@pytest.mark.parametrize(
+    ("minimise", "told"),
+    [("moment.1.major,force.1.major=2", True), ("moment.1.major,moment.2.major", False)],
+)
+def test_a_sum_of_forces_and_moments_is_said_to_be_one(minimise: str, told: bool) -> None:
+    found = search_arrangements(load(SHUFFLED), "throws", parse_objective(minimise))
+    (grid,) = sheet(found, SYSTEMS["si"]).parts
+    assert ("Objective: N·m and N added as plain numbers" in grid.note) is told
