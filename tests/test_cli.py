@@ -773,7 +773,8 @@ def test_the_package_imports_nothing_before_ctrl_c_is_heeded():
 def test_ctrl_c_ends_it_without_a_word_from_the_first_import_on():
     """The signal comes while the program's own first module is being imported."""
     code = f"""
-import os, sys
+import os, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # who runs the tests may ignore it
 class Import:
     def find_spec(self, name, path=None, target=None):
         if name == "balcli.errors":

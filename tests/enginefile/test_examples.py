@@ -50,7 +50,7 @@ def test_a_misspelt_name_gets_a_hint():
         examples.text("v8_crosplane")
 
 
-@pytest.mark.slow
+@pytest.mark.stress
 def test_a_wheel_has_the_examples_and_the_page(tmp_path):
     pytest.importorskip("hatchling", reason="hatchling, which builds the wheel, is not installed")
     build = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(tmp_path)]
