@@ -214,3 +214,15 @@ def test_a_range_of_one_speed():
     modes, one = twin_modes(), np.array([1.0])
     assert find_resonances(modes, np.zeros(2), one, np.sqrt([3.0]), np.array([1, 0]))
     assert not find_resonances(modes, np.zeros(2), one, np.array([1.7]), np.array([1, 0]))
+
+
+def test_what_rounding_leaves_of_a_shape_is_not_driven():
+    """Two coordinates that have nothing to do with each other but for a last digit: a load on one
+    does not drive the other's mode.
+    """
+    shapes = np.array([[1.0, 1e-16], [-1e-16, 0.1]])
+    modes = twin_modes()._replace(omega=np.array([1.0, 1.5]), shapes=shapes)
+    found = find_resonances(
+        modes, np.zeros(2), np.array([1.0]), np.array([0.8, 2]), np.array([0, 1])
+    )
+    assert [r.mode for r in found] == [1]

@@ -156,8 +156,15 @@ def _drives(modes: Modes, mode: np.intp, order: float, speeds: Real, load: Compl
         return False
     after = int(np.clip(np.searchsorted(speeds, speed), 1, max(len(speeds) - 1, 1)))
     beside = load[after - 1 : after + 1]
-    shape = modes.shapes[mode]
-    return bool(np.any(np.abs(beside @ shape) > _UNMOVED * (np.abs(beside) @ np.abs(shape))))
+    work = np.abs(beside @ modes.shapes[mode])
+    return bool(np.any(work > _UNMOVED * (np.abs(beside) @ _largest_motion(modes.shapes))))
+
+
+def _largest_motion(shapes: Real) -> Real:
+    """(dof,) of each coordinate the most that any mode (modes, dof) moves it: beside this, what
+    rounding makes of a coordinate that a mode leaves at rest is nothing.
+    """
+    return np.asarray(np.abs(shapes).max(axis=0))
 
 
 def solve_response(
@@ -193,7 +200,7 @@ def _respond_by_modes(stiffness: Real, mass: Real, frequency: Real, load: Comple
     shapes = _from_root(mass, turned.T)
     drive = load @ shapes.T
     distance = squares - frequency[..., None] ** 2
-    at_rest = np.abs(drive) <= _UNMOVED * (np.abs(load) @ np.abs(shapes.T))
+    at_rest = np.abs(drive) <= _UNMOVED * (np.abs(load) @ _largest_motion(shapes))[..., None]
     resonant = np.abs(distance) <= _UNDAMPED * np.maximum(
         np.abs(squares), frequency[..., None] ** 2
     )
