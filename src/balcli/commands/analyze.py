@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from ..render.formats import Format, Units
+from ..render.formats import Units
 from ..render.view import View
 from .file_names import text_format
 from .options import (
@@ -24,7 +24,7 @@ from .options import (
     parse_parts,
     parse_speed,
 )
-from .output import is_seen, show
+from .output import draws_sketch, show
 from .overwrite_guard import refuse_overwriting
 
 
@@ -52,7 +52,8 @@ def analyze(
     plot: Annotated[
         bool,
         typer.Option(
-            "--plot", help="In a terminal: also bars by order and the loci of force and moment."
+            "--plot",
+            help="Also draw, with characters: bars by order and the loci of force and moment.",
         ),
     ] = False,
     output: Output = None,
@@ -78,7 +79,7 @@ def analyze(
     if found and not (errors and output):  # a file gets all of them or is left as it was
         good, results = zip(*found, strict=True)
         names = distinct_names([result.engine.name for result in results], good)
-        drawn = plot and form is Format.TABLE and is_seen(output)
+        drawn = draws_sketch(plot, form)
         view = View(whole, parts, every_order=asked is not None, pictures=drawn)
         named = [analyses.NamedAnalysis(*one, view) for one in zip(names, results, strict=True)]
         show(named, analyses, form, output, units)
