@@ -9,7 +9,7 @@ import numpy as np
 from ..core.cylinder_pressure import PressureOnPiston
 from ..core.phasors import Array
 from ..engine.build import Engine
-from ..forces.curves import Curves, compute_cylinder_curves, compute_cylinder_torque
+from ..forces.curves import Curves, compute_cylinder_torque
 from ..forces.gas import take_gas
 from ..forces.rod_forces import compute_rod_forces
 
@@ -39,15 +39,6 @@ def add_gas_curves(engine: Engine, number: int, curves: Curves) -> Curves:
     found["torque_Nm"] = inertia + cylinder.share * cylinder.torque.at(at)
     settled = {name: _settle(values) for name, values in found.items()}
     return replace(curves, values=settled)
-
-
-def compute_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:
-    """Motion and gas of one cylinder at crank angles, shape (angles,).
-
-    Raises:
-        BalcliError: the engine has no such cylinder, or no gas.
-    """
-    return add_gas_curves(engine, number, compute_cylinder_curves(engine, number, crank_deg))
 
 
 def _settle(values: Array) -> Array:
