@@ -154,6 +154,10 @@ def test_core_knows_numpy_and_the_standard_library_alone(file):
 # or kind of engine that it does not need.
 ON_REQUEST = {
     "balcli.__main__": ("balcli.cli",),
+    "balcli.commands.analysis_answer": (
+        *("balcli.render.marine", "balcli.results.marine"),
+        *("balcli.render.speeds", "balcli.results.speeds"),
+    ),
     "balcli.commands.completion": (
         "balcli.enginefile.examples",
         "balcli.enginefile.templates",
