@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, NamedTuple
@@ -28,12 +29,12 @@ class AnalysisFormat(StrEnum):
 
 
 AnalysisFormatOption = Annotated[
-    AnalysisFormat | None,
+    list[AnalysisFormat] | None,
     format_option(
         AnalysisFormat,
         "How to write the result, md for short of markdown; default: by the ending of -o (.txt, "
         ".json, .csv, .md), else table. marine: external forces and moments (M1V, M1H, M2V), "
-        "guide moments and torque by order; -o says how to write those.",
+        "guide moments and torque by order; with -f csv or -o X.csv beside it, so written.",
     ),
 ]
 SpeedsOption = Annotated[
@@ -100,11 +101,13 @@ class Request(NamedTuple):
         return None if self.quantities is None else self.parts
 
 
-def choose_format(output: Path | None, asked: AnalysisFormat | None) -> tuple[Format, bool]:
+def choose_format(
+    output: Path | None, asked: Sequence[AnalysisFormat] | None
+) -> tuple[Format, bool]:
     """How to write, and whether it is the marine sheet; errors as `file_names.format_of`."""
-    if asked is AnalysisFormat.MARINE:
-        return text_format(output, None), True
-    return text_format(output, None if asked is None else Format(asked)), False
+    given = asked or ()
+    plain = [Format(one) for one in given if one is not AnalysisFormat.MARINE]
+    return text_format(output, plain[-1] if plain else None), AnalysisFormat.MARINE in given
 
 
 def parse_request(
