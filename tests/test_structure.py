@@ -189,16 +189,6 @@ ON_REQUEST = {
         "balcli.render.page_torque",
     ),
     "balcli.commands.scatter": ("balcli.studies.mount_scatter",),
-    "balcli.studies.quantities": (
-        "balcli.mounting.quantity",
-        "balcli.torque.quantity",
-        "balcli.torsion.quantity",
-    ),
-    "balcli.studies.sweep": (
-        "balcli.mounting.quantity",
-        "balcli.torque.quantity",
-        "balcli.torsion.quantity",
-    ),
 }
 
 
