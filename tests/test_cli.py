@@ -634,7 +634,10 @@ own = lambda: " ".join(name for name in sys.modules if name.startswith("balcli."
 atexit.register(lambda: sys.stderr.write(own()))
 main()
 """
-CHAPTERS = ("bench", "field_balancing", "mounting", "studies", "tables", "torque", "torsion")
+CHAPTERS = (
+    *("bench", "field_balancing", "mounting", "printed_tables"),
+    *("studies", "torque", "torsion"),
+)
 FOR_WHO_ASKS = ("core.strokes", "forces.crankshaft", "forces.guide_moments", "forces.symmetry")
 FOR_PEOPLE = ("render.analysis", "render.verdict", "render.markdown", "render.terminal")
 

@@ -219,10 +219,10 @@ SHAPING = {
     ("balcli.sizing.device_tables", "find_unbalance"),
     ("balcli.sizing.device_tables", "measure_direction"),
     ("balcli.sizing.device_tables", "name_kind"),
-    ("balcli.tables.recomputed", "deviates"),
-    ("balcli.tables.recomputed", "parse_decimal"),
-    ("balcli.tables.recomputed", "parse_fraction"),
-    ("balcli.tables.recomputed", "round_like"),
+    ("balcli.printed_tables.recomputed", "deviates"),
+    ("balcli.printed_tables.recomputed", "parse_decimal"),
+    ("balcli.printed_tables.recomputed", "parse_fraction"),
+    ("balcli.printed_tables.recomputed", "round_like"),
 }
 COMPUTING = (
     "balcli.results.analysis",
@@ -238,7 +238,7 @@ COMPUTING = (
     "balcli.studies.search.search",
     "balcli.results.comparison",
     "balcli.forces.curves",
-    "balcli.tables",
+    "balcli.printed_tables",
 )
 
 

@@ -7,6 +7,7 @@ import json
 import pytest
 from support.commands import run_here
 from support.gas_engines import FOUR, WIEBE
+from support.paths import ENGINES
 
 TORQUE = "angle_deg,torque_Nm\n0,0\n90,1000\n180,0\n360,0\n"
 WHOLE = {"format", "speed_rpm", "cycle_deg", "imep_Pa", "max_pressure_Pa", "max_pressure_deg"}
@@ -185,6 +186,26 @@ def test_loads_are_told_when_they_are_asked_for(tmp_path):
     assert any(row.startswith("0,main,3,mean,") for row in rows)
     status, _, err = run_here("torque", str(path), "--loads", "wrist")
     assert (status, err) == (2, 'balcli: --loads "wrist": there are pin and main\n')
+
+
+def test_knuckle_pins_are_told_beside_the_crank_pin(tmp_path):
+    path = tmp_path / "radial.toml"
+    radial = (ENGINES / "radial7_articulated.toml").read_text()
+    bearing = "[bearing]\npin_diameter = 70\npin_width = 60\n"
+    path.write_text(f"{radial}\n{WIEBE}\n{bearing}")
+    loads = json.loads(torque(str(path), "--loads", "pin", "-f", "json"))["loads"]
+    assert [pin["cylinder"] for pin in loads["pin"]] == [1]
+    assert loads["pin"][0]["pressure_Pa"] == pytest.approx(loads["pin"][0]["max_N"] / 4.2e-3)
+    assert [pin["cylinder"] for pin in loads["knuckle"]] == [2, 3, 4, 5, 6, 7]
+    assert set(loads["knuckle"][0]) == {"cylinder", "max_N", "max_deg", "mean_N"}
+    assert "Knuckle pins\ncylinder   largest, kN" in torque(str(path), "--loads", "pin")
+    rows = torque(str(path), "--loads", "pin", "-f", "csv").splitlines()
+    assert any(row.startswith("3,knuckle,,max,") for row in rows)
+    status, _, err = run_here("torque", str(path), "--loads", "main")
+    told = "balcli: main: a crank with one throw does not say where its bearings stand\n"
+    assert (status, err) == (2, told)
+    curves = run_here("curves", str(path), "--cylinder", "3", "--step", "90").out
+    assert curves.splitlines()[0].endswith("side_thrust_N,rod_force_N,pin_x_N,pin_y_N,torque_Nm")
 
 
 def test_curves_of_a_cylinder_go_over_its_cycle(four):

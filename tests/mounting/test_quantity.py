@@ -166,7 +166,7 @@ def test_normal_deviations_of_mounts(four):
 
 
 # ------------------------------------------------------------------ with gas
-LAYOUT = '[layout]\nfiring_order = [1, 3, 4, 2]\n'
+LAYOUT = "[layout]\nfiring_order = [1, 3, 4, 2]\n"
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 10\nimep = 9\n'
 
 

@@ -13,7 +13,7 @@ import pytest
 from balcli.core.mechanisms import closed_form
 from balcli.core.mechanisms import power_series as series
 from balcli.core.phasors import unit
-from balcli.tables.registry import recompute
+from balcli.printed_tables.registry import recompute
 
 LAM = np.array([1 / 6, 1 / 4])
 

@@ -13,7 +13,7 @@ import pytest
 
 from balcli.core.mechanisms import closed_form
 from balcli.core.mechanisms import power_series as series
-from balcli.tables.registry import recompute
+from balcli.printed_tables.registry import recompute
 
 P = 2 / 7
 OMEGA = 4000 * 2 * pi / 60

@@ -15,7 +15,7 @@ import pytest
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.forces.spectrum import compute_spectra
-from balcli.tables.registry import recompute
+from balcli.printed_tables.registry import recompute
 
 GAMMA = np.radians(np.arange(0.0, 180.0, 0.01))
 

@@ -15,7 +15,7 @@ from support import two_term
 from support.two_term import PSI, largest_error
 
 from balcli.core.mechanisms import slidercrank as sc
-from balcli.tables.registry import recompute
+from balcli.printed_tables.registry import recompute
 
 LAM = 0.32  # the largest ratio of the tables
 

@@ -25,7 +25,7 @@ def complete_schemes(incomplete: str) -> list[str]:
 
 def complete_tables(incomplete: str) -> list[str]:
     """Printed tables, of `balcli tables`."""
-    from ..tables import registry
+    from ..printed_tables import registry
 
     return _beginning_with(incomplete, registry.NAMES)
 

@@ -10,8 +10,8 @@ from . import printed_table
 from .sheet import UNKNOWN, Grid, Sheet, number
 
 if TYPE_CHECKING:
-    from ..tables.layouts import Layouts
-    from ..tables.recomputed import Cell, Row
+    from ..printed_tables.layouts import Layouts
+    from ..printed_tables.recomputed import Cell, Row
     from .csv import Rows
     from .units import System
 

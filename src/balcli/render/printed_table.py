@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any, NamedTuple
 
-from ..tables.recomputed import (
+from ..printed_tables.recomputed import (
     Cell,
     Table,
     deviates,

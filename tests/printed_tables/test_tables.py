@@ -14,9 +14,9 @@ from support.commands import refusal, run_here
 
 from balcli.core.mechanisms import slidercrank as sc
 from balcli.errors import BalcliError
-from balcli.tables.ranges import Ranges, parse_crank_ratios, parse_range
-from balcli.tables.recomputed import Explanation, Table, deviates
-from balcli.tables.registry import NAMES, recompute, select_tables
+from balcli.printed_tables.ranges import Ranges, parse_crank_ratios, parse_range
+from balcli.printed_tables.recomputed import Explanation, Table, deviates
+from balcli.printed_tables.registry import NAMES, recompute, select_tables
 
 ERRATA = {  # printed figures that are not the exact ones rounded
     "tsinghua-1-1": 1,
