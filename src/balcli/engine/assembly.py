@@ -29,14 +29,14 @@ from .figures import (
 from .layout import Plan, bank_angles, cycle_deg, plan_cylinders
 from .rods import RodPlace, RunningGear, weigh_rod
 
-if TYPE_CHECKING:  # few engines have rods on rods, or turn; those that do import what these need
+if (
+    TYPE_CHECKING
+):  # few engines have rods on rods, turn, or say of gas; those that do import what it takes
     from ..core.mechanisms.articulated import Articulated
     from ..core.mechanisms.rotary import Rotary
+    from .gas import EngineGas
 
 PISTON_PARTS = ("mass", "piston", "pin", "rings", "locks")  # keys of [piston] that are masses
-
-if TYPE_CHECKING:
-    from .gas import EngineGas
 
 
 class Ripple(NamedTuple):
