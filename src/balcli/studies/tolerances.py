@@ -19,6 +19,7 @@ from ..enginefile.units import ANGLE
 from ..errors import BalcliError
 from ..forces.quantity import Quantity, evaluate_quantities, refuse_unknown
 from ..limits import MOST_TOLERANCE_SAMPLES
+from ..result import Result
 from .deviations import DeviatingEngine, Source, Tolerances
 from .percentiles import Sample
 
@@ -82,8 +83,8 @@ class Spread:
     shares: tuple[tuple[Source | MountSource, float], ...]
 
 
-@dataclass(frozen=True)
-class Scatter:
+@dataclass(frozen=True, repr=False)
+class Scatter(Result):
     """Spreads of some quantities of an engine file, over so many random engines.
 
     Attributes:
@@ -96,6 +97,11 @@ class Scatter:
     shape: Shape
     spreads: tuple[Spread, ...]
     of_mounts: bool = False
+
+    @property
+    def summary(self) -> str:
+        """Of what, and how many samples."""
+        return f"of {self.model.name or 'an engine'}: {self.samples} samples"
 
 
 def scatter_engine(
