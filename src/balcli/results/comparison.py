@@ -14,6 +14,7 @@ from ..errors import BalcliError
 from ..forces.kinds import GAS, MOMENT, VECTORS, Kind
 from ..forces.orders import merge_orders
 from ..forces.spectrum import Spectra
+from ..result import Result
 from .analysis import QUANTITIES, Analysis, analyze
 
 SHEAR = Kind("shear", "shear force in the crankshaft", "Q", "shear_N", True, "force")
@@ -55,8 +56,8 @@ class Line:
         return tuple(value / first if first else nan for value in self.values)
 
 
-@dataclass(frozen=True)
-class Comparison:
+@dataclass(frozen=True, repr=False)
+class Comparison(Result):
     """Engines side by side.
 
     Attributes:
@@ -68,6 +69,11 @@ class Comparison:
     names: tuple[str, ...]
     lines: tuple[Line, ...]
     whole: bool = False
+
+    @property
+    def summary(self) -> str:
+        """Which engines."""
+        return f"of {', '.join(self.names)}"
 
 
 def compare_engines(
