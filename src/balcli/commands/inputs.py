@@ -65,9 +65,9 @@ def read_engine(
     doubts = engine.gas.doubts if engine.gas is not None else ()
     for warning in (*find_suspicious(model), *doubts):
         say(f"warning: {name_file(path)}: {warning}")
-    return Source(
-        text, model, engine if speed_rpm is None else replace(engine, speed_rpm=speed_rpm)
-    )
+    if speed_rpm is not None:
+        engine = replace(engine, speed_rpm=speed_rpm, model=None)
+    return Source(text, model, engine)
 
 
 def _tell_unknown(name: str, asked: Collection[str] | None) -> None:
