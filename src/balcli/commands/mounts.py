@@ -5,33 +5,28 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from ..enginefile.toml_text import name_file
 from ..errors import say
 from ..render.formats import Units
 from ..render.units import SYSTEMS
+from . import scheme_options
+from .declare import optional
 from .file_names import picture_form, text_format
 from .options import (
     EnginePaths,
     FormatOption,
     Output,
-    Scheme,
     UnitsOption,
     parse_orders,
 )
 from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
+from .scheme_options import choose_beside, parse_scheme_options
 from .speed_range import Speeds, parse_speeds
 
 Orders = Annotated[
     str | None,
-    typer.Option(
-        "--orders",
-        metavar="1-8|1,2,4",
-        show_default=False,
-        help="Orders that count; default: all that are not negligible.",
-    ),
+    optional("1-8|1,2,4", "Orders that count; default: all that are not negligible.", "--orders"),
 ]
 
 
@@ -39,13 +34,19 @@ def mounts(
     paths: EnginePaths,
     speeds: Speeds = None,
     orders: Orders = None,
-    scheme: Scheme = None,
+    scheme: scheme_options.Scheme = None,
+    order: scheme_options.Order = None,
+    at: scheme_options.At = None,
+    position: scheme_options.Position = None,
+    planes: scheme_options.Planes = None,
+    factor: scheme_options.Factor = None,
+    measured: scheme_options.Measured = None,
+    roll: scheme_options.Roll = None,
     plot: Annotated[
         Path | None,
-        typer.Option(
-            metavar="FILE",
-            show_default=False,
-            help="Draw forces over speed, orders and modes, and the body moving in each mode; "
+        optional(
+            "FILE",
+            "Draw forces over speed, orders and modes, and the body moving in each mode; "
             ".svg, .png or .pdf.",
         ),
     ] = None,
@@ -64,6 +65,8 @@ def mounts(
     form = text_format(output, form)
     drawn = picture_form(plot, "--plot") if plot is not None else None
     rpm, asked = parse_speeds(speeds), parse_orders(orders)
+    options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
+    scheme = choose_beside(scheme, options)
     from ..mounting.read import read_mounted
     from ..mounting.report import report_mounts
     from ..render import mounts as renderer
@@ -75,7 +78,8 @@ def mounts(
     others = [read_engine(path).engine for path in paths[1:]]
     names = name_columns([model.name or paths[0], *(other.name for other in others)], paths)
     beside = list(zip(names[1:], others, strict=True))
-    result = report_mounts(model, engine, rpm, asked, scheme, beside, name_file(paths[0]))
+    name = name_file(paths[0])
+    result = report_mounts(model, engine, rpm, asked, scheme, beside, name, options)
     if plot is not None and drawn is not None:
         from ..render.plot.mounts import draw_mounts  # brings matplotlib
 

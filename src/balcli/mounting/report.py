@@ -14,6 +14,7 @@ from ..enginefile.model import EngineFile
 from ..errors import BalcliError
 from ..forces.orders import check_orders
 from ..result import Result
+from ..sizing.options import SchemeOptions
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
 from .build import MountedBody, build_mounted_body
@@ -107,6 +108,7 @@ def report_mounts(
     scheme: str | None = None,
     others: Sequence[tuple[str, Engine]] = (),
     name: str = "",
+    options: SchemeOptions | None = None,
 ) -> MountReport:
     """Modes and rest of a body on its mounts, and its response to its engine.
 
@@ -118,6 +120,7 @@ def report_mounts(
         scheme: of `sizing.schemes.SCHEMES`; the response is also that with its devices.
         others: names and engines that are put on the same body and mounts, at the same speeds.
         name: of the file, for messages.
+        options: of the scheme.
 
     Raises:
         InputError: what does not fit together in the file.
@@ -130,7 +133,8 @@ def report_mounts(
     if engine is None:
         return MountReport(title, mounted, find_mounted_modes(mounted))
     try:
-        return _run(title, mounted, engine, speeds_rpm, orders, scheme, others)
+        remedy = None if scheme is None else size(engine, scheme, options)
+        return _run(title, mounted, engine, speeds_rpm, orders, remedy, others)
     except BalcliError as error:
         raise BalcliError(f"{name}: {error}" if name else str(error)) from None
 
@@ -141,7 +145,7 @@ def _run(
     engine: Engine,
     speeds_rpm: Real | None,
     orders: Sequence[float] | None,
-    scheme: str | None,
+    remedy: Remedy | None,
     others: Sequence[tuple[str, Engine]],
 ) -> MountReport:
     rpm = choose_speeds(engine) if speeds_rpm is None else speeds_rpm
@@ -153,8 +157,7 @@ def _run(
     modes = find_mounted_modes(mounted, loads.mean)
     response = respond(mounted, modes, loads, omega)
     fitted = None
-    if scheme is not None:
-        remedy = size(engine, scheme)
+    if remedy is not None:
         balanced = fit_devices(engine, remedy)
         left = find_loads(balanced, mounted.body.centre, asked)
         fitted = Fitted(remedy, respond(mounted, modes, left, omega))
