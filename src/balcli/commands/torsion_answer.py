@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, say
 from ..render.plot.torsion import draw_torsion
-from ..torsion.analysis import Question, TorsionAnalysis, analyze_torsion
+from ..torsion.analysis import Question, TorsionAnalysis, answer_question
 from ..torsion.load import ChainSource, Source, load_source
 from ..torsion.quantity import choose_speeds
 from ..torsion.write_damper import insert_damper
@@ -50,7 +50,7 @@ def find_answer(
         say(f"warning: {name_file(path)}: {doubt}")
     total = 0 if asked.speeds_rpm is None else len(asked.speeds_rpm)
     with _telling_progress(total, progress and total > 0) as tell:
-        return source, analyze_torsion(source, asked, tell)
+        return source, answer_question(source, asked, tell)
 
 
 @contextmanager
@@ -87,7 +87,7 @@ def draw_file(path: str, what: str, speeds: str | None, orders: str | None, form
         if isinstance(source, ChainSource):
             raise BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")
         asked = asked._replace(speeds_rpm=choose_speeds(source.engine))
-    return draw(analyze_torsion(source, asked), what, form)
+    return draw(answer_question(source, asked), what, form)
 
 
 def draw(result: TorsionAnalysis, what: str, form: Form) -> bytes:
