@@ -198,9 +198,9 @@ def test_a_picture_that_cannot_be_is_refused_before_the_sweep(monkeypatch):
 def test_a_picture_takes_the_figures_that_are_written(monkeypatch):
     boxes, compute = [], studies.evaluate_box
 
-    def counted(sweep, box, most):
+    def counted(sweep, box, size):
         boxes.append(box)
-        return compute(sweep, box, most)
+        return compute(sweep, box, size)
 
     monkeypatch.setattr(studies, "evaluate_box", counted)
     assert run_here("sweep", "good.toml", *VARY, "-o", "x.csv", "--plot", "x.svg")[0] == 0

@@ -254,7 +254,9 @@ def test_sweeps_of_engines_without_gas_have_the_inertia_torque(tmp_path):
     assert status == 0
     assert out.startswith("rod.length,torque.2.amplitude")
     refused = ("sweep", str(bare), "--vary", "rod.length=140,150", "--quantity", "gas.2.amplitude")
-    assert run_here(*refused).err == "balcli: gas.2.amplitude: the engine file has no [gas]\n"
+    assert run_here(*refused).err == (
+        f"balcli: {bare}: gas.2.amplitude: the engine file has no [gas]\n"
+    )
 
 
 @pytest.mark.parametrize("what", ["pressure", "p-v", "torque", "pin", "main"])

@@ -51,8 +51,8 @@ def document(*arguments):
 def test_rows_and_print_have_one_shape(name):
     table = recompute(name)
     assert len(set(table.columns)) == len(table.columns)
-    assert {len(row) for row in (*table.rows, *table.printed)} == {len(table.columns)}
-    assert len(table.rows) == len(table.printed)
+    assert {len(row) for row in (*table.exact, *table.printed)} == {len(table.columns)}
+    assert len(table.exact) == len(table.printed)
     assert table.source
     assert table.title
 
@@ -66,7 +66,7 @@ def test_numbers_of_errata(name):
 def test_errata_are_the_figures_that_rounding_does_not_give(name):
     """The rule once more, from the values and texts alone."""
     table, wrong = recompute(name), set()
-    for i, (row, words) in enumerate(zip(table.rows, table.printed, strict=True)):
+    for i, (row, words) in enumerate(zip(table.exact, table.printed, strict=True)):
         for column, value, text in zip(table.columns, row, words, strict=True):
             if isinstance(value, float) and text is not None and "/" not in text:
                 printed = Decimal(text)
@@ -179,16 +179,18 @@ def test_other_angles_and_ratios(name, function):
     """
     table = recompute(name, Ranges(lam=("0.3", "0.35"), angle=("70", "71.5")))
     place = table.columns.index("0.35")
-    assert table.rows[1][place] == pytest.approx(float(function(np.radians(71.5), 0.35)), rel=1e-14)
+    assert table.exact[1][place] == pytest.approx(
+        float(function(np.radians(71.5), 0.35)), rel=1e-14
+    )
     assert table.printed[0][place - 1] is not None
     assert table.printed[0][place] is table.printed[1][place - 1] is None
 
 
 def test_the_acceleration_goes_on_to_180_degrees():
     table = recompute("tsinghua-1-6", Ranges(angle=parse_range("0:180:5", "--angle")))
-    assert len(table.rows) == 37
+    assert len(table.exact) == 37
     assert len(table.errata) == ERRATA["tsinghua-1-6"]
-    assert table.rows[-1][table.columns.index("0.32")] == pytest.approx(-(1 - 0.32), rel=1e-14)
+    assert table.exact[-1][table.columns.index("0.32")] == pytest.approx(-(1 - 0.32), rel=1e-14)
     assert table.printed[-1] == (None,) * len(table.columns)
 
 
@@ -197,7 +199,7 @@ def test_series_to_a_higher_power():
     from math import comb
 
     table = recompute("series", Ranges(power=15))
-    leading = [row[3] for row in table.rows if row[:3] == ("acceleration A_n (r w^2)", 16, 15)]
+    leading = [row[3] for row in table.exact if row[:3] == ("acceleration A_n (r w^2)", 16, 15)]
     assert leading == [str(Fraction(-(16**2) * comb(16, 8), 15 * 2**31))]
 
 

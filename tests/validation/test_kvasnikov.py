@@ -79,7 +79,7 @@ def test_orders_left_in_radial_engines():
 
 def layout(name):
     table = recompute("layouts")
-    return next(dict(zip(table.columns, row, strict=True)) for row in table.rows if row[0] == name)
+    return next(dict(zip(table.columns, row, strict=True)) for row in table.exact if row[0] == name)
 
 
 def test_radial_engines():

@@ -41,7 +41,7 @@ def test_smallest_of_these(alpha):
 
 def rows():
     table = recompute("wang-1")
-    return [dict(zip(table.columns, row, strict=True)) for row in table.rows]
+    return [dict(zip(table.columns, row, strict=True)) for row in table.exact]
 
 
 def test_true_optimum_has_three_equal_maxima():

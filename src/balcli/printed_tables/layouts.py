@@ -46,7 +46,7 @@ class Layouts(NamedTuple):
 
 def add_firing(table: Table) -> Layouts:
     """The table of layouts with the firing intervals of its engines."""
-    names = [str(row[0]) for row in table.rows]
+    names = [str(row[0]) for row in table.exact]
     return Layouts(table, {name: _find_gaps(_build(_read(name))) for name in names})
 
 

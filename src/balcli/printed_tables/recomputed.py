@@ -8,6 +8,8 @@ from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal, InvalidOperation
 from fractions import Fraction
 from typing import TypeAlias
 
+from ..result import Result
+
 Cell: TypeAlias = float | str | None
 Row: TypeAlias = tuple[Cell, ...]
 Words: TypeAlias = tuple[str | None, ...]
@@ -36,18 +38,23 @@ class Erratum:
     kind: str
 
 
-@dataclass(frozen=True)
-class Table:
-    """Rows as recomputed and as printed, of one shape; `errata` follow from the two."""
+@dataclass(frozen=True, repr=False)
+class Table(Result):
+    """Rows as recomputed (`exact`) and as printed, of one shape; `errata` follow from the two."""
 
     name: str
     title: str
     source: str
     columns: tuple[str, ...]
-    rows: tuple[Row, ...]
+    exact: tuple[Row, ...]
     printed: tuple[Words, ...]
     explanations: tuple[Explanation, ...] = ()
     stub: int = 1  # leading columns that name a row
+
+    @property
+    def summary(self) -> str:
+        """Its name and title."""
+        return f"{self.name}: {self.title}"
 
     @property
     def errata(self) -> tuple[Erratum, ...]:
@@ -57,18 +64,18 @@ class Table:
         """What names a row: the cells of its stub."""
         shown = [
             write_shortest(c) if isinstance(c, (int, float)) else c
-            for c in self.rows[row][: self.stub]
+            for c in self.exact[row][: self.stub]
         ]
         return ", ".join(text for text in shown if text)
 
     def _errata(self) -> Iterator[Erratum]:
-        for i, (row, words) in enumerate(zip(self.rows, self.printed, strict=True)):
+        for i, (row, words) in enumerate(zip(self.exact, self.printed, strict=True)):
             for j, (value, text) in enumerate(zip(row, words, strict=True)):
                 if text is not None and deviates(value, text):
                     yield Erratum(i, self.columns[j], text, value, self._kind(i, j))
 
     def _kind(self, i: int, j: int) -> str:
-        value, text = self.rows[i][j], self.printed[i][j] or ""
+        value, text = self.exact[i][j], self.printed[i][j] or ""
         for explanation in self.explanations:
             supposed = explanation.rows[i][j]
             found = explain_figure(supposed, text)

@@ -36,7 +36,7 @@ def sheet(result: Layouts, _system: System) -> Sheet:
     grid = Grid(
         "",
         ("engine", *_SHOWN, "fires every"),
-        tuple(map(cells, result.table.rows)),
+        tuple(map(cells, result.table.exact)),
         note=_NOTE,
     )
     return Sheet("Free forces and moments of common engines", (grid,))
