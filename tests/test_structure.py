@@ -183,6 +183,7 @@ ON_REQUEST = {
         "balcli.core.strokes",
         "balcli.forces.crankshaft",
         "balcli.forces.guide_moments",
+        "balcli.forces.in_bearings",
         "balcli.forces.symmetry",
         "balcli.forces.textbook",
         "balcli.sizing.auto",
