@@ -89,7 +89,7 @@ def test_plot_of_no_free_force_says_so(balcli, tmp_path):
         "--orders",
         "1",
     ) == (0, "", "")
-    assert "no free force and no free moment" in (tmp_path / "x.svg").read_text()
+    assert (tmp_path / "x.svg").read_text().count(">balanced<") == 2
 
 
 def test_a_report_is_the_engine_before_and_after(balcli, four, tmp_path):

@@ -57,8 +57,10 @@ Output = Annotated[
         help="Write into this file instead; its ending says the format. - is standard output.",
     ),
 ]
-
-
+Target = Annotated[
+    Path | None,
+    typer.Argument(metavar="OUT", show_default=False, help="The file to write; the same as -o."),
+]
 Speed = Annotated[
     str | None,
     typer.Option(
