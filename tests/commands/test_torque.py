@@ -254,7 +254,9 @@ def test_sweeps_of_engines_without_gas_have_the_inertia_torque(tmp_path):
     assert status == 0
     assert out.startswith("rod.length,torque.2.amplitude")
     refused = ("sweep", str(bare), "--vary", "rod.length=140,150", "--quantity", "gas.2.amplitude")
-    assert run_here(*refused).err == "balcli: gas.2.amplitude: the engine file has no [gas]\n"
+    assert run_here(*refused).err == (
+        f"balcli: {bare}: gas.2.amplitude: the engine file has no [gas]\n"
+    )
 
 
 @pytest.mark.parametrize("what", ["pressure", "p-v", "torque", "pin", "main"])
@@ -397,14 +399,17 @@ def test_a_fluctuation_needs_inertia(tmp_path):
     assert "fluctuation: the file gives no inertia" in run_here("sweep", str(bare), *arguments).err
 
 
-def test_the_torque_is_drawn_in_a_terminal(four, curve):
-    """And nowhere else."""
+def test_the_torque_is_drawn_in_a_table(four, curve):
+    """And nowhere else, which is said."""
     for arguments, what in (
         ((four,), "Gas and inertia"),
         (("--curve", curve), "Torque over the p"),
     ):
-        seen = run_here("torque", *arguments, "--plot", terminal=True).out
-        assert what in seen
-        assert any(0x2800 < ord(letter) <= 0x28FF for letter in seen)
-        piped = torque(*arguments, "--plot")
-        assert piped == torque(*arguments)
+        for terminal in (True, False):
+            seen = run_here("torque", *arguments, "--plot", terminal=terminal).out
+            assert what in seen
+            assert any(0x2800 < ord(letter) <= 0x28FF for letter in seen)
+        plain = run_here("torque", *arguments, "--format", "csv")
+        found = run_here("torque", *arguments, "--plot", "--format", "csv")
+        assert found.out == plain.out
+        assert "no pictures in csv" in found.err

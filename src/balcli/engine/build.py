@@ -230,7 +230,11 @@ class Engine:
 
 
 def build(
-    model: EngineFile, varied: Mapping[str, Figure] | None = None, *, rank: int = 0
+    model: EngineFile,
+    varied: Mapping[str, Figure] | None = None,
+    *,
+    rank: int = 0,
+    gas: EngineGas | None = None,
 ) -> Engine:
     """The engine that a file describes, or variants of it.
 
@@ -241,12 +245,13 @@ def build(
             firing order is then left out.
         rank: trailing axes that the engine has at least. What does not vary along one has length 1
             there, here and in all that is computed.
+        gas: that of the engine, where it is known already.
 
     Raises:
         InputError: what does not fit together, by its path in the file.
         BalcliError: figures that cannot vary beside what the file gives.
     """
-    parts = assemble(model, varied, rank=rank)
+    parts = assemble(model, varied, rank=rank, gas=gas)
     bore = parts.figures.take_optional("piston.bore", model.piston.bore)
     return Engine(
         name=model.name,
@@ -297,10 +302,14 @@ def take_model(engine: Engine) -> EngineFile:
 
 
 def assemble(
-    model: EngineFile, varied: Mapping[str, Figure] | None = None, *, rank: int = 0
+    model: EngineFile,
+    varied: Mapping[str, Figure] | None = None,
+    *,
+    rank: int = 0,
+    gas: EngineGas | None = None,
 ) -> Assembly:
     """The parts of an engine that fit together; arguments and errors as of `build`."""
-    parts = Assembly(model, varied, rank)
+    parts = Assembly(model, varied, rank, known_gas=gas)
     if problems := find_contradictions(parts):
         raise InputError(problems)
     return parts

@@ -24,7 +24,7 @@ from .deviations import DeviatingEngine, Source, Tolerances
 from .percentiles import Sample
 
 if TYPE_CHECKING:
-    from ..mounting.quantity import MountQuantity
+    from ..forces.target_quantity import TargetQuantity
     from .mount_scatter import MountSource
 
 CHUNK = 8_192  # samples at a time
@@ -74,7 +74,7 @@ class Spread:
         shares: by source, the change that its tolerance alone makes, to first order; largest first.
     """
 
-    quantity: Quantity | MountQuantity
+    quantity: Quantity | TargetQuantity
     nominal: float
     mean: float
     percentiles: dict[str, float]
