@@ -61,6 +61,12 @@ Output = Annotated[
 ]
 
 
+ProgressAtOnce = Annotated[
+    bool,
+    typer.Option(
+        "--progress", help="Say on a terminal how far it is from the start, not after two seconds."
+    ),
+]
 Speed = Annotated[
     str | None,
     typer.Option(

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TextIO, TypeVar
 
-from ..errors import BalcliError
+from ..errors import BalcliError, note
 from ..process import unfinished
 from ..render.formats import Format, Renderer, Units, render
 from ..render.units import SYSTEMS
@@ -141,7 +141,9 @@ def replacing(target: Path) -> Iterator[Path]:
                 return
             if real.exists():
                 place.chmod(real.stat().st_mode & 0o777)
+            size = place.stat().st_size
             place.replace(real)
+            note(f"{target}: written, {size} bytes")
     except OSError as error:
         raise BalcliError(f"{target}: cannot be written ({error.strerror or error})") from None
 

@@ -13,6 +13,7 @@ from .file_names import require_ending, text_format
 from .options import EnginePath, FormatOption, Output
 from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
+from .progress import exit_if_cut_short, reporting, reporting_until_stopped
 
 
 def search(
@@ -78,7 +79,6 @@ def search(
     from ..studies.search.objective import parse_objective
     from ..studies.search.search import search_arrangements
     from ..studies.search.write import write_design
-    from .search_watch import watching_search
 
     if require not in ("", "even-firing"):
         raise typer.BadParameter(
@@ -88,8 +88,10 @@ def search(
     model = parse(text, name)
     build_named(model, name)  # what is wrong with the file itself is told with its name
     goal = parse_objective(minimise, limit or ())
-    with watching_search(over) as watch:
-        found = search_arrangements(model, over, goal, top, bool(require), watch)
-        show([found], renderer, form, output)
-        if write is not None:
-            write_file(write_design(text, found.results[0].design), write)
+    watching = reporting_until_stopped if over == "throws" else reporting  # no other takes long
+    with watching("arrangements") as progress:
+        found = search_arrangements(model, over, goal, top, bool(require), progress)
+    show([found], renderer, form, output)
+    if write is not None:
+        write_file(write_design(text, found.results[0].design), write)
+    exit_if_cut_short(progress, "these are the best of them")
