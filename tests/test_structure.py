@@ -154,6 +154,10 @@ def test_core_knows_numpy_and_the_standard_library_alone(file):
 # or kind of engine that it does not need.
 ON_REQUEST = {
     "balcli.__main__": ("balcli.cli",),
+    "balcli.commands.analysis_answer": (
+        *("balcli.render.marine", "balcli.results.marine"),
+        *("balcli.render.speeds", "balcli.results.speeds"),
+    ),
     "balcli.commands.completion": (
         "balcli.enginefile.examples",
         "balcli.enginefile.templates",
@@ -166,6 +170,7 @@ ON_REQUEST = {
         "balcli.engine.articulation",
         "balcli.engine.gas",
     ),
+    "balcli.engine.build": ("balcli.engine.vary",),
     "balcli.engine.rules": ("balcli.engine.articulation",),
     "balcli.forces.spectrum": ("balcli.forces.gas",),
     "balcli.forces.symmetry": ("balcli.forces.gas_symmetry",),
@@ -190,16 +195,6 @@ ON_REQUEST = {
     ),
     "balcli.commands.inputs": ("balcli.enginefile.assumed",),
     "balcli.commands.scatter": ("balcli.studies.mount_scatter",),
-    "balcli.studies.quantities": (
-        "balcli.mounting.quantity",
-        "balcli.torque.quantity",
-        "balcli.torsion.quantity",
-    ),
-    "balcli.studies.sweep": (
-        "balcli.mounting.quantity",
-        "balcli.torque.quantity",
-        "balcli.torsion.quantity",
-    ),
 }
 
 
@@ -231,10 +226,10 @@ SHAPING = {
     ("balcli.sizing.device_tables", "find_unbalance"),
     ("balcli.sizing.device_tables", "measure_direction"),
     ("balcli.sizing.device_tables", "name_kind"),
-    ("balcli.tables.recomputed", "deviates"),
-    ("balcli.tables.recomputed", "parse_decimal"),
-    ("balcli.tables.recomputed", "parse_fraction"),
-    ("balcli.tables.recomputed", "round_like"),
+    ("balcli.printed_tables.recomputed", "deviates"),
+    ("balcli.printed_tables.recomputed", "parse_decimal"),
+    ("balcli.printed_tables.recomputed", "parse_fraction"),
+    ("balcli.printed_tables.recomputed", "round_like"),
 }
 COMPUTING = (
     "balcli.results.analysis",
@@ -250,7 +245,7 @@ COMPUTING = (
     "balcli.studies.search.search",
     "balcli.results.comparison",
     "balcli.forces.curves",
-    "balcli.tables",
+    "balcli.printed_tables",
 )
 
 
@@ -304,7 +299,8 @@ def test_files_speak_for_themselves(file):
 
 
 def test_public_names_are_there():
-    """The library's door: what it promises can be had."""
+    """The library's door: what it promises can be had, and is offered for completion."""
+    assert dir(balcli) == sorted(balcli.__all__)
     for name in balcli.__all__:
         assert getattr(balcli, name) is not None
     with pytest.raises(AttributeError, match="module 'balcli' has no attribute 'frobnicate'"):

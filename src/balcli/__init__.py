@@ -64,6 +64,11 @@ _ROOMS = {
 }
 
 
+def __dir__() -> list[str]:
+    """What the library promises, for completion."""
+    return __all__
+
+
 def __getattr__(name: str) -> Any:
     """The library's door: what is behind it is imported when it is first asked for."""
     if name not in _ROOMS:

@@ -113,3 +113,10 @@ class InputError(BalcliError):
         last = [f"  and {self.more} more"] if self.more else []
         count = len(self.problems) + self.more
         return "\n".join([f"{head}: {count} mistakes", *(f"  {p}" for p in self.problems), *last])
+
+
+def wrong_type(function: str, value: object, wanted: str) -> TypeError:
+    """For the library: what a function was given, and what would be right."""
+    text = repr(value)
+    shown = text if len(text) <= 60 and "\n" not in text else f"{text[:57].splitlines()[0]}..."
+    return TypeError(f"{function}: {legible(shown)} ({type(value).__name__}): {wanted}")

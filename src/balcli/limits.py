@@ -68,6 +68,7 @@ MOST_PLACES = 720  # blades or holes of a plane: every pair of them may be looke
 
 # Ranges of speeds ---------------------------------------------------------------------------
 MOST_SPEEDS = 20_000  # of mounts and torsion: all figures of each are kept
+MOST_ANALYSED_SPEEDS = 1_000  # of analyze: an analysis each, milliseconds of the largest engines
 
 # Engine mounts -------------------------------------------------------------------------------
 MOST_MOUNTS = 100  # and points: each has a curve for every speed

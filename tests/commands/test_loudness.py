@@ -14,7 +14,7 @@ from balcli.cli import COMMANDS
 
 LONG_ROD = "crank.stroke = 90\nrod.length = 1600\npiston.mass = 0.5\n"
 WARNING = (
-    "warning: -: crank radius / rod length is 0.02813, where 0.15 to 0.4 is usual; crank.stroke is "
+    "warning: standard input: crank radius / rod length is 0.02813, where 0.15 to 0.4 is usual; crank.stroke is "
     "twice the crank radius, rod.length the distance of its two centres\n"
 )
 
@@ -35,10 +35,8 @@ def test_quiet_keeps_errors():
 
 def test_q_is_the_quantity_where_it_always_was():
     args = ("sweep", "-", "--vary", "crank.stroke=80,90", "-q", "force.2.major")
-    (_, usual, warned), quiet = (
-        run_here(*args, stdin=LONG_ROD),
-        run_here(*args, "--quiet", stdin=LONG_ROD),
-    )
+    usual = run_here(*args, stdin=LONG_ROD).out
+    quiet = run_here(*args, "--quiet", stdin=LONG_ROD)
     assert usual.startswith("crank.stroke,force.2.major\n")
     assert quiet == (0, usual, "")
 
@@ -49,15 +47,15 @@ def test_verbose_tells_what_was_read_taken_and_written(tmp_path: Path):
     assert (status, out) == (0, "")
     *told, took = err.splitlines()
     assert told == [
-        f"note: -: read, {len(LONG_ROD)} bytes",
-        "note: -: not in the file: crank.throw_mass = 0 kg",
-        "note: -: not in the file: rod.inertia: two masses at the ends",
-        "note: -: not in the file: piston.offset = 0 mm",
-        "note: -: not in the file: layout.strokes = 4",
-        "note: -: not in the file: operation.speed = 1000 rpm",
-        "note: -: not in the file: frame.reference: on the crank axis, half-way between the first "
+        f"note: standard input: read, {len(LONG_ROD)} bytes",
+        "note: standard input: not in the file: crank.throw_mass = 0 kg",
+        "note: standard input: not in the file: rod.inertia: two masses at the ends",
+        "note: standard input: not in the file: piston.offset = 0 mm",
+        "note: standard input: not in the file: layout.strokes = 4",
+        "note: standard input: not in the file: operation.speed = 1000 rpm",
+        "note: standard input: not in the file: frame.reference: on the crank axis, half-way between the first "
         "and the last throw",
-        "note: -: not in the file: rod.mass: a rod without mass",
+        "note: standard input: not in the file: rod.mass: a rod without mass",
         WARNING.strip(),
         f"note: {target}: written, {target.stat().st_size} bytes",
     ]

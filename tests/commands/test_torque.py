@@ -7,6 +7,7 @@ import json
 import pytest
 from support.commands import run_here
 from support.gas_engines import FOUR, WIEBE
+from support.paths import ENGINES
 
 TORQUE = "angle_deg,torque_Nm\n0,0\n90,1000\n180,0\n360,0\n"
 WHOLE = {"format", "speed_rpm", "cycle_deg", "imep_Pa", "max_pressure_Pa", "max_pressure_deg"}
@@ -187,6 +188,26 @@ def test_loads_are_told_when_they_are_asked_for(tmp_path):
     assert (status, err) == (2, 'balcli: --loads "wrist": there are pin and main\n')
 
 
+def test_knuckle_pins_are_told_beside_the_crank_pin(tmp_path):
+    path = tmp_path / "radial.toml"
+    radial = (ENGINES / "radial7_articulated.toml").read_text()
+    bearing = "[bearing]\npin_diameter = 70\npin_width = 60\n"
+    path.write_text(f"{radial}\n{WIEBE}\n{bearing}")
+    loads = json.loads(torque(str(path), "--loads", "pin", "-f", "json"))["loads"]
+    assert [pin["cylinder"] for pin in loads["pin"]] == [1]
+    assert loads["pin"][0]["pressure_Pa"] == pytest.approx(loads["pin"][0]["max_N"] / 4.2e-3)
+    assert [pin["cylinder"] for pin in loads["knuckle"]] == [2, 3, 4, 5, 6, 7]
+    assert set(loads["knuckle"][0]) == {"cylinder", "max_N", "max_deg", "mean_N"}
+    assert "Knuckle pins\ncylinder   largest, kN" in torque(str(path), "--loads", "pin")
+    rows = torque(str(path), "--loads", "pin", "-f", "csv").splitlines()
+    assert any(row.startswith("3,knuckle,,max,") for row in rows)
+    status, _, err = run_here("torque", str(path), "--loads", "main")
+    told = "balcli: main: a crank with one throw does not say where its bearings stand\n"
+    assert (status, err) == (2, told)
+    curves = run_here("curves", str(path), "--cylinder", "3", "--step", "90").out
+    assert curves.splitlines()[0].endswith("side_thrust_N,rod_force_N,pin_x_N,pin_y_N,torque_Nm")
+
+
 def test_curves_of_a_cylinder_go_over_its_cycle(four):
     status, out, err = run_here("curves", four, "--cylinder", "3", "--step", "5", "-f", "json")
     assert (status, err) == (0, "")
@@ -233,7 +254,9 @@ def test_sweeps_of_engines_without_gas_have_the_inertia_torque(tmp_path):
     assert status == 0
     assert out.startswith("rod.length,torque.2.amplitude")
     refused = ("sweep", str(bare), "--vary", "rod.length=140,150", "--quantity", "gas.2.amplitude")
-    assert run_here(*refused).err == "balcli: gas.2.amplitude: the engine file has no [gas]\n"
+    assert run_here(*refused).err == (
+        f"balcli: {bare}: gas.2.amplitude: the engine file has no [gas]\n"
+    )
 
 
 @pytest.mark.parametrize("what", ["pressure", "p-v", "torque", "pin", "main"])
@@ -262,22 +285,48 @@ def test_pictures_that_cannot_be(tmp_path):
 
 # ------------------------------------------------------------------ other commands
 def test_what_names_a_file_beside_it_is_written_beside_it(tmp_path):
-    """A diagram would be left behind."""
+    """A diagram would be left behind, unless the other folder has it, too."""
     (tmp_path / "far").mkdir()
     rows = "\n".join(f"{angle},{5 if angle == 10 else 1}" for angle in range(0, 721, 10))
     (tmp_path / "p.csv").write_text(f"angle_deg,pressure_bar\n{rows}\n")
     path = tmp_path / "four.toml"
-    path.write_text(FOUR + '[gas]\nindicator = "p.csv"\n[flywheel]\ninertia = 9e6\n')
-    for command in ("torque", "balance"):
+    shaft = 'name = "flywheel"\ninertia = 9e6\nstiffness = 1e6\ndiameter = 60\n'
+    more = f"[torsion]\nthrow_stiffness = 1e6\nthrow_inertia = 3e4\n[[torsion.rear]]\n{shaft}"
+    turned = FOUR.replace("throws = [0, 180, 180, 0]\n", "")
+    wanted = '[gas]\nindicator = "p.csv"\n[flywheel]\ninertia = 9e6\n'
+    path.write_text(turned + wanted + more)
+    commands = (
+        ("torque",),
+        ("balance",),
+        ("torsion", "--damper", "viscous", "--speeds", "1000:2000:500"),
+        ("search", "--over", "firing_order", "--minimise", "force.1.major"),
+    )
+    for command, *options in commands:
         far = tmp_path / "far" / "out.toml"
-        status, _, err = run_here(command, str(path), "--write", str(far))
+        status, _, err = run_here(command, str(path), *options, "--write", str(far))
         assert status == 2
-        assert f'{far}: the engine file names "p.csv", which stands beside it in' in err
+        assert f'{far}: the engine file names "p.csv", which stands beside it in {tmp_path}' in err
+        assert f"or copy p.csv into {far.parent} first" in err
         assert not far.exists()
         near = tmp_path / f"{command}.toml"
-        status, _, err = run_here(command, str(path), "--write", str(near))
+        status, _, err = run_here(command, str(path), *options, "--write", str(near))
         assert (status, err) == (0, "")
         assert run_here("torque", str(near)).status == 0
+    (tmp_path / "far" / "p.csv").write_bytes((tmp_path / "p.csv").read_bytes())
+    for command, *options in commands:
+        copied = tmp_path / "far" / f"{command}.toml"
+        assert run_here(command, str(path), *options, "--write", str(copied)).status == 0
+        assert run_here("torque", str(copied)).status == 0
+
+
+def test_throws_that_fit_no_firing_order_are_not_written_beside_gas(four, tmp_path):
+    """What a search over throws finds leaves the firing order open, which gas needs."""
+    target = tmp_path / "out.toml"
+    arguments = ("--over", "throws", "--minimise", "force.1.major")
+    status, out, err = run_here("search", four, *arguments, "--write", str(target))
+    assert (status, "0-180-" in out) == (2, True)
+    assert err.startswith("balcli: --write: the firing order of the file does not fit what was")
+    assert not target.exists()
 
 
 def test_engines_with_gas_are_compared_by_what_it_does(four, tmp_path):

@@ -104,6 +104,14 @@ def test_extremes_are_found_between_the_nodes():
     assert highest.value == pytest.approx(1 / 1.2 + 0.3 * (1 - 2 / 1.44), rel=1e-14)
 
 
+def test_an_extreme_that_is_rounding_is_0():
+    """1 - cos x touches 0; a hundred times further off, its lowest value is kept."""
+    curve = resolved(lambda x: 1 + 1e-16 - np.cos(x), [0, TURN])
+    assert curve.extremes()[0].value == 0.0
+    lifted = resolved(lambda x: 1 + 1e-12 - np.cos(x), [0, TURN])
+    assert lifted.extremes()[0].value == pytest.approx(1e-12, rel=1e-3)
+
+
 @pytest.mark.parametrize("shift", [0.0, 0.1, 2.0])
 def test_of_equal_extremes_the_first(shift):
     lowest, highest = resolved(lambda x: np.cos(4 * (x - shift)), [0, TURN]).extremes()

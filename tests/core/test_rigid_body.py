@@ -22,7 +22,6 @@ from balcli.core.rigid_body import (
     mass_matrix,
     move_points,
     press_mounts,
-    real_axes,
     respond_body,
     roll_axis,
     settle_body,
@@ -93,14 +92,6 @@ def test_a_load_moves_to_the_centre():
     force, moment = np.array([[0, 0, 2.0]]), np.array([[1.0, 0, 0]])
     load = load_at_centre(force, moment, [0, 3, 0], [0, 0, 0])
     assert load == pytest.approx(np.array([[0, 0, 2, 1 + 6, 0, 0]]))
-
-
-def test_phasors_along_real_axes():
-    forward, backward, angle = np.array([1 + 2j]), np.array([0.5 - 1j]), np.linspace(0, 6, 9)
-    vector = forward * np.exp(1j * angle) + backward * np.exp(-1j * angle)
-    x, y = real_axes(forward, backward)
-    assert (x * np.exp(1j * angle)).real == pytest.approx(vector.real)
-    assert (y * np.exp(1j * angle)).real == pytest.approx(vector.imag)
 
 
 # ------------------------------------------------------------------ free motions

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.chains import chain_matrices
 
 from balcli.core.torsional_chain import (
     Damping,
     Shaft,
-    chain_matrices,
     find_pieces,
     follow_gears,
     incidence,

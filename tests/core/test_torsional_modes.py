@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from support.chains import (
     KINDS,
+    chain_matrices,
     chain_of,
     exact_frequencies,
     no_damping,
@@ -15,13 +16,12 @@ from support.chains import (
 
 from balcli.core.torsional_chain import (
     Shaft,
-    chain_matrices,
     follow_gears,
     incidence,
     join_chain,
     rigid_motions,
 )
-from balcli.core.torsional_modes import chain_loss, count_nodes, find_chain_modes, sum_phases
+from balcli.core.torsional_modes import chain_loss, count_nodes, find_chain_modes
 from balcli.core.vibration import (
     modal_loss,
     scale_shapes,
@@ -154,11 +154,3 @@ def test_loss_of_modes(kind):
     ring[0] = 0.3 - 0.2j
     added = chain_loss(chain, damping, modes, ring) - chain_loss(chain, damping, modes)
     assert added[modes.rigid :] == pytest.approx(0.2 * modes.shapes[modes.rigid :, 0] ** 2)
-
-
-def test_phase_vectors():
-    """Evenly fired throws that move alike add up in multiples of half their number."""
-    firing = np.radians([0, 180, 360, 540])
-    sums = sum_phases(np.array([[1.0, 1, 1, 1], [1, 0, 0, -1]]), [0.5, 1, 2, 4], firing)
-    assert sums[:, 0] == pytest.approx([0, 0, 4, 4], abs=1e-13)
-    assert sums[:, 1] == pytest.approx([1 - 1j, 2, 0, 0], abs=1e-13)

@@ -130,6 +130,13 @@ def test_ordinary_engines_pass(text):
                 "is it in g mm?"
             ),
         ),
+        (
+            changed(more='[gas]\ncycle = "otto"\ncompression_ratio = 10\nimep = 130\n'),
+            (
+                "gas.imep is 130 bar, where at most 60 is usual; is it in bar? Another unit is said "
+                'as in "130 psi" or "0.9 MPa"'
+            ),
+        ),
     ],
 )
 def test_warnings(text, warning):

@@ -104,6 +104,7 @@ WRONG = [
 @pytest.mark.parametrize(("quantity", "message"), WRONG)
 def test_what_is_no_quantity(four, quantity, message):
     told = refusal("sweep", four, "--vary", "mount.left.loss=0.1,0.2", "-q", quantity)
+    told = told.removeprefix(f"{four}: ")
     assert told.startswith(message)
 
 
@@ -162,3 +163,31 @@ def test_normal_deviations_of_mounts(four):
     out = run_here("scatter", four, *args, "--distribution", "normal").out
     assert "Spread of 20 sets of mounts" in out
     assert "to first order" in out
+
+
+# ------------------------------------------------------------------ with gas
+LAYOUT = "[layout]\nfiring_order = [1, 3, 4, 2]\n"
+GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 10\nimep = 9\n'
+
+
+@pytest.mark.parametrize(
+    ("path", "old", "new"),
+    [
+        ("rod.length", "length = 150", "length = {}"),
+        ("piston.mass", "mass = 0.5\n", "mass = {}\n"),
+        ("gas.imep", "imep = 9", "imep = {}"),
+        ("operation.speed", "speed = 3000", "speed = {}"),
+        ("mount.left.loss", "loss = 0.1", "loss = {}"),
+    ],
+)
+def test_with_gas_every_figure_varies(path, old, new, tmp_path):
+    text = NAMED + LAYOUT + GAS
+    assert old in text
+    file = tmp_path / "four.toml"
+    file.write_text(text, encoding="utf-8")
+    value = 0.11 if path == "mount.left.loss" else 1.05 * float(old.split("=")[1])
+    first = float(old.split("=")[1])
+    (_, row) = sweep(file, "--vary", f"{path}={first},{value}", "-q", "mount.left.force")
+    said = said_by(tmp_path / "one.toml", text.replace(old, new.format(value), 1))
+    largest = max(said["response"]["mounts"][0]["peak_N"])
+    assert row["mount.left.force"] == pytest.approx(largest, rel=1e-12)

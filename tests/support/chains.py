@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import mpmath
 import numpy as np
+from numpy.typing import NDArray
 from support import high_precision
 
-from balcli.core.torsional_chain import Chain, Damping, Shaft, join_chain
+from balcli.core.torsional_chain import Chain, Damping, Shaft, follow_gears, incidence, join_chain
 
 KINDS = ("plain", "geared", "branched", "clamped", "clamped at both ends", "massless", "looped")
 
@@ -114,3 +117,58 @@ def exact_response(chain: Chain, damping: Damping, w, load, attached=0.0):
             matrix[int(node), int(node)], right[int(node)] = 1, 0
         solution = high_precision.to_complex(mpmath.lu_solve(matrix, right))
     return solution[:nodes], solution[nodes:]
+
+
+class ChainMatrices(NamedTuple):
+    """Dense equations of motion of the independent angles.
+
+    Attributes:
+        stiffness, damping, mass: (dof, dof), stiffness complex where shafts have loss.
+        follow: (nodes, dof), every node's angle for a unit of each independent one.
+    """
+
+    stiffness: NDArray[np.complex128]
+    damping: NDArray[np.float64]
+    mass: NDArray[np.float64]
+    follow: NDArray[np.float64]
+
+
+def chain_matrices(chain: Chain, damping: Damping) -> ChainMatrices:
+    follow, _ = follow_gears(chain)
+    elastic = np.isfinite(chain.stiffness)
+    twist = (incidence(chain) @ follow)[elastic]
+    stiffness = chain.stiffness[elastic] * (1 + 1j * damping.loss[elastic])
+    return ChainMatrices(
+        np.asarray((twist.T * stiffness) @ twist, complex),
+        twist.T @ (damping.dashpots[elastic, None] * twist) + (follow.T * damping.nodes) @ follow,
+        (follow.T * chain.inertia) @ follow,
+        follow,
+    )
+
+
+class Power(NamedTuple):
+    """Mean power by frequency, W.
+
+    Attributes:
+        fed: (*frequency,) by the loads.
+        shafts: (*frequency, shafts) lost in each.
+        nodes: (*frequency, nodes) lost at each, its damper included.
+    """
+
+    fed: NDArray[np.float64]
+    shafts: NDArray[np.float64]
+    nodes: NDArray[np.float64]
+
+
+def balance_power(chain: Chain, damping: Damping, w, load, angle, attached=0.0) -> Power:
+    """What harmonic torques (*frequency, nodes) feed into a chain that turns by angles (*frequency,
+    nodes), and where it is lost: `k loss + w c` of every shaft's twist, `c` and damper of nodes.
+    """
+    w = np.asarray(w, float)[..., None]
+    fed = w[..., 0] / 2 * np.sum((load * angle.conj()).imag, axis=-1)
+    twist = angle @ incidence(chain).T
+    held = np.isfinite(chain.stiffness)
+    lossy = np.where(held, chain.stiffness, 0) * damping.loss + w * damping.dashpots
+    shafts = w / 2 * np.where(held, lossy, 0) * np.abs(twist) ** 2
+    resisting = w**2 * (damping.nodes - w * np.imag(chain.inertia + attached))
+    return Power(fed, shafts, resisting / 2 * np.abs(angle) ** 2)

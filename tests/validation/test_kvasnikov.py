@@ -13,7 +13,7 @@ import pytest
 from balcli.core.mechanisms import closed_form
 from balcli.core.mechanisms import power_series as series
 from balcli.core.phasors import unit
-from balcli.tables.registry import recompute
+from balcli.printed_tables.registry import recompute
 
 LAM = np.array([1 / 6, 1 / 4])
 
@@ -79,7 +79,7 @@ def test_orders_left_in_radial_engines():
 
 def layout(name):
     table = recompute("layouts")
-    return next(dict(zip(table.columns, row, strict=True)) for row in table.rows if row[0] == name)
+    return next(dict(zip(table.columns, row, strict=True)) for row in table.exact if row[0] == name)
 
 
 def test_radial_engines():

@@ -15,7 +15,7 @@ import pytest
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.forces.spectrum import compute_spectra
-from balcli.tables.registry import recompute
+from balcli.printed_tables.registry import recompute
 
 GAMMA = np.radians(np.arange(0.0, 180.0, 0.01))
 
@@ -102,17 +102,17 @@ def test_paths_of_the_two_shafts():
     travelled = np.abs(np.diff(np.cos(1.5 * np.linspace(0, pi, 30001)))).sum()
     assert travelled == pytest.approx(3, rel=1e-7)
     table = recompute("liu-1")
-    one, other = table.rows[0], table.rows[1]
+    one, other = table.exact[0], table.exact[1]
     assert [
         one[table.columns.index(g)] == pytest.approx(other[table.columns.index(g)], abs=1e-14)
         for g in ("90", "180")
     ] == [True, True]
-    assert table.rows[5][table.columns.index("0")] == -9
+    assert table.exact[5][table.columns.index("0")] == -9
 
 
 def test_table_3_at_the_largest_force():
     table = recompute("liu-3")
-    row = next(row for row in table.rows if row[:2] == ("Zx", 109.5))
+    row = next(row for row in table.exact if row[:2] == ("Zx", 109.5))
     assert row[table.columns.index("45")] == pytest.approx(-8 / (3 * sqrt(3)), abs=1e-6)
 
 

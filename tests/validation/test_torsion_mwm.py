@@ -10,12 +10,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.chains import balance_power
 from support.paths import ROOT
 
 from balcli.core.cycle_peaks import find_swing, sum_amplitudes
 from balcli.core.torsional_chain import Damping, Shaft, join_chain
 from balcli.core.torsional_modes import count_nodes, find_chain_modes
-from balcli.core.torsional_response import balance_power, respond_chain
+from balcli.core.torsional_response import respond_chain
 from balcli.core.vibration import frequencies
 
 DOCUMENT = ROOT / "docs" / "torsion.md"
@@ -209,7 +210,7 @@ def test_exact_orders_synthesised_in_time(rpm):
     angle = np.linspace(0, 4 * np.pi, 1 << 14)
     curve = (np.exp(1j * np.outer(angle, orders)) @ twist.torque).real
     assert half == pytest.approx(np.ptp(curve, axis=0) / 2, rel=1e-4)
-    power = balance_power(CHAIN, DAMPING, w, load, twist)
+    power = balance_power(CHAIN, DAMPING, w, load, twist.angle)
     lost = power.shafts.sum(axis=-1) + power.nodes.sum(axis=-1)
     assert power.fed == pytest.approx(lost, rel=1e-9)
 

@@ -15,7 +15,7 @@ from support import two_term
 from support.two_term import PSI, largest_error
 
 from balcli.core.mechanisms import slidercrank as sc
-from balcli.tables.registry import recompute
+from balcli.printed_tables.registry import recompute
 
 LAM = 0.32  # the largest ratio of the tables
 
@@ -128,14 +128,14 @@ def test_mean_piston_speed():
     stroke, rpm = 0.09, 4400
     assert stroke * rpm / 30 == pytest.approx(2 / pi * stroke / 2 * rpm * pi / 30, rel=1e-14)
     index = recompute("tsinghua-1-1").columns.index("Cm_m_per_s")
-    assert min(row[index] for row in recompute("tsinghua-1-1").rows) > 9
+    assert min(row[index] for row in recompute("tsinghua-1-1").exact) > 9
 
 
 def test_table_1_4_follows_the_two_term_formula():
     """36 of its 42 figures; the exact extremes stand beside."""
     table = recompute("tsinghua-1-4")
     assert len(table.errata) == 6
-    exact = [row[table.columns.index("exact 1/3")] for row in table.rows]
+    exact = [row[table.columns.index("exact 1/3")] for row in table.exact]
     assert exact[0] == pytest.approx(73.1752966362, abs=1e-9)
     assert exact[5] == pytest.approx(1.05463954654, abs=1e-10)
     assert radians(exact[0]) == pytest.approx(float(sc.fastest(1 / 3).psi), rel=1e-14)

@@ -13,7 +13,7 @@ import pytest
 from support import two_term
 from support.two_term import largest_error
 
-from balcli.tables.registry import recompute
+from balcli.printed_tables.registry import recompute
 
 TH = np.radians(np.arange(0.0, 360.0, 0.05))
 
@@ -41,7 +41,7 @@ def test_smallest_of_these(alpha):
 
 def rows():
     table = recompute("wang-1")
-    return [dict(zip(table.columns, row, strict=True)) for row in table.rows]
+    return [dict(zip(table.columns, row, strict=True)) for row in table.exact]
 
 
 def test_true_optimum_has_three_equal_maxima():

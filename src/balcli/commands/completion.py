@@ -25,7 +25,7 @@ def complete_schemes(incomplete: str) -> list[str]:
 
 def complete_tables(incomplete: str) -> list[str]:
     """Printed tables, of `balcli tables`."""
-    from ..tables import registry
+    from ..printed_tables import registry
 
     return _beginning_with(incomplete, registry.NAMES)
 
@@ -35,6 +35,13 @@ def complete_examples(incomplete: str) -> list[str]:
     from ..enginefile import examples
 
     return _beginning_with(incomplete, examples.names())
+
+
+def complete_classes(incomplete: str) -> list[str]:
+    """Classes of example engines, of `balcli engines --class`."""
+    from ..enginefile import examples
+
+    return _beginning_with(incomplete, examples.groups())
 
 
 def _beginning_with(incomplete: str, known: Iterable[str]) -> list[str]:

@@ -11,7 +11,7 @@ from .output import show
 def layouts(form: FormatOption = None, output: Output = None) -> None:
     """Free forces and moments of common engines at a glance, as multiples of one cylinder's."""
     form = text_format(output, form)
-    from ..tables.layouts import add_firing
-    from ..tables.registry import recompute
+    from ..printed_tables.layouts import add_firing
+    from ..printed_tables.registry import recompute
 
     show([add_firing(recompute("layouts"))], renderer, form, output)

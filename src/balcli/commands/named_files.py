@@ -13,10 +13,11 @@ from ..errors import BalcliError
 
 
 def refuse_leaving_files(text: bytes, source: str, target: Path) -> None:
-    """Nothing, unless an engine file that names others is written into another folder.
+    """Nothing, unless an engine file that names others is written into another folder that does not
+    have the same ones.
 
     Args:
-        text: of the engine file, which is good.
+        text: of the engine or chain file, which is good.
         source: its path; `-` is standard input, in the working folder.
         target: where it is written anew.
 
@@ -27,10 +28,19 @@ def refuse_leaving_files(text: bytes, source: str, target: Path) -> None:
     if folder.resolve() == target.parent.resolve():
         return
     for name in _list_names(tomllib.loads(text.decode("utf-8-sig"))):
-        raise BalcliError(
-            f'{target}: the engine file names "{name}", which stands beside it in {folder}; write '
-            "into that folder"
-        )
+        if not _are_equal(folder / name, target.parent / name):
+            raise BalcliError(
+                f'{target}: the engine file names "{name}", which stands beside it in {folder}; '
+                f"write into that folder, or copy {name} into {target.parent} first"
+            )
+
+
+def _are_equal(one: Path, other: Path) -> bool:
+    """Whether both files are there, with one content."""
+    try:
+        return one.read_bytes() == other.read_bytes()
+    except OSError:
+        return False
 
 
 def _list_names(data: dict[str, Any]) -> Iterator[str]:

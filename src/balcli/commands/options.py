@@ -15,6 +15,7 @@ from ..render.formats import Format, Units
 from .amounts import read_length, read_speed
 from .completion import complete_schemes
 from .file_names import parse_output
+from .format_names import format_option
 
 # words of `analyze --only` that name a table or text of what is computed anyway
 PARTS = ("xy", "textbook", "verdict")
@@ -33,13 +34,10 @@ EnginePaths = Annotated[
 ]
 FormatOption = Annotated[
     Format | None,
-    typer.Option(
-        "--format",
-        "-f",
-        case_sensitive=False,
-        show_default=False,
-        help="How to write the result; default: by the ending of -o (.txt, .json, .csv, .md), "
-        "else table.",
+    format_option(
+        Format,
+        "How to write the result, md for short of markdown; default: by the ending of -o (.txt, "
+        ".json, .csv, .md), else table.",
     ),
 ]
 UnitsOption = Annotated[

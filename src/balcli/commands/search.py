@@ -10,6 +10,7 @@ import typer
 from ..enginefile.toml_text import name_file, read_bytes
 from ..render import search as renderer
 from .file_names import require_ending, text_format
+from .named_files import refuse_leaving_files
 from .options import EnginePath, FormatOption, Output
 from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
@@ -87,11 +88,13 @@ def search(
     text, name = read_bytes(path), name_file(path)
     model = parse(text, name)
     build_named(model, name)  # what is wrong with the file itself is told with its name
+    if write is not None:
+        refuse_leaving_files(text, path, write)
     goal = parse_objective(minimise, limit or ())
     watching = reporting_until_stopped if over == "throws" else reporting  # no other takes long
     with watching("arrangements") as progress:
         found = search_arrangements(model, over, goal, top, bool(require), progress)
     show([found], renderer, form, output)
     if write is not None:
-        write_file(write_design(text, found.results[0].design), write)
+        write_file(write_design(text, found.results[0].design, name), write)
     exit_if_cut_short(progress, "these are the best of them")

@@ -13,7 +13,9 @@ from ..forces.kinds import DEFAULT_QUANTITIES
 from ..limits import MOST_THREADS
 from ..process import count_cores
 from ..render.sweep_plot import check_drawable, draw_sweep
+from ..studies.quantity_names import describe_names
 from .file_names import VARIANTS, VariantsFormat, format_of, picture_form
+from .format_names import format_option
 from .options import EnginePath, Output, ProgressAtOnce
 from .output import is_seen, write_file
 from .overwrite_guard import refuse_overwriting
@@ -45,22 +47,13 @@ def sweep(
             "-q",
             metavar="WHAT,...",
             show_default=DEFAULT_QUANTITIES,
-            help=(
-                "force.2.major (or minor, forward, backward, axis, x, y, x_cos, x_sin, y_cos, "
-                "y_sin), moment...; couple.4.amplitude (or cos, sin), "
-                "torque..., roll...; peak.force, peak.moment; on mounts: mode.3.Hz, "
-                "mode.roll.share, mount.left.force, point.lever.motion; of torsion: torsion.1.Hz, "
-                "shaft.flywheel.torque (or stress)."
-            ),
+            help=f"Figures by name: {describe_names()}",
         ),
     ] = None,
     form: Annotated[
         VariantsFormat | None,
-        typer.Option(
-            "--format",
-            "-f",
-            show_default=False,
-            help="How to write the variants; default: by the ending of -o, else csv.",
+        format_option(
+            VariantsFormat, "How to write the variants; default: by the ending of -o, else csv."
         ),
     ] = None,
     output: Output = None,

@@ -70,8 +70,8 @@ def tables(
     them.
     """
     form = text_format(output, form)
-    from ..tables.layouts import add_firing
-    from ..tables.registry import select_tables
+    from ..printed_tables.layouts import add_firing
+    from ..printed_tables.registry import select_tables
 
     if angle:
         angle = as_bare_angles("--angle", angle)

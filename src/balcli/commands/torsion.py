@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from .file_names import picture_form, require_ending, text_format
+from .named_files import refuse_leaving_files
 from .options import FormatOption, Output, ProgressAtOnce
 from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
@@ -129,6 +130,7 @@ def torsion(
     answers.require_options(asked, write, plot, what)
     source, result = answers.find_answer(path, asked, misfire or (), progress)
     if write is not None:
+        refuse_leaving_files(source.text, path, write)
         write_file(answers.write_damper(source, result), write)
     if plot is not None and drawn is not None:
         write_file(answers.draw(result, what, drawn), plot)

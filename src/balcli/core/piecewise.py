@@ -31,6 +31,7 @@ _HALVINGS = 48
 _SAME = 1e-11  # rad; an angle so near to a breakpoint is the breakpoint
 _SAME_X = 1e-15  # of a panel's half width, where Newton's method has arrived
 _NOTHING = 1e-9  # values below this share of the largest have no sign
+_ROUNDING = 1e-14  # a smaller share of the largest value is 0
 _TIE = 1e-12  # extremes that differ by a smaller share of the range are equal
 
 
@@ -180,8 +181,11 @@ class PiecewiseCurve:
         return PiecewiseCurve(self.breaks, series)
 
     def extremes(self) -> tuple[Extreme, Extreme]:
-        """Lowest and highest value, each at the first of its angles; at a jump both sides count."""
+        """Lowest and highest value, each at the first of its angles; at a jump both sides count.
+        What is rounding error beside the larger is 0.
+        """
         angle, value = self._candidates()
+        value = np.where(np.abs(value) <= _ROUNDING * np.abs(value).max(), 0.0, value)
         tie = _TIE * float(np.ptp(value))
         lowest = int(np.argmax(value <= value.min() + tie))
         highest = int(np.argmax(value >= value.max() - tie))

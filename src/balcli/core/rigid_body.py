@@ -155,13 +155,6 @@ def load_at_centre(
     return np.concatenate([force, moment + np.cross(arm, force)], axis=-1)
 
 
-def real_axes(forward: Complex, backward: Complex) -> tuple[Complex, Complex]:
-    """Components along x and along y, of which the real parts of `c e^{i n t}` count, of a vector x
-    + iy that is `forward e^{i n t} + backward e^{-i n t}`.
-    """
-    return forward + backward.conj(), -1j * (forward - backward.conj())
-
-
 def find_screw(motion: Real, centre: ArrayLike) -> Screw:
     """The line about which a small motion (6,) of a body turns it."""
     shift, turn = motion[:3], motion[3:]

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .singular_values import Complex, Real
+from .singular_values import Real
 
 Indices = NDArray[np.intp]
 
@@ -75,20 +75,6 @@ class Damping(NamedTuple):
     loss: Real
     dashpots: Real
     nodes: Real
-
-
-class ChainMatrices(NamedTuple):
-    """Equations of motion of the independent angles.
-
-    Attributes:
-        stiffness, damping, mass: (dof, dof), stiffness complex where shafts have loss.
-        follow: (nodes, dof), every node's angle for a unit of each independent one.
-    """
-
-    stiffness: Complex
-    damping: Real
-    mass: Real
-    follow: Real
 
 
 class Branch(NamedTuple):
@@ -180,20 +166,6 @@ def follow_gears(chain: Chain) -> tuple[Real, Indices]:
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
     independent = np.unique(meshes.first[~chain.clamped])
     return np.where(meshes.first[:, None] == independent, meshes.pace[:, None], 0), independent
-
-
-def chain_matrices(chain: Chain, damping: Damping) -> ChainMatrices:
-    """Stiffness, damping and mass of the independent angles."""
-    follow, _ = follow_gears(chain)
-    elastic = np.isfinite(chain.stiffness)
-    twist = (incidence(chain) @ follow)[elastic]
-    stiffness = chain.stiffness[elastic] * (1 + 1j * damping.loss[elastic])
-    return ChainMatrices(
-        np.asarray((twist.T * stiffness) @ twist, complex),
-        twist.T @ (damping.dashpots[elastic, None] * twist) + (follow.T * damping.nodes) @ follow,
-        (follow.T * chain.inertia) @ follow,
-        follow,
-    )
 
 
 def grow_branches(chain: Chain, roots: Sequence[int], shafts: NDArray[np.bool_]) -> list[Branch]:

@@ -20,13 +20,6 @@ def viscous_inertia(inertia: float, damping: float, frequency: Real) -> Complex:
     return inertia / (1 + 1j * frequency * (inertia / damping))
 
 
-def rubber_inertia(inertia: float, stiffness: float, loss: float, frequency: Real) -> Complex:
-    """Of a ring (kg m2) on rubber (N m/rad, loss factor), at w rad/s: `J/(1 - w^2 J/(k (1 + i
-    loss)))`.
-    """
-    return inertia / _away_from_zero(1 - frequency**2 * (inertia / (stiffness * (1 + 1j * loss))))
-
-
 def pendulum_inertia(mass: float, radius: float, length: float, order: Real) -> Complex:
     """Of a mass (kg) on a pendulum of a length L (m), hung up at a radius R (m), at an order of the
     node's own speed, whatever that is: `m (R + L)^2/(1 - n^2 L/R)`. Tuned to n^2 = R/L, it holds

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from .singular_values import Complex, Real
 from .torsional_chain import (
@@ -95,12 +94,3 @@ def count_nodes(chain: Chain, shape: Real) -> int:
             sign[branch.child] = -sign[branch.parent] * np.sign(branch.far * branch.near)
     opposite = sign[chain.end] * sign[chain.start] * np.sign(chain.ratio) < 0
     return int(np.count_nonzero(opposite & np.isfinite(chain.stiffness) & (chain.stiffness > 0)))
-
-
-def sum_phases(shapes: Real, orders: ArrayLike, firing: ArrayLike) -> Complex:
-    """Phase vectors (orders, modes): `sum over cylinders of shape e^{-i n f}`, of mode shapes
-    (modes, cylinders) and firing angles f (cylinders,) in rad. Equal torques t_n do the work `pi
-    |t_n S|` in a cycle of vibration of unit amplitude.
-    """
-    turned = np.exp(-1j * np.multiply.outer(np.asarray(orders, float), np.asarray(firing, float)))
-    return turned @ shapes.T

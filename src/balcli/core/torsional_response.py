@@ -32,20 +32,6 @@ class Twist(NamedTuple):
     torque: Complex
 
 
-class Power(NamedTuple):
-    """Mean power by frequency, W.
-
-    Attributes:
-        fed: (*frequency,) by the loads.
-        shafts: (*frequency, shafts) lost in each.
-        nodes: (*frequency, nodes) lost at each, its damper included.
-    """
-
-    fed: Real
-    shafts: Real
-    nodes: Real
-
-
 class _Equations(NamedTuple):
     """What moves a chain, frequency by frequency.
 
@@ -241,26 +227,3 @@ def _solve_dense(
     torque = np.zeros((len(chain.start), len(w)), complex)
     torque[carrying] = scale * solution[shafts]
     return solution[nodes], torque
-
-
-def balance_power(
-    chain: Chain,
-    damping: Damping,
-    frequency: ArrayLike,
-    load: Complex,
-    twist: Twist,
-    attached: Complex | float = 0.0,
-) -> Power:
-    """What harmonic torques feed into a chain and where it is lost; arguments as of
-    `respond_chain`, and its result. `fed = sum of shafts + sum of nodes`.
-    """
-    w = np.asarray(frequency, float)
-    half = w[..., None] / 2
-    inertia = np.broadcast_to(chain.inertia + attached, twist.angle.shape)
-    fed = half[..., 0] * np.sum((load * twist.angle.conj()).imag, axis=-1)
-    flexible = _flexibilities(
-        chain, damping, w, np.any(twist.torque != 0, axis=tuple(range(w.ndim)))
-    )
-    shafts = -half * np.moveaxis(flexible.imag, 0, -1) * np.abs(twist.torque) ** 2
-    slowed = 2 * half * damping.nodes - 4 * half**2 * np.imag(inertia)
-    return Power(fed, shafts, half * slowed * np.abs(twist.angle) ** 2)

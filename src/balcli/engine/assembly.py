@@ -29,14 +29,14 @@ from .figures import (
 from .layout import Plan, bank_angles, cycle_deg, plan_cylinders
 from .rods import RodPlace, RunningGear, weigh_rod
 
-if TYPE_CHECKING:  # few engines have rods on rods, or turn; those that do import what these need
+if (
+    TYPE_CHECKING
+):  # few engines have rods on rods, turn, or say of gas; those that do import what it takes
     from ..core.mechanisms.articulated import Articulated
     from ..core.mechanisms.rotary import Rotary
+    from .gas import EngineGas
 
 PISTON_PARTS = ("mass", "piston", "pin", "rings", "locks")  # keys of [piston] that are masses
-
-if TYPE_CHECKING:
-    from .gas import EngineGas
 
 
 class Ripple(NamedTuple):
@@ -60,6 +60,7 @@ class Assembly:
         rank: trailing axes of the engine, if more than `varied` has.
         legible: keys of the file that can be relied on (`enginefile.read.Draft`). What needs others
             must not be asked for.
+        known_gas: what `gas` would find, if that is known.
     """
 
     def __init__(
@@ -68,8 +69,9 @@ class Assembly:
         varied: Mapping[str, Figure] | None = None,
         rank: int = 0,
         legible: Iterable[str] = EngineFile.model_fields,
+        known_gas: EngineGas | None = None,
     ) -> None:
-        self.model = model
+        self.model, self._known_gas = model, known_gas
         self.figures = Figures(varied or {}, model)
         self.rank = max(rank, *map(np.ndim, (varied or {}).values()), 0)
         self.legible = frozenset(legible)
@@ -413,8 +415,8 @@ class Assembly:
     @cached_property
     def gas(self) -> EngineGas | None:
         """Gas of the cylinders; None without [gas], and for variants, whose figures are arrays."""
-        if self.model.gas is None or self.rank:
-            return None
+        if self._known_gas is not None or self.model.gas is None or self.rank:
+            return self._known_gas
         from .gas import build_gas  # files without [gas] do not pay for it
 
         return build_gas(self)

@@ -8,12 +8,14 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import groupby
-from typing import TYPE_CHECKING, NamedTuple
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..core.cylinders import Cylinders, Device
 from ..core.phasors import Array, Figure
 from ..enginefile.model import EngineFile
-from ..errors import InputError
+from ..enginefile.plain_tables import list_tables
+from ..errors import BalcliError, InputError
 from .assembly import Assembly, Ripple
 from .devices import build_devices
 from .positions import are_places_known
@@ -64,7 +66,7 @@ class Bearings(NamedTuple):
     main_m2: float | None = None
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Engine:
     """An engine, or variants of one, in SI units except where a name says otherwise.
 
@@ -95,6 +97,7 @@ class Engine:
             m2; None where the file gives none.
         flywheel_inertia: that of the flywheel, kg m2, likewise.
         bearings: of the crankshaft; None where the file gives none.
+        model: the file that says all this; None where no file says it.
     """
 
     name: str
@@ -115,6 +118,54 @@ class Engine:
     crank_inertia: Figure | None = None
     flywheel_inertia: Figure | None = None
     bearings: Bearings | None = None
+    model: EngineFile | None = None
+
+    def vary(self, changes: Mapping[str, Any] = MappingProxyType({}), /, **named: Any) -> Engine:
+        """The engine of the same file with other values of some of its keys.
+
+        Args:
+            changes, named: values by dotted names of the engine file (`layout.bank_angle`,
+                `crank.throws.2`, `operation.speed`, `name`), in its units or with units of their
+                own; None leaves a key out. What says the same otherwise (`rod.ratio` beside
+                `rod.length`) is left out, and so is a firing order that given throws no longer fit.
+
+        Raises:
+            InputError: every mistake of the file as it would then be.
+            BalcliError: no file says what this engine is.
+
+        Example:
+            >>> engine.vary({"layout.bank_angle": 60, "rod.length": "6 in"})
+        """
+        from .vary import vary_engine
+
+        return vary_engine(self, {**changes, **named})
+
+    def to_dict(self) -> dict[str, Any]:
+        """The tables of its file, from which `load` makes the same engine: numbers in mm, kg,
+        degrees, rpm.
+
+        Raises:
+            BalcliError: no file says what this engine is.
+        """
+        return list_tables(take_model(self))
+
+    def __repr__(self) -> str:
+        return f"<Engine {self.summary}>"
+
+    @property
+    def summary(self) -> str:
+        """What it is, in a few words."""
+        words = [f"{len(self.numbers)} cylinder{'s' * (len(self.numbers) != 1)}"]
+        if isinstance(self.displacement_m3, float) and self.displacement_m3 == self.displacement_m3:
+            words.append(f"{self.displacement_m3 * 1e3:.4g} L")
+        if isinstance(self.speed_rpm, float):
+            words.append(f"{self.speed_rpm:g} rpm")
+        return f'"{self.name}": {", ".join(words)}' if self.name else ", ".join(words)
+
+    def _repr_html_(self) -> str:
+        from importlib import import_module
+
+        return import_module("balcli.render.notebook").show(self)
 
     @property
     def omega(self) -> Figure:
@@ -179,7 +230,11 @@ class Engine:
 
 
 def build(
-    model: EngineFile, varied: Mapping[str, Figure] | None = None, *, rank: int = 0
+    model: EngineFile,
+    varied: Mapping[str, Figure] | None = None,
+    *,
+    rank: int = 0,
+    gas: EngineGas | None = None,
 ) -> Engine:
     """The engine that a file describes, or variants of it.
 
@@ -190,12 +245,13 @@ def build(
             firing order is then left out.
         rank: trailing axes that the engine has at least. What does not vary along one has length 1
             there, here and in all that is computed.
+        gas: that of the engine, where it is known already.
 
     Raises:
         InputError: what does not fit together, by its path in the file.
         BalcliError: figures that cannot vary beside what the file gives.
     """
-    parts = assemble(model, varied, rank=rank)
+    parts = assemble(model, varied, rank=rank, gas=gas)
     bore = parts.figures.take_optional("piston.bore", model.piston.bore)
     return Engine(
         name=model.name,
@@ -216,14 +272,33 @@ def build(
         crank_inertia=_in_si(parts.figures.take_optional("crank.inertia", model.crank.inertia)),
         flywheel_inertia=None if model.flywheel is None else _find_flywheel(parts, model.flywheel),
         bearings=None if model.bearing is None else _find_bearings(model.bearing),
+        model=None if varied else model,
     )
 
 
+def take_model(engine: Engine) -> EngineFile:
+    """What the file of an engine says.
+
+    Raises:
+        BalcliError: no file says what it is.
+    """
+    if engine.model is None:
+        raise BalcliError(
+            f"{engine.summary}: no engine file can say what this engine is (it has devices that "
+            "none describes, or is a variant); take the one from which it was made"
+        )
+    return engine.model
+
+
 def assemble(
-    model: EngineFile, varied: Mapping[str, Figure] | None = None, *, rank: int = 0
+    model: EngineFile,
+    varied: Mapping[str, Figure] | None = None,
+    *,
+    rank: int = 0,
+    gas: EngineGas | None = None,
 ) -> Assembly:
     """The parts of an engine that fit together; arguments and errors as of `build`."""
-    parts = Assembly(model, varied, rank)
+    parts = Assembly(model, varied, rank, known_gas=gas)
     if problems := find_contradictions(parts):
         raise InputError(problems)
     return parts

@@ -4,24 +4,45 @@ path in the file and with what would be right.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from ..enginefile.model import EngineFile
-from ..enginefile.read import read_tables
+from ..enginefile.plain_tables import normalize_tables
+from ..enginefile.read import Draft, check_tables, read_tables
 from ..enginefile.toml_text import name_file, read_bytes
-from ..errors import InputError
+from ..errors import InputError, wrong_type
 from .assembly import Assembly
 from .build import Engine, build
 from .rules import find_contradictions
 
+_WANTED = "give the path of an engine file, the text of one, or a dict of its tables"
 
-def load(source: str | Path) -> Engine:
-    """The engine that a file describes, ready to analyse; "-" reads standard input.
+
+def load(source: str | Path | Mapping[str, Any]) -> Engine:
+    """The engine that a file, a text or a dict describes, ready to analyse.
+
+    Args:
+        source: the path of an engine file, "-" for standard input; or its content: a text of
+            several lines (TOML), or a dict of its tables, such as `{"crank": {"stroke": 90},
+            "rod": {"length": 150}, "piston": {"mass": 0.5}}`. Bare numbers are mm, kg, degrees,
+            rpm; a text bears its own unit ("3.5 in"); None counts as not given.
 
     Raises:
         BalcliError: there is nothing to read.
         InputError: every mistake of the file.
+        TypeError: the source is none of these.
+
+    Example:
+        >>> engine = load("v8.toml")
     """
+    if isinstance(source, Mapping):
+        return build(parse_dict(source))
+    if not isinstance(source, (str, Path)):
+        raise wrong_type("load", source, _WANTED)
+    if isinstance(source, str) and "\n" in source:
+        return build(parse(source))
     return build_named(read(source), source)
 
 
@@ -54,7 +75,24 @@ def parse(text: str | bytes, name: str = "") -> EngineFile:
         InputError: every mistake that the text has; and then also what does not fit together in the
             tables that could be read.
     """
-    draft = read_tables(text, name)
+    return _refuse_mistakes(read_tables(text, name), name)
+
+
+def parse_dict(tables: Mapping[str, Any], folder: Path | None = None, name: str = "") -> EngineFile:
+    """The model of an engine that the tables of a dict describe, `name` in messages.
+
+    Args:
+        tables: as a file has them.
+        folder: in which the files are that they name; default: the working directory.
+
+    Raises:
+        InputError: as of `parse`.
+    """
+    draft = check_tables(normalize_tables(tables, name), folder or Path())
+    return _refuse_mistakes(draft, name)
+
+
+def _refuse_mistakes(draft: Draft, name: str) -> EngineFile:
     if not draft.has_mistakes:
         return draft.model
     raise draft.refusal(find_contradictions(Assembly(draft.model, legible=draft.legible)), name)

@@ -88,8 +88,6 @@ class Draft(NamedTuple):
 def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Draft:
     """What a TOML text says of an engine; `name` is that of its file, for messages.
 
-    Tables that the text does not have are not even compiled by pydantic.
-
     Args:
         bare: whether a body on its mounts will do, without crank, rods and pistons: the model then
             has none.
@@ -97,7 +95,17 @@ def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Dra
     Raises:
         InputError: it is no TOML.
     """
-    data = parse_toml(text, name)
+    return check_tables(parse_toml(text, name), Path(name).parent, bare=bare)
+
+
+def check_tables(data: Mapping[str, Any], folder: Path, *, bare: bool = False) -> Draft:
+    """What tables say of an engine. Those that are not there are not even compiled by pydantic.
+
+    Args:
+        data: as TOML is read.
+        folder: in which the files are that they name.
+        bare: as of `read_tables`.
+    """
     reader = _Reader()
     reader.unknown += [UnknownKey("", key, None) for key in data if key not in KNOWN]
     bodiless = not bare or "body" not in data or any(key in data for key in REQUIRED)
@@ -112,7 +120,7 @@ def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Dra
         parts[key] = reader.read_devices(key, data[key], import_table(key))
     if "cylinder" in data:
         parts["cylinder"] = reader.read_cylinders(data["cylinder"])
-    return reader.draft(parts, Path(name).parent)
+    return reader.draft(parts, folder)
 
 
 class _Reader:

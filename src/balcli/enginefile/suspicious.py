@@ -29,12 +29,15 @@ ROD_LIGHT, ROD_HEAVY = 0.1, 8.0  # rod mass / piston mass: engines have 0.7 to 2
 INERTIA_LOW, INERTIA_HIGH = 0.02, 0.4
 PISTON_SPEED = 40.0  # m/s, mean; racing engines stay below 30
 OFFSET_SHARE = 0.2  # of the stroke; pin offsets have up to 0.05, narrow-angle vees up to 0.15
+# Indicated or brake mean pressure: 8 to 30 bar is usual, racing engines had 50; 100 psi is 7 bar.
+MEAN_PRESSURE = 60.0  # bar
+MAX_PRESSURE = 500.0  # bar; engines have 50 to 250
 UNBALANCE_SHARE = 5.0  # of all moving masses x crank radius; balancing needs 1 or 2
 
 
 def find_suspicious(model: EngineFile) -> list[str]:
     """Warnings for what is allowed and yet unlikely; empty for an ordinary engine."""
-    parts = (_piston, _proportions, _rod, _inertia, _motion, _layout, _counterweights)
+    parts = (_piston, _proportions, _rod, _inertia, _motion, _layout, _counterweights, _gas)
     return [warning for part in parts for warning in part(model)]
 
 
@@ -153,6 +156,22 @@ def _counterweights(model: EngineFile) -> Iterator[str]:
                 "more than "
                 f"{UNBALANCE_SHARE:g} times all moving masses at the crank radius ({limit:.3g}); "
                 "is it in g mm?"
+            )
+
+
+def _gas(model: EngineFile) -> Iterator[str]:
+    if model.gas is None:
+        return
+    for key, limit in (
+        ("imep", MEAN_PRESSURE),
+        ("bmep", MEAN_PRESSURE),
+        ("max_pressure", MAX_PRESSURE),
+    ):
+        value = getattr(model.gas, key)
+        if value is not None and value > limit:
+            yield (
+                f"gas.{key} is {value:.4g} bar, where at most {limit:g} is usual; is it in bar? "
+                'Another unit is said as in "130 psi" or "0.9 MPa"'
             )
 
 

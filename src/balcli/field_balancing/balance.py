@@ -20,6 +20,7 @@ from ..core.smallest_largest import (
 )
 from ..enginefile.fields import counted, nearest, shorten
 from ..errors import BalcliError, InputError, Problem
+from ..result import Result
 from .influence import Influence, find_influence, has_opposite_senses
 from .model import RunsFile
 from .permitted import find_permitted_eccentricity, find_permitted_unbalance
@@ -76,8 +77,8 @@ class PlaneCorrection(NamedTuple):
     permitted: Permitted | None
 
 
-@dataclass(frozen=True)
-class FieldBalance:
+@dataclass(frozen=True, repr=False)
+class FieldBalance(Result):
     """The answer.
 
     Attributes:
@@ -98,6 +99,11 @@ class FieldBalance:
     largest: float
     bound: float
     rms: float
+
+    @property
+    def summary(self) -> str:
+        """Which planes get a weight, and what is left."""
+        return f"in {', '.join(plane.plane for plane in self.planes)}"
 
     @property
     def reached(self) -> bool:

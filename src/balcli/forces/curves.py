@@ -20,6 +20,7 @@ from ..core.strokes import find_travel
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import FINEST_STEP_DEG
+from ..result import Result
 from .kinds import COUPLE, FORCE, MOMENT, ROLL, TORQUE
 
 AT_ONCE = 200_000  # cylinders x angles, which bounds the memory
@@ -27,8 +28,8 @@ _MOMENTS = (MOMENT.key_along("x"), MOMENT.key_along("y"))
 _EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
 
 
-@dataclass(frozen=True)
-class Curves:
+@dataclass(frozen=True, repr=False)
+class Curves(Result):
     """Figures over the crank angle.
 
     Attributes:
@@ -44,6 +45,11 @@ class Curves:
     crank_deg: Array
     values: Mapping[str, Array]
     moments_known: bool = True
+
+    @property
+    def summary(self) -> str:
+        """Of what, and at how many angles."""
+        return f"of {self.name or 'an engine'}: {len(self.crank_deg)} crank angles"
 
     def known(self) -> dict[str, Array]:
         """The values without moments that are not known."""

@@ -1,21 +1,25 @@
 """Forces in each cylinder of an engine with gas: on the piston, on the cylinder wall, along the rod
-and on the crank pin, exact with a rod whose mass is distributed.
+and on the pin that it turns on, exact with a rod whose mass is distributed.
 
 In the cylinder's frame, u along its axis away from the crank and v 90 deg ahead in the sense of
-rotation: crank pin `c = r e^{i psi}`, piston pin `p = s + i e`, `d = p - c`. A rod is equivalent to
-its two masses and a massless couple of inertia -H (docs/theory.md), so that with the gas force P
-towards the crank, piston mass M, small end a, big end b and the rod's angular acceleration alpha
+rotation: piston pin p, lower end of the rod f, which is the crank pin or, of an articulated rod,
+the knuckle pin, `d = p - f`. A rod is equivalent to its two masses and a massless couple of inertia
+-H (docs/theory.md), so that with the gas force P towards the crank, piston mass M, small end a, big
+end b and the rod's angular acceleration alpha
 
-    W_x = M s'' + P                            rod on piston
-    W_y = (Im d (W_x + a s'') + H alpha)/Re d    the wall takes it
-    Q   = a s'' + b c'' + W                    crank pin on rod
+    W_x = M Re p'' + P                                    rod on piston
+    W_y = (Im d (W_x + a Re p'') + H alpha + S)/Re d - a Im p''
+    N   = W_y - M Im p''                                  piston on wall
+    Q   = a p'' + b f'' + W - sum K                       pin on rod
 
-(derivatives by time). Its torque, `Im(conj(c) (-Q))`, is that of virtual work.
+(derivatives by time; p'' has a part across the axis where the cylinder itself turns). K are the
+forces of the articulated rods on a master rod's knuckle pins, S their moment about its crank pin.
+The torque of the crank pins, `Im(conj(c) (-Q))`, is that of virtual work.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -26,6 +30,11 @@ from ..errors import BalcliError
 from .curves import Motion
 from .gas import take_gas
 
+if TYPE_CHECKING:
+    from ..core.mechanisms.articulated import Articulated
+    from ..core.mechanisms.motion import Point
+    from ..core.mechanisms.rotary import Rotary
+
 
 class RodForces(NamedTuple):
     """N, each of shape (cylinders, angles), the cylinders in the order of `engine.numbers`.
@@ -35,7 +44,11 @@ class RodForces(NamedTuple):
         gas: on the piston, towards the crank.
         thrust: of the piston on the cylinder wall, + along v.
         rod: along the rod at the piston pin, + where it is pressed.
-        pin: of the rod on the crank pin, u + i v.
+        pin: of the rod on its crank pin or knuckle pin, u + i v; that of a master rod carries its
+            articulated rods, too.
+        axis: direction u of the cylinder in the engine's axes, of size 1.
+        throw: direction of the crank pin from the crank's axis, in the cylinder's frame.
+        lean: direction from the rod's pin to its piston pin, in the cylinder's frame.
     """
 
     pressure: Array
@@ -43,6 +56,16 @@ class RodForces(NamedTuple):
     thrust: Array
     rod: Array
     pin: Complex
+    axis: Complex
+    throw: Complex
+    lean: Complex
+
+
+class _Course(NamedTuple):
+    """Where points are (m), and their accelerations (m/s2), each of shape (cylinders, angles)."""
+
+    at: Complex
+    acceleration: Complex
 
 
 def compute_rod_forces(engine: Engine, crank_deg: Array, *, before: bool = False) -> RodForces:
@@ -54,26 +77,93 @@ def compute_rod_forces(engine: Engine, crank_deg: Array, *, before: bool = False
         before: at a jump of the pressure, what is before it.
 
     Raises:
-        BalcliError: no gas, no pressures, or articulated or turning cylinders.
+        BalcliError: no gas, or no pressures.
     """
-    if engine.cylinders.linkage is not None:
-        raise BalcliError("loads of pins are known for plain rods, not for articulated or turning")
     pressure, gas = _find_gas_forces(engine, crank_deg, before=before)
     motion = Motion(engine, crank_deg)
-    c, r, w2 = engine.cylinders, motion.radius, motion.omega**2
-    piston, small, big = _find_masses(engine)
-    length, offset = r / motion.lam, motion.eps * r / motion.lam
-    up = -r * (w2 * motion.a + motion.xi * motion.v)  # s'' by time; v and a are of the travel
+    masses = engine.weighed
+    heads = _column(np.array([w.piston for w in masses]))
+    small = _column(np.array([w.small_end for w in masses]))
+    big = _column(np.array([w.rotating for w in masses]))
+    axis, throw = _find_directions(engine, motion)
+    piston, foot = _follow_ends(engine, motion, throw)
+    d = piston.at - foot.at
+    up, aside = piston.acceleration.real, piston.acceleration.imag
+    along = heads * up + gas
+    spin_rate = motion.spin_rate * motion.omega**2 + motion.spin * motion.xi
+    moment = d.imag * (along + small * up) + _column(engine.cylinders.couple) * spin_rate
+    bare = small * piston.acceleration + big * foot.acceleration + along
+
+    def find_across(rows: slice | list[int], more: Array | float = 0.0) -> Array:
+        """W_y of some cylinders, whose knuckle pins add a moment."""
+        return np.asarray((moment[rows] + more) / d.real[rows] - (small * aside)[rows])
+
+    across = find_across(slice(None))
+    pin = -(bare + 1j * across)
+    for master, hung in list_hung_rows(engine).items():
+        here = [master]
+        loads = axis[hung] * pin[hung]
+        arms = axis[hung] * foot.at[hung] - axis[master] * foot.at[master]
+        across[here] = find_across(here, (np.conj(arms) * loads).imag.sum(axis=0))
+        carried = np.conj(axis[master]) * loads.sum(axis=0)
+        pin[here] = carried - (bare[here] + 1j * across[here])
+    lean = d / np.abs(d)
+    pressed = lean.real * along + lean.imag * across
+    thrust = across - heads * aside
+    return RodForces(pressure, gas, thrust, pressed, pin, axis, throw, lean)
+
+
+def list_hung_rows(engine: Engine) -> dict[int, list[int]]:
+    """Rows of the cylinders whose rods hang on a master rod, by the row of the master; empty where
+    every rod is on a crank pin.
+    """
+    linkage = engine.cylinders.linkage
+    if linkage is None:
+        return {}
+    turned = cast("Rotary", linkage).hung if engine.rotary else linkage
+    if turned is None:
+        return {}
+    found: dict[int, list[int]] = {}
+    for row, master in enumerate(cast("Articulated", turned).master.tolist()):
+        if row != master:
+            found.setdefault(master, []).append(row)
+    return found
+
+
+def _find_directions(engine: Engine, motion: Motion) -> tuple[Complex, Complex]:
+    """`RodForces.axis` and `throw`. Where the cylinders turn, psi is a cylinder's angle ahead of
+    the crank pin (core.mechanisms.rotary).
+    """
     turned = unit(np.degrees(motion.psi))
-    place = length * np.cos(motion.rod_angle()) + r * turned.real
-    d = place + 1j * offset - r * turned
-    spin_rate = motion.spin_rate * w2 + motion.spin * motion.xi
-    along = piston * up + gas
-    across = (d.imag * (along + small * up) + _column(c.couple) * spin_rate) / d.real
-    pin_rate = (-w2 + 1j * motion.xi) * r * turned
-    pin = -(small * up + big * pin_rate + along + 1j * across)
-    pressed = (d.real * along + d.imag * across) / length
-    return RodForces(pressure, gas, across, pressed, pin)
+    if engine.rotary:
+        return unit(motion.pin_deg), np.conj(turned)
+    return np.broadcast_to(motion.axis, turned.shape), turned
+
+
+def _follow_ends(engine: Engine, motion: Motion, throw: Complex) -> tuple[_Course, _Course]:
+    """Piston pins and lower ends of the rods, in each cylinder's frame."""
+    r, linked = motion.radius, motion.linked
+
+    def follow(z: Complex, z1: Complex | Array, z2: Complex | Array) -> _Course:
+        """A point by its place and derivatives by the crank angle, in crank radii."""
+        acceleration = r * (z2 * motion.omega**2 + z1 * motion.xi)
+        return _Course(r * z, np.asarray(acceleration, complex))
+
+    def follow_point(point: Point, turned: Complex | float = 1.0) -> _Course:
+        return follow(turned * point.z, turned * point.z1, turned * point.z2)
+
+    if linked is not None and engine.rotary:  # its points are seen from the direction of the pin
+        piston, *knuckle = (follow_point(point, throw) for point in linked.points)
+        still = _Course(r * throw, np.zeros_like(throw))
+        return piston, (knuckle or [still])[0]
+    offset = motion.eps / motion.lam
+    if linked is None:
+        place = np.cos(motion.rod_angle()) / motion.lam + throw.real
+        foot = follow(throw, 1j * throw, -throw)
+    else:
+        place = linked.place
+        foot = follow_point(linked.points[0])
+    return follow(place + 1j * offset, -motion.v, -motion.a), foot
 
 
 def _find_gas_forces(engine: Engine, crank_deg: Array, *, before: bool) -> tuple[Array, Array]:
@@ -88,17 +178,6 @@ def _find_gas_forces(engine: Engine, crank_deg: Array, *, before: bool) -> tuple
         pressures.append(torque.pressure.at(at, before=before))
         forces.append(cylinder.share * torque.force(at, before=before))
     return np.stack(pressures), np.stack(forces)
-
-
-def _find_masses(engine: Engine) -> tuple[Array, Array, Array]:
-    """Piston, small and big end of each rod with what turns with it, kg, shape (cylinders, 1)."""
-    weighed = engine.weighed
-    rotating = np.broadcast_to(np.ravel(engine.cylinders.rotating), len(weighed))
-    big = [
-        float(all_of_it) - float(w.share) for all_of_it, w in zip(rotating, weighed, strict=True)
-    ]
-    pistons, small = [w.piston for w in weighed], [w.small_end for w in weighed]
-    return _column(np.array(pistons)), _column(np.array(small)), _column(np.array(big))
 
 
 def _column(values: Array) -> Array:

@@ -4,8 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -13,93 +12,76 @@ from ..core.cycle_peaks import find_longest
 from ..core.rigid_body import move_points, respond_body
 from ..core.singular_values import Real
 from ..core.vibration import frequencies
-from ..engine.build import Engine, build
-from ..enginefile.fields import nearest, shorten
+from ..engine.variants import EngineVariants
 from ..enginefile.model import EngineFile, Table, label_table
 from ..enginefile.mounting_tables import Body, find_tensor_faults
 from ..errors import BalcliError, InputError, Problem
+from ..forces.target_quantity import (
+    Subject,
+    TargetQuantity,
+    parse_target_quantity,
+    refuse_stranger,
+)
 from .build import MountedBody, build_mounted_body
 from .modes import BodyModes, find_mounted_modes
 from .report import choose_speeds
 from .response import Loads, find_loads, refuse_resonance
 
-BEGINNINGS = ("mode", "mount", "point")
-_OF_MODES = {"Hz": "Hz", "share": "%", "damping": "%"}
-_OF_MOUNTS = {"force": "N", "static": "N"}
-_OF_POINTS = {"motion": "m"}
-_PARTS = {"mode": _OF_MODES, "mount": _OF_MOUNTS, "point": _OF_POINTS}
+_SUBJECTS = {
+    "mode": Subject("3", {"Hz": "Hz", "share": "%", "damping": "%"}),
+    "mount": Subject("left", {"force": "N", "static": "N"}),
+    "point": Subject("lever", {"motion": "m"}),
+}
 _MOTIONS = {"x": 0, "y": 1, "z": 2, "rx": 3, "ry": 4, "rz": 5, "roll": 5}
-_RUNS = {"mount.force", "point.motion"}  # what needs an engine
+_NUMBERS = tuple("123456")
+_TABLES = ("body", "mount", "point")  # of the file, which no engine has
+_RUNS = ("force", "motion")  # what takes an engine that runs
 
 
-@dataclass(frozen=True)
-class MountQuantity:
-    """One figure.
-
-    Attributes:
-        kind: one of BEGINNINGS.
-        target: number of the mode (`3`), or of which motion it has the largest share (`roll`);
-            name of the mount or point.
-        part: what of it.
-    """
-
-    kind: str
-    target: str
-    part: str
-
-    @property
-    def name(self) -> str:
-        """As a user writes it."""
-        return f"{self.kind}.{self.target}.{self.part}"
-
-    @property
-    def unit(self) -> str:
-        """Of its values: SI, or percent."""
-        return _PARTS[self.kind][self.part]
-
-    @property
-    def of_running_engine(self) -> bool:
-        """Whether it takes an engine that runs."""
-        return f"{self.kind}.{self.part}" in _RUNS
-
-
-def parse_mount_quantity(text: str) -> MountQuantity:
-    """`mode.3.Hz` and its like.
+def parse_quantity(text: str) -> TargetQuantity:
+    """`mode.3.Hz` and its like; of a mode, its number, or the motion of which it has the largest
+    share.
 
     Raises:
         BalcliError: anything else, with what there is.
     """
-    kind, _, rest = text.partition(".")
-    target, _, part = rest.rpartition(".")
-    parts = _PARTS[kind]
-    if part not in parts or not target:
-        example = {"mode": "3", "mount": "left", "point": "lever"}[kind]
-        there = " or ".join(f"{kind}.{example}.{each}" for each in parts)
-        raise BalcliError(f"{text} is no quantity: give {there}")
-    if kind == "mode" and target not in _MOTIONS and target not in tuple("123456"):
+    found = parse_target_quantity(text, _SUBJECTS)
+    if found.kind == "mode" and found.target not in (*_MOTIONS, *_NUMBERS):
         raise BalcliError(
             f"{text} is no quantity: after mode comes its number from 1 to 6, or its motion: "
             f"{', '.join(_MOTIONS)}"
         )
-    return MountQuantity(kind, target, part)
+    return found
 
 
-def refuse_unknown_targets(model: EngineFile, quantities: Sequence[MountQuantity]) -> None:
+def list_names(model: EngineFile) -> Iterator[str]:
+    """Those that a file has."""
+    named = _name_targets(model) | {"mode": [*_NUMBERS, *_MOTIONS]}
+    for kind, subject in _SUBJECTS.items():
+        yield from (f"{kind}.{target}.{part}" for target in named[kind] for part in subject.units)
+
+
+def _name_targets(model: EngineFile) -> dict[str, list[str]]:
+    return {
+        "mount": [label_table(table, k) for k, table in enumerate(model.mount, 1)],
+        "point": [label_table(table, k) for k, table in enumerate(model.point, 1)],
+    }
+
+
+def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
     """Nothing, unless one of these is of a mount or point that the file does not have.
 
     Raises:
         BalcliError: the quantity, and the nearest name.
     """
-    names = {
-        "mount": [label_table(table, k) for k, table in enumerate(model.mount, 1)],
-        "point": [label_table(table, k) for k, table in enumerate(model.point, 1)],
-    }
+    names = _name_targets(model)
     for q in quantities:
-        there = names.get(q.kind)
-        if there is not None and q.target not in there:
-            near = nearest(q.target, there)
-            hint = f"did you mean {near}?" if near else f"there are {', '.join(there[:8])}"
-            raise BalcliError(f"{q.name}: the file has no {q.kind} {shorten(q.target)}; {hint}")
+        if q.kind in names:
+            refuse_stranger(q, names[q.kind])
+
+
+def _begin(path: str) -> str:
+    return path.partition(".")[0]
 
 
 def vary_mounting(model: EngineFile, values: Mapping[str, float]) -> EngineFile:
@@ -113,7 +95,7 @@ def vary_mounting(model: EngineFile, values: Mapping[str, float]) -> EngineFile:
     changed: dict[str, Table] = {}
     for path, value in values.items():
         start = next((s for s in tables if path.startswith(f"{s}.")), "")
-        if start.partition(".")[0] in ("body", "mount", "point"):
+        if _begin(start) in _TABLES:
             table = changed.get(start, tables[start])
             changed[start] = _change(table, path[len(start) + 1 :], value)
     body = changed.get("body", model.body)
@@ -139,17 +121,17 @@ def _change(table: Table, key: str, value: float) -> Table:
     return table.model_copy(update={name: tuple(figures)})
 
 
-class MountedVariants:
+class Variants:
     """Evaluates quantities of variants of a file one by one; what does not vary is computed once.
 
     Args:
         model: with [body] and [[mount]].
     """
 
-    def __init__(self, model: EngineFile, quantities: Sequence[MountQuantity]) -> None:
+    def __init__(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
         self._model, self._quantities = model, quantities
-        self._runs = any(q.of_running_engine for q in quantities)
-        self._engines: dict[tuple[tuple[str, float], ...], Engine] = {}
+        self._runs = any(q.part in _RUNS for q in quantities)
+        self._engines, self._targets = EngineVariants(model), _name_targets(model)
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
         """The value of each quantity for one variant, by the figures that vary.
@@ -163,44 +145,25 @@ class MountedVariants:
         forces: Real = np.zeros(0)
         motions: Real = np.zeros(0)
         if self._runs:
-            engine = self._build_engine(values)
+            own = {path: value for path, value in values.items() if _begin(path) not in _TABLES}
+            engine = self._engines.build(own)
             loads = find_loads(engine, mounted.body.centre)
             modes = find_mounted_modes(mounted, loads.mean)
             forces, motions = _find_peaks(mounted, modes, loads, choose_speeds(engine))
-        labels = {
-            "mount": [label_table(table, k) for k, table in enumerate(model.mount, 1)],
-            "point": [label_table(table, k) for k, table in enumerate(model.point, 1)],
-        }
         found = []
         for q in self._quantities:
             if q.kind == "mode":
                 found.append(_read_mode(modes, q))
                 continue
-            k = labels[q.kind].index(q.target)
+            k = self._targets[q.kind].index(q.target)
             if q.part == "static":
                 found.append(float(np.linalg.norm(modes.settled.forces[k])))
             else:
                 found.append(float((forces if q.kind == "mount" else motions)[k]))
         return found
 
-    def _build_engine(self, values: Mapping[str, float]) -> Engine:
-        own = {
-            path: value
-            for path, value in values.items()
-            if path.partition(".")[0] not in ("body", "mount", "point")
-        }
-        if own and self._model.gas is not None:
-            raise BalcliError(
-                "with [gas], forces of mounts are told only while figures of body, mounts and "
-                f"points vary, not {next(iter(own))}"
-            )
-        key = tuple(own.items())
-        if key not in self._engines:
-            self._engines = {key: build(self._model, own or None)}
-        return self._engines[key]
 
-
-def _read_mode(modes: BodyModes, q: MountQuantity) -> float:
+def _read_mode(modes: BodyModes, q: TargetQuantity) -> float:
     if q.target in _MOTIONS:
         motion = _MOTIONS[q.target]
         mode = max(modes.six, key=lambda one: one.shares[motion])

@@ -15,6 +15,7 @@ from ..engine.build import Engine
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
 from ..forces.orders import check_orders
+from ..result import Result
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
 from .build import MountedBody, build_mounted_body
@@ -47,8 +48,8 @@ class Other(NamedTuple):
     response: Response
 
 
-@dataclass(frozen=True, eq=False)
-class MountReport:
+@dataclass(frozen=True, eq=False, repr=False)
+class MountReport(Result):
     """The answer.
 
     Attributes:
@@ -66,6 +67,12 @@ class MountReport:
     response: Response | None = None
     fitted: Fitted | None = None
     others: tuple[Other, ...] = ()
+
+    @property
+    def summary(self) -> str:
+        """Of what, and its natural frequencies."""
+        modes = ", ".join(f"{mode.hertz:.3g}" for mode in self.modes.six)
+        return f"of {self.name or 'a body'}: modes at {modes} Hz"
 
     @property
     def beside(self) -> tuple[Other, ...]:

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from . import crankshaft, guide_moments, strokes, symmetry
-from .csv import Rows
+from .csv import Columns, Rows
 from .devices import device_entries
 from .figures import FigureRow, assumptions, clean, figure_rows, order_entries, peak_entries
 
@@ -52,6 +54,31 @@ def document(result: Analysis) -> dict[str, Any]:
     if result.why is not None:
         found["why"] = symmetry.document(result.why)
     return found
+
+
+def columns(result: Analysis) -> Columns:
+    """An order a row: sizes and directions of each kind, named as the quantities of sweeps without
+    their order.
+    """
+    known = result.moments_known
+    spectra = result.spectra if known else result.spectra.without_moment()
+    orders = result.orders.tolist()
+    values: dict[str, Any] = {"order": orders}
+    units: dict[str, str] = {}
+    for kind, phasors in spectra.items():
+        parts = {"amplitude": phasors.major, "cos": phasors.x.real, "sin": -phasors.x.imag}
+        if kind.vector:
+            parts = {
+                "major": phasors.major,
+                "minor": np.abs(phasors.minor),
+                "axis": phasors.axis_deg,
+                "forward": np.abs(phasors.forward),
+                "backward": np.abs(phasors.backward),
+            }
+        for part, figures in parts.items():
+            values[f"{kind.name}.{part}"] = figures + 0.0
+            units[f"{kind.name}.{part}"] = "deg" if part == "axis" else kind.si_unit
+    return Columns(values, units, {"order": orders})
 
 
 def brief_document(result: Analysis) -> dict[str, Any]:

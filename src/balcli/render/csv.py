@@ -3,12 +3,34 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from io import StringIO
-from typing import Any, NamedTuple
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 # Beginnings of what is run, in full width as in small.
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\uff1d", "\uff0b", "\uff0d", "\uff20")
+
+
+Column: TypeAlias = "Sequence[Any] | NDArray[Any]"
+
+
+class Columns(NamedTuple):
+    """A result as columns of one length, for DataFrames.
+
+    Attributes:
+        values: by name, each a list or an array.
+        units: of some of them.
+        axes: by name, the values of the first columns, if all their combinations stand in order,
+            the last one fastest.
+    """
+
+    values: Mapping[str, Column]
+    units: Mapping[str, str] = MappingProxyType({})
+    axes: Mapping[str, Column] = MappingProxyType({})
 
 
 class Rows(NamedTuple):

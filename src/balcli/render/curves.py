@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..forces.curves import Curves
-from .csv import Rows
+from .csv import Columns, Rows
 from .figures import assumptions
 
 
@@ -19,6 +19,13 @@ def document(curves: Curves) -> dict[str, Any]:
         "curves": {name: y.tolist() for name, y in curves.values.items()},
         **assumptions(curves),
     }
+
+
+def columns(curves: Curves) -> Columns:
+    """Crank angles, and each quantity that is known; units stand in the names."""
+    return Columns(
+        {"crank_deg": curves.crank_deg, **curves.known()}, {}, {"crank_deg": curves.crank_deg}
+    )
 
 
 def rows(curves: Curves) -> Rows:

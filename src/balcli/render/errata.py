@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from typing import Any
 
-from ..tables.recomputed import Erratum, Table
+from ..printed_tables.recomputed import Erratum, Table
 from .csv import Rows
 from .sheet import Grid, Sheet
 from .units import System

@@ -10,8 +10,8 @@ from . import printed_table
 from .sheet import UNKNOWN, Grid, Sheet, number
 
 if TYPE_CHECKING:
-    from ..tables.layouts import Layouts
-    from ..tables.recomputed import Cell, Row
+    from ..printed_tables.layouts import Layouts
+    from ..printed_tables.recomputed import Cell, Row
     from .csv import Rows
     from .units import System
 
@@ -36,7 +36,7 @@ def sheet(result: Layouts, _system: System) -> Sheet:
     grid = Grid(
         "",
         ("engine", *_SHOWN, "fires every"),
-        tuple(map(cells, result.table.rows)),
+        tuple(map(cells, result.table.exact)),
         note=_NOTE,
     )
     return Sheet("Free forces and moments of common engines", (grid,))

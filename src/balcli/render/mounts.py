@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from ..core.singular_values import Real
@@ -136,7 +136,7 @@ def _worst(
     head: str,
     names: Sequence[str],
     several: Sequence[Sequence[Worst]],
-    convert: Any,
+    convert: Callable[[float], float],
 ) -> Grid:
     heads = [head, "all orders", "at, rpm", "largest order", "alone"]
     for other in result.beside:
@@ -249,9 +249,9 @@ def _pick(count: int, most: int) -> list[int]:
 
 
 def _by_speed(result: MountReport, system: System) -> Grid:
-    response = _responses(result)[0]
-    heads = ["rpm", *result.mounted.names]
     several = _responses(result)
+    response = several[0]
+    heads = ["rpm", *result.mounted.names]
     for other in result.beside:
         heads += [f"{name}, {other.name}" for name in result.mounted.names]
     rows = [

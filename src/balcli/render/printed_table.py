@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any, NamedTuple
 
-from ..tables.recomputed import (
+from ..printed_tables.recomputed import (
     Cell,
     Table,
     deviates,
@@ -33,10 +33,10 @@ def sheet(result: RoundedTable, _system: System) -> Sheet:
     table, digits = result
     columns = range(len(table.columns))
     rows = tuple(
-        tuple(_shown(table, i, j, digits) for j in columns) for i in range(len(table.rows))
+        tuple(_shown(table, i, j, digits) for j in columns) for i in range(len(table.exact))
     )
     wrong = frozenset((e.row, table.columns.index(e.column)) for e in table.errata)
-    words = tuple(j for j in columns if j == 0 or all(_is_word(row[j]) for row in table.rows))
+    words = tuple(j for j in columns if j == 0 or all(_is_word(row[j]) for row in table.exact))
     grid = Grid("", table.columns, rows, note=count_deviations(table), marked=wrong, words=words)
     return Sheet(f"{table.name}: {table.title}", (Facts((("source", table.source),)), grid))
 
@@ -50,7 +50,7 @@ def document(result: RoundedTable) -> dict[str, Any]:
         "title": table.title,
         "source": table.source,
         "columns": table.columns,
-        "rows": table.rows,
+        "rows": table.exact,
         "printed": table.printed,
         "errata": [asdict(e) for e in table.errata],
     }
@@ -63,7 +63,7 @@ def rows(result: RoundedTable, _system: System) -> Rows:
     def cell(value: Cell) -> Cell:
         return value if digits is None or not isinstance(value, float) else f"{value:.{digits}f}"
 
-    return Rows(table.columns, [[cell(value) for value in row] for row in table.rows])
+    return Rows(table.columns, [[cell(value) for value in row] for row in table.exact])
 
 
 def count_deviations(table: Table) -> str:
@@ -83,7 +83,7 @@ def count_deviations(table: Table) -> str:
 # ------------------------------------------------------------------ cells
 def _shown(table: Table, i: int, j: int, digits: int | None) -> str:
     """A cell as the print would have it, followed by the print where that deviates."""
-    value, text = table.rows[i][j], table.printed[i][j]
+    value, text = table.exact[i][j], table.printed[i][j]
     shown = _rounded_like(text, value, None if j < table.stub else digits)
     return f"{shown} ≠ {text}" if text is not None and deviates(value, text) else shown
 

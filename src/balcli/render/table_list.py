@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ..tables.recomputed import Table
+from ..printed_tables.recomputed import Table
 from .csv import Rows
 from .sheet import Grid, Sheet
 from .units import System

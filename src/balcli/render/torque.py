@@ -59,7 +59,12 @@ def document(result: Result) -> dict[str, Any]:
 
 def _load_entries(result: TorqueAnalysis) -> dict[str, Any]:
     """What was asked for and is known."""
-    kinds = (("pin", "cylinder", result.loads.pin), ("main", "bearing", result.loads.main))
+    told = result.loads
+    kinds = (
+        ("pin", "cylinder", told.pin),
+        ("knuckle", "cylinder", told.knuckle),
+        ("main", "bearing", told.main),
+    )
     found = {
         kind: [_load_entry(word, load, result.cycle_deg) for load in loads]
         for kind, word, loads in kinds
@@ -242,6 +247,8 @@ def sheet(result: Result, system: System) -> Sheet:
 def _load_tables(result: TorqueAnalysis, system: System) -> Iterator[Grid]:
     if result.loads.pin:
         yield _load_table("Crank pins", "cylinder", result.loads.pin, result.cycle_deg, system)
+    if (hung := result.loads.knuckle) is not None:
+        yield _load_table("Knuckle pins", "cylinder", hung, result.cycle_deg, system)
     if result.loads.main:
         grid = _load_table("Main bearings", "bearing", result.loads.main, result.cycle_deg, system)
         yield grid._replace(

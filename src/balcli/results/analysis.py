@@ -24,6 +24,7 @@ from ..forces.orders import (
 )
 from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
 from ..limits import HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
+from ..result import Result
 
 if TYPE_CHECKING:  # whoever asks for one of these chapters loads it
     from ..core.strokes import Travel
@@ -46,8 +47,8 @@ class Sizing(NamedTuple):
     after: Analysis
 
 
-@dataclass(frozen=True, eq=False)
-class Analysis:
+@dataclass(frozen=True, eq=False, repr=False)
+class Analysis(Result):
     """What an engine does to its frame. Whatever was not asked for is None.
 
     Attributes:
@@ -73,6 +74,12 @@ class Analysis:
     inner: InnerLoads | None = None
     guide: GuideMoments | None = None
     travel: Travel | None = None
+
+    @property
+    def summary(self) -> str:
+        """What it is of, and which orders it shows."""
+        orders = ", ".join(f"{order:g}" for order in self.orders[:12])
+        return f"of {self.engine.summary}; orders {orders}{', ...' * (len(self.orders) > 12)}"
 
     @property
     def orders(self) -> Array:

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..engine.build import Engine
+from ..result import Result
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
@@ -33,8 +34,8 @@ class PermittedUnbalance(NamedTuple):
     each: float
 
 
-@dataclass(frozen=True)
-class Balance:
+@dataclass(frozen=True, repr=False)
+class Balance(Result):
     """A remedy, and what the engine does without and with it.
 
     Attributes:
@@ -52,6 +53,13 @@ class Balance:
     tools: Tools = field(default_factory=Tools)
     speed_note: str = ""
     permitted: PermittedUnbalance | None = None
+
+    @property
+    def summary(self) -> str:
+        """The scheme, what it fits, and to what."""
+        count = len(self.remedy.devices) + len(self.remedy.beyond)
+        devices = f"{count} device{'s' * (count != 1)}"
+        return f"{self.remedy.scheme}: {devices} for {self.before.engine.summary}"
 
 
 def balance(

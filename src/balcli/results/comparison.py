@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import nan
 
 from ..core.peaks import Peak
@@ -13,6 +14,7 @@ from ..errors import BalcliError
 from ..forces.kinds import GAS, MOMENT, VECTORS, Kind
 from ..forces.orders import merge_orders
 from ..forces.spectrum import Spectra
+from ..result import Result
 from .analysis import QUANTITIES, Analysis, analyze
 
 SHEAR = Kind("shear", "shear force in the crankshaft", "Q", "shear_N", True, "force")
@@ -38,11 +40,14 @@ class Line:
         kind: of force or moment.
         order: None for the peak.
         values: one an engine; nan for moments that are not known.
+        single: what one cylinder of each engine makes, beside which a value may be negligible;
+            empty or 0 where there is no such measure.
     """
 
     kind: Kind
     order: float | None
     values: tuple[float, ...]
+    single: tuple[float, ...] = ()
 
     @property
     def ratios(self) -> tuple[float, ...]:
@@ -51,8 +56,8 @@ class Line:
         return tuple(value / first if first else nan for value in self.values)
 
 
-@dataclass(frozen=True)
-class Comparison:
+@dataclass(frozen=True, repr=False)
+class Comparison(Result):
     """Engines side by side.
 
     Attributes:
@@ -64,6 +69,11 @@ class Comparison:
     names: tuple[str, ...]
     lines: tuple[Line, ...]
     whole: bool = False
+
+    @property
+    def summary(self) -> str:
+        """Which engines."""
+        return f"of {', '.join(self.names)}"
 
 
 def compare_engines(
@@ -92,18 +102,34 @@ def compare_engines(
     wanted = set(QUANTITIES) - {"sizing"} if only is None else set(only)
     if only is None and all(engine.gas is not None for engine in engines):
         wanted.add(GAS.name)
-    analyses = [analyze(engine, orders, wanted) for engine in engines]
+    analyses = analyze_alike(engines, orders, partial(analyze, only=wanted))
+    return Comparison(tuple(names), list_lines(analyses), whole or orders is not None)
+
+
+def analyze_alike(
+    engines: Iterable[Engine],
+    orders: Iterable[float] | None,
+    analyze_one: Callable[[Engine, Iterable[float] | None], Analysis],
+) -> tuple[Analysis, ...]:
+    """Analyses of several engines, or of one at several speeds, all by the same orders: those asked
+    for, or each that one of them shows unasked.
+    """
+    analyses = tuple(analyze_one(engine, orders) for engine in engines)
+    if orders is not None:
+        return analyses
     every = merge_orders(*(orders for one in analyses for orders in _list_orders(one)))
-    if orders is None:
-        analyses = [analyze(engine, every, wanted) for engine in engines]
-    lines = (
-        *_compare_orders(analyses, every),
+    return tuple(analyze_one(one.engine, every) for one in analyses)
+
+
+def list_lines(analyses: Sequence[Analysis]) -> tuple[Line, ...]:
+    """Every figure of analyses by the same orders side by side."""
+    return (
+        *_compare_orders(analyses),
         *_compare_peaks(analyses),
         *_compare_inner(analyses),
         *_compare_guide(analyses),
         *_compare_sizing(analyses),
     )
-    return Comparison(tuple(names), lines, whole or orders is not None)
 
 
 def _list_orders(one: Analysis) -> Iterator[Array]:
@@ -114,18 +140,24 @@ def _list_orders(one: Analysis) -> Iterator[Array]:
         yield one.guide.h.orders
 
 
-def _compare_orders(analyses: Sequence[Analysis], orders: Array) -> Iterator[Line]:
+def _compare_orders(analyses: Sequence[Analysis]) -> Iterator[Line]:
     for kind, _ in analyses[0].spectra.items():
+        single = _of_one_cylinder(kind, analyses)
         sizes = [_known(one)[kind.name].major for one in analyses]
-        for order, *values in zip(orders, *sizes, strict=True):
+        for order, *values in zip(analyses[0].orders, *sizes, strict=True):
             if order <= 2 or any(values):
-                yield Line(kind, float(order), tuple(map(float, values)))
+                yield Line(kind, float(order), tuple(map(float, values)), single)
 
 
 def _compare_peaks(analyses: Sequence[Analysis]) -> Iterator[Line]:
     for same in zip(*(one.peaks for one in analyses), strict=True):
         kind, _ = same[0]
-        yield Line(kind, None, tuple(_known_values(kind, same, analyses)))
+        single = _of_one_cylinder(kind, analyses)
+        yield Line(kind, None, tuple(_known_values(kind, same, analyses)), single)
+
+
+def _of_one_cylinder(kind: Kind, analyses: Sequence[Analysis]) -> tuple[float, ...]:
+    return tuple(one.of_one_cylinder.get(kind.name, 0.0) for one in analyses)
 
 
 def _known(one: Analysis) -> Spectra:

@@ -9,7 +9,7 @@ from typing import NamedTuple, TypeVar
 from ..core.cylinders import Device
 from ..engine.build import Engine
 from ..engine.devices import build_device
-from ..enginefile.model import Counterweight, Shaft, Slider
+from ..enginefile.model import Counterweight, EngineFile, Shaft, Slider
 from .details import Bobweight, Detail, FactorPeaks, Optima, PlaneNeed
 from .device_tables import KINDS, DeviceTable, find_free
 
@@ -85,7 +85,21 @@ def fit_devices(engine: Engine, remedy: Remedy) -> Engine:
     """
     new = (build_device(table, engine.first_axis_deg) for table in remedy.devices)
     everything = (*engine.devices, *new, *remedy.beyond)
-    return replace(engine, devices=tuple(sorted(everything, key=lambda device: device.rank)))
+    devices = tuple(sorted(everything, key=lambda device: device.rank))
+    return replace(engine, devices=devices, model=_fit_model(engine.model, remedy))
+
+
+def _fit_model(model: EngineFile | None, remedy: Remedy) -> EngineFile | None:
+    """The file with the devices of a remedy; None where none can describe them."""
+    if model is None or remedy.beyond:
+        return None
+    new = {
+        "counterweight": remedy.counterweights,
+        "shaft": remedy.shafts,
+        "slider": remedy.sliders,
+    }
+    added = {key: (*getattr(model, key), *tables) for key, tables in new.items() if tables}
+    return model.model_copy(update=added)
 
 
 def _of_kind(kind: type[T], tables: Iterable[DeviceTable]) -> tuple[T, ...]:

@@ -13,8 +13,9 @@ from ..core.phasors import Array
 from ..core.telling import Tell, tell_nobody
 from ..enginefile.model import EngineFile, label_table
 from ..errors import BalcliError
+from ..forces.target_quantity import TargetQuantity
 from ..limits import MOST_MOUNT_SAMPLES
-from ..mounting.quantity import MountedVariants, MountQuantity, refuse_unknown_targets
+from ..mounting.quantity import Variants, refuse_unknown
 from .tolerances import PERCENTILES, TOLD, Scatter, Shape, Spread
 
 
@@ -33,7 +34,7 @@ class MountSource(NamedTuple):
 def scatter_mounts(
     model: EngineFile,
     tolerance: float,
-    quantities: Sequence[MountQuantity],
+    quantities: Sequence[TargetQuantity],
     samples: int,
     seed: int | None = None,
     shape: Shape = "uniform",
@@ -58,8 +59,8 @@ def scatter_mounts(
         )
     if tolerance == 0:
         raise BalcliError("nothing deviates; give a tolerance, such as --stiffness-scatter 15%")
-    refuse_unknown_targets(model, quantities)
-    variants = MountedVariants(model, quantities)
+    refuse_unknown(model, quantities)
+    variants = Variants(model, quantities)
     labels = [label_table(table, k) for k, table in enumerate(model.mount, 1)]
 
     def evaluate(factors: Array) -> Array:
@@ -102,7 +103,7 @@ def _draw(count: int, samples: int, tolerance: float, seed: int | None, shape: S
 
 
 def _spread(
-    quantity: MountQuantity,
+    quantity: TargetQuantity,
     nominal: float,
     values: Array,
     sources: Sequence[MountSource],

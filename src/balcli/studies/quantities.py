@@ -1,25 +1,62 @@
-"""Quantities that a user asks for: of the engine (`force.2.major`), of it on its mounts
-(`mode.roll.Hz`), of its crankshaft that twists (`torsion.1.Hz`), or of its gas (`torque.mean`).
+"""Quantities that a user asks for, by their names: of forces and moments (`force.2.major`), and of
+the chapters beyond (`mode.roll.Hz`, `torsion.1.Hz`, `torque.mean`, `guide.6.H`), whose modules are
+loaded when one of theirs is asked for.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from importlib import import_module
+from typing import Protocol, cast
 
+from ..enginefile.fields import nearest
+from ..enginefile.model import EngineFile
 from ..errors import BalcliError
 from ..forces.quantity import Quantity, parse_quantity_list
+from ..forces.target_quantity import TargetQuantity
+from .quantity_names import BEGINNINGS, CHAPTERS, ENGINE, MOUNTS, Chapter, Form, find_chapter
 
-if TYPE_CHECKING:
-    from ..mounting.quantity import MountQuantity
-    from ..torque.quantity import TorqueQuantity
-    from ..torsion.quantity import TorsionQuantity
 
-    AnyQuantity = Quantity | MountQuantity | TorsionQuantity | TorqueQuantity
+class ChapterQuantity(Protocol):
+    """A figure by its name, and its unit."""
 
-_OF_MOUNTS = ("mode", "mount", "point")  # beginnings of their names
-_OF_TORSION = ("torsion", "shaft")
-_OF_GAS = ("gas", "torque_total", "roll_total", "fluctuation")
+    @property
+    def name(self) -> str: ...
+    @property
+    def unit(self) -> str: ...
+
+
+AnyQuantity = Quantity | ChapterQuantity
+Chapters = Mapping[Chapter, Sequence[ChapterQuantity]]
+
+
+class Variants(Protocol):
+    """Evaluates some quantities of variants of a file one by one."""
+
+    def evaluate(self, values: Mapping[str, float]) -> list[float]:
+        """The value of each for one variant, by the figures that vary."""
+
+
+class ChapterModule(Protocol):
+    """What a module has that computes quantities of its own."""
+
+    def parse_quantity(self, text: str) -> ChapterQuantity:
+        """The quantity of this name. BalcliError: there is none."""
+
+    def list_names(self, model: EngineFile) -> Iterable[str]:
+        """Those that a file has, with N for any order."""
+
+    def refuse_unknown(self, model: EngineFile, quantities: Sequence[ChapterQuantity]) -> None:
+        """BalcliError if one is of what the file does not have."""
+
+    def Variants(  # a class, which a function may be, too
+        self, model: EngineFile, quantities: Sequence[ChapterQuantity]
+    ) -> Variants: ...
+
+
+def load_chapter(chapter: Chapter) -> ChapterModule:
+    """The module that computes the quantities of a chapter, which is not ENGINE."""
+    return cast(ChapterModule, import_module(f"balcli.{chapter.module}"))
 
 
 def parse_quantities(text: str, *, with_gas: bool = False) -> tuple[AnyQuantity, ...]:
@@ -32,73 +69,84 @@ def parse_quantities(text: str, *, with_gas: bool = False) -> tuple[AnyQuantity,
         BalcliError: what is none, with what there is.
     """
     words = [word.strip() for word in text.split(",") if word.strip()]
-    of_gas = (*_OF_GAS, "torque") if with_gas else _OF_GAS
-    if not any(_begin(word) in (*_OF_MOUNTS, *_OF_TORSION, *of_gas) for word in words):
-        return parse_quantity_list(text)
-    return tuple(dict.fromkeys(_parse_quantity(word, of_gas) for word in words))
+    if not words:
+        return parse_quantity_list(text)  # says that there are none
+    return tuple(dict.fromkeys(_parse_quantity(word, with_gas) for word in words))
 
 
-def _begin(name: str) -> str:
-    """What the name of a quantity begins with: its kind."""
-    return name.partition(".")[0]
+def _parse_quantity(word: str, with_gas: bool) -> AnyQuantity:
+    chapter = find_chapter(word, with_gas=with_gas)
+    if chapter is None:
+        near = nearest(word.partition(".")[0], BEGINNINGS)
+        there = f"it begins with {', '.join(BEGINNINGS[:-1])} or {BEGINNINGS[-1]}"
+        raise BalcliError(f"{word} is no quantity: {f'did you mean {near}?' if near else there}")
+    if chapter is ENGINE:
+        return parse_quantity_list(word)[0]
+    return load_chapter(chapter).parse_quantity(word)
 
 
-def _parse_quantity(word: str, of_gas: Sequence[str]) -> AnyQuantity:
-    if _begin(word) in _OF_MOUNTS:
-        from ..mounting.quantity import parse_mount_quantity  # for those who ask for it
-
-        return parse_mount_quantity(word)
-    if _begin(word) in _OF_TORSION:
-        from ..torsion.quantity import parse_torsion_quantity
-
-        return parse_torsion_quantity(word)
-    if _begin(word) in of_gas:
-        from ..torque.quantity import parse_torque_quantity
-
-        return parse_torque_quantity(word)
-    return parse_quantity_list(word)[0]
-
-
-def choose_of_engine(wanted: Sequence[AnyQuantity]) -> tuple[Quantity, ...]:
-    """Those of forces and moments."""
+def choose_of_engine(wanted: Iterable[AnyQuantity]) -> tuple[Quantity, ...]:
+    """Those of forces and moments, which are evaluated as arrays."""
     return tuple(q for q in wanted if isinstance(q, Quantity))
 
 
-def choose_of_mounts(wanted: Sequence[AnyQuantity]) -> tuple[MountQuantity, ...]:
-    """Those of the engine on its mounts."""
-    found = [q for q in wanted if _begin(q.name) in _OF_MOUNTS]
-    return tuple(found)  # type: ignore[arg-type]
+def group_by_chapter(wanted: Iterable[AnyQuantity]) -> Chapters:
+    """All others by their chapters."""
+    groups: dict[Chapter, list[ChapterQuantity]] = {}
+    for q in wanted:
+        if isinstance(q, Quantity):
+            continue
+        chapter = find_chapter(q.name, with_gas=True)
+        if chapter is not None:
+            groups.setdefault(chapter, []).append(q)
+    return groups
 
 
-def choose_of_torsion(wanted: Sequence[AnyQuantity]) -> tuple[TorsionQuantity, ...]:
-    """Those of the crankshaft that twists."""
-    found = [q for q in wanted if _begin(q.name) in _OF_TORSION]
-    return tuple(found)  # type: ignore[arg-type]
+def refuse_unknown_of_chapters(model: EngineFile, wanted: Iterable[AnyQuantity]) -> None:
+    """Nothing, unless one of these is of what the file does not have.
+
+    Raises:
+        BalcliError, InputError: it is, with what there is.
+    """
+    for chapter, members in group_by_chapter(wanted).items():
+        load_chapter(chapter).refuse_unknown(model, members)
 
 
-def choose_of_torque(wanted: Sequence[AnyQuantity]) -> tuple[TorqueQuantity, ...]:
-    """Those of an engine with gas."""
-    others = (*choose_of_engine(wanted), *choose_of_mounts(wanted), *choose_of_torsion(wanted))
-    found = [q for q in wanted if q not in others]
-    return tuple(found)  # type: ignore[arg-type]
+def list_quantities(model: EngineFile) -> Iterator[Form]:
+    """What can be asked of an engine file, chapter by chapter; N stands for any order.
+
+    Raises:
+        BalcliError, InputError: a chapter of the file is not right.
+    """
+    for chapter in CHAPTERS:
+        if chapter is ENGINE:
+            yield from chapter.forms
+        elif not chapter.table or getattr(model, chapter.table):
+            yield from _list_of_chapter(chapter, model)
+
+
+def _list_of_chapter(chapter: Chapter, model: EngineFile) -> Iterator[Form]:
+    module = load_chapter(chapter)
+    for name in module.list_names(model):
+        form = next(form for form in chapter.forms if form.matches(name))
+        yield form._replace(pattern=name)
 
 
 def part_quantities(
     wanted: Sequence[AnyQuantity],
-) -> tuple[tuple[Quantity, ...], tuple[MountQuantity, ...]]:
+) -> tuple[tuple[Quantity, ...], tuple[TargetQuantity, ...]]:
     """Those of the engine, or those of it on its mounts: what scatters.
 
     Raises:
         BalcliError: there are both, or others.
     """
-    of_engine, on_mounts = choose_of_engine(wanted), choose_of_mounts(wanted)
-    others = [q.name for q in choose_of_torsion(wanted)]
-    others += [q.name for q in choose_of_torque(wanted)]
-    if others:
-        raise BalcliError(f"{others[0]} has no scatter; vary single figures with sweep")
+    of_engine, groups = choose_of_engine(wanted), dict(group_by_chapter(wanted))
+    on_mounts = tuple(groups.pop(MOUNTS, ()))
+    for members in groups.values():
+        raise BalcliError(f"{members[0].name} has no scatter; vary single figures with sweep")
     if of_engine and on_mounts:
         raise BalcliError(
             f"{of_engine[0].name} and {on_mounts[0].name} have tolerances of their own; ask for "
             "quantities of the engine and of its mounts one after the other"
         )
-    return of_engine, on_mounts
+    return of_engine, cast("tuple[TargetQuantity, ...]", on_mounts)

@@ -12,11 +12,11 @@ from __future__ import annotations
 import math
 import time
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from itertools import islice, product
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -37,18 +37,15 @@ from ..forces.quantity import (
 from ..forces.spectrum import count_samples
 from .parameters import Parameter, parse
 from .quantities import (
+    AnyQuantity,
+    ChapterQuantity,
+    Variants,
     choose_of_engine,
-    choose_of_mounts,
-    choose_of_torque,
-    choose_of_torsion,
+    group_by_chapter,
+    load_chapter,
     parse_quantities,
+    refuse_unknown_of_chapters,
 )
-
-if TYPE_CHECKING:
-    from ..mounting.quantity import MountQuantity
-    from ..torque.quantity import TorqueQuantity
-    from ..torsion.quantity import TorsionQuantity
-    from .quantities import AnyQuantity
 
 Box = tuple[slice, ...]
 ALONE_S = 1.0  # of a sweep, before several threads share what is left of it
@@ -86,25 +83,14 @@ class Sweep:
         """Quantities of forces and moments."""
         return choose_of_engine(self.quantities)
 
-    @property
-    def of_mounts(self) -> tuple[MountQuantity, ...]:
-        """Quantities of the engine on its mounts."""
-        return choose_of_mounts(self.quantities)
-
-    @property
-    def of_torsion(self) -> tuple[TorsionQuantity, ...]:
-        """Quantities of the crankshaft that twists."""
-        return choose_of_torsion(self.quantities)
-
-    @property
-    def of_torque(self) -> tuple[TorqueQuantity, ...]:
-        """Quantities of gas and torque."""
-        return choose_of_torque(self.quantities)
-
-    @property
-    def one_by_one(self) -> bool:
-        """Whether variants are computed each by itself."""
-        return bool(self.of_mounts or self.of_torsion or self.of_torque)
+    @cached_property
+    def of_chapters(self) -> tuple[tuple[Sequence[ChapterQuantity], Variants], ...]:
+        """Quantities that are computed variant by variant, and what evaluates them."""
+        groups = group_by_chapter(self.quantities).items()
+        return tuple(
+            (members, load_chapter(chapter).Variants(self.file, members))
+            for chapter, members in groups
+        )
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -173,21 +159,12 @@ def check_corners(sweep: Sweep) -> None:
         BalcliError: a moment is asked for, and the file does not say where the throws stand.
     """
     refuse_unknown(build_corners(sweep), sweep.of_engine)
-    if sweep.of_mounts:
-        from ..mounting.quantity import refuse_unknown_targets
-
-        refuse_unknown_targets(sweep.file, sweep.of_mounts)
-    if sweep.of_torque and sweep.file.gas is None:
-        raise BalcliError(f"{sweep.of_torque[0].name}: the engine file has no [gas]")
-    if sweep.of_torsion:
-        from ..torsion.quantity import refuse_unknown_shafts
-
-        try:
-            refuse_unknown_shafts(sweep.file, sweep.of_torsion)
-        except InputError as error:
-            raise InputError(error.problems, sweep.name) from None
-        except BalcliError as error:
-            raise BalcliError(f"{sweep.name}: {error}") from None
+    try:
+        refuse_unknown_of_chapters(sweep.file, sweep.quantities)
+    except InputError as error:
+        raise InputError(error.problems, sweep.name) from None
+    except BalcliError as error:
+        raise BalcliError(f"{sweep.name}: {error}") from None
 
 
 def build_corners(sweep: Sweep) -> Engine:
@@ -250,46 +227,17 @@ def _evaluate_tile(sweep: Sweep, box: Box) -> list[Array]:
     if sweep.of_engine:
         found = evaluate_quantities(sweep.engine(box), sweep.of_engine)
         values |= dict(zip(sweep.of_engine, found, strict=True))
-    if sweep.of_mounts:
-        values |= dict(zip(sweep.of_mounts, _evaluate_mounts(sweep, box), strict=True))
-    if sweep.of_torsion:
-        values |= dict(zip(sweep.of_torsion, _evaluate_torsion(sweep, box), strict=True))
-    if sweep.of_torque:
-        values |= dict(zip(sweep.of_torque, _evaluate_torque(sweep, box), strict=True))
+    for members, variants in sweep.of_chapters:
+        evaluated = _evaluate_one_by_one(sweep, box, variants, len(members))
+        values |= dict(zip(members, evaluated, strict=True))
     return [values[q] for q in sweep.quantities]
 
 
-def _evaluate_mounts(sweep: Sweep, box: Box) -> list[Array]:
-    """Quantities of the mounts for all variants of a box."""
-    from ..mounting.quantity import MountedVariants
-
-    variants = MountedVariants(sweep.file, sweep.of_mounts)
-    return _evaluate_one_by_one(sweep, box, variants.evaluate, len(sweep.of_mounts))
-
-
-def _evaluate_torsion(sweep: Sweep, box: Box) -> list[Array]:
-    """Quantities of torsion for all variants of a box."""
-    from ..torsion.quantity import TorsionVariants
-
-    variants = TorsionVariants(sweep.file, sweep.of_torsion)
-    return _evaluate_one_by_one(sweep, box, variants.evaluate, len(sweep.of_torsion))
-
-
-def _evaluate_torque(sweep: Sweep, box: Box) -> list[Array]:
-    """Quantities of gas and torque for all variants of a box."""
-    from ..torque.quantity import evaluate_torque
-
-    evaluate = partial(evaluate_torque, sweep.file, sweep.of_torque)
-    return _evaluate_one_by_one(sweep, box, evaluate, len(sweep.of_torque))
-
-
-def _evaluate_one_by_one(
-    sweep: Sweep, box: Box, evaluate: Callable[[Mapping[str, float]], list[float]], count: int
-) -> list[Array]:
+def _evaluate_one_by_one(sweep: Sweep, box: Box, variants: Variants, count: int) -> list[Array]:
     """So many quantities for all variants of a box, each of the box's shape.
 
     Args:
-        evaluate: gives them for one variant, by the figures that vary.
+        variants: evaluates them.
 
     Raises:
         InputError, BalcliError: one of them cannot be, with its figures.
@@ -301,7 +249,7 @@ def _evaluate_one_by_one(
         own = dict(zip(paths, map(float, figures), strict=True))
         where = ", ".join(f"{path} = {value:g}" for path, value in own.items())
         try:
-            rows.append(evaluate(own))
+            rows.append(variants.evaluate(own))
         except InputError as error:
             raise InputError(error.problems, f"{sweep.name}: {where}") from None
         except BalcliError as error:
@@ -320,7 +268,7 @@ def size_boxes(sweep: Sweep) -> int:
     orders = find_orders(engine, sweep.of_engine)
     figures = max(engine.cylinders.count * max(map(len, orders)), 2 * max(map(max, orders)))
     samples = count_samples(engine) // 2 ** len(sweep.parameters)
-    most = ALONE if sweep.one_by_one else CHUNK
+    most = ALONE if sweep.of_chapters else CHUNK
     return max(min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), most), 1)
 
 
@@ -328,7 +276,7 @@ def divide_sweep(sweep: Sweep, most: int) -> Iterator[Box]:
     """The boxes of a sweep of which so many variants are computed at a time, in the order of rows.
     Those of one parameter's value alone, or of a few, are joined, to be computed in tiles.
     """
-    narrow = len(sweep.shape) > 1 and sweep.shape[-1] * TILES > most and not sweep.one_by_one
+    narrow = len(sweep.shape) > 1 and sweep.shape[-1] * TILES > most and not sweep.of_chapters
     return divide_grid(sweep.shape, TILES * most if narrow else most)
 
 

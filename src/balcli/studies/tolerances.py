@@ -20,11 +20,12 @@ from ..enginefile.units import ANGLE
 from ..errors import BalcliError
 from ..forces.quantity import Quantity, evaluate_quantities, refuse_unknown
 from ..limits import MOST_TOLERANCE_SAMPLES
+from ..result import Result
 from .deviations import DeviatingEngine, Source, Tolerances
 from .percentiles import Sample
 
 if TYPE_CHECKING:
-    from ..mounting.quantity import MountQuantity
+    from ..forces.target_quantity import TargetQuantity
     from .mount_scatter import MountSource
 
 CHUNK = 8_192  # samples at a time
@@ -74,7 +75,7 @@ class Spread:
         shares: by source, the change that its tolerance alone makes, to first order; largest first.
     """
 
-    quantity: Quantity | MountQuantity
+    quantity: Quantity | TargetQuantity
     nominal: float
     mean: float
     percentiles: dict[str, float]
@@ -83,8 +84,8 @@ class Spread:
     shares: tuple[tuple[Source | MountSource, float], ...]
 
 
-@dataclass(frozen=True)
-class Scatter:
+@dataclass(frozen=True, repr=False)
+class Scatter(Result):
     """Spreads of some quantities of an engine file, over so many random engines.
 
     Attributes:
@@ -97,6 +98,11 @@ class Scatter:
     shape: Shape
     spreads: tuple[Spread, ...]
     of_mounts: bool = False
+
+    @property
+    def summary(self) -> str:
+        """Of what, and how many samples."""
+        return f"of {self.model.name or 'an engine'}: {self.samples} samples"
 
 
 def scatter_engine(

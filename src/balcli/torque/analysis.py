@@ -15,6 +15,7 @@ from ..engine.build import Engine
 from ..forces.gas import take_gas
 from ..forces.orders import check_orders, list_gas_orders
 from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
+from ..result import Result
 from .course import (
     TorqueCurves,
     find_constant_inertia,
@@ -28,8 +29,8 @@ from .loads import Loads, analyze_loads
 KINDS_OF_TORQUE = ("gas", "torque", "torque_total")
 
 
-@dataclass(frozen=True, eq=False)
-class TorqueAnalysis:
+@dataclass(frozen=True, eq=False, repr=False)
+class TorqueAnalysis(Result):
     """What turns the crank of an engine, at its mean speed.
 
     Attributes:
@@ -56,6 +57,11 @@ class TorqueAnalysis:
     surplus: Surplus
     flywheel: Flywheel | None
     loads: Loads
+
+    @property
+    def summary(self) -> str:
+        """Of what, and its mean torque."""
+        return f"of {self.engine.summary}; mean {self.mean_torque:.4g} N m"
 
     @property
     def orders(self) -> Array:

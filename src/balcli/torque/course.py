@@ -97,7 +97,8 @@ def silence(engine: Engine, number: int, option: str = "--misfire") -> Engine:
         BalcliError: it has no gas, or no such cylinder.
     """
     gas: EngineGas = take_gas(engine)
-    return replace(engine, gas=gas.with_share(find_row(engine, number, option), 0.0))
+    share = gas.with_share(find_row(engine, number, option), 0.0)
+    return replace(engine, gas=share, model=None)
 
 
 def find_row(engine: Engine, number: int, option: str) -> int:

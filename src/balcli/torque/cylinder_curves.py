@@ -9,7 +9,7 @@ import numpy as np
 from ..core.cylinder_pressure import PressureOnPiston
 from ..core.phasors import Array
 from ..engine.build import Engine
-from ..forces.curves import Curves, compute_cylinder_curves, compute_cylinder_torque
+from ..forces.curves import Curves, compute_cylinder_torque
 from ..forces.gas import take_gas
 from ..forces.rod_forces import compute_rod_forces
 
@@ -18,8 +18,8 @@ _ROUNDING = 1e-14
 
 def add_gas_curves(engine: Engine, number: int, curves: Curves) -> Curves:
     """The motion of one piston, with pressure (Pa), volume (m3), gas force, side thrust, force
-    along the rod, force on the crank pin along and across the cylinder (N), and the cylinder's
-    torque of gas and inertia (N m); as far as they are known.
+    along the rod, force on its crank or knuckle pin along and across the cylinder (N), and the
+    cylinder's torque of gas and inertia (N m); as far as they are known.
 
     Args:
         curves: of that cylinder, from `forces.curves.compute_cylinder_curves`.
@@ -34,21 +34,11 @@ def add_gas_curves(engine: Engine, number: int, curves: Curves) -> Curves:
         if gas.compression_ratio is not None:
             found["volume_m3"] = cylinder.piston.volume(at, gas.compression_ratio)
         found["gas_force_N"] = cylinder.share * cylinder.torque.force(at)
-        if engine.cylinders.linkage is None:
-            found |= _find_rod_forces(engine, row, curves.crank_deg)
+        found |= _find_rod_forces(engine, row, curves.crank_deg)
     inertia = compute_cylinder_torque(engine, row, curves.crank_deg)
     found["torque_Nm"] = inertia + cylinder.share * cylinder.torque.at(at)
     settled = {name: _settle(values) for name, values in found.items()}
     return replace(curves, values=settled)
-
-
-def compute_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:
-    """Motion and gas of one cylinder at crank angles, shape (angles,).
-
-    Raises:
-        BalcliError: the engine has no such cylinder, or no gas.
-    """
-    return add_gas_curves(engine, number, compute_cylinder_curves(engine, number, crank_deg))
 
 
 def _settle(values: Array) -> Array:

@@ -15,6 +15,7 @@ from ..enginefile.csv_columns import read_columns
 from ..errors import BalcliError
 from ..forces.orders import check_orders
 from ..limits import HIGHEST_GAS_ORDER_UNASKED
+from ..result import Result
 from .flywheel import Flywheel, Question, find_flywheel
 
 _NOISE = 1e-14  # of the largest torque: rounding errors of a harmonic
@@ -28,8 +29,8 @@ class Shaft(NamedTuple):
     inertia: float | None = None
 
 
-@dataclass(frozen=True, eq=False)
-class CurveAnalysis:
+@dataclass(frozen=True, eq=False, repr=False)
+class CurveAnalysis(Result):
     """What a given torque does.
 
     Attributes:
@@ -50,6 +51,11 @@ class CurveAnalysis:
     surplus: Surplus
     shaft: Shaft
     flywheel: Flywheel | None
+
+    @property
+    def summary(self) -> str:
+        """Of what."""
+        return f"of {self.name}"
 
 
 def read_curve(path: Path) -> PiecewiseCurve:

@@ -15,7 +15,7 @@ from ..engine.build import Engine
 from ..errors import BalcliError
 from ..forces.crankshaft import is_counterweight, place_bearings
 from ..forces.gas import take_gas
-from ..forces.rod_forces import compute_rod_forces
+from ..forces.rod_forces import compute_rod_forces, list_hung_rows
 
 Vectors = Callable[[Array], Complex]  # N at crank angles (deg), shape (places, angles)
 KINDS_OF_LOAD = ("pin", "main")
@@ -25,7 +25,8 @@ class Load(NamedTuple):
     """Load of one pin or bearing.
 
     Attributes:
-        name: number of the cylinder whose rod is on the pin, or of the bearing from the free end.
+        name: number of the cylinder whose rod turns on the pin, or of the bearing from the free
+            end.
         z_m: place along the crank.
         largest: N, and the crank angle (rad) at which it is reached.
         mean: over the cycle, N.
@@ -40,9 +41,17 @@ class Load(NamedTuple):
 
 
 class Loads(NamedTuple):
-    """What was asked for; `main` is None for a crank whose bearings the file cannot tell."""
+    """What was asked for.
+
+    Attributes:
+        pin: of crank pins, by the cylinders whose rods turn on them.
+        knuckle: of the knuckle pins in master rods, by their articulated cylinders; None where
+            there are none.
+        main: of main bearings.
+    """
 
     pin: tuple[Load, ...] | None = None
+    knuckle: tuple[Load, ...] | None = None
     main: tuple[Load, ...] | None = None
 
 
@@ -53,62 +62,76 @@ def analyze_loads(engine: Engine, asked: tuple[str, ...] = KINDS_OF_LOAD) -> Loa
     and the shaft counts as cut in each of them.
 
     Raises:
-        BalcliError: no gas of known pressure; articulated or turning cylinders; main bearings of
-            throws whose places are not known.
+        BalcliError: no gas of known pressure; main bearings that `find_bearing_loads` refuses.
     """
     if not asked:
         return Loads()
     steady = replace(engine, ripple=())
     breaks = _find_breaks(engine)
     sizes = engine.bearings
-    pin = main = None
+    pin = knuckle = main = None
     if "pin" in asked:
         z = np.ravel(engine.cylinders.z)
         area = None if sizes is None else sizes.pin_m2
-        found = _measure(find_pin_loads(steady), engine.numbers, z, breaks, area)
-        pin = tuple(sorted(found))
-    if "main" in asked and (bearings := find_bearing_loads(steady)) is not None:
-        places, vectors = bearings
+        found = sorted(_measure(find_pin_loads(steady), engine.numbers, z, breaks, area))
+        hung = {engine.numbers[row] for rows in list_hung_rows(engine).values() for row in rows}
+        pin = tuple(load for load in found if load.name not in hung)
+        others = tuple(load._replace(pressure=None) for load in found if load.name in hung)
+        knuckle = others or None
+    if "main" in asked:
+        places, vectors = find_bearing_loads(steady)
         area = None if sizes is None else sizes.main_m2
         main = tuple(_measure(vectors, range(1, len(places) + 1), places, breaks, area))
-    return Loads(pin, main)
+    return Loads(pin, knuckle, main)
 
 
 def find_pin_loads(engine: Engine) -> Vectors:
-    """Force of each rod on its crank pin, in the cylinder's frame: u along its axis away from the
-    crank, v 90 deg ahead; cylinders in the order of `engine.numbers`.
+    """Force of each rod on its crank pin or knuckle pin, in the cylinder's frame: u along its axis
+    away from the crank, v 90 deg ahead; cylinders in the order of `engine.numbers`.
     """
     return lambda degrees: compute_rod_forces(engine, degrees).pin
 
 
-def find_bearing_loads(engine: Engine) -> tuple[Array, Vectors] | None:
-    """Places of the main bearings, m, and the force of the shaft on each, x + iy; None for a crank
-    with one throw.
+def find_bearing_loads(engine: Engine) -> tuple[Array, Vectors]:
+    """Places of the main bearings, m, and the force of the shaft on each, x + iy.
 
     Raises:
-        BalcliError: it is not known where the throws stand.
+        BalcliError: it is not known where the throws stand, there is one alone, or the crank stands
+            still.
     """
+    if engine.rotary:
+        raise BalcliError("main: the crank of turning cylinders stands still, clamped at its end")
     if not engine.places_known:
         raise BalcliError("main: crank.spacing is missing, so that no bearing is known to stand")
     span = place_bearings(engine.throws_m)
     if span is None:
-        return None
+        raise BalcliError("main: a crank with one throw does not say where its bearings stand")
     c = engine.cylinders
     counterweights = [device for device in engine.devices if is_counterweight(device)]
     z = np.array([*np.ravel(c.z), *(float(device.z) for device in counterweights)])
     shares, square = share_by_lever(z, span), float(engine.omega) ** 2
-    axes = unit(np.ravel(c.axis_of_each_deg))[:, None]
     pins_deg = float(engine.first_axis_deg) + np.ravel(c.pin_deg)[:, None]
     throws = np.array([[float(weighed.share)] for weighed in engine.weighed]) * float(c.radius)
     devices = np.array([[complex(device.forward)] for device in counterweights]).reshape(-1, 1)
 
     def vectors(degrees: Array) -> Complex:
-        on_pins = axes * compute_rod_forces(engine, degrees).pin
+        on_pins = find_shares_of_pins(engine, degrees)
         turning = throws * square * unit(degrees + pins_deg)
         of_devices = devices * square * unit(degrees)
         return shares @ np.concatenate([on_pins + turning, of_devices])
 
     return span, vectors
+
+
+def find_shares_of_pins(engine: Engine, degrees: Array) -> Complex:
+    """What the piston and rod of each cylinder put on its crank pin, x + iy, N, shape (cylinders,
+    angles): articulated rods theirs through the master rod, which has no part in it.
+    """
+    found = compute_rod_forces(engine, degrees)
+    loads = found.axis * found.pin
+    for master, hung in list_hung_rows(engine).items():
+        loads[master] -= loads[hung].sum(axis=0)
+    return loads
 
 
 def _find_breaks(engine: Engine) -> Array:

@@ -13,7 +13,7 @@ from ..core.speed_variation import Surplus, surplus
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..forces.gas import take_gas
-from ..forces.rod_forces import compute_rod_forces
+from ..forces.rod_forces import compute_rod_forces, list_hung_rows
 from .course import find_torque_curves
 from .loads import find_bearing_loads
 
@@ -57,17 +57,19 @@ class Torques(NamedTuple):
 
 
 class PinLoads(NamedTuple):
-    """Force of cylinder 1's rod on its crank pin, N, shape (angles,).
+    """Force of the rod on cylinder 1's crank pin, N, shape (angles,).
 
     Attributes:
         crank_deg: angles.
         in_crank: seen from the crank, real outward along the throw.
         in_rod: seen from the rod, real towards the piston.
+        cylinder: number of the cylinder whose rod it is: 1, or that of its master rod.
     """
 
     crank_deg: Array
     in_crank: Complex
     in_rod: Complex
+    cylinder: int
 
 
 class MainLoads(NamedTuple):
@@ -162,22 +164,18 @@ def _find_torques(engine: Engine) -> Torques:
 
 
 def _find_pin(engine: Engine) -> PinLoads:
-    row = engine.numbers.index(1)
+    first = engine.numbers.index(1)
+    on_pin = (master for master, hung in list_hung_rows(engine).items() if first in hung)
+    row = next(on_pin, first)
     angle = np.arange(0.0, take_gas(engine).cycle_deg + _STEP / 2, _STEP)
-    pin = compute_rod_forces(engine, angle).pin[row]
-    c = engine.cylinders
-    lam, eps = (float(np.broadcast_to(np.ravel(v), c.count)[row]) for v in (c.lam, c.eps))
-    psi = angle + float(np.ravel(c.angle_deg)[row])
-    lean = np.degrees(np.arcsin(lam * unit(psi).imag - eps))
-    return PinLoads(angle, pin * unit(-psi), pin * unit(lean))
+    found = compute_rod_forces(engine, angle)
+    pin, number = found.pin[row], engine.numbers[row]
+    return PinLoads(angle, pin / found.throw[row], pin / found.lean[row], number)
 
 
 def _find_main(engine: Engine) -> MainLoads:
     angle = np.arange(0.0, take_gas(engine).cycle_deg + _STEP / 2, _STEP)
-    found = find_bearing_loads(engine)
-    if found is None:
-        raise BalcliError("a crank with one throw does not tell where its main bearings stand")
-    loads = found[1](angle)
+    loads = find_bearing_loads(engine)[1](angle)
     return MainLoads(angle, loads, loads * unit(-angle))
 
 

@@ -4,12 +4,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..engine.build import Engine, build
+from ..engine.variants import EngineVariants
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
 from ..forces.orders import split_order
@@ -17,7 +18,7 @@ from ..forces.quantity import SCALAR_PARTS, Quantity
 from ..forces.spectrum import compute_spectra
 from ..limits import HIGHEST_ORDER
 from .analysis import analyze_torque
-from .course import find_torque_curves
+from .course import find_constant_inertia, find_torque_curves
 
 # What the kinds of `forces.kinds` are called here.
 KINDS = {
@@ -26,7 +27,6 @@ KINDS = {
     "torque_total": "torque_total",
     "roll_total": "roll_total",
 }
-BEGINNINGS = (*KINDS, "fluctuation")
 _OF_CYCLE = ("mean", "max", "min")
 
 
@@ -35,7 +35,7 @@ class TorqueQuantity:
     """One figure.
 
     Attributes:
-        kind: one of BEGINNINGS; `torque` is that of gas and inertia.
+        kind: one of KINDS, or `fluctuation`; `torque` is that of gas and inertia.
         order: None for what is of the whole cycle.
         part: one of SCALAR_PARTS; of the cycle `mean`, `max`, `min`; empty for the fluctuation.
     """
@@ -61,7 +61,7 @@ class TorqueQuantity:
         return "" if self.kind == "fluctuation" else "N·m"
 
 
-def parse_torque_quantity(text: str) -> TorqueQuantity:
+def parse_quantity(text: str) -> TorqueQuantity:
     """`gas.1.5.amplitude` and its like.
 
     Raises:
@@ -82,19 +82,45 @@ def parse_torque_quantity(text: str) -> TorqueQuantity:
     return TorqueQuantity(kind, order, part)
 
 
-def evaluate_torque(
-    model: EngineFile, quantities: Sequence[TorqueQuantity], varied: Mapping[str, float]
-) -> list[float]:
-    """Each quantity of one variant of an engine.
+def list_names(model: EngineFile) -> Iterator[str]:
+    """Those that an engine with gas has, with N for the order."""
+    for kind in dict.fromkeys(KINDS.values()):
+        yield from (f"{kind}.N.{part}" for part in SCALAR_PARTS)
+    yield from (f"torque.{part}" for part in _OF_CYCLE)
+    if find_constant_inertia(build(model)) is not None:
+        yield "fluctuation"
+
+
+def refuse_unknown(model: EngineFile, quantities: Sequence[TorqueQuantity]) -> None:
+    """Nothing, unless the engine has no gas.
+
+    Raises:
+        BalcliError: it has none.
+    """
+    if model.gas is None:
+        raise BalcliError(f"{quantities[0].name}: the engine file has no [gas]")
+
+
+class Variants:
+    """Evaluates quantities of variants of a file one by one.
 
     Args:
         model: with gas.
-        varied: its own figures, by dotted name.
-
-    Raises:
-        InputError, BalcliError: it cannot be; a fluctuation without inertia.
     """
-    engine = build(model, varied)
+
+    def __init__(self, model: EngineFile, quantities: Sequence[TorqueQuantity]) -> None:
+        self._engines, self._quantities = EngineVariants(model), quantities
+
+    def evaluate(self, values: Mapping[str, float]) -> list[float]:
+        """The value of each quantity for one variant, by the figures that vary.
+
+        Raises:
+            InputError, BalcliError: it cannot be; a fluctuation without inertia.
+        """
+        return _evaluate(self._engines.build(values), self._quantities)
+
+
+def _evaluate(engine: Engine, quantities: Sequence[TorqueQuantity]) -> list[float]:
     found: dict[TorqueQuantity, float] = {}
     by_order = [q for q in quantities if q.order is not None]
     if by_order:

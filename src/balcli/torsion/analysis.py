@@ -11,6 +11,7 @@ from ..core.holzer_table import Holzer, tabulate_holzer
 from ..core.singular_values import Real
 from ..core.telling import Tell, tell_nobody
 from ..errors import BalcliError
+from ..result import Result
 from .damper_sizing import DamperAsked, SizedDamper, size_damper
 from .load import Source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes
@@ -51,8 +52,8 @@ class Question(NamedTuple):
     damper: DamperAsked | None = None
 
 
-@dataclass(frozen=True)
-class TorsionAnalysis:
+@dataclass(frozen=True, repr=False)
+class TorsionAnalysis(Result):
     """Modes, criticals, and what else was asked.
 
     Attributes:
@@ -73,6 +74,12 @@ class TorsionAnalysis:
     response: Response | None
     barred_rpm: tuple[tuple[float, float], ...] | None
     damper: SizedDamper | None = None
+
+    @property
+    def summary(self) -> str:
+        """Of what, and its natural frequencies."""
+        modes = ", ".join(f"{mode.frequency_hz:.4g}" for mode in self.modes[:6])
+        return f"of {self.system.name or 'a chain'}: modes at {modes} Hz"
 
 
 def analyze_torsion(

@@ -58,7 +58,7 @@ def build_engine_system(
         raise InputError(problems, name)
     nodes = [
         *map(_plan_part, reversed(torsion.front)),
-        *_plan_throws(torsion, model, engine, throws),
+        *_plan_throws(torsion, engine, throws),
         *map(_plan_part, torsion.rear),
     ]
     leading = list(_lead_shafts(torsion, [node.name for node in nodes], throws))
@@ -78,12 +78,10 @@ def _plan_part(part: Part) -> PlannedNode:
     return PlannedNode(part.name, (part.inertia or 0.0) / 1e6, part.node_damping, part.damper)
 
 
-def _plan_throws(
-    torsion: Torsion, model: EngineFile, engine: Engine, throws: int
-) -> Iterator[PlannedNode]:
+def _plan_throws(torsion: Torsion, engine: Engine, throws: int) -> Iterator[PlannedNode]:
     """A node for each throw, with what runs on it and the damping of every cylinder."""
     gear, on_throw = weigh_running_gear(engine), [weighed.throw for weighed in engine.weighed]
-    bare = _weigh_throws(torsion, model, throws)
+    bare = _weigh_throws(torsion, engine, throws)
     for throw, name in enumerate(_name_throws(throws)):
         here = np.equal(on_throw, throw)
         inertia = bare[throw] + float(gear[here].sum())
@@ -169,12 +167,12 @@ def weigh_running_gear(engine: Engine) -> Real:
     return np.broadcast_to(moving, own.shape) + np.broadcast_to(turning, own.shape)
 
 
-def _weigh_throws(torsion: Torsion, model: EngineFile, throws: int) -> Sequence[float]:
+def _weigh_throws(torsion: Torsion, engine: Engine, throws: int) -> Sequence[float]:
     """Moment of inertia of the crankshaft at each throw, kg m2."""
     if torsion.throw_inertia is not None:
         return [each / 1e6 for each in _each(torsion.throw_inertia, throws)]
-    whole = model.crank.inertia or 0.0
-    return [whole / 1e6 / throws] * throws
+    whole = 0.0 if engine.crank_inertia is None else float(engine.crank_inertia)
+    return [whole / throws] * throws
 
 
 def excite_engine(

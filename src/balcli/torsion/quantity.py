@@ -4,67 +4,61 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from ..core.singular_values import Real
 from ..engine.build import Engine, build
-from ..enginefile.fields import nearest, shorten
+from ..engine.variants import EngineVariants, Values, remember
 from ..enginefile.model import EngineFile, Table
 from ..errors import BalcliError
+from ..forces.target_quantity import (
+    Subject,
+    TargetQuantity,
+    parse_target_quantity,
+    refuse_stranger,
+)
 from .build_engine import build_engine_system, excite_engine
 from .modes import find_natural_modes
 from .response import Response, find_response
 from .system import Excitation, TorsionalSystem
 
-BEGINNINGS = ("torsion", "shaft")
 SLOWEST, FASTEST, SPEEDS = 0.5, 1.5, 101  # range of speeds, over the file's own, and how many
-_UNITS = {"Hz": "Hz", "torque": "N·m", "stress": "Pa"}
-_EXAMPLES = "torsion.1.Hz, shaft.flywheel.torque or shaft.flywheel.stress"
+_SUBJECTS = {
+    "torsion": Subject("1", {"Hz": "Hz"}),
+    "shaft": Subject("flywheel", {"torque": "N·m", "stress": "Pa"}),
+}
 
 
-@dataclass(frozen=True)
-class TorsionQuantity:
-    """One figure.
-
-    Attributes:
-        target: number of the mode, or name of the shaft.
-        part: Hz; or torque or stress, the largest half of peak to peak over a range of speeds.
-    """
-
-    target: str
-    part: str
-
-    @property
-    def name(self) -> str:
-        """As a user writes it."""
-        return f"{'torsion' if self.part == 'Hz' else 'shaft'}.{self.target}.{self.part}"
-
-    @property
-    def unit(self) -> str:
-        """SI."""
-        return _UNITS[self.part]
-
-
-def parse_torsion_quantity(text: str) -> TorsionQuantity:
-    """`torsion.1.Hz` and its like.
+def parse_quantity(text: str) -> TargetQuantity:
+    """`torsion.1.Hz` and its like; torque and stress of a shaft are the largest half of peak to
+    peak over a range of speeds.
 
     Raises:
         BalcliError: anything else, with what there is.
     """
-    kind, _, rest = text.partition(".")
-    target, _, part = rest.rpartition(".")
-    parts = {"torsion": ("Hz",), "shaft": ("torque", "stress")}[kind]
-    counted = kind == "shaft" or (target.isascii() and target.isdigit() and int(target) > 0)
-    if part not in parts or not target or not counted:
-        raise BalcliError(f"{text} is no quantity: give {_EXAMPLES}")
-    return TorsionQuantity(target, part)
+    found = parse_target_quantity(text, _SUBJECTS)
+    number = found.target
+    if found.kind == "torsion" and not (number.isascii() and number.isdigit() and int(number)):
+        raise BalcliError(
+            f"{text} is no quantity: after torsion comes the number of a mode, from 1"
+        )
+    return found
 
 
-def refuse_unknown_shafts(model: EngineFile, quantities: Sequence[TorsionQuantity]) -> None:
+def list_names(model: EngineFile) -> Iterator[str]:
+    """Those that a file has."""
+    system = _build(model, build(model), None)
+    yield from (f"torsion.{mode.number}.Hz" for mode in find_natural_modes(system))
+    for shaft, section in zip(system.shafts, system.sections, strict=True):
+        yield f"shaft.{shaft}.torque"
+        if section is not None:
+            yield f"shaft.{shaft}.stress"
+
+
+def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
     """Nothing, unless one of these is of a mode or shaft that the file does not have, or a stress
     of a shaft without diameter.
 
@@ -75,14 +69,10 @@ def refuse_unknown_shafts(model: EngineFile, quantities: Sequence[TorsionQuantit
     system = _build(model, build(model), None)
     modes = len(find_natural_modes(system))
     for q in quantities:
-        if q.part == "Hz":
-            if int(q.target) > modes:
-                raise BalcliError(f"{q.name}: there are {modes} modes")
-            continue
-        if q.target not in system.shafts:
-            near = nearest(q.target, system.shafts)
-            hint = f"did you mean {near}?" if near else f"there are {', '.join(system.shafts[:8])}"
-            raise BalcliError(f"{q.name}: there is no shaft {shorten(q.target)}; {hint}")
+        if q.kind == "torsion" and int(q.target) > modes:
+            raise BalcliError(f"{q.name}: there are {modes} modes")
+        if q.kind == "shaft":
+            refuse_stranger(q, system.shafts)
         if q.part == "stress" and system.sections[system.shafts.index(q.target)] is None:
             raise BalcliError(f"{q.name}: this shaft has no diameter, so its stress is not known")
 
@@ -111,17 +101,19 @@ def _change(whole: Any, keys: Sequence[str], value: float) -> Any:
     return tuple(members)
 
 
-class TorsionVariants:
+class Variants:
     """Evaluates quantities of variants of a file one by one; what does not vary is computed once.
 
     Args:
         model: with [torsion].
     """
 
-    def __init__(self, model: EngineFile, quantities: Sequence[TorsionQuantity]) -> None:
+    def __init__(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
         self._model, self._quantities = model, quantities
-        self._runs = any(q.part != "Hz" for q in quantities)
-        self._known: dict[tuple[tuple[str, float], ...], tuple[Engine, Excitation]] = {}
+        self._engines = EngineVariants(model)
+        self._excitations: dict[Values, Excitation] = {}
+        self._runs = any(q.kind == "shaft" for q in quantities)
+        self._vibrates = any(q.kind == "torsion" for q in quantities)
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
         """The value of each quantity for one variant, by the figures that vary.
@@ -129,30 +121,20 @@ class TorsionVariants:
         Raises:
             InputError, BalcliError: it cannot be.
         """
-        engine, excitation = self._build_engine(values)
-        model = vary_torsion(self._model, values)
-        system = _build(model, engine, excitation)
-        modes = find_natural_modes(system)
+        own = {path: value for path, value in values.items() if not path.startswith("torsion.")}
+        engine = self._engines.build(own)
+        key = tuple(own.items())
+        excitation = remember(
+            self._excitations, key, lambda: excite_engine(self._model, engine, None)
+        )
+        system = _build(vary_torsion(self._model, values), engine, excitation)
+        hertz = []
+        if self._vibrates:
+            hertz = [mode.frequency_hz for mode in find_natural_modes(system)]
         response = None
         if self._runs:
             response = find_response(system, excitation, choose_speeds(engine))
-        return [
-            _read(system, [mode.frequency_hz for mode in modes], response, q)
-            for q in self._quantities
-        ]
-
-    def _build_engine(self, values: Mapping[str, float]) -> tuple[Engine, Excitation]:
-        own = {k: value for k, value in values.items() if not k.startswith("torsion.")}
-        if own and self._runs and self._model.gas is not None:
-            raise BalcliError(
-                "with [gas], torque of shafts is told only while figures of [torsion] vary, not "
-                f"{next(iter(own))}"
-            )
-        key = tuple(own.items())
-        if key not in self._known:
-            engine = build(self._model, own or None)
-            self._known = {key: (engine, excite_engine(self._model, engine, None))}
-        return self._known[key]
+        return [_read(system, hertz, response, q) for q in self._quantities]
 
 
 def choose_speeds(engine: Engine) -> Real:
@@ -171,7 +153,7 @@ def _build(model: EngineFile, engine: Engine, excitation: Excitation | None) -> 
 
 
 def _read(
-    system: TorsionalSystem, hertz: Sequence[float], response: Response | None, q: TorsionQuantity
+    system: TorsionalSystem, hertz: Sequence[float], response: Response | None, q: TargetQuantity
 ) -> float:
     if q.part == "Hz" or response is None:
         return hertz[int(q.target) - 1]

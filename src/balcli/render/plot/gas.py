@@ -90,7 +90,7 @@ def draw_pin(fig: Figure, found: PinLoads, unit: Unit) -> None:
     """Draw the load of crank pin 1 as the crank feels it, and as the rod does."""
     left, right = fig.subplots(1, 2)
     _draw_polar(left, found.in_crank, found.crank_deg, unit)
-    left.set_title("Crank pin of cylinder 1, on the crank")
+    left.set_title(f"Crank pin of cylinder {found.cylinder}, on the crank")
     left.set(xlabel="ahead of the throw", ylabel="along the throw, outward")
     _draw_polar(right, found.in_rod, found.crank_deg, unit)
     right.set_title("The same, seen from the rod")

@@ -20,6 +20,7 @@ from ...enginefile.model import EngineFile
 from ...errors import BalcliError
 from ...forces.quantity import Quantity, refuse_unknown
 from ...forces.textbook import TextbookUnits, find_textbook_units
+from ...result import Result
 from .angles import STEP, Curve, Span, find_minima
 from .designs import (
     Found,
@@ -41,8 +42,8 @@ _LOCK_STEP = 5.0  # deg: bank angles at which it is first tried whether the mech
 IMAGES = 8  # candidates kept for each that is asked for, as many are mirror images
 
 
-@dataclass(frozen=True)
-class Search:
+@dataclass(frozen=True, repr=False)
+class Search(Result):
     """The best arrangements of an engine file, best first.
 
     Attributes:
@@ -58,6 +59,12 @@ class Search:
     results: tuple[Found, ...]
     scale: TextbookUnits
     locked: tuple[tuple[float, float], ...] = ()
+
+    @property
+    def summary(self) -> str:
+        """Over what, and how many were found."""
+        found = f"{len(self.results)} result{'s' * (len(self.results) != 1)}"
+        return f"over {self.over} of {self.model.name or 'an engine'}: {found}"
 
 
 class _Task(NamedTuple):

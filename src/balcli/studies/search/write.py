@@ -5,24 +5,38 @@ from __future__ import annotations
 from ...engine.build import build
 from ...engine.load import parse
 from ...enginefile.edit import set_keys
-from ...errors import InputError
+from ...errors import BalcliError, InputError
 from .designs import Design
 
 TABLES = {"throws": "crank", "splay": "crank", "firing_order": "layout", "bank_angle": "layout"}
 NOTE = "found by balcli"
 
 
-def write_design(text: bytes, design: Design) -> str:
-    """The text of an engine file, comments and all, with a design; a firing order that no longer
-    fits is left out.
+def write_design(text: bytes, design: Design, name: str = "") -> str:
+    """The text of an engine file (its name: where the files beside it are), comments and all, with
+    a design; a firing order that no longer fits is left out.
+
+    Raises:
+        BalcliError: the engine needs one.
     """
     new = text.decode("utf-8-sig")
     for key, value in design.given().items():
         new = set_keys(new, TABLES[key], {key: value}, NOTE)
     if design.firing_order is not None:
         new = set_keys(new, "layout", {"firing_intervals": None}, NOTE)
-    try:
-        build(parse(new))
-    except InputError:
+    if not _is_engine(new, name):
         new = set_keys(new, "layout", {"firing_order": None, "firing_intervals": None}, NOTE)
+        if not _is_engine(new, name):
+            raise BalcliError(
+                "--write: the firing order of the file does not fit what was found, and [gas] "
+                "needs one: look for it by --over firing_order, or leave [gas] out"
+            )
     return new
+
+
+def _is_engine(text: str, name: str) -> bool:
+    try:
+        build(parse(text, name))
+    except InputError:
+        return False
+    return True

@@ -1,0 +1,56 @@
+"""Engines of one file of which some figures vary, one engine after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TypeVar
+
+from ..enginefile.model import EngineFile
+from .build import Engine, build
+from .gas_figures import concerns_gas
+
+Key = TypeVar("Key")
+Value = TypeVar("Value")
+Values = tuple[tuple[str, float], ...]  # figures by dotted name
+_KEPT = 64  # variants that are remembered: as many as are computed at a time
+
+
+class EngineVariants:
+    """Builds variants of an engine; what their figures do not change is not built again: the same
+    engine, or the gas of one that has other masses, or runs at another speed.
+
+    Args:
+        model: the file.
+    """
+
+    def __init__(self, model: EngineFile) -> None:
+        self._model = model
+        self._engines: dict[Values, Engine] = {}
+        self._by_gas: dict[Values, Engine] = {}
+
+    def build(self, values: Mapping[str, float]) -> Engine:
+        """The engine with these figures, by dotted name, in place of the file's.
+
+        Raises:
+            InputError, BalcliError: it cannot be.
+        """
+        return remember(self._engines, tuple(values.items()), lambda: self._build(values))
+
+    def _build(self, values: Mapping[str, float]) -> Engine:
+        if self._model.gas is None:
+            return build(self._model, values)
+        of_gas = tuple((path, value) for path, value in values.items() if concerns_gas(path))
+        alike = self._by_gas.get(of_gas)
+        engine = build(self._model, values, gas=None if alike is None else alike.gas)
+        return remember(self._by_gas, of_gas, lambda: engine) if alike is None else engine
+
+
+def remember(known: dict[Key, Value], key: Key, make: Callable[[], Value]) -> Value:
+    """What is known under a key, or is now made; all is forgotten when there is much of it."""
+    found = known.get(key)
+    if found is None:
+        found = make()
+        if len(known) >= _KEPT:
+            known.clear()
+        known[key] = found
+    return found

@@ -1,0 +1,126 @@
+"""An engine file as dicts, lists, numbers and texts: from what Python gives, and from a model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError, Problem
+from .model import EngineFile, Table, label_table
+
+
+def normalize_tables(tables: Mapping[Any, Any], name: str = "") -> dict[str, Any]:
+    """Tables as TOML would have them: keys are text, arrays and tuples are lists, numpy's numbers
+    are Python's; what is None is left out.
+
+    Args:
+        tables: as a user of Python gives them.
+        name: of what they describe, for messages.
+
+    Raises:
+        InputError: a key that is no text or number; tables that hold themselves.
+    """
+    try:
+        return {_key(key): _plain(value) for key, value in tables.items() if value is not None}
+    except TypeError as error:
+        raise InputError([Problem("", str(error))], name) from None
+    except RecursionError:
+        message = "tables are nested too deeply; an engine file needs no more than four levels"
+        raise InputError([Problem("", message)], name) from None
+
+
+def _key(key: object) -> str:
+    if isinstance(key, (str, int, np.integer)) and not isinstance(key, bool):
+        return str(key)
+    raise TypeError(
+        f"the key {str(key)[:60]} ({type(key).__name__}) is no text; write it as a file has it, "
+        'such as "stroke"'
+    )
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {_key(key): _plain(inner) for key, inner in value.items() if inner is not None}
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [_plain(inner) for inner in value]
+    return value
+
+
+def list_tables(model: EngineFile) -> dict[str, Any]:
+    """What a file says, as the tables that describe it again: numbers in the units of the file."""
+    return _write(model)
+
+
+def _write(value: Any) -> Any:
+    if isinstance(value, Table):
+        fields = type(value).model_fields
+        given = [(key, getattr(value, key)) for key in fields if key in value.model_fields_set]
+        return {fields[key].alias or key: _write(part) for key, part in given if part is not None}
+    if isinstance(value, Mapping):
+        return {str(key): _write(inner) for key, inner in value.items()}
+    return [_write(inner) for inner in value] if isinstance(value, tuple) else value
+
+
+def change_tables(model: EngineFile, changes: Mapping[str, Any]) -> dict[str, Any]:
+    """The tables of a file with other values of some keys.
+
+    Args:
+        model: the file.
+        changes: by dotted names (`rod.length`, `crank.throws.2`, `mount.left.stiffness.1`); None
+            leaves a key out. What says the same otherwise (`rod.ratio` beside `rod.length`) is left
+            out, unless it is changed itself.
+
+    Raises:
+        InputError: a name of a member of a list that the file does not have.
+    """
+    tables = list_tables(model)
+    for path, value in changes.items():
+        *parents, last = path.split(".")
+        place, given = _descend(tables, model, parents, path)
+        if isinstance(place, list):
+            place[_find_member(place, given, last, path)] = value
+            continue
+        start = path.removesuffix(last)
+        for rival in _find_rivals(given, last):
+            if start + rival not in changes:
+                place.pop(rival, None)
+        place[last] = value
+    return tables
+
+
+def _descend(place: Any, given: Any, keys: Sequence[str], path: str) -> tuple[Any, Any]:
+    """The table or list at these keys, as it is written and as the model has it (None: it has
+    none).
+    """
+    for key in keys:
+        if isinstance(place, list):
+            k = _find_member(place, given, key, path)
+            place, given = place[k], given[k]
+        else:
+            place = place.setdefault(key, {})
+            known = {str(k): one for k, one in given.items()} if isinstance(given, dict) else {}
+            given = known.get(key) if known else getattr(given, key, None)
+        if not isinstance(place, (dict, list)):
+            raise InputError([Problem(path, f"{key} is one value, with nothing below it")])
+    return place, given
+
+
+def _find_member(place: Sequence[Any], given: Any, key: str, path: str) -> int:
+    """Which member of a list a number (from 1) or a name means."""
+    labels = [
+        label_table(one, k) if isinstance(one, Table) else str(k) for k, one in enumerate(given, 1)
+    ]
+    if key in labels:
+        return labels.index(key)
+    if key.isdecimal() and 0 < int(key) <= len(place):
+        return int(key) - 1
+    raise InputError([Problem(path, f"there is no {key}; the file has {', '.join(labels[:8])}")])
+
+
+def _find_rivals(given: Any, key: str) -> tuple[str, ...]:
+    choices = given.choices if isinstance(given, Table) else ()
+    return tuple(rival for choice in choices for rival in choice.rivals(key))

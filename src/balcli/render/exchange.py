@@ -1,0 +1,164 @@
+"""Answers for other libraries: documents, rows, and columns for pandas, xarray and Parquet."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .. import __version__
+from ..errors import BalcliError
+from ..printed_tables.recomputed import Table
+from ..result import Result
+from .csv import Column, Columns, Rows
+from .printed_table import RoundedTable
+from .units import SI
+
+# Which module shows a kind of answer: its document, and its columns or the rows of its CSV.
+RENDERERS = {
+    "Analysis": "analysis_data",
+    "Balance": "balance",
+    "Comparison": "comparison",
+    "CurveAnalysis": "torque",
+    "Curves": "curves",
+    "FieldBalance": "field_balancing",
+    "MountReport": "mounts",
+    "Scatter": "tolerances",
+    "Search": "search",
+    "Table": "printed_table",
+    "TorqueAnalysis": "torque",
+    "TorsionAnalysis": "torsion",
+}
+INSTALLED_BY = {"pandas": "pandas", "xarray": "xarray", "pyarrow": "balcli[scale]"}
+
+
+def find_renderer(result: Result) -> tuple[Any, Any]:
+    """The module that shows an answer, and what it takes."""
+    renderer = import_module(f".{RENDERERS[type(result).__name__]}", __package__)
+    return renderer, RoundedTable(result) if isinstance(result, Table) else result
+
+
+def describe(result: Result) -> dict[str, Any]:
+    """The JSON document of an answer."""
+    renderer, shown = find_renderer(result)
+    found: dict[str, Any] = renderer.document(shown)
+    return found
+
+
+def list_rows(result: Result) -> list[dict[str, Any]]:
+    """One dict a row."""
+    found = list_columns(result).values
+    lists = [v.tolist() if isinstance(v, np.ndarray) else v for v in found.values()]
+    lines = zip(*lists, strict=True)
+    return [dict(zip(found, map(_none_for_nan, line), strict=True)) for line in lines]
+
+
+def _none_for_nan(value: Any) -> Any:
+    return None if value != value else value
+
+
+def list_columns(result: Result) -> Columns:
+    """The columns of an answer: those that its renderer names, or those of its CSV."""
+    renderer, shown = find_renderer(result)
+    if hasattr(renderer, "columns"):
+        found: Columns = renderer.columns(shown)
+        return found
+    return _read_columns(renderer.rows(shown, SI))
+
+
+def _read_columns(rows: Rows) -> Columns:
+    """Rows of CSV as columns of one type each: words among numbers get a column of their own, with
+    `_text` after its name.
+    """
+    lines = list(rows.lines)
+    values: dict[str, Column] = {}
+    for k, name in enumerate(rows.header):
+        cells = [line[k] for line in lines]
+        numbers = [_number(cell) for cell in cells]
+        words = [_word(cell) for cell in cells]
+        if any(number is not None for number in numbers):
+            values[name] = numbers
+        if any(word is not None for word in words):
+            values[f"{name}_text" if name in values else name] = words
+        if name not in values:
+            values[name] = numbers  # nothing in it
+    return Columns(values)
+
+
+def _number(cell: Any) -> float | None:
+    """A cell as a number; None if it is none."""
+    return float(cell) if isinstance(cell, (int, float)) and not isinstance(cell, bool) else None
+
+
+def _word(cell: Any) -> str | None:
+    """A cell as text; None for a number, and where nothing is said."""
+    if isinstance(cell, bool):
+        return str(cell).lower()
+    return cell if isinstance(cell, str) and cell else None
+
+
+# ------------------------------------------------------------------ other libraries
+def import_library(name: str, method: str) -> Any:
+    """A library that balcli does without unless it is asked for.
+
+    Raises:
+        BalcliError: it is not there, with what to install.
+    """
+    try:
+        return import_module(name)
+    except ImportError:
+        top = name.partition(".")[0]
+        wanted = INSTALLED_BY[top]
+        raise BalcliError(f"{method} needs {top}: pip install {wanted}") from None
+
+
+def make_frame(result: Result) -> Any:
+    """A DataFrame of pandas."""
+    pandas = import_library("pandas", "to_pandas()")
+    found = list_columns(result)
+    frame = pandas.DataFrame(dict(found.values))
+    frame.attrs["units"] = dict(found.units)
+    return frame
+
+
+def make_dataset(result: Result) -> Any:
+    """A Dataset of xarray."""
+    xarray = import_library("xarray", "to_xarray()")
+    found = list_columns(result)
+    axes: Mapping[str, Column] = found.axes
+    length = len(next(iter(found.values.values())))
+    if not axes:
+        axes = {"line" if "row" in found.values else "row": np.arange(length)}
+    shape = tuple(map(len, axes.values()))
+    units = {name: {"units": unit} for name, unit in found.units.items()}
+    return xarray.Dataset(
+        {
+            name: (tuple(axes), np.reshape(np.asarray(column), shape), units.get(name, {}))
+            for name, column in found.values.items()
+            if name not in axes
+        },
+        coords={name: (name, column, units.get(name, {})) for name, column in axes.items()},
+        attrs={"balcli_version": __version__, "summary": result.summary},
+    )
+
+
+def write_parquet(result: Result, path: str | Path) -> None:
+    """A Parquet file."""
+    parquet = import_library("pyarrow.parquet", "to_parquet()")
+    pyarrow = import_library("pyarrow", "to_parquet()")
+    found = list_columns(result)
+    arrays = [pyarrow.array(column, from_pandas=True) for column in found.values.values()]
+    fields = [
+        pyarrow.field(name, array.type, metadata={"unit": found.units.get(name, "")})
+        for name, array in zip(found.values, arrays, strict=True)
+    ]
+    about = {"balcli.version": __version__, "balcli.result": type(result).__name__}
+    try:
+        parquet.write_table(
+            pyarrow.table(arrays, schema=pyarrow.schema(fields, metadata=about)), path
+        )
+    except OSError as error:
+        raise BalcliError(f"{path}: cannot be written ({error.strerror or error})") from None

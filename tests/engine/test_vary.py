@@ -1,0 +1,257 @@
+"""Engines from dicts and texts, their tables, and the same with other values of some keys."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from support.engines import GOOD
+from support.paths import ENGINES
+
+import balcli
+from balcli.engine.build import build
+from balcli.engine.load import parse
+from balcli.sizing.remedy import fit_devices
+
+FILES = sorted(ENGINES.glob("*.toml"))
+FOUR = {
+    "crank": {"stroke": 90, "throws": (0, 180, 180, 0), "spacing": 100},
+    "rod": {"length": 160, "mass": 0.6, "cg": 45},
+    "piston": {"mass": "500 g"},
+}
+
+
+def assert_same(one: balcli.Engine, other: balcli.Engine) -> None:
+    """To the last bit."""
+    for kind in ("force", "moment", "couple"):
+        a, b = (balcli.analyze(e, [1, 2, 4]).spectra[kind] for e in (one, other))
+        assert np.array_equal(a.forward, b.forward, equal_nan=True)
+        assert np.array_equal(a.backward, b.backward, equal_nan=True)
+
+
+# ------------------------------------------------------------------ load and to_dict
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_an_engine_is_made_again_of_its_tables(path):
+    engine = balcli.load(path)
+    again = balcli.load(engine.to_dict())
+    assert again.to_dict() == engine.to_dict()
+    assert_same(again, engine)
+
+
+def test_a_dict_a_text_and_a_file_say_the_same(tmp_path):
+    text = (
+        "[crank]\nstroke = 90\nthrows = [0, 180, 180, 0]\nspacing = 100\n"
+        '[rod]\nlength = 160\nmass = 0.6\ncg = 45\n[piston]\nmass = "500 g"\n'
+    )
+    (tmp_path / "four.toml").write_text(text)
+    engine = balcli.load(tmp_path / "four.toml")
+    assert engine.to_dict()["piston"] == {"mass": 0.5}
+    for source in (str(tmp_path / "four.toml"), text, FOUR, parse_of(FOUR)):
+        assert_same(balcli.load(source), engine)
+
+
+def parse_of(tables):
+    """The same as Python might have it: arrays, numbers of numpy, None, whole numbers as keys."""
+    crank = tables["crank"] | {"throws": np.array([0, 180, 180, 0]), "stroke": np.int64(90)}
+    rod = tables["rod"] | {"length": np.float64(160), "ratio": None}
+    return tables | {"crank": crank, "rod": rod, "cylinder": {3: {"piston_mass": np.float64(0.5)}}}
+
+
+def test_mistakes_of_a_dict_are_told_as_those_of_a_file():
+    wrong = {"crank": {"stroke": -1, "throw": [0]}, "piston": {"mass": object}, "cylinder": {3: 4}}
+    with pytest.raises(balcli.InputError) as caught:
+        balcli.load(wrong)
+    assert str(caught.value) == (
+        "engine: 5 mistakes\n"
+        "  crank.throw: unknown key in [crank]; did you mean throws?\n"
+        '  rod: is missing; an engine needs it, such as "[rod]" and "length = 160" below it\n'
+        '  crank.stroke: -1 is not above 0; a length is wanted: a bare number in mm, or "90 mm" or '
+        '"3.5 in", above 0\n'
+        "  piston.mass: <class 'object'> is not a number; a mass is wanted: a bare number in kg, or "
+        '"650 g" or "0.8 lb"\n'
+        "  cylinder.3: 4 stands where a table belongs; write [cylinder.3] and its keys below it"
+    )
+
+
+def test_what_does_not_fit_together_in_a_dict_is_told():
+    with pytest.raises(balcli.InputError) as caught:
+        balcli.load(FOUR | {"layout": {"firing_order": [1, 2, 3, 4]}})
+    assert str(caught.value).startswith("engine: layout.firing_order: 1-2-3-4 would take 1080 deg")
+
+
+@pytest.mark.parametrize(
+    ("source", "message"),
+    [
+        (
+            {1.5: {}},
+            'engine: the key 1.5 (float) is no text; write it as a file has it, such as "stroke"',
+        ),
+        (
+            {"crank": {None: 3}},
+            'engine: the key None (NoneType) is no text; write it as a file has it, such as "stroke"',
+        ),
+    ],
+)
+def test_keys_are_text(source, message):
+    with pytest.raises(balcli.InputError) as caught:
+        balcli.load(source)
+    assert str(caught.value) == message
+
+
+def test_tables_that_hold_themselves_end():
+    endless: dict = {}
+    endless["crank"] = endless
+    with pytest.raises(
+        balcli.InputError, match=r"^engine: tables are nested too deeply; an engine"
+    ):
+        balcli.load(endless)
+
+
+@pytest.mark.parametrize(
+    ("source", "shown"),
+    [
+        (5, "5 (int)"),
+        (None, "None (NoneType)"),
+        (b"x", "b'x' (bytes)"),
+        ([1] * 99, f"[{'1, ' * 18}1,... (list)"),
+    ],
+)
+def test_what_is_no_source_is_told_in_words(source, shown):
+    with pytest.raises(TypeError) as caught:
+        balcli.load(source)
+    wanted = "give the path of an engine file, the text of one, or a dict of its tables"
+    assert str(caught.value) == f"load: {shown}: {wanted}"
+
+
+# ------------------------------------------------------------------ vary
+def change(path: str) -> str:
+    """The tests' engine with other lines."""
+    old, new = path.split(" -> ")
+    assert GOOD.count(old) == 1
+    return GOOD.replace(old, new)
+
+
+@pytest.mark.parametrize(
+    ("changes", "text"),
+    [
+        ({"rod.length": 150}, "length = 160 -> length = 150"),
+        ({"rod.length": "6 in"}, 'length = 160 -> length = "6 in"'),
+        ({"rod.ratio": np.float64(0.3)}, "length = 160 -> ratio = 0.3"),
+        ({"crank.throws.2": 175, "layout.firing_order": None}, "180, 180 -> 175, 180"),
+        ({"crank.throws": [0, 90, 270, 180]}, "0, 180, 180, 0 -> 0, 90, 270, 180"),
+        ({"cylinder.3.piston_mass": 0.6}, "[piston] -> [cylinder.3]\npiston_mass = 0.6\n[piston]"),
+        ({"piston.offset": 1.5, "operation.speed": 5000}, "bore = 86 -> bore = 86\noffset = 1.5"),
+        (
+            {"shaft": [{"ratio": -2, "unbalance": 9000}]},
+            "[operation] -> [[shaft]]\nratio = -2\nunbalance = 9000\n[operation]",
+        ),
+    ],
+)
+def test_it_is_the_engine_of_the_file_with_other_lines(changes, text):
+    text = change(text).replace("[layout]\nfiring_order = [1, 3, 4, 2]\n", "")
+    if "operation.speed" in changes:
+        text = text.replace("speed = 3000", "speed = 5000")
+    engine = balcli.load(GOOD)
+    varied = engine.vary(changes)
+    assert_same(varied, balcli.load(text))
+    assert engine.to_dict() == balcli.load(GOOD).to_dict()  # as it was
+
+
+def test_keys_may_be_named():
+    engine = balcli.load(GOOD)
+    assert engine.vary(**{"rod.length": 150}).to_dict()["rod"]["length"] == 150
+    assert engine.vary(name="another").name == "another"
+
+
+def test_members_of_lists_go_by_number_or_name():
+    engine = balcli.load(ENGINES / "i4_mounts.toml")
+    name = engine.to_dict()["mount"][1]["name"]
+    one = engine.vary({"mount.2.stiffness.1": 99}).to_dict()
+    assert one == engine.vary({f"mount.{name.replace(' ', '_')}.stiffness.1": 99}).to_dict()
+    assert one["mount"][1]["stiffness"][0] == 99
+
+
+def test_a_firing_order_that_no_longer_fits_the_throws_is_left_out():
+    engine = balcli.load(ENGINES / "v8_crossplane.toml")
+    wide = engine.vary({"layout.bank_angle": 60})
+    assert wide.fires_deg == {}
+    assert engine.vary({"rod.length": 150}).fires_deg == pytest.approx(engine.fires_deg)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        (
+            {"rod.lenght": 3},
+            "in-line four with rod.lenght: rod.lenght: unknown key in [rod]; did you mean length?",
+        ),
+        (
+            {"rod.length": 150, "rod.ratio": 0.3},
+            "in-line four with rod.length, rod.ratio: rod: has length and ratio; give either length "
+            "or ratio",
+        ),
+        (
+            {"crank.throws.7": 3},
+            "in-line four with crank.throws.7: crank.throws.7: there is no 7; the file has 1, 2, 3, 4",
+        ),
+        (
+            {"rod.length.2": 3},
+            "in-line four with rod.length.2: rod.length.2: length is one value, with nothing below it",
+        ),
+        (
+            {"layout.firing_order": [1, 2, 3, 4]},
+            "in-line four with layout.firing_order: layout.firing_order: 1-2-3-4 would take 1080 deg",
+        ),
+        (
+            {"crank.throws.2": 100, "rod.mass": -1},
+            "in-line four with crank.throws.2, rod.mass: rod.mass: -1 is less than 0",
+        ),
+    ],
+)
+def test_mistakes_are_told_as_those_of_a_file(changes, message):
+    with pytest.raises(balcli.InputError) as caught:
+        balcli.load(GOOD).vary(changes)
+    assert str(caught.value).startswith(message)
+
+
+def test_a_name_that_is_no_text_is_told():
+    with pytest.raises(
+        TypeError, match=r'^vary: 3 \(int\): name a key of the engine file, such as "rod\.length"$'
+    ):
+        balcli.load(GOOD).vary({3: 4})
+
+
+def test_devices_that_are_fitted_are_in_the_tables():
+    engine = balcli.load(ENGINES / "i3.toml")
+    after = balcli.balance(engine, "auto").after.engine
+    assert {*after.to_dict()} - {*engine.to_dict()} == {"counterweight", "shaft"}
+    again = balcli.load(after.to_dict())
+    assert again.devices == after.devices
+    assert_same(again, after)
+    assert_same(
+        after.vary({"rod.length": 150}), balcli.load(after.vary({"rod.length": 150}).to_dict())
+    )
+
+
+def test_what_no_file_can_describe_says_so():
+    engine = balcli.load(ENGINES / "single.toml")
+    oldham = balcli.balance(engine, "oldham").after.engine
+    variants = build(parse(GOOD), {"rod.length": np.array([150.0, 160.0])})
+    for one in (oldham, variants, fit_devices(variants, balcli.balance(engine).remedy)):
+        for ask in (one.to_dict, lambda one=one: one.vary({"rod.length": 150})):
+            with pytest.raises(
+                balcli.BalcliError, match="no engine file can say what this engine is"
+            ):
+                ask()
+
+
+# ------------------------------------------------------------------ in a line
+def test_an_engine_in_a_line_and_in_a_notebook():
+    engine = balcli.load(ENGINES / "v8_crossplane.toml")
+    assert repr(engine) == '<Engine "90-degree cross-plane V8": 8 cylinders, 5.733 L, 5000 rpm>'
+    assert repr(balcli.load(FOUR)) == "<Engine 4 cylinders, 1000 rpm>"
+    assert repr(build(parse(GOOD), {"operation.speed": np.array([1.0, 2.0])})) == (
+        '<Engine "in-line four": 4 cylinders>'
+    )
+    shown = engine._repr_html_()
+    assert "<h4>90-degree cross-plane V8</h4>" in shown
+    assert '<th style="text-align: left">speed</th>' in shown

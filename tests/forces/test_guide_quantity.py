@@ -1,0 +1,60 @@
+"""Guide-force moments as quantities: what the analysis says of each variant."""
+
+from __future__ import annotations
+
+import csv
+import json
+from io import StringIO
+
+import pytest
+from support.commands import refusal, run_here
+from support.paths import ENGINES
+
+MARINE = ENGINES / "marine6.toml"
+FOUR = ENGINES / "i4.toml"
+
+
+@pytest.mark.parametrize(
+    ("path", "vary", "line"),
+    [
+        (MARINE, "gas.crankcase", "crankcase         = 3.5"),
+        (MARINE, "rod.mass", "mass   = 2600"),
+        (FOUR, "piston.mass", "mass = 0.51"),
+    ],
+)
+def test_each_variant_is_what_the_analysis_says(path, vary, line):
+    text, key = path.read_text(encoding="utf-8"), line.split()[0]
+    assert text.count(line) == 1
+    done = run_here(
+        "sweep", path, "--vary", f"{vary}=0.4,1.4", "-q", "guide.4.H,guide.6.X,guide.6.H"
+    )
+    assert (done.status, done.err) == (0, "")
+    for row in csv.DictReader(StringIO(done.out)):
+        own = text.replace(line, f"{key} = {row[vary]}")
+        asked = ("--only", "guide", "--orders", "4,6", "-f", "json")
+        said = json.loads(run_here("analyze", "-", *asked, stdin=own).out)
+        four, six = said["guide"]["orders"]
+        assert float(row["guide.4.H"]) == pytest.approx(four["h_Nm"]["amplitude"], rel=1e-12)
+        assert float(row["guide.6.H"]) == pytest.approx(six["h_Nm"]["amplitude"], rel=1e-12)
+        assert float(row["guide.6.X"]) == pytest.approx(six["x_Nm"]["amplitude"], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("path", "quantity", "message"),
+    [
+        (FOUR, "guide.H", "guide.H is no quantity: give guide.6.H or guide.6.X"),
+        (FOUR, "guide.6.Y", "guide.6.Y is no quantity: give guide.6.H or guide.6.X"),
+        (
+            FOUR,
+            "guide.x.H",
+            "guide.x.H is no quantity: after guide comes an order up to 4096, as in guide.6.H",
+        ),
+        (
+            ENGINES / "single.toml",
+            "guide.2.X",
+            f"{ENGINES / 'single.toml'}: guide.2.X: all cylinders stand at one place",
+        ),
+    ],
+)
+def test_what_is_no_quantity(path, quantity, message):
+    assert refusal("sweep", path, "--vary", "rod.length=150", "-q", quantity) == message

@@ -1,0 +1,93 @@
+"""What stands around the code: workflows run every check that there is, for the versions that are
+promised; the package index, citations and hooks say what is so.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+from support.paths import ROOT
+
+import balcli
+from balcli.cli import COMMANDS
+
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+WORKFLOWS = [".github/workflows/checks.yml", ".gitlab-ci.yml"]
+PAGES = ["CONTRIBUTING.md", "SECURITY.md", "CODE_OF_CONDUCT.md", "CHANGELOG.md"]
+
+
+def text(name: str) -> str:
+    return (ROOT / name).read_text(encoding="utf-8")
+
+
+def test_index_links_of_the_readme_lead_into_the_repository():
+    pytest.importorskip("hatchling", reason="hatchling, which builds the wheel, is not installed")
+    from package_metadata import ProjectAddresses, link_absolutely
+
+    config = {"repository": "https://example.org/x", "documentation": "https://example.org/docs"}
+    metadata = {"version": "1.2"}
+    ProjectAddresses(str(ROOT), config).update(metadata)
+    readme = metadata["readme"]["text"]
+    links = re.findall(r"\]\(([^)]+)\)", readme)
+    assert "https://example.org/x/blob/v1.2/docs/theory.md" in links
+    assert not [link for link in links if not link.startswith(("https://", "#"))]
+    assert metadata["urls"]["Issues"] == "https://example.org/x/issues"
+    stay = "[a](#b) [c](https://example.org/d) [e](mailto:f@g)"
+    assert link_absolutely(stay, "https://example.org") == stay
+
+
+def test_where_the_project_lives_is_said_in_one_place():
+    addresses = PROJECT["tool"]["hatch"]["metadata"]["hooks"]["custom"]
+    owner = re.match(r"https://[^/]+/[^/]+/", addresses["repository"])[0]
+    written = [*ROOT.glob("*.*"), *ROOT.glob("docs/*.md"), *ROOT.glob(".github/**/*.*")]
+    assert [
+        file.name for file in written if file.is_file() and owner in file.read_text("utf-8")
+    ] == ["pyproject.toml"]
+
+
+@pytest.mark.parametrize("workflow", WORKFLOWS)
+def test_workflows_test_the_versions_that_are_promised(workflow):
+    listed = re.search(r'(?:python|PYTHON_VERSION): \[("3.+)\]', text(workflow))[1]
+    tested = re.findall(r'"(3\.\d+)"', listed)
+    prefix = "Programming Language :: Python :: 3."
+    promised = [c[len(prefix) - 2 :] for c in PROJECT["project"]["classifiers"] if prefix in c]
+    assert tested == promised
+    assert PROJECT["project"]["requires-python"] == f">={tested[0]}"
+
+
+@pytest.mark.parametrize("workflow", WORKFLOWS)
+def test_workflows_run_every_part_of_the_checks(workflow):
+    parts = set(re.findall(r"^(\w+)\(\) \{", text(".ci/run"), re.MULTILINE))
+    by_default = set(re.search(r"\$\{\*:-(.+)\}", text(".ci/run"))[1].split())
+    called = re.search(r"(?:part|PART): \[(.+)\]", text(workflow))[1].split(", ")
+    own_lines = re.findall(r"\.ci/run ([\w ]+)$", text(workflow), re.MULTILINE)
+    run = {part for line in own_lines for part in line.split()}
+    run |= {part.removeprefix("run ") for part in called if part != "oldest"}
+    assert run == parts == by_default
+    assert "oldest" in called
+
+
+def test_hook_for_engine_repositories_is_a_command():
+    entry = re.search(r"entry: balcli (\w+)", text(".pre-commit-hooks.yaml"))[1]
+    assert entry in COMMANDS
+
+
+def test_hook_takes_engine_files_alone():
+    pattern = re.compile(re.search(r"files: (.+)", text(".pre-commit-hooks.yaml"))[1])
+    assert pattern.search("engines/i4.toml")
+    assert pattern.search("ours/engines/car/i4.toml")
+    assert not pattern.search("pyproject.toml")
+    assert not pattern.search("engines/expected/i4.json")
+
+
+def test_citation_is_of_this_version():
+    assert f"\nversion: {balcli.__version__}\n" in text("CITATION.cff")
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_links_of_community_pages_lead_to_files(page):
+    for target in re.findall(r"\]\(([^)\s#]+)", text(page)):
+        assert target.startswith("http") or Path(ROOT / target).exists(), target

@@ -1,0 +1,272 @@
+"""What every answer can do: one idea, tried on all that there are."""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+from collections.abc import Callable
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+from support.commands import run_here
+from support.paths import ENGINES
+from support.rotors import three_runs
+
+import balcli
+from balcli.forces.curves import compute_engine_curves, divide_revolution
+from balcli.printed_tables.registry import recompute
+from balcli.render import exchange
+from balcli.result import Result
+from balcli.results.analysis import QUANTITIES
+from balcli.results.comparison import compare_engines
+from balcli.studies.deviations import Tolerances
+from balcli.studies.quantities import parse_quantities
+from balcli.studies.search.objective import parse_objective
+from balcli.studies.search.search import search_arrangements
+from balcli.studies.tolerances import scatter_engine
+from balcli.torque.analysis import analyze_torque
+from balcli.torsion.analysis import Question, analyze_torsion
+from balcli.torsion.load import load_source
+
+FILES = {
+    name: str(ENGINES / f"{name}.toml")
+    for name in ("i3", "i4", "i4_wiebe", "i6_diesel", "i4_mounts")
+}
+SPREAD = "force.2.major"
+SPEEDS = np.array([1500.0, 2000.0])
+
+
+def load(name: str) -> balcli.Engine:
+    return balcli.load(FILES[name])
+
+
+# How each answer is had, and the command that writes the same as JSON.
+ANSWERS: dict[str, tuple[Callable[[], Result], tuple[str, ...]]] = {
+    "Analysis": (
+        lambda: balcli.analyze(load("i3"), only=QUANTITIES),
+        ("analyze", FILES["i3"]),
+    ),
+    "Balance": (
+        lambda: balcli.balance(load("i3"), "counterweights"),
+        ("balance", FILES["i3"], "--scheme", "counterweights"),
+    ),
+    "Comparison": (
+        lambda: compare_engines(
+            [load("i3"), load("i4")], ["in-line three", "in-line four, 2 litres"]
+        ),
+        ("compare", FILES["i3"], FILES["i4"]),
+    ),
+    "Curves": (
+        lambda: compute_engine_curves(load("i3"), divide_revolution(30)),
+        ("curves", FILES["i3"], "--step", "30"),
+    ),
+    "FieldBalance": (
+        lambda: balcli.balance_rotor(balcli.parse_runs(three_runs())),
+        ("field", "-"),
+    ),
+    "MountReport": (
+        lambda: balcli.report_mounts(*balcli.read_mounted(FILES["i4_mounts"])[:2], SPEEDS, [2]),
+        ("mounts", FILES["i4_mounts"], "--speeds", "1500,2000", "--orders", "2"),
+    ),
+    "Scatter": (
+        lambda: scatter_engine(
+            load("i4").model, Tolerances(mass=0.01), parse_quantities(SPREAD), 100, 1
+        ),
+        (
+            "scatter",
+            FILES["i4"],
+            "-q",
+            SPREAD,
+            "--mass-scatter",
+            "1%",
+            "--samples",
+            "100",
+            "--seed",
+            "1",
+        ),
+    ),
+    "Search": (
+        lambda: search_arrangements(load("i4").model, "throws", parse_objective(SPREAD)),
+        ("search", FILES["i4"], "--over", "throws", "--minimise", SPREAD),
+    ),
+    "Table": (lambda: recompute("liu-3"), ("tables", "liu-3")),
+    "TorqueAnalysis": (
+        lambda: analyze_torque(load("i4_wiebe"), [2, 4], fluctuation=1 / 200),
+        ("torque", FILES["i4_wiebe"], "--orders", "2,4", "--fluctuation", "1/200"),
+    ),
+    "TorsionAnalysis": (
+        lambda: analyze_torsion(load_source(FILES["i6_diesel"]), Question(SPEEDS)),
+        ("torsion", FILES["i6_diesel"], "--speeds", "1500,2000"),
+    ),
+}
+
+
+@pytest.fixture(params=ANSWERS)
+def answer(request: pytest.FixtureRequest) -> Result:
+    return ANSWERS[request.param][0]()
+
+
+def test_all_answers_are_tried():
+    """CurveAnalysis is shown by what shows TorqueAnalysis."""
+    assert {*ANSWERS, "CurveAnalysis"} == exchange.RENDERERS.keys()
+
+
+@pytest.mark.parametrize("name", ANSWERS)
+def test_a_dict_is_the_document_that_the_command_writes(name):
+    make, command = ANSWERS[name]
+    stdin = three_runs() if "-" in command else ""
+    written = run_here(*command, "--format", "json", stdin=stdin)
+    assert written.status == 0
+    assert json.loads(json.dumps(make().to_dict(), allow_nan=False)) == json.loads(written.out)
+
+
+def test_what_it_is_stands_in_a_line(answer):
+    text = repr(answer)
+    assert text.startswith(f"<{type(answer).__name__} ")
+    assert text.endswith(">")
+    assert len(text.splitlines()) == 1
+    assert len(text) < 160
+    assert "array" not in text
+
+
+def test_rows_have_the_same_keys_and_no_nan(answer):
+    rows = answer.rows()
+    assert rows
+    assert {tuple(row) for row in rows} == {tuple(rows[0])}
+    values = [value for row in rows for value in row.values()]
+    assert {type(value) for value in values} <= {float, int, str, type(None)}
+    assert all(value == value for value in values)
+
+
+def test_a_column_has_values_of_one_type(answer):
+    columns = zip(*(row.values() for row in answer.rows()), strict=True)
+    for column in columns:
+        kinds = {type(value) for value in column if value is not None}
+        assert kinds <= {float, int} or kinds == {str}
+
+
+def test_a_dataframe_takes_the_rows_as_they_are(answer):
+    pandas = pytest.importorskip("pandas")
+    frame = answer.to_pandas()
+    assert list(frame) == list(answer.rows()[0])
+    assert len(frame) == len(answer.rows())
+    again = pandas.DataFrame(answer.rows())
+    pandas.testing.assert_frame_equal(frame, again, check_dtype=False)
+    assert frame.attrs["units"].keys() <= set(frame)
+
+
+def test_a_dataset_holds_the_same(answer):
+    pytest.importorskip("xarray")
+    data, rows = answer.to_xarray(), answer.rows()
+    assert set(data.variables) - set(data.sizes) == set(rows[0]) - set(data.sizes)
+    for name in rows[0]:
+        found = data[name].values.ravel().tolist()
+        wanted = [row[name] for row in rows]
+        assert [None if value != value else value for value in found] == wanted
+
+
+def test_a_parquet_file_holds_the_same(answer, tmp_path):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    answer.to_parquet(tmp_path / "answer.parquet")
+    assert parquet.read_table(tmp_path / "answer.parquet").to_pylist() == answer.rows()
+
+
+class Tags(HTMLParser):
+    """Tags that are open, and text."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.text = ""
+
+    def handle_starttag(self, tag, attrs):
+        self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.text += data
+
+
+def read_page(shown: Result) -> Tags:
+    page = Tags()
+    page.feed(shown._repr_html_())
+    assert page.open == []
+    return page
+
+
+@pytest.mark.parametrize("name", [name for name in ANSWERS if name != "Curves"])
+def test_a_notebook_shows_what_the_command_prints(name):
+    """Every word, in tables whose tags are closed."""
+    make, command = ANSWERS[name]
+    page = read_page(make())
+    plain = run_here(*command, "--format", "markdown", stdin=three_runs()).out
+    words = re.sub(r"[\\|*#]|^- |--+:?", " ", plain, flags=re.MULTILINE).split()
+    assert [word for word in words if word.rstrip(":") not in page.text] == []
+
+
+def test_a_notebook_shows_the_ends_of_what_is_long():
+    found = compute_engine_curves(load("i3"), divide_revolution(1))
+    shown = re.findall(r"<tr><td>([\d.]+)</td>", found._repr_html_())
+    assert shown == ["0", "1", "2", "3", "4", "...", "355", "356", "357", "358", "359"]
+    assert "360 rows" in read_page(found).text
+    few = compute_engine_curves(load("i3"), divide_revolution(36))
+    assert "..." not in read_page(few).text
+
+
+def test_names_of_others_are_no_html():
+    engine = load("i4").vary(name="<script>alert(1)</script>")
+    for shown in (engine, balcli.analyze(engine), balcli.balance(engine, "four-shaft")):
+        assert "<script" not in shown._repr_html_()
+        assert "&lt;script&gt;" in shown._repr_html_()
+
+
+def test_orders_of_an_analysis_are_a_table_with_units():
+    found = balcli.analyze(load("i4"), [2, 4])
+    rows = found.rows()
+    assert [row["order"] for row in rows] == [2, 4]
+    assert rows[0]["force.major"] == found.spectra.force.major[0]
+    assert rows[0]["roll.amplitude"] == found.spectra.roll.major[0]
+    theta = 0.3
+    value = sum(
+        r["torque.cos"] * np.cos(r["order"] * theta) + r["torque.sin"] * np.sin(r["order"] * theta)
+        for r in rows
+    )
+    assert value == pytest.approx(found.spectra.torque.values(np.array([theta]))[0].real, rel=1e-12)
+    units = found.to_pandas().attrs["units"]
+    assert (units["force.major"], units["force.axis"], units["moment.minor"]) == ("N", "deg", "N·m")
+
+
+def test_moments_that_are_not_known_have_no_value():
+    tables = load("i4").to_dict()
+    del tables["crank"]["spacing"]
+    rows = balcli.analyze(balcli.load(tables)).rows()
+    assert {row["moment.major"] for row in rows} == {None}
+
+
+@pytest.mark.parametrize(
+    ("library", "method", "install"),
+    [
+        ("pandas", "to_pandas", "pandas"),
+        ("xarray", "to_xarray", "xarray"),
+        ("pyarrow", "to_parquet", r"balcli\[scale\]"),
+    ],
+)
+def test_a_library_that_is_missing_is_named(library, method, install, monkeypatch, tmp_path):
+    found = balcli.analyze(load("i4"), [2])
+    for name in [each for each in sys.modules if each.partition(".")[0] == library]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, library, None)
+    arguments = (tmp_path / "a.parquet",) if method == "to_parquet" else ()
+    message = rf"^{method}\(\) needs {library}: pip install {install}$"
+    with pytest.raises(balcli.BalcliError, match=message):
+        getattr(found, method)(*arguments)
+
+
+def test_a_parquet_file_that_cannot_be_written_is_named(tmp_path):
+    pytest.importorskip("pyarrow")
+    with pytest.raises(balcli.BalcliError, match=r"nowhere/a\.parquet: cannot be written"):
+        balcli.analyze(load("i4"), [2]).to_parquet(tmp_path / "nowhere/a.parquet")

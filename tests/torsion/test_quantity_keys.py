@@ -1,0 +1,149 @@
+"""Quantities with gas over every number of an engine file: as of a file that says so."""
+
+from __future__ import annotations
+
+import tomllib
+from typing import Any
+
+import numpy as np
+import pytest
+import tomli_w
+
+from balcli.engine.build import Engine, build
+from balcli.engine.load import parse
+from balcli.engine.variants import EngineVariants
+from balcli.enginefile.model import EngineFile
+from balcli.studies.parameters import find_numbers
+from balcli.torsion.build_engine import build_engine_system, excite_engine
+from balcli.torsion.modes import find_natural_modes
+from balcli.torsion.quantity import Variants, choose_speeds, parse_quantity
+from balcli.torsion.response import find_response
+
+FILE = """
+name = "three with everything"
+crank = { stroke = 100, spacing = 110, throw_mass = 0.9, inertia = 90000 }
+rod = { length = 165, mass = 0.9, cg = 50, inertia = 4000 }
+piston = { bore = 86, mass = 0.6, offset = 0.8 }
+layout = { firing_order = [1, 3, 2] }
+operation = { speed = 3000 }
+cylinder.2 = { piston_mass = 0.62, gas = 0.9, rod_length = 166 }
+flywheel = { inertia = 200000 }
+counterweight = [{ unbalance = 20000, angle = 180, position = -110 }]
+[gas]
+cycle = "wiebe"
+compression_ratio = 10
+imep = 9
+burn_start = -12
+burn_duration = 55
+burn_shape = 2
+intake = 0.9
+exhaust = 1.1
+crankcase = 1.0
+compression_index = 1.32
+expansion_index = 1.28
+exhaust_opens = 140
+intake_closes = 580
+[torsion]
+throw_stiffness = [0.8e6, 0.9e6]
+damping = 1.5
+loss = 0.03
+[[torsion.front]]
+name = "pulley"
+inertia = 8000
+stiffness = 0.3e6
+damper = { kind = "viscous", inertia = 9000, damping = 4 }
+[[torsion.rear]]
+name = "wheel"
+inertia = 300000
+stiffness = 1.1e6
+diameter = 70
+"""
+MODEL = parse(FILE)
+RIVALS = {"rod.ratio": "rod.length", "gas.heat": "gas.imep", "cylinder.2.rod_ratio": "rod_length"}
+NEW = {"rod.ratio": 0.31, "gas.heat": 900.0, "cylinder.3.piston_mass": 0.7, "cylinder.1.gas": 0.5}
+
+
+def find_place(tables: Any, path: str) -> tuple[Any, Any]:
+    """The table or list that a dotted name leads to, and its last key there."""
+    *way, last = path.split(".")
+    for key in way:
+        tables = tables[int(key) - 1] if isinstance(tables, list) else tables.setdefault(key, {})
+    return tables, int(last) - 1 if isinstance(tables, list) else last
+
+
+def is_given(path: str) -> bool:
+    inner, last = find_place(tomllib.loads(FILE), path)
+    return isinstance(inner, list) or last in inner
+
+
+def vary(path: str) -> float:
+    """Another value of a figure."""
+    if path in NEW:
+        return NEW[path]
+    inner, last = find_place(tomllib.loads(FILE), path)
+    return float(inner[last]) * 1.03
+
+
+def write_variant(path: str) -> EngineFile:
+    """The file with this value in it."""
+    tables = tomllib.loads(FILE)
+    inner, last = find_place(tables, path)
+    if path in RIVALS:
+        inner.pop(RIVALS[path].rpartition(".")[2])
+    inner[last] = vary(path)
+    return parse(tomli_w.dumps(tables))
+
+
+PATHS = [path for path in find_numbers(MODEL) if path in NEW or is_given(path)]
+SOME = [
+    *("rod.length", "rod.ratio", "rod.inertia", "piston.mass", "piston.offset", "crank.stroke"),
+    *("crank.inertia", "operation.speed", "gas.imep", "gas.heat", "gas.burn_start"),
+    *("cylinder.2.gas", "cylinder.3.piston_mass", "torsion.front.1.damper.damping"),
+    *("torsion.throw_stiffness.2", "torsion.rear.1.diameter", "counterweight.1.unbalance"),
+]
+
+
+def test_every_number_is_looked_at():
+    assert len(PATHS) > 45
+    assert {*SOME} <= {*PATHS}
+
+
+def twist(engine: Engine) -> list[complex]:
+    """Harmonics of the gas in every cylinder, with phase and share."""
+    assert engine.gas is not None
+    halves = np.arange(1, 13)
+    return [
+        c.share * value * np.exp(-1j * half / 2 * c.fires)
+        for c in engine.gas.cylinders
+        for half, value in zip(halves, c.torque.harmonics(halves), strict=True)
+    ]
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_gas_is_kept_only_where_a_number_leaves_it_alone(path):
+    """Built one after the other from what is remembered, and each from its own file."""
+    if path.startswith("torsion."):
+        return
+    variants = EngineVariants(MODEL)
+    variants.build({})
+    found = variants.build({path: vary(path)})
+    assert found.gas is not None
+    assert twist(found) == twist(build(write_variant(path)))
+
+
+QUANTITIES = [parse_quantity(q) for q in ("shaft.wheel.torque", "shaft.wheel.stress")]
+
+
+@pytest.mark.parametrize("path", SOME)
+def test_shaft_torque_is_that_of_a_file_that_says_so(path):
+    variants = Variants(MODEL, [*QUANTITIES, parse_quantity("torsion.2.Hz")])
+    variants.evaluate({})
+    torque, stress, hertz = variants.evaluate({path: vary(path)})
+    model = write_variant(path)
+    engine = build(model)
+    excitation = excite_engine(model, engine, None)
+    system = build_engine_system(model, engine, excitation)
+    said = find_response(system, excitation, choose_speeds(engine))
+    assert torque == pytest.approx(said.torque[:, -1].max(), rel=1e-12)
+    assert stress == pytest.approx(said.stress[:, -1].max(), rel=1e-12)
+    assert hertz == pytest.approx(find_natural_modes(system)[1].frequency_hz, rel=1e-12)

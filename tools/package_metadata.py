@@ -1,0 +1,40 @@
+"""What the package index is told of the project's place on the web, as a hook of hatchling.
+
+All of it follows from the two addresses in pyproject.toml, [tool.hatch.metadata.hooks.custom]: the
+links on the index, and those of the README, which lead into the repository as it was at that
+version.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+from hatchling.metadata.plugin.interface import MetadataHookInterface
+
+
+class ProjectAddresses(MetadataHookInterface):
+    """Fills in `readme` and `urls` of the metadata, which pyproject.toml calls dynamic."""
+
+    def update(self, metadata: dict[str, Any]) -> None:
+        """Hatchling's: metadata with a version in, readme and urls added."""
+        repository, documentation = self.config["repository"], self.config["documentation"]
+        readme = (Path(self.root) / "README.md").read_text(encoding="utf-8")
+        metadata["urls"] = {
+            "Documentation": documentation,
+            "Source": repository,
+            "Changelog": f"{repository}/blob/main/CHANGELOG.md",
+            "Issues": f"{repository}/issues",
+        }
+        metadata["readme"] = {
+            "content-type": "text/markdown",
+            "text": link_absolutely(readme, f"{repository}/blob/v{metadata['version']}"),
+        }
+
+
+def link_absolutely(text: str, base: str) -> str:
+    """Markdown whose links to files of the repository begin with the address `base`; links within
+    the page and to elsewhere stay.
+    """
+    return re.sub(r"\]\((?!#|[a-z]+:)([^)\s]+)\)", rf"]({base}/\1)", text)
