@@ -104,7 +104,7 @@ def test_what_reads_engines_and_writes_files_first_refuses_to_overwrite(command)
     assert {
         key.value: value.id
         for key, value in zip(told["writes"].keys, told["writes"].values, strict=True)
-    } == {f"--{name}": name for name in writes}
+    } == {"OUT" if name == "target" else f"--{name}": name for name in writes}
 
 
 def test_the_readme_names_every_format():
@@ -183,6 +183,7 @@ ON_REQUEST = {
         "balcli.core.strokes",
         "balcli.forces.crankshaft",
         "balcli.forces.guide_moments",
+        "balcli.forces.in_bearings",
         "balcli.forces.symmetry",
         "balcli.forces.textbook",
         "balcli.sizing.auto",
