@@ -11,6 +11,7 @@ import signal
 import sys
 from contextlib import suppress
 
+_M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3  # as <malloc.h> has them
 unfinished: set[str] = set()  # temporary files, which nobody finds there once the process has ended
 
 
@@ -30,6 +31,19 @@ def _end(number: int, _frame: object) -> None:
         with suppress(OSError):  # not made yet, or in its place already
             os.unlink(path)
     os._exit(128 + number)
+
+
+def keep_freed_memory() -> None:
+    """Let the C library keep what arrays leave for the next ones, up to 64 MB. It would hand back
+    large ones, to be cleared again for every array; in the workers of a dask cluster, whose
+    environment says so, all of them, which takes four times as long as what sweeps compute.
+    """
+    from ctypes import CDLL  # who sweeps needs it
+
+    with suppress(AttributeError, OSError, TypeError):  # only glibc has it
+        mallopt = CDLL(None).mallopt
+        mallopt(_M_MMAP_THRESHOLD, 32 << 20)  # its own maximum
+        mallopt(_M_TRIM_THRESHOLD, 64 << 20)
 
 
 def count_cores() -> int:
