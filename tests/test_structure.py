@@ -183,6 +183,7 @@ ON_REQUEST = {
         "balcli.core.strokes",
         "balcli.forces.crankshaft",
         "balcli.forces.guide_moments",
+        "balcli.forces.in_bearings",
         "balcli.forces.symmetry",
         "balcli.forces.textbook",
         "balcli.sizing.auto",
@@ -193,6 +194,7 @@ ON_REQUEST = {
         *("balcli.render.torsion", "balcli.render.plot.torsion"),
         "balcli.render.page_torque",
     ),
+    "balcli.commands.inputs": ("balcli.enginefile.assumed",),
     "balcli.commands.scatter": ("balcli.studies.mount_scatter",),
 }
 
@@ -221,6 +223,7 @@ def test_help_and_completion_of_a_command_wait_for_no_library(command):
 # Types and constants of a room may be named by what shows them, functions not: these shape figures
 # for the eye.
 SHAPING = {
+    ("balcli.core.telling", "tell_nobody"),
     ("balcli.sizing.device_tables", "find_unbalance"),
     ("balcli.sizing.device_tables", "measure_direction"),
     ("balcli.sizing.device_tables", "name_kind"),
@@ -296,9 +299,19 @@ def test_files_speak_for_themselves(file):
         )
 
 
+def names_for_type_checkers() -> set[str]:
+    """Of the library's door, as far as they are those of its rooms."""
+    (block,) = (node for node in tree(PACKAGE / "__init__.py").body if isinstance(node, ast.If))
+    imports = [node for node in block.body if isinstance(node, ast.ImportFrom) and node.level]
+    assert all(balcli._ROOMS[alias.name] == node.module for node in imports for alias in node.names)
+    return {alias.name for node in imports for alias in node.names}
+
+
 def test_public_names_are_there():
     """The library's door: what it promises can be had, and is offered for completion."""
     assert dir(balcli) == sorted(balcli.__all__)
+    assert {*balcli._ROOMS, "__version__"} == {*balcli.__all__}
+    assert balcli._ROOMS.keys() == names_for_type_checkers()
     for name in balcli.__all__:
         assert getattr(balcli, name) is not None
     with pytest.raises(AttributeError, match="module 'balcli' has no attribute 'frobnicate'"):

@@ -39,6 +39,7 @@ HIGHEST_TABLE_ORDER = 100  # of tangential pressure: builders' tables end at 12 
 HIGHEST_ORDER_SOUGHT = 8  # where a scheme looks for something to balance: engines have it below
 MOST_RESULTS_BY_CYLINDER = 1 << 14  # cylinders x orders that are told one by one
 MOST_RESULTS_ALONG_CRANK = 1 << 15  # loads x orders, whose peaks are looked for place by place
+MOST_FORCES_OVER_CYCLE = 1 << 24  # forces along the crank x angles of a cycle: 16 bytes each
 MOST_LOADS_APART = 1_100_000  # loads x orders kept one by one, and half as many at uneven speed
 
 # Figures asked for on the command line -------------------------------------------------------
@@ -54,6 +55,7 @@ LARGEST_TABLE_VALUE = 10**9  # in such a range
 # Variants ------------------------------------------------------------------------------------
 MOST_PARAMETER_VALUES = 10_000_000  # of one parameter: all are kept, 80 MB; grids may have more
 MOST_THREADS = 64  # of a sweep: each computes a few boxes ahead, of some 10 MB each
+MOST_KEPT_FIGURES = 100_000_000  # of a sweep in Python: all are kept, 0.8 GB
 MOST_PICTURE_VARIANTS = 4_000_000  # of a sweep: a picture keeps all of them in memory
 MOST_TOLERANCE_SAMPLES = 20_000_000  # a minute or two, and mean and percentiles stand long before
 MOST_ARRANGEMENTS = 10**10  # of given throws: branch and bound tries few of them

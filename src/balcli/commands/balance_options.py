@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..core.drilled_hole import SLUGS
-from ..errors import BalcliError
+from ..errors import BalcliError, note
 from ..render.formats import Format, Units
 from ..sizing.options import SchemeOptions
 from ..sizing.schemes import KNUCKLES, MEANINGS, NAMES, SCHEMES
@@ -155,6 +155,8 @@ def choose_format(output: Path | None, asked: BalanceFormat | None) -> BalanceFo
 
 def show_balance(result: Balance, form: BalanceFormat, output: Path | None, units: Units) -> None:
     """The balance, or its bobweight card, in this format."""
+    for reason in dict.fromkeys(result.remedy.reasons):
+        note(f"scheme {result.remedy.scheme}: {reason}")
     if form is BalanceFormat.CARD:
         from ..render.bobweight_page import write_page
 

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from ..enginefile.toml_text import name_file
-from ..errors import BalcliError, Exit, say
+from ..errors import BalcliError, Exit, warn
 from .declare import optional
 from .file_names import picture_form, text_format
 from .options import FormatOption, Output
@@ -63,16 +63,16 @@ def field(
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     form = text_format(output, form)
     drawn = picture_form(plot, "--plot") if plot is not None else None
-    from ..field_balancing.balance import balance_rotor, find_doubts
+    from ..field_balancing.balance import find_corrections, find_doubts
     from ..field_balancing.read import read_runs
     from ..render import field_balancing as renderer
 
     file, name = read_runs(path), name_file(path)
     if check and file.grade is None:
         raise BalcliError(f"{name}: --check needs a grade, such as grade = 6.3, and mass and speed")
-    result = balance_rotor(file, minimise.value, without or (), name)
+    result = find_corrections(file, minimise.value, without or (), name)
     for doubt in find_doubts(result):
-        say(f"warning: {name}: {doubt}")
+        warn(f"{name}: {doubt}")
     if plot is not None and drawn is not None:
         from ..render.plot.field_balancing import draw_field  # brings matplotlib
 

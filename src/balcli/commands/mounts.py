@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from ..enginefile.toml_text import name_file
-from ..errors import say
+from ..errors import warn
 from ..render.formats import Units
 from ..render.units import SYSTEMS
 from . import scheme_options
@@ -21,8 +22,13 @@ from .options import (
 )
 from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
+from .progress import reporting
 from .scheme_options import choose_beside, parse_scheme_options
 from .speed_range import Speeds, parse_speeds
+
+if TYPE_CHECKING:
+    from ..engine.build import Engine
+    from ..enginefile.model import EngineFile
 
 Orders = Annotated[
     str | None,
@@ -67,21 +73,31 @@ def mounts(
     rpm, asked = parse_speeds(speeds), parse_orders(orders)
     options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
     scheme = choose_beside(scheme, options)
-    from ..mounting.read import read_mounted
     from ..mounting.report import report_mounts
     from ..render import mounts as renderer
-    from .inputs import name_columns, read_engine
 
-    model, engine, doubts = read_mounted(paths[0])
-    for doubt in doubts:
-        say(f"warning: {name_file(paths[0])}: {doubt}")
-    others = [read_engine(path).engine for path in paths[1:]]
-    names = name_columns([model.name or paths[0], *(other.name for other in others)], paths)
-    beside = list(zip(names[1:], others, strict=True))
-    name = name_file(paths[0])
-    result = report_mounts(model, engine, rpm, asked, scheme, beside, name, options)
+    model, engine, beside = _read_files(paths)
+    with reporting("work") as tell:
+        result = report_mounts(
+            model, engine, rpm, asked, scheme, beside, name_file(paths[0]), tell, options
+        )
     if plot is not None and drawn is not None:
         from ..render.plot.mounts import draw_mounts  # brings matplotlib
 
         write_file(draw_mounts(result, drawn, SYSTEMS[units]), plot)
     show([result], renderer, form, output, units)
+
+
+def _read_files(
+    paths: Sequence[str],
+) -> tuple[EngineFile, Engine | None, list[tuple[str, Engine]]]:
+    """A body on its mounts with its engine, if there is one, and engines to show beside by name."""
+    from ..mounting.read import read_mounted
+    from .inputs import name_columns, read_engine
+
+    model, engine, doubts = read_mounted(paths[0])
+    for doubt in doubts:
+        warn(f"{name_file(paths[0])}: {doubt}")
+    others = [read_engine(path).engine for path in paths[1:]]
+    names = name_columns([model.name or paths[0], *(other.name for other in others)], paths)
+    return model, engine, list(zip(names[1:], others, strict=True))

@@ -56,6 +56,12 @@ Output = Annotated[
         callback=parse_output,
     ),
 ]
+ProgressAtOnce = Annotated[
+    bool,
+    typer.Option(
+        "--progress", help="Say on a terminal how far it is from the start, not after two seconds."
+    ),
+]
 Target = Annotated[
     Path | None,
     typer.Argument(metavar="OUT", show_default=False, help="The file to write; the same as -o."),
@@ -78,7 +84,7 @@ Only = Annotated[
     optional(
         "WHAT,...",
         f"Compute only some of {', '.join(KINDS)}, peak, sizing, gas; or inner "
-        "(shear, bending, bearing loads along the crankshaft) and guide (H- and X-type).",
+        "(shear, bending, bearing loads along crankshaft and block) and guide (H- and X-type).",
         "--only",
     ),
 ]
@@ -87,7 +93,7 @@ OnlyParts = Annotated[
     optional(
         "WHAT,...",
         f"Only some of {', '.join(KINDS)}, peak, sizing; inner (shear, bending, bearing "
-        "loads along the crankshaft), guide (H- and X-type); or xy, textbook, verdict.",
+        "loads along crankshaft and block), guide (H- and X-type); or xy, textbook, verdict.",
         "--only",
     ),
 ]

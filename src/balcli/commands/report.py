@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from ..enginefile.toml_text import name_file
-from ..errors import BalcliError, say
+from ..errors import BalcliError, warn
 from ..forces.kinds import KINDS
 from ..render.formats import Units
 from ..render.units import SYSTEMS
@@ -24,6 +24,7 @@ from .options import (
 )
 from .output import emit
 from .overwrite_guard import refuse_overwriting
+from .progress import reporting
 from .scheme_options import choose_scheme, parse_scheme_options
 
 if TYPE_CHECKING:
@@ -79,7 +80,9 @@ def report(
         mounted = _put_on_mounts(model, engine, scheme, options, name_file(path))
     twisted = _twist(model, engine, name_file(path)) if model.torsion else None
     turning = None if engine.gas is None else _turn_gas(engine)
-    emit(page(result, balanced, SYSTEMS[units], mounted, twisted, turning), output)
+    with reporting("pictures") as tell:
+        text = page(result, balanced, SYSTEMS[units], mounted, twisted, turning, tell)
+    emit(text, output)
 
 
 def _turn_gas(engine: Engine) -> Running:
@@ -91,15 +94,15 @@ def _turn_gas(engine: Engine) -> Running:
 
 def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | None:
     """How its crankshaft twists; None, with a warning, where that cannot be told."""
-    from ..torsion.analysis import Question, analyze_torsion
+    from ..torsion.analysis import Question, answer_question
     from ..torsion.load import make_source
     from ..torsion.quantity import choose_speeds
 
     try:
         source = make_source(model, engine, name)
-        return analyze_torsion(source, Question(choose_speeds(engine)))
+        return answer_question(source, Question(choose_speeds(engine)))
     except BalcliError as error:
-        say(f"warning: the page does not show the torsion: {error}")
+        warn(f"the page does not show the torsion: {error}")
         return None
 
 
@@ -112,5 +115,5 @@ def _put_on_mounts(
     try:
         return report_mounts(model, engine, scheme=scheme, name=name, options=options)
     except BalcliError as error:
-        say(f"warning: the page does not show the mounts: {error}")
+        warn(f"the page does not show the mounts: {error}")
         return None

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import count
 from typing import NamedTuple
 
 import numpy as np
 
 from ..core.singular_values import Real
+from ..core.telling import Tell, tell_nobody
 from ..engine.build import Engine
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
@@ -19,7 +21,7 @@ from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
 from .build import MountedBody, build_mounted_body
 from .modes import BodyModes, find_mounted_modes
-from .response import Response, find_loads, respond
+from .response import Loads, Response, find_loads, respond
 
 _SLOWEST = 1 / 8  # of the file's speed, where nobody says which speeds
 _SPEEDS = 141
@@ -108,6 +110,7 @@ def report_mounts(
     scheme: str | None = None,
     others: Sequence[tuple[str, Engine]] = (),
     name: str = "",
+    tell: Tell = tell_nobody,
     options: SchemeOptions | None = None,
 ) -> MountReport:
     """Modes and rest of a body on its mounts, and its response to its engine.
@@ -120,6 +123,7 @@ def report_mounts(
         scheme: of `sizing.schemes.SCHEMES`; the response is also that with its devices.
         others: names and engines that are put on the same body and mounts, at the same speeds.
         name: of the file, for messages.
+        tell: is told which share of the responses is done.
         options: of the scheme.
 
     Raises:
@@ -134,7 +138,7 @@ def report_mounts(
         return MountReport(title, mounted, find_mounted_modes(mounted))
     try:
         remedy = None if scheme is None else size(engine, scheme, options)
-        return _run(title, mounted, engine, speeds_rpm, orders, remedy, others)
+        return _run(title, mounted, engine, speeds_rpm, orders, remedy, others, tell)
     except BalcliError as error:
         raise BalcliError(f"{name}: {error}" if name else str(error)) from None
 
@@ -147,6 +151,7 @@ def _run(
     orders: Sequence[float] | None,
     remedy: Remedy | None,
     others: Sequence[tuple[str, Engine]],
+    tell: Tell,
 ) -> MountReport:
     rpm = choose_speeds(engine) if speeds_rpm is None else speeds_rpm
     omega = rpm * (np.pi / 30)
@@ -155,17 +160,22 @@ def _run(
         raise BalcliError("order 0 does not vibrate: what is steady is told as rest; leave it out")
     loads = find_loads(engine, mounted.body.centre, asked)
     modes = find_mounted_modes(mounted, loads.mean)
-    response = respond(mounted, modes, loads, omega)
+    done, responses = count(), 1 + (remedy is not None) + len(others)
+
+    def respond_to(loads: Loads) -> Response:
+        before = next(done)
+        return respond(
+            mounted, modes, loads, omega, lambda share: tell((before + share) / responses)
+        )
+
+    response = respond_to(loads)
     fitted = None
     if remedy is not None:
         balanced = fit_devices(engine, remedy)
         left = find_loads(balanced, mounted.body.centre, asked)
-        fitted = Fitted(remedy, respond(mounted, modes, left, omega))
+        fitted = Fitted(remedy, respond_to(left))
     beside = tuple(
-        Other(
-            label,
-            respond(mounted, modes, find_loads(other, mounted.body.centre, asked), omega),
-        )
+        Other(label, respond_to(find_loads(other, mounted.body.centre, asked)))
         for label, other in others
     )
     return MountReport(name, mounted, modes, response, fitted, beside)

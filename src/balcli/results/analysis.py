@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array
-from ..engine.build import Engine
+from ..engine.build import Engine, check_engine
 from ..errors import BalcliError
 from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, KINDS, SCALARS, VECTORS, Kind
 from ..forces.orders import (
@@ -58,7 +58,8 @@ class Analysis(Result):
         sizing: devices of the scheme `auto`, and the analysis with them.
         cylinders: phasors of each cylinder alone (no devices), by cylinder number.
         why: whether the orders shown are balanced by symmetry.
-        inner: shear force and bending moment along the crankshaft.
+        inner: shear force and bending moment along the crankshaft; of an engine with gas, in its
+            bearings and in the block, too.
         guide: H- and X-type guide-force moments.
         travel: strokes and dead centres of articulated cylinders and of the masters, by rows of
             `engine.numbers`; None where all cylinders are plain slider-cranks.
@@ -137,7 +138,7 @@ class Analysis(Result):
 def analyze(
     engine: Engine,
     orders: Iterable[float] | None = None,
-    only: Collection[str] | None = None,
+    only: str | Collection[str] | None = None,
     by_cylinder: bool = False,
     reasons: bool = False,
     guide_height_m: float | None = None,
@@ -148,7 +149,8 @@ def analyze(
         engine: without trailing axes.
         orders: which orders to show; default: 1 and 2 (0 too at uneven speed) and all in which a
             quantity that was asked for exceeds 1e-6 of its own largest order, up to 512.
-        only: any of QUANTITIES, EXTRAS and `gas`; default: `list_quantities`.
+        only: any of QUANTITIES, EXTRAS and `gas`, or a text of them with commas between; default:
+            `list_quantities`.
         by_cylinder: also the phasors of every cylinder alone.
         reasons: also why each order is balanced, or is not.
         guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
@@ -157,8 +159,12 @@ def analyze(
     Raises:
         BalcliError: an unknown quantity, an order that is negative or above HIGHEST_ORDER, too many
             orders of too many cylinders.
+        TypeError: what is no engine.
+
+    Example:
+        >>> analyze(load("v8.toml"), orders=[1, 2]).spectra.moment.major
     """
-    wanted = _choose_quantities(engine, only)
+    wanted = _choose_quantities(check_engine("analyze", engine), only)
     asked = None if orders is None else check_orders(orders, [engine])
     peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
     shown = wanted.intersection(EVERY_KIND)
@@ -175,7 +181,7 @@ def analyze(
         sizing=_size_and_analyze(engine, asked, wanted) if "sizing" in wanted else None,
         cylinders=cylinders,
         why=_explain(engine, visible.orders, shown) if reasons else None,
-        inner=_load_crankshaft(engine, asked) if "inner" in wanted else None,
+        inner=load_crankshaft(engine, asked) if "inner" in wanted else None,
         guide=_press_guides(engine, asked, guide_height_m) if "guide" in wanted else None,
         travel=None if engine.cylinders.linkage is None else _measure_travel(engine),
     )
@@ -188,11 +194,11 @@ def list_quantities(engine: Engine) -> tuple[str, ...]:
     return (*UNASKED, *(GAS_KINDS if engine.gas is not None else ()))
 
 
-def _choose_quantities(engine: Engine, only: Collection[str] | None) -> set[str]:
+def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> set[str]:
     """What is computed; `gas` stands for all that gas does."""
     if only is None:
         return set(list_quantities(engine))
-    wanted = set(only)
+    wanted = {*(only.split(",") if isinstance(only, str) else only)}
     if strangers := sorted(wanted.difference(QUANTITIES, GAS_KINDS, EXTRAS)):
         raise BalcliError(
             f"there is no quantity {', '.join(strangers)}: choose from "
@@ -244,10 +250,16 @@ def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
     return explain_symmetry(engine, orders[orders > 0], provable)
 
 
-def _load_crankshaft(engine: Engine, asked: Array | None) -> InnerLoads:
+def load_crankshaft(engine: Engine, asked: Array | None = None) -> InnerLoads:
+    """Shear, bending and bearing loads along the crankshaft, with gas as far as there is some."""
     from ..forces.crankshaft import compute_inner_loads
 
-    return compute_inner_loads(engine, asked)
+    inner = compute_inner_loads(engine, asked)
+    if engine.gas is None:
+        return inner
+    from ..forces.in_bearings import add_gas
+
+    return add_gas(inner, engine, asked)
 
 
 def _press_guides(engine: Engine, asked: Array | None, height_m: float | None) -> GuideMoments:

@@ -13,10 +13,10 @@ import numpy as np
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..forces.crankshaft import InnerLoads, compute_inner_loads
+from ..forces.crankshaft import InnerLoads
 from ..forces.kinds import KINDS
 from ..forces.spectrum import compute_spectra
-from ..results.analysis import Analysis, analyze
+from ..results.analysis import Analysis, analyze, load_crankshaft
 from ..results.balance import balance
 from ..sizing.balance_factor import find_best_factor
 from ..sizing.details import FactorPeaks
@@ -90,7 +90,7 @@ def compute_study(
     if scheme is not None:
         found = balance(engine, scheme, options, orders)
         bent = (
-            (compute_inner_loads(found.after.engine), compute_inner_loads(engine))
+            (load_crankshaft(found.after.engine), load_crankshaft(engine))
             if what == "inner"
             else ()
         )
@@ -99,7 +99,7 @@ def compute_study(
     if what in PAGES:
         return Study(now, gas=compute_pictures(engine, what))
     if what == "inner":
-        return Study(now, bent=(compute_inner_loads(engine),))
+        return Study(now, bent=(load_crankshaft(engine),))
     return (
         Study(now, banks=swing_banks(engine, _find_lowest(now) if orders is None else orders[0]))
         if what == "bank"

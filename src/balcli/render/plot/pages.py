@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from ...forces.in_bearings import LoadsWithGas
+
 _VECTORS = tuple(kind.name for kind in VECTORS)
 ABOUT = "about"  # the crank: couple, torque and roll in one picture
 PICTURED = (*_VECTORS, ABOUT)
@@ -177,6 +179,9 @@ def _lay_out_bank(fig: Figure, subject: Subject) -> None:
 
 
 def _lay_out_inner(fig: Figure, subject: Subject) -> None:
+    if gas := [inner.with_gas for inner in subject.bent if inner.with_gas is not None]:
+        _lay_out_inner_with_gas(fig, gas, subject.system)
+        return
     shear, bending, bearings = fig.subplots(3, 1, sharex=True)
     draw_along(
         shear,
@@ -200,6 +205,19 @@ def _lay_out_inner(fig: Figure, subject: Subject) -> None:
     )
     bearings.set_xlabel("z, mm (free end on the left)")
     for ax in (shear, bending):
+        ax.label_outer()
+
+
+def _lay_out_inner_with_gas(fig: Figure, loads: Sequence[LoadsWithGas], system: System) -> None:
+    shaft, block, bearings = fig.subplots(3, 1, sharex=True)
+    titles = "Bending moment in the crankshaft, with gas", "moment"
+    draw_along(shaft, [found.bending for found in loads], titles, system.moment)
+    titles = "Bending moment in the block, with gas", "moment"
+    draw_along(block, [found.block_bending for found in loads], titles, system.moment)
+    titles = "Load of each main bearing, with gas", "force"
+    draw_along(bearings, [found.bearings for found in loads], titles, system.force, "")
+    bearings.set_xlabel("z, mm (free end on the left)")
+    for ax in (shaft, block):
         ax.label_outer()
 
 

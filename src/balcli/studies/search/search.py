@@ -12,8 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.phasors import Array
-from ...engine.build import assemble, build
+from ...core.telling import Tell, tell_nobody
+from ...engine.build import Engine, assemble, build
 from ...engine.layout import cycle_deg, plan_cylinders
+from ...engine.vary import vary_engine
 from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
@@ -32,7 +34,7 @@ from .even_firing import find_even_angles, fires_evenly
 from .firing_orders import Slots
 from .mirror_images import drop_mirror_images
 from .objective import Objective
-from .throws import Watch, count_from, find_best_throws
+from .throws import count_from, find_best_throws
 
 Angle = Literal["bank_angle", "splay"]
 What = Literal["throws", "firing_order", "bank_angle", "splay"]
@@ -65,6 +67,17 @@ class Search(Result):
         found = f"{len(self.results)} result{'s' * (len(self.results) != 1)}"
         return f"over {self.over} of {self.model.name or 'an engine'}: {found}"
 
+    def engine(self, rank: int = 1) -> Engine:
+        """The engine with the arrangement of this rank, the best being 1. A firing order that its
+        throws no longer fit is left out.
+
+        Raises:
+            IndexError: so many were not found.
+        """
+        if not 1 <= rank <= len(self.results):
+            raise IndexError(f"rank {rank}: there are {len(self.results)}, from 1")
+        return vary_engine(build(self.model), self.results[rank - 1].design.changes())
+
 
 class _Task(NamedTuple):
     """What to search in, by what, for how many, and whether they have to fire evenly; where the
@@ -76,7 +89,7 @@ class _Task(NamedTuple):
     wanted: int
     even_firing: bool
     locked: tuple[tuple[float, float], ...]
-    watch: Watch | None
+    tell: Tell
 
 
 def search_arrangements(
@@ -85,7 +98,7 @@ def search_arrangements(
     objective: Objective,
     count: int = 10,
     even_firing: bool = False,
-    watch: Watch | None = None,
+    tell: Tell = tell_nobody,
 ) -> Search:
     """The best arrangements, mirror images and rotations once.
 
@@ -94,7 +107,7 @@ def search_arrangements(
             the file gives no throws), bank_angle (of a vee) or splay.
         count: at most so many.
         even_firing: only arrangements that can fire evenly.
-        watch: of a search over throws, which alone takes long: `throws.find_best_throws`.
+        tell: of a search over throws, which alone takes long: `throws.find_best_throws`.
 
     Raises:
         BalcliError: an engine that has nothing to arrange, or no arrangement that keeps the limits,
@@ -104,7 +117,7 @@ def search_arrangements(
     engine = build(model)
     refuse_unknown(engine, objective.quantities)
     locked = _find_locked(model, what)
-    candidates = _SEARCHES[what](_Task(model, objective, count, even_firing, locked, watch))
+    candidates = _SEARCHES[what](_Task(model, objective, count, even_firing, locked, tell))
     found = tuple(islice(drop_mirror_images(candidates, model), count))
     if not found:
         also = " and fires evenly" if even_firing else ""
@@ -141,7 +154,7 @@ def _search_throws(task: _Task) -> Iterator[Found]:
         return fires_evenly(build_candidates(model, {"throws": throws}), model)
 
     allowed = can_fire if task.even_firing else None
-    throws = find_best_throws(model, objective, IMAGES * task.wanted, allowed, task.watch)
+    throws = find_best_throws(model, objective, IMAGES * task.wanted, allowed, task.tell)
     if len(throws):
         throws = count_from(throws[:, :1], throws)
     return rank_candidates(model, {"throws": throws}, objective)
