@@ -103,9 +103,9 @@ def scatter(
 
     tolerances = parse_tolerances(mass, length, angle)
     share = parse_percentage(stiffness, "--stiffness-scatter")
-    wanted = parse_quantities(DEFAULT_QUANTITIES if quantity is None else quantity)
-    asked, on_mounts = part_quantities(wanted)
     _, model, engine = read_engine(path, asked=())
+    names = DEFAULT_QUANTITIES if quantity is None else quantity
+    asked, on_mounts = part_quantities(parse_quantities(names, with_gas=model.gas is not None))
     if quantity is None and not engine.places_known:
         asked = leave_out_unknown(engine, asked)
         warn_of_unknown_moments(name_file(path))
