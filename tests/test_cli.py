@@ -520,7 +520,8 @@ def test_headings_of_rows_stay_whole_in_a_narrow_terminal(balcli, monkeypatch):
 
 @pytest.mark.parametrize("columns", [80, 140])
 @pytest.mark.parametrize(
-    "name", ["v8_crossplane", "vr6", "radial9", "w12", "i4_shafts", "single", "tsinghua_12v135q"]
+    "name",
+    ["v8_crossplane", "vr6", "radial9", "w12", "i4_shafts", "single", "car/tsinghua_12v135q"],
 )
 def test_a_terminal_gets_lines_of_its_width(balcli, monkeypatch, name, columns):
     """No line is wider, and no figure that stands in it without a width is broken."""

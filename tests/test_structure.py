@@ -104,7 +104,7 @@ def test_what_reads_engines_and_writes_files_first_refuses_to_overwrite(command)
     assert {
         key.value: value.id
         for key, value in zip(told["writes"].keys, told["writes"].values, strict=True)
-    } == {f"--{name}": name for name in writes}
+    } == {"OUT" if name == "target" else f"--{name}": name for name in writes}
 
 
 def test_the_readme_names_every_format():
@@ -154,6 +154,10 @@ def test_core_knows_numpy_and_the_standard_library_alone(file):
 # or kind of engine that it does not need.
 ON_REQUEST = {
     "balcli.__main__": ("balcli.cli",),
+    "balcli.commands.analysis_answer": (
+        *("balcli.render.marine", "balcli.results.marine"),
+        *("balcli.render.speeds", "balcli.results.speeds"),
+    ),
     "balcli.commands.completion": (
         "balcli.enginefile.examples",
         "balcli.enginefile.templates",
@@ -179,6 +183,7 @@ ON_REQUEST = {
         "balcli.core.strokes",
         "balcli.forces.crankshaft",
         "balcli.forces.guide_moments",
+        "balcli.forces.in_bearings",
         "balcli.forces.symmetry",
         "balcli.forces.textbook",
         "balcli.sizing.auto",

@@ -179,7 +179,4 @@ def _usage(error: Any) -> str:
     """How the command is used and what is wrong, plain: a box would fold it, even in a pipe."""
     text = StringIO()
     error.show(text)
-    told = text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's words
-    if "Missing option '--output'" in told:
-        told += " Name the file after it, such as -o X.svg."
-    return told
+    return text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's words

@@ -11,7 +11,7 @@ CASES = [
     ("", set(COMMANDS)),
     ("ana", {"analyze"}),
     ("analyze --form", {"--format"}),
-    ("analyze --format m", {"markdown"}),
+    ("analyze --format m", {"markdown", "marine"}),
     ("new ra", {"radial"}),
     ("balance --scheme t", {"two-shaft"}),
     ("balance --scheme k", {"knuckles"}),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from support.paths import ENGINES
 
 from balcli.commands.options import parse_orders
 from balcli.render.sheet import order_name
@@ -29,3 +30,30 @@ def test_a_range_that_begins_or_ends_with_a_half_goes_in_halves(text, orders):
 )
 def test_what_tables_call_an_order(order, name):
     assert order_name(order) == name
+
+
+@pytest.mark.parametrize("name", ["md", "MD", "Markdown"])
+def test_a_format_has_a_short_name_and_any_case(balcli, name):
+    assert balcli("layouts", "-f", name) == balcli("layouts", "--format", "markdown")
+
+
+@pytest.mark.parametrize("name", ["txt", "text", "Table"])
+def test_a_table_is_a_text(balcli, name):
+    assert balcli("balance", ENGINES / "i4.toml", "-f", name) == balcli(
+        "balance", ENGINES / "i4.toml"
+    )
+
+
+@pytest.mark.parametrize(
+    ("command", "known"),
+    [
+        ("analyze", "'table', 'json', 'csv', 'markdown', 'marine'"),
+        ("compare", "'table', 'json', 'csv', 'markdown'"),
+        ("curves", "'csv', 'json'"),
+        ("sweep", "'csv', 'json', 'parquet'"),
+    ],
+)
+def test_what_is_no_format_is_told_with_those_that_are(balcli, command, known):
+    status, out, err = balcli(command, ENGINES / "i4.toml", "-f", "xml")
+    assert (status, out) == (2, "")
+    assert f"'xml' is not one of {known}." in err

@@ -27,9 +27,11 @@ SHOWN = {  # by renderer
     "errata": ("tables", "liu-3", "--errata"),
     "field_balancing": ("field", "-"),
     "layouts": ("layouts",),
+    "marine": ("analyze", V6, V8, "--format", "marine", "--speed", "60,124"),
     "mounts": ("mounts", PACKAGE / "enginefile" / "starting_files" / "mounts.toml"),
     "printed_table": ("tables", "liu-1"),
     "search": ("search", V8, "--over", "throws", "--minimise", "moment.1.major"),
+    "speeds": ("analyze", V6, V8, "--speed", "60:124:8", "--only", "force,peak,inner"),
     "table_list": ("tables",),
     "tolerances": ("scatter", V8, "--samples", "100", "--seed", "1"),
     "torque": ("torque", ENGINES / "v8_wiebe.toml"),
@@ -105,7 +107,7 @@ def test_json_is_one_document_a_line_without_what_json_has_no_word_for(show, nam
         raise AssertionError(constant)
 
     lines = show(name, Format.JSON).splitlines()
-    assert len(lines) == (2 if name == "analyses" else 1)
+    assert len(lines) == (2 if name in ("analyses", "marine", "speeds") else 1)
     for line in lines:
         document = json.loads(line, parse_constant=refuse)
         assert isinstance(document, list) or document["format"].startswith("balcli.")

@@ -18,6 +18,7 @@ from ..sizing.schemes import KNUCKLES, MEANINGS, NAMES, SCHEMES
 from .amounts import is_bare, read_length, read_lengths, read_mass, read_number, read_share
 from .completion import complete_schemes
 from .file_names import format_of, text_format
+from .format_names import format_option
 from .output import emit, show
 
 if TYPE_CHECKING:
@@ -39,13 +40,10 @@ class BalanceFormat(StrEnum):
 
 FormatOption = Annotated[
     BalanceFormat | None,
-    typer.Option(
-        "--format",
-        "-f",
-        case_sensitive=False,
-        show_default=False,
-        help="How to write the result; default: by the ending of -o (.txt, .json, .csv, .md), "
-        "else table. card: a page for the wall of a shop, per pin, in g and oz.",
+    format_option(
+        BalanceFormat,
+        "How to write the result, md for short of markdown; default: by the ending of -o (.txt, "
+        ".json, .csv, .md), else table. card: a page for the wall of a shop, per pin, in g and oz.",
     ),
 ]
 Scheme = Annotated[

@@ -10,6 +10,7 @@ from ..render.csv import csv_text
 from ..render.json import json_text
 from .amounts import read_angle
 from .file_names import SERIES, SeriesFormat, format_of
+from .format_names import format_option
 from .options import EnginePath, Output, Speed, parse_speed
 from .output import emit
 from .overwrite_guard import refuse_overwriting
@@ -27,12 +28,7 @@ Cylinder = Annotated[
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
 Form = Annotated[
     SeriesFormat | None,
-    typer.Option(
-        "--format",
-        "-f",
-        show_default=False,
-        help="How to write the curves; default: by the ending of -o, else csv.",
-    ),
+    format_option(SeriesFormat, "How to write the curves; default: by the ending of -o, else csv."),
 ]
 
 

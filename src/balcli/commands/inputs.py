@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple, TypeVar
@@ -21,6 +21,8 @@ from ..forces.kinds import KINDS
 
 # What says something of moments besides them, of all that can be asked for.
 ABOUT_MOMENTS = frozenset({"peak", "sizing", "guide", "xy", "textbook", "verdict"})
+
+SETTINGS = frozenset({"balcli.toml", "pyproject.toml"})  # TOML beside engines, not of engines
 
 P = TypeVar("P")
 T = TypeVar("T")
@@ -104,7 +106,8 @@ def exit_on_errors(errors: Sequence[str]) -> None:
 
 
 def find_engine_files(paths: Sequence[Path]) -> list[Path]:
-    """Engine files as named, and all that are in a folder.
+    """Engine files as named, and all that are in a folder or in folders within it; those whose
+    name begins with a dot, and files of settings, are passed over.
 
     Raises:
         BalcliError: a path that is not there, a folder without engine files.
@@ -113,12 +116,23 @@ def find_engine_files(paths: Sequence[Path]) -> list[Path]:
     for path in paths:
         # Unlike Path.is_dir, this is false where one may not look, or the name is too long.
         folder = os.path.isdir(path)
-        found = sorted(path.glob("*.toml")) if folder else [path]
+        found = sorted(filter(_is_engine, _walk(path))) if folder else [path]
         if not found or not os.path.exists(path):
             reason = "has no engine files (*.toml)" if folder else "no such file or folder"
             raise BalcliError(f"{path}: {reason}")
         files += found
     return files
+
+
+def _walk(folder: Path) -> Iterator[Path]:
+    """All files in a folder and those within it that are not hidden."""
+    for place, inner, files in os.walk(folder):
+        inner[:] = [name for name in inner if not name.startswith(".")]
+        yield from (Path(place, name) for name in files)
+
+
+def _is_engine(path: Path) -> bool:
+    return path.suffix == ".toml" and path.name not in SETTINGS
 
 
 def named_by_file(engine: Engine, path: str) -> Engine:

@@ -15,6 +15,7 @@ from ..render.formats import Format, Units
 from .amounts import read_length, read_speed
 from .completion import complete_schemes
 from .file_names import parse_output
+from .format_names import format_option
 
 # words of `analyze --only` that name a table or text of what is computed anyway
 PARTS = ("xy", "textbook", "verdict")
@@ -33,13 +34,10 @@ EnginePaths = Annotated[
 ]
 FormatOption = Annotated[
     Format | None,
-    typer.Option(
-        "--format",
-        "-f",
-        case_sensitive=False,
-        show_default=False,
-        help="How to write the result; default: by the ending of -o (.txt, .json, .csv, .md), "
-        "else table.",
+    format_option(
+        Format,
+        "How to write the result, md for short of markdown; default: by the ending of -o (.txt, "
+        ".json, .csv, .md), else table.",
     ),
 ]
 UnitsOption = Annotated[
@@ -59,8 +57,10 @@ Output = Annotated[
         help="Write into this file instead; its ending says the format. - is standard output.",
     ),
 ]
-
-
+Target = Annotated[
+    Path | None,
+    typer.Argument(metavar="OUT", show_default=False, help="The file to write; the same as -o."),
+]
 Speed = Annotated[
     str | None,
     typer.Option(
@@ -88,7 +88,7 @@ Only = Annotated[
         metavar="WHAT,...",
         show_default=False,
         help=f"Compute only some of {', '.join(KINDS)}, peak, sizing, gas; or inner "
-        "(shear, bending, bearing loads along the crankshaft) and guide (H- and X-type).",
+        "(shear, bending, bearing loads along crankshaft and block) and guide (H- and X-type).",
     ),
 ]
 OnlyParts = Annotated[
@@ -98,7 +98,7 @@ OnlyParts = Annotated[
         metavar="WHAT,...",
         show_default=False,
         help=f"Only some of {', '.join(KINDS)}, peak, sizing; inner (shear, bending, bearing "
-        "loads along the crankshaft), guide (H- and X-type); or xy, textbook, verdict.",
+        "loads along crankshaft and block), guide (H- and X-type); or xy, textbook, verdict.",
     ),
 ]
 Whole = Annotated[

@@ -12,8 +12,17 @@ from ..errors import BalcliError, say
 from ..forces.kinds import KINDS
 from ..render.formats import Units
 from ..render.units import SYSTEMS
-from .file_names import format_of, parse_output
-from .options import EnginePath, Orders, Scheme, Speed, UnitsOption, parse_orders, parse_speed
+from .file_names import choose_target, format_of, parse_output
+from .options import (
+    EnginePath,
+    Orders,
+    Scheme,
+    Speed,
+    Target,
+    UnitsOption,
+    parse_orders,
+    parse_speed,
+)
 from .output import emit
 from .overwrite_guard import refuse_overwriting
 
@@ -25,12 +34,11 @@ if TYPE_CHECKING:
     from ..torsion.analysis import TorsionAnalysis
 
 Page = Annotated[
-    Path,
+    Path | None,
     typer.Option(
         "--output",
         "-o",
-        metavar="FILE.html",
-        callback=parse_output,
+        metavar="OUT.html",
         help="Write the page here; - is standard output.",
         show_default=False,
     ),
@@ -39,7 +47,8 @@ Page = Annotated[
 
 def report(
     path: EnginePath,
-    output: Page,
+    target: Target = None,
+    output: Page = None,
     scheme: Scheme = "auto",
     speed: Speed = None,
     orders: Orders = None,
@@ -48,7 +57,8 @@ def report(
     """Write one self-contained page: the engine in motion, what it shakes, and a balance scheme
     before and after.
     """
-    refuse_overwriting(reads=[path], writes={"--output": output})
+    refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
+    output = parse_output(choose_target(target, output, "X.html"))
     format_of(output, None, {".html": "html", ".htm": "html"}, "html")
     from ..render.html import page
     from ..results.analysis import analyze

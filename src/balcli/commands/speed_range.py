@@ -1,4 +1,4 @@
-"""The option `--speeds`: a range of crank speeds."""
+"""Ranges of crank speeds, of `--speeds` and of `analyze --speed`."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import BalcliError
-from ..limits import MOST_SPEEDS
+from ..limits import LONGEST_SHOWN, MOST_SPEEDS
 from .amounts import convert_speed
 
 if TYPE_CHECKING:
@@ -24,9 +24,15 @@ Speeds = Annotated[
 ]
 
 
-def parse_speeds(text: str | None) -> Real | None:
+def parse_speeds(
+    text: str | None, option: str = "--speeds", most: int = MOST_SPEEDS
+) -> Real | None:
     """Speeds of `1000:2500:25` (first, last, step), `1000:2500` (100 steps) or `1500,2000`, rpm,
     rising.
+
+    Args:
+        option: by which they were given, for messages.
+        most: how many there may be.
 
     Raises:
         BalcliError: anything else, with the text.
@@ -36,7 +42,7 @@ def parse_speeds(text: str | None) -> Real | None:
     import numpy as np
 
     right = "give first:last:step in rpm, such as 1000:2500:25, or speeds such as 1500,2000"
-    start = f'--speeds "{text[:60]}": '
+    start = f'{option} "{text[:LONGEST_SHOWN]}": '
     try:
         ranged = ":" in text
         figures = [convert_speed(part) for part in text.split(":" if ranged else ",")]
@@ -52,7 +58,7 @@ def parse_speeds(text: str | None) -> Real | None:
     if first == last:
         return np.array([first])
     count = int((last - first) / step + 1e-9) + 1
-    if count > MOST_SPEEDS:
-        raise BalcliError(f"{start}has {count} speeds; at most {MOST_SPEEDS} are computed")
+    if count > most:
+        raise BalcliError(f"{start}has {count} speeds; at most {most} are computed")
     speeds = np.round(first + step * np.arange(count), 9)
     return speeds if speeds[-1] >= last - 1e-9 * step else np.append(speeds, last)

@@ -15,6 +15,7 @@ from ..process import count_cores
 from ..render.sweep_plot import check_drawable, draw_sweep
 from ..studies.quantity_names import describe_names
 from .file_names import VARIANTS, VariantsFormat, format_of, picture_form
+from .format_names import format_option
 from .options import EnginePath, Output
 from .output import write_file
 from .overwrite_guard import refuse_overwriting
@@ -50,11 +51,8 @@ def sweep(
     ] = None,
     form: Annotated[
         VariantsFormat | None,
-        typer.Option(
-            "--format",
-            "-f",
-            show_default=False,
-            help="How to write the variants; default: by the ending of -o, else csv.",
+        format_option(
+            VariantsFormat, "How to write the variants; default: by the ending of -o, else csv."
         ),
     ] = None,
     output: Output = None,

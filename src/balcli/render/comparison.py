@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from ..forces.kinds import TORQUE
@@ -9,6 +10,7 @@ from .csv import Rows, name_cell
 from .sheet import (
     NEGLIGIBLE,
     NOTHING,
+    UNKNOWN,
     Grid,
     Sheet,
     Text,
@@ -18,11 +20,12 @@ from .sheet import (
     order_number,
 )
 
-_TITLES = {TORQUE: "inertia torque"}
+TITLES = {TORQUE: "inertia torque"}
 
 if TYPE_CHECKING:
+    from ..forces.kinds import Kind
     from ..results.comparison import Comparison, Line
-    from .units import System
+    from .units import System, Unit
 
 
 def document(result: Comparison) -> dict[str, Any]:
@@ -66,21 +69,28 @@ def sheet(result: Comparison, system: System) -> Sheet:
     nothing: list[str] = []
     for kind in dict.fromkeys(line.kind for line in result.lines):
         every = [line for line in result.lines if line.kind == kind]
-        lines = every if result.whole else _find_lines_that_matter(every)
+        lines = every if result.whole else find_lines_that_matter(every)
         if not lines:
-            nothing.append(_TITLES.get(kind, kind.label))
+            nothing.append(TITLES.get(kind, kind.label))
             continue
-        unit = system.unit(kind).fit(max(v for line in lines for v in line.values if v == v))
-        title = f"{capitalized(_TITLES.get(kind, kind.label))}, {unit.name}: largest by order"
-        grids.append(Grid(title, heads, tuple(_row(line, unit.of) for line in lines)))
+        unit = fit_unit(kind, lines, system)
+        title = f"{capitalized(TITLES.get(kind, kind.label))}, {unit.name}: largest by order"
+        grids.append(
+            Grid(title, heads, tuple(_row(line, unit, every=result.whole) for line in lines))
+        )
     if nothing:
-        grids.append(Text("", (f"Balanced in all of them: {', '.join(nothing)}.",)))
+        grids.append(Text("", (f"Balanced or negligible in all of them: {', '.join(nothing)}.",)))
     return Sheet("Engines side by side", tuple(grids))
 
 
-def _find_lines_that_matter(lines: list[Line]) -> list[Line]:
-    """Orders that are not small beside the largest, and the peak; none if all are 0. What is not
-    known of one engine is told of low orders.
+def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> Unit:
+    """The unit for the largest of all that is known."""
+    return system.unit(kind).fit(max(v for line in lines for v in line.values if v == v))
+
+
+def find_lines_that_matter(lines: list[Line]) -> list[Line]:
+    """Orders that are not small beside the largest or beside one cylinder's, and the peak; none if
+    all are 0. What is not known of one engine is told of low orders.
     """
     largest = max((v for line in lines for v in line.values if v == v), default=0.0)
     return [line for line in lines if _matters(line, NEGLIGIBLE * largest)]
@@ -90,12 +100,35 @@ def _matters(line: Line, least: float) -> bool:
     known = [value for value in line.values if value == value]
     if len(known) < len(line.values) and (line.order is None or line.order <= 2):
         return True
-    return max(known, default=0.0) > least
+    return max(known, default=0.0) > least and not all(_tell_negligible(line))
 
 
-def _row(line: Line, of: Any) -> tuple[str, ...]:
-    first, *others = (number(of(value)) if value else NOTHING for value in line.values)
-    ratios = [number(ratio, 4) for ratio in line.ratios[1:]]
+def show_sizes(line: Line, unit: Unit, *, every: bool) -> list[str]:
+    """Amplitudes in their unit, or a word where there is none that counts, unless `every` one is
+    wanted.
+    """
+    small = [False] * len(line.values) if every else _tell_negligible(line)
+    return [_show_size(v, unit, negligible=s) for v, s in zip(line.values, small, strict=True)]
+
+
+def _tell_negligible(line: Line) -> list[bool]:
+    """Of each value whether it is 0, or small beside what one cylinder of its engine makes."""
+    single = line.single or (0.0,) * len(line.values)
+    pairs = zip(line.values, single, strict=True)
+    return [value == 0 or value < NEGLIGIBLE * one for value, one in pairs]
+
+
+def _show_size(value: float, unit: Unit, *, negligible: bool) -> str:
+    if not value:
+        return NOTHING
+    return "negligible" if negligible else number(unit.of(value))
+
+
+def _row(line: Line, unit: Unit, *, every: bool) -> tuple[str, ...]:
+    """Sizes, and ratios to the first engine's unless that is negligible."""
+    first, *others = show_sizes(line, unit, every=every)
+    to_nothing = _tell_negligible(line)[0]
+    ratios = [UNKNOWN if to_nothing else number(ratio, 4) for ratio in line.ratios[1:]]
     return (
         "peak" if line.order is None else f"order {order_name(line.order)}",
         first,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -22,12 +23,15 @@ def speed_facts(engine: Engine) -> Facts:
     return Facts((("speed", _speed(engine)),))
 
 
-def engine_facts(engine: Engine, system: System, *, higher: bool, whole: bool) -> Facts:
+def engine_facts(
+    engine: Engine, system: System, *, higher: bool, whole: bool, speeds_rpm: Sequence[float] = ()
+) -> Facts:
     """Cylinders, crank, firing, speed, masses that the figures include, devices; and, of the whole,
     how high orders go, the reference of moments and the source.
 
     Args:
         higher: whether there may be orders above those that are shown unless they are asked for.
+        speeds_rpm: which there are figures of, ascending, where there are several.
     """
     about = ", ".join(number(system.length.of(float(v))) for v in engine.reference_m)
     reference = f"moments about x, y, z = {about} {system.length.name}"
@@ -41,7 +45,7 @@ def engine_facts(engine: Engine, system: System, *, higher: bool, whole: bool) -
         ("crank", _crank(engine, system)),
         ("throws", _throws(engine)),
         ("firing", _firing(engine)),
-        ("speed", _speed(engine)),
+        ("speed", _speeds(speeds_rpm) if len(speeds_rpm) > 1 else _speed(engine)),
         ("masses", _masses(engine, system, whole=whole)),
         ("devices", devices),
         ("orders", orders if whole else ""),
@@ -54,6 +58,11 @@ def engine_facts(engine: Engine, system: System, *, higher: bool, whole: bool) -
 def _speed(engine: Engine) -> str:
     uneven = ", uneven: figures are those of the uneven speed" if engine.ripple else ""
     return f"{number(float(engine.speed_rpm), 6)} rpm{uneven}"
+
+
+def _speeds(speeds_rpm: Sequence[float]) -> str:
+    first, last = (number(float(speed), 6) for speed in (speeds_rpm[0], speeds_rpm[-1]))
+    return f"{first} to {last} rpm, {len(speeds_rpm)} speeds"
 
 
 def _throws(engine: Engine) -> str:

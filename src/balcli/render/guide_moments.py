@@ -9,7 +9,7 @@ from .figures import FigureRow, clean, order_rows, scalar_entries
 from .sheet import NOTHING, UNKNOWN, Grid, number, order_name, order_number
 
 if TYPE_CHECKING:
-    from ..core.phasors import Phasors
+    from ..core.phasors import Array, Phasors
     from ..forces.guide_moments import GuideMoments
     from .units import System, Unit
 
@@ -31,11 +31,16 @@ def sheet_parts(guide: GuideMoments, system: System) -> Iterator[Grid]:
             )
             for k, n in enumerate(guide.h.orders)
         ),
-        note=(
-            "H-type: sum of the cylinders' force couples. X-type: sum of each couple times its "
-            f"distance from the reference, divided by L = {_heights(guide, system)} (crankshaft to "
-            "the middle of the guide; unless given, the length of the rod)."
-        ),
+        note=define_guide_moments(guide.height_m, system),
+    )
+
+
+def define_guide_moments(height_m: Array, system: System) -> str:
+    """What H- and X-type are, with the height of the guides of shape (cylinders,), m."""
+    return (
+        "H-type: sum of the cylinders' force couples. X-type: sum of each couple times its "
+        f"distance from the reference, divided by L = {_heights(height_m, system)} (crankshaft to "
+        "the middle of the guide; unless given, the length of the rod)."
     )
 
 
@@ -63,9 +68,9 @@ def rows(guide: GuideMoments, system: System) -> Iterator[FigureRow]:
             yield from order_rows(name, order, entries[k], system.moment)
 
 
-def _heights(guide: GuideMoments, system: System) -> str:
+def _heights(height_m: Array, system: System) -> str:
     """Of all cylinders if they are alike, else the shortest and the longest."""
-    found = (float(guide.height_m.min()), float(guide.height_m.max()))
+    found = (float(height_m.min()), float(height_m.max()))
     texts = dict.fromkeys(number(system.length.of(height)) for height in found)
     return f"{' to '.join(texts)} {system.length.name}"
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import nan
+from typing import TYPE_CHECKING
 
 from ..core.peaks import Peak
 from ..core.phasors import Array
@@ -16,9 +18,19 @@ from ..forces.spectrum import Spectra
 from ..result import Result
 from .analysis import QUANTITIES, Analysis, analyze
 
+if TYPE_CHECKING:
+    from ..forces.crankshaft import AlongCrank
+
 SHEAR = Kind("shear", "shear force in the crankshaft", "Q", "shear_N", True, "force")
 BENDING = Kind("bending", "bending moment in the crankshaft", "M_b", "bending_Nm", True, "moment")
 BEARING = Kind("bearing", "load of a main bearing", "R", "bearing_N", True, "force")
+WITH_GAS = (  # in the order of `in_bearings.LoadsWithGas`
+    Kind("shaft_shear", "shear of the shaft with gas", "Q", "shaft_shear_N", True, "force"),
+    Kind("shaft_bending", "bending of the shaft with gas", "M", "shaft_bending_Nm", True, "moment"),
+    Kind("main", "load of a main bearing with gas", "R", "main_N", True, "force"),
+    Kind("block_shear", "shear of the block with gas", "Q", "block_shear_N", True, "force"),
+    Kind("block_bending", "bending of the block with gas", "M", "block_bending_Nm", True, "moment"),
+)
 GUIDE_H = Kind("guide_h", "H-type guide moment", "M_H", "guide_h_Nm", False, "moment")
 GUIDE_X = Kind("guide_x", "X-type guide moment", "M_X", "guide_x_Nm", False, "moment")
 LEFT = {
@@ -39,11 +51,14 @@ class Line:
         kind: of force or moment.
         order: None for the peak.
         values: one an engine; nan for moments that are not known.
+        single: what one cylinder of each engine makes, beside which a value may be negligible;
+            empty or 0 where there is no such measure.
     """
 
     kind: Kind
     order: float | None
     values: tuple[float, ...]
+    single: tuple[float, ...] = ()
 
     @property
     def ratios(self) -> tuple[float, ...]:
@@ -98,18 +113,34 @@ def compare_engines(
     wanted = set(QUANTITIES) - {"sizing"} if only is None else set(only)
     if only is None and all(engine.gas is not None for engine in engines):
         wanted.add(GAS.name)
-    analyses = [analyze(engine, orders, wanted) for engine in engines]
+    analyses = analyze_alike(engines, orders, partial(analyze, only=wanted))
+    return Comparison(tuple(names), list_lines(analyses), whole or orders is not None)
+
+
+def analyze_alike(
+    engines: Iterable[Engine],
+    orders: Iterable[float] | None,
+    analyze_one: Callable[[Engine, Iterable[float] | None], Analysis],
+) -> tuple[Analysis, ...]:
+    """Analyses of several engines, or of one at several speeds, all by the same orders: those asked
+    for, or each that one of them shows unasked.
+    """
+    analyses = tuple(analyze_one(engine, orders) for engine in engines)
+    if orders is not None:
+        return analyses
     every = merge_orders(*(orders for one in analyses for orders in _list_orders(one)))
-    if orders is None:
-        analyses = [analyze(engine, every, wanted) for engine in engines]
-    lines = (
-        *_compare_orders(analyses, every),
+    return tuple(analyze_one(one.engine, every) for one in analyses)
+
+
+def list_lines(analyses: Sequence[Analysis]) -> tuple[Line, ...]:
+    """Every figure of analyses by the same orders side by side."""
+    return (
+        *_compare_orders(analyses),
         *_compare_peaks(analyses),
         *_compare_inner(analyses),
         *_compare_guide(analyses),
         *_compare_sizing(analyses),
     )
-    return Comparison(tuple(names), lines, whole or orders is not None)
 
 
 def _list_orders(one: Analysis) -> Iterator[Array]:
@@ -120,18 +151,24 @@ def _list_orders(one: Analysis) -> Iterator[Array]:
         yield one.guide.h.orders
 
 
-def _compare_orders(analyses: Sequence[Analysis], orders: Array) -> Iterator[Line]:
+def _compare_orders(analyses: Sequence[Analysis]) -> Iterator[Line]:
     for kind, _ in analyses[0].spectra.items():
+        single = _of_one_cylinder(kind, analyses)
         sizes = [_known(one)[kind.name].major for one in analyses]
-        for order, *values in zip(orders, *sizes, strict=True):
+        for order, *values in zip(analyses[0].orders, *sizes, strict=True):
             if order <= 2 or any(values):
-                yield Line(kind, float(order), tuple(map(float, values)))
+                yield Line(kind, float(order), tuple(map(float, values)), single)
 
 
 def _compare_peaks(analyses: Sequence[Analysis]) -> Iterator[Line]:
     for same in zip(*(one.peaks for one in analyses), strict=True):
         kind, _ = same[0]
-        yield Line(kind, None, tuple(_known_values(kind, same, analyses)))
+        single = _of_one_cylinder(kind, analyses)
+        yield Line(kind, None, tuple(_known_values(kind, same, analyses)), single)
+
+
+def _of_one_cylinder(kind: Kind, analyses: Sequence[Analysis]) -> tuple[float, ...]:
+    return tuple(one.of_one_cylinder.get(kind.name, 0.0) for one in analyses)
 
 
 def _known(one: Analysis) -> Spectra:
@@ -148,11 +185,14 @@ def _known_values(
 def _compare_inner(analyses: Sequence[Analysis]) -> Iterator[Line]:
     """The largest along the crank, by order and of all orders."""
     found = [one.inner for one in analyses if one.inner is not None]
-    for kind, several in (
+    gas = [one.with_gas for one in found if one.with_gas is not None]
+    lines: list[tuple[Kind, list[AlongCrank | None]]] = [
         (SHEAR, [one.shear for one in found]),
         (BENDING, [one.bending for one in found]),
         (BEARING, [one.bearings for one in found]),
-    ):
+    ]
+    lines += [(kind, [loads[k] for loads in gas]) for k, kind in enumerate(WITH_GAS)]
+    for kind, several in lines:
         there = [along for along in several if along is not None]
         if not there or len(there) < len(analyses):
             continue  # a crank with one throw has no bearings that are known

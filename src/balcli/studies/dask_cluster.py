@@ -13,7 +13,8 @@ from itertools import islice
 from typing import Any
 
 from ..errors import BalcliError
-from .sweep import Box, Chunk, Sweep, divide_sweep, evaluate_box, size_boxes
+from .boxes import Box, BoxSize
+from .sweep import Chunk, Sweep, divide_sweep, evaluate_box, size_boxes
 
 BATCH_S = 0.5  # for which a worker computes before it sends what it has
 BATCH = 64  # that it computes at a time
@@ -56,15 +57,15 @@ def evaluate_on_cluster(sweep: Sweep, client: Any) -> Iterator[Chunk]:
     """
     from distributed import KilledWorker  # an extra
 
-    most = size_boxes(sweep)
-    boxes = divide_sweep(sweep, most)
+    size = size_boxes(sweep)
+    boxes = divide_sweep(sweep, size)
     start = time.perf_counter()
-    yield from _evaluate_batch(sweep, most, [next(boxes)])
+    yield from _evaluate_batch(sweep, size, [next(boxes)])
     batch = min(max(int(BATCH_S / (time.perf_counter() - start)), 1), BATCH)
 
     def submit(count: int) -> Iterator[Any]:
         for some in islice(_group(boxes, batch), count):
-            yield client.submit(_evaluate_batch, sweep, most, some, pure=False, retries=RETRIES)
+            yield client.submit(_evaluate_batch, sweep, size, some, pure=False, retries=RETRIES)
 
     waiting = deque(submit(AHEAD * max(sum(client.nthreads().values()), 1)))
     while waiting:
@@ -79,8 +80,8 @@ def evaluate_on_cluster(sweep: Sweep, client: Any) -> Iterator[Chunk]:
         waiting.extend(submit(1))
 
 
-def _evaluate_batch(sweep: Sweep, most: int, batch: list[Box]) -> list[Chunk]:
-    return [Chunk(box, evaluate_box(sweep, box, most)) for box in batch]
+def _evaluate_batch(sweep: Sweep, size: BoxSize, batch: list[Box]) -> list[Chunk]:
+    return [Chunk(box, evaluate_box(sweep, box, size)) for box in batch]
 
 
 def _group(boxes: Iterator[Box], count: int) -> Iterator[list[Box]]:

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..core.golden_section import find_least
 from ..core.singular_values import Real
 from ..core.torsional_dampers import best_viscous_damping
 from ..enginefile.fields import printable
@@ -27,8 +28,6 @@ _FIGURE = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  #
 _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # range of the search, times and over
 _PENDULUM_RADIUS = 0.06  # m, where nothing says where one hangs
 _PLACES = 13  # looked at over this range before the best is approached
-_ROUNDS = 20  # of golden section: to 1e-4 of the step between these
-_GOLDEN = (math.sqrt(5) - 1) / 2
 
 
 class DamperAsked(NamedTuple):
@@ -219,15 +218,4 @@ def _minimise(judge: Callable[[float], float], low: float, high: float) -> float
     places = np.linspace(low, high, _PLACES)
     best = int(np.argmin([judge(float(place)) for place in places]))
     low, high = float(places[max(best - 1, 0)]), float(places[min(best + 1, _PLACES - 1)])
-    left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-    at_left, at_right = judge(left), judge(right)
-    for _ in range(_ROUNDS):
-        if at_left <= at_right:
-            high, right, at_right = right, left, at_left
-            left = high - _GOLDEN * (high - low)
-            at_left = judge(left)
-        else:
-            low, left, at_left = left, right, at_right
-            right = low + _GOLDEN * (high - low)
-            at_right = judge(right)
-    return left if at_left <= at_right else right
+    return find_least(judge, low, high)

@@ -1,0 +1,132 @@
+"""What `balcli analyze` does between its options and its output: files analysed at one speed, over
+several, or for the sheet of marine builders.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
+
+from ..engine.build import Engine
+from ..render import analyses
+from ..render.formats import Format, Units
+from ..render.view import View
+from ..results.analysis import Analysis, analyze, list_quantities
+from .inputs import distinct_names, exit_on_errors, read_engine, try_each
+from .output import draws_sketch, show
+
+if TYPE_CHECKING:
+    from .analysis_options import Request
+
+R = TypeVar("R")
+
+
+class Target(NamedTuple):
+    """How results are to be written, and where: `output.show`."""
+
+    form: Format
+    output: Path | None
+    units: Units
+
+
+def answer(paths: Sequence[str], asked: Request, target: Target) -> None:
+    """Analyse files and show what was found; bad ones are named, and end with exit status 2.
+
+    Raises:
+        BalcliError: the output cannot be written.
+        Exit: a file is bad.
+    """
+    if asked.marine:
+        _answer_marine(paths, asked, target)
+    elif asked.over_speed:
+        _answer_over_speed(paths, asked, target)
+    else:
+        _answer_at_one_speed(paths, asked, target)
+
+
+def _answer_at_one_speed(paths: Sequence[str], asked: Request, target: Target) -> None:
+    drawn = draws_sketch(asked.plot, target.form)
+    view = View(asked.whole, asked.parts, asked.orders is not None, pictures=drawn)
+
+    def present(names: Sequence[str], found: Sequence[Analysis]) -> None:
+        named = [analyses.NamedAnalysis(*one, view) for one in zip(names, found, strict=True)]
+        show(named, analyses, *target)
+
+    def find(engine: Engine) -> Analysis:
+        return _ask(asked, engine)(engine, asked.orders)
+
+    _analyze_files(paths, asked, find, present, target)
+
+
+def _answer_over_speed(paths: Sequence[str], asked: Request, target: Target) -> None:
+    from ..render import speeds
+    from ..results.speeds import SpeedSeries, analyze_speeds
+
+    view = View(asked.whole, asked.parts, asked.orders is not None)
+
+    def present(names: Sequence[str], found: Sequence[SpeedSeries]) -> None:
+        named = [speeds.NamedSeries(*one, view) for one in zip(names, found, strict=True)]
+        show(named, speeds, *target)
+
+    def find(engine: Engine) -> SpeedSeries:
+        return analyze_speeds(engine, asked.speeds_rpm, asked.orders, _ask(asked, engine))
+
+    _analyze_files(paths, asked, find, present, target)
+
+
+def _answer_marine(paths: Sequence[str], asked: Request, target: Target) -> None:
+    from ..render import marine
+    from ..results.marine import MarineSheet, find_marine_sheet
+
+    def present(names: Sequence[str], found: Sequence[MarineSheet]) -> None:
+        named = [marine.NamedMarineSheet(*one) for one in zip(names, found, strict=True)]
+        show(named, marine, *target)
+
+    def find(engine: Engine) -> MarineSheet:
+        return find_marine_sheet(
+            engine, asked.speeds_rpm, asked.orders, asked.height_m, every_order=asked.whole
+        )
+
+    _analyze_files(paths, asked, find, present, target)
+
+
+def _ask(asked: Request, engine: Engine) -> Callable[[Engine, Iterable[float] | None], Analysis]:
+    """What is asked of an engine like this one, at whatever speed and by whatever orders."""
+    wanted = asked.quantities
+    if wanted is None:
+        sizing = () if asked.over_speed else ("sizing",)  # it is the same at all speeds
+        wanted = [*list_quantities(engine), *sizing]
+    return partial(
+        analyze,
+        only=wanted,
+        by_cylinder=asked.by_cylinder,
+        reasons=asked.why,
+        guide_height_m=asked.height_m,
+    )
+
+
+def _analyze_files(
+    paths: Sequence[str],
+    asked: Request,
+    find: Callable[[Engine], R],
+    present: Callable[[Sequence[str], Sequence[R]], None],
+    target: Target,
+) -> None:
+    """Find something of every file and present it by the engines' names.
+
+    Raises:
+        Exit: with status 2, after the messages, if a file is bad.
+    """
+    rpm = asked.speeds_rpm[0] if asked.speeds_rpm else None
+
+    def find_one(path: str) -> tuple[str, str, R]:
+        engine = read_engine(path, rpm, asked.words).engine
+        return engine.name, path, find(engine)
+
+    found, errors = try_each(paths, find_one)
+    if found and not (errors and target.output):  # a file gets all of them or is left as it was
+        engines, good, results = zip(*found, strict=True)
+        present(distinct_names(engines, good), results)
+    exit_on_errors(errors)

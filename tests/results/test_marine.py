@@ -1,0 +1,141 @@
+"""The marine sheet against motion sampled over a revolution: no series, no phasor of ours."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import numpy as np
+import pytest
+
+from balcli.engine.build import build
+from balcli.engine.load import parse
+from balcli.results.marine import find_marine_sheet
+
+RADIUS, ROD, MASS, SPACING = 0.9, 2.4, 3000.0, 0.8
+THROWS = (0.0, 240.0, 120.0, 30.0)
+TEXT = f"""
+[crank]
+stroke = {2e3 * RADIUS}
+throws = {list(THROWS)}
+spacing = {1e3 * SPACING}
+throw_mass = 500
+[rod]
+length = {1e3 * ROD}
+small_end = 0
+big_end = 0
+[piston]
+mass = {MASS}
+[operation]
+speed = 100
+"""
+RPM = (80.0, 110.0)
+Z = SPACING * (np.arange(4) - 1.5)
+SAMPLES = 4096
+
+
+def amplitude(values: np.ndarray, order: int) -> float:
+    return float(2 * abs(np.fft.rfft(values)[order]) / SAMPLES)
+
+
+def sampled(rpm: float) -> dict[str, np.ndarray]:
+    """Forces along x and y, their moments, couples of the guides and torque, by crank angle."""
+    turn = 2 * np.pi * np.arange(SAMPLES) / SAMPLES
+    omega = rpm * np.pi / 30
+    theta = turn + np.radians(THROWS)[:, None]
+    sine = RADIUS / ROD * np.sin(theta)
+    travel = RADIUS * np.cos(theta) + ROD * np.sqrt(1 - sine**2)
+    waves = np.fft.fftfreq(SAMPLES, 1 / SAMPLES)
+    speed, acceleration = (np.fft.ifft((1j * waves) ** k * np.fft.fft(travel)).real for k in (1, 2))
+    rotating = 500 * RADIUS * omega**2
+    along_x = -MASS * omega**2 * acceleration + rotating * np.cos(theta)
+    along_y = rotating * np.sin(theta)
+    torque = -MASS * omega**2 * acceleration * speed
+    return {
+        "force_v": along_x.sum(axis=0),
+        "force_h": along_y.sum(axis=0),
+        "moment_v": Z @ along_x,
+        "moment_h": Z @ along_y,
+        "guide_h": torque.sum(axis=0),
+        "guide_x": Z @ torque / ROD,
+        "torque": torque.sum(axis=0),
+    }
+
+
+def test_every_column_is_that_of_the_motion() -> None:
+    found = find_marine_sheet(build(parse(TEXT)), RPM, [1, 2, 3, 4])
+    for i, rpm in enumerate(RPM):
+        for name, curve in sampled(rpm).items():
+            largest = max(amplitude(curve, n) for n in (1, 2, 3, 4))
+            for k in range(4):
+                expected = pytest.approx(amplitude(curve, k + 1), abs=1e-9 * largest, rel=1e-9)
+                assert getattr(found, name)[i, k] == expected, (name, rpm, k + 1)
+
+
+def test_the_guide_height_divides_x_alone() -> None:
+    engine = build(parse(TEXT))
+    usual, given = (find_marine_sheet(engine, (), [1, 2], height) for height in (None, 3.0))
+    assert given.guide_x == pytest.approx(usual.guide_x * ROD / 3.0, rel=1e-12)
+    assert given.guide_h == pytest.approx(usual.guide_h, rel=1e-12)
+
+
+def test_moments_that_are_not_known_are_none(balcli, tmp_path) -> None:
+    file = tmp_path / "nowhere.toml"
+    file.write_text(TEXT.replace(f"spacing = {1e3 * SPACING}", ""))
+    status, out, err = balcli("analyze", file, "--format", "marine", "-o", tmp_path / "s.json")
+    assert (status, out) == (0, "")
+    assert "moments are not known" in err or "crank.spacing" in err
+    entry = json.loads((tmp_path / "s.json").read_text())["speeds"][0]["orders"][0]
+    assert entry["force_v_N"] > 0
+    assert entry["moment_v_Nm"] is None
+    assert entry["guide_x_Nm"] is None
+
+
+def test_names_of_orders_head_the_columns_over_speed(balcli, tmp_path) -> None:
+    file = tmp_path / "four.toml"
+    file.write_text(TEXT)
+    _, at_one, _ = balcli("analyze", file, "--format", "marine")
+    assert re.search("order +FnV, kN +FnH, kN +MnV, kN·m +MnH, kN·m\n", at_one)
+    assert "V is along the cylinders (x), H across them (y)." in at_one
+    _, over, _ = balcli("analyze", file, "--format", "marine", "--speed", "80:110:15")
+    heads = [line.split() for line in over.splitlines() if line.lstrip().startswith("rpm")]
+    assert heads[0][:4] == ["rpm", "F1V", "F1H", "F2V"]
+    assert heads[1][:4] == ["rpm", "M1V", "M1H", "M2V"]
+    assert heads[2][1].startswith("H")
+    assert heads[3][1].startswith("X")
+    assert [line.split()[0] for line in over.splitlines() if line.startswith((" 80", " 95"))]
+
+
+def test_a_line_of_csv_is_an_order_of_a_speed(balcli, tmp_path) -> None:
+    file, sheet = tmp_path / "four.toml", tmp_path / "s.csv"
+    file.write_text(TEXT)
+    given = ("--speed", "80,110", "--orders", "1,2", "--format", "marine", "-o", sheet)
+    assert balcli("analyze", file, *given) == (0, "", "")
+    head, *lines = sheet.read_text().splitlines()
+    assert head == (
+        "engine,speed_rpm,order,force_v_N,force_h_N,moment_v_Nm,moment_h_Nm,guide_h_Nm,"
+        "guide_x_Nm,torque_Nm"
+    )
+    assert [line.split(",")[1:3] for line in lines] == [
+        ["80.0", "1"],
+        ["80.0", "2"],
+        ["110.0", "1"],
+        ["110.0", "2"],
+    ]
+
+
+@pytest.mark.parametrize(
+    ("banks", "told"),
+    [
+        (
+            "bank_angle = 60",
+            "V is along x, from which bank angles count (midway between the banks)",
+        ),
+        ("banks = [90]", "(banks at 90 deg), H along y."),
+    ],
+)
+def test_where_vertical_is_told_by_the_banks(balcli, tmp_path, banks, told) -> None:
+    file = tmp_path / "leaning.toml"
+    file.write_text(f"{TEXT}[layout]\n{banks}\n")
+    _, out, _ = balcli("analyze", file, "--format", "marine")
+    assert told in out

@@ -1,0 +1,97 @@
+"""`analyze --speed` with several speeds."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+
+import pytest
+from support.paths import ENGINES
+
+from balcli import analyze, load
+from balcli.limits import MOST_ANALYSED_SPEEDS
+
+FIVE, DIESEL = ENGINES / "i5.toml", ENGINES / "i6_diesel.toml"
+
+
+def test_a_range_has_its_ends_and_every_analysis_is_that_of_its_speed(balcli):
+    _, out, _ = balcli("analyze", FIVE, "--speed", "60:124:8", "-f", "json", "--only", "moment")
+    found = json.loads(out)
+    assert found["format"] == "balcli.speeds/1"
+    assert [one["speed_rpm"] for one in found["analyses"]] == list(range(60, 125, 8))
+    own = balcli("analyze", FIVE, "--speed", "84", "-f", "json", "--only", "moment")[1]
+    orders = {entry["order"]: entry for entry in json.loads(own)["orders"]}
+    for entry in found["analyses"][3]["orders"]:
+        assert entry["moment_Nm"]["major"] == pytest.approx(
+            orders[entry["order"]]["moment_Nm"]["major"], rel=1e-12, abs=1e-12
+        )
+
+
+def test_gas_stays_and_inertia_grows_with_the_square(balcli):
+    asked = ("--speed", "1000,2000", "--only", "gas,torque", "--orders", "3", "-f", "csv")
+    lines = list(csv.DictReader(io.StringIO(balcli("analyze", DIESEL, *asked)[1])))
+    sizes = {
+        (line["speed_rpm"], line["quantity"]): float(line["value"])
+        for line in lines
+        if line["figure"] == "amplitude"
+    }
+    assert sizes["2000.0", "gas"] == pytest.approx(sizes["1000.0", "gas"])
+    assert sizes["2000.0", "torque"] == pytest.approx(4 * sizes["1000.0", "torque"])
+
+
+def test_a_table_a_kind_a_row_a_speed(balcli):
+    status, out, err = balcli("analyze", FIVE, "--speed", "3000,6000")
+    assert (status, err) == (0, "")
+    assert "speed      3000 to 6000 rpm, 2 speeds" in out
+    moment = analyze(load(FIVE), [1, 2], ["moment"]).spectra.moment.major * (6000 / 5700) ** 2
+    row = next(line for line in out.splitlines() if line.startswith("6000"))
+    assert [float(cell) for cell in row.split()[1:3]] == pytest.approx(moment.tolist(), rel=1e-4)
+    assert "Negligible: free force (at most 0.006 N)." in out
+    assert "Sizing" not in out
+    assert max(map(len, out.splitlines())) <= 80
+
+
+def test_what_was_named_is_shown_and_why_is_said_once(balcli):
+    _, out, _ = balcli(
+        *("analyze", FIVE, "--speed", "3000,6000", "--only", "guide,inner", "--orders", "1-4"),
+        "--why",
+    )
+    titles = [line.partition(",")[0] for line in out.splitlines() if "largest by order" in line]
+    assert titles == [
+        "Shear force in the crankshaft",
+        "Bending moment in the crankshaft",
+        "Load of a main bearing",
+        "H-type guide moment",
+        "X-type guide moment",
+    ]
+    assert out.count("Why") == 1
+
+
+def test_one_speed_in_a_list_is_one_speed(balcli):
+    assert balcli("analyze", FIVE, "--speed", "3000,3000") == balcli(
+        "analyze", FIVE, "--speed", "3000"
+    )
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        (("--speed", "3:1"), '--speed "3:1": must rise; give first:last:step in rpm'),
+        (
+            ("--speed", "1:20000:1"),
+            f"has 20000 speeds; at most {MOST_ANALYSED_SPEEDS} are computed",
+        ),
+        (("--speed", "0,5"), "or speeds such as 1500,2000"),
+        (("--speed", "5,6", "--by", "cylinder"), "--speed: --by is of one speed"),
+        (("--speed", "5,6", "--only", "xy"), "--only xy: is of one speed"),
+        (
+            ("--format", "marine", "--only", "guide"),
+            "--format marine: --only adds nothing to this sheet",
+        ),
+    ],
+)
+def test_what_does_not_go_together_is_refused(balcli, given, told):
+    status, out, err = balcli("analyze", FIVE, *given)
+    assert (status, out) == (2, "")
+    assert told in err
