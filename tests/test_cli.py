@@ -169,7 +169,7 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         ),
         (["analyze", V8, "-o", str(ROOT)], f"{ROOT}: is a folder, so no file can be written there"),
         (["check", "nowhere"], "nowhere: no such file or folder"),
-        (["check", str(ROOT / "src")], f"{ROOT / 'src'}: has no engine files (*.toml)"),
+        (["check", str(ROOT / "docs")], f"{ROOT / 'docs'}: has no engine files (*.toml)"),
         (
             ["new", "inlin"],
             '"inlin" is no kind of engine; there are single, inline, vee, boxer, radial, w, mounts. '

@@ -194,6 +194,7 @@ ON_REQUEST = {
         *("balcli.render.torsion", "balcli.render.plot.torsion"),
         "balcli.render.page_torque",
     ),
+    "balcli.commands.inputs": ("balcli.enginefile.assumed",),
     "balcli.commands.scatter": ("balcli.studies.mount_scatter",),
 }
 
@@ -222,6 +223,7 @@ def test_help_and_completion_of_a_command_wait_for_no_library(command):
 # Types and constants of a room may be named by what shows them, functions not: these shape figures
 # for the eye.
 SHAPING = {
+    ("balcli.core.telling", "tell_nobody"),
     ("balcli.sizing.device_tables", "find_unbalance"),
     ("balcli.sizing.device_tables", "measure_direction"),
     ("balcli.sizing.device_tables", "name_kind"),

@@ -9,17 +9,20 @@ from __future__ import annotations
 import os
 import signal
 import sys
+from collections.abc import Callable
 from contextlib import suppress
 
 unfinished: set[str] = set()  # temporary files, which nobody finds there once the process has ended
+last_words: list[Callable[[], str]] = []  # the last one says how far a long computation is
 
 
 def end_on_signals() -> None:
-    """Let Ctrl-C, SIGTERM and SIGHUP end the process without a word, at any instant: exit status
-    128 and the signal's number, as in a shell. What was ignored from the start (`nohup`) still is.
+    """Let Ctrl-C, SIGTERM and SIGHUP end the process at any instant: exit status 128 and the
+    signal's number, as in a shell, without a word unless Ctrl-C ends a long computation. What was
+    ignored from the start (`nohup`) still is.
     """
-    for name in ("SIGINT", "SIGTERM", "SIGHUP"):
-        number = getattr(signal, name, None)  # Windows has no SIGHUP
+    for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK"):
+        number = getattr(signal, name, None)  # the last is Windows' own, which has no SIGHUP
         if number is not None and signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, _end)
 
@@ -29,6 +32,9 @@ def _end(number: int, _frame: object) -> None:
     for path in tuple(unfinished):
         with suppress(OSError):  # not made yet, or in its place already
             os.unlink(path)
+    if number == signal.SIGINT and last_words:
+        with suppress(OSError):  # past `sys.stderr`, which may be in the middle of a line
+            os.write(2, last_words[-1]().encode())
     os._exit(128 + number)
 
 

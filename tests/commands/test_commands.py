@@ -299,17 +299,6 @@ def test_row_groups_of_a_parquet_file_hold_all_rows(balcli, four, tmp_path, monk
     assert parquet.read_table(tmp_path / "x.parquet")["rod.ratio"].to_pylist() == [0.2, 0.25, 0.3]
 
 
-def test_progress_changes_no_chunk(monkeypatch, capsys):
-    from balcli.commands.sweep_output import showing_progress
-    from balcli.core.phasors import np
-    from balcli.studies.sweep import Chunk
-
-    chunks = [Chunk(((0, 2),), [np.zeros(2)]), Chunk(((2, 3),), [np.zeros(1)])]
-    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    assert list(showing_progress(chunks, 3, True)) == chunks
-    assert "3/3" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize(
     "vary", [("rod.ratio=0.2,0.3",), ("rod.ratio=0.2,0.3", "crank.stroke=80,90,100")]
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple, TypeVar
@@ -16,7 +16,7 @@ from ..engine.positions import MOMENTS_UNKNOWN
 from ..enginefile.model import EngineFile
 from ..enginefile.suspicious import find_suspicious
 from ..enginefile.toml_text import name_file, read_bytes
-from ..errors import BalcliError, Exit, legible, say
+from ..errors import BalcliError, Exit, is_verbose, legible, note, say, warn
 from ..forces.kinds import KINDS
 
 # What says something of moments besides them, of all that can be asked for.
@@ -60,14 +60,25 @@ def read_engine(
     text = read_bytes(path)
     model = parse(text, name_file(path))
     engine = build_named(model, path)
+    if is_verbose():
+        _tell_what_was_read(name_file(path), text, model)
     if not engine.places_known:
         _tell_unknown(name_file(path), asked)
     doubts = engine.gas.doubts if engine.gas is not None else ()
     for warning in (*find_suspicious(model), *doubts):
-        say(f"warning: {name_file(path)}: {warning}")
+        warn(f"{name_file(path)}: {warning}")
     if speed_rpm is not None:
         engine = replace(engine, speed_rpm=speed_rpm, model=None)
     return Source(text, model, engine)
+
+
+def _tell_what_was_read(name: str, text: bytes, model: EngineFile) -> None:
+    """Notes for those who want to know how a file was understood."""
+    from ..enginefile.assumed import list_assumed  # for them alone
+
+    note(f"{name}: read, {len(text)} bytes")
+    for each in list_assumed(model):
+        note(f"{name}: not in the file: {each}")
 
 
 def _tell_unknown(name: str, asked: Collection[str] | None) -> None:
@@ -83,10 +94,10 @@ def _tell_unknown(name: str, asked: Collection[str] | None) -> None:
 
 def warn_of_unknown_moments(name: str) -> None:
     """Say on standard error that the moments of this file are not known, and why."""
-    say(f"warning: {name}: {MOMENTS_UNKNOWN}")
+    warn(f"{name}: {MOMENTS_UNKNOWN}")
 
 
-def try_each(paths: Sequence[P], work: Callable[[P], T]) -> tuple[list[T], list[str]]:
+def try_each(paths: Iterable[P], work: Callable[[P], T]) -> tuple[list[T], list[str]]:
     """Results of all good files, in order, and the messages of the bad ones."""
     results, errors = [], []
     for path in paths:

@@ -57,6 +57,12 @@ Output = Annotated[
         help="Write into this file instead; its ending says the format. - is standard output.",
     ),
 ]
+ProgressAtOnce = Annotated[
+    bool,
+    typer.Option(
+        "--progress", help="Say on a terminal how far it is from the start, not after two seconds."
+    ),
+]
 Target = Annotated[
     Path | None,
     typer.Argument(metavar="OUT", show_default=False, help="The file to write; the same as -o."),

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TextIO, TypeVar
 
-from ..errors import BalcliError, say
+from ..errors import BalcliError, note, warn
 from ..process import unfinished
 from ..render.formats import Format, Renderer, Units, render
 from ..render.units import SYSTEMS
@@ -45,7 +45,7 @@ def draws_sketch(wanted: bool, form: Format) -> bool:
     a table. Elsewhere a warning says that there are none.
     """
     if wanted and form is not Format.TABLE:
-        say(f"warning: --plot draws with characters into a table; there are no pictures in {form}")
+        warn(f"--plot draws with characters into a table; there are no pictures in {form}")
     return wanted and form is Format.TABLE
 
 
@@ -150,7 +150,9 @@ def replacing(target: Path) -> Iterator[Path]:
                 return
             if real.exists():
                 place.chmod(real.stat().st_mode & 0o777)
+            size = place.stat().st_size
             place.replace(real)
+            note(f"{target}: written, {size} bytes")
     except OSError as error:
         raise BalcliError(f"{target}: cannot be written ({error.strerror or error})") from None
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..enginefile.toml_text import name_file
-from ..errors import BalcliError, say
+from ..errors import BalcliError, warn
 from ..forces.kinds import KINDS
 from ..render.formats import Units
 from ..render.units import SYSTEMS
@@ -25,6 +25,7 @@ from .options import (
 )
 from .output import emit
 from .overwrite_guard import refuse_overwriting
+from .progress import reporting
 
 if TYPE_CHECKING:
     from ..engine.build import Engine
@@ -73,7 +74,9 @@ def report(
     mounted = _put_on_mounts(model, engine, scheme, name_file(path)) if model.body else None
     twisted = _twist(model, engine, name_file(path)) if model.torsion else None
     turning = None if engine.gas is None else _turn_gas(engine)
-    emit(page(result, balanced, SYSTEMS[units], mounted, twisted, turning), output)
+    with reporting("pictures") as tell:
+        text = page(result, balanced, SYSTEMS[units], mounted, twisted, turning, tell)
+    emit(text, output)
 
 
 def _turn_gas(engine: Engine) -> Running:
@@ -93,7 +96,7 @@ def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | No
         source = make_source(model, engine, name)
         return analyze_torsion(source, Question(choose_speeds(engine)))
     except BalcliError as error:
-        say(f"warning: the page does not show the torsion: {error}")
+        warn(f"the page does not show the torsion: {error}")
         return None
 
 
@@ -106,5 +109,5 @@ def _put_on_mounts(
     try:
         return report_mounts(model, engine, scheme=scheme, name=name)
     except BalcliError as error:
-        say(f"warning: the page does not show the mounts: {error}")
+        warn(f"the page does not show the mounts: {error}")
         return None

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 Judged = TypeVar("Judged", float, tuple[float, float])
-_ROUNDS = 20  # to 1e-4 of the distance between two neighbours
+ROUNDS = 20  # to 1e-4 of the distance between two neighbours
 _GOLDEN = (math.sqrt(5) - 1) / 2
 
 
@@ -20,7 +20,7 @@ def find_least(judge: Callable[[float], Judged], low: float, high: float) -> flo
     """
     left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
     at_left, at_right = judge(left), judge(right)
-    for _ in range(_ROUNDS):
+    for _ in range(ROUNDS):
         if at_left <= at_right:
             high, right, at_right = right, left, at_left
             left = high - _GOLDEN * (high - low)

@@ -6,12 +6,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from itertools import count
 from typing import NamedTuple
 
 import numpy as np
 
-from ..core.golden_section import find_least
+from ..core.golden_section import ROUNDS, find_least
 from ..core.singular_values import Real
+from ..core.telling import Tell, tell_nobody
 from ..core.torsional_dampers import best_viscous_damping
 from ..enginefile.fields import printable
 from ..enginefile.shafting import Damper
@@ -28,6 +30,7 @@ _FIGURE = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  #
 _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # range of the search, times and over
 _PENDULUM_RADIUS = 0.06  # m, where nothing says where one hangs
 _PLACES = 13  # looked at over this range before the best is approached
+_RESPONSES = _PLACES + 2 + ROUNDS + 2  # the last of the best damper, and without any
 
 
 class DamperAsked(NamedTuple):
@@ -76,9 +79,14 @@ class SizedDamper(NamedTuple):
 
 
 def size_damper(
-    source: Source, asked: DamperAsked, speeds: Real, orders: Real | None = None
+    source: Source,
+    asked: DamperAsked,
+    speeds: Real,
+    orders: Real | None = None,
+    tell: Tell = tell_nobody,
 ) -> SizedDamper:
-    """The damper that makes the largest stress of all shafts over speeds (rpm) least.
+    """The damper that makes the largest stress of all shafts over speeds (rpm) least; `tell` is
+    told which share of the work is done.
 
     Raises:
         BalcliError: nothing can carry it, or nothing excites the system.
@@ -89,11 +97,13 @@ def size_damper(
     first = _propose(asked, own, bare, bare.nodes.index(node), mode, order)
     figure = _FIGURE[asked.kind]
     start = float(getattr(first, figure))
+    tried = count(1)
 
     def respond(damper: Damper | None) -> tuple[float, Response]:
         """Largest stress or torque of the shafts that are there without it, and the response."""
         system = source.with_damper(node, damper).system()
         response = find_response(system, _excite(system, orders), speeds)
+        tell(next(tried) / _RESPONSES)
         worth = response.torque[:, : len(bare.shafts)]
         if any(bare.sections):
             worth = worth * stress_by_torque(bare)
