@@ -10,12 +10,10 @@ parameter fastest.
 from __future__ import annotations
 
 import math
-import time
-from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from itertools import islice, product
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -36,6 +34,7 @@ from ..forces.quantity import (
     refuse_unknown,
 )
 from ..forces.spectrum import count_samples
+from ..process import keep_freed_memory
 from .boxes import Box, BoxSize, divide_grid, divide_into_boxes, divide_into_tiles
 from .parameters import Parameter, parse
 from .quantities import (
@@ -48,14 +47,13 @@ from .quantities import (
     parse_quantities,
     refuse_unknown_of_chapters,
 )
+from .threads import ALONE_S, share_work
 
-ALONE_S = 1.0  # of a sweep, before several threads share what is left of it
 ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
 PRODUCTS = 8  # times as many where each is but a product of what is computed for fewer
 BYTES = 1 << 23  # of an array that a box needs: no more than the cache holds
 SAMPLES = 1 << 20  # of revolutions in a box: a tenth of a second
-_LARGE = 31 << 17  # numbers: 31 MB, glibc keeps no more
 
 
 class Chunk(NamedTuple):
@@ -102,6 +100,16 @@ class Sweep:
     def variants(self) -> int:
         """How many there are."""
         return math.prod(self.shape)
+
+    @property
+    def whole(self) -> Box:
+        """The box of all variants."""
+        return tuple(slice(0, n) for n in self.shape)
+
+    def cut(self, box: Box) -> Sweep:
+        """The variants in a box of the grid as a sweep of their own."""
+        cuts = zip(self.parameters, box, strict=True)
+        return replace(self, parameters=tuple(replace(p, values=p.values[cut]) for p, cut in cuts))
 
     def engine(self, box: Box) -> Engine:
         """All variants in a box of the grid, as one engine with an axis for each parameter.
@@ -274,47 +282,16 @@ def evaluate_chunks(sweep: Sweep, threads: int = 1, alone_s: float = ALONE_S) ->
 
     Args:
         sweep: what to compute.
-        threads: that compute it; numpy does most of its work outside Python's lock.
-        alone_s: seconds for which one does it alone: most sweeps have ended by then.
+        threads, alone_s: as of `share_work`.
     """
     keep_freed_memory()
     size = size_boxes(sweep)
-    boxes = divide_sweep(sweep, size)
     compute = partial(_evaluate_chunk, sweep, size)
-    end = time.monotonic() + (alone_s if threads > 1 else math.inf)
-    for box in boxes:
-        yield compute(box)
-        if time.monotonic() > end:
-            break
-    yield from _share(compute, boxes, threads)
+    return share_work(compute, divide_sweep(sweep, size), threads, alone_s)
 
 
 def _evaluate_chunk(sweep: Sweep, size: BoxSize, box: Box) -> Chunk:
     return Chunk(box, evaluate_box(sweep, box, size))
-
-
-def _share(compute: Callable[[Box], Chunk], boxes: Iterator[Box], threads: int) -> Iterator[Chunk]:
-    """The chunks of the boxes in their order, computed by so many threads a little ahead."""
-    first = list(islice(boxes, 2 * threads))
-    if not first:
-        return
-    from concurrent.futures import ThreadPoolExecutor  # most sweeps have ended without it
-
-    pool = ThreadPoolExecutor(threads)
-    try:
-        waiting = deque(pool.submit(compute, box) for box in first)
-        while waiting:
-            yield waiting.popleft().result()
-            waiting.extend(pool.submit(compute, box) for box in islice(boxes, 1))
-    finally:
-        pool.shutdown(cancel_futures=True)
-
-
-def keep_freed_memory() -> None:
-    """Let the C library keep what arrays leave for the next ones. It does so for blocks as large as
-    the largest that was ever freed, and hands back the others, to be cleared again for every array.
-    """
-    np.empty(_LARGE)  # never touched: it costs nothing
 
 
 def list_columns(sweep: Sweep, chunk: Chunk) -> list[Array]:
