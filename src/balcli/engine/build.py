@@ -15,7 +15,7 @@ from ..core.cylinders import Cylinders, Device
 from ..core.phasors import Array, Figure
 from ..enginefile.model import EngineFile
 from ..enginefile.plain_tables import list_tables
-from ..errors import BalcliError, InputError
+from ..errors import BalcliError, InputError, wrong_type
 from .assembly import Assembly, Ripple
 from .devices import build_devices
 from .positions import are_places_known
@@ -274,6 +274,17 @@ def build(
         bearings=None if model.bearing is None else _find_bearings(model.bearing),
         model=None if varied else model,
     )
+
+
+def check_engine(function: str, value: object) -> Engine:
+    """The engine that a function of the library was given.
+
+    Raises:
+        TypeError: it is none, with how to make one.
+    """
+    if not isinstance(value, Engine):
+        raise wrong_type(function, value, "give an Engine; load(...) makes one of a path or a dict")
+    return value
 
 
 def take_model(engine: Engine) -> EngineFile:

@@ -145,12 +145,21 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
     """
     model = read(file)
     parameters = tuple(parse(text, model) for text in vary)
+    return plan_sweep(model, parameters, quantities, name_file(file))
+
+
+def plan_sweep(
+    model: EngineFile, parameters: tuple[Parameter, ...], quantities: str | None, name: str
+) -> Sweep:
+    """The sweep of an engine file; `name` is that of the file in messages, all else as of
+    `read_sweep`.
+    """
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
     wanted = DEFAULT_QUANTITIES if quantities is None else quantities
     asked = parse_quantities(wanted, with_gas=model.gas is not None)
-    sweep = Sweep(model, parameters, asked, name_file(file))
+    sweep = Sweep(model, parameters, asked, name)
     if quantities is None:
         known = leave_out_unknown(build_corners(sweep), sweep.of_engine)
         sweep = replace(sweep, quantities=known)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,9 @@ from .objective import Objective
 # One column by its key of the engine file: `throws`, shape (candidates, throws), or `bank_angle` or
 # `splay`, shape (candidates,); angles in deg.
 Candidates = Mapping[str, Array]
+
+
+TABLES = {"throws": "crank", "splay": "crank", "firing_order": "layout", "bank_angle": "layout"}
 
 
 class Design(NamedTuple):
@@ -40,6 +43,15 @@ class Design(NamedTuple):
         """What is not as it was, by key of the engine file, as JSON has it."""
         there = {key: value for key, value in self._asdict().items() if value is not None}
         return {key: list(v) if isinstance(v, tuple) else v for key, v in there.items()}
+
+    def changes(self) -> dict[str, Any]:
+        """The same by dotted keys, for `Engine.vary`."""
+        changed: dict[str, Any] = {
+            f"{TABLES[key]}.{key}": value for key, value in self.given().items()
+        }
+        if self.firing_order is not None:
+            changed["layout.firing_intervals"] = None
+        return changed
 
 
 class Found(NamedTuple):

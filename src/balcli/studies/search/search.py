@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 
 from ...core.phasors import Array
 from ...core.telling import Tell, tell_nobody
-from ...engine.build import assemble, build
+from ...engine.build import Engine, assemble, build
 from ...engine.layout import cycle_deg, plan_cylinders
+from ...engine.vary import vary_engine
 from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
@@ -65,6 +66,17 @@ class Search(Result):
         """Over what, and how many were found."""
         found = f"{len(self.results)} result{'s' * (len(self.results) != 1)}"
         return f"over {self.over} of {self.model.name or 'an engine'}: {found}"
+
+    def engine(self, rank: int = 1) -> Engine:
+        """The engine with the arrangement of this rank, the best being 1. A firing order that its
+        throws no longer fit is left out.
+
+        Raises:
+            IndexError: so many were not found.
+        """
+        if not 1 <= rank <= len(self.results):
+            raise IndexError(f"rank {rank}: there are {len(self.results)}, from 1")
+        return vary_engine(build(self.model), self.results[rank - 1].design.changes())
 
 
 class _Task(NamedTuple):
