@@ -245,8 +245,8 @@ class Lost:
     def nthreads(self):
         return {"one": 1}
 
-    def submit(self, work, sweep, size, batch, **options):
-        self.given.append((sweep, options["retries"] > 0))
+    def submit(self, work, parts, **options):
+        self.given += [(part, options["retries"] > 0) for _, part in parts]
         return self
 
     def result(self):
@@ -259,14 +259,15 @@ def test_workers_that_are_all_killed_are_a_message(monkeypatch, four):
     from balcli.studies.sweep import read_sweep
 
     monkeypatch.setitem(sys.modules, "distributed", dask(KilledWorker=KilledError))
-    one = BoxSize(1, 1)
-    monkeypatch.setattr(cluster, "size_boxes", lambda sweep: one)  # the first box is computed here
+    monkeypatch.setattr(cluster, "size_boxes", lambda sweep: BoxSize(1, 1))
     sweep, client = read_sweep(str(four), ["crank.stroke=80,90"], "force.2.major"), Lost()
     with pytest.raises(
         BalcliError, match=r"--dask: the cluster has lost its workers \(KilledError\)"
     ):
         list(cluster.evaluate_on_cluster(sweep, client))
-    assert client.given == [(sweep, True)]
+    assert [(part.variants, again) for part, again in client.given] == [(1, True), (1, True)]
+    values = [part.parameters[0].values.tolist() for part, _ in client.given]
+    assert values == [[80], [90]]  # a task brings what it computes, and no more
 
 
 def test_a_cluster_of_our_own_and_one_by_address(monkeypatch):

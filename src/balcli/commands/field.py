@@ -68,14 +68,14 @@ def field(
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     form = text_format(output, form)
     drawn = picture_form(plot, "--plot") if plot is not None else None
-    from ..field_balancing.balance import balance_rotor, find_doubts
+    from ..field_balancing.balance import find_corrections, find_doubts
     from ..field_balancing.read import read_runs
     from ..render import field_balancing as renderer
 
     file, name = read_runs(path), name_file(path)
     if check and file.grade is None:
         raise BalcliError(f"{name}: --check needs a grade, such as grade = 6.3, and mass and speed")
-    result = balance_rotor(file, minimise.value, without or (), name)
+    result = find_corrections(file, minimise.value, without or (), name)
     for doubt in find_doubts(result):
         warn(f"{name}: {doubt}")
     if plot is not None and drawn is not None:
