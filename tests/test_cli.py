@@ -169,7 +169,7 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         ),
         (["analyze", V8, "-o", str(ROOT)], f"{ROOT}: is a folder, so no file can be written there"),
         (["check", "nowhere"], "nowhere: no such file or folder"),
-        (["check", str(ROOT / "src")], f"{ROOT / 'src'}: has no engine files (*.toml)"),
+        (["check", str(ROOT / "docs")], f"{ROOT / 'docs'}: has no engine files (*.toml)"),
         (
             ["new", "inlin"],
             '"inlin" is no kind of engine; there are single, inline, vee, boxer, radial, w, mounts. '
@@ -520,7 +520,8 @@ def test_headings_of_rows_stay_whole_in_a_narrow_terminal(balcli, monkeypatch):
 
 @pytest.mark.parametrize("columns", [80, 140])
 @pytest.mark.parametrize(
-    "name", ["v8_crossplane", "vr6", "radial9", "w12", "i4_shafts", "single", "tsinghua_12v135q"]
+    "name",
+    ["v8_crossplane", "vr6", "radial9", "w12", "i4_shafts", "single", "car/tsinghua_12v135q"],
 )
 def test_a_terminal_gets_lines_of_its_width(balcli, monkeypatch, name, columns):
     """No line is wider, and no figure that stands in it without a width is broken."""

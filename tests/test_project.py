@@ -7,7 +7,9 @@ from __future__ import annotations
 import re
 import tomllib
 from pathlib import Path
+from types import SimpleNamespace
 
+import docs_site
 import pytest
 from support.paths import ROOT
 
@@ -68,6 +70,36 @@ def test_workflows_run_every_part_of_the_checks(workflow):
     run |= {part.removeprefix("run ") for part in called if part != "oldest"}
     assert run == parts == by_default
     assert "oldest" in called
+
+
+def test_site_shows_every_document():
+    nav = text("mkdocs.yml").partition("\nnav:\n")[2]
+    listed = re.findall(r"([\w/-]+\.(?:md|ipynb))$", nav, re.MULTILINE)
+    assert len(set(listed)) == len(listed)
+    written = {file.relative_to(ROOT / "docs").as_posix() for file in ROOT.glob("docs/**/*.md")}
+    assert set(listed) == written | {*docs_site.PAGES.values(), "python.md"}
+
+
+def test_site_turns_the_links_of_the_readme_to_its_pages():
+    readme = docs_site.link_here(text("README.md"), "https://example.org")
+    links = re.findall(r"\]\(([^)]+)\)", readme)
+    assert {"theory.md", "changelog.md", "gas.md"} <= set(links)
+    assert "recipes.md#a-bobweight-card-from-scales-to-drill-holes" in links
+    assert not [link for link in links if "/" in link and not link.startswith("https://")]
+    contributing = docs_site.link_here(text("CONTRIBUTING.md"), "https://example.org")
+    assert "(https://example.org/blob/main/engines)" in contributing
+
+
+def test_gallery_shows_what_its_commands_write():
+    gallery = text("docs/gallery.md")
+    commands = re.findall(r"^balcli .+", gallery, re.MULTILINE)
+    shown = docs_site.on_page_markdown(
+        gallery, SimpleNamespace(file=SimpleNamespace(src_uri="gallery.md"))
+    )
+    pictures = re.findall(r"!\[.+\]\(gallery/(.+\.svg)\)", shown)
+    assert len(pictures) == len(set(pictures)) == len(commands) > 10
+    for picture, command in zip(pictures, commands, strict=True):
+        assert picture in command
 
 
 def test_hook_for_engine_repositories_is_a_command():

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.engines import GOOD, changed
-from support.paths import ENGINES
+from support.paths import ENGINE_FILES, ENGINES
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
@@ -42,8 +42,19 @@ def edited(file: Path, edit) -> None:
 
 
 def test_all_example_engines_are_as_recorded(check):
-    count = len(list(ENGINES.glob("*.toml")))
-    assert check(ENGINES) == (0, f"{count} engines, 0 differences\n", "")
+    assert check(ENGINES) == (0, f"{len(ENGINE_FILES)} engines, 0 differences\n", "")
+
+
+def test_folders_within_a_folder_are_checked_hidden_ones_and_settings_are_not(check, tmp_path):
+    for place in ("a", "a/b", ".venv/c", "a/.tox"):
+        (tmp_path / place).mkdir(parents=True)
+        shutil.copy(ENGINES / "single.toml", tmp_path / place / "single.toml")
+    for settings in ("pyproject.toml", "balcli.toml"):
+        (tmp_path / settings).write_text("[tool.balcli]\n")
+    assert check("--update", tmp_path) == (0, "2 engines recorded\n", "")
+    assert (tmp_path / "a/b/expected/single.json").exists()
+    assert not (tmp_path / ".venv/c/expected").exists()
+    assert check(tmp_path) == (0, "2 engines, 0 differences\n", "")
 
 
 def test_recorded_results_are_the_product_of_todays_program(tmp_path, check):

@@ -104,7 +104,7 @@ def test_what_reads_engines_and_writes_files_first_refuses_to_overwrite(command)
     assert {
         key.value: value.id
         for key, value in zip(told["writes"].keys, told["writes"].values, strict=True)
-    } == {f"--{name}": name for name in writes}
+    } == {"OUT" if name == "target" else f"--{name}": name for name in writes}
 
 
 def test_the_readme_names_every_format():
@@ -183,6 +183,7 @@ ON_REQUEST = {
         "balcli.core.strokes",
         "balcli.forces.crankshaft",
         "balcli.forces.guide_moments",
+        "balcli.forces.in_bearings",
         "balcli.forces.symmetry",
         "balcli.forces.textbook",
         "balcli.sizing.auto",
@@ -193,6 +194,7 @@ ON_REQUEST = {
         *("balcli.render.torsion", "balcli.render.plot.torsion"),
         "balcli.render.page_torque",
     ),
+    "balcli.commands.inputs": ("balcli.enginefile.assumed",),
     "balcli.commands.scatter": ("balcli.studies.mount_scatter",),
 }
 
@@ -221,6 +223,7 @@ def test_help_and_completion_of_a_command_wait_for_no_library(command):
 # Types and constants of a room may be named by what shows them, functions not: these shape figures
 # for the eye.
 SHAPING = {
+    ("balcli.core.telling", "tell_nobody"),
     ("balcli.sizing.device_tables", "find_unbalance"),
     ("balcli.sizing.device_tables", "measure_direction"),
     ("balcli.sizing.device_tables", "name_kind"),

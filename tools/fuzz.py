@@ -239,7 +239,7 @@ def _bases() -> list[dict[str, Tree]]:
         "vr6",
         "radial9",
         "w12",
-        "tsinghua_ca72",
+        "car/tsinghua_ca72",
         "boxer2",
         "v6_90_split",
         "i4_shafts",

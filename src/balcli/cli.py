@@ -8,6 +8,9 @@ from __future__ import annotations
 
 import re
 import sys
+import time
+from collections.abc import Collection
+from copy import copy
 from importlib import import_module
 from inspect import cleandoc
 from io import StringIO
@@ -18,7 +21,7 @@ from typer.core import TyperGroup
 from typer.main import get_command
 
 from . import __version__
-from .errors import BalcliError, Exit, say
+from .errors import BalcliError, Exit, Loudness, note, say, set_loudness
 
 # What each does in a line; the first paragraph of its own help says the same.
 GROUPS = {
@@ -92,7 +95,10 @@ class _OnDemand(TyperGroup):
         )
         function = getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name)
         single.command(cmd_name, help=_unwrapped(cleandoc(function.__doc__)))(function)
-        return get_command(single)
+        command = get_command(single)
+        taken = {word for option in command.params for word in option.opts}
+        command.params += [_sparing(option, taken) for option in self.params if _is_shared(option)]
+        return command
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         for title, group in GROUPS.items():
@@ -126,10 +132,32 @@ app = typer.Typer(
 )
 
 
+def _is_shared(option: Any) -> bool:
+    """Whether an option of the program stands after the command's name, too."""
+    return option.name in ("quiet", "verbose")
+
+
+def _sparing(option: Any, taken: Collection[str]) -> Any:
+    """The option without the words that are a command's own: `-q` of `sweep` is its --quantity."""
+    own = copy(option)
+    own.opts = [word for word in option.opts if word not in taken]
+    return own
+
+
 def _version(wanted: bool) -> None:
     if wanted:
         typer.echo(f"balcli {__version__}")
         raise typer.Exit
+
+
+def _quiet(wanted: bool) -> None:
+    if wanted:
+        set_loudness(Loudness.QUIET)
+
+
+def _verbose(wanted: bool) -> None:
+    if wanted:
+        set_loudness(Loudness.VERBOSE)
 
 
 @app.callback()
@@ -137,7 +165,27 @@ def _options(
     version: Annotated[
         bool,
         typer.Option(
-            "--version", callback=_version, is_eager=True, help="Say which version this is."
+            "-V", "--version", callback=_version, is_eager=True, help="Say which version this is."
+        ),
+    ] = False,
+    quiet: Annotated[
+        bool,
+        typer.Option(
+            "-q",
+            "--quiet",
+            callback=_quiet,
+            expose_value=False,
+            help="Results and errors alone: no warnings, no progress.",
+        ),
+    ] = False,
+    verbose: Annotated[
+        bool,
+        typer.Option(
+            "-v",
+            "--verbose",
+            callback=_verbose,
+            expose_value=False,
+            help="Also what was read and assumed, and how long it took, on standard error.",
         ),
     ] = False,
 ) -> None:
@@ -156,8 +204,11 @@ def main() -> NoReturn:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(encoding="utf-8", errors="replace")
+    set_loudness(Loudness.USUAL)
     try:
-        sys.exit(app(prog_name="balcli", standalone_mode=False))
+        status = app(prog_name="balcli", standalone_mode=False)
+        note(f"{time.process_time():.2f} s of processor time, the start of Python included")
+        sys.exit(status)
     except BalcliError as error:
         say(f"balcli: {error}")
     except typer.TyperException as error:
@@ -179,7 +230,4 @@ def _usage(error: Any) -> str:
     """How the command is used and what is wrong, plain: a box would fold it, even in a pipe."""
     text = StringIO()
     error.show(text)
-    told = text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's words
-    if "Missing option '--output'" in told:
-        told += " Name the file after it, such as -o X.svg."
-    return told
+    return text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's words

@@ -32,6 +32,45 @@ def say(text: str) -> None:
         print(legible(text), file=sys.stderr, flush=True)
 
 
+class Loudness(IntEnum):
+    """How much is said beside results and errors."""
+
+    QUIET = 0  # nothing
+    USUAL = 1  # warnings; on a terminal, how far a long computation is
+    VERBOSE = 2  # also what was read and assumed, and how long it took
+
+
+_loudness = Loudness.USUAL
+
+
+def set_loudness(loudness: Loudness) -> None:
+    """For the rest of this process."""
+    global _loudness
+    _loudness = loudness
+
+
+def is_quiet() -> bool:
+    """Whether warnings and progress are not wanted."""
+    return _loudness == Loudness.QUIET
+
+
+def is_verbose() -> bool:
+    """Whether notes are wanted."""
+    return _loudness == Loudness.VERBOSE
+
+
+def warn(text: str) -> None:
+    """A warning on standard error, unless nobody wants any."""
+    if not is_quiet():
+        say(f"warning: {text}")
+
+
+def note(text: str) -> None:
+    """What was read, assumed or tried, on standard error, for those who want to know."""
+    if is_verbose():
+        say(f"note: {text}")
+
+
 class Exit(IntEnum):
     """Exit statuses of every command."""
 

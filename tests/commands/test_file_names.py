@@ -198,9 +198,9 @@ def test_a_picture_that_cannot_be_is_refused_before_the_sweep(monkeypatch):
 def test_a_picture_takes_the_figures_that_are_written(monkeypatch):
     boxes, compute = [], studies.evaluate_box
 
-    def counted(sweep, box, most):
+    def counted(sweep, box, size):
         boxes.append(box)
-        return compute(sweep, box, most)
+        return compute(sweep, box, size)
 
     monkeypatch.setattr(studies, "evaluate_box", counted)
     assert run_here("sweep", "good.toml", *VARY, "-o", "x.csv", "--plot", "x.svg")[0] == 0
@@ -251,3 +251,24 @@ def test_parquet_says_nothing_where_there_is_nothing_and_what_it_is():
     assert table.schema.field("force.1.major").metadata == {b"unit": b"N"}
     assert table.schema.metadata[b"balcli.engine"] == b"in-line four"
     assert table.schema.metadata[b"balcli.version"] == __version__.encode()
+
+
+@pytest.mark.parametrize(
+    ("command", "name"), [("plot", "x.png"), ("plot", "x.svg"), ("report", "x.html")]
+)
+def test_the_second_name_is_the_file_to_write(command, name):
+    status, out, _ = run_here(command, "good.toml", name)
+    assert (status, out) == (0, "")
+    assert Path(name).stat().st_size > 1000
+
+
+@pytest.mark.parametrize(("command", "example"), [("plot", "X.svg"), ("report", "X.html")])
+def test_one_file_is_named_to_write(command, example):
+    assert refusal(command, "good.toml") == f"name the file to write, such as -o {example}"
+    assert refusal(command, "good.toml", "a.svg", "-o", "b.svg") == (
+        "a.svg and --output b.svg: one file is written; leave one out"
+    )
+
+
+def test_the_second_name_is_not_the_engine_file():
+    assert "this is the engine file itself" in refusal("plot", "good.toml", "good.toml")

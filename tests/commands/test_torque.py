@@ -399,14 +399,17 @@ def test_a_fluctuation_needs_inertia(tmp_path):
     assert "fluctuation: the file gives no inertia" in run_here("sweep", str(bare), *arguments).err
 
 
-def test_the_torque_is_drawn_in_a_terminal(four, curve):
-    """And nowhere else."""
+def test_the_torque_is_drawn_in_a_table(four, curve):
+    """And nowhere else, which is said."""
     for arguments, what in (
         ((four,), "Gas and inertia"),
         (("--curve", curve), "Torque over the p"),
     ):
-        seen = run_here("torque", *arguments, "--plot", terminal=True).out
-        assert what in seen
-        assert any(0x2800 < ord(letter) <= 0x28FF for letter in seen)
-        piped = torque(*arguments, "--plot")
-        assert piped == torque(*arguments)
+        for terminal in (True, False):
+            seen = run_here("torque", *arguments, "--plot", terminal=terminal).out
+            assert what in seen
+            assert any(0x2800 < ord(letter) <= 0x28FF for letter in seen)
+        plain = run_here("torque", *arguments, "--format", "csv")
+        found = run_here("torque", *arguments, "--plot", "--format", "csv")
+        assert found.out == plain.out
+        assert "no pictures in csv" in found.err

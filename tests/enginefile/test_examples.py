@@ -4,22 +4,72 @@ them.
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
+import tomllib
 import zipfile
+from itertools import pairwise
 
 import pytest
 from support.commands import run_command
-from support.paths import ENGINES, ROOT
+from support.paths import ENGINE_FILES, ENGINES, ROOT
 
 from balcli.enginefile import examples
 from balcli.errors import BalcliError
 
 
-def test_every_engine_is_listed_by_name():
-    listed = [line.split("  ")[0].strip() for line in run_command("engines").stdout.splitlines()]
-    assert listed == sorted(path.stem for path in ENGINES.glob("*.toml"))
-    assert all(examples.names().values())
+def test_every_engine_is_listed_with_its_lesson():
+    lines = run_command("engines").stdout.splitlines()
+    listed = {line.split("  ")[0]: line.split("  ")[-1].strip() for line in lines if "  " in line}
+    lessons = {file.stem: file.read_text(encoding="utf-8").splitlines()[0] for file in ENGINE_FILES}
+    assert len(lessons) == len(ENGINE_FILES), "two engines of one name"
+    assert {name: f"# {lesson}" for name, lesson in listed.items()} == lessons
+    assert max(map(len, lines)) <= 80
+
+
+def test_classes_are_listed_one_after_the_other_layouts_first():
+    lines = run_command("engines").stdout.splitlines()
+    headings = [line for line, below in pairwise(lines) if below and set(below) == {"─"}]
+    assert headings == examples.groups()
+    folders = {path.parent.name for path in ENGINE_FILES if path.parent != ENGINES}
+    assert headings == ["layout", *sorted(folders)]
+    assert all(group in run_command("engines", "--help").stdout for group in headings)
+
+
+def test_a_class_or_words_pick_engines():
+    marine = run_command("engines", "--class", "marine").stdout.splitlines()
+    assert marine[:2] == ["marine", "──────"]
+    assert {line.split()[0] for line in marine[2:]} == {
+        path.stem for path in (ENGINES / "marine").glob("*.toml")
+    }
+    assert [e.name for e in examples.find("WARTSILA six")] == ["wartsila_6rtflex96c"]
+    assert {"v8_crossplane", "hispano_suiza_8"} <= {e.name for e in examples.find("v8")}
+    assert [e.name for e in examples.find("v8", "car")] == [
+        e.name for e in examples.find("v8") if e.group == "car"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        (
+            ["--class", "cars"],
+            'there is no class "cars" of engines: layout, aero, car, historic, marine, motorcycle',
+        ),
+        (["--find", "v3"], 'no example mentions "v3": balcli engines lists them all'),
+    ],
+)
+def test_what_is_not_there_is_said(asked, message):
+    done = run_command("engines", *asked)
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"balcli: {message}\n")
+
+
+@pytest.mark.parametrize("path", ENGINE_FILES, ids=lambda path: path.stem)
+def test_every_engine_says_where_its_figures_come_from(path):
+    """And which are assumed, or that all are."""
+    source = tomllib.loads(path.read_text(encoding="utf-8"))["source"]
+    assert re.search("assumed|made up|own figures", source), source
 
 
 def test_a_copy_is_the_file(tmp_path):
@@ -58,7 +108,8 @@ def test_a_wheel_has_the_examples_and_the_page(tmp_path):
     (wheel,) = tmp_path.glob("*.whl")
     with zipfile.ZipFile(wheel) as content:
         inside = content.namelist()
-        assert {f"balcli/engines/{path.name}" for path in ENGINES.glob("*.toml")} <= set(inside)
+        shipped = {f"balcli/engines/{p.relative_to(ENGINES).as_posix()}" for p in ENGINE_FILES}
+        assert shipped <= set(inside)
         assert {f"balcli/render/page/report.{end}" for end in ("html", "css", "js")} <= set(inside)
         content.extractall(tmp_path / "installed")
     listed = run_command("engines", env={"PYTHONPATH": str(tmp_path / "installed")}).stdout

@@ -176,7 +176,7 @@ def _height_of_pin(angle, r, rod):
 
 # ------------------------------------------------------------------ cylinder by cylinder, and near
 # the lock
-@pytest.mark.parametrize("name", ["w12", "vr6", "radial9", "tsinghua_ca72", "ripple"])
+@pytest.mark.parametrize("name", ["w12", "vr6", "radial9", "car/tsinghua_ca72", "ripple"])
 def test_each_cylinder_is_what_it_is_alone(name):
     layout = "firing_order = [1, 3, 4, 2]" if name == "ripple" else ""
     ripple = "speed_ripple = [{order = 2, amplitude = 0.02, angle = 30}]\n"

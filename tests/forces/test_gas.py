@@ -181,4 +181,4 @@ def test_people_read_which_order_rocks_the_engine():
     assert "About the crank axis with gas, N·m" in text
     assert "balcli torque" in text
     inner = plain_text([sheet(analyze(engine(FOUR + WIEBE), only=["inner"]), SI)])
-    assert "bearing loads with gas: balcli torque --loads main" in inner
+    assert "Loads of main bearings with gas" in inner

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.paths import ENGINES
+from support.paths import ENGINE_FILES
 
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
@@ -16,8 +16,6 @@ from balcli.forces.symmetry import explain_symmetry
 from balcli.render.analysis_data import document as analysis_document
 from balcli.render.json import json_text
 from balcli.results import analysis
-
-FILES = sorted(ENGINES.glob("*.toml"))
 
 BASE = """\
 [crank]
@@ -100,7 +98,7 @@ def test_two_banks_of_different_mechanisms_that_are_each_balanced():
     """A VR6: neighbouring pins stand at no fraction of a turn, but each bank is a balanced
     three.
     """
-    vr6 = engine.build(enginefile.read(next(p for p in FILES if p.stem == "vr6")))
+    vr6 = engine.build(enginefile.read(next(p for p in ENGINE_FILES if p.stem == "vr6")))
     assert explain_symmetry(vr6, [1]).reasons[0].verdict == "exact"
 
 
@@ -144,7 +142,7 @@ def test_even_and_uneven_fire_in_words(layout, text):
     assert explain_symmetry(engine.build(enginefile.parse(base + layout)), [1]).firing == text
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", ENGINE_FILES, ids=lambda path: path.stem)
 def test_exact_and_numeric_decisions_agree(path):
     """What is balanced exactly has no force left but rounding, and what is free is not reported as
     balanced.

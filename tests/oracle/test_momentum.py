@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from oracle import momentum
 from support.engines import alone
-from support.paths import ENGINES
+from support.paths import ENGINE_FILES
 
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
@@ -14,7 +14,6 @@ from balcli.forces import spectrum
 
 TOLERANCE = 1e-11  # of the largest first-order amplitude of one cylinder
 ORDERS = np.arange(0.0, 11.0)
-FILES = sorted(ENGINES.glob("*.toml"))
 
 BASE = """\
 [crank]
@@ -196,7 +195,7 @@ def test_mechanisms(name):
     compare(text.replace("mass = 1.3\n", "") if "piston =" in parts["piston"] else text)
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", ENGINE_FILES, ids=lambda path: path.stem)
 def test_every_engine_that_comes_with_balcli(path):
     compare(path.read_text(encoding="utf-8"))
 

@@ -80,6 +80,65 @@ def test_what_is_negligible_beside_one_cylinder_is_said_and_not_drawn():
     assert "force along x, N" not in texts
 
 
+def texts_of(svg: bytes) -> list[str]:
+    return [e.text or "" for e in ET.fromstring(svg).iter() if e.tag.endswith("text")]
+
+
+def test_orders_that_are_negligible_have_no_picture():
+    """Orders 10 of the force and 4 of the moment of a five; 1 and 2 of its moment are drawn."""
+    five = analyze(inline_engine([0, 144, 216, 288, 72]))
+    titles = [text for text in texts_of(draw_page(Subject(five), "orders", "svg")) if text]
+    assert [text for text in titles if ", order" in text] == [
+        "moment, order 1, at crank angle 36°",
+        "moment, order 2, at crank angle 18°",
+    ]
+    assert len([text for text in titles if text.startswith("negligible (")]) == 1
+
+
+def test_what_is_nothing_is_said_and_not_drawn():
+    """A six is balanced in force and moment; about the crank it is not."""
+    six = analyze(inline_engine([0, 240, 120, 120, 240, 0]), only=QUANTITIES)
+    for what, panels in (("all", 6), ("polar", 2), ("curves", 2), ("spectrum", 2), ("orders", 2)):
+        found = texts_of(draw_page(Subject(six), what, "svg"))
+        told = [text for text in found if text == "balanced" or text.startswith("negligible (")]
+        assert len(told) == panels
+        assert "force, N" not in found
+
+
+@pytest.mark.parametrize("form", ["svg", "png"])
+def test_legends_end_with_their_axes(form, four, monkeypatch):
+    """Before and after have an entry more, for which a panel of the page of all is too narrow."""
+    beyond = []
+
+    def measure(figure, *_, **__):
+        for ax in figure.axes:
+            if legend := ax.get_legend():
+                beyond.append(legend.get_window_extent().x1 - ax.get_window_extent().x1)
+
+    monkeypatch.setattr("matplotlib.figure.Figure.savefig", measure)
+    draw_page(Subject(four.sizing.after, four), "all", form)
+    assert len(beyond) == 5
+    assert max(beyond) <= 0.5
+
+
+def test_a_picture_is_laid_out_and_drawn_once(four, monkeypatch):
+    """But twice laid out where a legend has to be folded."""
+    from matplotlib.figure import Figure
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    calls = []
+    for owner, name in ((Figure, "draw"), (ConstrainedLayoutEngine, "execute")):
+        own = getattr(owner, name)
+
+        def count(self, *args, own=own, name=name):
+            calls.append(name)
+            return own(self, *args)
+
+        monkeypatch.setattr(owner, name, count)
+    draw_page(Subject(four), "all", "svg")
+    assert calls == ["execute", "draw"]
+
+
 def test_names_are_cut_to_a_title():
     assert style.fit_name("a\nb\x00c  d") == "a b c d"
     assert style.fit_name("x" * 500) == "x" * 89 + "…"
@@ -157,7 +216,7 @@ def test_a_balanced_quantity_says_so(ax):
         )
     )
     draw_locus(ax, six.spectra.moment, "moment", SI.moment)
-    assert "no free moment" in [text.get_text() for text in ax.texts]
+    assert "balanced" in [text.get_text() for text in ax.texts]
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text as Line
-from support.paths import ENGINES
+from support.paths import ENGINE_FILES, ENGINES
 
 from balcli import analyze, balance, load
 from balcli.render import analysis, comparison
@@ -69,7 +69,7 @@ def grid_for_rich(grid: Grid) -> Table:
 
 def test_analyses_are_as_rich_prints_them():
     si = SYSTEMS["si"]
-    for file in sorted(ENGINES.glob("*.toml")):
+    for file in ENGINE_FILES:
         result = analyze(load(file), by_cylinder=True, reasons=True)
         sheets = [analysis.sheet(result, si, View(whole=whole)) for whole in (False, True)]
         assert plain_text(sheets) == print_by_rich(sheets)

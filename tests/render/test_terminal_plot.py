@@ -1,5 +1,5 @@
-"""Pictures of characters: proportions of bars, shape of loci, 80 columns, and nothing of it where
-nobody looks.
+"""Pictures of characters: proportions of bars, shape of loci, 80 columns, and words in place of
+what is negligible.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ import sys
 import numpy as np
 import pytest
 from support.commands import run_in_terminal
-from support.engines import GOOD
+from support.engines import GOOD, changed
 
 from balcli.core.phasors import Phasors
 from balcli.render.terminal_plot import BAR, SIDE, bars, locus
@@ -65,11 +65,37 @@ def is_drawn(line):
     return "█" in line or any(0x2800 <= ord(c) <= 0x28FF for c in line)
 
 
-def test_absent_in_pipes(balcli, four):
-    for options in ((), ("--format", "markdown")):
-        status, out, _ = balcli("analyze", four, "--plot", *options)
-        assert status == 0
-        assert not any(map(is_drawn, out.splitlines()))
+def test_drawn_wherever_a_table_goes(balcli, four, tmp_path):
+    """In a pipe and in a file as in a terminal: they were asked for."""
+    status, out, err = balcli("analyze", four, "--plot")
+    assert (status, err) == (0, "")
+    assert len(list(filter(is_drawn, out.splitlines()))) > SIDE
+    file = tmp_path / "four.txt"
+    balcli("analyze", four, "--plot", "-o", file)
+    assert file.read_text(encoding="utf-8") == out
+
+
+@pytest.mark.parametrize("form", ["markdown", "json", "csv"])
+def test_where_there_is_no_table_a_word_says_so(balcli, four, form):
+    status, out, err = balcli("analyze", four, "--plot", "--format", form)
+    assert (status, out) == balcli("analyze", four, "--format", form)[:2]
+    told = "--plot draws with characters into a table; there are no pictures in"
+    assert err == f"warning: {told} {form}\n"
+
+
+def test_what_is_negligible_is_said_and_not_drawn(balcli, tmp_path):
+    """An in-line five has a free force of 1e-6 of one cylinder's, and a moment."""
+    file = tmp_path / "five.toml"
+    file.write_text(
+        changed(
+            ("throws = [0, 180, 180, 0]", "throws = [0, 144, 216, 288, 72]"),
+            ("firing_order = [1, 3, 4, 2]", ""),
+        )
+    )
+    out = balcli("analyze", file, "--plot").out
+    assert "Free force\nnegligible (0.00" in out
+    assert "Free force by order" not in out
+    assert "Free moment by order" in out
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a pseudo-terminal")

@@ -10,7 +10,7 @@ from functools import lru_cache
 import numpy as np
 import pytest
 from support.engines import alone, engine
-from support.paths import ENGINES
+from support.paths import ENGINE_FILES, ENGINES
 
 from balcli.core.mechanisms import harmonics
 from balcli.engine.build import Engine, build
@@ -23,7 +23,7 @@ from balcli.forces.textbook import find_textbook_units
 from balcli.limits import HIGHEST_ORDER
 from balcli.results.analysis import QUANTITIES, Analysis, analyze
 
-NAMES = sorted(file.stem for file in ENGINES.glob("*.toml"))
+NAMES = [file.relative_to(ENGINES).with_suffix("").as_posix() for file in ENGINE_FILES]
 STEADY = ("force", "moment", "couple", "torque", "roll", "peak")
 
 

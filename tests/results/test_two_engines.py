@@ -189,6 +189,97 @@ def test_equal_cranks_against_each_other_feel_twice_the_torque():
     assert np.allclose(both.torque.forward, 2 * alone.forward, rtol=1e-14)
 
 
+# ------------------------------------------------------------------ with gas
+GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 10\nimep = 9\n'
+HALVES = np.arange(0.0, 8.5, 0.5)
+
+
+def with_gas(crank="", more="", strokes=4):
+    layout = f"[layout]\nstrokes = {strokes}\n{more}"
+    return engine.build(
+        enginefile.parse(
+            f"[crank]\nstroke = 90\nthrow_mass = 0.8\n{crank}\n"
+            + PARTS.format(operation="").replace("mass = 0.5", "bore = 86\nmass = 0.5")
+            + layout
+            + GAS
+        )
+    )
+
+
+def test_two_singles_with_gas_are_a_twin():
+    """Its second cylinder fires 250 degrees after the first: half a cycle more would be a misplaced
+    revolution, which half orders tell.
+    """
+    twin = with_gas("throws = [0, 110]\npositions = [0, 130]", "firing_order = [1, 2]\n")
+    single = with_gas()
+    moved = replace(single, reference_m=twin.reference_m)
+    kinds = ["force", "moment", "couple", "torque", "roll", "gas", "torque_total", "roll_total"]
+    wanted = spectrum.compute_spectra(twin, HALVES, kinds)
+    assert twin.fires_deg[2] == pytest.approx(250)
+    for phase, same in ((-250, True), (110, False)):
+        found = combine_engines(moved, single, Arrangement(phase, (0, 0, 0.13)), HALVES).spectra
+        size = np.abs(wanted.gas.forward).max()
+        agrees = [
+            np.allclose(found[k].forward, wanted[k].forward, atol=1e-11 * size) for k in kinds
+        ]
+        assert all(agrees) == same
+
+
+def test_two_fours_that_fire_between_each_other_leave_what_an_even_eight_leaves():
+    order = "firing_order = [1, 3, 4, 2]\n"
+    four = with_gas("throws = [0, 180, 180, 0]\nspacing = 90", order)
+    gas = combine_engines(four, four, Arrangement(90), HALVES).spectra.gas
+    assert [n for n, even in zip(HALVES, gas.balanced, strict=True) if not even] == [0, 4, 8]
+    alone = spectrum.compute_spectra(four, HALVES, ["gas"]).gas
+    assert gas.forward[8] == pytest.approx(2 * alone.forward[8], rel=1e-12)
+
+
+@pytest.mark.parametrize("load", ["first", "second", "both"])
+def test_gas_of_different_cycles_against_curves(load):
+    """A two-stroke single that turns against a four-stroke one: both torques over two turns."""
+    first, second = with_gas(), with_gas(strokes=2)
+    how = Arrangement(75, (0.2, 0, 0), 0, True, load)
+    found = combine_engines(first, second, how, np.arange(0, 60.5, 0.5)).spectra
+    theta = np.linspace(0.3, 4 * np.pi, 40)
+    ahead = theta + np.radians(75)
+    one, other = (
+        spectrum.compute_spectra(single, np.arange(0, 60.5, 0.5), ["gas"]).gas.values(at).real
+        for single, at in ((first, theta), (second, ahead))
+    )
+    taken = {"first": one + other, "second": -one - other, "both": one - other}[load]
+    size = np.abs(one).max()
+    assert found.gas.values(theta).real == pytest.approx(one + other, abs=1e-10 * size)
+    rolled = (found.roll_total.values(theta) - found.roll.values(theta)).real
+    assert rolled == pytest.approx(-taken, abs=1e-10 * size)
+    assert found.torque_total.values(theta).real == pytest.approx(
+        one + other + found.torque.values(theta).real, abs=1e-10 * size
+    )
+
+
+def test_whose_gas_counts_is_told(tmp_path):
+    bare, gas = tmp_path / "bare.toml", tmp_path / "gas.toml"
+    text = "[crank]\nstroke = 90\n" + PARTS.format(operation="")
+    bare.write_text(text)
+    gas.write_text(text.replace("mass = 0.5", "bore = 86\nmass = 0.5") + GAS)
+    for pair, told in (
+        ((gas, gas), "of both; their torques add as those of inertia do"),
+        ((gas, bare), "of the first alone; the file of the second has no [gas]"),
+        ((bare, gas), "of the second alone; the file of the first has no [gas]"),
+    ):
+        text = run(*map(str, pair)).out
+        assert f"gas        {told}\n" in text
+        assert "About the crank axis with gas" in text
+        document = json.loads(run(*map(str, pair), "--orders", "0.5-1", "-f", "json").out)
+        assert [entry["gas"] for entry in document["engines"]] == [path == gas for path in pair]
+        assert not document["orders"][0]["gas_torque_Nm"]["balanced"]
+        assert "roll_total_Nm" in document["orders"][1]
+        rows = run(*map(str, pair), "--orders", "0.5", "-f", "csv").out
+        assert "gas,0.5,amplitude," in rows
+    without = run(str(bare), str(bare))
+    assert "gas" not in without.out
+    assert "gas" not in run(str(bare), str(bare), "-f", "json").out
+
+
 # ------------------------------------------------------------------ the command
 @pytest.fixture
 def file(tmp_path):

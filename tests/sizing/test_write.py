@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from support.engines import GOOD, changed
-from support.paths import ENGINES
+from support.paths import ENGINE_FILES
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
@@ -33,7 +33,7 @@ def figures(engine):
 @pytest.mark.parametrize("scheme", sorted(set(SCHEMES) - {"eccentric-slider", "oldham"}))
 @pytest.mark.parametrize(
     "path",
-    sorted(ENGINES.glob("*.toml"))[::4],
+    ENGINE_FILES[::4],
     ids=lambda p: p.stem,
 )
 def test_every_written_engine_reads_back_to_exactly_what_was_promised(path, scheme):

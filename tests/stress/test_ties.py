@@ -21,7 +21,7 @@ from balcli.studies.tolerances import scatter_engine
 ENGINES = ROOT / "engines"
 
 
-@pytest.mark.parametrize("name", ["tsinghua_6120q", "tsinghua_eq6100", "v10_split", "vr6"])
+@pytest.mark.parametrize("name", ["car/tsinghua_6120q", "car/tsinghua_eq6100", "v10_split", "vr6"])
 def test_equal_shares_of_a_scatter(name: str) -> None:
     """Parts of one kind stand by their numbers."""
     quantities = parse_quantity_list("force.1.major,force.2.major,moment.1.major,moment.2.major")
@@ -41,7 +41,7 @@ def test_equal_inner_moments() -> None:
     assert bending.largest == np.flatnonzero(values >= values.max() * (1 - 1e-12))[0]
 
 
-@pytest.mark.parametrize("name", ["i5", "flat12", "tsinghua_6120q"])
+@pytest.mark.parametrize("name", ["i5", "flat12", "car/tsinghua_6120q"])
 def test_equal_arrangements_of_a_search(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """With other last digits the same cranks are found, in the same order."""
 

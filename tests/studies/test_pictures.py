@@ -4,6 +4,8 @@ pictures.
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from support.engines import GOOD, changed
@@ -12,6 +14,7 @@ from balcli.core.mechanisms import harmonics
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
+from balcli.render.plot.bank_angle import place_labels
 from balcli.render.plot.pages import Subject, draw_page
 from balcli.studies.pictures import compute_study, swing_banks
 
@@ -76,7 +79,7 @@ def test_a_vee_of_free_cylinders_swings_as_one_of_two_banks():
 def test_half_the_reciprocating_mass_balances_a_cross_plane_vee_eight():
     rows = compute_study(engine(CROSS), "factor").factors
     best = min(rows, key=lambda row: row.moment)
-    assert [row.factor for row in rows] == pytest.approx(np.linspace(0, 1, 21))
+    assert [row.factor for row in rows] == pytest.approx(np.linspace(0, 1, 51))
     assert best.factor == 0.5
     assert best.moment < 1e-2 * rows[0].moment
 
@@ -114,7 +117,7 @@ def test_pictures_of_studies_are_the_same_each_time(what, text):
 
 def test_the_page_of_factors_tells_the_best():
     subject = Subject(**compute_study(engine(CROSS), "factor")._asdict())
-    assert "best at 0.5<" in draw_page(subject, "factor", "svg").decode()
+    assert "best at 0.5 (" in draw_page(subject, "factor", "svg").decode()
 
 
 def test_counterweights_unload_the_crankshaft_of_an_in_line_four():
@@ -127,6 +130,49 @@ def test_counterweights_unload_the_crankshaft_of_an_in_line_four():
     assert max(p.value for p in now.bending.peaks) < 0.7 * max(
         p.value for p in before.bending.peaks
     )
+
+
+def test_the_best_factor_of_one_cylinder_is_found_between_the_steps():
+    """The force is that of piston and small end along the cylinder, less the factor's share of
+    their mass on the other side of the pin: a peak over a fine grid of both, by hand.
+    """
+    rows = compute_study(engine(SINGLE), "factor").factors
+    best = min(rows, key=lambda row: row.force)
+    r, rod, mass, omega = 0.045, 0.160, 0.5 + 0.6 * 45 / 160, 100 * np.pi
+    turn = np.radians(np.arange(0, 360, 0.05))
+    lean = np.sqrt(rod**2 - (r * np.sin(turn)) ** 2)
+    along = np.cos(turn) + r * np.cos(2 * turn) / lean + r**3 * np.sin(2 * turn) ** 2 / 4 / lean**3
+    factors = best.factor + np.arange(-0.005, 0.00501, 1e-4)
+    peaks = [np.abs(along - factor * np.exp(1j * turn)).max() for factor in factors]
+    assert factors[np.argmin(peaks)] == pytest.approx(best.factor, abs=1.5e-4)
+    assert best.force == pytest.approx(mass * r * omega**2 * min(peaks), rel=2e-4)
+    assert round(50 * best.factor, 3) % 1
+    assert [row.factor for row in rows] == sorted(row.factor for row in rows)
+
+
+def test_labels_of_bank_angles_cover_nothing():
+    """Lines that lie on one another, and ellipses within one another."""
+    turn = np.radians(np.arange(361))
+    sizes = ((1, 0), (0.8, 0), (0.7, 0.2), (0.5, 0.5), (0.3, 0.8), (0, 0.9), (0, 0))
+    ways = [a * np.cos(turn) + 1j * b * np.sin(turn) for a, b in sizes]
+    spots = np.array(place_labels(ways, 1.25))
+    apart = np.abs(spots[:, None] - spots) + 9 * np.eye(len(spots))
+    assert apart.min() > 0.15
+    assert np.abs(spots[:, None] - np.concatenate(ways)).min() > 0.06
+    assert np.minimum(np.abs(spots.real), np.abs(spots.imag)).min() > 0.06
+    own = [np.abs(spot - way).min() for spot, way in zip(spots, ways, strict=True)]
+    assert max(own) < 0.15
+
+
+def test_a_force_that_is_negligible_at_every_bank_angle_is_said():
+    """Two sixes side by side have no free force but of order 6, and that is small."""
+    text = changed(
+        ("throws = [0, 180, 180, 0]", "throws = [0, 240, 120, 120, 240, 0]"),
+        ("firing_order = [1, 3, 4, 2]", "bank_angle = 60"),
+        ("length = 160", "length = 240"),
+    )
+    drawn = draw_page(Subject(**compute_study(engine(text), "bank")._asdict()), "bank", "svg")
+    assert re.search(r"negligible \(\S+ N\), whatever the bank angle", drawn.decode())
 
 
 def test_a_scheme_compares_before_and_after():

@@ -16,14 +16,13 @@ from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
 from balcli.render.sweep import csv_text, json_text
 from balcli.render.sweep_plot import check_drawable
+from balcli.studies.boxes import Box, BoxSize, divide_grid, group_boxes
 from balcli.studies.parameters import Parameter, parse
 from balcli.studies.sweep import (
     Array,
-    Box,
     Chunk,
     Sweep,
     check_corners,
-    divide_grid,
     divide_sweep,
     evaluate_box,
     evaluate_chunks,
@@ -161,16 +160,35 @@ def test_boxes_are_the_smaller_the_more_each_variant_needs(
     engine: str, vary: str, of: str, most: int
 ) -> None:
     """Orders, and samples near the lock: a box takes a fraction of a second, and little memory."""
-    assert size_boxes(asked(engine, vary, of=of)) <= most
+    assert size_boxes(asked(engine, vary, of=of)).variants <= most
 
 
-def test_chunks_do_not_change_figures() -> None:
+@pytest.mark.parametrize(("rows", "lengths"), [(1, [1] * 20), (7, [2] * 10), (1000, [8, 8, 4])])
+def test_groups_of_boxes_are_whole_and_in_order(rows: int, lengths: list[int]) -> None:
+    """20 boxes of 3 variants: by eight, or as many as have so many rows, and one at least."""
+    boxes = list(divide_grid((60,), 3))
+    groups = list(group_boxes(boxes, rows))
+    assert [box for group in groups for box in group] == boxes
+    assert list(map(len, groups)) == lengths
+
+
+def test_a_part_of_a_grid_is_a_sweep_of_its_own() -> None:
+    sweep = asked(VEE, "layout.bank_angle=0:180:45", "rod.ratio=0.2,0.3,0.31", of="moment.1.major")
+    box = (slice(1, 3), slice(2, 3))
+    part = sweep.cut(box)
+    assert part.shape == (2, 1)
+    alone, inside = evaluate_box(part, part.whole), evaluate_box(sweep, box)
+    assert np.array_equal(alone, inside)
+
+
+def test_chunks_do_not_change_figures(monkeypatch: pytest.MonkeyPatch) -> None:
     sweep = asked(
         VEE,
         "layout.bank_angle=0:179:1",
         "rod.ratio=0.2:0.399:0.001",
         of="force.2.major,moment.1.backward",
     )
+    monkeypatch.setattr("balcli.studies.sweep.CHUNK", 2_500)
     several = list(evaluate_chunks(sweep))
     assert len(several) == 2
     every = np.concatenate([np.stack(list_columns(sweep, chunk)) for chunk in several], axis=1)
@@ -194,9 +212,10 @@ def test_boxes_that_would_be_narrow_are_computed_in_tiles(
     axes = zip(picked, shape, strict=True)
     parameters = tuple(Parameter(path, np.linspace(*ends, n)) for (path, ends), n in axes)
     sweep = Sweep(load(VEE), parameters, parse_quantity_list("force.2.major,moment.1.x"))
-    boxes = list(divide_sweep(sweep, most))
+    size = BoxSize(most, most)
+    boxes = list(divide_sweep(sweep, size))
     assert shape[-1] < 100 or len(boxes) < math.prod(shape) / most
-    tiled = join_chunks(sweep, (Chunk(box, evaluate_box(sweep, box, most)) for box in boxes))
+    tiled = join_chunks(sweep, (Chunk(box, evaluate_box(sweep, box, size)) for box in boxes))
     whole = (slice(0, n) for n in shape)
     at_once = evaluate_box(sweep, tuple(whole))
     for one, other in zip(tiled, at_once, strict=True):
@@ -240,7 +259,7 @@ GRID = ("layout.bank_angle=0:100:1", "rod.ratio=0.2:0.3:0.0002")
 @pytest.mark.parametrize("threads", [2, 5, 64])
 def test_threads_give_identical_rows(monkeypatch: pytest.MonkeyPatch, threads: int) -> None:
     """From the first box on, many more boxes than threads or fewer."""
-    monkeypatch.setattr("balcli.studies.sweep.CHUNK", 2_500)
+    monkeypatch.setattr("balcli.studies.sweep.CHUNK", 300)
     sweep = asked(VEE, *GRID, of="force.2.major,moment.1.backward")
     there = "".join(csv_text(sweep, evaluate_chunks(sweep, threads, alone_s=0.0)))
     assert there == "".join(csv_text(sweep, evaluate_chunks(sweep)))
@@ -250,11 +269,11 @@ def test_threads_end_with_who_asks_for_their_figures(monkeypatch: pytest.MonkeyP
     """After three of 51 boxes no more than what was under way is computed."""
     boxes: list[object] = []
 
-    def counted(sweep: Sweep, box: Box, most: int) -> list[Array]:
+    def counted(sweep: Sweep, box: Box, size: BoxSize) -> list[Array]:
         boxes.append(box)
-        return evaluate_box(sweep, box, most)
+        return evaluate_box(sweep, box, size)
 
-    monkeypatch.setattr("balcli.studies.sweep.CHUNK", 1_000)
+    monkeypatch.setattr("balcli.studies.sweep.CHUNK", 125)
     monkeypatch.setattr("balcli.studies.sweep.evaluate_box", counted)
     sweep = asked(VEE, *GRID, of="force.2.major")
     chunks = evaluate_chunks(sweep, 2, alone_s=0.0)

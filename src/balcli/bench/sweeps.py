@@ -87,6 +87,7 @@ class OuterProduct:
     """
 
     def __init__(self, phases: int, coefficients: int) -> None:
+        self.shape = phases, coefficients
         rng = np.random.default_rng(1)
         shape = 2, 2, 2, phases, 1  # kind, order, side
         self._sums = rng.normal(size=shape) + 1j * rng.normal(size=shape)

@@ -15,7 +15,7 @@ from ..render.formats import Format, Units
 from ..render.view import View
 from ..results.analysis import Analysis, analyze, list_quantities
 from .inputs import distinct_names, exit_on_errors, read_engine, try_each
-from .output import is_seen, show
+from .output import draws_sketch, show
 
 if TYPE_CHECKING:
     from .analysis_options import Request
@@ -47,7 +47,7 @@ def answer(paths: Sequence[str], asked: Request, target: Target) -> None:
 
 
 def _answer_at_one_speed(paths: Sequence[str], asked: Request, target: Target) -> None:
-    drawn = asked.plot and target.form is Format.TABLE and is_seen(target.output)
+    drawn = draws_sketch(asked.plot, target.form)
     view = View(asked.whole, asked.parts, asked.orders is not None, pictures=drawn)
 
     def present(names: Sequence[str], found: Sequence[Analysis]) -> None:

@@ -60,7 +60,8 @@ Why = Annotated[
 Plot = Annotated[
     bool,
     typer.Option(
-        "--plot", help="In a terminal: also bars by order and the loci of force and moment."
+        "--plot",
+        help="Also draw, with characters: bars by order and the loci of force and moment.",
     ),
 ]
 

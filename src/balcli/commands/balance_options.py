@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..core.drilled_hole import SLUGS
-from ..errors import BalcliError
+from ..errors import BalcliError, note
 from ..limits import MOST_FACTORS
 from ..render.formats import Format, Units
 from ..sizing.options import SchemeOptions
@@ -282,6 +282,8 @@ def choose_scheme(asked: str | None, options: SchemeOptions, form: BalanceFormat
 
 def show_balance(result: Balance, form: BalanceFormat, output: Path | None, units: Units) -> None:
     """The balance, or its bobweight card, in this format."""
+    for reason in dict.fromkeys(result.remedy.reasons):
+        note(f"scheme {result.remedy.scheme}: {reason}")
     if form is BalanceFormat.CARD:
         from ..render.bobweight_page import write_page
 

@@ -9,6 +9,7 @@ import typer
 
 from ..errors import Exit, legible
 from .output import emit, make_folder_of, write_file
+from .progress import counted, exit_if_cut_short, reporting_until_stopped
 
 
 def check(
@@ -38,11 +39,14 @@ def check(
         write_file(record_result(engine), make_folder_of(target))
         return []
 
-    results, errors = try_each(find_engine_files(paths), compare_or_record)
+    files = find_engine_files(paths)
+    with reporting_until_stopped("engines", len(files)) as progress:
+        results, errors = try_each(counted(files, progress), compare_or_record)
     moved = [difference for found in results for difference in found]
     done = " recorded" if update else f", {_counted(len(moved), 'difference')}"
     emit(legible("\n".join([*map(str, moved), _counted(len(results), "engine") + done])))
     exit_on_errors(errors)
+    exit_if_cut_short(progress)
     if moved:
         raise typer.Exit(Exit.DIFFERENCE)
 

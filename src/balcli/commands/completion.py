@@ -37,5 +37,12 @@ def complete_examples(incomplete: str) -> list[str]:
     return _beginning_with(incomplete, examples.names())
 
 
+def complete_classes(incomplete: str) -> list[str]:
+    """Classes of example engines, of `balcli engines --class`."""
+    from ..enginefile import examples
+
+    return _beginning_with(incomplete, examples.groups())
+
+
 def _beginning_with(incomplete: str, known: Iterable[str]) -> list[str]:
     return [name for name in known if name.startswith(incomplete)]

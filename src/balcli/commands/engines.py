@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from itertools import groupby
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from ..enginefile import examples
-from .completion import complete_examples
+from .completion import complete_classes, complete_examples
 from .file_names import parse_output, require_ending
 from .output import emit, refuse_existing
 
@@ -28,15 +29,38 @@ def engines(
             metavar="FILE", callback=parse_output, help="Copy it here; default: standard output."
         ),
     ] = None,
+    find: Annotated[
+        str,
+        typer.Option(
+            metavar="WORDS", help="List those whose name, title, source or lesson has the words."
+        ),
+    ] = "",
+    group: Annotated[
+        str | None,
+        typer.Option(
+            "--class",
+            metavar="CLASS",
+            help="List one class: layout, aero, car, historic, marine or motorcycle.",
+            autocompletion=complete_classes,
+        ),
+    ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
 ) -> None:
     """List the example engines that come with balcli, print one, or copy it."""
     if name is None:
-        known = examples.names()
-        width = max(map(len, known))
-        emit("\n".join(f"{short:{width}}  {long}" for short, long in known.items()))
+        emit(_list(examples.find(find, group)))
         return
     text = examples.text(name)
     require_ending(path, ".toml", "FILE")
     refuse_existing(path, force)
     emit(text, path)
+
+
+def _list(found: list[examples.Example]) -> str:
+    """Each class under its name: an engine a line, with what it teaches."""
+    width = max(map(len, examples.names()))
+    parts = []
+    for group, members in groupby(found, key=lambda example: example.group):
+        lines = [f"{example.name:{width}}  {example.lesson}" for example in members]
+        parts.append("\n".join([group, "─" * len(group), *lines]))
+    return "\n\n".join(parts)

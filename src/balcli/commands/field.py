@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from ..enginefile.toml_text import name_file
-from ..errors import BalcliError, Exit, say
+from ..errors import BalcliError, Exit, warn
 from .file_names import picture_form, text_format
 from .options import FormatOption, Output
 from .output import show, write_file
@@ -77,7 +77,7 @@ def field(
         raise BalcliError(f"{name}: --check needs a grade, such as grade = 6.3, and mass and speed")
     result = balance_rotor(file, minimise.value, without or (), name)
     for doubt in find_doubts(result):
-        say(f"warning: {name}: {doubt}")
+        warn(f"{name}: {doubt}")
     if plot is not None and drawn is not None:
         from ..render.plot.field_balancing import draw_field  # brings matplotlib
 

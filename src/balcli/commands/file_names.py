@@ -52,6 +52,19 @@ def parse_output(path: Path | None) -> Path | None:
     return None if str(path) in ("-", "/dev/stdout", "/dev/fd/1") else path
 
 
+def choose_target(second: Path | None, output: Path | None, example: str) -> Path:
+    """Where a page or picture goes: the second name, or that of `--output`.
+
+    Raises:
+        BalcliError: there is neither, with an example, or both.
+    """
+    if second is not None and output is not None:
+        raise BalcliError(f"{second} and --output {output}: one file is written; leave one out")
+    if (target := second or output) is None:
+        raise BalcliError(f"name the file to write, such as -o {example}")
+    return target
+
+
 def text_format(output: Path | None, asked: Format | None) -> Format:
     """How to write what people read; a table by default. Errors as `format_of`."""
     return format_of(output, asked, TEXTS, Format.TABLE)

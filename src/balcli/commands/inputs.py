@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple, TypeVar
@@ -16,11 +16,13 @@ from ..engine.positions import MOMENTS_UNKNOWN
 from ..enginefile.model import EngineFile
 from ..enginefile.suspicious import find_suspicious
 from ..enginefile.toml_text import name_file, read_bytes
-from ..errors import BalcliError, Exit, legible, say
+from ..errors import BalcliError, Exit, is_verbose, legible, note, say, warn
 from ..forces.kinds import KINDS
 
 # What says something of moments besides them, of all that can be asked for.
 ABOUT_MOMENTS = frozenset({"peak", "sizing", "guide", "xy", "textbook", "verdict"})
+
+SETTINGS = frozenset({"balcli.toml", "pyproject.toml"})  # TOML beside engines, not of engines
 
 P = TypeVar("P")
 T = TypeVar("T")
@@ -58,14 +60,25 @@ def read_engine(
     text = read_bytes(path)
     model = parse(text, name_file(path))
     engine = build_named(model, path)
+    if is_verbose():
+        _tell_what_was_read(name_file(path), text, model)
     if not engine.places_known:
         _tell_unknown(name_file(path), asked)
     doubts = engine.gas.doubts if engine.gas is not None else ()
     for warning in (*find_suspicious(model), *doubts):
-        say(f"warning: {name_file(path)}: {warning}")
+        warn(f"{name_file(path)}: {warning}")
     if speed_rpm is not None:
         engine = replace(engine, speed_rpm=speed_rpm, model=None)
     return Source(text, model, engine)
+
+
+def _tell_what_was_read(name: str, text: bytes, model: EngineFile) -> None:
+    """Notes for those who want to know how a file was understood."""
+    from ..enginefile.assumed import list_assumed  # for them alone
+
+    note(f"{name}: read, {len(text)} bytes")
+    for each in list_assumed(model):
+        note(f"{name}: not in the file: {each}")
 
 
 def _tell_unknown(name: str, asked: Collection[str] | None) -> None:
@@ -81,10 +94,10 @@ def _tell_unknown(name: str, asked: Collection[str] | None) -> None:
 
 def warn_of_unknown_moments(name: str) -> None:
     """Say on standard error that the moments of this file are not known, and why."""
-    say(f"warning: {name}: {MOMENTS_UNKNOWN}")
+    warn(f"{name}: {MOMENTS_UNKNOWN}")
 
 
-def try_each(paths: Sequence[P], work: Callable[[P], T]) -> tuple[list[T], list[str]]:
+def try_each(paths: Iterable[P], work: Callable[[P], T]) -> tuple[list[T], list[str]]:
     """Results of all good files, in order, and the messages of the bad ones."""
     results, errors = [], []
     for path in paths:
@@ -104,7 +117,8 @@ def exit_on_errors(errors: Sequence[str]) -> None:
 
 
 def find_engine_files(paths: Sequence[Path]) -> list[Path]:
-    """Engine files as named, and all that are in a folder.
+    """Engine files as named, and all that are in a folder or in folders within it; those whose
+    name begins with a dot, and files of settings, are passed over.
 
     Raises:
         BalcliError: a path that is not there, a folder without engine files.
@@ -113,12 +127,23 @@ def find_engine_files(paths: Sequence[Path]) -> list[Path]:
     for path in paths:
         # Unlike Path.is_dir, this is false where one may not look, or the name is too long.
         folder = os.path.isdir(path)
-        found = sorted(path.glob("*.toml")) if folder else [path]
+        found = sorted(filter(_is_engine, _walk(path))) if folder else [path]
         if not found or not os.path.exists(path):
             reason = "has no engine files (*.toml)" if folder else "no such file or folder"
             raise BalcliError(f"{path}: {reason}")
         files += found
     return files
+
+
+def _walk(folder: Path) -> Iterator[Path]:
+    """All files in a folder and those within it that are not hidden."""
+    for place, inner, files in os.walk(folder):
+        inner[:] = [name for name in inner if not name.startswith(".")]
+        yield from (Path(place, name) for name in files)
+
+
+def _is_engine(path: Path) -> bool:
+    return path.suffix == ".toml" and path.name not in SETTINGS
 
 
 def named_by_file(engine: Engine, path: str) -> Engine:

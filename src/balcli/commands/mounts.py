@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from ..enginefile.toml_text import name_file
-from ..errors import say
+from ..errors import warn
 from ..render.formats import Units
 from ..render.units import SYSTEMS
 from .file_names import picture_form, text_format
@@ -22,6 +22,7 @@ from .options import (
 )
 from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
+from .progress import reporting
 from .speed_range import Speeds, parse_speeds
 
 Orders = Annotated[
@@ -71,11 +72,12 @@ def mounts(
 
     model, engine, doubts = read_mounted(paths[0])
     for doubt in doubts:
-        say(f"warning: {name_file(paths[0])}: {doubt}")
+        warn(f"{name_file(paths[0])}: {doubt}")
     others = [read_engine(path).engine for path in paths[1:]]
     names = name_columns([model.name or paths[0], *(other.name for other in others)], paths)
     beside = list(zip(names[1:], others, strict=True))
-    result = report_mounts(model, engine, rpm, asked, scheme, beside, name_file(paths[0]))
+    with reporting("work") as tell:
+        result = report_mounts(model, engine, rpm, asked, scheme, beside, name_file(paths[0]), tell)
     if plot is not None and drawn is not None:
         from ..render.plot.mounts import draw_mounts  # brings matplotlib
 

@@ -57,8 +57,16 @@ Output = Annotated[
         help="Write into this file instead; its ending says the format. - is standard output.",
     ),
 ]
-
-
+ProgressAtOnce = Annotated[
+    bool,
+    typer.Option(
+        "--progress", help="Say on a terminal how far it is from the start, not after two seconds."
+    ),
+]
+Target = Annotated[
+    Path | None,
+    typer.Argument(metavar="OUT", show_default=False, help="The file to write; the same as -o."),
+]
 Speed = Annotated[
     str | None,
     typer.Option(
@@ -86,7 +94,7 @@ Only = Annotated[
         metavar="WHAT,...",
         show_default=False,
         help=f"Compute only some of {', '.join(KINDS)}, peak, sizing, gas; or inner "
-        "(shear, bending, bearing loads along the crankshaft) and guide (H- and X-type).",
+        "(shear, bending, bearing loads along crankshaft and block) and guide (H- and X-type).",
     ),
 ]
 OnlyParts = Annotated[
@@ -96,7 +104,7 @@ OnlyParts = Annotated[
         metavar="WHAT,...",
         show_default=False,
         help=f"Only some of {', '.join(KINDS)}, peak, sizing; inner (shear, bending, bearing "
-        "loads along the crankshaft), guide (H- and X-type); or xy, textbook, verdict.",
+        "loads along crankshaft and block), guide (H- and X-type); or xy, textbook, verdict.",
     ),
 ]
 Whole = Annotated[

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TextIO, TypeVar
 
-from ..errors import BalcliError
+from ..errors import BalcliError, note, warn
 from ..process import unfinished
 from ..render.formats import Format, Renderer, Units, render
 from ..render.units import SYSTEMS
@@ -38,6 +38,15 @@ def show(
 def is_seen(output: Path | None) -> bool:
     """Whether a person sees what is printed, in a terminal."""
     return output is None and sys.stdout.isatty()
+
+
+def draws_sketch(wanted: bool, form: Format) -> bool:
+    """Whether pictures made of characters go with a result: where `--plot` asks for them and it is
+    a table. Elsewhere a warning says that there are none.
+    """
+    if wanted and form is not Format.TABLE:
+        warn(f"--plot draws with characters into a table; there are no pictures in {form}")
+    return wanted and form is Format.TABLE
 
 
 def emit(text: str, output: Path | None = None) -> None:
@@ -141,7 +150,9 @@ def replacing(target: Path) -> Iterator[Path]:
                 return
             if real.exists():
                 place.chmod(real.stat().st_mode & 0o777)
+            size = place.stat().st_size
             place.replace(real)
+            note(f"{target}: written, {size} bytes")
     except OSError as error:
         raise BalcliError(f"{target}: cannot be written ({error.strerror or error})") from None
 

@@ -10,8 +10,17 @@ import typer
 
 from ..render.formats import Units
 from ..render.units import SYSTEMS
-from .file_names import picture_form
-from .options import EnginePath, Orders, Scheme, Speed, UnitsOption, parse_orders, parse_speed
+from .file_names import choose_target, picture_form
+from .options import (
+    EnginePath,
+    Orders,
+    Scheme,
+    Speed,
+    Target,
+    UnitsOption,
+    parse_orders,
+    parse_speed,
+)
 from .output import write_file
 from .overwrite_guard import refuse_overwriting
 
@@ -41,9 +50,9 @@ class What(StrEnum):
 _TORSION = (What.MODES, What.CAMPBELL, What.RESPONSE, What.WATERFALL)
 
 Picture = Annotated[
-    Path,
+    Path | None,
     typer.Option(
-        "--output", "-o", metavar="FILE", help="Write here; .svg, .png or .pdf.", show_default=False
+        "--output", "-o", metavar="OUT", help="Write here; .svg, .png or .pdf.", show_default=False
     ),
 ]
 Page = Annotated[
@@ -61,7 +70,8 @@ Page = Annotated[
 
 def plot(
     path: EnginePath,
-    output: Picture,
+    target: Target = None,
+    output: Picture = None,
     what: Page = What.ALL,
     scheme: Scheme = None,
     speed: Speed = None,
@@ -79,7 +89,8 @@ def plot(
     """Draw free forces and moments: loci over a revolution, order by order, and over the crank
     angle; or torsional vibration.
     """
-    refuse_overwriting(reads=[path], writes={"--output": output})
+    refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
+    output = choose_target(target, output, "X.svg")
     form = picture_form(output)
     if what in _TORSION:
         from .torsion_answer import draw_file

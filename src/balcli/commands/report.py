@@ -8,14 +8,24 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..enginefile.toml_text import name_file
-from ..errors import BalcliError, say
+from ..errors import BalcliError, warn
 from ..forces.kinds import KINDS
 from ..render.formats import Units
 from ..render.units import SYSTEMS
-from .file_names import format_of, parse_output
-from .options import EnginePath, Orders, Scheme, Speed, UnitsOption, parse_orders, parse_speed
+from .file_names import choose_target, format_of, parse_output
+from .options import (
+    EnginePath,
+    Orders,
+    Scheme,
+    Speed,
+    Target,
+    UnitsOption,
+    parse_orders,
+    parse_speed,
+)
 from .output import emit
 from .overwrite_guard import refuse_overwriting
+from .progress import reporting
 
 if TYPE_CHECKING:
     from ..engine.build import Engine
@@ -25,12 +35,11 @@ if TYPE_CHECKING:
     from ..torsion.analysis import TorsionAnalysis
 
 Page = Annotated[
-    Path,
+    Path | None,
     typer.Option(
         "--output",
         "-o",
-        metavar="FILE.html",
-        callback=parse_output,
+        metavar="OUT.html",
         help="Write the page here; - is standard output.",
         show_default=False,
     ),
@@ -39,7 +48,8 @@ Page = Annotated[
 
 def report(
     path: EnginePath,
-    output: Page,
+    target: Target = None,
+    output: Page = None,
     scheme: Scheme = "auto",
     speed: Speed = None,
     orders: Orders = None,
@@ -48,7 +58,8 @@ def report(
     """Write one self-contained page: the engine in motion, what it shakes, and a balance scheme
     before and after.
     """
-    refuse_overwriting(reads=[path], writes={"--output": output})
+    refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
+    output = parse_output(choose_target(target, output, "X.html"))
     format_of(output, None, {".html": "html", ".htm": "html"}, "html")
     from ..render.html import page
     from ..results.analysis import analyze
@@ -63,7 +74,9 @@ def report(
     mounted = _put_on_mounts(model, engine, scheme, name_file(path)) if model.body else None
     twisted = _twist(model, engine, name_file(path)) if model.torsion else None
     turning = None if engine.gas is None else _turn_gas(engine)
-    emit(page(result, balanced, SYSTEMS[units], mounted, twisted, turning), output)
+    with reporting("pictures") as tell:
+        text = page(result, balanced, SYSTEMS[units], mounted, twisted, turning, tell)
+    emit(text, output)
 
 
 def _turn_gas(engine: Engine) -> Running:
@@ -83,7 +96,7 @@ def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | No
         source = make_source(model, engine, name)
         return analyze_torsion(source, Question(choose_speeds(engine)))
     except BalcliError as error:
-        say(f"warning: the page does not show the torsion: {error}")
+        warn(f"the page does not show the torsion: {error}")
         return None
 
 
@@ -96,5 +109,5 @@ def _put_on_mounts(
     try:
         return report_mounts(model, engine, scheme=scheme, name=name)
     except BalcliError as error:
-        say(f"warning: the page does not show the mounts: {error}")
+        warn(f"the page does not show the mounts: {error}")
         return None

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import Annotated
+from functools import partial
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -14,6 +15,11 @@ from .file_names import text_format
 from .options import EnginePath, FormatOption, Output
 from .output import show
 from .overwrite_guard import refuse_overwriting
+from .progress import exit_if_cut_short, reporting_until_stopped
+
+if TYPE_CHECKING:
+    from ..engine.build import Engine
+    from ..forces.quantity import Quantity
 
 _ENGINES, _SETS_OF_MOUNTS = 100_000, 500
 
@@ -96,24 +102,37 @@ def scatter(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = text_format(output, form)
-    from ..forces.quantity import leave_out_unknown
     from ..studies.quantities import parse_quantities, part_quantities
     from ..studies.tolerances import parse_percentage, parse_tolerances, scatter_engine
-    from .inputs import read_engine, warn_of_unknown_moments
+    from .inputs import read_engine
 
     tolerances = parse_tolerances(mass, length, angle)
     share = parse_percentage(stiffness, "--stiffness-scatter")
     wanted = parse_quantities(DEFAULT_QUANTITIES if quantity is None else quantity)
     asked, on_mounts = part_quantities(wanted)
     _, model, engine = read_engine(path, asked=())
-    if quantity is None and not engine.places_known:
-        asked = leave_out_unknown(engine, asked)
-        warn_of_unknown_moments(name_file(path))
+    if quantity is None:
+        asked = _leave_out_unknown(engine, asked, name_file(path))
     count = samples if samples is not None else _SETS_OF_MOUNTS if on_mounts else _ENGINES
+    draw = partial(scatter_engine, model, tolerances, asked)
     if on_mounts:
         from ..studies.mount_scatter import scatter_mounts
 
-        found = scatter_mounts(model, share, on_mounts, count, seed, distribution.value)
-    else:
-        found = scatter_engine(model, tolerances, asked, count, seed, distribution.value)
+        draw = partial(scatter_mounts, model, share, on_mounts)
+    with reporting_until_stopped("samples", count) as progress:
+        found = draw(count, seed, distribution.value, progress)
     show([found], renderer, form, output)
+    exit_if_cut_short(progress, "the figures are of these")
+
+
+def _leave_out_unknown(
+    engine: Engine, quantities: tuple[Quantity, ...], name: str
+) -> tuple[Quantity, ...]:
+    """The quantities without moments, with a warning, where those are not known."""
+    if engine.places_known:
+        return quantities
+    from ..forces.quantity import leave_out_unknown
+    from .inputs import warn_of_unknown_moments
+
+    warn_of_unknown_moments(name)
+    return leave_out_unknown(engine, quantities)

@@ -14,6 +14,7 @@ from .named_files import refuse_leaving_files
 from .options import EnginePath, FormatOption, Output
 from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
+from .progress import exit_if_cut_short, reporting, reporting_until_stopped
 
 
 def search(
@@ -79,7 +80,6 @@ def search(
     from ..studies.search.objective import parse_objective
     from ..studies.search.search import search_arrangements
     from ..studies.search.write import write_design
-    from .search_watch import watching_search
 
     if require not in ("", "even-firing"):
         raise typer.BadParameter(
@@ -91,8 +91,10 @@ def search(
     if write is not None:
         refuse_leaving_files(text, path, write)
     goal = parse_objective(minimise, limit or ())
-    with watching_search(over) as watch:
-        found = search_arrangements(model, over, goal, top, bool(require), watch)
-        show([found], renderer, form, output)
-        if write is not None:
-            write_file(write_design(text, found.results[0].design, name), write)
+    watching = reporting_until_stopped if over == "throws" else reporting  # no other takes long
+    with watching("arrangements") as progress:
+        found = search_arrangements(model, over, goal, top, bool(require), progress)
+    show([found], renderer, form, output)
+    if write is not None:
+        write_file(write_design(text, found.results[0].design, name), write)
+    exit_if_cut_short(progress, "these are the best of them")

@@ -26,7 +26,14 @@ def sum(  # noqa: A001 (the command's name)
     first: EnginePath,
     second: EnginePath,
     phase: Annotated[
-        str, typer.Option(metavar="DEG", help="Crank angle by which the second engine leads.")
+        str,
+        typer.Option(
+            metavar="DEG",
+            help=(
+                "Crank angle by which the second engine leads; with gas in four strokes over two "
+                "revolutions."
+            ),
+        ),
     ] = "0",
     at: Annotated[
         str, typer.Option(metavar="X,Y,Z", help="Place of its origin in the first one's axes, mm.")

@@ -16,9 +16,10 @@ from ..render.sweep_plot import check_drawable, draw_sweep
 from ..studies.quantity_names import describe_names
 from .file_names import VARIANTS, VariantsFormat, format_of, picture_form
 from .format_names import format_option
-from .options import EnginePath, Output
-from .output import write_file
+from .options import EnginePath, Output, ProgressAtOnce
+from .output import is_seen, write_file
 from .overwrite_guard import refuse_overwriting
+from .progress import exit_if_cut_short, reporting_until_stopped
 
 if TYPE_CHECKING:
     from ..studies.sweep import Chunk, Sweep
@@ -56,9 +57,7 @@ def sweep(
         ),
     ] = None,
     output: Output = None,
-    progress: Annotated[
-        bool, typer.Option("--progress", help="Show a bar on standard error.")
-    ] = False,
+    progress: ProgressAtOnce = False,
     plot: Annotated[
         Path | None,
         typer.Option(
@@ -107,12 +106,14 @@ def sweep(
     if drawn is not None:
         check_drawable(job)
     kept: list[Chunk] = []
-    with out.noting_interrupt() as interrupt, _computing(job, jobs, dask) as chunks:
-        counted = out.until_interrupted(chunks, interrupt)
-        shown = out.showing_progress(counted, job.variants, progress)
-        all_of_them = shown if drawn is None else out.keeping(shown, kept)
-        out.write_sweep(job, all_of_them, kind, output, interrupt)
-    out.exit_if_interrupted(interrupt, job.variants)
+    with (
+        reporting_until_stopped("variants", job.variants, progress, not is_seen(output)) as watch,
+        _computing(job, jobs, dask) as chunks,
+    ):
+        counted = out.until_stopped(chunks, watch)
+        all_of_them = counted if drawn is None else out.keeping(counted, kept)
+        place = out.write_sweep(job, all_of_them, kind, output, watch)
+    exit_if_cut_short(watch, place)
     if plot is not None and drawn is not None:
         write_file(draw_sweep(job, join_chunks(job, kept), drawn), plot)
 

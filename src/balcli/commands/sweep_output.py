@@ -4,44 +4,30 @@ file.
 
 from __future__ import annotations
 
-import signal
-import sys
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
 from itertools import chain, islice
 from pathlib import Path
 from typing import TextIO
 
 import numpy as np
-import typer
 
 from .. import __version__
 from ..core.phasors import Array
-from ..errors import BalcliError, Exit, say
+from ..errors import BalcliError
 from ..render.sweep import csv_text, json_text
 from ..studies.sweep import Chunk, Sweep, list_columns
 from .output import replacing, standard_output
+from .progress import Progress
 
 ROWS_A_GROUP = 1 << 20  # of a Parquet file
 
 
-@dataclass
-class Interrupt:
-    """Whether Ctrl-C has been pressed, how many variants were done by then, and the file that holds
-    them.
-    """
-
-    noted: bool = False
-    done: int = 0
-    part: Path | None = None
-
-
 def write_sweep(
-    sweep: Sweep, chunks: Iterable[Chunk], kind: str, output: Path | None, interrupt: Interrupt
-) -> None:
+    sweep: Sweep, chunks: Iterable[Chunk], kind: str, output: Path | None, progress: Progress
+) -> str:
     """Write all chunks as csv, json or parquet. A file takes its place when it is whole; what there
-    is of an interrupted one, a whole document of fewer rows, goes to `name.part` beside it.
+    is of one that Ctrl-C has cut short, a whole document of fewer rows, goes to `name.part` beside
+    it. Returns where that is, in words.
 
     Raises:
         BalcliError: parquet without a file, the file cannot be written, or pyarrow is missing.
@@ -51,15 +37,17 @@ def write_sweep(
     if output is None:
         with standard_output() as stream:
             _write_text(sweep, chunks, kind, stream)
-        return
+        return ""
     with replacing(output) as place:
         if kind == "parquet":
             _write_parquet(sweep, chunks, place)
         else:
             with place.open("w", encoding="utf-8") as stream:
                 _write_text(sweep, chunks, kind, stream)
-        if interrupt.noted and place != output:  # a device has what it has
-            interrupt.part = place.replace(output.with_name(f"{output.name}.part"))
+        if not progress.cut_short or place == output:  # a device has what it has
+            return ""
+        part = place.replace(output.with_name(f"{output.name}.part"))
+    return f"they are in {part}"
 
 
 def _write_text(sweep: Sweep, chunks: Iterable[Chunk], kind: str, stream: TextIO) -> None:
@@ -111,39 +99,14 @@ def _row_groups(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[list[Array]]:
         yield [np.concatenate(parts) for parts in zip(*waiting, strict=True)]
 
 
-@contextmanager
-def noting_interrupt() -> Iterator[Interrupt]:
-    """Ctrl-C is only noted here, for a loop to end between two chunks, so that what is written is
-    whole; the second one kills.
-    """
-    interrupt = Interrupt()
-
-    def note(*_: object) -> None:
-        interrupt.noted = True
-        signal.signal(signal.SIGINT, before)
-
-    before = signal.signal(signal.SIGINT, note)
-    try:
-        yield interrupt
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
-def until_interrupted(chunks: Iterable[Chunk], interrupt: Interrupt) -> Iterator[Chunk]:
-    """The chunks, counted, until Ctrl-C is noted."""
+def until_stopped(chunks: Iterable[Chunk], progress: Progress) -> Iterator[Chunk]:
+    """The chunks, each counted when it has been written, until Ctrl-C is noted."""
+    done = 0
     for chunk in chunks:
         yield chunk
-        interrupt.done += len(chunk.values[0])
-        if interrupt.noted:
+        done += len(chunk.values[0])
+        if progress(done):
             return
-
-
-def exit_if_interrupted(interrupt: Interrupt, variants: int) -> None:
-    """End with the status of an interruption, and say how far it has come, if there was one."""
-    if interrupt.noted:
-        place = f"; they are in {interrupt.part}" if interrupt.part is not None else ""
-        say(f"balcli: stopped after {interrupt.done} of {variants} variants{place}")
-        raise typer.Exit(Exit.INTERRUPTED)
 
 
 def keeping(chunks: Iterable[Chunk], kept: list[Chunk]) -> Iterator[Chunk]:
@@ -151,20 +114,3 @@ def keeping(chunks: Iterable[Chunk], kept: list[Chunk]) -> Iterator[Chunk]:
     for chunk in chunks:
         kept.append(chunk)
         yield chunk
-
-
-def showing_progress(chunks: Iterable[Chunk], total: int, wanted: bool) -> Iterator[Chunk]:
-    """The chunks, with a bar on standard error while they are computed, if that is a terminal."""
-    if not (wanted and sys.stderr.isatty()):
-        yield from chunks
-        return
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
-
-    with Progress(
-        BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(), console=Console(stderr=True)
-    ) as bar:
-        task = bar.add_task("", total=total)
-        for chunk in chunks:
-            yield chunk
-            bar.advance(task, len(chunk.values[0]))

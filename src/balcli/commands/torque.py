@@ -6,7 +6,7 @@ from ..render.formats import Units
 from . import torque_options as own
 from .file_names import require_ending, text_format
 from .options import FormatOption, Orders, Output, Speed, UnitsOption
-from .output import is_seen, show
+from .output import draws_sketch, show
 from .overwrite_guard import refuse_overwriting
 
 
@@ -38,7 +38,7 @@ def torque(
     require_ending(write, ".toml", "--write")
     from ..render import torque, torque_sketch
 
-    renderer = torque_sketch if plot and is_seen(output) else torque
+    renderer = torque_sketch if draws_sketch(plot, form) else torque
     alone = {"--misfire": misfire, "--write": write, "--cylinder": cylinder != 1, "--loads": loads}
     own.refuse_mixture(path, curve, alone, {"--load": load, "--inertia": inertia})
     if curve is not None:

@@ -81,7 +81,7 @@ Inertia = Annotated[
     ),
 ]
 Plot = Annotated[
-    bool, typer.Option("--plot", help="In a terminal: also the torque over the cycle.")
+    bool, typer.Option("--plot", help="Also draw, with characters: the torque over the cycle.")
 ]
 Write = Annotated[
     Path | None,

@@ -10,7 +10,7 @@ import typer
 
 from .file_names import picture_form, require_ending, text_format
 from .named_files import refuse_leaving_files
-from .options import FormatOption, Output
+from .options import FormatOption, Output, ProgressAtOnce
 from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
 
@@ -109,9 +109,7 @@ def torsion(
     what: Annotated[
         What, typer.Option(help="Which, with --plot; the last two take --speeds.")
     ] = What.ALL,
-    progress: Annotated[
-        bool, typer.Option("--progress", help="Show a bar on standard error.")
-    ] = False,
+    progress: ProgressAtOnce = False,
     form: FormatOption = None,
     output: Output = None,
 ) -> None:

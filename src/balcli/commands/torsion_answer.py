@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..enginefile.toml_text import name_file
-from ..errors import BalcliError, say
+from ..errors import BalcliError, warn
 from ..render.plot.torsion import draw_torsion
 from ..torsion.analysis import Question, TorsionAnalysis, analyze_torsion
 from ..torsion.load import ChainSource, Source, load_source
 from ..torsion.quantity import choose_speeds
 from ..torsion.write_damper import insert_damper
+from .progress import reporting
 from .speed_range import parse_speeds
 from .torsion_options import parse_half_orders
 
@@ -47,25 +47,9 @@ def find_answer(
     """The file and what was asked about it."""
     source = load_source(path, asked.orders, misfires)
     for doubt in source.doubts():
-        say(f"warning: {name_file(path)}: {doubt}")
-    total = 0 if asked.speeds_rpm is None else len(asked.speeds_rpm)
-    with _telling_progress(total, progress and total > 0) as tell:
+        warn(f"{name_file(path)}: {doubt}")
+    with reporting("work", at_once=progress) as tell:
         return source, analyze_torsion(source, asked, tell)
-
-
-@contextmanager
-def _telling_progress(total: int, wanted: bool) -> Iterator[Callable[[int], None]]:
-    """Something to tell the number of speeds done, which shows a bar on standard error."""
-    if not wanted:
-        yield lambda done: None
-        return
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
-
-    columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("", total=total)
-        yield lambda done: bar.update(task, completed=done)
 
 
 def write_damper(source: Source, result: TorsionAnalysis) -> str:

@@ -59,9 +59,9 @@ class Loads:
         """Free transverse couple about z, N m: the cylinders' own, and the forces' arms in x and
         y.
         """
-        total = self.phases.nothing()
-        for series in find_couples(self.cylinders, self.harmonics, self.square):
-            total += self.phases.add_scalars(series)
+        own = find_couples(self.cylinders, self.harmonics, self.square)
+        parts = [self.phases.add_scalars(series) for series in own]
+        total = reduce(add, parts) if parts else self.phases.nothing()
         if np.count_nonzero(self.place):
             total += self.phases.add_vectors(self._pulls).about(-self.place)
         for device, force in zip(self.devices, self._of_devices, strict=True):

@@ -22,6 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .cylinders import Cylinders
+from .factored_phasors import FactoredPhasors, Product
 from .mechanisms.fourier import Series
 from .phasors import EPS, Array, Complex, Phasors, unit
 
@@ -91,16 +92,27 @@ class Phases:
             arms: shape (cylinders, *trailing).
             sizes: bounds of the arms that their rounding errors grow with, same shape.
         """
-        forward, mirrored = self._add(self._planar, (vectors.forward, vectors.mirrored), arms)
-        noise = self.add_figures(vectors.error, sizes)
+        forward, mirrored, error = vectors
+        noise = self.add_figures(error, sizes)
+        if self._of_variants and len(forward[0]) == len(mirrored[0]) == 1:
+            ahead, astern = self._add_turned(self._planar, self._weigh_equal(arms))
+            ahead_side = Product(forward[:, 0], ahead)
+            astern_side = Product(mirrored[:, 0].conj(), astern.conj())
+            return FactoredPhasors(self.orders, (ahead_side, astern_side), noise)
+        forward, mirrored = self._add(self._planar, (forward, mirrored), arms)
         np.conjugate(mirrored, out=mirrored)
         return Phasors(self.orders, forward, mirrored, noise)
 
     def add_scalars(self, series: Series) -> Phasors:
         """Sum of what the cylinders do about z."""
-        error = self.rounding * np.abs(series.c) + series.noise
+        noise = self.add_figures(self.rounding * np.abs(series.c) + series.noise)
+        if self._of_variants and len(series.c[0]) == 1 and np.all(self.orders):
+            (turned,) = self._add_turned(self._scalar, self._weigh_equal(None))
+            half = series.c[:, 0] / 2
+            sides = Product(half, turned), Product(half.conj(), turned.conj())
+            return FactoredPhasors(self.orders, sides, noise)
         (total,) = self._add(self._scalar, (series.c,), None)
-        return Phasors.from_scalar(self.orders, total, self.add_figures(error))
+        return Phasors.from_scalar(self.orders, total, noise)
 
     def add_figures(self, values: Array, sizes: Array | None = None) -> Array:
         """Sum over the cylinders of `values * sizes`, shape (orders, *trailing).
@@ -141,7 +153,7 @@ class Phases:
                 found += self._add_turned(turns[k : k + 1], factors)
             else:
                 if equal is None:
-                    equal = self._add_turned(turns, (self._ones if arms is None else arms)[None])
+                    equal = self._add_turned(turns, self._weigh_equal(arms))
                 found.append(vectors[:, 0] * equal[k])
         return found
 
@@ -154,6 +166,14 @@ class Phases:
             for k, turn in enumerate(turns):
                 totals[k] = totals[k] + turn[:, bank] * moving
         return totals
+
+    @property
+    def _of_variants(self) -> bool:
+        return self.n.ndim > 2
+
+    def _weigh_equal(self, arms: Array | None) -> Array:
+        """Factors of equal vectors, shape (1, cylinders, *trailing)."""
+        return (self._ones if arms is None else arms)[None]
 
     @cached_property
     def _ones(self) -> Array:

@@ -68,8 +68,8 @@ def gauss(count: int) -> tuple[Array, Array]:
 
 
 @lru_cache
-def _values_to_series(count: int) -> Array:
-    """Matrix from values at the nodes to the coefficients of P_0 .. P_(count-1)."""
+def values_to_series(count: int) -> Array:
+    """Matrix from values at the nodes of `gauss` to the coefficients of P_0 .. P_(count-1)."""
     nodes, weights = gauss(count)
     return (np.arange(count)[:, None] + 0.5) * legendre(nodes, count) * weights
 
@@ -231,7 +231,7 @@ def resolved(function: Function, breaks: ArrayLike) -> PiecewiseCurve:
     A panel is halved until its last two coefficients are below 2e-14 of the function's largest
     value, or until halving no longer helps because they are the function's own rounding errors.
     """
-    edges = _cut(np.asarray(breaks, float))
+    edges = cut(np.asarray(breaks, float), _WIDEST)
     terms = _TERMS if len(edges) <= _MANY else _FEW_TERMS
     low, high, above = edges[:-1], edges[1:], np.full(len(edges) - 1, np.inf)
     nodes, _ = gauss(terms)
@@ -239,7 +239,7 @@ def resolved(function: Function, breaks: ArrayLike) -> PiecewiseCurve:
     for halvings in range(_HALVINGS + 1):
         middle = (low + high) / 2
         values = function(middle + (high - low) / 2 * nodes[:, None])
-        series = _values_to_series(terms) @ values
+        series = values_to_series(terms) @ values
         size = max(size, float(np.abs(values).max()))
         tail = np.abs(series[-2:]).max(axis=0)
         noise = (tail < _NOISE * size) & (tail > _HARDLY * above)
@@ -315,9 +315,9 @@ def _panels(breaks: Array) -> tuple[Array, Array]:
     return (breaks[1:] + breaks[:-1]) / 2, np.diff(breaks) / 2
 
 
-def _cut(breaks: Array) -> Array:
-    """Breakpoints with wide pieces cut into equal panels."""
-    wide = np.ceil(np.diff(breaks) / _WIDEST).astype(int)
+def cut(breaks: Array, widest: float) -> Array:
+    """Breakpoints with pieces wider than so much (rad) cut into equal panels."""
+    wide = np.ceil(np.diff(breaks) / widest).astype(int)
     if wide.max() <= 1:
         return breaks
     parts = [

@@ -1,29 +1,74 @@
-"""The engines that are shipped as examples."""
+"""The engines that are shipped as examples.
+
+Textbook layouts, one of each kind, stand in the folder itself; engines that were built in folders
+by class. The first line of a file is a comment that says what the engine teaches.
+"""
 
 from __future__ import annotations
 
-import tomllib
 from difflib import get_close_matches
 from pathlib import Path
+from typing import NamedTuple
 
 from ..errors import BalcliError
 
 # In the installed package; in a checkout the repository's own folder, so that there is only one
 # copy.
 _PLACES = (Path(__file__).parents[1] / "engines", Path(__file__).parents[3] / "engines")
+LAYOUT = "layout"  # class of the files in the folder itself
 
 
-def names() -> dict[str, str]:
-    """What each example is called in its file, by its short name."""
-    return {
-        path.stem: tomllib.loads(path.read_text(encoding="utf-8"))["name"]
-        for path in sorted(folder().glob("*.toml"))
-    }
+class Example(NamedTuple):
+    """A shipped engine.
+
+    Attributes:
+        name: the short one, of its file.
+        group: its class, which is its folder.
+        lesson: what it teaches, in a sentence.
+        text: the whole file.
+    """
+
+    name: str
+    group: str
+    lesson: str
+    text: str
+
+    def mentions(self, words: str) -> bool:
+        """Whether each of the words, in any case, occurs in name, class, lesson, title, source."""
+        head, _, _ = self.text.partition("\n[")
+        told = f"{self.name} {self.group} {head}".lower()
+        return all(word in told for word in words.lower().split())
+
+
+def find(words: str = "", group: str | None = None) -> list[Example]:
+    """Examples of a class (default: of all) that mention all the words; layouts first, then by
+    class and name.
+
+    Raises:
+        BalcliError: no such class; nothing found.
+    """
+    if group is not None and group not in groups():
+        raise BalcliError(f'there is no class "{group[:60]}" of engines: {", ".join(groups())}')
+    known = [_read(path) for path in _paths() if group in (None, _group(path))]
+    found = [example for example in known if example.mentions(words)]
+    if not found:
+        raise BalcliError(f'no example mentions "{words[:60]}": balcli engines lists them all')
+    return found
+
+
+def names() -> list[str]:
+    """The short names, layouts first, then by class."""
+    return [path.stem for path in _paths()]
+
+
+def groups() -> list[str]:
+    """The classes, layouts first."""
+    return list(dict.fromkeys(_group(path) for path in _paths()))
 
 
 def text(name: str) -> str:
     """The engine file of an example. BalcliError for an unknown name, with the nearest ones."""
-    known = {path.stem: path for path in folder().glob("*.toml")}
+    known = {path.stem: path for path in _paths()}
     if name not in known:
         near = get_close_matches(name.lower()[:100], sorted(known), 3)
         hint = f" Did you mean {' or '.join(near)}?" if near else ""
@@ -40,3 +85,17 @@ def folder() -> Path:
         f"the example engines are missing from this installation ({_PLACES[0]}): install balcli "
         "again"
     )
+
+
+def _paths() -> list[Path]:
+    place = folder()
+    return sorted(place.glob("*.toml")) + sorted(place.glob("*/*.toml"))
+
+
+def _group(path: Path) -> str:
+    return LAYOUT if path.parent == folder() else path.parent.name
+
+
+def _read(path: Path) -> Example:
+    content = path.read_text(encoding="utf-8")
+    return Example(path.stem, _group(path), content.partition("\n")[0].lstrip("# "), content)

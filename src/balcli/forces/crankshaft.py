@@ -10,6 +10,7 @@ moment runs straight, so that its largest values stand at loads.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,6 +24,9 @@ from ..errors import BalcliError
 from ..limits import MOST_RESULTS_ALONG_CRANK
 from .orders import find_relevant_orders, mark_considerable
 from .spectrum import compute_device_force, compute_each_cylinder, refuse_too_many_loads
+
+if TYPE_CHECKING:
+    from .in_bearings import LoadsWithGas
 
 
 @dataclass(frozen=True)
@@ -57,11 +61,18 @@ class InnerLoads:
     The bearings are taken half-way between neighbouring throws and as far outside the end ones, and
     the shaft as cut in each of them, so that every span is statically determinate; None for a crank
     with one throw, whose bearings the file cannot tell.
+
+    Attributes:
+        with_gas: what inertia and gas do to shaft, bearings and block; None without gas, and where
+            it is not known.
+        obstacle: of an engine with gas, why it is not known.
     """
 
     shear: AlongCrank
     bending: AlongCrank
     bearings: AlongCrank | None
+    with_gas: LoadsWithGas | None = None
+    obstacle: str = ""
 
 
 def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoads:

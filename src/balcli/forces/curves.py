@@ -154,7 +154,8 @@ def _sum_parts(
 def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     """What each cylinder and device does, shape (cylinders and devices, angles)."""
     motion = Motion(engine, crank_deg)
-    force = np.concatenate([_force_of_cylinders(motion), _force_of_devices(engine, motion)])
+    of_devices = compute_device_forces(engine, crank_deg)
+    force = np.concatenate([_force_of_cylinders(motion), of_devices])
     x, y, z = engine.reference_m
     levels = np.array([*np.ravel(engine.cylinders.z), *(d.z for d in engine.devices)], float)
     moment = 1j * (levels - float(z))[:, None] * force
@@ -208,7 +209,7 @@ class Motion:
         self.cylinders = c = engine.cylinders
         self.radius = float(np.ravel(c.radius)[0])
         self.crank_deg = crank_deg
-        self.omega, self.xi = _find_speed(engine, crank_deg)
+        self.omega, self.xi = find_speed(engine, crank_deg)
         self.lam = np.broadcast_to(_column(c.lam), (c.count, 1))
         self.eps = np.broadcast_to(_column(c.eps), (c.count, 1))
         axes = _column(c.axis_of_each_deg)
@@ -242,7 +243,7 @@ class Motion:
         return np.asarray(np.arcsin(self.linked.lean))
 
 
-def _find_speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
+def find_speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
     """Crank speed omega (rad/s) and acceleration xi = omega d omega/d theta, shape (angles,)."""
     ratio, slope = np.ones_like(crank_deg), np.zeros_like(crank_deg)
     for line in engine.ripple:
@@ -262,12 +263,13 @@ def _force_of_cylinders(motion: Motion) -> Complex:
     return piston + pins
 
 
-def _force_of_devices(engine: Engine, motion: Motion) -> Complex:
-    """N, shape (devices, angles)."""
-    rows = np.empty((len(engine.devices), len(motion.crank_deg)), complex)
+def compute_device_forces(engine: Engine, crank_deg: Array) -> Complex:
+    """Force of each device, x + iy, N, shape (devices, angles)."""
+    omega, xi = find_speed(engine, crank_deg)
+    rows = np.empty((len(engine.devices), len(crank_deg)), complex)
     for row, d in enumerate(engine.devices):
-        ahead = unit(d.order * motion.crank_deg)
-        radial, along = d.order**2 * motion.omega**2, 1j * d.order * motion.xi
+        ahead = unit(d.order * crank_deg)
+        radial, along = d.order**2 * omega**2, 1j * d.order * xi
         rows[row] = d.forward * ahead * (radial - along)
         rows[row] += d.backward * np.conj(ahead) * (radial + along)
     return rows

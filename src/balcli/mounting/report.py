@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import count
 from typing import NamedTuple
 
 import numpy as np
 
 from ..core.singular_values import Real
+from ..core.telling import Tell, tell_nobody
 from ..engine.build import Engine
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
@@ -18,7 +20,7 @@ from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
 from .build import MountedBody, build_mounted_body
 from .modes import BodyModes, find_mounted_modes
-from .response import Response, find_loads, respond
+from .response import Loads, Response, find_loads, respond
 
 _SLOWEST = 1 / 8  # of the file's speed, where nobody says which speeds
 _SPEEDS = 141
@@ -107,6 +109,7 @@ def report_mounts(
     scheme: str | None = None,
     others: Sequence[tuple[str, Engine]] = (),
     name: str = "",
+    tell: Tell = tell_nobody,
 ) -> MountReport:
     """Modes and rest of a body on its mounts, and its response to its engine.
 
@@ -118,6 +121,7 @@ def report_mounts(
         scheme: of `sizing.schemes.SCHEMES`; the response is also that with its devices.
         others: names and engines that are put on the same body and mounts, at the same speeds.
         name: of the file, for messages.
+        tell: is told which share of the responses is done.
 
     Raises:
         InputError: what does not fit together in the file.
@@ -130,7 +134,7 @@ def report_mounts(
     if engine is None:
         return MountReport(title, mounted, find_mounted_modes(mounted))
     try:
-        return _run(title, mounted, engine, speeds_rpm, orders, scheme, others)
+        return _run(title, mounted, engine, speeds_rpm, orders, scheme, others, tell)
     except BalcliError as error:
         raise BalcliError(f"{name}: {error}" if name else str(error)) from None
 
@@ -143,6 +147,7 @@ def _run(
     orders: Sequence[float] | None,
     scheme: str | None,
     others: Sequence[tuple[str, Engine]],
+    tell: Tell,
 ) -> MountReport:
     rpm = choose_speeds(engine) if speeds_rpm is None else speeds_rpm
     omega = rpm * (np.pi / 30)
@@ -151,18 +156,23 @@ def _run(
         raise BalcliError("order 0 does not vibrate: what is steady is told as rest; leave it out")
     loads = find_loads(engine, mounted.body.centre, asked)
     modes = find_mounted_modes(mounted, loads.mean)
-    response = respond(mounted, modes, loads, omega)
+    done, responses = count(), 1 + (scheme is not None) + len(others)
+
+    def respond_to(loads: Loads) -> Response:
+        before = next(done)
+        return respond(
+            mounted, modes, loads, omega, lambda share: tell((before + share) / responses)
+        )
+
+    response = respond_to(loads)
     fitted = None
     if scheme is not None:
         remedy = size(engine, scheme)
         balanced = fit_devices(engine, remedy)
         left = find_loads(balanced, mounted.body.centre, asked)
-        fitted = Fitted(remedy, respond(mounted, modes, left, omega))
+        fitted = Fitted(remedy, respond_to(left))
     beside = tuple(
-        Other(
-            label,
-            respond(mounted, modes, find_loads(other, mounted.body.centre, asked), omega),
-        )
+        Other(label, respond_to(find_loads(other, mounted.body.centre, asked)))
         for label, other in others
     )
     return MountReport(name, mounted, modes, response, fitted, beside)

@@ -20,6 +20,7 @@ from ..core.rigid_body import (
     respond_body,
 )
 from ..core.singular_values import Complex, Real
+from ..core.telling import Tell, tell_nobody
 from ..core.vibration import find_resonances, frequencies
 from ..engine.build import Engine
 from ..engine.positions import MOMENTS_UNKNOWN
@@ -38,6 +39,7 @@ from .modes import BodyModes
 _KINDS = ("force", "moment", "roll")
 _ROLL = 5  # of the six parts of a load, the moment about the crankshaft's axis
 _CLOSER = 20  # golden sections of the step of speed about a highest peak: 1e-4 of it
+_SPEEDS_AT_A_TIME = 512  # whose curves are sampled together
 _GOLDEN = (3 - 5**0.5) / 2
 
 
@@ -170,11 +172,18 @@ def _find_load(found: Spectra, reference: Real, centre: Real) -> Complex:
     return load_at_centre(force, moment, reference, centre)
 
 
-def respond(mounted: MountedBody, modes: BodyModes, loads: Loads, omega: Real) -> Response:
+def respond(
+    mounted: MountedBody,
+    modes: BodyModes,
+    loads: Loads,
+    omega: Real,
+    tell: Tell = tell_nobody,
+) -> Response:
     """The response at every order and speed.
 
     Args:
         omega: (speeds,) rad/s, rising.
+        tell: is told which share of the speeds is done.
 
     Raises:
         BalcliError: too many results; an undamped mode that the engine drives at its own frequency
@@ -185,7 +194,7 @@ def respond(mounted: MountedBody, modes: BodyModes, loads: Loads, omega: Real) -
     found = _move(mounted, loads, omega)
     curves = _list_curves(mounted, found)
     count = len(mounted.names)
-    free, peak = loads.at(omega), find_longest(loads.orders, curves).value
+    free, peak = loads.at(omega), _find_peaks(loads.orders, curves, tell)
     arms = carry_points(mounted.dynamic.at, mounted.body.centre)
     passed = np.einsum("pij,nspi->nsj", arms, curves[:, :, :count])
     by_order = largest_of_ellipse(curves)
@@ -205,6 +214,16 @@ def respond(mounted: MountedBody, modes: BodyModes, loads: Loads, omega: Real) -
         worst[count:],
         found.motion,
     )
+
+
+def _find_peaks(orders: Real, curves: Complex, tell: Tell) -> Real:
+    """The longest that each curve is, shape (speeds, mounts + points), some speeds at a time."""
+    speeds, parts = curves.shape[1], []
+    for start in range(0, speeds, _SPEEDS_AT_A_TIME):
+        some = curves[:, start : start + _SPEEDS_AT_A_TIME]
+        parts.append(find_longest(orders, some).value)
+        tell(min(start + _SPEEDS_AT_A_TIME, speeds) / speeds)
+    return np.concatenate(parts)
 
 
 def _move(mounted: MountedBody, loads: Loads, omega: Real) -> BodyResponse:

@@ -35,10 +35,6 @@ from .verdict import verdict
 from .view import IN_BRIEF, View
 
 Part: TypeAlias = Grid | Facts | Text
-_INNER_WITHOUT_GAS = (
-    "Of inertia alone. Gas presses on throw and head alike, so that it shears and bends the engine "
-    "as a whole nowhere; bearing loads with gas: balcli torque --loads main."
-)
 TEXTS = frozenset({"verdict", "sizing", "textbook"})  # parts that need no crank speed beside them
 TABLES = frozenset({"xy", "textbook", "sizing", "peak", "inner", "guide"})  # without a verdict
 
@@ -81,8 +77,6 @@ def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator
         yield from strokes.sheet_parts(result.travel, result.engine.numbers, system)
     if result.inner is not None:
         yield from crankshaft.sheet_parts(result.inner, system)
-        if result.engine.gas is not None:
-            yield Text("", (_INNER_WITHOUT_GAS,))
     if result.guide is not None:
         yield from guide_moments.sheet_parts(result.guide, system)
     if result.why is not None:

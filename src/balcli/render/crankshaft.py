@@ -10,53 +10,102 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .figures import FigureRow, clean, order_rows, peak_angle_deg, peak_rows, vector_entries
-from .sheet import NOTHING, Facts, Grid, degrees, number, order_name, order_number, size_text
+from .sheet import NOTHING, Facts, Grid, Text, degrees, number, order_name, order_number, size_text
 
 if TYPE_CHECKING:
     from ..forces.crankshaft import AlongCrank, InnerLoads
+    from ..forces.in_bearings import LoadsWithGas
     from .units import System, Unit
 
 _OPEN_END = (
     "Without bearings: what stands at the last place is the free moment of the whole engine, which "
     "the mounts bear."
 )
-ORDERS_SHOWN = 6  # in a table, which has a column an order
+_TOGETHER = (
+    "Of inertia: gas presses on throw and head alike, so that it shears and bends crankshaft and "
+    "block together nowhere."
+)
+_CUT = (
+    "Main bearings half-way between throws and as far outside the end ones; the shaft counts as "
+    "cut in each."
+)
+ORDERS_SHOWN, GAS_ORDERS_SHOWN = 6, 5  # in a table, which has a column an order
 
 
-def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts]:
-    """A table of each quantity, a place a row, and the largest bending moment of all."""
-    yield _grid(
-        inner.shear, "Shear force in the crankshaft behind each load", system.force, system.length
-    )
-    bending = _grid(inner.bending, "Bending moment in the crankshaft", system.moment, system.length)
-    yield bending._replace(note=_OPEN_END)
-    if inner.bearings is not None:
+def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Text]:
+    """A table of each quantity, a place a row, and the largest bending moment of all; of an engine
+    with gas also what bears it inside.
+    """
+    force, moment, length = system.force, system.moment, system.length
+    where = "crankshaft" if inner.with_gas is None else "crankshaft and block together"
+    yield _grid(inner.shear, f"Shear force in the {where} behind each load", force, length)
+    bending = _grid(inner.bending, f"Bending moment in the {where}", moment, length)
+    told = _OPEN_END if inner.with_gas is None else f"{_TOGETHER} {_OPEN_END}"
+    yield bending._replace(note=told)
+    if inner.with_gas is None and inner.bearings is not None:
         title = "Inertia loads of main bearings half-way between throws, shaft cut in each"
-        yield _grid(inner.bearings, title, system.force, system.length)
-    yield Facts((("largest inner moment", _largest_bending(inner, system)),))
+        yield _grid(inner.bearings, title, force, length)
+    facts = [("largest inner moment", _largest_bending(inner.bending, system))]
+    if (found := inner.with_gas) is not None:
+        yield from _gas_grids(found, system)
+        facts.append(("in the crankshaft", _largest_bending(found.bending, system)))
+        facts.append(("in the block", _largest_bending(found.block_bending, system)))
+    yield Facts(tuple(facts))
+    if inner.obstacle:
+        yield Text(
+            "", (f"{_TOGETHER} Inside, it is not known: {inner.obstacle.removeprefix('main: ')}.",)
+        )
+
+
+def _gas_grids(found: LoadsWithGas, system: System) -> Iterator[Grid]:
+    tables = (
+        (found.shear, "Shear force in the crankshaft with gas", system.force),
+        (found.bending, "Bending moment in the crankshaft with gas", system.moment),
+        (found.bearings, "Loads of main bearings with gas", system.force),
+        (found.block_shear, "Shear force in the block with gas", system.force),
+        (found.block_bending, "Bending moment in the block with gas", system.moment),
+    )
+    for along, title, unit in tables:
+        grid = _grid(along, title, unit, system.length, GAS_ORDERS_SHOWN)
+        yield grid._replace(note=_CUT) if along is found.bearings else grid
 
 
 def document(inner: InnerLoads) -> dict[str, Any]:
     """`inner` in `balcli.analysis/1`: an entry a section of the shaft, and one a bearing."""
-    most = inner.bending.largest
-    found = {
-        "largest_bending_Nm": clean(inner.bending.peaks[most].value),
-        "largest_at_mm": clean(inner.bending.z_m[most] * 1e3),
+    found = _bent_entries(inner.shear, inner.bending)
+    if inner.bearings is not None:
+        found["bearings"] = _bearing_entries(inner.bearings)
+    if (gas := inner.with_gas) is not None:
+        found["with_gas"] = {
+            "crankshaft": _bent_entries(gas.shear, gas.bending),
+            "bearings": _bearing_entries(gas.bearings),
+            "block": _bent_entries(gas.block_shear, gas.block_bending),
+        }
+    return found
+
+
+def _bent_entries(shear: AlongCrank, bending: AlongCrank) -> dict[str, Any]:
+    """Shear force and bending moment at the same sections, and the largest moment."""
+    most = bending.largest
+    return {
+        "largest_bending_Nm": clean(bending.peaks[most].value),
+        "largest_at_mm": clean(bending.z_m[most] * 1e3),
         "sections": [
             {
                 "position_mm": clean(z * 1e3),
-                "shear_N": _entry(inner.shear, k),
-                "bending_Nm": _entry(inner.bending, k),
+                "shear_N": _entry(shear, k),
+                "bending_Nm": _entry(bending, k),
             }
-            for k, z in enumerate(inner.shear.z_m)
+            for k, z in enumerate(shear.z_m)
         ],
     }
-    if inner.bearings is not None:
-        found["bearings"] = [
-            {"position_mm": clean(z * 1e3), "load_N": _entry(inner.bearings, k)}
-            for k, z in enumerate(inner.bearings.z_m)
-        ]
-    return found
+
+
+def _bearing_entries(bearings: AlongCrank) -> list[dict[str, Any]]:
+    return [
+        {"position_mm": clean(z * 1e3), "load_N": _entry(bearings, k)}
+        for k, z in enumerate(bearings.z_m)
+    ]
 
 
 def rows(inner: InnerLoads, system: System) -> Iterator[FigureRow]:
@@ -67,13 +116,21 @@ def rows(inner: InnerLoads, system: System) -> Iterator[FigureRow]:
     yield from _rows_along("bending", inner.bending, system.moment, system.length)
     if inner.bearings is not None:
         yield from _rows_along("bearing", inner.bearings, system.force, system.length)
+    if (gas := inner.with_gas) is not None:
+        yield from _rows_along("shaft_shear", gas.shear, system.force, system.length)
+        yield from _rows_along("shaft_bending", gas.bending, system.moment, system.length)
+        yield from _rows_along("main", gas.bearings, system.force, system.length)
+        yield from _rows_along("block_shear", gas.block_shear, system.force, system.length)
+        yield from _rows_along("block_bending", gas.block_bending, system.moment, system.length)
 
 
-def _grid(along: AlongCrank, title: str, unit: Unit, length: Unit) -> Grid:
+def _grid(
+    along: AlongCrank, title: str, unit: Unit, length: Unit, most_orders: int = ORDERS_SHOWN
+) -> Grid:
     """One row a place: the peak over a revolution, and the largest value of each of the first
     orders.
     """
-    orders = along.phasors.orders[:ORDERS_SHOWN]
+    orders = along.phasors.orders[:most_orders]
     unit = unit.fit(max(peak.value for peak in along.peaks))
     heads = (
         f"place, {length.name}",
@@ -94,10 +151,10 @@ def _grid(along: AlongCrank, title: str, unit: Unit, length: Unit) -> Grid:
     return Grid(f"{title}, {unit.name}", heads, tuple(map(cells, range(len(along.z_m)))))
 
 
-def _largest_bending(inner: InnerLoads, system: System) -> str:
-    most = inner.bending.largest
-    moment = size_text(inner.bending.peaks[most].value, system.moment, 5)
-    place = number(system.length.of(float(inner.bending.z_m[most])))
+def _largest_bending(bending: AlongCrank, system: System) -> str:
+    most = bending.largest
+    moment = size_text(bending.peaks[most].value, system.moment, 5)
+    place = number(system.length.of(float(bending.z_m[most])))
     return f"{moment} at {place} {system.length.name}"
 
 

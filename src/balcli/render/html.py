@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import __version__
+from ..core.telling import Tell, tell_nobody
 from ..results.analysis import Analysis
 from ..results.balance import Balance
 from . import analysis, balance
@@ -44,9 +45,11 @@ def page(
     mounted: MountReport | None = None,
     twisted: TorsionAnalysis | None = None,
     turning: Running | None = None,
+    tell: Tell = tell_nobody,
 ) -> str:
     """The report of an engine, of a remedy for it, of what it does on its mounts, of how its
     crankshaft twists, and of what its gas does. Whatever comes from the engine file is escaped.
+    `tell` is told which share of the pictures of forces and moments is drawn.
     """
     from markupsafe import Markup
 
@@ -78,6 +81,12 @@ def page(
     fitted = bool(balanced.remedy.reasons)
     compared = _COMPARED if fitted else ()
     now, after = Subject(result, None, system), Subject(balanced.after, balanced.before, system)
+    alone = [(now, *each) for each in _PICTURES if each[1] in told]
+    beside = [(after, *each) for each in compared if each[1] in told]
+    pictures = []
+    for panel in (*alone, *beside):
+        pictures.append(Markup(draw_panel(*panel)))
+        tell(len(pictures) / (len(alone) + len(beside)))
     return _template().render(
         title=own.title,
         version=__version__,
@@ -87,8 +96,8 @@ def page(
         remedy=remedy.parts,
         fitted=fitted,
         scene=scene(result, balanced.after if fitted else None, system),
-        pictures=[Markup(draw_panel(now, *each)) for each in _PICTURES if each[1] in told],
-        compared=[Markup(draw_panel(after, *each)) for each in compared if each[1] in told],
+        pictures=pictures[: len(pictures) - len(beside)],
+        compared=pictures[len(pictures) - len(beside) :],
         style=Markup((FOLDER / "report.css").read_text(encoding="utf-8")),
         script=Markup((FOLDER / "report.js").read_text(encoding="utf-8")),
         **chapters,

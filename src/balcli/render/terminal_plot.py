@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.phasors import Complex, Phasors
 from ..results.analysis import Analysis
-from .sheet import NOTHING, Text, capitalized, number, order_name, size_text
+from .sheet import NEGLIGIBLE, NOTHING, Text, capitalized, number, order_name, size_text
 from .units import System, Unit
 
 BAR, SIDE = 52, 17  # columns of the longest bar; rows of a locus, which has twice as many columns
@@ -19,8 +19,18 @@ _DOTS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
 
 
 def sketches(result: Analysis, system: System) -> Iterator[Text]:
-    """Bars and loci of the force and the moment that were computed."""
-    shown = [(kind, p, system.unit(kind)) for kind, p in result.spectra.vectors()]
+    """Bars and loci of the force and the moment that were computed; words of one that is nothing,
+    or negligible beside one cylinder's.
+    """
+    computed = [(kind, p, system.unit(kind)) for kind, p in result.spectra.vectors()]
+    shown = []
+    for kind, phasors, unit in computed:
+        least = NEGLIGIBLE * result.of_one_cylinder[kind.name]
+        if (largest := _find_largest(phasors)) < least:
+            told = f"negligible ({size_text(largest, unit, 2)})" if largest else NOTHING
+            yield Text(capitalized(kind.label), (told,))
+        else:
+            shown.append((kind, phasors, unit))
     for kind, phasors, unit in shown:
         yield Text(
             f"{capitalized(kind.label)} by order, {unit.name} (█ with the crank, ▒ against it)",
@@ -28,7 +38,7 @@ def sketches(result: Analysis, system: System) -> Iterator[Text]:
         )
     if shown:
         blocks = [
-            [f"{kind.name}, {_largest_size(p, unit)}".ljust(2 * SIDE), *locus(p)]
+            [f"{kind.name}, up to {size_text(_find_largest(p), unit)}".ljust(2 * SIDE), *locus(p)]
             for kind, p, unit in shown
         ]
         yield Text(
@@ -87,7 +97,7 @@ def set_dot(grid: np.ndarray, row: int, column: int) -> None:
     grid[row // 4, column // 2] |= _DOTS[row % 4][column % 2]
 
 
-def _largest_size(phasors: Phasors, unit: Unit) -> str:
+def _find_largest(phasors: Phasors) -> float:
+    """The largest size over a revolution, SI."""
     curve: Complex = phasors.values(np.radians(np.arange(0, 360, 0.25)))
-    largest = float(np.abs(curve).max())
-    return f"up to {size_text(largest, unit)}" if largest else NOTHING
+    return float(np.abs(curve).max(initial=0))

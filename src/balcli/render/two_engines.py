@@ -31,8 +31,9 @@ def document(result: Combined) -> dict[str, Any]:
                 "name": e.name,
                 "cylinders": e.cylinders.count,
                 "displacement_m3": clean(e.displacement_m3),
+                **({"gas": here} if any(result.has_gas) else {}),
             }
-            for e in result.engines
+            for e, here in zip(result.engines, result.has_gas, strict=True)
         ],
         "arrangement": {
             "phase_deg": how.phase_deg,
@@ -80,6 +81,7 @@ def sheet(result: Combined, system: System) -> Sheet:
             ),
         ),
         ("speed", f"{number(float(first.speed_rpm), 6)} rpm, both"),
+        *_tell_gas(result),
         (
             "reference",
             f"moments about {place(first.reference_m)}"
@@ -97,3 +99,16 @@ def sheet(result: Combined, system: System) -> Sheet:
             peak_facts(result, system, "Largest over a revolution, all orders"),
         ),
     )
+
+
+def _tell_gas(result: Combined) -> tuple[tuple[str, str], ...]:
+    """Whose gas counts, in a line; none where neither has some."""
+    match result.has_gas:
+        case True, True:
+            return (("gas", "of both; their torques add as those of inertia do"),)
+        case True, False:
+            return (("gas", "of the first alone; the file of the second has no [gas]"),)
+        case False, True:
+            return (("gas", "of the second alone; the file of the first has no [gas]"),)
+        case _:
+            return ()

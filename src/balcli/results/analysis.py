@@ -58,7 +58,8 @@ class Analysis(Result):
         sizing: devices of the scheme `auto`, and the analysis with them.
         cylinders: phasors of each cylinder alone (no devices), by cylinder number.
         why: whether the orders shown are balanced by symmetry.
-        inner: shear force and bending moment along the crankshaft.
+        inner: shear force and bending moment along the crankshaft; of an engine with gas, in its
+            bearings and in the block, too.
         guide: H- and X-type guide-force moments.
         travel: strokes and dead centres of articulated cylinders and of the masters, by rows of
             `engine.numbers`; None where all cylinders are plain slider-cranks.
@@ -175,7 +176,7 @@ def analyze(
         sizing=_size_and_analyze(engine, asked, wanted) if "sizing" in wanted else None,
         cylinders=cylinders,
         why=_explain(engine, visible.orders, shown) if reasons else None,
-        inner=_load_crankshaft(engine, asked) if "inner" in wanted else None,
+        inner=load_crankshaft(engine, asked) if "inner" in wanted else None,
         guide=_press_guides(engine, asked, guide_height_m) if "guide" in wanted else None,
         travel=None if engine.cylinders.linkage is None else _measure_travel(engine),
     )
@@ -244,10 +245,16 @@ def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
     return explain_symmetry(engine, orders[orders > 0], provable)
 
 
-def _load_crankshaft(engine: Engine, asked: Array | None) -> InnerLoads:
+def load_crankshaft(engine: Engine, asked: Array | None = None) -> InnerLoads:
+    """Shear, bending and bearing loads along the crankshaft, with gas as far as there is some."""
     from ..forces.crankshaft import compute_inner_loads
 
-    return compute_inner_loads(engine, asked)
+    inner = compute_inner_loads(engine, asked)
+    if engine.gas is None:
+        return inner
+    from ..forces.in_bearings import add_gas
+
+    return add_gas(inner, engine, asked)
 
 
 def _press_guides(engine: Engine, asked: Array | None, height_m: float | None) -> GuideMoments:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from math import nan
+from typing import TYPE_CHECKING
 
 from ..core.peaks import Peak
 from ..core.phasors import Array
@@ -17,9 +18,19 @@ from ..forces.spectrum import Spectra
 from ..result import Result
 from .analysis import QUANTITIES, Analysis, analyze
 
+if TYPE_CHECKING:
+    from ..forces.crankshaft import AlongCrank
+
 SHEAR = Kind("shear", "shear force in the crankshaft", "Q", "shear_N", True, "force")
 BENDING = Kind("bending", "bending moment in the crankshaft", "M_b", "bending_Nm", True, "moment")
 BEARING = Kind("bearing", "load of a main bearing", "R", "bearing_N", True, "force")
+WITH_GAS = (  # in the order of `in_bearings.LoadsWithGas`
+    Kind("shaft_shear", "shear of the shaft with gas", "Q", "shaft_shear_N", True, "force"),
+    Kind("shaft_bending", "bending of the shaft with gas", "M", "shaft_bending_Nm", True, "moment"),
+    Kind("main", "load of a main bearing with gas", "R", "main_N", True, "force"),
+    Kind("block_shear", "shear of the block with gas", "Q", "block_shear_N", True, "force"),
+    Kind("block_bending", "bending of the block with gas", "M", "block_bending_Nm", True, "moment"),
+)
 GUIDE_H = Kind("guide_h", "H-type guide moment", "M_H", "guide_h_Nm", False, "moment")
 GUIDE_X = Kind("guide_x", "X-type guide moment", "M_X", "guide_x_Nm", False, "moment")
 LEFT = {
@@ -174,11 +185,14 @@ def _known_values(
 def _compare_inner(analyses: Sequence[Analysis]) -> Iterator[Line]:
     """The largest along the crank, by order and of all orders."""
     found = [one.inner for one in analyses if one.inner is not None]
-    for kind, several in (
+    gas = [one.with_gas for one in found if one.with_gas is not None]
+    lines: list[tuple[Kind, list[AlongCrank | None]]] = [
         (SHEAR, [one.shear for one in found]),
         (BENDING, [one.bending for one in found]),
         (BEARING, [one.bearings for one in found]),
-    ):
+    ]
+    lines += [(kind, [loads[k] for loads in gas]) for k, kind in enumerate(WITH_GAS)]
+    for kind, several in lines:
         there = [along for along in several if along is not None]
         if not there or len(there) < len(analyses):
             continue  # a crank with one throw has no bearings that are known

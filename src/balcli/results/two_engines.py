@@ -14,8 +14,14 @@ from ..core.peaks import Peak, find_peak
 from ..core.phasors import Complex, Figure, Phasors, unit
 from ..engine.assembly import Ripple
 from ..engine.build import Engine
-from ..forces.kinds import KINDS, VECTORS, Kind
-from ..forces.orders import check_orders, choose_orders, find_relevant_orders, merge_orders
+from ..forces.kinds import EVERY_KIND, GAS, KINDS, VECTORS, Kind
+from ..forces.orders import (
+    check_orders,
+    choose_orders,
+    find_relevant_orders,
+    list_gas_orders,
+    merge_orders,
+)
 from ..forces.spectrum import Spectra, add_parts, compute_spectra
 from .analysis import DEFAULT_ORDERS
 
@@ -53,6 +59,7 @@ class Combined:
     it, is T1 + T2, each in its own crank's sense, whichever way they turn. What the load takes does
     not act on the frame: the roll is C - (T1 + T2) with the load on the first crank,
     C + (T1 + T2) on a second one that turns against it, C - T1 + T2 if each has a load of its own.
+    The gas torques add like these, in orders of both cycles; an engine without gas has none.
 
     Attributes:
         engines: as they were given.
@@ -69,6 +76,12 @@ class Combined:
     cylinders: tuple[tuple[int, Spectra], ...] = ()
 
     @property
+    def has_gas(self) -> tuple[bool, bool]:
+        """Of which engine the file says what the gas does."""
+        first, second = self.engines
+        return first.gas is not None, second.gas is not None
+
+    @property
     def moments_known(self) -> bool:
         """Whether both engine files say where their throws stand."""
         return all(engine.places_known for engine in self.engines)
@@ -82,7 +95,8 @@ class Combined:
 def combine_engines(
     first: Engine, second: Engine, arrangement: Arrangement, orders: Iterable[float] | None = None
 ) -> Combined:
-    """Both engines together, at the first one's speed and unevenness of speed.
+    """Both engines together, at the first one's speed and unevenness of speed; with gas where one
+    of them has some, or both.
 
     Args:
         first, second: without trailing axes.
@@ -97,10 +111,13 @@ def combine_engines(
         find_relevant_orders(first),
         find_relevant_orders(second),
         DEFAULT_ORDERS if asked is None else asked,
+        *(list_gas_orders(engine.strokes) for engine in (first, second) if engine.gas is not None),
     )
-    own = compute_spectra(replace(second, reference_m=(0.0, 0.0, 0.0)), computed)
+    about_origin = replace(second, reference_m=(0.0, 0.0, 0.0))
+    own = compute_spectra(about_origin, computed, _list_kinds(second))
     moved = place_spectra(own, arrangement, first.reference_m)
-    everything = _add_spectra(compute_spectra(first, computed), moved, arrangement)
+    alone = compute_spectra(first, computed, _list_kinds(first))
+    everything = _add_spectra(alone, moved, arrangement)
     return Combined(
         (first, second),
         arrangement,
@@ -108,6 +125,11 @@ def combine_engines(
         find_peak(everything["force"]),
         find_peak(everything["moment"]),
     )
+
+
+def _list_kinds(engine: Engine) -> tuple[str, ...]:
+    """What is computed of an engine; sums of it follow."""
+    return tuple(KINDS) if engine.gas is None else (*KINDS, GAS.name)
 
 
 def gear_to(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
@@ -127,8 +149,8 @@ def place_spectra(
     """Phasors of an engine where it stands, by the crank angle of the engine that it is geared to.
 
     Args:
-        own: all kinds, about its own origin, by its own crank angle; the inertia torque comes out
-            about z, too.
+        own: all kinds of inertia, and the gas torque if it has gas, about its own origin, by its
+            own crank angle; torques come out about z, too.
         reference_m: point of reference of the result, in the other engine's axes.
     """
     n = own.orders
@@ -137,13 +159,13 @@ def place_spectra(
     lead = unit(n * arrangement.phase_deg)
     parts = {kind.name: _advance(phasors, lead) for kind, phasors in own.items()}
     if arrangement.reverse:
-        parts = {name: _mirror(phasors, KINDS[name]) for name, phasors in parts.items()}
+        parts = {name: _mirror(phasors, EVERY_KIND[name]) for name, phasors in parts.items()}
     turn = unit(arrangement.turn_deg)
     force = turn * parts["force"]
     parts["force"] = force
     parts["moment"] = turn * parts["moment"] + 1j * z * force
     parts["couple"] = parts["couple"] + force.about(x + 1j * y)
-    return Spectra(n, **{name: add_parts(kind, parts) for name, kind in KINDS.items()})
+    return Spectra(n, **{kind.name: add_parts(kind, parts) for kind, _ in own.items()})
 
 
 def _advance(phasors: Phasors, lead: Complex) -> Phasors:
@@ -168,12 +190,24 @@ def _mirror(phasors: Phasors, kind: Kind) -> Phasors:
 def _add_spectra(one: Spectra, other: Spectra, arrangement: Arrangement) -> Spectra:
     """Both engines geared together; torque and roll as in `Combined`."""
     parts = {name: one[name] + other[name] for name in ("force", "moment", "couple")}
+    parts["torque"], taken = _gear(one["torque"], other["torque"], arrangement)
+    parts["roll"] = parts["couple"] - taken
+    if one.gas is not None or other.gas is not None:
+        none = 0.0 * one["torque"]
+        parts["gas"], taken_of_gas = _gear(one.gas or none, other.gas or none, arrangement)
+        parts["torque_total"] = parts["torque"] + parts["gas"]
+        parts["roll_total"] = parts["roll"] - taken_of_gas
+    return Spectra(one.orders, **{name: found.drop_noise() for name, found in parts.items()})
+
+
+def _gear(one: Phasors, other: Phasors, arrangement: Arrangement) -> tuple[Phasors, Phasors]:
+    """What the first crank feels of torques about z on both, and what the load takes, about z."""
     sense = -1.0 if arrangement.reverse else 1.0  # of the second crank
-    parts["torque"] = one["torque"] + sense * other["torque"]
-    taken = {  # by the load, about z
-        "first": parts["torque"],
-        "second": sense * parts["torque"],
-        "both": one["torque"] + other["torque"],
-    }
-    parts["roll"] = parts["couple"] - taken[arrangement.load]
-    return Spectra(one.orders, **{name: parts[name].drop_noise() for name in KINDS})
+    felt = one + sense * other
+    match arrangement.load:
+        case "first":
+            return felt, felt
+        case "second":
+            return felt, sense * felt
+        case _:
+            return felt, one + other

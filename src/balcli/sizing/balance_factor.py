@@ -5,10 +5,12 @@ share of the reciprocating mass of the rods on it; less what the file's own coun
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
+from ..core.golden_section import find_least
 from ..core.levers import share_by_lever
 from ..core.peaks import find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
@@ -69,7 +71,7 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     planes = _choose_planes(engine, options)
     factors = _choose_factors(engine, options)
     sweep = tuple(find_factor_peaks(engine, factor, planes) for factor in factors)
-    best = min(sweep, key=lambda peaks: (round(peaks.force, 6), peaks.moment)).factor
+    best = min(sweep, key=lambda peaks: peaks.cost).factor
     fitting = _fit_factor(engine, best, planes).add_details(*_describe(engine, options, best))
     own = _find_counterweights(engine)[1].any()
     needs = _find_needs(engine, best, planes)
@@ -85,6 +87,21 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
         needs=tuple(_count_from_pin(engine, need) for need in needs) if own else (),
         sweep=sweep if len(sweep) > 1 else (),
     )
+
+
+def find_best_factor(
+    engine: Engine, options: SchemeOptions, sweep: Sequence[FactorPeaks]
+) -> FactorPeaks:
+    """The peaks at the best factor of all between those of a sweep, to 1e-4 of its step.
+
+    The peak of a force that grows evenly with the factor at each crank angle is a convex function
+    of it, and so is that of the moment: the best of all stands beside the best of the sweep.
+    """
+    planes = _choose_planes(engine, options)
+    k = min(range(len(sweep)), key=lambda k: sweep[k].cost)
+    low, high = sweep[max(k - 1, 0)].factor, sweep[min(k + 1, len(sweep) - 1)].factor
+    found = find_least(lambda f: find_factor_peaks(engine, f, planes).cost, low, high)
+    return min(sweep[k], find_factor_peaks(engine, found, planes), key=lambda peaks: peaks.cost)
 
 
 def _note(

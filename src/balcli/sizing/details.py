@@ -126,6 +126,11 @@ class FactorPeaks(NamedTuple):
     bobweight_g: float
     counterweight: float
 
+    @property
+    def cost(self) -> tuple[float, float]:
+        """What is least where the factor is best: the force; among equals the moment."""
+        return round(self.force, 6), self.moment
+
 
 class Optimum(NamedTuple):
     """The best pair of unevenly turning shafts by one criterion (see `eccentric_slider`).

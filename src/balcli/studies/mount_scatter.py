@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.phasors import Array
+from ..core.telling import Tell, tell_nobody
 from ..enginefile.model import EngineFile, label_table
 from ..errors import BalcliError
 from ..forces.target_quantity import TargetQuantity
@@ -37,6 +38,7 @@ def scatter_mounts(
     samples: int,
     seed: int | None = None,
     shape: Shape = "uniform",
+    tell: Tell = tell_nobody,
 ) -> Scatter:
     """Spread of quantities over random mounts, each variant computed by itself.
 
@@ -44,6 +46,7 @@ def scatter_mounts(
         tolerance: share of every mount's stiffness.
         seed: of the random numbers, to repeat them.
         shape: uniform within the tolerance, or normal with a third of it as standard deviation.
+        tell: is told how many samples have been computed, and says whether these are enough.
 
     Raises:
         InputError, BalcliError: what is wrong with body and mounts; quantities of none of them; too
@@ -67,13 +70,18 @@ def scatter_mounts(
     rows = np.eye(len(labels)) * tolerance
     changes = np.array([(evaluate(1 + row) - evaluate(1 - row)) / 2 for row in rows])
     deviations = _draw(len(labels), samples, tolerance, seed, shape)
-    values = np.array([evaluate(1 + row) for row in deviations])
+    rows_of_values = []
+    for row in deviations:
+        rows_of_values.append(evaluate(1 + row))
+        if tell(len(rows_of_values)):
+            break
+    values = np.array(rows_of_values)
     sources = [MountSource(label, tolerance) for label in labels]
     spreads = tuple(
         _spread(q, float(nominal[k]), values[:, k], sources, changes[:, k])
         for k, q in enumerate(quantities)
     )
-    return Scatter(model, samples, shape, spreads, of_mounts=True)
+    return Scatter(model, len(values), shape, spreads, of_mounts=True)
 
 
 def _vary_stiffness(

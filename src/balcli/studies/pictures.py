@@ -13,17 +13,18 @@ import numpy as np
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..forces.crankshaft import InnerLoads, compute_inner_loads
+from ..forces.crankshaft import InnerLoads
 from ..forces.kinds import KINDS
 from ..forces.spectrum import compute_spectra
-from ..results.analysis import Analysis, analyze
+from ..results.analysis import Analysis, analyze, load_crankshaft
 from ..results.balance import balance
+from ..sizing.balance_factor import find_best_factor
 from ..sizing.details import FactorPeaks
 from ..sizing.options import SchemeOptions
 from ..sizing.sizing import size
 from ..torque.pictures import PAGES, GasPictures, compute_pictures
 
-FACTORS = tuple(k / 20 for k in range(21))
+FACTORS = tuple(k / 50 for k in range(51))
 _ALONE = ("factor", "bank", *PAGES)  # studies of the engine as it is
 
 
@@ -47,7 +48,7 @@ class Study(NamedTuple):
 
     Attributes:
         now, before: the engine, and without the devices that were fitted, if any were.
-        factors: rows of peaks over the balance factor.
+        factors: rows of peaks over the balance factor, ascending; the best of all among them.
         banks: an order over the bank angle.
         bent: what bends the crankshaft now, and before.
         gas: pressures, torque or loads of an engine with gas.
@@ -80,7 +81,7 @@ def compute_study(
     if scheme is not None:
         found = balance(engine, scheme, orders=orders)
         bent = (
-            (compute_inner_loads(found.after.engine), compute_inner_loads(engine))
+            (load_crankshaft(found.after.engine), load_crankshaft(engine))
             if what == "inner"
             else ()
         )
@@ -89,9 +90,12 @@ def compute_study(
     if what in PAGES:
         return Study(now, gas=compute_pictures(engine, what))
     if what == "inner":
-        return Study(now, bent=(compute_inner_loads(engine),))
+        return Study(now, bent=(load_crankshaft(engine),))
     if what == "factor":
-        return Study(now, factors=size(engine, "factor", SchemeOptions(factor=FACTORS)).sweep)
+        options = SchemeOptions(factor=FACTORS)
+        sweep = size(engine, "factor", options).sweep
+        best = find_best_factor(engine, options, sweep)
+        return Study(now, factors=sorted({*sweep, best}))
     return (
         Study(now, banks=swing_banks(engine, _find_lowest(now) if orders is None else orders[0]))
         if what == "bank"

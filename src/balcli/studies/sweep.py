@@ -10,12 +10,10 @@ parameter fastest.
 from __future__ import annotations
 
 import math
-import time
-from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from itertools import islice, product
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -29,12 +27,15 @@ from ..errors import BalcliError, InputError
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..forces.quantity import (
     Quantity,
+    are_products,
     evaluate_quantities,
     find_orders,
     leave_out_unknown,
     refuse_unknown,
 )
 from ..forces.spectrum import count_samples
+from ..process import keep_freed_memory
+from .boxes import Box, BoxSize, divide_grid, divide_into_boxes, divide_into_tiles
 from .parameters import Parameter, parse
 from .quantities import (
     AnyQuantity,
@@ -46,15 +47,13 @@ from .quantities import (
     parse_quantities,
     refuse_unknown_of_chapters,
 )
+from .threads import ALONE_S, share_work
 
-Box = tuple[slice, ...]
-ALONE_S = 1.0  # of a sweep, before several threads share what is left of it
 ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
-TILES = 8  # of so many variants in a box that would have few values of some parameter
+PRODUCTS = 8  # times as many where each is but a product of what is computed for fewer
 BYTES = 1 << 23  # of an array that a box needs: no more than the cache holds
 SAMPLES = 1 << 20  # of revolutions in a box: a tenth of a second
-_LARGE = 31 << 17  # numbers: 31 MB, glibc keeps no more
 
 
 class Chunk(NamedTuple):
@@ -101,6 +100,16 @@ class Sweep:
     def variants(self) -> int:
         """How many there are."""
         return math.prod(self.shape)
+
+    @property
+    def whole(self) -> Box:
+        """The box of all variants."""
+        return tuple(slice(0, n) for n in self.shape)
+
+    def cut(self, box: Box) -> Sweep:
+        """The variants in a box of the grid as a sweep of their own."""
+        cuts = zip(self.parameters, box, strict=True)
+        return replace(self, parameters=tuple(replace(p, values=p.values[cut]) for p, cut in cuts))
 
     def engine(self, box: Box) -> Engine:
         """All variants in a box of the grid, as one engine with an axis for each parameter.
@@ -180,23 +189,25 @@ def build_corners(sweep: Sweep) -> Engine:
     return Sweep(sweep.file, corners, (), sweep.name).engine((slice(None),) * len(corners))
 
 
-def evaluate_box(sweep: Sweep, box: Box, most: int = CHUNK) -> list[Array]:
+def evaluate_box(sweep: Sweep, box: Box, size: BoxSize | None = None) -> list[Array]:
     """Each quantity for all variants of a box, SI or degrees, shape (variants in it,).
 
     Args:
         sweep: what to compute.
         box: of its grid.
-        most: variants at a time; figures that some axes do not change are computed once for them.
+        size: of what is computed at a time, and figures that some axes do not change once; None:
+            all of it.
 
     Raises:
         InputError: one of them cannot be.
     """
     shape = tuple(len(range(*cut.indices(n))) for cut, n in zip(box, sweep.shape, strict=True))
-    if math.prod(shape) <= most:
+    tiles = [box] if size is None else list(divide_into_tiles(shape, size))
+    if len(tiles) == 1:
         values = _evaluate_tile(sweep, box)
         return [np.broadcast_to(one, shape).ravel() for one in values]
     found = [np.empty(shape) for _ in sweep.quantities]
-    for tile in _divide_evenly(shape, most):
+    for tile in tiles:
         here = tuple(
             slice(cut.start + part.start, cut.start + part.stop)
             for cut, part in zip(box, tile, strict=True)
@@ -204,21 +215,6 @@ def evaluate_box(sweep: Sweep, box: Box, most: int = CHUNK) -> list[Array]:
         for whole, part_of_it in zip(found, _evaluate_tile(sweep, here), strict=True):
             whole[tile] = part_of_it
     return [whole.ravel() for whole in found]
-
-
-def _divide_evenly(shape: tuple[int, ...], most: int) -> Iterator[Box]:
-    """A grid in tiles of at most `most` variants, which are about as long as wide: so their sides,
-    along which most is computed, are short.
-    """
-    steps = list(shape)
-    while math.prod(steps) > most:
-        longest = steps.index(max(steps))
-        steps[longest] = (steps[longest] + 1) // 2
-    cuts = [range(0, n, step) for n, step in zip(shape, steps, strict=True)]
-    for starts in product(*cuts):
-        yield tuple(
-            slice(k, min(k + step, n)) for k, step, n in zip(starts, steps, shape, strict=True)
-        )
 
 
 def _evaluate_tile(sweep: Sweep, box: Box) -> list[Array]:
@@ -258,44 +254,27 @@ def _evaluate_one_by_one(sweep: Sweep, box: Box, variants: Variants, count: int)
     return list(np.moveaxis(table, -1, 0))
 
 
-def size_boxes(sweep: Sweep) -> int:
-    """How many variants to compute at a time, by what those at the corners of the grid need: so
-    many that a box is done in a fraction of a second and in little memory.
+def size_boxes(sweep: Sweep) -> BoxSize:
+    """How much to compute at a time, by what the variants at the corners of the grid need: so much
+    that a box is done in a fraction of a second and in little memory.
     """
     if not sweep.of_engine:
-        return ALONE
+        return BoxSize(ALONE, ALONE)
     engine = build_corners(sweep)
     orders = find_orders(engine, sweep.of_engine)
     figures = max(engine.cylinders.count * max(map(len, orders)), 2 * max(map(max, orders)))
     samples = count_samples(engine) // 2 ** len(sweep.parameters)
     most = ALONE if sweep.of_chapters else CHUNK
-    return max(min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), most), 1)
+    side = max(min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), most), 1)
+    products = not sweep.of_chapters and are_products(engine, sweep.of_engine)
+    return BoxSize(PRODUCTS * side if products else side, side)
 
 
-def divide_sweep(sweep: Sweep, most: int) -> Iterator[Box]:
-    """The boxes of a sweep of which so many variants are computed at a time, in the order of rows.
-    Those of one parameter's value alone, or of a few, are joined, to be computed in tiles.
-    """
-    narrow = len(sweep.shape) > 1 and sweep.shape[-1] * TILES > most and not sweep.of_chapters
-    return divide_grid(sweep.shape, TILES * most if narrow else most)
-
-
-def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
-    """The grid in boxes of at most `most` variants, in the order of rows: the last axes whole, one
-    cut into like parts, the first one by one.
-    """
-    axis = len(shape) - 1
-    while axis > 0 and math.prod(shape[axis:]) <= most:
-        axis -= 1
-    longest = max(most // math.prod(shape[axis + 1 :]), 1)
-    step = math.ceil(shape[axis] / math.ceil(shape[axis] / longest))
-    for fixed in np.ndindex(shape[:axis]):
-        for start in range(0, shape[axis], step):
-            yield (
-                *(slice(k, k + 1) for k in fixed),
-                slice(start, min(start + step, shape[axis])),
-                *(slice(0, n) for n in shape[axis + 1 :]),
-            )
+def divide_sweep(sweep: Sweep, size: BoxSize) -> Iterator[Box]:
+    """The boxes of a sweep of which so much is computed at a time, in the order of rows."""
+    if sweep.of_chapters:
+        return divide_grid(sweep.shape, size.variants)
+    return divide_into_boxes(sweep.shape, size)
 
 
 def evaluate_chunks(sweep: Sweep, threads: int = 1, alone_s: float = ALONE_S) -> Iterator[Chunk]:
@@ -303,47 +282,16 @@ def evaluate_chunks(sweep: Sweep, threads: int = 1, alone_s: float = ALONE_S) ->
 
     Args:
         sweep: what to compute.
-        threads: that compute it; numpy does most of its work outside Python's lock.
-        alone_s: seconds for which one does it alone: most sweeps have ended by then.
+        threads, alone_s: as of `share_work`.
     """
     keep_freed_memory()
-    most = size_boxes(sweep)
-    boxes = divide_sweep(sweep, most)
-    compute = partial(_evaluate_chunk, sweep, most)
-    end = time.monotonic() + (alone_s if threads > 1 else math.inf)
-    for box in boxes:
-        yield compute(box)
-        if time.monotonic() > end:
-            break
-    yield from _share(compute, boxes, threads)
+    size = size_boxes(sweep)
+    compute = partial(_evaluate_chunk, sweep, size)
+    return share_work(compute, divide_sweep(sweep, size), threads, alone_s)
 
 
-def _evaluate_chunk(sweep: Sweep, most: int, box: Box) -> Chunk:
-    return Chunk(box, evaluate_box(sweep, box, most))
-
-
-def _share(compute: Callable[[Box], Chunk], boxes: Iterator[Box], threads: int) -> Iterator[Chunk]:
-    """The chunks of the boxes in their order, computed by so many threads a little ahead."""
-    first = list(islice(boxes, 2 * threads))
-    if not first:
-        return
-    from concurrent.futures import ThreadPoolExecutor  # most sweeps have ended without it
-
-    pool = ThreadPoolExecutor(threads)
-    try:
-        waiting = deque(pool.submit(compute, box) for box in first)
-        while waiting:
-            yield waiting.popleft().result()
-            waiting.extend(pool.submit(compute, box) for box in islice(boxes, 1))
-    finally:
-        pool.shutdown(cancel_futures=True)
-
-
-def keep_freed_memory() -> None:
-    """Let the C library keep what arrays leave for the next ones. It does so for blocks as large as
-    the largest that was ever freed, and hands back the others, to be cleared again for every array.
-    """
-    np.empty(_LARGE)  # never touched: it costs nothing
+def _evaluate_chunk(sweep: Sweep, size: BoxSize, box: Box) -> Chunk:
+    return Chunk(box, evaluate_box(sweep, box, size))
 
 
 def list_columns(sweep: Sweep, chunk: Chunk) -> list[Array]:

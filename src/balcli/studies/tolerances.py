@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from ..core.phasors import Array, Complex, Phasors
+from ..core.telling import Tell, tell_nobody
 from ..engine.build import build
 from ..enginefile.fields import Number
 from ..enginefile.model import EngineFile
@@ -111,12 +112,14 @@ def scatter_engine(
     samples: int,
     seed: int | None = None,
     shape: Shape = "uniform",
+    tell: Tell = tell_nobody,
 ) -> Scatter:
     """Spread of quantities over random engines.
 
     Args:
         seed: of the random numbers, to repeat them.
         shape: uniform within the tolerances, or normal with a third of them as standard deviation.
+        tell: is told how many samples have been drawn, and says whether these are enough.
 
     Raises:
         BalcliError: quantities that are no sizes of vectors, too many samples, no tolerance at all.
@@ -137,13 +140,16 @@ def scatter_engine(
     engines = DeviatingEngine(model, tolerances)
     if not engines.sources:
         raise BalcliError("nothing deviates; give a tolerance, such as --mass-scatter 0.5%")
-    drawn = [Sample() for _ in quantities]
+    drawn, count = [Sample() for _ in quantities], 0
     for deviations in _draw(engines.sources, samples, seed, shape):
         found = evaluate_quantities(engines.deviate(deviations), quantities)
         for sample, values in zip(drawn, found, strict=True):
             sample.add(np.broadcast_to(values, deviations.shape[1:]))
+        count += deviations.shape[1]
+        if tell(count):
+            break
     spreads = [_spread(engines, q, sample) for q, sample in zip(quantities, drawn, strict=True)]
-    return Scatter(model, samples, shape, tuple(spreads))
+    return Scatter(model, count, shape, tuple(spreads))
 
 
 def _draw(

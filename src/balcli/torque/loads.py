@@ -8,13 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.levers import share_by_lever
-from ..core.phasors import Array, Complex, unit
-from ..core.piecewise import Extreme, Function, merged_breaks, resolved
+from ..core.phasors import Array, Complex
+from ..core.piecewise import Extreme, Function, resolved
 from ..engine.build import Engine
-from ..errors import BalcliError
-from ..forces.crankshaft import is_counterweight, place_bearings
-from ..forces.gas import take_gas
+from ..forces.in_bearings import compute_bearing_loads, find_breaks, place_main_bearings
 from ..forces.rod_forces import compute_rod_forces, list_hung_rows
 
 Vectors = Callable[[Array], Complex]  # N at crank angles (deg), shape (places, angles)
@@ -62,12 +59,12 @@ def analyze_loads(engine: Engine, asked: tuple[str, ...] = KINDS_OF_LOAD) -> Loa
     and the shaft counts as cut in each of them.
 
     Raises:
-        BalcliError: no gas of known pressure; main bearings that `find_bearing_loads` refuses.
+        BalcliError: no gas of known pressure; main bearings that `place_main_bearings` refuses.
     """
     if not asked:
         return Loads()
     steady = replace(engine, ripple=())
-    breaks = _find_breaks(engine)
+    breaks = find_breaks(engine)
     sizes = engine.bearings
     pin = knuckle = main = None
     if "pin" in asked:
@@ -93,51 +90,11 @@ def find_pin_loads(engine: Engine) -> Vectors:
 
 
 def find_bearing_loads(engine: Engine) -> tuple[Array, Vectors]:
-    """Places of the main bearings, m, and the force of the shaft on each, x + iy.
-
-    Raises:
-        BalcliError: it is not known where the throws stand, there is one alone, or the crank stands
-            still.
+    """Places of the main bearings, m, and the force of the shaft on each, x + iy; errors as of
+    `place_main_bearings`.
     """
-    if engine.rotary:
-        raise BalcliError("main: the crank of turning cylinders stands still, clamped at its end")
-    if not engine.places_known:
-        raise BalcliError("main: crank.spacing is missing, so that no bearing is known to stand")
-    span = place_bearings(engine.throws_m)
-    if span is None:
-        raise BalcliError("main: a crank with one throw does not say where its bearings stand")
-    c = engine.cylinders
-    counterweights = [device for device in engine.devices if is_counterweight(device)]
-    z = np.array([*np.ravel(c.z), *(float(device.z) for device in counterweights)])
-    shares, square = share_by_lever(z, span), float(engine.omega) ** 2
-    pins_deg = float(engine.first_axis_deg) + np.ravel(c.pin_deg)[:, None]
-    throws = np.array([[float(weighed.share)] for weighed in engine.weighed]) * float(c.radius)
-    devices = np.array([[complex(device.forward)] for device in counterweights]).reshape(-1, 1)
-
-    def vectors(degrees: Array) -> Complex:
-        on_pins = find_shares_of_pins(engine, degrees)
-        turning = throws * square * unit(degrees + pins_deg)
-        of_devices = devices * square * unit(degrees)
-        return shares @ np.concatenate([on_pins + turning, of_devices])
-
-    return span, vectors
-
-
-def find_shares_of_pins(engine: Engine, degrees: Array) -> Complex:
-    """What the piston and rod of each cylinder put on its crank pin, x + iy, N, shape (cylinders,
-    angles): articulated rods theirs through the master rod, which has no part in it.
-    """
-    found = compute_rod_forces(engine, degrees)
-    loads = found.axis * found.pin
-    for master, hung in list_hung_rows(engine).items():
-        loads[master] -= loads[hung].sum(axis=0)
-    return loads
-
-
-def _find_breaks(engine: Engine) -> Array:
-    gas = take_gas(engine)
-    parts = [(cylinder.torque.breaks, cylinder.fires) for cylinder in gas.cylinders]
-    return merged_breaks(parts, gas.cycle)
+    span = place_main_bearings(engine)
+    return span, lambda degrees: compute_bearing_loads(engine, degrees)
 
 
 def _measure(

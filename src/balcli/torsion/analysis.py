@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -10,12 +9,13 @@ import numpy as np
 
 from ..core.holzer_table import Holzer, tabulate_holzer
 from ..core.singular_values import Real
+from ..core.telling import Tell, tell_nobody
 from ..errors import BalcliError
 from ..result import Result
 from .damper_sizing import DamperAsked, SizedDamper, size_damper
 from .load import Source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes
-from .response import Response, find_barred, find_response, tell_nobody
+from .response import Response, find_barred, find_response
 from .system import TorsionalSystem
 
 BEYOND = 1.5  # times the file's own speed to which criticals are told: engines overspeed
@@ -83,9 +83,9 @@ class TorsionAnalysis(Result):
 
 
 def analyze_torsion(
-    source: Source, question: Question, tell: Callable[[int], None] = tell_nobody
+    source: Source, question: Question, tell: Tell = tell_nobody
 ) -> TorsionAnalysis:
-    """The answer about a chain or an engine; `tell` is called with the number of speeds done.
+    """The answer about a chain or an engine; `tell` is told which share is done.
 
     Raises:
         BalcliError: a response without excitation or through an undamped resonance; a mode that is
@@ -94,13 +94,13 @@ def analyze_torsion(
     """
     if question.damper is None or question.speeds_rpm is None:
         return analyze_system(source.system(), question, tell)
-    sized = size_damper(source, question.damper, question.speeds_rpm, question.orders)
-    fitted = source.with_damper(sized.node, sized.damper).system()
-    return replace(analyze_system(fitted, question, tell), damper=sized)
+    sized = size_damper(source, question.damper, question.speeds_rpm, question.orders, tell)
+    fitted = source.with_damper(sized.node, sized.damper).system()  # one response after dozens
+    return replace(analyze_system(fitted, question), damper=sized)
 
 
 def analyze_system(
-    system: TorsionalSystem, question: Question, tell: Callable[[int], None] = tell_nobody
+    system: TorsionalSystem, question: Question, tell: Tell = tell_nobody
 ) -> TorsionAnalysis:
     """The answer about a system as it is."""
     excitation = system.excitation

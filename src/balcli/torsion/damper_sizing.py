@@ -6,11 +6,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from itertools import count
 from typing import NamedTuple
 
 import numpy as np
 
+from ..core.golden_section import ROUNDS, find_least
 from ..core.singular_values import Real
+from ..core.telling import Tell, tell_nobody
 from ..core.torsional_dampers import best_viscous_damping
 from ..enginefile.fields import printable
 from ..enginefile.shafting import Damper
@@ -27,8 +30,7 @@ _FIGURE = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  #
 _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # range of the search, times and over
 _PENDULUM_RADIUS = 0.06  # m, where nothing says where one hangs
 _PLACES = 13  # looked at over this range before the best is approached
-_ROUNDS = 20  # of golden section: to 1e-4 of the step between these
-_GOLDEN = (math.sqrt(5) - 1) / 2
+_RESPONSES = _PLACES + 2 + ROUNDS + 2  # the last of the best damper, and without any
 
 
 class DamperAsked(NamedTuple):
@@ -77,9 +79,14 @@ class SizedDamper(NamedTuple):
 
 
 def size_damper(
-    source: Source, asked: DamperAsked, speeds: Real, orders: Real | None = None
+    source: Source,
+    asked: DamperAsked,
+    speeds: Real,
+    orders: Real | None = None,
+    tell: Tell = tell_nobody,
 ) -> SizedDamper:
-    """The damper that makes the largest stress of all shafts over speeds (rpm) least.
+    """The damper that makes the largest stress of all shafts over speeds (rpm) least; `tell` is
+    told which share of the work is done.
 
     Raises:
         BalcliError: nothing can carry it, or nothing excites the system.
@@ -90,11 +97,13 @@ def size_damper(
     first = _propose(asked, own, bare, bare.nodes.index(node), mode, order)
     figure = _FIGURE[asked.kind]
     start = float(getattr(first, figure))
+    tried = count(1)
 
     def respond(damper: Damper | None) -> tuple[float, Response]:
         """Largest stress or torque of the shafts that are there without it, and the response."""
         system = source.with_damper(node, damper).system()
         response = find_response(system, _excite(system, orders), speeds)
+        tell(next(tried) / _RESPONSES)
         worth = response.torque[:, : len(bare.shafts)]
         if any(bare.sections):
             worth = worth * stress_by_torque(bare)
@@ -219,15 +228,4 @@ def _minimise(judge: Callable[[float], float], low: float, high: float) -> float
     places = np.linspace(low, high, _PLACES)
     best = int(np.argmin([judge(float(place)) for place in places]))
     low, high = float(places[max(best - 1, 0)]), float(places[min(best + 1, _PLACES - 1)])
-    left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-    at_left, at_right = judge(left), judge(right)
-    for _ in range(_ROUNDS):
-        if at_left <= at_right:
-            high, right, at_right = right, left, at_left
-            left = high - _GOLDEN * (high - low)
-            at_left = judge(left)
-        else:
-            low, left, at_left = left, right, at_right
-            right = low + _GOLDEN * (high - low)
-            at_right = judge(right)
-    return left if at_left <= at_right else right
+    return find_least(judge, low, high)

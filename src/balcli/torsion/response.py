@@ -4,13 +4,14 @@ follows from it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from ..core.cycle_peaks import find_swing, sum_amplitudes
 from ..core.singular_values import Complex, Real
+from ..core.telling import Tell, tell_nobody
 from ..core.torsional_modes import chain_loss, find_chain_modes
 from ..core.torsional_response import respond_chain
 from ..core.vibration import UndampedResonanceError, find_resonances, frequencies
@@ -60,21 +61,17 @@ class Motion(NamedTuple):
     heat: Real
 
 
-def tell_nobody(done: int) -> None:
-    """Progress that nobody wants to know."""
-
-
 def find_response(
     system: TorsionalSystem,
     excitation: Excitation,
     speeds_rpm: Real,
-    tell: Callable[[int], None] = tell_nobody,
+    tell: Tell = tell_nobody,
 ) -> Response:
     """Vibration at speeds (speeds,), rising.
 
     Args:
         excitation: by which; that of the system, or some of its orders.
-        tell: is called with the number of speeds done.
+        tell: is told which share of the speeds is done.
 
     Raises:
         BalcliError: an undamped mode is driven at its own frequency.
@@ -84,7 +81,7 @@ def find_response(
     parts = []
     for some in _split(system, excitation, speeds_rpm):
         parts.append(_summarise(system, excitation, speeds_rpm[some]))
-        tell(len(speeds_rpm[: some.stop]))
+        tell(some.stop / len(speeds_rpm))
     joined = [
         np.concatenate(each, axis=axis)
         for each, axis in zip(zip(*parts, strict=True), _AXES, strict=True)

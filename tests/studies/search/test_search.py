@@ -98,11 +98,11 @@ def test_eight_distinct_throws_are_all_tried() -> None:
 NINE = [0, 31, 67, 95, 140, 170, 222, 260, 301]
 
 
-def test_who_watches_hears_of_all_arrangements_and_changes_nothing() -> None:
+def test_who_is_told_hears_of_all_arrangements_and_changes_nothing() -> None:
     file, wanted = engine(NINE), parse_objective("moment.1.major")
     shares: list[float] = []
-    watched = find_best_throws(file, wanted, 3, watch=lambda share: bool(shares.append(share)))
-    assert np.array_equal(watched, find_best_throws(file, wanted, 3))
+    told = find_best_throws(file, wanted, 3, tell=lambda share: bool(shares.append(share)))
+    assert np.array_equal(told, find_best_throws(file, wanted, 3))
     assert shares == sorted(shares)
     assert shares[-1] == pytest.approx(1, abs=1e-12)
     assert len(shares) > 9
@@ -117,7 +117,7 @@ def test_who_has_seen_enough_gets_the_best_so_far() -> None:
         shares.append(share)
         return True
 
-    (best,) = find_best_throws(file, wanted, 1, watch=enough)
+    (best,) = find_best_throws(file, wanted, 1, tell=enough)
     assert shares == [pytest.approx(1 / (9 * 8))]
     among = [(0.0, 31.0, *rest) for rest in permutations(NINE[2:])]
     tried = np.array(among[:: len(among) // 200])

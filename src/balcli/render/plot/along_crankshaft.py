@@ -9,7 +9,7 @@ import numpy as np
 
 from ...forces.crankshaft import AlongCrank
 from ..units import Unit
-from .axes import put_legend_above
+from .legends import put_legend_above
 from .style import BLUE, SOFT
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""What several pictures share: units, the plane of forces and moments, looks and legends.
+"""What several pictures share: units, the plane of forces and moments, looks.
 
 The plane is seen from the free end: x up, y to the right, so that the crank turns clockwise.
 """
@@ -49,18 +49,3 @@ def set_up_plane(ax: Axes, curves: Sequence[Complex | None], what: str, s: Unit)
     if not largest:
         ax.set(xticks=[0], yticks=[0])
     return limit
-
-
-def put_legend_above(ax: Axes) -> None:
-    """Put the legend on one line between the axes and their title."""
-    legend = ax.legend(
-        loc="lower left",
-        bbox_to_anchor=(0, 1),
-        ncols=4,
-        handlelength=1.6,
-        columnspacing=1,
-        borderpad=0,
-        borderaxespad=0.3,
-        handletextpad=0.5,
-    )
-    legend.set_in_layout(False)  # what is too long may not narrow the axes

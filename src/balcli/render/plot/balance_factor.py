@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...sizing.details import FactorPeaks
+from ..sheet import size_text
 from ..units import Unit
-from .axes import LOOKS, put_legend_above
+from .axes import LOOKS
+from .legends import put_legend_above
 from .style import BLUE, SOFT
 
 if TYPE_CHECKING:
@@ -35,7 +37,7 @@ def draw_factors(ax: Axes, rows: Sequence[FactorPeaks], force: Unit, moment: Uni
             linestyle=look[1],
             label=label,
         )
-    best = min(rows, key=lambda row: (round(row.force, 6), row.moment))
+    best = min(rows, key=lambda row: row.cost)
     ax.plot(best.factor, best.force / s.size, "o", color=BLUE)
     ax.set(
         xlabel="balance factor: share of the reciprocating mass in the counterweights",
@@ -43,7 +45,8 @@ def draw_factors(ax: Axes, rows: Sequence[FactorPeaks], force: Unit, moment: Uni
         xlim=(share[0], share[-1]),
     )
     ax.set_ylim(bottom=0)
-    ax.set_title(f"Largest free force over the balance factor; best at {best.factor:g}")
+    least = size_text(best.force, force)
+    ax.set_title(f"Largest free force over the balance factor; best at {best.factor:.4g} ({least})")
     moments = np.array([row.moment for row in rows])
     if moment is not None and moments.max() > 0:
         t = moment.fit(float(moments.max()))

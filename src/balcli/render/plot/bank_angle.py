@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from itertools import cycle
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...core.phasors import Phasors
+from ...core.phasors import Complex, Phasors
 from ...studies.pictures import Banks
 from ..units import Unit
 from .axes import FINE, set_up_plane
@@ -30,18 +30,45 @@ def draw_end_curves(ax: Axes, banks: Banks, unit: Unit) -> None:
         for k in shown
     ]
     limit = set_up_plane(ax, ways, "force", s)
-    for side, k, way, shade in zip(
-        cycle((1, -1)), shown, ways, np.linspace(0.25, 1, len(shown)), strict=False
-    ):
-        ax.plot(way.imag / s.size, way.real / s.size, color=BLUE, alpha=shade, linewidth=1.2)
-        far = np.abs(way) > (1 - 1e-6) * np.abs(way).max(initial=0)  # labels to either side in turn
-        tip = max(way[far] / s.size, key=lambda v: side * (v.real + v.imag), default=0j)
-        out = tip / abs(tip) if abs(tip) > 0.02 * limit else 1
-        spot = tip + 0.07 * limit * out
+    ways = [way / s.size for way in ways]
+    spots = place_labels(ways, limit)
+    for k, way, spot, shade in zip(shown, ways, spots, np.linspace(0.25, 1, 7), strict=True):
+        ax.plot(way.imag, way.real, color=BLUE, alpha=shade, linewidth=1.2)
         ax.text(
             spot.imag, spot.real, f"{banks.angles_deg[k]:g}°", ha="center", va="center", fontsize=7
         )
     ax.set_title(f"Force of order {banks.order:g}: path of its tip by bank angle", pad=6)
+
+
+def place_labels(ways: Sequence[Complex], limit: float) -> list[complex]:
+    """A place for the label of each curve: beside it, as far from the middle as there is one where
+    it covers no curve, no axis and no other label; if there is none, where it is freest.
+
+    Args:
+        limit: half the side of the picture.
+    """
+    axis = np.linspace(-limit, limit, 101)
+    lines = np.concatenate([*ways, axis, 1j * axis])
+    taken: list[complex] = []
+    for way in ways:
+        spots = _list_spots(way, limit)
+        room = np.abs(spots[:, None] - lines).min(axis=1) / 0.06
+        if taken:
+            to_labels = np.abs(spots[:, None] - np.array(taken)).min(axis=1)
+            room = np.minimum(room, to_labels / 0.15)
+        room = np.minimum(np.round(room / limit, 3), 1)  # in what a label needs, no more than that
+        taken.append(complex(spots[room.argmax()]))
+    return taken
+
+
+def _list_spots(way: Complex, limit: float) -> Complex:
+    """Places ahead of a curve and to either side of it, those far from the middle first."""
+    ends = way[:: len(way) // 72]
+    size = np.abs(ends)
+    ends = ends[np.argsort(-np.round(size / limit, 3), kind="stable")]
+    size = np.abs(ends)
+    out = np.where(size > 0.02 * limit, ends / np.where(size > 0, size, 1), 1 + 1j)
+    return (ends[:, None] + 0.075 * limit * out[:, None] * np.array([1, 1j, -1j])).ravel()
 
 
 def draw_roses(ax: Any, banks: Banks, unit: Unit) -> None:

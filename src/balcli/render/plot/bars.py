@@ -10,7 +10,8 @@ import numpy as np
 from ...core.phasors import Array, Phasors
 from ..sheet import number, order_name
 from ..units import Unit
-from .axes import LOOKS, SHARE, put_legend_above
+from .axes import LOOKS, SHARE
+from .legends import put_legend_above
 from .style import BLUE, RED, SOFT
 
 if TYPE_CHECKING:

@@ -9,7 +9,8 @@ import numpy as np
 
 from ...core.phasors import Array, Phasors
 from ..units import Unit
-from .axes import LOOKS, divide_cycle, put_legend_above
+from .axes import LOOKS, divide_cycle
+from .legends import put_legend_above
 from .style import SOFT
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from ...core.phasors import Array, Complex
 from ...core.speed_variation import Surplus
 from ...torque.pictures import MainLoads, PinLoads, Pressures, Torques
 from ..units import Unit
-from .axes import put_legend_above
+from .legends import put_legend_above
 from .style import BLUE, FAINT, GREEN, INK, RED, SOFT
 
 if TYPE_CHECKING:

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...core.phasors import Complex, Phasors
-from ..sheet import number
+from ..sheet import NOTHING, size_text
 from ..units import Unit
-from .axes import SHARE, put_legend_above, set_up_plane
+from .axes import SHARE, set_up_plane
+from .legends import put_legend_above
 from .style import BLUE, INK, PAPER, SOFT
 
 if TYPE_CHECKING:
@@ -37,10 +38,10 @@ def draw_locus(
     ax.plot([], [], color=BLUE, label="after")
     if old is not None:
         put_legend_above(ax)
-    largest = float(np.abs(values).max()) / s.size
-    if largest < 0.02 * limit:
+    largest = float(np.abs(values).max())
+    if largest < 0.02 * limit * s.size:
         ax.plot(0, 0, "o", color=BLUE, markersize=4)
-        told = f"at most {number(largest, 3)} {s.name}" if largest else f"no free {what}"
+        told = f"at most {size_text(largest, unit, 3)}" if largest else NOTHING
         ax.text(
             0,
             0.06 * limit,

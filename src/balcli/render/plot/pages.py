@@ -10,12 +10,12 @@ import numpy as np
 
 from ...core.phasors import Phasors
 from ...forces.crankshaft import InnerLoads
-from ...forces.kinds import KINDS, VECTORS
+from ...forces.kinds import KINDS, ROLL, SCALARS, VECTORS
 from ...results.analysis import Analysis
 from ...sizing.details import FactorPeaks
 from ...studies.pictures import Banks
 from ...torque.pictures import GasPictures
-from ..sheet import NAMELESS, NEGLIGIBLE, size_text
+from ..sheet import NAMELESS, NEGLIGIBLE, NOTHING, size_text
 from ..units import SI, System, Unit
 from .along_crankshaft import draw_along
 from .axes import divide_cycle
@@ -32,8 +32,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from ...forces.in_bearings import LoadsWithGas
+
 _VECTORS = tuple(kind.name for kind in VECTORS)
-_PICTURED = (*_VECTORS, "about")
+ABOUT = "about"  # the crank: couple, torque and roll in one picture
+PICTURED = (*_VECTORS, ABOUT)
+_TITLES = {"force": "Free force", "moment": "Free moment", ABOUT: "About the crank"}
 
 
 @dataclass(frozen=True)
@@ -55,10 +59,12 @@ class Subject:
         return self.now.spectra[quantity], old
 
     def find_largest(self, quantity: str) -> float:
-        """The largest value over a revolution, with devices and without, SI."""
-        there = [phasors for phasors in self.phasors(quantity) if phasors is not None]
-        sizes = (np.abs(p.values(divide_cycle(p.orders))).max(initial=0) for p in there)
-        return float(max(sizes))
+        """The largest value over a revolution, with devices and without, SI; quantity is one of
+        PICTURED.
+        """
+        kinds = [kind.name for kind in SCALARS] if quantity == ABOUT else [quantity]
+        curves = [p for kind in kinds for p in self.phasors(kind) if p is not None]
+        return float(max(np.abs(p.values(divide_cycle(p.orders))).max(initial=0) for p in curves))
 
     def unit(self, quantity: str) -> Unit:
         return self.system.unit(KINDS[quantity])
@@ -102,7 +108,7 @@ def _lay_out_all(fig: Figure, subject: Subject) -> None:
     bars = grid[0, 2].subgridspec(3, 1)
     for k, quantity in enumerate(_VECTORS):
         _locus_panel(fig.add_subplot(grid[0, k]), subject, quantity)
-    for k, quantity in enumerate(_PICTURED):
+    for k, quantity in enumerate(PICTURED):
         _bars_panel(fig.add_subplot(bars[k]), subject, quantity)
         _curves_panel(fig.add_subplot(grid[1, k]), subject, quantity)
 
@@ -113,37 +119,42 @@ def _lay_out_polar(fig: Figure, subject: Subject) -> None:
 
 
 def _lay_out_spectrum(fig: Figure, subject: Subject) -> None:
-    for ax, quantity in zip(fig.subplots(3, 1), _PICTURED, strict=True):
+    for ax, quantity in zip(fig.subplots(3, 1), PICTURED, strict=True):
         _bars_panel(ax, subject, quantity)
 
 
 def _lay_out_curves(fig: Figure, subject: Subject) -> None:
-    for ax, quantity in zip(fig.subplots(3, 1, sharex=True), _PICTURED, strict=True):
+    for ax, quantity in zip(fig.subplots(3, 1, sharex=True), PICTURED, strict=True):
         _curves_panel(ax, subject, quantity)
         ax.label_outer()
 
 
 def _lay_out_orders(fig: Figure, subject: Subject) -> None:
-    """The largest orders of force and of moment, a row each; a row without any is left out."""
-    shown = {
-        q: [k for k in visible_rows(curve) if not curve.balanced[k] and curve.orders[k] >= 1][:4]
-        for q in _VECTORS
-        if not subject.is_unknown(q)
-        for curve in subject.phasors(q)[:1]
-    }
-    rows = {q: found for q, found in shown.items() if found} or {"force": []}
-    columns = max(2, *map(len, rows.values()))
-    fig.set_size_inches(0.6 + 3.3 * columns, 0.4 + 3.5 * len(rows))
-    grid = fig.subplots(len(rows), columns, squeeze=False)
-    for ax in grid.flat:
-        ax.set_axis_off()
-    for row, (quantity, found) in zip(grid, rows.items(), strict=True):
+    """The largest orders of force and of moment, a row each; of one that has none, words."""
+    shown = {quantity: _find_orders(subject, quantity) for quantity in _VECTORS}
+    columns = max(2, *map(len, shown.values()))
+    heights = [3.5 if found else 0.7 for found in shown.values()]
+    fig.set_size_inches(0.6 + 3.3 * columns, 0.4 + sum(heights))
+    grid = fig.subplots(len(shown), columns, squeeze=False, height_ratios=heights)
+    for row, (quantity, found) in zip(grid, shown.items(), strict=True):
+        for ax in row[len(found) :]:
+            ax.set_axis_off()
+        if not found:
+            _write_words(row[0], _TITLES[quantity], _find_words(subject, quantity))
         for ax, k in zip(row, found, strict=False):
-            ax.set_axis_on()
             draw_order(ax, subject.phasors(quantity)[0], k, quantity, subject.unit(quantity))
-    if not any(rows.values()):
-        more = "; moments are not known" if subject.is_unknown("moment") else " and no free moment"
-        grid[0, 0].text(0, 0.5, f"no free force{more}")
+
+
+def _find_orders(subject: Subject, quantity: str) -> list[int]:
+    """Rows of the first four orders of a force or moment that can be seen and matter; none where
+    words stand in place of its picture.
+    """
+    if _find_words(subject, quantity):
+        return []
+    curve = subject.phasors(quantity)[0]
+    least = NEGLIGIBLE * subject.now.of_one_cylinder[quantity]
+    seen = [k for k in visible_rows(curve) if curve.major[k] > least and curve.orders[k] >= 1]
+    return seen[:4]
 
 
 def _lay_out_factor(fig: Figure, subject: Subject) -> None:
@@ -154,12 +165,23 @@ def _lay_out_factor(fig: Figure, subject: Subject) -> None:
 def _lay_out_bank(fig: Figure, subject: Subject) -> None:
     if subject.banks is None:
         raise ValueError("a page of bank angles needs a study of them")
+    largest = float(subject.banks.force.major.max(initial=0))
+    if largest < NEGLIGIBLE * subject.now.of_one_cylinder["force"]:
+        told = (
+            f"negligible ({size_text(largest, subject.system.force, 2)}), whatever the bank angle"
+        )
+        fig.set_size_inches(6.4, 1.1)
+        _write_words(fig.subplots(), f"Force of order {subject.banks.order:g}", told)
+        return
     grid = fig.add_gridspec(1, 2)
     draw_end_curves(fig.add_subplot(grid[0]), subject.banks, subject.system.force)
     draw_roses(fig.add_subplot(grid[1], projection="polar"), subject.banks, subject.system.force)
 
 
 def _lay_out_inner(fig: Figure, subject: Subject) -> None:
+    if gas := [inner.with_gas for inner in subject.bent if inner.with_gas is not None]:
+        _lay_out_inner_with_gas(fig, gas, subject.system)
+        return
     shear, bending, bearings = fig.subplots(3, 1, sharex=True)
     draw_along(
         shear,
@@ -183,6 +205,19 @@ def _lay_out_inner(fig: Figure, subject: Subject) -> None:
     )
     bearings.set_xlabel("z, mm (free end on the left)")
     for ax in (shear, bending):
+        ax.label_outer()
+
+
+def _lay_out_inner_with_gas(fig: Figure, loads: Sequence[LoadsWithGas], system: System) -> None:
+    shaft, block, bearings = fig.subplots(3, 1, sharex=True)
+    titles = "Bending moment in the crankshaft, with gas", "moment"
+    draw_along(shaft, [found.bending for found in loads], titles, system.moment)
+    titles = "Bending moment in the block, with gas", "moment"
+    draw_along(block, [found.block_bending for found in loads], titles, system.moment)
+    titles = "Load of each main bearing, with gas", "force"
+    draw_along(bearings, [found.bearings for found in loads], titles, system.force, "")
+    bearings.set_xlabel("z, mm (free end on the left)")
+    for ax in (shaft, block):
         ax.label_outer()
 
 
@@ -212,29 +247,33 @@ def _lay_out_main(fig: Figure, subject: Subject) -> None:
 
 
 # ------------------------------------------------------------------ panels
-def _is_told(ax: Axes, subject: Subject, quantity: str) -> bool:
-    """Whether words stand in place of a picture: of a moment that is not known, and of what is
-    negligible beside one cylinder's.
+def _find_words(subject: Subject, quantity: str) -> str:
+    """What stands in place of a picture: of a moment that is not known, of what is nothing, and of
+    what is negligible beside one cylinder's; else nothing.
     """
     if subject.is_unknown(quantity):
-        _say_unknown(ax)
-        return True
+        return "not known:\ncrank.spacing is missing"
     largest = subject.find_largest(quantity)
-    if not 0 < largest < NEGLIGIBLE * subject.now.of_one_cylinder[quantity]:
-        return False
-    told = f"negligible ({size_text(largest, subject.unit(quantity), 2)})"
-    ax.set_axis_off()
-    ax.set_title(f"Free {quantity}")
-    ax.text(0.5, 0.5, told, ha="center", va="center", transform=ax.transAxes)
-    return True
+    if not largest:
+        return NOTHING
+    kind = ROLL.name if quantity == ABOUT else quantity
+    if largest < NEGLIGIBLE * subject.now.of_one_cylinder[kind]:
+        return f"negligible ({size_text(largest, subject.unit(kind), 2)})"
+    return ""
 
 
-def _say_unknown(ax: Axes) -> None:
-    """In place of a picture of a moment that is not known."""
+def _is_told(ax: Axes, subject: Subject, quantity: str) -> bool:
+    """Whether words stand in place of a picture; they are written."""
+    if words := _find_words(subject, quantity):
+        _write_words(ax, _TITLES[quantity], words)
+    return bool(words)
+
+
+def _write_words(ax: Axes, title: str, words: str) -> None:
+    """In place of a picture."""
     ax.set_axis_off()
-    ax.set_title("Free moment")
-    told = "not known:\ncrank.spacing is missing"
-    ax.text(0.5, 0.5, told, ha="center", va="center", transform=ax.transAxes)
+    ax.set_title(title, pad=6)
+    ax.text(0, 1, words, ha="left", va="top", transform=ax.transAxes)
 
 
 def _locus_panel(ax: Axes, subject: Subject, quantity: str) -> None:
@@ -242,31 +281,29 @@ def _locus_panel(ax: Axes, subject: Subject, quantity: str) -> None:
         return
     curve, before = subject.phasors(quantity)
     draw_locus(ax, curve, quantity, subject.unit(quantity), before)
-    ax.set_title(f"Free {quantity}", pad=6 if before is None else None)
+    ax.set_title(_TITLES[quantity], pad=6 if before is None else None)
 
 
 def _bars_panel(ax: Axes, subject: Subject, quantity: str) -> None:
-    if quantity == "about":
-        draw_scalar_bars(ax, subject.scalars, subject.system.moment)
-        ax.set_title("About the crank")
-        return
     if _is_told(ax, subject, quantity):
+        return
+    ax.set_title(_TITLES[quantity])
+    if quantity == ABOUT:
+        draw_scalar_bars(ax, subject.scalars, subject.system.moment)
         return
     curve, before = subject.phasors(quantity)
     draw_vector_bars(ax, curve, quantity, subject.unit(quantity), before)
-    ax.set_title(f"Free {quantity}")
 
 
 def _curves_panel(ax: Axes, subject: Subject, quantity: str) -> None:
-    if quantity == "about":
-        draw_scalar_curves(ax, subject.scalars, subject.system.moment, subject.phasors("roll")[1])
-        ax.set_title("About the crank")
-        return
     if _is_told(ax, subject, quantity):
+        return
+    ax.set_title(_TITLES[quantity])
+    if quantity == ABOUT:
+        draw_scalar_curves(ax, subject.scalars, subject.system.moment, subject.phasors("roll")[1])
         return
     curve, before = subject.phasors(quantity)
     draw_vector_curves(ax, curve, quantity, subject.unit(quantity), before)
-    ax.set_title(f"Free {quantity}")
 
 
 Layout = Callable[["Figure", Subject], None]

@@ -13,6 +13,8 @@ from functools import lru_cache
 from io import BytesIO
 from typing import TYPE_CHECKING, Any, Literal
 
+from .legends import fold_wide_legends
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -113,8 +115,12 @@ def open_figure(width: float, height: float, form: Form) -> Iterator[Figure]:
 
 def save_figure(figure: Figure, form: Form) -> bytes:
     """The picture as a file's content; the same figure gives the same bytes."""
-    figure.draw_without_rendering()
-    figure.set_layout_engine("none")
+    lay_out = figure.get_layout_engine()
+    if lay_out is not None:
+        lay_out.execute(figure)
+        if fold_wide_legends(figure):
+            lay_out.execute(figure)
+    figure.set_layout_engine(None)  # matplotlib would lay it out again, and draw it twice
     for ax in figure.axes:  # the solver of the layout is exact to the last bits only
         left, bottom, width, height = (round(edge, 5) for edge in ax.get_position().bounds)
         ax.set_position((left, bottom, width, height))

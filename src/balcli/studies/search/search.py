@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.phasors import Array
+from ...core.telling import Tell, tell_nobody
 from ...engine.build import assemble, build
 from ...engine.layout import cycle_deg, plan_cylinders
 from ...enginefile.fields import nearest
@@ -32,7 +33,7 @@ from .even_firing import find_even_angles, fires_evenly
 from .firing_orders import Slots
 from .mirror_images import drop_mirror_images
 from .objective import Objective
-from .throws import Watch, count_from, find_best_throws
+from .throws import count_from, find_best_throws
 
 Angle = Literal["bank_angle", "splay"]
 What = Literal["throws", "firing_order", "bank_angle", "splay"]
@@ -76,7 +77,7 @@ class _Task(NamedTuple):
     wanted: int
     even_firing: bool
     locked: tuple[tuple[float, float], ...]
-    watch: Watch | None
+    tell: Tell
 
 
 def search_arrangements(
@@ -85,7 +86,7 @@ def search_arrangements(
     objective: Objective,
     count: int = 10,
     even_firing: bool = False,
-    watch: Watch | None = None,
+    tell: Tell = tell_nobody,
 ) -> Search:
     """The best arrangements, mirror images and rotations once.
 
@@ -94,7 +95,7 @@ def search_arrangements(
             the file gives no throws), bank_angle (of a vee) or splay.
         count: at most so many.
         even_firing: only arrangements that can fire evenly.
-        watch: of a search over throws, which alone takes long: `throws.find_best_throws`.
+        tell: of a search over throws, which alone takes long: `throws.find_best_throws`.
 
     Raises:
         BalcliError: an engine that has nothing to arrange, or no arrangement that keeps the limits,
@@ -104,7 +105,7 @@ def search_arrangements(
     engine = build(model)
     refuse_unknown(engine, objective.quantities)
     locked = _find_locked(model, what)
-    candidates = _SEARCHES[what](_Task(model, objective, count, even_firing, locked, watch))
+    candidates = _SEARCHES[what](_Task(model, objective, count, even_firing, locked, tell))
     found = tuple(islice(drop_mirror_images(candidates, model), count))
     if not found:
         also = " and fires evenly" if even_firing else ""
@@ -141,7 +142,7 @@ def _search_throws(task: _Task) -> Iterator[Found]:
         return fires_evenly(build_candidates(model, {"throws": throws}), model)
 
     allowed = can_fire if task.even_firing else None
-    throws = find_best_throws(model, objective, IMAGES * task.wanted, allowed, task.watch)
+    throws = find_best_throws(model, objective, IMAGES * task.wanted, allowed, task.tell)
     if len(throws):
         throws = count_from(throws[:, :1], throws)
     return rank_candidates(model, {"throws": throws}, objective)

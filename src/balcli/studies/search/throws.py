@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.phasors import Array, Complex
+from ...core.telling import Tell, tell_nobody
 from ...engine.arrays import ranked
 from ...engine.layout import TURN, plan_cylinders
 from ...enginefile.model import EngineFile
@@ -28,7 +29,6 @@ from .throw_contributions import Key, tabulate_contributions
 
 Indices = NDArray[np.int8]
 Allowed = Callable[[Array], NDArray[np.bool_]]
-Watch = Callable[[float], bool]
 Left = tuple[int, ...]  # how often each angle is still to be given
 _DECIMALS = 9  # of angles that are equal, deg
 BLOCK = 7  # throws of which all arrangements are tried at a time (7! = 5040)
@@ -39,15 +39,15 @@ def find_best_throws(
     objective: Objective,
     count: int,
     allowed: Allowed | None = None,
-    watch: Watch | None = None,
+    tell: Tell = tell_nobody,
 ) -> Array:
     """The best arrangements of the file's throw angles, shape (at most count, throws), cylinder 1's
     throw at 0, best first, deg.
 
     Args:
         allowed: which of some arrangements (shape (candidates, throws)) may be; None: all.
-        watch: is told, time and again, which share of all arrangements has been decided on, and
-            says whether that is enough: then the result is the best of those.
+        tell: is told which share of all arrangements has been decided on, and says whether that is
+            enough: then the result is the best of those.
 
     Raises:
         BalcliError: more than MOST_ARRANGEMENTS.
@@ -62,7 +62,7 @@ def find_best_throws(
     free = [t for t in range(len(given)) if t != fixed]
     best = _BestSoFar(count)
     turned = list(_turn_to_cylinder_1(given))
-    decided = _Decided(watch, sum(map(_count_arrangements_of_others, turned)))
+    decided = _Decided(tell, sum(map(_count_arrangements_of_others, turned)))
     for angles in turned:
         levels, times = np.unique(angles, return_counts=True)
         tree = _Tree(model, objective, _Places(levels, fixed, free), best, allowed, decided)
@@ -139,13 +139,13 @@ class _BestSoFar:
 class _Decided:
     """How many of all arrangements have been tried, or cannot be good."""
 
-    def __init__(self, watch: Watch | None, total: int) -> None:
-        self._watch, self._total, self._count = watch, total, 0
+    def __init__(self, tell: Tell, total: int) -> None:
+        self._tell, self._total, self._count = tell, total, 0
 
     def add(self, count: int) -> bool:
         """So many more; whether to go on."""
         self._count += count
-        return self._watch is None or not self._watch(self._count / self._total)
+        return not self._tell(self._count / self._total)
 
 
 class _Tree:
@@ -171,7 +171,7 @@ class _Tree:
             self._start[key] = ahead + own.devices[0], astern + own.devices[1]
 
     def grow(self, prefix: tuple[int, ...], left: Left) -> bool:
-        """Try everything that begins so; False: who watches has seen enough, and there is some."""
+        """Try everything that begins so; False: who is told has heard enough, and there is some."""
         hopeless = prefix and self._find_bound(prefix) >= self._best.worst
         if hopeless or sum(left) <= BLOCK:
             if not hopeless:

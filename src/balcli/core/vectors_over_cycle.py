@@ -1,0 +1,94 @@
+"""Forces in a plane over a cycle, smooth between common breakpoints: their orders and largest
+values.
+
+All are sampled at the Gauss-Legendre nodes of panels on which each is a short series
+(`core.piecewise`); sums and levers of forces are sums of samples, so that the forces themselves are
+computed once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeAlias
+
+import numpy as np
+
+from .peaks import Peak
+from .phasors import Array, Complex
+from .piecewise import PiecewiseCurve, cut, gauss, legendre, resolved, values_to_series
+
+Vectors: TypeAlias = Callable[[Array], Complex]  # at angles (rad), shape (vectors, angles)
+
+_TERMS = 16  # of a series; a panel on which e^{in angle} turns by no more than _TURN adds none
+_TURN = 4.0  # rad
+_AT_ONCE = 1 << 20  # orders x angles, which bounds the memory
+
+
+@dataclass(frozen=True, eq=False)
+class Panels:
+    """Panels of a cycle on which all forces are short series.
+
+    Attributes:
+        breaks: rising, rad; the last a period after the first.
+    """
+
+    breaks: Array
+
+    @cached_property
+    def angles(self) -> Array:
+        """Of the samples, rad, shape (samples,): node by node, each on every panel."""
+        middle, half = (self.breaks[1:] + self.breaks[:-1]) / 2, np.diff(self.breaks) / 2
+        return np.asarray(middle + half * gauss(_TERMS)[0][:, None]).reshape(-1)
+
+    @cached_property
+    def _weights(self) -> Array:
+        """Of the samples in a mean over the period."""
+        half = np.diff(self.breaks) / 2 / (self.breaks[-1] - self.breaks[0])
+        return np.asarray(half * gauss(_TERMS)[1][:, None]).reshape(-1)
+
+    def find_orders(self, samples: Complex, orders: Array) -> tuple[Complex, Complex]:
+        """Vectors that turn with the crank, and against it, each of shape (orders, forces).
+
+        Args:
+            samples: of forces, shape (forces, samples).
+            orders: shape (orders,), none higher than the panels were made for.
+        """
+        weighed = (samples * self._weights).T
+        step = max(_AT_ONCE // len(self.angles), 1)
+        forward, backward = [], []
+        for k in range(0, len(orders), step):
+            turned = np.exp(-1j * orders[k : k + step, None] * self.angles)
+            forward.append(turned @ weighed)
+            backward.append(np.conj(turned) @ weighed)
+        ahead, against = np.concatenate(forward), np.concatenate(backward)
+        against[orders == 0] = 0.0  # a mean stands in one of them
+        return ahead, against
+
+    def find_largest(self, samples: Complex) -> Peak:
+        """The largest size of one force, and the first angle (rad) at which it is reached; at a
+        jump both sides count.
+        """
+        series = values_to_series(_TERMS) @ samples.reshape(_TERMS, -1)
+        finer = 2 * _TERMS - 1  # terms of the square
+        values = legendre(gauss(finer)[0], _TERMS).T @ series
+        squares = values_to_series(finer) @ (values.real**2 + values.imag**2)
+        highest = PiecewiseCurve(self.breaks, squares).extremes()[1]
+        return Peak(float(np.sqrt(max(highest.value, 0.0))), highest.angle)
+
+
+def find_panels(forces: Vectors, breaks: Array, highest_order: float) -> Panels:
+    """Panels for forces that are smooth between breakpoints, fine enough for these orders.
+
+    Args:
+        forces: values at angles (rad).
+        breaks: rising, rad; the last a period after the first.
+    """
+
+    def add_squares(angle: Array) -> Array:
+        found = forces(angle.reshape(-1))
+        return np.asarray((np.abs(found) ** 2).sum(axis=0)).reshape(angle.shape)
+
+    found = resolved(add_squares, breaks).breaks
+    return Panels(cut(found, _TURN / max(highest_order, 1.0)))

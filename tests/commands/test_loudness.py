@@ -1,0 +1,82 @@
+"""How much is said beside results: -q, -v, and the version."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from support.commands import run_here
+from support.paths import ENGINES
+
+from balcli import __version__
+from balcli.cli import COMMANDS
+
+LONG_ROD = "crank.stroke = 90\nrod.length = 1600\npiston.mass = 0.5\n"
+WARNING = (
+    "warning: standard input: crank radius / rod length is 0.02813, where 0.15 to 0.4 is usual; crank.stroke is "
+    "twice the crank radius, rod.length the distance of its two centres\n"
+)
+
+
+@pytest.mark.parametrize("option", ["-q", "--quiet"])
+def test_quiet_leaves_out_warnings_wherever_it_stands(option):
+    usual = run_here("analyze", "-", stdin=LONG_ROD)
+    assert usual.err == WARNING
+    for args in ((option, "analyze", "-"), ("analyze", "-", option)):
+        assert run_here(*args, stdin=LONG_ROD) == (0, usual.out, "")
+    assert run_here("analyze", "-", stdin=LONG_ROD).err == WARNING  # it was for that command
+
+
+def test_quiet_keeps_errors():
+    status, out, err = run_here("-q", "analyze", "nowhere.toml")
+    assert (status, out, err) == (2, "", "balcli: nowhere.toml: no such file\n")
+
+
+def test_q_is_the_quantity_where_it_always_was():
+    args = ("sweep", "-", "--vary", "crank.stroke=80,90", "-q", "force.2.major")
+    usual = run_here(*args, stdin=LONG_ROD).out
+    quiet = run_here(*args, "--quiet", stdin=LONG_ROD)
+    assert usual.startswith("crank.stroke,force.2.major\n")
+    assert quiet == (0, usual, "")
+
+
+def test_verbose_tells_what_was_read_taken_and_written(tmp_path: Path):
+    target = tmp_path / "x.csv"
+    status, out, err = run_here("analyze", "-", "-v", "-o", target, stdin=LONG_ROD)
+    assert (status, out) == (0, "")
+    *told, took = err.splitlines()
+    assert told == [
+        f"note: standard input: read, {len(LONG_ROD)} bytes",
+        "note: standard input: not in the file: crank.throw_mass = 0 kg",
+        "note: standard input: not in the file: rod.inertia: two masses at the ends",
+        "note: standard input: not in the file: piston.offset = 0 mm",
+        "note: standard input: not in the file: layout.strokes = 4",
+        "note: standard input: not in the file: operation.speed = 1000 rpm",
+        "note: standard input: not in the file: frame.reference: on the crank axis, half-way between the first "
+        "and the last throw",
+        "note: standard input: not in the file: rod.mass: a rod without mass",
+        WARNING.strip(),
+        f"note: {target}: written, {target.stat().st_size} bytes",
+    ]
+    assert re.fullmatch(r"note: \d+\.\d\d s of processor time, the start of Python included", took)
+
+
+def test_verbose_says_what_a_scheme_does_it_for():
+    *_, reason, _ = run_here(
+        "balance", ENGINES / "i3.toml", "--scheme", "couple-shaft", "-f", "json", "-v"
+    ).err.splitlines()
+    assert reason.startswith("note: scheme couple-shaft: ")
+
+
+@pytest.mark.parametrize("option", ["-V", "--version"])
+def test_the_version(option):
+    assert run_here(option) == (0, f"balcli {__version__}\n", "")
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_can_be_quiet_and_verbose(command):
+    words = run_here(command, "--help").out.split()
+    assert {"--quiet", "--verbose", "-v,"} <= {*words}
+    own = sum(word == "-q," for word in words)
+    assert own == 1

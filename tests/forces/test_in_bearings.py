@@ -1,0 +1,236 @@
+"""What gas and inertia do inside an engine: statics and quadratures of their own."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support.commands import run_here
+from support.gas_engines import FOUR, WIEBE, draw_engine, engine
+from support.paths import ENGINES
+
+from balcli.core.phasors import Phasors
+from balcli.errors import BalcliError
+from balcli.forces import in_bearings
+from balcli.forces.crankshaft import compute_inner_loads, place_bearings
+from balcli.forces.curves import compute_engine_curves
+from balcli.forces.in_bearings import compute_forces_along, compute_loads_with_gas
+from balcli.forces.spectrum import compute_device_force
+from balcli.torque.loads import analyze_loads
+
+DEVICES = """
+[[counterweight]]
+unbalance = 60000
+angle = 170
+position = -230
+[[counterweight]]
+unbalance = 50000
+angle = 30
+position = 40
+[[shaft]]
+ratio = -2
+unbalance = 9000
+angle = 35
+at = [-40, 60]
+position = -30
+[[slider]]
+order = 2
+unbalance = 2000
+direction = 20
+position = 90
+"""
+ORDERS = np.array([0.0, 0.5, 1.0, 1.5, 2.0, 4.5, 12.0, 40.0])
+
+
+def draw(seed):
+    """Two cylinders at least, with devices on shaft and block."""
+    found = draw_engine(seed, more=DEVICES)
+    return found if len(found.throws_m) > 1 else draw(seed + 100)
+
+
+def solve_statics(found, angles):
+    """Bearing loads, shear and bending moment of the shaft just behind each section, one load at a
+    time: in the span that it stands in, or by the two bearings that it hangs on, reactions hold it.
+    """
+    loads = compute_forces_along(found, np.degrees(angles)).on_shaft
+    weights = [d.z for d in found.devices if d.order == 1 and not d.place and not d.backward]
+    z = np.array([*np.ravel(found.cylinders.z), *weights])
+    span = place_bearings(found.throws_m)
+    sections = np.unique([*z, *span, *(d.z for d in found.devices)])
+    bearings = np.zeros((len(span), len(angles)), complex)
+    shear = np.zeros((len(sections), len(angles)), complex)
+    bending = np.zeros_like(shear)
+    for place, load in zip(z, loads, strict=True):
+        left = min(max(np.searchsorted(span, place, side="right") - 1, 0), len(span) - 2)
+        levers = np.array([[1.0, 1.0], [span[left], span[left + 1]]])
+        held = np.linalg.solve(levers, np.array([load, place * load]))
+        bearings[left : left + 2] += held
+        forces = ((place, load), (span[left], -held[0]), (span[left + 1], -held[1]))
+        for row, section in enumerate(sections):
+            before = [(at, force) for at, force in forces if at <= section]
+            shear[row] += sum(force for _, force in before)
+            bending[row] += 1j * sum((at - section) * force for at, force in before)
+    return {"bearings": bearings, "shear": shear, "bending": bending}
+
+
+def integrate(found, function, orders):
+    """Orders of functions by Gauss-Legendre sums of 24 points over short pieces between jumps."""
+    jumps = [
+        (cylinder.torque.breaks + cylinder.fires) % (4 * np.pi) for cylinder in found.gas.cylinders
+    ]
+    even = np.linspace(0, 4 * np.pi, 241)
+    edges = np.unique(np.round(np.concatenate([even, *jumps]), 13))
+    nodes, weights = np.polynomial.legendre.leggauss(24)
+    middle, half = (edges[1:] + edges[:-1]) / 2, np.diff(edges) / 2
+    angles = (middle + half * nodes[:, None]).ravel()
+    share = (half * weights[:, None]).ravel() / (4 * np.pi)
+    values = function(angles)
+    turn = np.exp(-1j * np.multiply.outer(angles, orders)) * share[:, None]
+    return {name: (v @ turn, v @ np.conj(turn)) for name, v in values.items()}
+
+
+@pytest.mark.parametrize("seed", [1, 4])
+def test_orders_are_those_of_statics_load_by_load(seed):
+    found = draw(seed)
+    loads = compute_loads_with_gas(found, ORDERS)
+    wanted = integrate(found, lambda angles: solve_statics(found, angles), ORDERS)
+    for name, (forward, backward) in wanted.items():
+        phasors = getattr(loads, name).phasors
+        size = np.abs(forward).max()
+        assert np.abs(phasors.forward.T - forward).max() < 1e-12 * size
+        assert np.abs(phasors.backward.T - backward)[:, 1:].max() < 1e-12 * size
+        assert not phasors.backward[0].any()
+
+
+@pytest.mark.parametrize("seed", [1, 4])
+def test_largest_values_are_on_the_curves(seed):
+    found = draw(seed)
+    loads = compute_loads_with_gas(found, ORDERS)
+    fine = np.radians(np.arange(0, 720, 0.2))
+    for name, curves in solve_statics(found, fine).items():
+        sizes = np.abs(curves)
+        for k, peak in enumerate(getattr(loads, name).peaks):
+            assert peak.value >= sizes[k].max() * (1 - 1e-10) - 1e-9 * sizes.max()
+            assert peak.value == pytest.approx(sizes[k].max(), rel=0.02, abs=1e-9 * sizes.max())
+
+
+@pytest.mark.parametrize("seed", [1, 4])
+def test_shaft_and_block_together_bear_what_inertia_makes(seed):
+    """Gas presses on throw and head alike; the block has its shafts and sliders besides."""
+    found = draw(seed)
+    orders = np.arange(1.0, 7.0)
+    loads, inertia = compute_loads_with_gas(found, orders), compute_inner_loads(found, orders)
+    others = [d for d in found.devices if d.order != 1 or d.place or d.backward]
+    for row, z in enumerate(inertia.shear.z_m):
+        shear, bending = inertia.shear.at(row), inertia.bending.at(row)
+        for device in others:
+            if device.z <= z:
+                force = compute_device_force(found, device, orders)
+                shear, bending = shear + force, bending + 1j * (device.z - z) * force
+        for shaft, block, want in (
+            (loads.shear, loads.block_shear, shear),
+            (loads.bending, loads.block_bending, bending),
+        ):
+            both = pick(shaft, z) + pick(block, z)
+            size = np.abs(shaft.phasors.forward).max()
+            assert both.forward == pytest.approx(want.forward, abs=1e-11 * size)
+            assert both.backward == pytest.approx(want.backward, abs=1e-11 * size)
+
+
+def pick(along, z) -> Phasors:
+    return along.at(int(np.flatnonzero(np.isclose(along.z_m, z))[0]))
+
+
+def test_beyond_the_ends_shaft_and_block_bear_the_free_force():
+    found = draw(4)
+    angles = np.arange(0.0, 720.0, 7.0)
+    forces = compute_forces_along(found, angles)
+    total = forces.on_shaft.sum(axis=0) + forces.on_block.sum(axis=0)
+    curves = compute_engine_curves(found, angles).values
+    size = np.abs(forces.on_shaft).max()
+    assert total.real == pytest.approx(curves["force_x_N"], abs=1e-10 * size)
+    assert total.imag == pytest.approx(curves["force_y_N"], abs=1e-10 * size)
+
+
+def test_bearings_are_those_of_torque():
+    found = draw(5)
+    loads = compute_loads_with_gas(found, ORDERS)
+    for peak, main in zip(loads.bearings.peaks, analyze_loads(found, ("main",)).main, strict=True):
+        assert peak.value == pytest.approx(main.largest.value, rel=1e-10)
+        assert peak.theta == pytest.approx(main.largest.angle, abs=1e-6)
+
+
+# ------------------------------------------------------------------ what users see
+def analyze(*arguments):
+    status, out, err = run_here("analyze", *arguments, "--only", "inner")
+    assert (status, err) == (0, "")
+    return out
+
+
+def test_json_and_csv_have_every_place():
+    path = ENGINES / "i4_wiebe.toml"
+    inner = json.loads(analyze(path, "--orders", "0.5-2", "-f", "json"))["inner"]
+    found = inner["with_gas"]
+    assert set(found) == {"crankshaft", "bearings", "block"}
+    assert [len(found[part]["sections"]) for part in ("crankshaft", "block")] == [9, 9]
+    assert len(found["bearings"]) == 5
+    bent = found["crankshaft"]["sections"][1]
+    assert set(bent) == {"position_mm", "shear_N", "bending_Nm"}
+    assert [entry["order"] for entry in bent["bending_Nm"]["orders"]] == [0.5, 1, 1.5, 2]
+    assert bent["bending_Nm"]["peak"] == pytest.approx(found["crankshaft"]["largest_bending_Nm"])
+    rows = analyze(path, "--orders", "0.5-2", "-f", "csv").splitlines()
+    for name, places in (
+        ("shaft_shear", 9),
+        ("shaft_bending", 9),
+        ("main", 5),
+        ("block_shear", 9),
+        ("block_bending", 9),
+    ):
+        for place in range(1, places + 1):
+            assert any(f",{name} {place},,peak," in row for row in rows)
+
+
+def test_text_says_what_bears_what():
+    text = analyze(ENGINES / "i4_wiebe.toml", "--orders", "0.5-2")
+    assert "Bending moment in the crankshaft and block together, N·m" in text
+    assert "it shears and bends crankshaft and block together nowhere" in text
+    assert "Bending moment in the block with gas, N·m" in text
+    assert "shaft counts as cut in each" in text
+    assert "Inertia loads" not in text
+    assert max(map(len, text.split("\nOf inertia")[0].splitlines())) <= 80
+
+
+@pytest.mark.parametrize(
+    ("change", "why"),
+    [
+        (("throws = [0, 180, 180, 0]\nspacing = 100\n", ""), "a crank with one throw does not say"),
+        (("[layout]", "[layout]\nrotary = true"), "the crank of turning cylinders stands still"),
+        ((WIEBE, '[gas]\nharmonics = "h.csv"\n'), "loads of pins need pressures; harmonics of"),
+    ],
+)
+def test_where_it_is_not_known_the_reason_stands_there(tmp_path, change, why):
+    text = FOUR + WIEBE
+    if "throws" in change[0]:
+        text = text.replace("firing_order = [1, 3, 4, 2]\n", "")
+    path = tmp_path / "engine.toml"
+    path.write_text(text.replace(*change))
+    (tmp_path / "h.csv").write_text("order,cos,sin\n0,2,0\n0.5,1,3\n")
+    out = analyze(path)
+    assert f"Inside, it is not known: {why}" in " ".join(out.split())
+    assert "with_gas" not in json.loads(analyze(path, "-f", "json"))["inner"]
+
+
+def test_engines_with_gas_are_compared_by_it():
+    files = [str(ENGINES / name) for name in ("i4_wiebe.toml", "v8_wiebe.toml")]
+    status, out, err = run_here("compare", *files, "--only", "inner", "--orders", "1", "-f", "json")
+    assert (status, err) == (0, "")
+    keys = {"shaft_shear_N", "shaft_bending_Nm", "main_N", "block_shear_N", "block_bending_Nm"}
+    assert keys <= {line["quantity"] for line in json.loads(out)["figures"]}
+
+
+def test_so_many_cylinders_that_they_would_fill_the_memory_are_refused(monkeypatch):
+    monkeypatch.setattr(in_bearings, "MOST_FORCES_OVER_CYCLE", 1000)
+    with pytest.raises(BalcliError, match="inner loads with gas of 4 cylinders are"):
+        compute_loads_with_gas(replace(engine(FOUR + WIEBE)))

@@ -1,0 +1,110 @@
+"""What the documentation site has beyond docs/, as a hook of MkDocs (mkdocs.yml).
+
+- the addresses of the project, from pyproject.toml;
+- README.md as the first page, and the pages beside it, with their links turned to the site's;
+- the pictures of docs/gallery.md, made by the commands that it shows;
+- formulas (`$$` … `$$`) as MathML, which browsers show by themselves: no script, no network.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from docs_examples import ROOT, Shown, blocks, printed, project
+
+PAGES = {  # of the repository's root, by their names on the site
+    "README.md": "index.md",
+    "CHANGELOG.md": "changelog.md",
+    "CONTRIBUTING.md": "contributing.md",
+    "SECURITY.md": "security.md",
+}
+FUNCTION = r"(<mi>(?:sin|cos|tan)</mi>|<msup><mi>(?:sin|cos|tan)</mi><mn>\d</mn></msup>)"
+PRIME = r"(\\[a-z]+|[A-Za-z])('+)"
+LIBRARY = """# Python
+
+What `import balcli` promises. Everything inside is SI, angles are radians; the
+[tour](index.md#as-a-library) shows how it is used.
+
+::: balcli
+"""
+
+
+def on_config(config: Any) -> Any:
+    """MkDocs asks for its settings: where the project lives."""
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    addresses = settings["tool"]["hatch"]["metadata"]["hooks"]["custom"]
+    config.site_url, repository = addresses["documentation"], addresses["repository"]
+    # not as repo_url, for which the theme would ask the host for stars at every visit
+    config.extra["repository"] = repository
+    config.extra["social"] = [{"icon": "material/git", "link": repository, "name": "Source"}]
+    return config
+
+
+def on_files(files: Any, config: Any) -> Any:
+    """MkDocs has listed docs/: what is made is added."""
+    from mkdocs.structure.files import File  # tests of the rest do without it
+
+    for source, target in PAGES.items():
+        text = (ROOT / source).read_text(encoding="utf-8")
+        files.append(
+            File.generated(config, target, content=link_here(text, config.extra["repository"]))
+        )
+    files.append(File.generated(config, "python.md", content=LIBRARY))
+    with TemporaryDirectory() as folder:
+        for picture in _draw_gallery(Path(folder)):
+            name = f"gallery/{picture.name}"
+            files.append(File.generated(config, name, content=picture.read_bytes()))
+    return files
+
+
+def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
+    """MkDocs has read a page: pictures below their commands, formulas for browsers."""
+    if page.file.src_uri == "gallery.md":
+        markdown = re.sub(r"^```sh\n(.*?)^```$", _show_pictures, markdown, flags=re.M | re.S)
+    return re.sub(r"^\$\$\n(.*?)^\$\$$", _write_formula, markdown, flags=re.M | re.S)
+
+
+def link_here(text: str, repository: str) -> str:
+    """Links of a page at the root: to the pages of the site; what is none, to the repository."""
+
+    def target(found: re.Match[str]) -> str:
+        path, heading = found[1], found[2] or ""
+        if path.startswith("docs/"):
+            return f"]({path.removeprefix('docs/')}{heading})"
+        if path in PAGES:
+            return f"]({PAGES[path]}{heading})"
+        return f"]({repository}/blob/main/{path}{heading})"
+
+    return re.sub(r"\]\((?!#|[a-z]+:)([^)\s#]+)(#[^)\s]*)?\)", target, text)
+
+
+def _draw_gallery(folder: Path) -> list[Path]:
+    """Run the commands of docs/gallery.md; the pictures that they write."""
+    text = (ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
+    project(folder)
+    commands = [line for block in blocks(text) if block.language == "sh" for line in block.lines]
+    for command in commands:
+        printed(Shown(command, [], 0, 0), folder)
+    return [folder / name for command in commands for name in _pictures(command)]
+
+
+def _pictures(command: str) -> list[str]:
+    return re.findall(r"\S+\.svg", command)
+
+
+def _show_pictures(found: re.Match[str]) -> str:
+    names = _pictures(found[1])
+    return "\n\n".join([found[0], *(f"![{name}](gallery/{name})" for name in names)])
+
+
+def _write_formula(found: re.Match[str]) -> str:
+    from latex2mathml.converter import convert  # tests of the rest do without it
+
+    latex = found[1].strip().replace("{aligned}", "{align*}")
+    latex = re.sub(PRIME, lambda one: f"{{{one[1]}\\text{{{'′' * len(one[2])}}}}}", latex)
+    formula = re.sub(FUNCTION, r'\1<mspace width="0.17em" />', convert(latex, display="block"))
+    return f'<div class="formula">{formula}</div>'
