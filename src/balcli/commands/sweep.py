@@ -51,7 +51,10 @@ def sweep(
     form: Annotated[
         VariantsFormat | None,
         format_option(
-            VariantsFormat, "How to write the variants; default: by the ending of -o, else csv."
+            VariantsFormat,
+            "How to write the variants; default: by the ending of -o (.csv, .json, .parquet, .txt, "
+            ".md), else a table in a terminal and csv in a pipe. Tables show 50 variants whole, of "
+            "more the first and the last.",
         ),
     ] = None,
     output: Output = None,
@@ -81,13 +84,14 @@ def sweep(
         optional("ADDRESS|local", "Compute on a dask cluster.", "--dask"),
     ] = "",
 ) -> None:
-    """Figures of many variants of an engine: numbers of its file over ranges, as CSV, JSON or (by
-    the name of -o) Parquet.
+    """Figures of many variants of an engine: numbers of its file over ranges, as a table, CSV, JSON
+    or Parquet.
 
     Ctrl-C ends it with the variants computed so far, in -o's FILE.part if there is a -o.
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
-    kind = format_of(output, form, VARIANTS, VariantsFormat.CSV)
+    usual = VariantsFormat.TABLE if is_seen(output) else VariantsFormat.CSV
+    kind = format_of(output, form, VARIANTS, usual)
     drawn = picture_form(plot, "--plot") if plot is not None else None
     from ..studies.sweep import join_chunks, read_sweep
     from . import sweep_output as out
@@ -99,8 +103,9 @@ def sweep(
     if drawn is not None:
         check_drawable(job)
     kept: list[Chunk] = []
+    shown = not is_seen(output) or kind in (VariantsFormat.TABLE, VariantsFormat.MARKDOWN)
     with (
-        reporting_until_stopped("variants", job.variants, progress, not is_seen(output)) as watch,
+        reporting_until_stopped("variants", job.variants, progress, shown) as watch,
         _computing(job, jobs, dask) as chunks,
     ):
         counted = out.until_stopped(chunks, watch)
