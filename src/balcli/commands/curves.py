@@ -21,8 +21,8 @@ Cylinder = Annotated[
         "--cylinder",
         metavar="N",
         show_default=False,
-        help="Piston travel, velocity, acceleration and rod angle of this one; with [gas] over its "
-        "whole cycle, also pressure, volume, forces and torque.",
+        help="Piston travel, velocity, acceleration and rod angle of this one; with [gas] also "
+        "pressure, volume, forces and torque.",
     ),
 ]
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
@@ -40,7 +40,9 @@ def curves(
     form: Form = None,
     output: Output = None,
 ) -> None:
-    """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston."""
+    """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston;
+    with [gas] over the whole cycle.
+    """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = format_of(output, form, SERIES, SeriesFormat.CSV)
     from ..forces.curves import compute_cylinder_curves, compute_engine_curves, divide_revolution
@@ -48,16 +50,18 @@ def curves(
     from .inputs import read_engine
 
     engine = read_engine(path, parse_speed(speed), None if cylinder is None else ()).engine
-    turns = engine.period_revolutions if cylinder is None else engine.cycle_revolutions
-    angles = divide_revolution(read_angle("--step", step), turns)
+    angles = divide_revolution(read_angle("--step", step), engine.cycle_revolutions)
     if cylinder is None:
         found = compute_engine_curves(engine, angles)
     else:
         found = compute_cylinder_curves(engine, cylinder, angles)
-    if cylinder is not None and engine.gas is not None:
-        from ..torque.cylinder_curves import add_gas_curves
+    if engine.gas is not None:
+        from ..torque.curves import add_cylinder_gas, add_gas_torque
 
-        found = add_gas_curves(engine, cylinder, found)
+        if cylinder is None:
+            found = add_gas_torque(engine, found)
+        else:
+            found = add_cylinder_gas(engine, cylinder, found)
     match form:
         case SeriesFormat.CSV:
             text = csv_text([renderer.rows(found)])
