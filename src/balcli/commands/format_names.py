@@ -42,4 +42,4 @@ def _find_format(formats: type[StrEnum], name: str) -> StrEnum:
         return formats(SHORT.get(small, small))
     except ValueError:
         known = ", ".join(f"'{one}'" for one in formats)
-        raise ValueError(f"'{name}' is not one of {known}.") from None
+        raise typer.BadParameter(f"'{name}' is not one of {known}.") from None

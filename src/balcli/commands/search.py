@@ -90,7 +90,7 @@ def search(
     build_named(model, name)  # what is wrong with the file itself is told with its name
     if write is not None:
         refuse_leaving_files(text, path, write)
-    goal = parse_objective(minimise, limit or ())
+    goal = parse_objective(minimise, limit or (), with_gas=model.gas is not None)
     watching = reporting_until_stopped if over == "throws" else reporting  # no other takes long
     with watching("arrangements") as progress:
         found = search_arrangements(model, over, goal, top, bool(require), progress)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from ..forces.kinds import KINDS
+from ..forces.kinds import EVERY_KIND
 from .csv import Columns, Rows
 from .sheet import NAMELESS, Grid, Sheet, number
 
@@ -111,7 +111,7 @@ def _textbook(result: Search, one: Found) -> dict[str, tuple[float, str]]:
     """Forces and moments in the textbook's units, where those tell more than the figures alone."""
     shown: dict[str, tuple[float, str]] = {}
     for q in result.objective.quantities:
-        kind = KINDS[q.kind]
+        kind = EVERY_KIND[q.kind]
         if kind.vector and q.part != "peak":
             size = result.scale.size(kind, q.order)
             if size == size:

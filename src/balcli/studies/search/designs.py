@@ -15,6 +15,7 @@ from ...engine.layout import plan_cylinders
 from ...enginefile.model import EngineFile
 from ...errors import InputError
 from ...forces.quantity import Quantity, evaluate_quantities
+from ..varied_gas import add_gas
 from .objective import Objective
 
 # One column by its key of the engine file: `throws`, shape (candidates, throws), or `bank_angle` or
@@ -73,7 +74,7 @@ def build_candidates(model: EngineFile, candidates: Candidates) -> Engine:
         paths["layout.bank_angle"] = candidates["bank_angle"]
     if "splay" in candidates:
         paths["crank.splay"] = candidates["splay"]
-    return build(model, paths)
+    return add_gas(build(model, paths), model, paths)
 
 
 def find_buildable(model: EngineFile, key: str, angles: Array) -> NDArray[np.bool_]:

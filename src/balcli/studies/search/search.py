@@ -19,6 +19,7 @@ from ...engine.vary import vary_engine
 from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
+from ...forces.kinds import GAS_KINDS
 from ...forces.quantity import Quantity, refuse_unknown
 from ...forces.textbook import TextbookUnits, find_textbook_units
 from ...result import Result
@@ -116,6 +117,9 @@ def search_arrangements(
     what = _parse_over(over)
     engine = build(model)
     refuse_unknown(engine, objective.quantities)
+    of_gas = [q.name for q in objective.quantities if q.kind in GAS_KINDS]
+    if of_gas and what in ("throws", "firing_order"):
+        raise BalcliError(f"{of_gas[0]}: a search over {what} is of inertia alone")
     locked = _find_locked(model, what)
     candidates = _SEARCHES[what](_Task(model, objective, count, even_firing, locked, tell))
     found = tuple(islice(drop_mirror_images(candidates, model), count))
