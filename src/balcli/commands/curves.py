@@ -9,6 +9,7 @@ import typer
 from ..render.csv import csv_text
 from ..render.json import json_text
 from .amounts import read_angle
+from .declare import optional
 from .file_names import SERIES, SeriesFormat, format_of
 from .format_names import format_option
 from .options import EnginePath, Output, Speed, parse_speed
@@ -22,12 +23,11 @@ if TYPE_CHECKING:
 
 Cylinder = Annotated[
     int | None,
-    typer.Option(
-        "--cylinder",
-        metavar="N",
-        show_default=False,
-        help="Piston travel, velocity, acceleration and rod angle of this one; with [gas] also "
+    optional(
+        "N",
+        "Piston travel, velocity, acceleration and rod angle of this one; with [gas] also "
         "pressure, volume, forces and torque.",
+        "--cylinder",
     ),
 ]
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
