@@ -17,6 +17,7 @@ from ..process import count_cores
 from ..render.sweep_plot import check_drawable, draw_sweep
 from ..studies.quantity_names import describe_names
 from ..studies.threads import share_work
+from .declare import optional
 from .file_names import VARIANTS, Place, VariantsFormat, format_of, picture_form, read_place
 from .format_names import format_option
 from .options import EnginePath, ProgressAtOnce
@@ -33,15 +34,12 @@ def sweep(
     path: EnginePath,
     vary: Annotated[
         list[str],
-        typer.Option(
+        optional(
+            "NUMBER=VALUES",
+            "A number of the engine file and its values: rod.ratio=0.24:0.32:0.01 "
+            "(from:to:step, ends included) or crank.throws.2=90,180. "
+            "Several span a grid, the last one fastest.",
             "--vary",
-            metavar="NUMBER=VALUES",
-            show_default=False,
-            help=(
-                "A number of the engine file and its values: rod.ratio=0.24:0.32:0.01 "
-                "(from:to:step, ends included) or crank.throws.2=90,180. "
-                "Several span a grid, the last one fastest."
-            ),
         ),
     ],
     quantity: Annotated[
@@ -62,16 +60,13 @@ def sweep(
     ] = None,
     output: Annotated[
         Place | None,
-        typer.Option(
+        optional(
+            "FILE|FOLDER/",
+            "Write into this file instead, its ending says the format; or into a folder, as "
+            "numbered Parquet files that threads or workers write. - is standard output.",
             "--output",
             "-o",
-            metavar="FILE|FOLDER/",
             parser=read_place,
-            show_default=False,
-            help=(
-                "Write into this file instead, its ending says the format; or into a folder, as "
-                "numbered Parquet files that threads or workers write. - is standard output."
-            ),
         ),
     ] = None,
     force: Annotated[
@@ -80,14 +75,11 @@ def sweep(
     progress: ProgressAtOnce = False,
     plot: Annotated[
         Path | None,
-        typer.Option(
+        optional(
+            "FILE",
+            "Also draw the quantities over one parameter (curves) or two (contours); "
+            ".svg, .png or .pdf.",
             "--plot",
-            metavar="FILE",
-            show_default=False,
-            help=(
-                "Also draw the quantities over one parameter (curves) or two (contours); "
-                ".svg, .png or .pdf."
-            ),
         ),
     ] = None,
     jobs: Annotated[
@@ -103,9 +95,7 @@ def sweep(
     ] = None,
     dask: Annotated[
         str,
-        typer.Option(
-            "--dask", metavar="ADDRESS|local", show_default=False, help="Compute on a dask cluster."
-        ),
+        optional("ADDRESS|local", "Compute on a dask cluster.", "--dask"),
     ] = "",
 ) -> None:
     """Figures of many variants of an engine: numbers of its file over ranges, as CSV, JSON or (by

@@ -20,11 +20,12 @@ import numpy as np
 
 from ..core.phasors import Array
 from ..engine.build import Engine, build
+from ..engine.gas_figures import concerns_gas
 from ..engine.load import read
 from ..enginefile.model import EngineFile
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, InputError
-from ..forces.kinds import DEFAULT_QUANTITIES
+from ..forces.kinds import DEFAULT_QUANTITIES, GAS_KINDS
 from ..forces.quantity import (
     Quantity,
     are_products,
@@ -48,6 +49,7 @@ from .quantities import (
     refuse_unknown_of_chapters,
 )
 from .threads import ALONE_S, share_work
+from .varied_gas import add_gas
 
 ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
@@ -127,7 +129,7 @@ class Sweep:
             for path, values in axes.items()
         }
         try:
-            return build(self.file, arrays, rank=rank)
+            return add_gas(build(self.file, arrays, rank=rank), self.file, arrays)
         except InputError as error:
             raise InputError(error.problems, self.name) from None
 
@@ -145,12 +147,21 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
     """
     model = read(file)
     parameters = tuple(parse(text, model) for text in vary)
+    return plan_sweep(model, parameters, quantities, name_file(file))
+
+
+def plan_sweep(
+    model: EngineFile, parameters: tuple[Parameter, ...], quantities: str | None, name: str
+) -> Sweep:
+    """The sweep of an engine file; `name` is that of the file in messages, all else as of
+    `read_sweep`.
+    """
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
     wanted = DEFAULT_QUANTITIES if quantities is None else quantities
     asked = parse_quantities(wanted, with_gas=model.gas is not None)
-    sweep = Sweep(model, parameters, asked, name_file(file))
+    sweep = Sweep(model, parameters, asked, name)
     if quantities is None:
         known = leave_out_unknown(build_corners(sweep), sweep.of_engine)
         sweep = replace(sweep, quantities=known)
@@ -221,12 +232,20 @@ def _evaluate_tile(sweep: Sweep, box: Box) -> list[Array]:
     """Each quantity for all variants of a box, of its shape, or of length 1 along some axes."""
     values: dict[AnyQuantity, Array] = {}
     if sweep.of_engine:
-        found = evaluate_quantities(sweep.engine(box), sweep.of_engine)
+        found = _evaluate_engine(sweep, sweep.engine(box))
         values |= dict(zip(sweep.of_engine, found, strict=True))
     for members, variants in sweep.of_chapters:
         evaluated = _evaluate_one_by_one(sweep, box, variants, len(members))
         values |= dict(zip(members, evaluated, strict=True))
     return [values[q] for q in sweep.quantities]
+
+
+def _evaluate_engine(sweep: Sweep, engine: Engine) -> list[Array]:
+    """Quantities of forces and moments for all variants of an engine."""
+    try:
+        return evaluate_quantities(engine, sweep.of_engine)
+    except InputError as error:  # of the gas of a variant
+        raise InputError(error.problems, f"{sweep.name}: {error.file}") from None
 
 
 def _evaluate_one_by_one(sweep: Sweep, box: Box, variants: Variants, count: int) -> list[Array]:
@@ -264,10 +283,21 @@ def size_boxes(sweep: Sweep) -> BoxSize:
     orders = find_orders(engine, sweep.of_engine)
     figures = max(engine.cylinders.count * max(map(len, orders)), 2 * max(map(max, orders)))
     samples = count_samples(engine) // 2 ** len(sweep.parameters)
-    most = ALONE if sweep.of_chapters else CHUNK
+    alone = bool(sweep.of_chapters) or _has_many_cycles(sweep)
+    most = ALONE if alone else CHUNK
     side = max(min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), most), 1)
-    products = not sweep.of_chapters and are_products(engine, sweep.of_engine)
+    products = not alone and not _asks_for_gas(sweep) and are_products(engine, sweep.of_engine)
     return BoxSize(PRODUCTS * side if products else side, side)
+
+
+def _has_many_cycles(sweep: Sweep) -> bool:
+    """Whether gas is asked for, of more variants than are computed one by one at a time."""
+    cycles = math.prod(len(p) for p in sweep.parameters if concerns_gas(p.path))
+    return _asks_for_gas(sweep) and cycles > ALONE
+
+
+def _asks_for_gas(sweep: Sweep) -> bool:
+    return any(q.kind in GAS_KINDS for q in sweep.of_engine)
 
 
 def divide_sweep(sweep: Sweep, size: BoxSize) -> Iterator[Box]:
