@@ -10,6 +10,7 @@ import typer
 
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, Exit, warn
+from .declare import optional
 from .file_names import picture_form, text_format
 from .options import FormatOption, Output
 from .output import show, write_file
@@ -38,17 +39,11 @@ def field(
     ] = Smallest.SQUARES,
     without: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="PLANE", show_default=False, help="Leave this plane out; may be given again."
-        ),
+        optional("PLANE", "Leave this plane out; may be given again."),
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(
-            metavar="FILE",
-            show_default=False,
-            help="Draw readings and weights in polar form; .svg, .png or .pdf.",
-        ),
+        optional("FILE", "Draw readings and weights in polar form; .svg, .png or .pdf."),
     ] = None,
     check: Annotated[
         bool,
