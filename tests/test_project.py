@@ -10,6 +10,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import docs_site
+import notebooks
 import pytest
 from support.paths import ROOT
 
@@ -77,7 +78,8 @@ def test_site_shows_every_document():
     listed = re.findall(r"([\w/-]+\.(?:md|ipynb))$", nav, re.MULTILINE)
     assert len(set(listed)) == len(listed)
     written = {file.relative_to(ROOT / "docs").as_posix() for file in ROOT.glob("docs/**/*.md")}
-    assert set(listed) == written | {*docs_site.PAGES.values(), "python.md"}
+    run = {f"notebooks/{path.stem}.md" for path in notebooks.NOTEBOOKS}
+    assert set(listed) == written | run | {*docs_site.PAGES.values(), "python.md"}
 
 
 def test_site_turns_the_links_of_the_readme_to_its_pages():

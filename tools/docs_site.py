@@ -2,6 +2,7 @@
 
 - the addresses of the project, from pyproject.toml;
 - README.md as the first page, and the pages beside it, with their links turned to the site's;
+- the notebooks of docs/notebooks as pages, as they were run last;
 - the pictures of docs/gallery.md, made by the commands that it shows;
 - formulas (`$$` … `$$`) as MathML, which browsers show by themselves: no script, no network.
 """
@@ -14,6 +15,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+import notebooks
 from docs_examples import ROOT, Shown, blocks, printed, project
 
 PAGES = {  # of the repository's root, by their names on the site
@@ -26,8 +28,8 @@ FUNCTION = r"(<mi>(?:sin|cos|tan)</mi>|<msup><mi>(?:sin|cos|tan)</mi><mn>\d</mn>
 PRIME = r"(\\[a-z]+|[A-Za-z])('+)"
 LIBRARY = """# Python
 
-What `import balcli` promises. Everything inside is SI, angles are radians; the
-[tour](index.md#as-a-library) shows how it is used.
+What `import balcli` promises. Everything inside is SI, angles are radians;
+[in Python](in-python.md) shows how it is used.
 
 ::: balcli
 """
@@ -54,6 +56,9 @@ def on_files(files: Any, config: Any) -> Any:
             File.generated(config, target, content=link_here(text, config.extra["repository"]))
         )
     files.append(File.generated(config, "python.md", content=LIBRARY))
+    for notebook in notebooks.NOTEBOOKS:
+        name = f"notebooks/{notebook.stem}.md"
+        files.append(File.generated(config, name, content=notebooks.write_page(notebook)))
     with TemporaryDirectory() as folder:
         for picture in _draw_gallery(Path(folder)):
             name = f"gallery/{picture.name}"
@@ -74,7 +79,7 @@ def link_here(text: str, repository: str) -> str:
     def target(found: re.Match[str]) -> str:
         path, heading = found[1], found[2] or ""
         if path.startswith("docs/"):
-            return f"]({path.removeprefix('docs/')}{heading})"
+            return f"]({path.removeprefix('docs/').replace('.ipynb', '.md')}{heading})"
         if path in PAGES:
             return f"]({PAGES[path]}{heading})"
         return f"]({repository}/blob/main/{path}{heading})"

@@ -1,12 +1,13 @@
 """The notebooks in docs/notebooks: run, and what they show written into them.
 
-`python tools/notebooks.py` runs all of them and keeps what each cell shows (text, tables, pictures),
-without what differs from run to run: times, versions, addresses of objects. Tests run them again and
-compare the text, as of docs/*.md; pictures are only drawn again.
+`python tools/notebooks.py` runs all of them and keeps what each cell shows (text, tables,
+pictures), without what differs from run to run: times, versions, numbers of cells. Tests run them
+again and compare the text, as of docs/*.md; pictures are only drawn again.
 """
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import sys
@@ -15,9 +16,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 from unittest.mock import patch
-
-import nbformat
-from nbclient import NotebookClient
 
 ROOT = Path(__file__).resolve().parent.parent
 NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
@@ -31,15 +29,16 @@ def run(path: Path, folder: Path) -> Any:
     Raises:
         CellExecutionError: a cell fails.
     """
+    import nbformat
+    from nbclient import NotebookClient  # the site does without it
+
     notebook = nbformat.read(path, as_version=4)
     # whatever the user's own settings are: none of them is read
     own = {"PYTHONPATH": str(ROOT / "src"), "IPYTHONDIR": str(folder / ".ipython")}
     own |= {"JUPYTER_RUNTIME_DIR": str(folder / ".jupyter"), "PYDEVD_DISABLE_FILE_VALIDATION": "1"}
     with patch.dict(os.environ, own):
         resources = {"metadata": {"path": str(folder)}}
-        NotebookClient(
-            notebook, timeout=PATIENCE, kernel_name="python3", resources=resources
-        ).execute()
+        NotebookClient(notebook, timeout=PATIENCE, resources=resources).execute()
     return clean(notebook)
 
 
@@ -75,7 +74,29 @@ def _lines(output: Any) -> list[str]:
     return [line for line in found if line]
 
 
+def write_page(path: Path) -> str:
+    """The notebook as Markdown: cells with what they showed when they were last run."""
+    return "\n\n".join(_write_blocks(json.loads(path.read_text(encoding="utf-8")))) + "\n"
+
+
+def _write_blocks(notebook: Any) -> Iterator[str]:
+    for cell in notebook["cells"]:
+        source = "".join(cell["source"])
+        yield source if cell["cell_type"] == "markdown" else f"```python\n{source}\n```"
+        for output in cell.get("outputs", ()):
+            data = {kind: "".join(lines) for kind, lines in output.get("data", {}).items()}
+            if "image/png" in data:
+                yield f"![picture](data:image/png;base64,{data['image/png'].strip()})"
+            elif "text/html" in data:
+                yield re.sub(r"\n\s*\n", "\n", data["text/html"])
+            else:
+                text = "".join(output.get("text", data.get("text/plain", "")))
+                yield f"```text\n{text.rstrip()}\n```"
+
+
 def main() -> None:
+    import nbformat
+
     for path in NOTEBOOKS:
         with TemporaryDirectory() as folder:
             nbformat.write(run(path, Path(folder)), path)
