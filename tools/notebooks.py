@@ -7,7 +7,6 @@ again and compare the text, as of docs/*.md; pictures are only drawn again.
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import sys
@@ -72,26 +71,6 @@ def _lines(output: Any) -> list[str]:
     html = re.sub(r"<style.*?</style>", "", html, flags=re.S)
     found = [re.sub(r"<[^>]+>", " ", line).strip() for line in html.splitlines()]
     return [line for line in found if line]
-
-
-def write_page(path: Path) -> str:
-    """The notebook as Markdown: cells with what they showed when they were last run."""
-    return "\n\n".join(_write_blocks(json.loads(path.read_text(encoding="utf-8")))) + "\n"
-
-
-def _write_blocks(notebook: Any) -> Iterator[str]:
-    for cell in notebook["cells"]:
-        source = "".join(cell["source"])
-        yield source if cell["cell_type"] == "markdown" else f"```python\n{source}\n```"
-        for output in cell.get("outputs", ()):
-            data = {kind: "".join(lines) for kind, lines in output.get("data", {}).items()}
-            if "image/png" in data:
-                yield f"![picture](data:image/png;base64,{data['image/png'].strip()})"
-            elif "text/html" in data:
-                yield re.sub(r"\n\s*\n", "\n", data["text/html"])
-            else:
-                text = "".join(output.get("text", data.get("text/plain", "")))
-                yield f"```text\n{text.rstrip()}\n```"
 
 
 def main() -> None:
