@@ -20,6 +20,7 @@ from support.paths import ENGINES, PACKAGE, ROOT
 import balcli
 from balcli.cli import COMMANDS
 from balcli.commands import options
+from balcli.documents.names import DOCUMENTS
 from balcli.render.formats import Format
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -159,6 +160,7 @@ ON_REQUEST = {
         *("balcli.render.speeds", "balcli.results.speeds"),
     ),
     "balcli.commands.completion": (
+        "balcli.documents.names",
         "balcli.enginefile.examples",
         "balcli.enginefile.templates",
         "balcli.field_balancing.starting_file",
@@ -314,3 +316,11 @@ def test_the_library_does_what_the_command_does():
     left = balcli.balance(engine, "counterweights").after.spectra.moment
     assert found.major[0] > 1000
     assert left.major[0] < 1e-9 * found.major[0]
+
+
+def test_every_format_of_json_has_a_schema():
+    """Its types are in documents/, its name in documents/names.py; docs/json.md lists it."""
+    found = set()
+    for file in PACKAGE.rglob("*.py"):
+        found |= {*re.findall(r'"balcli\.([a-z_]+)/1"', file.read_text(encoding="utf-8"))}
+    assert found == {*DOCUMENTS}
