@@ -301,9 +301,19 @@ def test_files_speak_for_themselves(file):
         )
 
 
+def names_for_type_checkers() -> set[str]:
+    """Of the library's door, as far as they are those of its rooms."""
+    (block,) = (node for node in tree(PACKAGE / "__init__.py").body if isinstance(node, ast.If))
+    imports = [node for node in block.body if isinstance(node, ast.ImportFrom) and node.level]
+    assert all(balcli._ROOMS[alias.name] == node.module for node in imports for alias in node.names)
+    return {alias.name for node in imports for alias in node.names}
+
+
 def test_public_names_are_there():
     """The library's door: what it promises can be had, and is offered for completion."""
     assert dir(balcli) == sorted(balcli.__all__)
+    assert {*balcli._ROOMS, "__version__"} == {*balcli.__all__}
+    assert balcli._ROOMS.keys() == names_for_type_checkers()
     for name in balcli.__all__:
         assert getattr(balcli, name) is not None
     with pytest.raises(AttributeError, match="module 'balcli' has no attribute 'frobnicate'"):

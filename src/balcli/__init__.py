@@ -18,31 +18,61 @@ if TYPE_CHECKING:
     from .engine.build import Engine
     from .engine.load import load
     from .errors import BalcliError, InputError
-    from .field_balancing.balance import FieldBalance, balance_rotor
-    from .field_balancing.read import parse_runs, read_runs
-    from .mounting.read import read_mounted
-    from .mounting.report import MountReport, report_mounts
+    from .field_balancing.balance import FieldBalance
+    from .library.compare import compare
+    from .library.examples import load_example
+    from .library.mounts import analyze_mounts
+    from .library.rotor import balance_rotor
+    from .library.scatter import scatter
+    from .library.search import search
+    from .library.sweep import sweep
+    from .library.tables import tables
+    from .library.torsion import analyze_torsion
+    from .mounting.report import MountReport
+    from .printed_tables.recomputed import Table
+    from .result import Result
     from .results.analysis import Analysis, analyze
     from .results.balance import Balance, balance
+    from .results.comparison import Comparison
+    from .sizing.options import SchemeOptions
+    from .studies.search.search import Search
+    from .studies.swept import Swept
+    from .studies.tolerances import Scatter
+    from .torque.analysis import TorqueAnalysis, analyze_torque
+    from .torsion.analysis import TorsionAnalysis
 
 __version__ = "0.1.0"
 __all__ = [
     "Analysis",
     "Balance",
     "BalcliError",
+    "Comparison",
     "Engine",
     "FieldBalance",
     "InputError",
     "MountReport",
+    "Result",
+    "Scatter",
+    "SchemeOptions",
+    "Search",
+    "Swept",
+    "Table",
+    "TorqueAnalysis",
+    "TorsionAnalysis",
     "__version__",
     "analyze",
+    "analyze_mounts",
+    "analyze_torque",
+    "analyze_torsion",
     "balance",
     "balance_rotor",
+    "compare",
     "load",
-    "parse_runs",
-    "read_mounted",
-    "read_runs",
-    "report_mounts",
+    "load_example",
+    "scatter",
+    "search",
+    "sweep",
+    "tables",
 ]
 
 _ROOMS = {
@@ -50,17 +80,31 @@ _ROOMS = {
     "analyze": "results.analysis",
     "Balance": "results.balance",
     "balance": "results.balance",
-    "Engine": "engine.build",
-    "load": "engine.load",
     "BalcliError": "errors",
     "InputError": "errors",
+    "Comparison": "results.comparison",
+    "compare": "library.compare",
+    "Engine": "engine.build",
+    "load": "engine.load",
+    "load_example": "library.examples",
     "FieldBalance": "field_balancing.balance",
-    "balance_rotor": "field_balancing.balance",
-    "parse_runs": "field_balancing.read",
-    "read_runs": "field_balancing.read",
+    "balance_rotor": "library.rotor",
     "MountReport": "mounting.report",
-    "read_mounted": "mounting.read",
-    "report_mounts": "mounting.report",
+    "analyze_mounts": "library.mounts",
+    "Result": "result",
+    "Scatter": "studies.tolerances",
+    "scatter": "library.scatter",
+    "SchemeOptions": "sizing.options",
+    "Search": "studies.search.search",
+    "search": "library.search",
+    "Swept": "studies.swept",
+    "sweep": "library.sweep",
+    "Table": "printed_tables.recomputed",
+    "tables": "library.tables",
+    "TorqueAnalysis": "torque.analysis",
+    "analyze_torque": "torque.analysis",
+    "TorsionAnalysis": "torsion.analysis",
+    "analyze_torsion": "library.torsion",
 }
 
 

@@ -12,6 +12,7 @@ import sys
 from collections.abc import Callable
 from contextlib import suppress
 
+_M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3  # as <malloc.h> has them
 unfinished: set[str] = set()  # temporary files, which nobody finds there once the process has ended
 last_words: list[Callable[[], str]] = []  # the last one says how far a long computation is
 
@@ -36,6 +37,19 @@ def _end(number: int, _frame: object) -> None:
         with suppress(OSError):  # past `sys.stderr`, which may be in the middle of a line
             os.write(2, last_words[-1]().encode())
     os._exit(128 + number)
+
+
+def keep_freed_memory() -> None:
+    """Let the C library keep what arrays leave for the next ones, up to 64 MB. It would hand back
+    large ones, to be cleared again for every array; in the workers of a dask cluster, whose
+    environment says so, all of them, which takes four times as long as what sweeps compute.
+    """
+    from ctypes import CDLL  # who sweeps needs it
+
+    with suppress(AttributeError, OSError, TypeError):  # only glibc has it
+        mallopt = CDLL(None).mallopt
+        mallopt(_M_MMAP_THRESHOLD, 32 << 20)  # its own maximum
+        mallopt(_M_TRIM_THRESHOLD, 64 << 20)
 
 
 def count_cores() -> int:

@@ -63,19 +63,61 @@ def test_plot_compares_before_and_after(balcli, four, tmp_path):
     assert "before" in (tmp_path / "x.svg").read_text()
 
 
-@pytest.mark.parametrize("what", ["factor", "bank"])
-def test_plot_refuses_a_scheme_where_nothing_is_compared(balcli, tmp_path, what):
-    assert balcli(
-        "plot",
-        ENGINES / "vtwin90.toml",
-        "-o",
-        tmp_path / "x.svg",
-        "--what",
-        what,
-        "--scheme",
-        "factor",
-    ) == (2, "", f"balcli: --what {what} shows the engine as it is: leave --scheme factor out\n")
-    assert not (tmp_path / "x.svg").exists()
+@pytest.mark.parametrize("what", ["bank", "modes", "pressure"])
+@pytest.mark.parametrize("option", ["--scheme=factor", "--factor=51%", "--planes=ends"])
+def test_plot_refuses_a_scheme_where_nothing_is_compared(balcli, tmp_path, what, option):
+    picture = tmp_path / "x.svg"
+    found = balcli("plot", ENGINES / "i6_diesel.toml", picture, "--what", what, option)
+    told = f"--what {what} shows the engine as it is: leave --scheme and its options out"
+    assert found == (2, "", f"balcli: {told}\n")
+    assert not picture.exists()
+
+
+@pytest.mark.parametrize("command", ["plot", "report"])
+@pytest.mark.parametrize(
+    ("options", "same"),
+    [
+        (["--factor", "51%"], ["--scheme", "factor", "--factor", "0.51"]),
+        (
+            ["--scheme", "single-shaft", "--order=1", "--at=-60,80"],
+            ["--scheme", "single-shaft", "--at=-6cm,8cm"],
+        ),
+    ],
+)
+def test_pictures_take_the_options_of_schemes(balcli, tmp_path, command, options, same):
+    """And show what they change."""
+    twin, file = ENGINES / "twin270.toml", tmp_path / "x.html"
+    if command == "plot":
+        file = tmp_path / "x.svg"
+    drawn = []
+    for asked in (options, same, ["--scheme", "auto"]):
+        assert balcli(command, twin, file, *asked)[0] == 0
+        drawn.append(file.read_text(encoding="utf-8"))
+    assert drawn[0] == drawn[1] != drawn[2]
+
+
+@pytest.mark.parametrize("command", ["plot", "report", "mounts"])
+def test_options_of_schemes_are_judged_as_in_balance(balcli, tmp_path, command):
+    four, file = (
+        ENGINES / "i4_mounts.toml",
+        tmp_path / ("x.html" if command == "report" else "x.svg"),
+    )
+    where = ["--plot", file] if command == "mounts" else ["-o", file]
+    for options in (["--planes=nowhere"], ["--at=1,2"], ["--scheme=factor", "--factor=51"]):
+        status, _, wanted = balcli("balance", four, *options)
+        assert status == 2
+        told = balcli(command, four, *where, *options).err
+        assert wanted.removeprefix("balcli: ") in told
+        assert not file.exists()
+
+
+def test_options_of_schemes_are_heard_in_the_mounts(balcli):
+    four = ENGINES / "i4_mounts.toml"
+    usual, same, other = (
+        balcli("mounts", four, "--speeds=800,3000", "--scheme=two-shaft", *options).out
+        for options in ([], ["--order=2"], ["--order=4"])
+    )
+    assert usual == same != other
 
 
 def test_plot_of_no_free_force_says_so(balcli, tmp_path):
@@ -245,8 +287,8 @@ class Lost:
     def nthreads(self):
         return {"one": 1}
 
-    def submit(self, work, sweep, size, batch, **options):
-        self.given.append((sweep, options["retries"] > 0))
+    def submit(self, work, parts, **options):
+        self.given += [(part, options["retries"] > 0) for _, part in parts]
         return self
 
     def result(self):
@@ -259,14 +301,15 @@ def test_workers_that_are_all_killed_are_a_message(monkeypatch, four):
     from balcli.studies.sweep import read_sweep
 
     monkeypatch.setitem(sys.modules, "distributed", dask(KilledWorker=KilledError))
-    one = BoxSize(1, 1)
-    monkeypatch.setattr(cluster, "size_boxes", lambda sweep: one)  # the first box is computed here
+    monkeypatch.setattr(cluster, "size_boxes", lambda sweep: BoxSize(1, 1))
     sweep, client = read_sweep(str(four), ["crank.stroke=80,90"], "force.2.major"), Lost()
     with pytest.raises(
         BalcliError, match=r"--dask: the cluster has lost its workers \(KilledError\)"
     ):
         list(cluster.evaluate_on_cluster(sweep, client))
-    assert client.given == [(sweep, True)]
+    assert [(part.variants, again) for part, again in client.given] == [(1, True), (1, True)]
+    values = [part.parameters[0].values.tolist() for part, _ in client.given]
+    assert values == [[80], [90]]  # a task brings what it computes, and no more
 
 
 def test_a_cluster_of_our_own_and_one_by_address(monkeypatch):

@@ -72,6 +72,8 @@ RESULTS = {
     "inner": ("analyze", I4, "--only", "inner,guide"),
     "inner with gas": ("analyze", V8, "--only", "inner,guide,gas", "--orders", "1,1.5,2"),
     "offsets": ("analyze", ENGINES / "vr6.toml"),
+    "speeds": ("analyze", I4, "--speed", "1000:3000:1000"),
+    "marine": ("analyze", ENGINES / "marine6.toml", "--format", "marine", "-o", "m.json"),
     "no places": ("analyze", "-"),
     "factor": (
         "balance",
@@ -131,7 +133,9 @@ def test_what_every_command_prints_keeps_to_its_schema(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("curve.csv").write_text(CURVE)
-    status, out, err = run_here(*RESULTS[what], "-f", "json", stdin=NO_PLACES)
+    form = () if "-o" in RESULTS[what] else ("-f", "json")
+    status, out, err = run_here(*RESULTS[what], *form, stdin=NO_PLACES)
+    out = out or Path("m.json").read_text(encoding="utf-8")
     assert (status, out != "") == (0, True), err
     check(out)
 

@@ -12,14 +12,14 @@ from support.rotors import head, names, polar, random_rotor, run, table, three_r
 
 from balcli.core.drilled_hole import STEEL
 from balcli.errors import BalcliError
-from balcli.field_balancing.balance import balance_rotor, find_doubts
+from balcli.field_balancing.balance import find_corrections, find_doubts
 from balcli.field_balancing.read import parse_runs
 
 RELATIVE = 1e-12
 
 
 def totals(text: str, **options):
-    return np.array([p.total for p in balance_rotor(parse_runs(text), **options).planes])
+    return np.array([p.total for p in find_corrections(parse_runs(text), **options).planes])
 
 
 def agree(found, planted, coefficients) -> bool:
@@ -87,7 +87,7 @@ def test_a_run_with_the_correction_in_makes_it_better():
     for k, name in enumerate(names(2)):
         text += run(alpha @ (excess + np.eye(2)[k]), [(name, 1.0)])
     text += run(alpha @ (excess + first), list(zip(names(2), first, strict=True)), 'name = "in"')
-    result = balance_rotor(parse_runs(text))
+    result = find_corrections(parse_runs(text))
     assert result.influence.trimmed == "in"
     assert agree(np.array([p.step for p in result.planes]), -excess - first, alpha)
     assert agree(np.array([p.total for p in result.planes]), -excess, alpha)
@@ -98,7 +98,7 @@ def test_coefficients_after_a_correction_are_least_squares_over_all_runs():
     regression line is 19/14, and the correction goes on from 1 at -2.
     """
     text = head(1) + run([4]) + run([5], [("p1", 1)]) + run([1], [("p1", -2)])
-    result = balance_rotor(parse_runs(text))
+    result = find_corrections(parse_runs(text))
     assert result.influence.coefficients[0, 0] == pytest.approx(19 / 14, rel=1e-13)
     assert result.planes[0].step == pytest.approx(-14 / 19, rel=1e-13)
     assert result.planes[0].total == pytest.approx(-2 - 14 / 19, rel=1e-13)
@@ -123,7 +123,7 @@ def test_a_plane_that_is_left_out():
 
 def test_the_largest_weight_of_a_plane():
     free = totals(three_runs())
-    result = balance_rotor(parse_runs(three_runs("most = [1.5, 5]")))
+    result = find_corrections(parse_runs(three_runs("most = [1.5, 5]")))
     assert abs(result.planes[0].total) == pytest.approx(1.5, rel=1e-10)
     assert [p.limited for p in result.planes] == [True, False]
     assert abs(free[0]) > 1.5
@@ -137,7 +137,9 @@ def test_drilled_holes_remove_what_weights_would_add():
         "radius = [90, 80]\nplaces = [12, [0, 60, 120, 180, 240, 300]]\n"
         "drill = [6, 8]\ndeepest = [12, 20]"
     )
-    for p, rim, drill in zip(balance_rotor(parse_runs(text)).planes, (90, 80), (6, 8), strict=True):
+    for p, rim, drill in zip(
+        find_corrections(parse_runs(text)).planes, (90, 80), (6, 8), strict=True
+    ):
         removed = 0
         for piece in p.pieces:
             area, depth = math.pi * (drill / 2e3) ** 2, piece.depth_mm / 1e3
@@ -148,8 +150,8 @@ def test_drilled_holes_remove_what_weights_would_add():
 
 def test_holes_no_deeper_than_allowed_need_more_of_them():
     one = "radius = [90, 90]\nplaces = [24, 24]\ndrill = [6, 6]"
-    free = balance_rotor(parse_runs(three_runs(one))).planes[0]
-    shallow = balance_rotor(parse_runs(three_runs(one + "\ndeepest = [3, 3]"))).planes[0]
+    free = find_corrections(parse_runs(three_runs(one))).planes[0]
+    shallow = find_corrections(parse_runs(three_runs(one + "\ndeepest = [3, 3]"))).planes[0]
     assert len(free.pieces) == 2
     assert len(shallow.pieces) > 2
     assert max(piece.depth_mm for piece in shallow.pieces) <= 3 * (1 + 1e-9)
@@ -180,7 +182,7 @@ def test_what_does_not_fit_leaves_what_it_says(limits, sense, minimise):
     """The readings after are those of the pieces, and pieces a little otherwise leave more."""
     last = run([60, 70j], [("front", 0.3), ("rear", 0.2j)]) if "drill" in limits else ""
     text = three_runs(f'weights = "{sense}"\n{limits}', last)
-    result = balance_rotor(parse_runs(text), minimise)
+    result = find_corrections(parse_runs(text), minimise)
     on = put_on(result.planes, "drill" in limits)
     assert on == pytest.approx([p.step for p in result.planes], rel=1e-8, abs=1e-9)
     turn = np.conj if sense == "with" else np.asarray
@@ -188,7 +190,7 @@ def test_what_does_not_fit_leaves_what_it_says(limits, sense, minimise):
     assert result.after == pytest.approx(after, rel=1e-7, abs=1e-7)
     assert result.limited
     assert np.abs(result.after).max() > 1
-    free = balance_rotor(parse_runs(three_runs(f'weights = "{sense}"', last)), minimise)
+    free = find_corrections(parse_runs(three_runs(f'weights = "{sense}"', last)), minimise)
     wanted = [p.wanted for p in result.planes]
     assert wanted == pytest.approx([p.step for p in free.planes], rel=1e-9)
 
@@ -198,7 +200,7 @@ def test_a_plane_that_fits_makes_up_for_one_that_does_not():
     text = head(
         2, 'places = [[90], "free"]\ninfluence = [["1 @ 0", "1 @ 0"], ["0 @ 0", "0.1 @ 0"]]'
     )
-    result = balance_rotor(parse_runs(text + run([10, 0])))
+    result = find_corrections(parse_runs(text + run([10, 0])))
     assert result.planes[0].pieces == ()
     assert result.planes[1].step == pytest.approx(-10 / 1.01, rel=1e-9)
     assert [p.limited for p in result.planes] == [True, False]
@@ -207,8 +209,8 @@ def test_a_plane_that_fits_makes_up_for_one_that_does_not():
 def test_the_grade_judges_what_is_there_not_what_fits():
     """Whatever the limits, the unbalance now is what would cancel the readings."""
     grade = "grade = 6.3\nmass = 120\nspeed = 3000\nradius = [200, 200]\n"
-    free = balance_rotor(parse_runs(three_runs(grade)))
-    tight = balance_rotor(parse_runs(three_runs(grade + "most = [0.5, 0.5]")))
+    free = find_corrections(parse_runs(three_runs(grade)))
+    tight = find_corrections(parse_runs(three_runs(grade + "most = [0.5, 0.5]")))
     for one, other in zip(free.planes, tight.planes, strict=True):
         assert one.permitted.present == pytest.approx(other.permitted.present, rel=1e-12)
         assert one.permitted.after == 0
@@ -220,7 +222,7 @@ def test_places_are_numbered_as_the_file_has_them():
     text = head(
         2, 'places = [8, [200, 90, 100]]\ninfluence = [["1 @ 0", "0 @ 0"], ["0 @ 0", "1 @ 0"]]'
     )
-    first, second = balance_rotor(parse_runs(text + run([5j, -3j]))).planes
+    first, second = find_corrections(parse_runs(text + run([5j, -3j]))).planes
     assert [(p.place, p.angle_deg) for p in first.pieces] == [(7, 270)]
     assert [(p.place, p.angle_deg) for p in second.pieces] == [(2, 90)]
 
@@ -228,9 +230,9 @@ def test_places_are_numbered_as_the_file_has_them():
 def test_unbalances_instead_of_weights():
     """230 g mm is 1.15 g at 200 mm; grades permit the same."""
     grade = "grade = 6.3\nmass = 120\nspeed = 3000\nshares = [1, 3]\n"
-    grams = balance_rotor(parse_runs(three_runs(grade + "radius = [200, 200]")))
+    grams = find_corrections(parse_runs(three_runs(grade + "radius = [200, 200]")))
     text = three_runs(grade + 'weight_unit = "g mm"').replace("1.15 @", "230 @")
-    moments = balance_rotor(parse_runs(text))
+    moments = find_corrections(parse_runs(text))
     whole = 120e3 * 6.3 / (100 * math.pi)
     for one, other, share in zip(grams.planes, moments.planes, (1 / 4, 3 / 4), strict=True):
         assert one.unbalance == pytest.approx(other.unbalance, rel=1e-12)
@@ -241,14 +243,14 @@ def test_unbalances_instead_of_weights():
 
 
 def test_ounces():
-    ounces = balance_rotor(parse_runs(three_runs('weight_unit = "oz"\nradius = [100, 100]')))
+    ounces = find_corrections(parse_runs(three_runs('weight_unit = "oz"\nradius = [100, 100]')))
     assert ounces.planes[0].unbalance == pytest.approx(28.349523125 * 100 * 1.97946764, rel=1e-8)
 
 
 # ------------------------------------------------------------------ doubts and refusals
 def test_doubts():
     text = head(2) + run([10, 10]) + run([10.5, 10], [("p1", 1)]) + run([10.5, 10.1], [("p2", 1)])
-    small, far, *_ = find_doubts(balance_rotor(parse_runs(text)))[-4:]
+    small, far, *_ = find_doubts(find_corrections(parse_runs(text)))[-4:]
     assert small == (
         "the trial weight in p1 changes no reading by more than 0.5, 5% of the largest; a heavier "
         "one tells more"
@@ -257,12 +259,12 @@ def test_doubts():
         "the correction of 80 g in p1 is 80 times the largest weight tried there; put it on, read "
         "again, and add that run to the file"
     )
-    assert find_doubts(balance_rotor(parse_runs(three_runs()))) == []
+    assert find_doubts(find_corrections(parse_runs(three_runs()))) == []
 
 
 def test_planes_that_are_nearly_alike_are_doubted():
     text = head(2, 'influence = [["1 @ 0", "1 @ 0"], ["1 @ 0", "1.1 @ 0"]]') + run([1, 2])
-    (doubt,) = find_doubts(balance_rotor(parse_runs(text)))
+    (doubt,) = find_doubts(find_corrections(parse_runs(text)))
     assert doubt.startswith(
         "planes p1 and p2 act nearly alike: only 4.8% of what one does is its own"
     )
@@ -271,7 +273,7 @@ def test_planes_that_are_nearly_alike_are_doubted():
 
 def refused(text: str, **options) -> str:
     with pytest.raises(BalcliError) as caught:
-        balance_rotor(parse_runs(text), name="runs.toml", **options)
+        find_corrections(parse_runs(text), name="runs.toml", **options)
     return str(caught.value)
 
 
@@ -329,7 +331,7 @@ def test_planes_to_leave_out_must_be_there():
 def test_a_rotor_without_unbalance_needs_nothing():
     text = head(1, 'influence = [["1 @ 0"]]') + run([0])
     for minimise in ("squares", "max"):
-        result = balance_rotor(parse_runs(text), minimise)
+        result = find_corrections(parse_runs(text), minimise)
         assert result.planes[0].total == 0
         assert result.largest == 0
 

@@ -225,8 +225,9 @@ def test_the_schema_names_every_key():
 def test_the_library_offers_it(runs):
     import balcli
 
-    file = balcli.read_runs(runs)
-    result = balcli.balance_rotor(file, "max")
+    result = balcli.balance_rotor(runs, "max")
     assert isinstance(result, balcli.FieldBalance)
-    assert result.planes[0].total == balcli.balance_rotor(file).planes[0].total
-    assert balcli.parse_runs(runs.read_text(encoding="utf-8")) == file
+    assert result.planes[0].total == balcli.balance_rotor(runs).planes[0].total
+    text = runs.read_text(encoding="utf-8")
+    for source in (text, str(runs), tomllib.loads(text)):
+        assert balcli.balance_rotor(source, "max").planes == result.planes

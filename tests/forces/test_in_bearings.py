@@ -232,5 +232,5 @@ def test_engines_with_gas_are_compared_by_it():
 
 def test_so_many_cylinders_that_they_would_fill_the_memory_are_refused(monkeypatch):
     monkeypatch.setattr(in_bearings, "MOST_FORCES_OVER_CYCLE", 1000)
-    with pytest.raises(BalcliError, match="inner loads with gas of 4 cylinders are"):
+    with pytest.raises(BalcliError, match="loads with gas of 4 cylinders are"):
         compute_loads_with_gas(replace(engine(FOUR + WIEBE)))

@@ -38,13 +38,14 @@ def test_the_inline_four():
     """Textbook: orders 1 balanced; order 2 adds up to four times one cylinder, on one line through
     the middle.
     """
+    opposite = "balanced exactly: phasors at 0, 180 deg, 2 each, sum to nothing"
+    mirrored = "mirror pairs (1 and 4, 2 and 3) pull alike on opposite arms"
     assert sentences([0, 180, 180, 0], more="[layout]\nfiring_order = [1, 3, 4, 2]\n") == (
-        "order 1 force: balanced exactly, by symmetry",
-        "order 1 moment: balanced exactly, by symmetry",
-        "order 1 couple, torque and roll: balanced exactly, by symmetry",
-        "order 2 force: free: 4 F2",
-        "order 2 moment: balanced exactly, by symmetry",
-        "order 2 couple, torque and roll: free: 4 of one cylinder",
+        f"order 1 force: {opposite}",
+        "order 2 force: free: 4 F2, all in phase",
+        f"orders 1, 2 moment: balanced exactly: {mirrored}",
+        f"order 1 couple, torque and roll: {opposite}",
+        "order 2 couple, torque and roll: free: 4 of one cylinder, all in phase",
         "firing: even, every 180 deg",
     )
 
@@ -52,7 +53,7 @@ def test_the_inline_four():
 def test_orders_that_no_cylinder_has():
     found = sentences([0, 120, 240], orders=[3])
     assert found[0] == "order 3 force: no cylinder has any"
-    assert found[2] == "order 3 couple, torque and roll: free: 3 of one cylinder"
+    assert found[2] == "order 3 couple, torque and roll: free: 3 of one cylinder, all in phase"
 
 
 def test_master_and_articulated_rods_of_a_rotary_engine_are_not_alike():
@@ -61,7 +62,7 @@ def test_master_and_articulated_rods_of_a_rotary_engine_are_not_alike():
     """
     star = "[layout]\nradial = 5\nrotary = true\n"
     hung = "[articulation]\nknuckle_radius = 30\nrod = { length = 160, mass = 0 }\n"
-    assert sentences([0], more=star)[0] == "order 1 force: balanced exactly, by symmetry"
+    assert sentences([0], more=star)[0].startswith("orders 1, 2 force: balanced exactly: ")
     assert sentences([0], more=star + hung)[0].startswith("order 1 force: free: ")
 
 
@@ -78,15 +79,19 @@ def test_places_that_are_no_exact_numbers_in_binary():
     in.
     """
     found = sentences([0, 120, 240, 240, 120, 0], spacing='"4.1 in"')
-    assert found[4] == "order 2 moment: balanced exactly, by symmetry"
+    mirrored = "mirror pairs (1 and 6, 2 and 5, 3 and 4) pull alike on opposite arms"
+    assert found[1] == f"orders 1, 2 moment: balanced exactly: {mirrored}"
 
 
 def test_the_middle_piston_as_heavy_as_both_others():
     """0-180-0 with masses 1:2:1: the first order vanishes by weight, the second does not."""
     more = "[cylinder.2]\npiston_mass = 1.0\n"
     found = sentences([0, 180, 0], more=more)
-    assert found[0] == "order 1 force: balanced exactly, by symmetry"
-    assert found[3] == "order 2 force: free: 4 F2"
+    summed = "phasors at 0, 180 deg sum to nothing"
+    assert found[:2] == (
+        f"order 1 force: balanced exactly: {summed}",
+        "order 2 force: free: 4 F2, all in phase",
+    )
 
 
 def test_two_banks_of_different_mechanisms_that_are_each_balanced():
@@ -100,7 +105,7 @@ def test_two_banks_of_different_mechanisms_that_are_each_balanced():
 def test_pairs_that_stand_at_no_fraction_of_a_turn_to_each_other():
     assert (
         sentences([0, 33.3333333333, 180, 213.3333333333])[0]
-        == "order 1 force: balanced exactly, by symmetry"
+        == "order 1 force: balanced exactly: phasors at 0, 180 deg sum to nothing"
     )
 
 
@@ -167,6 +172,7 @@ def test_only_what_is_asked_and_as_json():
                 "reciprocating": 0.0,
                 "built": 0.0,
                 "unit": "F1",
+                "because": "phasors at 0, 180 deg sum to nothing",
             },
             {
                 "order": 2,
@@ -176,6 +182,7 @@ def test_only_what_is_asked_and_as_json():
                 "reciprocating": pytest.approx(2),
                 "built": pytest.approx(2),
                 "unit": "F2",
+                "because": "all in phase",
             },
         ],
         "firing": "",

@@ -69,12 +69,14 @@ def _columns(text: str) -> dict[tuple[str, int], float]:
 def _reasons(text: str) -> dict[tuple[str, int], float]:
     """What `--why` says is left, by kind and order."""
     found = {}
-    for order, kind, told in re.findall(r"order (\d) (force|moment): (.*)", text):
-        left = re.match(rf"free: ([0-9.]+) F{order}(·a)?( |$)", told)
-        if kind == "moment" and told.endswith("of one cylinder"):  # one throw has no distance a
-            told = "no cylinder has any"
-        assert left or "balanced exactly" in told or "no cylinder has any" in told, told
-        found[kind, int(order)] = float(left[1]) if left else 0.0
+    for orders, kind, told in re.findall(r"orders? ([\d, ]+) (force|moment): (.*)", text):
+        left = re.match(r"free: ([0-9.]+) F\d(?!.* as built [(]0 )", told)
+        nothing = re.match("balanced exactly|no cylinder has any|free: .* as built [(]0 ", told)
+        if kind == "moment" and "of one cylinder" in told:  # one throw has no distance a
+            nothing = left
+        assert bool(left) != bool(nothing) or "of one cylinder" in told, told
+        for order in orders.split(", "):
+            found[kind, int(order)] = float(left[1]) if left else 0.0
     return found
 
 

@@ -16,6 +16,7 @@ from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.render.plot.bank_angle import place_labels
 from balcli.render.plot.pages import Subject, draw_page
+from balcli.sizing.options import SchemeOptions
 from balcli.studies.pictures import compute_study, swing_banks
 
 VEE = changed(("firing_order = [1, 3, 4, 2]", "bank_angle = 75\nstagger = 20"))
@@ -183,9 +184,26 @@ def test_a_scheme_compares_before_and_after():
         compute_study(engine(GOOD), "all", scheme="tow-shaft")
 
 
-@pytest.mark.parametrize("what", ["factor", "bank"])
-def test_a_study_of_the_engine_as_it_is_takes_no_scheme(what):
-    with pytest.raises(
-        BalcliError, match=f"--what {what} shows the engine as it is: leave --scheme auto out"
+def test_a_study_of_the_engine_as_it_is_takes_no_scheme():
+    with pytest.raises(BalcliError, match="--what bank shows the engine as it is: leave --scheme"):
+        compute_study(engine(VEE), "bank", scheme="auto")
+
+
+def test_the_study_of_factors_takes_planes_alone():
+    """In the planes of the end throws the same unbalance of order 1 is left as at every throw."""
+    free, ends = (
+        compute_study(engine(CROSS), "factor", options=SchemeOptions(planes=planes)).factors
+        for planes in (None, "ends")
+    )
+    assert [row.moment for row in ends] == pytest.approx([row.moment for row in free], abs=1)
+    assert ends[0].counterweight > 1.02 * free[0].counterweight
+    for asked, reason in (
+        (
+            {"scheme": "minimax"},
+            "--what factor is of the scheme factor: leave --scheme minimax out",
+        ),
+        ({"options": SchemeOptions(factor=(0.5,))}, "--what factor shows all factors: leave"),
+        ({"options": SchemeOptions(at=(0j,))}, "scheme factor has no --at"),
     ):
-        compute_study(engine(VEE), what, scheme="auto")
+        with pytest.raises(BalcliError, match=reason):
+            compute_study(engine(CROSS), "factor", **asked)

@@ -16,7 +16,7 @@ from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
 from balcli.render.sweep import csv_text, json_text
 from balcli.render.sweep_plot import check_drawable
-from balcli.studies.boxes import Box, BoxSize, divide_grid
+from balcli.studies.boxes import Box, BoxSize, divide_grid, group_boxes
 from balcli.studies.parameters import Parameter, parse
 from balcli.studies.sweep import (
     Array,
@@ -161,6 +161,24 @@ def test_boxes_are_the_smaller_the_more_each_variant_needs(
 ) -> None:
     """Orders, and samples near the lock: a box takes a fraction of a second, and little memory."""
     assert size_boxes(asked(engine, vary, of=of)).variants <= most
+
+
+@pytest.mark.parametrize(("rows", "lengths"), [(1, [1] * 20), (7, [2] * 10), (1000, [8, 8, 4])])
+def test_groups_of_boxes_are_whole_and_in_order(rows: int, lengths: list[int]) -> None:
+    """20 boxes of 3 variants: by eight, or as many as have so many rows, and one at least."""
+    boxes = list(divide_grid((60,), 3))
+    groups = list(group_boxes(boxes, rows))
+    assert [box for group in groups for box in group] == boxes
+    assert list(map(len, groups)) == lengths
+
+
+def test_a_part_of_a_grid_is_a_sweep_of_its_own() -> None:
+    sweep = asked(VEE, "layout.bank_angle=0:180:45", "rod.ratio=0.2,0.3,0.31", of="moment.1.major")
+    box = (slice(1, 3), slice(2, 3))
+    part = sweep.cut(box)
+    assert part.shape == (2, 1)
+    alone, inside = evaluate_box(part, part.whole), evaluate_box(sweep, box)
+    assert np.array_equal(alone, inside)
 
 
 def test_chunks_do_not_change_figures(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,6 +12,7 @@ import typer
 from ..errors import BalcliError
 from ..limits import MOST_ANALYSED_SPEEDS
 from ..render.formats import Format, Units
+from .declare import optional
 from .file_names import text_format
 from .format_names import format_option
 from .options import PARTS, parse_guide_height, parse_orders, parse_parts, parse_speed
@@ -39,20 +40,16 @@ AnalysisFormatOption = Annotated[
 ]
 SpeedsOption = Annotated[
     str | None,
-    typer.Option(
+    optional(
+        "RPM|RPM:RPM:STEP|RPM,...",
+        "Crank speed instead of the file's, rpm; of several, such as 60:124:8, a sheet over speed.",
         "--speed",
         "--rpm",
-        metavar="RPM|RPM:RPM:STEP|RPM,...",
-        help="Crank speed instead of the file's, rpm; of several, such as 60:124:8, a sheet over "
-        "speed.",
-        show_default=False,
     ),
 ]
 By = Annotated[
     str,
-    typer.Option(
-        "--by", metavar="cylinder", help="cylinder: also each cylinder's share.", show_default=False
-    ),
+    optional("cylinder", "cylinder: also each cylinder's share.", "--by"),
 ]
 Why = Annotated[
     bool, typer.Option("--why", help="Also say in words why each order is balanced, or is not.")

@@ -4,31 +4,24 @@ from __future__ import annotations
 
 from ..render.formats import Units
 from ..sizing.schemes import KNUCKLES
-from . import balance_options
+from . import balance_options, scheme_options
 from .file_names import require_ending
-from .options import (
-    EnginePath,
-    Orders,
-    Output,
-    Speed,
-    UnitsOption,
-    parse_orders,
-    parse_speed,
-)
+from .options import EnginePath, Orders, Output, Speed, UnitsOption, parse_orders, parse_speed
 from .overwrite_guard import refuse_overwriting
+from .scheme_options import choose_scheme, parse_scheme_options
 
 
 def balance(
     path: EnginePath,
     scheme: balance_options.Scheme = None,
     _schemes: balance_options.Schemes = False,
-    order: balance_options.Order = None,
-    at: balance_options.At = None,
-    position: balance_options.Position = None,
-    planes: balance_options.Planes = None,
-    factor: balance_options.Factor = None,
-    measured: balance_options.Measured = None,
-    roll: balance_options.Roll = None,
+    order: scheme_options.Order = None,
+    at: scheme_options.At = None,
+    position: scheme_options.Position = None,
+    planes: scheme_options.Planes = None,
+    factor: scheme_options.Factor = None,
+    measured: scheme_options.Measured = None,
+    roll: scheme_options.Roll = None,
     radius: balance_options.Radius = None,
     thickness: balance_options.Thickness = None,
     disc: balance_options.Disc = None,
@@ -63,10 +56,9 @@ def balance(
     from .fitted_engine import write_fitted
     from .inputs import read_engine
 
-    options = balance_options.parse_scheme_options(
-        order, at, position, planes, factor, measured, roll, units
-    )
-    scheme = balance_options.choose_scheme(scheme, options, form)
+    options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
+    usual = "factor" if form is balance_options.BalanceFormat.CARD else "auto"
+    scheme = choose_scheme(scheme, options, usual)
     tools = balance_options.parse_tools(radius, thickness, disc, drill, max_depth, slug, units)
     grading = balance_options.parse_grading(grade, mass, units)
     asked, rpm = parse_orders(orders), parse_speed(speed)

@@ -1,8 +1,7 @@
-"""Options of `balance`, and what the schemes understand of them (SI)."""
+"""Options of `balance` alone, and what it does with them: the workshop's, grades, the card."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -11,12 +10,12 @@ import typer
 
 from ..core.drilled_hole import SLUGS
 from ..errors import BalcliError, note
-from ..limits import MOST_FACTORS
 from ..render.formats import Format, Units
 from ..sizing.options import SchemeOptions
 from ..sizing.schemes import KNUCKLES, MEANINGS, NAMES, SCHEMES
-from .amounts import is_bare, read_length, read_lengths, read_mass, read_number, read_share
+from .amounts import read_length, read_mass, read_number
 from .completion import complete_schemes
+from .declare import optional
 from .file_names import format_of, text_format
 from .format_names import format_option
 from .output import emit, show
@@ -82,186 +81,68 @@ Schemes = Annotated[
         help="Say what each scheme does and which options it takes.",
     ),
 ]
-Order = Annotated[
-    int | None,
-    typer.Option(
-        metavar="N",
-        show_default=False,
-        help=(
-            "Order to balance; default: the lowest that has what the scheme takes (single-shaft: a "
-            "force turning against the crank); a note says what it leaves at lower ones."
-        ),
-    ),
-]
-At = Annotated[
-    list[str] | None,
-    typer.Option(
-        metavar="X,Y",
-        show_default=False,
-        help=(
-            "Place in mm of the shaft; of a pair, of the one turning against the crank. Given "
-            "twice: of that one, then of the other."
-        ),
-    ),
-]
-Position = Annotated[
-    str | None,
-    typer.Option(metavar="Z", show_default=False, help=("Axial place of new devices, mm.")),
-]
-Planes = Annotated[
-    str | None,
-    typer.Option(
-        metavar="ends|throws|Z,Z...",
-        show_default=False,
-        help=(
-            "Where along the crank: at its end throws, at every throw, or at these z in mm. With a "
-            "factor the default is where the counterweights of the file stand, else every throw."
-        ),
-    ),
-]
-Factor = Annotated[
-    str | None,
-    typer.Option(
-        metavar="K|K:K:STEP",
-        show_default=False,
-        help=(
-            "Share of the reciprocating mass that counterweights take, such as 51% or 0.51; "
-            "default 50%. A range such as 50%:54%:1% gives a table, and fits the best."
-        ),
-    ),
-]
-Measured = Annotated[
-    str | None,
-    typer.Option(
-        metavar="MASS",
-        show_default=False,
-        help=(
-            'Instead of --factor: what balances each bare pin, such as "812 g" (a bare number is '
-            "g): says which factor that is."
-        ),
-    ),
-]
-Roll = Annotated[
-    str | None,
-    typer.Option(
-        metavar="zero",
-        show_default=False,
-        help=("Place two shafts such that they cancel the roll of this order, too."),
-    ),
-]
 Radius = Annotated[
     str | None,
-    typer.Option(
-        metavar="MM",
-        show_default=False,
-        help="Radius at which masses are stated, in mm or as '2.5 in'; default: crank radius.",
+    optional(
+        "MM", "Radius at which masses are stated, in mm or as '2.5 in'; default: crank radius."
     ),
 ]
 Thickness = Annotated[
     str | None,
-    typer.Option(
-        metavar="MM",
-        show_default=False,
-        help=("Thickness of the semicircular steel discs that are stated; default 20."),
-    ),
+    optional("MM", "Thickness of the semicircular steel discs that are stated; default 20."),
 ]
 Disc = Annotated[
     str | None,
-    typer.Option(
-        metavar="MM",
-        show_default=False,
-        help=("Radius of those discs, instead of their thickness."),
-    ),
+    optional("MM", "Radius of those discs, instead of their thickness."),
 ]
 Drill = Annotated[
     str | None,
-    typer.Option(
-        metavar="MM",
-        show_default=False,
-        help=(
-            "Diameter of a drill: also say where radial holes from --radius inwards belong, how "
-            "many and how deep, to remove as much."
-        ),
+    optional(
+        "MM",
+        "Diameter of a drill: also say where radial holes from --radius inwards belong, how "
+        "many and how deep, to remove as much.",
     ),
 ]
 MaxDepth = Annotated[
     str | None,
-    typer.Option(
-        metavar="MM",
-        show_default=False,
-        help="Deepest hole, for --drill; default: to the axis of the crank.",
-    ),
+    optional("MM", "Deepest hole, for --drill; default: to the axis of the crank."),
 ]
 Slug = Annotated[
     str | None,
-    typer.Option(
-        metavar="METAL",
-        show_default=False,
-        help=(
-            "With --drill: fill the holes with slugs of tungsten (heavy alloy, 17 g/cm3), lead, or "
-            "of a density in g/cm3: they add weight where drilling would remove it."
-        ),
+    optional(
+        "METAL",
+        "With --drill: fill the holes with slugs of tungsten (heavy alloy, 17 g/cm3), lead, or "
+        "of a density in g/cm3: they add weight where drilling would remove it.",
     ),
 ]
 Even = Annotated[
     str | None,
-    typer.Option(
+    optional(
+        "dead-centres|strokes",
+        "What --scheme knuckles makes even; default: dead-centres.",
         "--even",
-        metavar="dead-centres|strokes",
-        show_default=False,
-        help="What --scheme knuckles makes even; default: dead-centres.",
     ),
 ]
 Grade = Annotated[
     str | None,
-    typer.Option(
-        metavar="G",
-        show_default=False,
-        help="Balance quality grade of ISO 21940-11, such as G16: say what may be left beside each "
+    optional(
+        "G",
+        "Balance quality grade of ISO 21940-11, such as G16: say what may be left beside each "
         "counterweight.",
     ),
 ]
 Mass = Annotated[
     str | None,
-    typer.Option(
-        metavar="KG",
-        show_default=False,
-        help="Mass of the crankshaft as it is balanced, for --grade.",
-    ),
+    optional("KG", "Mass of the crankshaft as it is balanced, for --grade."),
 ]
 Write = Annotated[
     Path | None,
-    typer.Option(
+    optional(
+        "OUT.toml",
+        "Write the engine with the devices fitted, and with the speed of --speed.",
         "--write",
-        metavar="OUT.toml",
-        show_default=False,
-        help="Write the engine with the devices fitted, and with the speed of --speed.",
     ),
 ]
-
-
-def parse_scheme_options(
-    order: int | None,
-    at: Sequence[str] | None,
-    position: str | None,
-    planes: str | None,
-    factor: str | None,
-    measured: str | None,
-    roll: str | None,
-    units: Units,
-) -> SchemeOptions:
-    """What a scheme is asked for, in SI; BalcliError for a text that says nothing, with the
-    text.
-    """
-    return SchemeOptions(
-        order=order,
-        at=tuple(_parse_place(text, units) for text in at) if at else None,
-        position=None if position is None else _parse_position(position, units),
-        planes=None if planes is None else _parse_planes(planes, units),
-        factor=None if factor is None else _parse_factors(factor),
-        measured=None if measured is None else _parse_measured(measured, units),
-        roll=roll,
-    )
 
 
 def choose_format(output: Path | None, asked: BalanceFormat | None) -> BalanceFormat:
@@ -270,14 +151,6 @@ def choose_format(output: Path | None, asked: BalanceFormat | None) -> BalanceFo
         return format_of(output, asked, {".txt": asked}, asked)
     plain = None if asked is None else Format(asked)
     return BalanceFormat(text_format(output, plain))
-
-
-def choose_scheme(asked: str | None, options: SchemeOptions, form: BalanceFormat) -> str:
-    """The scheme asked for; without one `factor` for a factor or a card, else `auto`."""
-    if asked is not None:
-        return asked
-    by_factor = options.factor is not None or options.measured is not None
-    return "factor" if by_factor or form is BalanceFormat.CARD else "auto"
 
 
 def show_balance(result: Balance, form: BalanceFormat, output: Path | None, units: Units) -> None:
@@ -364,52 +237,3 @@ def balance_knuckles(
         if goal == wanted:
             return knuckles.balance_knuckles(model, goal, orders, float(engine.speed_rpm))
     raise BalcliError(f'--even "{wanted[:60]}": choose from {", ".join(knuckles.GOALS)}')
-
-
-def _parse_place(text: str, units: Units) -> complex:
-    x, y = read_lengths("--at", text, "x,y of a shaft in mm, such as -40,60", 2, units)
-    return complex(x, y)
-
-
-def _parse_position(text: str, units: Units) -> float:
-    (z,) = read_lengths("--position", text, "one place along z in mm, such as 40", 1, units)
-    return z
-
-
-def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
-    if text in ("ends", "throws"):
-        return text
-    wanted = "ends, throws, or places along z in mm, such as -200,200"
-    return read_lengths("--planes", text, wanted, units=units)
-
-
-def _parse_measured(text: str, units: Units) -> float:
-    """A mass in kg; a bare number is in g, as on the scales of a shop."""
-    mass = read_mass("--measured", text, units)
-    if mass < 0:
-        raise BalcliError(f'--measured "{text[:60]}": a mass on the pin is not negative')
-    return mass / 1e3 if is_bare(text) else mass
-
-
-def _parse_factors(text: str) -> tuple[float, ...]:
-    """`0.5`, `51%`, `0.4,0.5` or `0:1:0.1` (ends included)."""
-    wanted = "a share of the reciprocating mass such as 51% or 0.51, or a range such as 50%:54%:1%"
-    if ":" not in text:
-        return tuple(read_share("--factor", part, wanted) for part in text.split(","))
-    parts = [read_share("--factor", part, wanted) for part in text.split(":")]
-    if not _is_range(parts):
-        raise BalcliError(
-            f'--factor "{text}": a range is first:last:step, rising, with at most {MOST_FACTORS} '
-            f"steps; give {wanted}"
-        )
-    first, last, step = parts
-    steps = int((last - first) / step + 1e-9)
-    return tuple(round(first + k * step, 12) for k in range(steps + 1))
-
-
-def _is_range(parts: Sequence[float]) -> bool:
-    """Whether these are first, last and step of a range of no more than MOST_FACTORS steps."""
-    if len(parts) != 3:
-        return False
-    first, last, step = parts
-    return step > 0 and last >= first and (last - first) / step <= MOST_FACTORS

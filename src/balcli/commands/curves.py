@@ -9,6 +9,7 @@ import typer
 from ..render.csv import csv_text
 from ..render.json import json_text
 from .amounts import read_angle
+from .declare import optional
 from .file_names import SERIES, SeriesFormat, format_of
 from .format_names import format_option
 from .options import EnginePath, Output, Speed, parse_speed
@@ -17,12 +18,11 @@ from .overwrite_guard import refuse_overwriting
 
 Cylinder = Annotated[
     int | None,
-    typer.Option(
-        "--cylinder",
-        metavar="N",
-        show_default=False,
-        help="Piston travel, velocity, acceleration and rod angle of this one; with [gas] over its "
+    optional(
+        "N",
+        "Piston travel, velocity, acceleration and rod angle of this one; with [gas] over its "
         "whole cycle, also pressure, volume, forces and torque.",
+        "--cylinder",
     ),
 ]
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]

@@ -10,6 +10,7 @@ import typer
 
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, Exit, warn
+from .declare import optional
 from .file_names import picture_form, text_format
 from .options import FormatOption, Output
 from .output import show, write_file
@@ -38,17 +39,11 @@ def field(
     ] = Smallest.SQUARES,
     without: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="PLANE", show_default=False, help="Leave this plane out; may be given again."
-        ),
+        optional("PLANE", "Leave this plane out; may be given again."),
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(
-            metavar="FILE",
-            show_default=False,
-            help="Draw readings and weights in polar form; .svg, .png or .pdf.",
-        ),
+        optional("FILE", "Draw readings and weights in polar form; .svg, .png or .pdf."),
     ] = None,
     check: Annotated[
         bool,
@@ -68,14 +63,14 @@ def field(
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     form = text_format(output, form)
     drawn = picture_form(plot, "--plot") if plot is not None else None
-    from ..field_balancing.balance import balance_rotor, find_doubts
+    from ..field_balancing.balance import find_corrections, find_doubts
     from ..field_balancing.read import read_runs
     from ..render import field_balancing as renderer
 
     file, name = read_runs(path), name_file(path)
     if check and file.grade is None:
         raise BalcliError(f"{name}: --check needs a grade, such as grade = 6.3, and mass and speed")
-    result = balance_rotor(file, minimise.value, without or (), name)
+    result = find_corrections(file, minimise.value, without or (), name)
     for doubt in find_doubts(result):
         warn(f"{name}: {doubt}")
     if plot is not None and drawn is not None:

@@ -6,7 +6,7 @@ from enum import StrEnum
 from types import MappingProxyType
 from typing import Any
 
-import typer
+from .declare import optional
 
 SHORT = MappingProxyType({"md": "markdown", "txt": "table", "text": "table"})
 
@@ -25,14 +25,8 @@ def format_option(formats: type[StrEnum], text: str) -> Any:
     def complete(incomplete: str) -> list[str]:
         return [name for name in formats if name.startswith(incomplete.lower())]
 
-    return typer.Option(
-        "--format",
-        "-f",
-        metavar="|".join(formats),
-        parser=parse,
-        autocompletion=complete,
-        show_default=False,
-        help=text,
+    return optional(
+        "|".join(formats), text, "--format", "-f", parser=parse, autocompletion=complete
     )
 
 
@@ -42,4 +36,4 @@ def _find_format(formats: type[StrEnum], name: str) -> StrEnum:
         return formats(SHORT.get(small, small))
     except ValueError:
         known = ", ".join(f"'{one}'" for one in formats)
-        raise ValueError(f"'{name}' is not one of {known}.") from None
+        raise typer.BadParameter(f"'{name}' is not one of {known}.") from None

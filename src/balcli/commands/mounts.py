@@ -2,37 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
-
-import typer
+from typing import TYPE_CHECKING, Annotated
 
 from ..enginefile.toml_text import name_file
 from ..errors import warn
 from ..render.formats import Units
 from ..render.units import SYSTEMS
+from . import scheme_options
+from .declare import optional
 from .file_names import picture_form, text_format
 from .options import (
     EnginePaths,
     FormatOption,
     Output,
-    Scheme,
     UnitsOption,
     parse_orders,
 )
 from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
 from .progress import reporting
+from .scheme_options import choose_beside, parse_scheme_options
 from .speed_range import Speeds, parse_speeds
+
+if TYPE_CHECKING:
+    from ..engine.build import Engine
+    from ..enginefile.model import EngineFile
 
 Orders = Annotated[
     str | None,
-    typer.Option(
-        "--orders",
-        metavar="1-8|1,2,4",
-        show_default=False,
-        help="Orders that count; default: all that are not negligible.",
-    ),
+    optional("1-8|1,2,4", "Orders that count; default: all that are not negligible.", "--orders"),
 ]
 
 
@@ -40,13 +40,19 @@ def mounts(
     paths: EnginePaths,
     speeds: Speeds = None,
     orders: Orders = None,
-    scheme: Scheme = None,
+    scheme: scheme_options.Scheme = None,
+    order: scheme_options.Order = None,
+    at: scheme_options.At = None,
+    position: scheme_options.Position = None,
+    planes: scheme_options.Planes = None,
+    factor: scheme_options.Factor = None,
+    measured: scheme_options.Measured = None,
+    roll: scheme_options.Roll = None,
     plot: Annotated[
         Path | None,
-        typer.Option(
-            metavar="FILE",
-            show_default=False,
-            help="Draw forces over speed, orders and modes, and the body moving in each mode; "
+        optional(
+            "FILE",
+            "Draw forces over speed, orders and modes, and the body moving in each mode; "
             ".svg, .png or .pdf.",
         ),
     ] = None,
@@ -65,9 +71,28 @@ def mounts(
     form = text_format(output, form)
     drawn = picture_form(plot, "--plot") if plot is not None else None
     rpm, asked = parse_speeds(speeds), parse_orders(orders)
-    from ..mounting.read import read_mounted
+    options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
+    scheme = choose_beside(scheme, options)
     from ..mounting.report import report_mounts
     from ..render import mounts as renderer
+
+    model, engine, beside = _read_files(paths)
+    with reporting("work") as tell:
+        result = report_mounts(
+            model, engine, rpm, asked, scheme, beside, name_file(paths[0]), tell, options
+        )
+    if plot is not None and drawn is not None:
+        from ..render.plot.mounts import draw_mounts  # brings matplotlib
+
+        write_file(draw_mounts(result, drawn, SYSTEMS[units]), plot)
+    show([result], renderer, form, output, units)
+
+
+def _read_files(
+    paths: Sequence[str],
+) -> tuple[EngineFile, Engine | None, list[tuple[str, Engine]]]:
+    """A body on its mounts with its engine, if there is one, and engines to show beside by name."""
+    from ..mounting.read import read_mounted
     from .inputs import name_columns, read_engine
 
     model, engine, doubts = read_mounted(paths[0])
@@ -75,11 +100,4 @@ def mounts(
         warn(f"{name_file(paths[0])}: {doubt}")
     others = [read_engine(path).engine for path in paths[1:]]
     names = name_columns([model.name or paths[0], *(other.name for other in others)], paths)
-    beside = list(zip(names[1:], others, strict=True))
-    with reporting("work") as tell:
-        result = report_mounts(model, engine, rpm, asked, scheme, beside, name_file(paths[0]), tell)
-    if plot is not None and drawn is not None:
-        from ..render.plot.mounts import draw_mounts  # brings matplotlib
-
-        write_file(draw_mounts(result, drawn, SYSTEMS[units]), plot)
-    show([result], renderer, form, output, units)
+    return model, engine, list(zip(names[1:], others, strict=True))

@@ -13,7 +13,7 @@ from ..forces.kinds import KINDS, VECTORS
 from ..limits import HIGHEST_ORDER
 from ..render.formats import Format, Units
 from .amounts import read_length, read_speed
-from .completion import complete_schemes
+from .declare import optional
 from .file_names import parse_output
 from .format_names import format_option
 
@@ -48,13 +48,12 @@ UnitsOption = Annotated[
 ]
 Output = Annotated[
     Path | None,
-    typer.Option(
+    optional(
+        "FILE",
+        "Write into this file instead; its ending says the format. - is standard output.",
         "--output",
         "-o",
-        metavar="FILE",
         callback=parse_output,
-        show_default=False,
-        help="Write into this file instead; its ending says the format. - is standard output.",
     ),
 ]
 ProgressAtOnce = Annotated[
@@ -69,42 +68,33 @@ Target = Annotated[
 ]
 Speed = Annotated[
     str | None,
-    typer.Option(
-        "--speed",
-        "--rpm",
-        metavar="RPM",
-        help="Crank speed instead of the file's, rpm.",
-        show_default=False,
-    ),
+    optional("RPM", "Crank speed instead of the file's, rpm.", "--speed", "--rpm"),
 ]
 Orders = Annotated[
     str | None,
-    typer.Option(
-        "--orders",
-        metavar="1-8|0.5-8|1,2,4",
-        show_default=False,
-        help="Orders to show, halves too where a range begins or ends with one; default: 1, 2 and "
+    optional(
+        "1-8|0.5-8|1,2,4",
+        "Orders to show, halves too where a range begins or ends with one; default: 1, 2 and "
         "all to 512 that are not negligible.",
+        "--orders",
     ),
 ]
 Only = Annotated[
     str | None,
-    typer.Option(
-        "--only",
-        metavar="WHAT,...",
-        show_default=False,
-        help=f"Compute only some of {', '.join(KINDS)}, peak, sizing, gas; or inner "
+    optional(
+        "WHAT,...",
+        f"Compute only some of {', '.join(KINDS)}, peak, sizing, gas; or inner "
         "(shear, bending, bearing loads along crankshaft and block) and guide (H- and X-type).",
+        "--only",
     ),
 ]
 OnlyParts = Annotated[
     str | None,
-    typer.Option(
-        "--only",
-        metavar="WHAT,...",
-        show_default=False,
-        help=f"Only some of {', '.join(KINDS)}, peak, sizing; inner (shear, bending, bearing "
+    optional(
+        "WHAT,...",
+        f"Only some of {', '.join(KINDS)}, peak, sizing; inner (shear, bending, bearing "
         "loads along crankshaft and block), guide (H- and X-type); or xy, textbook, verdict.",
+        "--only",
     ),
 ]
 Whole = Annotated[
@@ -112,22 +102,11 @@ Whole = Annotated[
 ]
 GuideHeight = Annotated[
     str | None,
-    typer.Option(
-        "--guide-height",
-        metavar="MM",
-        show_default=False,
-        help="With --only guide: from the crankshaft to the middle of the guides, in mm or as "
+    optional(
+        "MM",
+        "With --only guide: from the crankshaft to the middle of the guides, in mm or as "
         "'80 in'; default: length of the rod.",
-    ),
-]
-Scheme = Annotated[
-    str | None,
-    typer.Option(
-        "--scheme",
-        metavar="NAME",
-        show_default=False,
-        autocompletion=complete_schemes,
-        help="Also with the devices of a balance scheme, such as auto: before and after.",
+        "--guide-height",
     ),
 ]
 

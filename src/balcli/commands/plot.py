@@ -10,11 +10,12 @@ import typer
 
 from ..render.formats import Units
 from ..render.units import SYSTEMS
+from . import scheme_options
+from .declare import optional
 from .file_names import choose_target, picture_form
 from .options import (
     EnginePath,
     Orders,
-    Scheme,
     Speed,
     Target,
     UnitsOption,
@@ -23,6 +24,7 @@ from .options import (
 )
 from .output import write_file
 from .overwrite_guard import refuse_overwriting
+from .scheme_options import choose_beside, parse_scheme_options
 
 
 class What(StrEnum):
@@ -51,9 +53,7 @@ _TORSION = (What.MODES, What.CAMPBELL, What.RESPONSE, What.WATERFALL)
 
 Picture = Annotated[
     Path | None,
-    typer.Option(
-        "--output", "-o", metavar="OUT", help="Write here; .svg, .png or .pdf.", show_default=False
-    ),
+    optional("OUT", "Write here; .svg, .png or .pdf.", "--output", "-o"),
 ]
 Page = Annotated[
     What,
@@ -73,15 +73,20 @@ def plot(
     target: Target = None,
     output: Picture = None,
     what: Page = What.ALL,
-    scheme: Scheme = None,
+    scheme: scheme_options.Scheme = None,
+    order: scheme_options.Order = None,
+    at: scheme_options.At = None,
+    position: scheme_options.Position = None,
+    planes: scheme_options.Planes = None,
+    factor: scheme_options.Factor = None,
+    measured: scheme_options.Measured = None,
+    roll: scheme_options.Roll = None,
     speed: Speed = None,
     orders: Orders = None,
     speeds: Annotated[
         str | None,
-        typer.Option(
-            metavar="A:B:STEP",
-            show_default=False,
-            help="Of torsion, rpm; default: half to one and a half times the file's speed.",
+        optional(
+            "A:B:STEP", "Of torsion, rpm; default: half to one and a half times the file's speed."
         ),
     ] = None,
     units: UnitsOption = Units.SI,
@@ -92,17 +97,23 @@ def plot(
     refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
     output = choose_target(target, output, "X.svg")
     form = picture_form(output)
+    options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
+    if what is not What.FACTOR:
+        scheme = choose_beside(scheme, options)
+    from ..studies.pictures import compute_study, refuse_scheme
+
     if what in _TORSION:
         from .torsion_answer import draw_file
 
+        refuse_scheme(scheme, what)
         write_file(draw_file(path, what, speeds, orders, form), output)
         return
     from ..render.plot.pages import Subject, draw_page
-    from ..studies.pictures import compute_study
     from .inputs import read_engine
 
     asked = parse_orders(orders)
     shown = {What.INNER: ("inner",), What.BANK: ("force",)}.get(what)
     engine = read_engine(path, parse_speed(speed), shown).engine
-    subject = Subject(system=SYSTEMS[units], **compute_study(engine, what, asked, scheme)._asdict())
+    study = compute_study(engine, what, asked, scheme, options)
+    subject = Subject(system=SYSTEMS[units], **study._asdict())
     write_file(draw_page(subject, what, form), output)

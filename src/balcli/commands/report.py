@@ -5,18 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, warn
 from ..forces.kinds import KINDS
 from ..render.formats import Units
 from ..render.units import SYSTEMS
+from . import scheme_options
+from .declare import optional
 from .file_names import choose_target, format_of, parse_output
 from .options import (
     EnginePath,
     Orders,
-    Scheme,
     Speed,
     Target,
     UnitsOption,
@@ -26,23 +25,19 @@ from .options import (
 from .output import emit
 from .overwrite_guard import refuse_overwriting
 from .progress import reporting
+from .scheme_options import choose_scheme, parse_scheme_options
 
 if TYPE_CHECKING:
     from ..engine.build import Engine
     from ..enginefile.model import EngineFile
     from ..mounting.report import MountReport
+    from ..sizing.options import SchemeOptions
     from ..torque.pictures import Running
     from ..torsion.analysis import TorsionAnalysis
 
 Page = Annotated[
     Path | None,
-    typer.Option(
-        "--output",
-        "-o",
-        metavar="OUT.html",
-        help="Write the page here; - is standard output.",
-        show_default=False,
-    ),
+    optional("OUT.html", "Write the page here; - is standard output.", "--output", "-o"),
 ]
 
 
@@ -50,7 +45,14 @@ def report(
     path: EnginePath,
     target: Target = None,
     output: Page = None,
-    scheme: Scheme = "auto",
+    scheme: scheme_options.Scheme = None,
+    order: scheme_options.Order = None,
+    at: scheme_options.At = None,
+    position: scheme_options.Position = None,
+    planes: scheme_options.Planes = None,
+    factor: scheme_options.Factor = None,
+    measured: scheme_options.Measured = None,
+    roll: scheme_options.Roll = None,
     speed: Speed = None,
     orders: Orders = None,
     units: UnitsOption = Units.SI,
@@ -66,12 +68,16 @@ def report(
     from ..results.balance import balance
     from .inputs import read_engine
 
+    options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
+    scheme = choose_scheme(scheme, options)
     asked = parse_orders(orders)
     _, model, engine = read_engine(path, parse_speed(speed))
     shown = {*KINDS, "peak", *(["gas"] if engine.gas is not None else [])}
     result = analyze(engine, asked, shown)
-    balanced = balance(engine, scheme or "auto", orders=asked)
-    mounted = _put_on_mounts(model, engine, scheme, name_file(path)) if model.body else None
+    balanced = balance(engine, scheme, options, asked)
+    mounted = None
+    if model.body:
+        mounted = _put_on_mounts(model, engine, scheme, options, name_file(path))
     twisted = _twist(model, engine, name_file(path)) if model.torsion else None
     turning = None if engine.gas is None else _turn_gas(engine)
     with reporting("pictures") as tell:
@@ -88,26 +94,26 @@ def _turn_gas(engine: Engine) -> Running:
 
 def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | None:
     """How its crankshaft twists; None, with a warning, where that cannot be told."""
-    from ..torsion.analysis import Question, analyze_torsion
+    from ..torsion.analysis import Question, answer_question
     from ..torsion.load import make_source
     from ..torsion.quantity import choose_speeds
 
     try:
         source = make_source(model, engine, name)
-        return analyze_torsion(source, Question(choose_speeds(engine)))
+        return answer_question(source, Question(choose_speeds(engine)))
     except BalcliError as error:
         warn(f"the page does not show the torsion: {error}")
         return None
 
 
 def _put_on_mounts(
-    model: EngineFile, engine: Engine, scheme: str | None, name: str
+    model: EngineFile, engine: Engine, scheme: str, options: SchemeOptions, name: str
 ) -> MountReport | None:
     """What the body does on its mounts; None, with a warning, where that cannot be told."""
     from ..mounting.report import report_mounts
 
     try:
-        return report_mounts(model, engine, scheme=scheme, name=name)
+        return report_mounts(model, engine, scheme=scheme, name=name, options=options)
     except BalcliError as error:
         warn(f"the page does not show the mounts: {error}")
         return None

@@ -108,9 +108,9 @@ def scatter(
 
     tolerances = parse_tolerances(mass, length, angle)
     share = parse_percentage(stiffness, "--stiffness-scatter")
-    wanted = parse_quantities(DEFAULT_QUANTITIES if quantity is None else quantity)
-    asked, on_mounts = part_quantities(wanted)
     _, model, engine = read_engine(path, asked=())
+    names = DEFAULT_QUANTITIES if quantity is None else quantity
+    asked, on_mounts = part_quantities(parse_quantities(names, with_gas=model.gas is not None))
     if quantity is None:
         asked = _leave_out_unknown(engine, asked, name_file(path))
     count = samples if samples is not None else _SETS_OF_MOUNTS if on_mounts else _ENGINES

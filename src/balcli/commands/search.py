@@ -9,6 +9,7 @@ import typer
 
 from ..enginefile.toml_text import name_file, read_bytes
 from ..render import search as renderer
+from .declare import optional
 from .file_names import require_ending, text_format
 from .named_files import refuse_leaving_files
 from .options import EnginePath, FormatOption, Output
@@ -21,55 +22,40 @@ def search(
     path: EnginePath,
     over: Annotated[
         str,
-        typer.Option(
+        optional(
+            "throws|firing_order|bank_angle|splay",
+            "What to arrange: the file's throw angles along the crank, the firing order, the "
+            "angle of the vee, or of its split pins.",
             "--over",
-            metavar="throws|firing_order|bank_angle|splay",
-            show_default=False,
-            help=(
-                "What to arrange: the file's throw angles along the crank, the firing order, the "
-                "angle of the vee, or of its split pins."
-            ),
         ),
     ],
     minimise: Annotated[
         str,
-        typer.Option(
+        optional(
+            "WHAT[=WEIGHT],...",
+            "What should be small, such as moment.1.major,force.2.major=0.5.",
             "--minimise",
             "--minimize",
-            metavar="WHAT[=WEIGHT],...",
-            show_default=False,
-            help=("What should be small, such as moment.1.major,force.2.major=0.5."),
         ),
     ],
     limit: Annotated[
         list[str] | None,
-        typer.Option(
+        optional(
+            "WHAT<VALUE",
+            "What must stay below a value (N, N·m), such as 'moment.2.major<100'.",
             "--limit",
-            metavar="WHAT<VALUE",
-            show_default=False,
-            help=("What must stay below a value (N, N·m), such as 'moment.2.major<100'."),
         ),
     ] = None,
     require: Annotated[
         str,
-        typer.Option(
-            "--require",
-            metavar="even-firing",
-            show_default=False,
-            help=("even-firing: only what can fire at even intervals."),
-        ),
+        optional("even-firing", "even-firing: only what can fire at even intervals.", "--require"),
     ] = "",
     top: Annotated[int, typer.Option("--top", min=1, max=1000, help="How many to show.")] = 10,
     form: FormatOption = None,
     output: Output = None,
     write: Annotated[
         Path | None,
-        typer.Option(
-            "--write",
-            metavar="OUT.toml",
-            show_default=False,
-            help=("Write the engine file with the best one."),
-        ),
+        optional("OUT.toml", "Write the engine file with the best one.", "--write"),
     ] = None,
 ) -> None:
     """The best crank, firing order, bank angle or splay; mirror images and rotations once."""
@@ -90,7 +76,7 @@ def search(
     build_named(model, name)  # what is wrong with the file itself is told with its name
     if write is not None:
         refuse_leaving_files(text, path, write)
-    goal = parse_objective(minimise, limit or ())
+    goal = parse_objective(minimise, limit or (), with_gas=model.gas is not None)
     watching = reporting_until_stopped if over == "throws" else reporting  # no other takes long
     with watching("arrangements") as progress:
         found = search_arrangements(model, over, goal, top, bool(require), progress)

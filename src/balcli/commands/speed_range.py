@@ -4,22 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ..errors import BalcliError
 from ..limits import LONGEST_SHOWN, MOST_SPEEDS
 from .amounts import convert_speed
+from .declare import optional
 
 if TYPE_CHECKING:
     from ..core.singular_values import Real
 
 Speeds = Annotated[
     str | None,
-    typer.Option(
+    optional(
+        "RPM:RPM:STEP|RPM,...",
+        "Crank speeds; default: from an eighth of the file's speed to this.",
         "--speeds",
-        metavar="RPM:RPM:STEP|RPM,...",
-        show_default=False,
-        help="Crank speeds; default: from an eighth of the file's speed to this.",
     ),
 ]
 

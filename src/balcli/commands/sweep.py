@@ -14,6 +14,7 @@ from ..limits import MOST_THREADS
 from ..process import count_cores
 from ..render.sweep_plot import check_drawable, draw_sweep
 from ..studies.quantity_names import describe_names
+from .declare import optional
 from .file_names import VARIANTS, VariantsFormat, format_of, picture_form
 from .format_names import format_option
 from .options import EnginePath, Output, ProgressAtOnce
@@ -29,15 +30,12 @@ def sweep(
     path: EnginePath,
     vary: Annotated[
         list[str],
-        typer.Option(
+        optional(
+            "NUMBER=VALUES",
+            "A number of the engine file and its values: rod.ratio=0.24:0.32:0.01 "
+            "(from:to:step, ends included) or crank.throws.2=90,180. "
+            "Several span a grid, the last one fastest.",
             "--vary",
-            metavar="NUMBER=VALUES",
-            show_default=False,
-            help=(
-                "A number of the engine file and its values: rod.ratio=0.24:0.32:0.01 "
-                "(from:to:step, ends included) or crank.throws.2=90,180. "
-                "Several span a grid, the last one fastest."
-            ),
         ),
     ],
     quantity: Annotated[
@@ -60,14 +58,11 @@ def sweep(
     progress: ProgressAtOnce = False,
     plot: Annotated[
         Path | None,
-        typer.Option(
+        optional(
+            "FILE",
+            "Also draw the quantities over one parameter (curves) or two (contours); "
+            ".svg, .png or .pdf.",
             "--plot",
-            metavar="FILE",
-            show_default=False,
-            help=(
-                "Also draw the quantities over one parameter (curves) or two (contours); "
-                ".svg, .png or .pdf."
-            ),
         ),
     ] = None,
     jobs: Annotated[
@@ -83,9 +78,7 @@ def sweep(
     ] = None,
     dask: Annotated[
         str,
-        typer.Option(
-            "--dask", metavar="ADDRESS|local", show_default=False, help="Compute on a dask cluster."
-        ),
+        optional("ADDRESS|local", "Compute on a dask cluster.", "--dask"),
     ] = "",
 ) -> None:
     """Figures of many variants of an engine: numbers of its file over ranges, as CSV, JSON or (by

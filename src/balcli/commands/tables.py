@@ -10,6 +10,7 @@ from ..render import errata as errata_renderer
 from ..render import layouts, printed_table, table_list
 from .amounts import as_bare_angles
 from .completion import complete_tables
+from .declare import optional
 from .file_names import text_format
 from .options import FormatOption, Output
 from .output import show
@@ -29,18 +30,15 @@ Errata = Annotated[
 ]
 Lam = Annotated[
     str | None,
-    typer.Option(
+    optional(
+        "0.20:0.40:0.01",
+        "Other crank ratios than the printed ones; or a list 0.25,1/3.",
         "--lambda",
-        metavar="0.20:0.40:0.01",
-        show_default=False,
-        help="Other crank ratios than the printed ones; or a list 0.25,1/3.",
     ),
 ]
 Angle = Annotated[
     str | None,
-    typer.Option(
-        "--angle", metavar="0:180:5", show_default=False, help="Other crank angles (degrees)."
-    ),
+    optional("0:180:5", "Other crank angles (degrees).", "--angle"),
 ]
 Power = Annotated[
     int | None,

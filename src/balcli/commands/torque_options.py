@@ -13,6 +13,7 @@ import typer
 from ..enginefile.edit import set_keys
 from ..errors import BalcliError
 from .amounts import read_inertia
+from .declare import optional
 from .named_files import refuse_leaving_files
 from .options import parse_orders, parse_speed
 from .output import write_file
@@ -32,10 +33,8 @@ Engine = Annotated[
 ]
 Fluctuation = Annotated[
     str | None,
-    typer.Option(
-        metavar="1/200",
-        show_default=False,
-        help="Also the inertia that keeps (highest - lowest)/mean speed to this; or 0.5%.",
+    optional(
+        "1/200", "Also the inertia that keeps (highest - lowest)/mean speed to this; or 0.5%."
     ),
 ]
 Cylinder = Annotated[
@@ -43,53 +42,34 @@ Cylinder = Annotated[
 ]
 Misfire = Annotated[
     list[int] | None,
-    typer.Option(
-        metavar="N", show_default=False, help="A cylinder without gas; may be given again."
-    ),
+    optional("N", "A cylinder without gas; may be given again."),
 ]
 LoadsOption = Annotated[
     str | None,
-    typer.Option(
-        "--loads",
-        metavar="pin,main",
-        show_default=False,
-        help="Also loads of crank pins and of main bearings.",
-    ),
+    optional("pin,main", "Also loads of crank pins and of main bearings.", "--loads"),
 ]
 Curve = Annotated[
     Path | None,
-    typer.Option(
-        metavar="CSV",
-        show_default=False,
-        help="A torque instead of an engine: angle_deg,torque_Nm; the last row closes the period.",
+    optional(
+        "CSV", "A torque instead of an engine: angle_deg,torque_Nm; the last row closes the period."
     ),
 ]
 Load = Annotated[
     Path | None,
-    typer.Option(
-        metavar="CSV",
-        show_default=False,
-        help="With --curve: the torque that the load takes, likewise; default: the mean, evenly.",
+    optional(
+        "CSV", "With --curve: the torque that the load takes, likewise; default: the mean, evenly."
     ),
 ]
 Inertia = Annotated[
     str | None,
-    typer.Option(
-        metavar="KG_MM2",
-        show_default=False,
-        help="With --curve: of all that turns, in kg mm^2 or as '2 kg m^2'.",
-    ),
+    optional("KG_MM2", "With --curve: of all that turns, in kg mm^2 or as '2 kg m^2'."),
 ]
 Plot = Annotated[
     bool, typer.Option("--plot", help="Also draw, with characters: the torque over the cycle.")
 ]
 Write = Annotated[
     Path | None,
-    typer.Option(
-        metavar="OUT.toml",
-        show_default=False,
-        help="Write the engine file with this uneven speed (speed_ripple).",
-    ),
+    optional("OUT.toml", "Write the engine file with this uneven speed (speed_ripple)."),
 ]
 
 

@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from .declare import optional
 from .file_names import picture_form, require_ending, text_format
 from .named_files import refuse_leaving_files
 from .options import FormatOption, Output, ProgressAtOnce
@@ -45,34 +46,26 @@ def torsion(
     ],
     speeds: Annotated[
         str | None,
-        typer.Option(
-            metavar="A:B:STEP",
-            show_default=False,
-            help="Forced vibration at these speeds, rpm; or a list such as 1500,2000.",
-        ),
+        optional("A:B:STEP", "Forced vibration at these speeds, rpm; or a list such as 1500,2000."),
     ] = None,
     orders: Annotated[
         str | None,
-        typer.Option(
-            metavar="0.5-12|1,2.5",
-            show_default=False,
-            help="Orders that excite, 0.5-8 with halves, 1-8 whole ones; default: all of a chain, "
+        optional(
+            "0.5-12|1,2.5",
+            "Orders that excite, 0.5-8 with halves, 1-8 whole ones; default: all of a chain, "
             "to 12 of an engine.",
         ),
     ] = None,
     holzer: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="MODE|FREQUENCY",
-            show_default=False,
-            help='Holzer\'s table of a mode, or at "20 rad/s", "12 Hz"; may be given again.',
+        optional(
+            "MODE|FREQUENCY",
+            'Holzer\'s table of a mode, or at "20 rad/s", "12 Hz"; may be given again.',
         ),
     ] = None,
     misfire: Annotated[
         list[int] | None,
-        typer.Option(
-            metavar="N", show_default=False, help="Cylinder without gas; may be given again."
-        ),
+        optional("N", "Cylinder without gas; may be given again."),
     ] = None,
     damper: Annotated[
         Kind | None,
@@ -83,28 +76,23 @@ def torsion(
     ] = None,
     damper_at: Annotated[
         str | None,
-        typer.Option(
-            metavar="NAME", show_default=False, help="What carries it; default: the foremost part."
-        ),
+        optional("NAME", "What carries it; default: the foremost part."),
     ] = None,
     damper_inertia: Annotated[
         str | None,
-        typer.Option(
-            metavar="KGMM2",
-            show_default=False,
-            help="Its ring, or its pendulums about the axis; default: that in the file, or a usual "
+        optional(
+            "KGMM2",
+            "Its ring, or its pendulums about the axis; default: that in the file, or a usual "
             "share.",
         ),
     ] = None,
     write: Annotated[
         Path | None,
-        typer.Option(
-            metavar="FILE", show_default=False, help="Write the file with the damper here."
-        ),
+        optional("FILE", "Write the file with the damper here."),
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", show_default=False, help="Draw pictures; .svg, .png or .pdf."),
+        optional("FILE", "Draw pictures; .svg, .png or .pdf."),
     ] = None,
     what: Annotated[
         What, typer.Option(help="Which, with --plot; the last two take --speeds.")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, warn
 from ..render.plot.torsion import draw_torsion
-from ..torsion.analysis import Question, TorsionAnalysis, analyze_torsion
+from ..torsion.analysis import Question, TorsionAnalysis, answer_question
 from ..torsion.load import ChainSource, Source, load_source
 from ..torsion.quantity import choose_speeds
 from ..torsion.write_damper import insert_damper
@@ -49,7 +49,7 @@ def find_answer(
     for doubt in source.doubts():
         warn(f"{name_file(path)}: {doubt}")
     with reporting("work", at_once=progress) as tell:
-        return source, analyze_torsion(source, asked, tell)
+        return source, answer_question(source, asked, tell)
 
 
 def write_damper(source: Source, result: TorsionAnalysis) -> str:
@@ -71,7 +71,7 @@ def draw_file(path: str, what: str, speeds: str | None, orders: str | None, form
         if isinstance(source, ChainSource):
             raise BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")
         asked = asked._replace(speeds_rpm=choose_speeds(source.engine))
-    return draw(analyze_torsion(source, asked), what, form)
+    return draw(answer_question(source, asked), what, form)
 
 
 def draw(result: TorsionAnalysis, what: str, form: Form) -> bytes:

@@ -19,7 +19,7 @@ from .peaks import Peak
 from .phasors import Array, Complex
 from .piecewise import PiecewiseCurve, cut, gauss, legendre, resolved, values_to_series
 
-Vectors: TypeAlias = Callable[[Array], Complex]  # at angles (rad), shape (vectors, angles)
+Vectors: TypeAlias = Callable[[Array], Complex]  # at angles, shape (vectors, angles)
 
 _TERMS = 16  # of a series; a panel on which e^{in angle} turns by no more than _TURN adds none
 _TURN = 4.0  # rad
@@ -70,12 +70,22 @@ class Panels:
         """The largest size of one force, and the first angle (rad) at which it is reached; at a
         jump both sides count.
         """
-        series = values_to_series(_TERMS) @ samples.reshape(_TERMS, -1)
+        series = self._find_series(samples)
         finer = 2 * _TERMS - 1  # terms of the square
         values = legendre(gauss(finer)[0], _TERMS).T @ series
         squares = values_to_series(finer) @ (values.real**2 + values.imag**2)
         highest = PiecewiseCurve(self.breaks, squares).extremes()[1]
         return Peak(float(np.sqrt(max(highest.value, 0.0))), highest.angle)
+
+    def find_mean_size(self, samples: Complex) -> float:
+        """Mean over the period of the size of one force, which has a corner where it passes 0."""
+        series = self._find_series(samples)
+        x, y = (PiecewiseCurve(self.breaks, part) for part in (series.real, series.imag))
+        return resolved(lambda at: np.hypot(x.within(at), y.within(at)), self.breaks).mean
+
+    def _find_series(self, samples: Complex) -> Complex:
+        """Legendre coefficients of one force on each panel, shape (terms, panels)."""
+        return np.asarray(values_to_series(_TERMS) @ samples.reshape(_TERMS, -1))
 
 
 def find_panels(forces: Vectors, breaks: Array, highest_order: float) -> Panels:

@@ -13,6 +13,7 @@ from .figures import (
     EngineSize,
     Figures,
     Harmonic,
+    NamedEngine,
     Order,
     OrderFigures,
     Peaks,
@@ -112,6 +113,7 @@ class Reason(TypedDict):
     reciprocating: float | None
     built: float | None
     unit: str
+    because: str
 
 
 class Why(TypedDict):
@@ -130,7 +132,7 @@ class Travel(TypedDict):
     bottom_deg: float
 
 
-class Analysis(Document):
+class AnalysisFigures(TypedDict):
     """Free forces and moments of an engine, order by order."""
 
     format: Literal["balcli.analysis/1"]
@@ -146,6 +148,64 @@ class Analysis(Document):
     guide: NotRequired[Guide]
     travel: NotRequired[list[Travel]]
     why: NotRequired[Why]
+
+
+class Analysis(AnalysisFigures, Document):
+    """Free forces and moments of an engine, order by order."""
+
+
+class Speeds(Document):
+    """The analysis at each of several speeds."""
+
+    format: Literal["balcli.speeds/1"]
+    engine: NamedEngine
+    analyses: list[AnalysisFigures]
+
+
+class CountedEngine(NamedEngine):
+    """An engine and its cylinders."""
+
+    cylinders: int
+
+
+class MarineAxes(TypedDict):
+    """Which axis builders call vertical and horizontal."""
+
+    v: str
+    h: str
+
+
+class MarineOrder(TypedDict):
+    """Amplitudes of one order."""
+
+    order: Order
+    force_v_N: NotRequired[float | None]
+    force_h_N: NotRequired[float | None]
+    moment_v_Nm: NotRequired[float | None]
+    moment_h_Nm: NotRequired[float | None]
+    guide_h_Nm: NotRequired[float | None]
+    guide_x_Nm: NotRequired[float | None]
+    torque_Nm: NotRequired[float | None]
+
+
+class MarineSpeed(TypedDict):
+    """All orders at one speed."""
+
+    speed_rpm: float
+    orders: list[MarineOrder]
+
+
+class Marine(Document):
+    """External forces and moments and guide-force moments, as builders of marine engines list
+    them.
+    """
+
+    format: Literal["balcli.marine/1"]
+    engine: CountedEngine
+    includes: Literal["inertia and gas", "inertia, without gas"]
+    axes: MarineAxes
+    height_m: list[float]
+    speeds: list[MarineSpeed]
 
 
 class EngineOfTwo(EngineSize):

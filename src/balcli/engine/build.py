@@ -5,17 +5,17 @@ devices.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import groupby
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..core.cylinders import Cylinders, Device
-from ..core.phasors import Array, Figure
+from ..core.phasors import Array, Figure, Phasors
 from ..enginefile.model import EngineFile
 from ..enginefile.plain_tables import list_tables
-from ..errors import BalcliError, InputError
+from ..errors import BalcliError, InputError, wrong_type
 from .assembly import Assembly, Ripple
 from .devices import build_devices
 from .positions import are_places_known
@@ -93,6 +93,8 @@ class Engine:
             count as standing in one plane, and what is said of moments means nothing.
         gas: what the gas does in the cylinders; None where the file does not say, and for arrays
             of variants.
+        gas_of_variants: torque of the gas of variants on the crank by orders (orders,), N m; None
+            where nobody may ask for it.
         crank_inertia: polar moment of inertia of the crankshaft with throws and counterweights, kg
             m2; None where the file gives none.
         flywheel_inertia: that of the flywheel, kg m2, likewise.
@@ -115,6 +117,7 @@ class Engine:
     weighed: tuple[Weighed, ...]
     places_known: bool = True
     gas: EngineGas | None = None
+    gas_of_variants: Callable[[Array], Phasors] | None = None
     crank_inertia: Figure | None = None
     flywheel_inertia: Figure | None = None
     bearings: Bearings | None = None
@@ -274,6 +277,17 @@ def build(
         bearings=None if model.bearing is None else _find_bearings(model.bearing),
         model=None if varied else model,
     )
+
+
+def check_engine(function: str, value: object) -> Engine:
+    """The engine that a function of the library was given.
+
+    Raises:
+        TypeError: it is none, with how to make one.
+    """
+    if not isinstance(value, Engine):
+        raise wrong_type(function, value, "give an Engine; load(...) makes one of a path or a dict")
+    return value
 
 
 def take_model(engine: Engine) -> EngineFile:

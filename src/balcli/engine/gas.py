@@ -33,6 +33,7 @@ from ..errors import BalcliError, InputError, Problem
 from ..limits import HIGHEST_TABLE_ORDER
 
 if TYPE_CHECKING:
+    from ..core.cylinders import Cylinders
     from .assembly import Assembly
 
 BAR = 1e5  # Pa
@@ -101,14 +102,17 @@ class EngineGas:
         return replace(self, cylinders=tuple(changed))
 
 
-def build_gas(parts: Assembly) -> EngineGas:
+def build_gas(parts: Assembly, cylinders: Cylinders | None = None) -> EngineGas:
     """The gas of an engine whose tables fit together otherwise.
+
+    Args:
+        cylinders: that have other mechanisms than its own, if it is theirs.
 
     Raises:
         InputError: every mistake of [gas], of what cylinders say of it, and of the files named
             there.
     """
-    return _Builder(parts).build()
+    return _Builder(parts, parts.cylinders if cylinders is None else cylinders).build()
 
 
 class _Source(NamedTuple):
@@ -121,11 +125,12 @@ class _Source(NamedTuple):
 class _Builder:
     """The gas of an engine while it is put together."""
 
-    def __init__(self, parts: Assembly) -> None:
+    def __init__(self, parts: Assembly, cylinders: Cylinders) -> None:
         gas = parts.model.gas
         if gas is None:
             raise ValueError("an engine file without [gas]")
         self.parts, self.gas = parts, _vary(gas, parts.figures.of_table("gas"))
+        self.cylinders = cylinders
         self.strokes = parts.model.layout.strokes
         self.problems: list[Problem] = []
         self.doubts: list[str] = []
@@ -135,7 +140,7 @@ class _Builder:
     def build(self) -> EngineGas:
         self.problems += self._check_tables()
         self._refuse()
-        c, bore = self.parts.cylinders, self._bore or 0.0
+        c, bore = self.cylinders, self._bore or 0.0
         found = pistons(c, math.pi / 4 * (bore / 1e3) ** 2)
         mechanisms = self._name_mechanisms()
         torques = [
@@ -202,7 +207,7 @@ class _Builder:
 
     def _name_mechanisms(self) -> list[tuple[object, ...]]:
         """Figures of each row's mechanism; equal ones move their pistons alike."""
-        c = self.parts.cylinders
+        c = self.cylinders
         columns = (c.lam, c.eps) if c.linkage is None else c.linkage.figures(c.lam, c.eps)
         rows = range(c.count)
         return [
@@ -298,7 +303,7 @@ class _Builder:
                 f"{name}: line {columns.lines[high[0]]}: order {orders[high[0]]:g} is above "
                 f"{HIGHEST_TABLE_ORDER}, where no table goes"
             )
-        radius = float(self.parts.cylinders.radius)
+        radius = float(self.cylinders.radius)
         try:
             return tangential_torque(
                 orders,
@@ -360,7 +365,7 @@ class _Builder:
         angle, the others next to when the firing order has them fire.
         """
         parts, cycle = self.parts, 180.0 * self.strokes
-        phi, first = parts.cylinders.angle_deg, parts.numbers.index(1)
+        phi, first = self.cylinders.angle_deg, parts.numbers.index(1)
         fires = parts.fires_deg if parts.order is not None else {}
         found = []
         for row, number in enumerate(parts.numbers):

@@ -116,7 +116,7 @@ class FieldBalance(Result):
         return any(p.limited for p in self.planes)
 
 
-def balance_rotor(
+def find_corrections(
     file: RunsFile, minimise: Minimise = "squares", without: Collection[str] = (), name: str = ""
 ) -> FieldBalance:
     """Correction weights from readings.

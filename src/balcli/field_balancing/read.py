@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
@@ -40,7 +40,11 @@ def parse_runs(text: str | bytes, file: str = "") -> RunsFile:
     """The runs that a TOML text describes; `file` is its name in messages. Raises InputError with
     every mistake.
     """
-    data = parse_toml(text, file)
+    return check_runs(parse_toml(text, file), file)
+
+
+def check_runs(data: Mapping[str, Any], file: str = "") -> RunsFile:
+    """The runs that tables describe, as TOML is read; otherwise as `parse_runs`."""
     problems: list[Problem] = []
     head = {key: value for key, value in data.items() if key != "run"}
     model = _read_table("", head, RunsFile, problems)

@@ -50,12 +50,14 @@ def compute_gas_torque(engine: Engine, orders: Array) -> Phasors:
     """Torque of all cylinders' gas on the crank, N m, noise included.
 
     Args:
-        engine: without trailing axes.
+        engine: without trailing axes, or variants whose gas may be asked for.
         orders: multiples of 1/2, shape (orders,).
 
     Raises:
         BalcliError: the engine has no gas.
     """
+    if engine.gas_of_variants is not None:
+        return engine.gas_of_variants(orders)
     each = compute_gas_torque_of_each(engine, orders)
     count = len(take_gas(engine).cylinders)
     turning = SUM * count + _TURN * orders
@@ -67,17 +69,27 @@ def compute_gas_torque_of_each(engine: Engine, orders: Array) -> Phasors:
     """Torque of each cylinder's gas on the crank, N m, shape (orders, cylinders), the cylinders in
     the order of `engine.numbers`; arguments and errors as of `compute_gas_torque`.
     """
-    gas, halves = take_gas(engine), np.rint(2 * orders).astype(np.intp)
-    courses: dict[int, _Course] = {}  # of equal cylinders once
+    gas = take_gas(engine)
+    courses, errors = find_courses(gas, orders)
+    fires = np.stack([_turn(cylinder, orders) for cylinder in gas.cylinders], axis=1)
+    return Phasors.from_scalar(orders, courses * fires, errors)
+
+
+def find_courses(gas: EngineGas, orders: Array) -> tuple[Complex, Array]:
+    """Torque of each cylinder's gas by its own cycle angle, N m, shape (orders, cylinders):
+    `Re sum c_n e^{i n theta}`; and its error, likewise.
+    """
+    halves = np.rint(2 * orders).astype(np.intp)
+    known: dict[int, _Course] = {}  # of equal cylinders once
     columns, errors = [], []
     for cylinder in gas.cylinders:
         which = id(cylinder.torque)
-        if which not in courses:
-            courses[which] = _find_course(cylinder.torque, halves)
-        course = courses[which]
-        columns.append(cylinder.share * course.c * _turn(cylinder, orders))
+        if which not in known:
+            known[which] = _find_course(cylinder.torque, halves)
+        course = known[which]
+        columns.append(cylinder.share * course.c)
         errors.append(np.full(len(orders), cylinder.share * course.error))
-    return Phasors.from_scalar(orders, np.stack(columns, axis=1), np.stack(errors, axis=1))
+    return np.stack(columns, axis=1), np.stack(errors, axis=1)
 
 
 def _find_course(torque: GasTorque, halves: NDArray[np.intp]) -> _Course:

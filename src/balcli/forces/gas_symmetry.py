@@ -17,6 +17,7 @@ from ..core.phasors import Array
 from ..core.roots_of_unity import rational, turns, vanishes
 from ..engine.build import Engine
 from ..engine.gas import CylinderGas, EngineGas
+from .cancellation import Term, are_in_phase, tell_cancellation
 from .gas import take_gas
 from .spectrum import compute_each_cylinder, compute_spectra
 
@@ -24,34 +25,49 @@ _LARGEST_DENOMINATOR = 1_000_000  # of the ratio of two shares
 _ROUNDING = 16 * float(np.finfo(float).eps)  # by which such a ratio may be off
 
 
-def measure_gas(engine: Engine, orders: Array) -> Iterator[tuple[bool, float | None]]:
-    """For each order: whether symmetry alone makes it 0, and what is left in units of the largest
-    that one cylinder makes; None where no cylinder has any.
+def measure_gas(engine: Engine, orders: Array) -> Iterator[tuple[bool, float | None, str]]:
+    """For each order: whether symmetry alone makes it 0; what is left in units of the largest that
+    one cylinder makes, None where no cylinder has any; and what cancels, or that nothing does, in
+    words.
     """
     gas = take_gas(engine)
     whole = compute_spectra(engine, orders, ["gas"])["gas"].major
     single = compute_each_cylinder(engine, orders, ["gas"])["gas"].major.max(axis=1)
     for k, order in enumerate(orders.tolist()):
         size = float(whole[k] / single[k]) if single[k] else None
-        yield _vanishes(gas, order), size
+        families = [_list_terms(family, round(2 * order)) for family in _list_families(gas, engine)]
+        known = [family for family in families if family]
+        if len(known) < len(families):
+            yield False, size, ""
+        elif all(vanishes([t.weight for t in one], [t.angle for t in one]) for one in known):
+            yield True, size, tell_cancellation(known)
+        else:
+            together = len(known) == 1 and are_in_phase(known[0])
+            yield False, size, "all in phase" if together else ""
 
 
-def _vanishes(gas: EngineGas, order: float) -> bool:
-    families: dict[int, list[CylinderGas]] = defaultdict(list)
-    for cylinder in gas.cylinders:
-        families[id(cylinder.torque)].append(cylinder)
-    return all(_family_vanishes(family, round(2 * order)) for family in families.values())
+Numbered = tuple[int, CylinderGas]
 
 
-def _family_vanishes(family: Iterable[CylinderGas], half: int) -> bool:
-    """Whether `sum share e^{-i h f/2}` does, h twice the order."""
-    fired = [cylinder for cylinder in family if cylinder.share]
-    if not fired:
-        return True
-    most = max(cylinder.share for cylinder in fired)
-    shares = [rational(c.share / most, _LARGEST_DENOMINATOR, _ROUNDING) for c in fired]
-    angles = [turns(c.nominal_deg / 2) for c in fired]
-    known = [(s, a) for s, a in zip(shares, angles, strict=True) if s is not None and a is not None]
-    if len(known) < len(fired):
-        return False
-    return vanishes([s for s, _ in known], [Fraction(-half) * a % 1 for _, a in known])
+def _list_families(gas: EngineGas, engine: Engine) -> list[list[Numbered]]:
+    """Cylinders that fire, those of one torque together."""
+    families: dict[int, list[Numbered]] = defaultdict(list)
+    for number, cylinder in zip(engine.numbers, gas.cylinders, strict=True):
+        if cylinder.share:
+            families[id(cylinder.torque)].append((number, cylinder))
+    return list(families.values())
+
+
+def _list_terms(family: Iterable[Numbered], half: int) -> list[Term]:
+    """Those of `sum share e^{-i h f/2}`, h twice the order; none if they are no fractions."""
+    fired = sorted(family)
+    most = max(cylinder.share for _, cylinder in fired)
+    first = fired[0][1].nominal_deg
+    terms = []
+    for number, cylinder in fired:
+        share = rational(cylinder.share / most, _LARGEST_DENOMINATOR, _ROUNDING)
+        angle = turns((cylinder.nominal_deg - first) / 2)
+        if share is None or angle is None:
+            return []
+        terms.append(Term(number, share, Fraction(half) * angle % 1))
+    return terms

@@ -19,7 +19,7 @@ from ..core.levers import share_by_lever
 from ..core.peaks import Peak
 from ..core.phasors import Array, Complex, Phasors, unit
 from ..core.piecewise import merged_breaks
-from ..core.vectors_over_cycle import Panels, find_panels
+from ..core.vectors_over_cycle import Panels, Vectors, find_panels
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import MOST_FORCES_OVER_CYCLE
@@ -94,10 +94,14 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
     """
     span = place_main_bearings(engine)
     shown = list_gas_orders(engine.strokes) if orders is None else orders
-    panels = find_panels(
-        lambda angles: _stack(engine, angles), find_breaks(engine), float(shown.max())
-    )
-    samples = _stack(engine, panels.angles)
+
+    def compute(angles: Array) -> Complex:
+        return compute_in_pieces(
+            engine, lambda degrees: np.concatenate(compute_forces_along(engine, degrees)), angles
+        )
+
+    panels = find_panels(compute, find_breaks(engine), float(shown.max()))
+    samples = compute(panels.angles)
     on_shaft, on_block = _place_forces(engine)
     shares = share_by_lever(on_shaft, span)
     sections = np.unique([*on_shaft, *on_block, *span])
@@ -176,8 +180,12 @@ def _place_forces(engine: Engine) -> tuple[Array, Array]:
     return np.array([*cylinders, *turning]), np.array([*cylinders, *others])
 
 
-def _stack(engine: Engine, angles: Array) -> Complex:
-    """Forces on shaft and block at crank angles (rad), a row each.
+def compute_in_pieces(engine: Engine, compute: Vectors, angles: Array) -> Complex:
+    """Forces of an engine at crank angles (rad), a row each, by so many angles at a time that
+    memory stays small.
+
+    Args:
+        compute: the forces at crank angles (deg).
 
     Raises:
         BalcliError: more figures than are kept.
@@ -185,15 +193,11 @@ def _stack(engine: Engine, angles: Array) -> Complex:
     count = 2 * engine.cylinders.count + len(engine.devices)
     if count * len(angles) > MOST_FORCES_OVER_CYCLE:
         raise BalcliError(
-            f"inner loads with gas of {engine.cylinders.count} cylinders are {count * len(angles)} "
+            f"loads with gas of {engine.cylinders.count} cylinders are {count * len(angles)} "
             f"forces over the cycle, and at most {MOST_FORCES_OVER_CYCLE} are kept"
         )
-    step = max(AT_ONCE // count, 1)
-    degrees = np.degrees(angles)
-    parts = [
-        np.concatenate(compute_forces_along(engine, degrees[k : k + step]))
-        for k in range(0, len(degrees), step)
-    ]
+    step, degrees = max(AT_ONCE // count, 1), np.degrees(angles)
+    parts = [compute(degrees[k : k + step]) for k in range(0, len(degrees), step)]
     return np.concatenate(parts, axis=1)
 
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..core.mechanisms import harmonics
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
-from ..errors import BalcliError
+from ..errors import BalcliError, wrong_type
 from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER, HIGHEST_ORDER_UNASKED
 from .kinds import GAS_KINDS
 from .spectrum import Spectra, dense_orders
@@ -41,8 +41,9 @@ def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> A
 
     Raises:
         BalcliError: there are none, some are no orders, or half orders that no engine has.
+        TypeError: they are no numbers.
     """
-    asked = sorted(set(orders))
+    asked = sorted(set(_list_numbers(orders)))
     if not asked or not all(map(is_order, asked)):
         named = ", ".join(f"{n:g}" for n in asked[:8]) or "none"
         raise BalcliError(f"orders must be multiples of 1/2 from 0 to {HIGHEST_ORDER}, not {named}")
@@ -53,6 +54,16 @@ def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> A
             "or ask for whole orders"
         )
     return np.array(asked, float)
+
+
+def _list_numbers(orders: object) -> list[float]:
+    strange: object = orders
+    if isinstance(orders, Iterable) and not isinstance(orders, str):
+        given = list(orders)
+        if all(isinstance(one, (int, float, np.number)) for one in given):
+            return given
+        strange = next(one for one in given if not isinstance(one, (int, float, np.number)))
+    raise wrong_type("orders", strange, "give numbers, such as [1, 2, 4]")
 
 
 def parse_order(text: str) -> float | None:

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from ..engine.positions import MOMENTS_UNKNOWN
 from ..enginefile.fields import nearest
 from ..errors import BalcliError
 from ..limits import HIGHEST_ORDER
-from .kinds import KINDS, VECTORS
+from .kinds import EVERY_KIND, GAS_KINDS, KINDS, TORQUE_TOTAL, VECTORS
 from .orders import find_relevant_orders, split_order
 from .spectrum import compute_spectra
 
@@ -34,23 +34,28 @@ class Quantity:
     Of a couple, torque or roll, and of force and moment along x or y, `cos` and `sin` are the parts
     of the value `cos cos n theta + sin sin n theta`: they have signs, and so has the mean of order
     0, which is its `cos`.
+
+    Attributes:
+        called: what its name begins with, if that is not its kind: of an engine with gas the
+            `torque` is that of gas and inertia.
     """
 
     kind: str
     order: float
     part: str
+    called: str = ""
 
     @property
     def name(self) -> str:
         """As a user writes it."""
         if self.part == "peak":
             return f"peak.{self.kind}"
-        return f"{self.kind}.{self.order:g}.{self.part}"
+        return f"{self.called or self.kind}.{self.order:g}.{self.part}"
 
     @property
     def unit(self) -> str:
         """SI unit or degrees."""
-        return "deg" if self.part == "axis" else KINDS[self.kind].si_unit
+        return "deg" if self.part == "axis" else EVERY_KIND[self.kind].si_unit
 
     @property
     def signed(self) -> bool:
@@ -71,8 +76,11 @@ class Quantity:
         return value
 
 
-def parse_quantity_list(text: str) -> tuple[Quantity, ...]:
+def parse_quantity_list(text: str, *, with_gas: bool = False) -> tuple[Quantity, ...]:
     """`force.2.major,moment.1.backward,couple.4.amplitude,peak.force`, each once.
+
+    Args:
+        with_gas: whether the engine has gas: its `torque` is then that of gas and inertia.
 
     Raises:
         BalcliError: anything else, with what there is.
@@ -82,19 +90,25 @@ def parse_quantity_list(text: str) -> tuple[Quantity, ...]:
         raise BalcliError(
             "no quantity is given; name some, such as force.2.major,moment.1.backward"
         )
-    return tuple(dict.fromkeys(map(_parse_quantity, words)))
+    found = dict.fromkeys(map(_parse_quantity, words))
+    return tuple(map(_count_gas, found) if with_gas else found)
+
+
+def _count_gas(q: Quantity) -> Quantity:
+    """The torque as that of gas and inertia, all else as it is."""
+    return replace(q, kind=TORQUE_TOTAL.name, called=q.kind) if q.kind == "torque" else q
 
 
 def _parse_quantity(text: str) -> Quantity:
     kind, _, rest = text.partition(".")
     if kind == "peak" and rest in [vector.name for vector in VECTORS]:
         return Quantity(rest, 0, "peak")
-    if kind not in KINDS:
-        near = nearest(kind, (*KINDS, "peak"))
+    if kind not in EVERY_KIND:
+        near = nearest(kind, (*EVERY_KIND, "peak"))
         hint = f"did you mean {near}?" if near else f"it begins with {', '.join(KINDS)} or peak"
         raise BalcliError(f"{text} is no quantity: {hint}")
     order, part = split_order(rest)
-    allowed = VECTOR_PARTS if KINDS[kind].vector else SCALAR_PARTS
+    allowed = VECTOR_PARTS if EVERY_KIND[kind].vector else SCALAR_PARTS
     if order is None:
         raise BalcliError(
             f"{text} is no quantity: after {kind} comes an order up to {HIGHEST_ORDER}, as in "
@@ -116,16 +130,17 @@ def leave_out_unknown(engine: Engine, quantities: Iterable[Quantity]) -> tuple[Q
 
 def refuse_unknown(engine: Engine, quantities: Iterable[Quantity]) -> None:
     """Nothing, unless one of these is a moment of an engine whose file does not say where its
-    throws stand.
+    throws stand, or of gas, of an engine without.
 
     Raises:
         BalcliError: the quantity, and what the file has to say.
     """
-    if engine.places_known:
-        return
+    has_gas = engine.gas is not None or engine.gas_of_variants is not None
     for q in quantities:
-        if q.kind == "moment":
+        if q.kind == "moment" and not engine.places_known:
             raise BalcliError(f"{q.name}: {MOMENTS_UNKNOWN}")
+        if q.kind in GAS_KINDS and not has_gas:
+            raise BalcliError(f"{q.name}: the engine file has no [gas]")
 
 
 def evaluate_quantities(engine: Engine, quantities: Sequence[Quantity]) -> list[Array]:

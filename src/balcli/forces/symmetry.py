@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from ..core.phasors import Array
 from ..core.roots_of_unity import even, rational, turns, vanishes
 from ..engine.build import Engine
+from .cancellation import Term, are_in_phase, tell_cancellation
 from .kinds import KINDS
 from .spectrum import compute_each_cylinder
 from .textbook import find_textbook, without_devices
@@ -59,6 +60,7 @@ class Reason:
         reciprocating, built: what is left of the reciprocating masses alone, as textbooks have it,
             and of the engine as built (`textbook.Textbook`), in `unit`; None where it has none.
         unit: F_n of the order, or F_n a; else empty.
+        because: what cancels, or that nothing does, in words; empty where there is nothing to say.
     """
 
     order: float
@@ -68,20 +70,27 @@ class Reason:
     reciprocating: float | None = None
     built: float | None = None
     unit: str = ""
+    because: str = ""
 
     @property
-    def sentence(self) -> str:
-        """The reason in words."""
+    def subject(self) -> str:
+        """What it is of, in words."""
         names = {"turning": "couple, torque and roll", "gas": "gas torque"}
-        name = names.get(self.quantity, self.quantity)
+        return names.get(self.quantity, self.quantity)
+
+    @property
+    def finding(self) -> str:
+        """What is found, and why, in words."""
         told = {
             "none": "no cylinder has any",
-            "exact": "balanced exactly, by symmetry",
+            "exact": "balanced exactly",
             "rounding": "balanced to rounding, but not by exact fractions of a turn",
             "nearly": f"nearly balanced: {self.size:.1g} of one cylinder",
             "free": f"free: {self._multiple}",
         }[self.verdict]
-        return f"order {self.order:g} {name}: {told}"
+        if not self.because:
+            return told
+        return f"{told}{':' if self.verdict == 'exact' else ','} {self.because}"
 
     @property
     def _multiple(self) -> str:
@@ -89,6 +98,8 @@ class Reason:
         if self.reciprocating is None:
             return f"{self.size:.4g} of one cylinder"
         alone, built = f"{self.reciprocating:.4g}", f"{self.built:.4g}"
+        if alone == "0":
+            return f"{built} {self.unit} as built (0 without rotating masses and stagger)"
         return f"{alone} {self.unit}" + (f" ({built} as built)" if built != alone else "")
 
 
@@ -103,9 +114,16 @@ class Symmetry:
 
     @property
     def sentences(self) -> tuple[str, ...]:
-        """All of it in words."""
-        reasons = tuple(reason.sentence for reason in self.reasons)
-        return (*reasons, self.firing) if self.firing else reasons
+        """All of it in words, orders of which the same is found in one sentence."""
+        subjects = list(dict.fromkeys(reason.subject for reason in self.reasons))
+        orders: dict[tuple[str, str], list[str]] = defaultdict(list)
+        for reason in sorted(self.reasons, key=lambda reason: subjects.index(reason.subject)):
+            orders[reason.subject, reason.finding].append(f"{reason.order:g}")
+        told = (
+            f"order{'s' * (len(names) > 1)} {', '.join(names)} {subject}: {finding}"
+            for (subject, finding), names in orders.items()
+        )
+        return (*told, self.firing) if self.firing else tuple(told)
 
 
 def explain_symmetry(
@@ -135,12 +153,13 @@ def _explain_gas(engine: Engine, orders: Array) -> Iterator[Reason]:
     """Why each order of the gas torque is balanced, or is not."""
     from .gas_symmetry import measure_gas  # engines without gas do not pay for it
 
-    for n, (exact, size) in zip(orders.tolist(), measure_gas(engine, orders), strict=True):
+    for n, (exact, size, because) in zip(orders.tolist(), measure_gas(engine, orders), strict=True):
         order = int(n) if n == int(n) else n
         if size is None:
             yield Reason(order, "gas", "none", 0.0)
         else:
-            yield Reason(order, "gas", "exact" if exact else _judge(size), 0.0 if exact else size)
+            verdict: Verdict = "exact" if exact else _judge(size)
+            yield Reason(order, "gas", verdict, 0.0 if exact else size, because=because)
 
 
 def describe_firing(engine: Engine) -> str:
@@ -177,20 +196,13 @@ class _Sum(NamedTuple):
     side: int
 
 
-class _Term(NamedTuple):
-    """One term of a sum, as a share of the largest of its set and in turns ahead of that."""
-
-    share: Fraction
-    angle: Fraction
-
-
 class _Layout:
     """Angles and weights of an engine's cylinders, as fractions where they are some; what the whole
     engine and each cylinder make of some orders.
     """
 
     def __init__(self, engine: Engine, orders: Array) -> None:
-        self._c = engine.cylinders
+        self._c, self._numbers = engine.cylinders, engine.numbers
         self._orders = orders
         self._axis_deg = self._c.axis_of_each_deg
         self._largest_deg = float(max(np.abs(self._axis_deg).max(), np.abs(self._c.pin_deg).max()))
@@ -209,10 +221,13 @@ class _Layout:
         if not sizes:
             return Reason(order, quantity, "none", 0.0)
         there = np.any([one > 0 for one in single.values()], axis=0)
-        if all(map(self._exactly_zero, self._sums(order, quantity, there))):
-            return Reason(order, quantity, "exact", 0.0, *self._multiples(row, quantity))
-        size = float(max(sizes))
-        return Reason(order, quantity, _judge(size), size, *self._multiples(row, quantity))
+        sums = [(s.side, self._commensurable(s)) for s in self._sums(order, quantity, there)]
+        exact = all(map(_vanishes, (sets for _, sets in sums)))
+        size = 0.0 if exact else float(max(sizes))
+        verdict: Verdict = "exact" if exact else _judge(size)
+        multiples = self._multiples(row, quantity)
+        because = "" if verdict == "rounding" else _tell_why(sums)
+        return Reason(order, quantity, verdict, size, *multiples, because)
 
     def _multiples(self, row: int, quantity: Quantity) -> tuple[float | None, float | None, str]:
         """What is left of the order in this row in textbook units, and their name."""
@@ -243,18 +258,13 @@ class _Layout:
             yield _Sum(list(range(self._c.count)), self._c.rotating * arms, 1, 1)
 
     # -------------------------------------------------------------- one sum
-    def _exactly_zero(self, s: _Sum) -> bool:
-        """Whether the sum vanishes, each set of commensurable terms for itself."""
-        sets = self._commensurable(s)
-        return all(vanishes([t.share for t in one], [t.angle for t in one]) for one in sets)
-
-    def _commensurable(self, s: _Sum) -> list[list[_Term]]:
+    def _commensurable(self, s: _Sum) -> list[list[Term]]:
         """The terms that are not 0 in sets within which angles differ by fractions of a turn and
-        weights are fractions of each other.
+        weights are fractions of each other: as shares of the largest, and from the lowest number.
         """
         largest = float(np.abs(s.weights).max())
         rounding = _ULPS * float(np.spacing(largest))
-        sets: dict[int, list[_Term]] = {}  # by the row of their largest weight
+        sets: dict[int, list[Term]] = {}  # by the row of their largest weight
         for row in sorted(s.rows, key=lambda row: -abs(s.weights[row])):
             weight = float(s.weights[row])
             if abs(weight) <= rounding:
@@ -264,11 +274,11 @@ class _Layout:
                 share = rational(weight / most, _LARGEST_DENOMINATOR, rounding / abs(most))
                 angle = None if share is None else self._angle_between(first, row, s)
                 if share is not None and angle is not None:
-                    terms.append(_Term(share, angle))
+                    terms.append(Term(self._numbers[row], share, angle))
                     break
             else:
-                sets[row] = [_Term(Fraction(1), Fraction(0))]
-        return list(sets.values())
+                sets[row] = [Term(self._numbers[row], Fraction(1), Fraction(0))]
+        return [_count_from_lowest(terms) for terms in sets.values()]
 
     def _angle_between(self, first: int, row: int, s: _Sum) -> Fraction | None:
         """By how many turns the angle of a row's term is ahead of that of the first; None if that
@@ -291,6 +301,43 @@ class _Layout:
             figures = tuple(column[row if len(column) > 1 else 0].item() for column in columns)
             found[figures].append(row)
         return list(found.values())
+
+
+def _count_from_lowest(terms: list[Term]) -> list[Term]:
+    """The same with the angles counted from that of the cylinder with the lowest number."""
+    first = min(terms).angle
+    return [term._replace(angle=(term.angle - first) % 1) for term in terms]
+
+
+def _vanishes(sets: list[list[Term]]) -> bool:
+    """Whether a sum does, each set of commensurable terms for itself."""
+    return all(vanishes([t.weight for t in one], [t.angle for t in one]) for one in sets)
+
+
+def _tell_why(sums: list[tuple[int, list[list[Term]]]]) -> str:
+    """What cancels: of all sums, or of those of one sense of rotation; or that all add up.
+
+    Args:
+        sums: the side of each, and its sets of commensurable terms.
+    """
+    of_side = {side: [sets for s, sets in sums if s == side] for side, _ in sums}
+    told = {
+        side: tell_cancellation(one for sets in own for one in sets)
+        for side, own in of_side.items()
+        if all(map(_vanishes, own))
+    }
+    if len(told) == len(of_side):
+        ahead, *others = told.values()
+        if all(other == ahead for other in others):
+            return ahead
+        return f"with the crank {told[1]}; against it {told[-1]}"
+    if told:
+        ((side, cancelled),) = told.items()
+        sense = "with" if side == 1 else "against"
+        return f"but nothing turns {sense} the crank: {cancelled}" if cancelled else ""
+    every = [one for _, sets in sums for one in sets]
+    together = all(len(sets) <= 1 for _, sets in sums) and all(map(are_in_phase, every))
+    return "all in phase" if together else ""
 
 
 def _judge(size: float) -> Verdict:

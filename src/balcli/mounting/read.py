@@ -11,7 +11,7 @@ from ..engine.build import Engine
 from ..engine.load import build_named
 from ..engine.rules import find_contradictions
 from ..enginefile.model import EngineFile
-from ..enginefile.read import REQUIRED, read_tables
+from ..enginefile.read import REQUIRED, Draft, read_tables
 from ..enginefile.suspicious import find_suspicious
 from ..enginefile.toml_text import name_file, read_bytes
 from .build import find_mounting_faults
@@ -34,15 +34,19 @@ def read_mounted(path: str | Path) -> MountedFile:
         BalcliError: there is nothing to read.
         InputError: every mistake that it has.
     """
-    text, name = read_bytes(path), name_file(path)
-    draft = read_tables(text, name, bare=True)
+    name = name_file(path)
+    return check_mounted(read_tables(read_bytes(path), name, bare=True), name)
+
+
+def check_mounted(draft: Draft, name: str) -> MountedFile:
+    """The same of what could be read of a file; `name` is that of the file, for messages."""
     faults = list(find_mounting_faults(draft.model, draft.legible))
     has_engine = any(key in draft.model.model_fields_set for key in REQUIRED)
     if draft.has_mistakes or faults:
         whole = Assembly(draft.model, legible=draft.legible)
         contradictions = find_contradictions(whole) if has_engine and draft.has_mistakes else []
         raise draft.refusal([*contradictions, *faults], name)
-    engine = build_named(draft.model, path) if has_engine else None
+    engine = build_named(draft.model, name) if has_engine else None
     of_engine = find_suspicious(draft.model) if engine is not None else []
     return MountedFile(draft.model, engine, (*of_engine, *_doubt_tensor(draft.model)))
 

@@ -16,6 +16,7 @@ from ..enginefile.model import EngineFile
 from ..errors import BalcliError
 from ..forces.orders import check_orders
 from ..result import Result
+from ..sizing.options import SchemeOptions
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
 from .build import MountedBody, build_mounted_body
@@ -110,6 +111,7 @@ def report_mounts(
     others: Sequence[tuple[str, Engine]] = (),
     name: str = "",
     tell: Tell = tell_nobody,
+    options: SchemeOptions | None = None,
 ) -> MountReport:
     """Modes and rest of a body on its mounts, and its response to its engine.
 
@@ -122,6 +124,7 @@ def report_mounts(
         others: names and engines that are put on the same body and mounts, at the same speeds.
         name: of the file, for messages.
         tell: is told which share of the responses is done.
+        options: of the scheme.
 
     Raises:
         InputError: what does not fit together in the file.
@@ -134,7 +137,8 @@ def report_mounts(
     if engine is None:
         return MountReport(title, mounted, find_mounted_modes(mounted))
     try:
-        return _run(title, mounted, engine, speeds_rpm, orders, scheme, others, tell)
+        remedy = None if scheme is None else size(engine, scheme, options)
+        return _run(title, mounted, engine, speeds_rpm, orders, remedy, others, tell)
     except BalcliError as error:
         raise BalcliError(f"{name}: {error}" if name else str(error)) from None
 
@@ -145,7 +149,7 @@ def _run(
     engine: Engine,
     speeds_rpm: Real | None,
     orders: Sequence[float] | None,
-    scheme: str | None,
+    remedy: Remedy | None,
     others: Sequence[tuple[str, Engine]],
     tell: Tell,
 ) -> MountReport:
@@ -156,7 +160,7 @@ def _run(
         raise BalcliError("order 0 does not vibrate: what is steady is told as rest; leave it out")
     loads = find_loads(engine, mounted.body.centre, asked)
     modes = find_mounted_modes(mounted, loads.mean)
-    done, responses = count(), 1 + (scheme is not None) + len(others)
+    done, responses = count(), 1 + (remedy is not None) + len(others)
 
     def respond_to(loads: Loads) -> Response:
         before = next(done)
@@ -166,8 +170,7 @@ def _run(
 
     response = respond_to(loads)
     fitted = None
-    if scheme is not None:
-        remedy = size(engine, scheme)
+    if remedy is not None:
         balanced = fit_devices(engine, remedy)
         left = find_loads(balanced, mounted.body.centre, asked)
         fitted = Fitted(remedy, respond_to(left))

@@ -28,6 +28,7 @@ RENDERERS = {
     "MountReport": "mounts",
     "Scatter": "tolerances",
     "Search": "search",
+    "Swept": "swept",
     "Table": "printed_table",
     "TorqueAnalysis": "torque",
     "TorsionAnalysis": "torsion",

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from ..forces.kinds import KINDS
-from .csv import Rows
+from ..forces.kinds import EVERY_KIND
+from .csv import Columns, Rows
 from .sheet import NAMELESS, Grid, Sheet, number
 
 if TYPE_CHECKING:
@@ -34,6 +34,19 @@ def document(result: Search) -> dict[str, Any]:
         ],
         **({"locked": [list(ends) for ends in result.locked]} if result.locked else {}),
     }
+
+
+def columns(result: Search) -> Columns:
+    """An arrangement a row: angles as numbers, throws and firing orders with hyphens between."""
+    first = result.results[0]
+    found: dict[str, Any] = {}
+    for key, value in first.design.given().items():
+        settings = [one.design.given()[key] for one in result.results]
+        found[key] = list(map(_exactly, settings)) if isinstance(value, list) else settings
+    found["objective"] = [one.objective for one in result.results]
+    found |= {name: [one.figures[name] for one in result.results] for name in first.figures}
+    units = {q.name: q.unit for q in result.objective.quantities}
+    return Columns(found, units | dict.fromkeys({"bank_angle", "splay"} & set(found), "deg"))
 
 
 def rows(result: Search, _system: System) -> Rows:
@@ -98,7 +111,7 @@ def _textbook(result: Search, one: Found) -> dict[str, tuple[float, str]]:
     """Forces and moments in the textbook's units, where those tell more than the figures alone."""
     shown: dict[str, tuple[float, str]] = {}
     for q in result.objective.quantities:
-        kind = KINDS[q.kind]
+        kind = EVERY_KIND[q.kind]
         if kind.vector and q.part != "peak":
             size = result.scale.size(kind, q.order)
             if size == size:

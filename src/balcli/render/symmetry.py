@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def sheet_parts(why: Symmetry) -> Iterator[Text]:
-    """One paragraph a reason."""
+    """One paragraph a reason and the orders that have it."""
     yield Text("Why", why.sentences)
 
 
@@ -24,11 +24,13 @@ def document(why: Symmetry) -> dict[str, Any]:
 
 
 def rows(why: Symmetry) -> Iterator[FigureRow]:
-    """What decides, and what is left: in units of one cylinder's, and in the textbook's."""
+    """What decides and why, and what is left: in units of one cylinder's, and in the textbook's."""
     for reason in why.reasons:
         about = 0, reason.quantity, reason.order
         yield FigureRow(*about, "why", reason.verdict, "")
         yield FigureRow(*about, "why_size", clean(reason.size), "of one cylinder")
+        if reason.because:
+            yield FigureRow(*about, "why_because", reason.because, "")
         if reason.reciprocating is not None:
             yield FigureRow(*about, "why_reciprocating", clean(reason.reciprocating), reason.unit)
             yield FigureRow(*about, "why_built", clean(reason.built), reason.unit)

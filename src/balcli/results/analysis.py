@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array
-from ..engine.build import Engine
+from ..engine.build import Engine, check_engine
 from ..errors import BalcliError
 from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, KINDS, SCALARS, VECTORS, Kind
 from ..forces.orders import (
@@ -138,7 +138,7 @@ class Analysis(Result):
 def analyze(
     engine: Engine,
     orders: Iterable[float] | None = None,
-    only: Collection[str] | None = None,
+    only: str | Collection[str] | None = None,
     by_cylinder: bool = False,
     reasons: bool = False,
     guide_height_m: float | None = None,
@@ -149,7 +149,8 @@ def analyze(
         engine: without trailing axes.
         orders: which orders to show; default: 1 and 2 (0 too at uneven speed) and all in which a
             quantity that was asked for exceeds 1e-6 of its own largest order, up to 512.
-        only: any of QUANTITIES, EXTRAS and `gas`; default: `list_quantities`.
+        only: any of QUANTITIES, EXTRAS and `gas`, or a text of them with commas between; default:
+            `list_quantities`.
         by_cylinder: also the phasors of every cylinder alone.
         reasons: also why each order is balanced, or is not.
         guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
@@ -158,8 +159,12 @@ def analyze(
     Raises:
         BalcliError: an unknown quantity, an order that is negative or above HIGHEST_ORDER, too many
             orders of too many cylinders.
+        TypeError: what is no engine.
+
+    Example:
+        >>> analyze(load("v8.toml"), orders=[1, 2]).spectra.moment.major
     """
-    wanted = _choose_quantities(engine, only)
+    wanted = _choose_quantities(check_engine("analyze", engine), only)
     asked = None if orders is None else check_orders(orders, [engine])
     peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
     shown = wanted.intersection(EVERY_KIND)
@@ -189,11 +194,11 @@ def list_quantities(engine: Engine) -> tuple[str, ...]:
     return (*UNASKED, *(GAS_KINDS if engine.gas is not None else ()))
 
 
-def _choose_quantities(engine: Engine, only: Collection[str] | None) -> set[str]:
+def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> set[str]:
     """What is computed; `gas` stands for all that gas does."""
     if only is None:
         return set(list_quantities(engine))
-    wanted = set(only)
+    wanted = {*(only.split(",") if isinstance(only, str) else only)}
     if strangers := sorted(wanted.difference(QUANTITIES, GAS_KINDS, EXTRAS)):
         raise BalcliError(
             f"there is no quantity {', '.join(strangers)}: choose from "

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..engine.build import Engine
+from ..engine.build import Engine, check_engine
 from ..result import Result
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import Remedy, fit_devices
@@ -82,8 +82,12 @@ def balance(
 
     Raises:
         BalcliError: an unknown scheme, or options that cannot be met, with the reason.
+        TypeError: what is no engine.
+
+    Example:
+        >>> balance(load("i3.toml"), "counterweights").after.moment.value
     """
-    remedy = size(engine, scheme, options)
+    remedy = size(check_engine("balance", engine), scheme, options)
     tools = tools or Tools()
     practical = find_practical(engine, remedy, tools)
     balanced = fit_devices(engine, remedy)

@@ -4,22 +4,24 @@
 
 from __future__ import annotations
 
-import time
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
 from contextlib import ExitStack, contextmanager
+from functools import partial
 from itertools import islice
-from typing import Any
+from typing import Any, TypeVar
 
 from ..errors import BalcliError
-from .boxes import Box, BoxSize
+from ..process import keep_freed_memory
+from .boxes import Box, BoxSize, group_boxes
 from .sweep import Chunk, Sweep, divide_sweep, evaluate_box, size_boxes
 
-BATCH_S = 0.5  # for which a worker computes before it sends what it has
-BATCH = 64  # that it computes at a time
-RETRIES = 3  # of a batch that a worker has not finished
-AHEAD = 4  # batches for each thread that may wait to be fetched
+T = TypeVar("T")
+R = TypeVar("R")
+ROWS = 1 << 18  # of variants whose figures a worker sends at a time
+RETRIES = 3  # of what a worker has not finished
+AHEAD = 4  # tasks for each thread that may wait to be fetched
 
 
 @contextmanager
@@ -48,24 +50,39 @@ def connect_cluster(address: str) -> Iterator[Any]:
 
 
 def evaluate_on_cluster(sweep: Sweep, client: Any) -> Iterator[Chunk]:
-    """All variants, computed by the workers of a client's cluster, in the order of rows; a bounded
-    number of batches is under way at a time. The first box is computed here, to see how long one
-    takes. The sweep goes with each batch, so that one whose worker is lost can be given to another.
+    """All variants, computed by the workers of a client's cluster, in the order of rows. The part
+    of the sweep that a worker computes goes with each task, so that one whose worker is lost can be
+    given to another.
+
+    Raises:
+        BalcliError: all workers are lost, again and again.
+    """
+    size = size_boxes(sweep)
+    groups = group_boxes(divide_sweep(sweep, size), ROWS)
+    parts = ([(box, sweep.cut(box)) for box in group] for group in groups)
+    for found in run_on_cluster(client, partial(_evaluate_parts, size), parts):
+        yield from found
+
+
+def _evaluate_parts(size: BoxSize, parts: list[tuple[Box, Sweep]]) -> list[Chunk]:
+    keep_freed_memory()
+    return [Chunk(box, evaluate_box(part, part.whole, size)) for box, part in parts]
+
+
+def run_on_cluster(client: Any, work: Callable[[T], R], items: Iterable[T]) -> Iterator[R]:
+    """What becomes of each item, in their order, by the workers of a client's cluster; a bounded
+    number of items is under way at a time.
 
     Raises:
         BalcliError: all workers are lost, again and again.
     """
     from distributed import KilledWorker  # an extra
 
-    size = size_boxes(sweep)
-    boxes = divide_sweep(sweep, size)
-    start = time.perf_counter()
-    yield from _evaluate_batch(sweep, size, [next(boxes)])
-    batch = min(max(int(BATCH_S / (time.perf_counter() - start)), 1), BATCH)
+    to_do = iter(items)
 
     def submit(count: int) -> Iterator[Any]:
-        for some in islice(_group(boxes, batch), count):
-            yield client.submit(_evaluate_batch, sweep, size, some, pure=False, retries=RETRIES)
+        for item in islice(to_do, count):
+            yield client.submit(work, item, pure=False, retries=RETRIES)
 
     waiting = deque(submit(AHEAD * max(sum(client.nthreads().values()), 1)))
     while waiting:
@@ -76,15 +93,5 @@ def evaluate_on_cluster(sweep: Sweep, client: Any) -> Iterator[Chunk]:
                 f"--dask: the cluster has lost its workers ({type(error).__name__}), and what they "
                 "computed; start it again, or leave --dask out"
             ) from None
-        yield from found
         waiting.extend(submit(1))
-
-
-def _evaluate_batch(sweep: Sweep, size: BoxSize, batch: list[Box]) -> list[Chunk]:
-    return [Chunk(box, evaluate_box(sweep, box, size)) for box in batch]
-
-
-def _group(boxes: Iterator[Box], count: int) -> Iterator[list[Box]]:
-    """So many boxes at a time."""
-    while batch := list(islice(boxes, count)):
-        yield batch
+        yield found

@@ -19,6 +19,7 @@ from ..engine.layout import plan_cylinders
 from ..enginefile.model import Bobweight, EngineFile
 from ..forces.quantity import Quantity
 from ..forces.spectrum import compute_spectra
+from .deviating_gas import DeviatingGas
 
 What = Literal["piston mass", "rod mass", "throw mass", "rod length", "throw angle"]
 STEP = 1e-3  # of a tolerance, for derivatives; masses act linearly, so that theirs are exact
@@ -59,6 +60,7 @@ class DeviatingEngine:
 
     def __init__(self, model: EngineFile, tolerances: Tolerances) -> None:
         self._engine = build(model, rank=1)
+        self._gas = None if model.gas is None else DeviatingGas(model, tolerances.length)
         cells = {cell.number: cell for cell in plan_cylinders(model.crank, model.layout).cells}
         self._throws = [cells[number].throw + 1 for number in self._engine.numbers]
         c = self._engine.cylinders
@@ -99,7 +101,9 @@ class DeviatingEngine:
         rod = self._of_cylinders("rod mass", deviations)
         piston = self._of_cylinders("piston mass", deviations) * self._pistons
         web = self._of_cylinders("throw mass", deviations) * self._webs
-        length = 1 + self._of_cylinders("rod length", deviations)
+        longer = self._of_cylinders("rod length", deviations)
+        ahead_deg = self._of_cylinders("throw angle", deviations)
+        length = 1 + longer
         cylinders = replace(
             c,
             reciprocating=c.reciprocating + piston + rod * self._small_ends,
@@ -107,10 +111,16 @@ class DeviatingEngine:
             couple=c.couple * (1 + rod),
             lam=c.lam / length,
             eps=c.eps / length,
-            pin_deg=c.pin_deg + self._of_cylinders("throw angle", deviations),
+            pin_deg=c.pin_deg + ahead_deg,
             linkage=c.linkage and replace(c.linkage, mass=c.linkage.mass * (1 + rod)),
         )
-        return replace(self._engine, cylinders=cylinders)
+        engine = replace(self._engine, cylinders=cylinders)
+        if self._gas is None:
+            return engine
+        gas = self._gas
+        return replace(
+            engine, gas_of_variants=lambda orders: gas.find_torque(orders, longer, ahead_deg)
+        )
 
     def _of_cylinders(self, what: What, deviations: Array) -> Array:
         """Deviations as the cylinders have them, shape (cylinders, samples); a single 0 where this

@@ -19,7 +19,7 @@ from ..engine.layout import plan_cylinders
 from ..enginefile.fields import Number, nearest
 from ..enginefile.model import EngineFile, Override, Table
 from ..enginefile.units import convert
-from ..errors import BalcliError
+from ..errors import BalcliError, wrong_type
 from ..limits import MOST_PARAMETER_VALUES
 
 _EXACT = 2**53  # whole numbers below it are exact as floating-point numbers
@@ -119,6 +119,46 @@ def parse(text: str, model: EngineFile) -> Parameter:
         raise BalcliError(f'"{text}": {error}') from None
     _check_bounds(path, known[path], values)
     return Parameter(path, values, known[path].dimension.unit)
+
+
+def choose_values(path: str, values: Any, model: EngineFile) -> Parameter:
+    """A number of the file by its name, and its values: numbers in the unit of the file, or texts
+    with units; one, or a list or array of them; or a text as of `parse` ("0.24:0.32:0.01").
+
+    Raises:
+        BalcliError: as of `parse`.
+        TypeError: what is none of these.
+    """
+    if isinstance(values, str):
+        return parse(f"{path}={values}", model)
+    known = find_numbers(model)
+    if path not in known:
+        raise BalcliError(_describe_unknown(path, known))
+    number = known[path]
+    try:
+        array = np.atleast_1d(np.asarray(values, dtype=float))
+    except (TypeError, ValueError):
+        array = np.array([_read_one(path, value, number) for value in _as_list(path, values)])
+    if array.ndim != 1 or not 0 < array.size <= MOST_PARAMETER_VALUES:
+        raise BalcliError(
+            f"{path}: values of shape {array.shape}; give a list or an array of one axis with 1 to "
+            f"{MOST_PARAMETER_VALUES} values"
+        )
+    _check_bounds(path, number, array)
+    return Parameter(path, array, number.dimension.unit)
+
+
+def _as_list(path: str, values: Any) -> list[Any]:
+    if isinstance(values, (list, tuple)):
+        return list(values)
+    raise wrong_type(path, values, "give numbers, such as [0.24, 0.28], or a range 0.24:0.32:0.01")
+
+
+def _read_one(path: str, value: Any, number: Number) -> float:
+    try:
+        return number.read(value)
+    except ValueError as error:
+        raise BalcliError(f"{path}: {error}") from None
 
 
 def _describe_unknown(path: str, known: Mapping[str, Number]) -> str:

@@ -25,7 +25,7 @@ from ..sizing.sizing import size
 from ..torque.pictures import PAGES, GasPictures, compute_pictures
 
 FACTORS = tuple(k / 50 for k in range(51))
-_ALONE = ("factor", "bank", *PAGES)  # studies of the engine as it is
+_ALONE = ("bank", *PAGES)  # studies of the engine as it is
 
 
 class Banks(NamedTuple):
@@ -63,7 +63,11 @@ class Study(NamedTuple):
 
 
 def compute_study(
-    engine: Engine, what: str, orders: Sequence[float] | None = None, scheme: str | None = None
+    engine: Engine,
+    what: str,
+    orders: Sequence[float] | None = None,
+    scheme: str | None = None,
+    options: SchemeOptions | None = None,
 ) -> Study:
     """What the page `what` shows.
 
@@ -71,15 +75,20 @@ def compute_study(
         engine: without trailing axes.
         orders: which to show; of "bank" the first one counts.
         scheme: the balance scheme to compare with, if any.
+        options: of the scheme; "factor" takes planes alone.
 
     Raises:
         BalcliError: an unknown scheme, one that cannot be fitted, or one beside a study that takes
             none; a bank angle is asked of an engine that is no vee.
     """
-    if scheme is not None and what in _ALONE:
-        raise BalcliError(f"--what {what} shows the engine as it is: leave --scheme {scheme} out")
+    if what == "factor":
+        return Study(
+            analyze(engine, orders, KINDS), factors=_sweep_factors(engine, scheme, options)
+        )
+    if what in _ALONE:
+        refuse_scheme(scheme, what)
     if scheme is not None:
-        found = balance(engine, scheme, orders=orders)
+        found = balance(engine, scheme, options, orders)
         bent = (
             (load_crankshaft(found.after.engine), load_crankshaft(engine))
             if what == "inner"
@@ -91,16 +100,41 @@ def compute_study(
         return Study(now, gas=compute_pictures(engine, what))
     if what == "inner":
         return Study(now, bent=(load_crankshaft(engine),))
-    if what == "factor":
-        options = SchemeOptions(factor=FACTORS)
-        sweep = size(engine, "factor", options).sweep
-        best = find_best_factor(engine, options, sweep)
-        return Study(now, factors=sorted({*sweep, best}))
     return (
         Study(now, banks=swing_banks(engine, _find_lowest(now) if orders is None else orders[0]))
         if what == "bank"
         else Study(now)
     )
+
+
+def refuse_scheme(scheme: str | None, what: str) -> None:
+    """Refuse devices in a picture of the engine without any.
+
+    Raises:
+        BalcliError: there is a scheme.
+    """
+    if scheme is not None:
+        raise BalcliError(
+            f"--what {what} shows the engine as it is: leave --scheme and its options out"
+        )
+
+
+def _sweep_factors(
+    engine: Engine, scheme: str | None, options: SchemeOptions | None
+) -> tuple[FactorPeaks, ...]:
+    """Peaks over the balance factor, ascending, the best of all among them.
+
+    Raises:
+        BalcliError: another scheme is named, or a factor, or whatever else the scheme refuses.
+    """
+    asked = options or SchemeOptions()
+    if scheme not in (None, "factor"):
+        raise BalcliError(f"--what factor is of the scheme factor: leave --scheme {scheme} out")
+    if asked.factor is not None or asked.measured is not None:
+        raise BalcliError("--what factor shows all factors: leave --factor and --measured out")
+    asked = asked._replace(factor=FACTORS)
+    sweep = size(engine, "factor", asked).sweep
+    return tuple(sorted({*sweep, find_best_factor(engine, asked, sweep)}))
 
 
 def swing_banks(engine: Engine, order: float) -> Banks:

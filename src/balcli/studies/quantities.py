@@ -75,13 +75,13 @@ def parse_quantities(text: str, *, with_gas: bool = False) -> tuple[AnyQuantity,
 
 
 def _parse_quantity(word: str, with_gas: bool) -> AnyQuantity:
-    chapter = find_chapter(word, with_gas=with_gas)
+    chapter = find_chapter(word)
     if chapter is None:
         near = nearest(word.partition(".")[0], BEGINNINGS)
         there = f"it begins with {', '.join(BEGINNINGS[:-1])} or {BEGINNINGS[-1]}"
         raise BalcliError(f"{word} is no quantity: {f'did you mean {near}?' if near else there}")
     if chapter is ENGINE:
-        return parse_quantity_list(word)[0]
+        return parse_quantity_list(word, with_gas=with_gas)[0]
     return load_chapter(chapter).parse_quantity(word)
 
 
@@ -96,7 +96,7 @@ def group_by_chapter(wanted: Iterable[AnyQuantity]) -> Chapters:
     for q in wanted:
         if isinstance(q, Quantity):
             continue
-        chapter = find_chapter(q.name, with_gas=True)
+        chapter = find_chapter(q.name)
         if chapter is not None:
             groups.setdefault(chapter, []).append(q)
     return groups
@@ -119,9 +119,10 @@ def list_quantities(model: EngineFile) -> Iterator[Form]:
         BalcliError, InputError: a chapter of the file is not right.
     """
     for chapter in CHAPTERS:
+        forms = [form for form in chapter.forms if not form.table or getattr(model, form.table)]
         if chapter is ENGINE:
-            yield from chapter.forms
-        elif not chapter.table or getattr(model, chapter.table):
+            yield from forms
+        elif forms:
             yield from _list_of_chapter(chapter, model)
 
 

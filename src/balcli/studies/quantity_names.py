@@ -14,13 +14,19 @@ from typing import NamedTuple
 
 
 class Form(NamedTuple):
-    """Quantities that are called alike: the pattern of their names, their SI unit, and what they
-    are.
+    """Quantities that are called alike.
+
+    Attributes:
+        pattern: of their names.
+        unit: SI.
+        words: what they are.
+        table: of the engine file, without which there are none; empty: every engine has them.
     """
 
     pattern: str
     unit: str
     words: str
+    table: str = ""
 
     def matches(self, name: str) -> bool:
         """Whether a quantity of this name is one of these."""
@@ -36,12 +42,10 @@ class Chapter(NamedTuple):
 
     Attributes:
         module: below `balcli`; what it has to have says `quantities.ChapterModule`.
-        table: of the engine file, without which there are none; empty: every engine has them.
         forms: of their names.
     """
 
     module: str
-    table: str
     forms: tuple[Form, ...]
 
     @property
@@ -55,74 +59,75 @@ _OF_SCALAR = "amplitude, cos, sin"
 
 ENGINE = Chapter(
     "forces.quantity",
-    "",
     (
         Form("force.N.PART", "N", f"free force: {_OF_VECTOR} (deg)"),
         Form("moment.N.PART", "N·m", f"free moment: {_OF_VECTOR} (deg)"),
         Form("couple.N.PART", "N·m", f"free couple of the rods: {_OF_SCALAR}"),
         Form("torque.N.PART", "N·m", f"torque on the crank, gas included: {_OF_SCALAR}"),
         Form("roll.N.PART", "N·m", f"roll of the block by inertia: {_OF_SCALAR}"),
+        Form("gas.N.PART", "N·m", f"torque of the gas: {_OF_SCALAR}", "gas"),
+        Form("torque_total.N.PART", "N·m", f"torque of gas and inertia: {_OF_SCALAR}", "gas"),
+        Form("roll_total.N.PART", "N·m", f"roll of the block, gas included: {_OF_SCALAR}", "gas"),
         Form("peak.force", "N", "largest free force over a revolution"),
         Form("peak.moment", "N·m", "largest free moment over a revolution"),
     ),
 )
 GUIDE = Chapter(
     "forces.guide_quantity",
-    "",
     (
         Form("guide.N.H", "N·m", "H-type guide-force moment, gas included"),
         Form("guide.N.X", "N·m", "X-type guide-force moment, gas included"),
     ),
 )
-GAS = Chapter(
+CYCLE = Chapter(
     "torque.quantity",
-    "gas",
     (
-        Form("gas.N.PART", "N·m", f"torque of the gas: {_OF_SCALAR}"),
-        Form("torque_total.N.PART", "N·m", f"torque of gas and inertia: {_OF_SCALAR}"),
-        Form("roll_total.N.PART", "N·m", f"roll of the block, gas included: {_OF_SCALAR}"),
-        Form("torque.mean", "N·m", "mean torque of the gas"),
-        Form("torque.max", "N·m", "largest torque over the cycle"),
-        Form("torque.min", "N·m", "smallest torque over the cycle"),
-        Form("fluctuation", "", "highest less lowest speed, over the mean"),
+        Form("torque.mean", "N·m", "mean torque of the gas", "gas"),
+        Form("torque.max", "N·m", "largest torque over the cycle", "gas"),
+        Form("torque.min", "N·m", "smallest torque over the cycle", "gas"),
+        Form("fluctuation", "", "highest less lowest speed, over the mean", "gas"),
     ),
 )
 MOUNTS = Chapter(
     "mounting.quantity",
-    "mount",
     (
-        Form("mode.N.Hz", "Hz", "natural frequency of the body on its mounts, N from 1 to 6"),
-        Form("mode.N.share", "%", "largest share of its energy in one motion"),
-        Form("mode.N.damping", "%", "its damping ratio"),
-        Form("mode.MOTION.Hz", "Hz", "of the mode with most of this motion; share, damping too"),
-        Form("mount.NAME.force", "N", "largest force of a mount, over all speeds"),
-        Form("mount.NAME.static", "N", "its load at rest and under the mean torque"),
-        Form("point.NAME.motion", "m", "largest motion of a point, over all speeds"),
+        Form("mode.N.Hz", "Hz", "natural frequency on the mounts, N from 1 to 6", "mount"),
+        Form("mode.N.share", "%", "largest share of its energy in one motion", "mount"),
+        Form("mode.N.damping", "%", "its damping ratio", "mount"),
+        Form(
+            "mode.MOTION.Hz",
+            "Hz",
+            "the same of a motion; share, damping too",
+            "mount",
+        ),
+        Form("mount.NAME.force", "N", "largest force of a mount, over all speeds", "mount"),
+        Form("mount.NAME.static", "N", "its load at rest and under the mean torque", "mount"),
+        Form("point.NAME.motion", "m", "largest motion of a point, over all speeds", "mount"),
     ),
 )
 TORSION = Chapter(
     "torsion.quantity",
-    "torsion",
     (
-        Form("torsion.N.Hz", "Hz", "natural frequency of the crankshaft that twists"),
-        Form("shaft.NAME.torque", "N·m", "largest vibratory torque of a shaft, over all speeds"),
-        Form("shaft.NAME.stress", "Pa", "its largest vibratory stress"),
+        Form("torsion.N.Hz", "Hz", "natural frequency of the crankshaft that twists", "torsion"),
+        Form(
+            "shaft.NAME.torque",
+            "N·m",
+            "largest vibratory torque of a shaft",
+            "torsion",
+        ),
+        Form("shaft.NAME.stress", "Pa", "its largest vibratory stress", "torsion"),
     ),
 )
-CHAPTERS = (ENGINE, GUIDE, GAS, MOUNTS, TORSION)
+CHAPTERS = (ENGINE, GUIDE, CYCLE, MOUNTS, TORSION)
 BEGINNINGS = tuple(dict.fromkeys(each for chapter in CHAPTERS for each in chapter.beginnings))
-_OF_CYCLE = ("torque.mean", "torque.max", "torque.min")
+_OF_CYCLE = tuple(form.pattern for form in CYCLE.forms)
 
 
-def find_chapter(name: str, *, with_gas: bool = False) -> Chapter | None:
-    """The chapter of the quantity of this name, by how it begins; None: of none.
-
-    Args:
-        with_gas: whether the engine has gas: its `torque` is then that of gas and inertia.
-    """
+def find_chapter(name: str) -> Chapter | None:
+    """The chapter of the quantity of this name, by how it begins; None: of none."""
+    if name in _OF_CYCLE:
+        return CYCLE
     beginning = name.partition(".")[0]
-    if beginning == "torque" and (with_gas or name in _OF_CYCLE):
-        return GAS
     return next((chapter for chapter in CHAPTERS if beginning in chapter.beginnings), None)
 
 

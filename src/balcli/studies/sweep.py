@@ -10,23 +10,22 @@ parameter fastest.
 from __future__ import annotations
 
 import math
-import time
-from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from itertools import islice, product
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 
 from ..core.phasors import Array
 from ..engine.build import Engine, build
+from ..engine.gas_figures import concerns_gas
 from ..engine.load import read
 from ..enginefile.model import EngineFile
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, InputError
-from ..forces.kinds import DEFAULT_QUANTITIES
+from ..forces.kinds import DEFAULT_QUANTITIES, GAS_KINDS
 from ..forces.quantity import (
     Quantity,
     are_products,
@@ -36,6 +35,7 @@ from ..forces.quantity import (
     refuse_unknown,
 )
 from ..forces.spectrum import count_samples
+from ..process import keep_freed_memory
 from .boxes import Box, BoxSize, divide_grid, divide_into_boxes, divide_into_tiles
 from .parameters import Parameter, parse
 from .quantities import (
@@ -48,14 +48,14 @@ from .quantities import (
     parse_quantities,
     refuse_unknown_of_chapters,
 )
+from .threads import ALONE_S, share_work
+from .varied_gas import add_gas
 
-ALONE_S = 1.0  # of a sweep, before several threads share what is left of it
 ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
 PRODUCTS = 8  # times as many where each is but a product of what is computed for fewer
 BYTES = 1 << 23  # of an array that a box needs: no more than the cache holds
 SAMPLES = 1 << 20  # of revolutions in a box: a tenth of a second
-_LARGE = 31 << 17  # numbers: 31 MB, glibc keeps no more
 
 
 class Chunk(NamedTuple):
@@ -103,6 +103,16 @@ class Sweep:
         """How many there are."""
         return math.prod(self.shape)
 
+    @property
+    def whole(self) -> Box:
+        """The box of all variants."""
+        return tuple(slice(0, n) for n in self.shape)
+
+    def cut(self, box: Box) -> Sweep:
+        """The variants in a box of the grid as a sweep of their own."""
+        cuts = zip(self.parameters, box, strict=True)
+        return replace(self, parameters=tuple(replace(p, values=p.values[cut]) for p, cut in cuts))
+
     def engine(self, box: Box) -> Engine:
         """All variants in a box of the grid, as one engine with an axis for each parameter.
 
@@ -119,7 +129,7 @@ class Sweep:
             for path, values in axes.items()
         }
         try:
-            return build(self.file, arrays, rank=rank)
+            return add_gas(build(self.file, arrays, rank=rank), self.file, arrays)
         except InputError as error:
             raise InputError(error.problems, self.name) from None
 
@@ -137,12 +147,21 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
     """
     model = read(file)
     parameters = tuple(parse(text, model) for text in vary)
+    return plan_sweep(model, parameters, quantities, name_file(file))
+
+
+def plan_sweep(
+    model: EngineFile, parameters: tuple[Parameter, ...], quantities: str | None, name: str
+) -> Sweep:
+    """The sweep of an engine file; `name` is that of the file in messages, all else as of
+    `read_sweep`.
+    """
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
     wanted = DEFAULT_QUANTITIES if quantities is None else quantities
     asked = parse_quantities(wanted, with_gas=model.gas is not None)
-    sweep = Sweep(model, parameters, asked, name_file(file))
+    sweep = Sweep(model, parameters, asked, name)
     if quantities is None:
         known = leave_out_unknown(build_corners(sweep), sweep.of_engine)
         sweep = replace(sweep, quantities=known)
@@ -213,12 +232,20 @@ def _evaluate_tile(sweep: Sweep, box: Box) -> list[Array]:
     """Each quantity for all variants of a box, of its shape, or of length 1 along some axes."""
     values: dict[AnyQuantity, Array] = {}
     if sweep.of_engine:
-        found = evaluate_quantities(sweep.engine(box), sweep.of_engine)
+        found = _evaluate_engine(sweep, sweep.engine(box))
         values |= dict(zip(sweep.of_engine, found, strict=True))
     for members, variants in sweep.of_chapters:
         evaluated = _evaluate_one_by_one(sweep, box, variants, len(members))
         values |= dict(zip(members, evaluated, strict=True))
     return [values[q] for q in sweep.quantities]
+
+
+def _evaluate_engine(sweep: Sweep, engine: Engine) -> list[Array]:
+    """Quantities of forces and moments for all variants of an engine."""
+    try:
+        return evaluate_quantities(engine, sweep.of_engine)
+    except InputError as error:  # of the gas of a variant
+        raise InputError(error.problems, f"{sweep.name}: {error.file}") from None
 
 
 def _evaluate_one_by_one(sweep: Sweep, box: Box, variants: Variants, count: int) -> list[Array]:
@@ -256,10 +283,21 @@ def size_boxes(sweep: Sweep) -> BoxSize:
     orders = find_orders(engine, sweep.of_engine)
     figures = max(engine.cylinders.count * max(map(len, orders)), 2 * max(map(max, orders)))
     samples = count_samples(engine) // 2 ** len(sweep.parameters)
-    most = ALONE if sweep.of_chapters else CHUNK
+    alone = bool(sweep.of_chapters) or _has_many_cycles(sweep)
+    most = ALONE if alone else CHUNK
     side = max(min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), most), 1)
-    products = not sweep.of_chapters and are_products(engine, sweep.of_engine)
+    products = not alone and not _asks_for_gas(sweep) and are_products(engine, sweep.of_engine)
     return BoxSize(PRODUCTS * side if products else side, side)
+
+
+def _has_many_cycles(sweep: Sweep) -> bool:
+    """Whether gas is asked for, of more variants than are computed one by one at a time."""
+    cycles = math.prod(len(p) for p in sweep.parameters if concerns_gas(p.path))
+    return _asks_for_gas(sweep) and cycles > ALONE
+
+
+def _asks_for_gas(sweep: Sweep) -> bool:
+    return any(q.kind in GAS_KINDS for q in sweep.of_engine)
 
 
 def divide_sweep(sweep: Sweep, size: BoxSize) -> Iterator[Box]:
@@ -274,47 +312,16 @@ def evaluate_chunks(sweep: Sweep, threads: int = 1, alone_s: float = ALONE_S) ->
 
     Args:
         sweep: what to compute.
-        threads: that compute it; numpy does most of its work outside Python's lock.
-        alone_s: seconds for which one does it alone: most sweeps have ended by then.
+        threads, alone_s: as of `share_work`.
     """
     keep_freed_memory()
     size = size_boxes(sweep)
-    boxes = divide_sweep(sweep, size)
     compute = partial(_evaluate_chunk, sweep, size)
-    end = time.monotonic() + (alone_s if threads > 1 else math.inf)
-    for box in boxes:
-        yield compute(box)
-        if time.monotonic() > end:
-            break
-    yield from _share(compute, boxes, threads)
+    return share_work(compute, divide_sweep(sweep, size), threads, alone_s)
 
 
 def _evaluate_chunk(sweep: Sweep, size: BoxSize, box: Box) -> Chunk:
     return Chunk(box, evaluate_box(sweep, box, size))
-
-
-def _share(compute: Callable[[Box], Chunk], boxes: Iterator[Box], threads: int) -> Iterator[Chunk]:
-    """The chunks of the boxes in their order, computed by so many threads a little ahead."""
-    first = list(islice(boxes, 2 * threads))
-    if not first:
-        return
-    from concurrent.futures import ThreadPoolExecutor  # most sweeps have ended without it
-
-    pool = ThreadPoolExecutor(threads)
-    try:
-        waiting = deque(pool.submit(compute, box) for box in first)
-        while waiting:
-            yield waiting.popleft().result()
-            waiting.extend(pool.submit(compute, box) for box in islice(boxes, 1))
-    finally:
-        pool.shutdown(cancel_futures=True)
-
-
-def keep_freed_memory() -> None:
-    """Let the C library keep what arrays leave for the next ones. It does so for blocks as large as
-    the largest that was ever freed, and hands back the others, to be cleared again for every array.
-    """
-    np.empty(_LARGE)  # never touched: it costs nothing
 
 
 def list_columns(sweep: Sweep, chunk: Chunk) -> list[Array]:

@@ -11,7 +11,7 @@ from ..core.cylinder_pressure import PressureOnPiston
 from ..core.phasors import Array
 from ..core.piecewise import Extreme
 from ..core.speed_variation import Surplus, surplus
-from ..engine.build import Engine
+from ..engine.build import Engine, check_engine
 from ..forces.gas import take_gas
 from ..forces.orders import check_orders, list_gas_orders
 from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
@@ -110,8 +110,12 @@ def analyze_torque(
 
     Raises:
         BalcliError: no gas; no such cylinder; the crank stalls; loads that are not known.
+        TypeError: what is no engine.
+
+    Example:
+        >>> analyze_torque(load("i4_wiebe.toml"), fluctuation=1 / 200).flywheel.needed
     """
-    gas = take_gas(engine)
+    gas = take_gas(check_engine("analyze_torque", engine))
     steady = replace(engine, ripple=())
     shown = list_gas_orders(engine.strokes) if orders is None else check_orders(orders)
     row = find_row(engine, cylinder, "--cylinder")

@@ -82,7 +82,7 @@ class TorsionAnalysis(Result):
         return f"of {self.system.name or 'a chain'}: modes at {modes} Hz"
 
 
-def analyze_torsion(
+def answer_question(
     source: Source, question: Question, tell: Tell = tell_nobody
 ) -> TorsionAnalysis:
     """The answer about a chain or an engine; `tell` is told which share is done.

@@ -114,17 +114,26 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] =
             raise BalcliError("--misfire: a chain has no cylinders")
         return ChainSource(name, text, read_chain_tables(data, name))
     model = parse(text, name)
-    engine = build_named(model, name)
+    made = make_source(model, build_named(model, name), name, orders, misfires)
+    return replace(made, text=text)
+
+
+def make_source(
+    model: EngineFile,
+    engine: Engine,
+    name: str,
+    orders: Real | None = None,
+    misfires: Sequence[int] = (),
+) -> EngineSource:
+    """Of an engine file that has been read and built; without its text, so that nothing can be
+    written into it.
+
+    Raises:
+        BalcliError: it has no [torsion].
+    """
     if model.torsion is None:
         raise BalcliError(
             f"{name}: has no [torsion]; write it with throw_stiffness, throw_inertia and "
             "[[torsion.rear]] for the flywheel, or a chain of [[node]] and [[shaft]]"
         )
-    return EngineSource(name, text, model, engine, excite_engine(model, engine, orders, misfires))
-
-
-def make_source(model: EngineFile, engine: Engine, name: str) -> EngineSource:
-    """Of an engine file that has been read and built; without its text, so that nothing can be
-    written into it.
-    """
-    return EngineSource(name, b"", model, engine, excite_engine(model, engine, None))
+    return EngineSource(name, b"", model, engine, excite_engine(model, engine, orders, misfires))

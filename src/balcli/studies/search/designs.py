@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,11 +15,15 @@ from ...engine.layout import plan_cylinders
 from ...enginefile.model import EngineFile
 from ...errors import InputError
 from ...forces.quantity import Quantity, evaluate_quantities
+from ..varied_gas import add_gas
 from .objective import Objective
 
 # One column by its key of the engine file: `throws`, shape (candidates, throws), or `bank_angle` or
 # `splay`, shape (candidates,); angles in deg.
 Candidates = Mapping[str, Array]
+
+
+TABLES = {"throws": "crank", "splay": "crank", "firing_order": "layout", "bank_angle": "layout"}
 
 
 class Design(NamedTuple):
@@ -41,6 +45,15 @@ class Design(NamedTuple):
         there = {key: value for key, value in self._asdict().items() if value is not None}
         return {key: list(v) if isinstance(v, tuple) else v for key, v in there.items()}
 
+    def changes(self) -> dict[str, Any]:
+        """The same by dotted keys, for `Engine.vary`."""
+        changed: dict[str, Any] = {
+            f"{TABLES[key]}.{key}": value for key, value in self.given().items()
+        }
+        if self.firing_order is not None:
+            changed["layout.firing_intervals"] = None
+        return changed
+
 
 class Found(NamedTuple):
     """One design, the value of its objective, and its figures by the names of their quantities."""
@@ -61,7 +74,7 @@ def build_candidates(model: EngineFile, candidates: Candidates) -> Engine:
         paths["layout.bank_angle"] = candidates["bank_angle"]
     if "splay" in candidates:
         paths["crank.splay"] = candidates["splay"]
-    return build(model, paths)
+    return add_gas(build(model, paths), model, paths)
 
 
 def find_buildable(model: EngineFile, key: str, angles: Array) -> NDArray[np.bool_]:

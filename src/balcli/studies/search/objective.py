@@ -36,8 +36,13 @@ class Objective:
         return total
 
 
-def parse_objective(minimise: str, limits: Sequence[str] = ()) -> Objective:
+def parse_objective(
+    minimise: str, limits: Sequence[str] = (), *, with_gas: bool = False
+) -> Objective:
     """`moment.1.major,force.2.major=0.5` and limits such as `moment.2.major<100` (N, N m).
+
+    Args:
+        with_gas: whether the engine has gas.
 
     Raises:
         BalcliError: what is no quantity, weight or limit.
@@ -46,7 +51,7 @@ def parse_objective(minimise: str, limits: Sequence[str] = ()) -> Objective:
     for term in minimise.split(","):
         name, _, weight = term.partition("=")
         share = _parse_positive(weight, term) if weight else 1.0
-        weights |= dict.fromkeys(_parse_sizes(name), share)
+        weights |= dict.fromkeys(_parse_sizes(name, with_gas), share)
     bounds: dict[Quantity, float] = {}
     for text in limits:
         name, less, bound = text.partition("<")
@@ -55,13 +60,13 @@ def parse_objective(minimise: str, limits: Sequence[str] = ()) -> Objective:
                 f'--limit "{text}": give a quantity and what it must stay below, such as '
                 '"moment.2.major<100"'
             )
-        bounds |= dict.fromkeys(_parse_sizes(name), _parse_positive(bound, text))
+        bounds |= dict.fromkeys(_parse_sizes(name, with_gas), _parse_positive(bound, text))
     return Objective(weights, bounds)
 
 
-def _parse_sizes(name: str) -> tuple[Quantity, ...]:
+def _parse_sizes(name: str, with_gas: bool) -> tuple[Quantity, ...]:
     """Quantities that can be large or small."""
-    found = parse_quantity_list(name)
+    found = parse_quantity_list(name, with_gas=with_gas)
     for q in found:
         if q.part == "axis":
             raise BalcliError(

@@ -13,11 +13,13 @@ from numpy.typing import NDArray
 
 from ...core.phasors import Array
 from ...core.telling import Tell, tell_nobody
-from ...engine.build import assemble, build
+from ...engine.build import Engine, assemble, build
 from ...engine.layout import cycle_deg, plan_cylinders
+from ...engine.vary import vary_engine
 from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
+from ...forces.kinds import GAS_KINDS
 from ...forces.quantity import Quantity, refuse_unknown
 from ...forces.textbook import TextbookUnits, find_textbook_units
 from ...result import Result
@@ -66,6 +68,17 @@ class Search(Result):
         found = f"{len(self.results)} result{'s' * (len(self.results) != 1)}"
         return f"over {self.over} of {self.model.name or 'an engine'}: {found}"
 
+    def engine(self, rank: int = 1) -> Engine:
+        """The engine with the arrangement of this rank, the best being 1. A firing order that its
+        throws no longer fit is left out.
+
+        Raises:
+            IndexError: so many were not found.
+        """
+        if not 1 <= rank <= len(self.results):
+            raise IndexError(f"rank {rank}: there are {len(self.results)}, from 1")
+        return vary_engine(build(self.model), self.results[rank - 1].design.changes())
+
 
 class _Task(NamedTuple):
     """What to search in, by what, for how many, and whether they have to fire evenly; where the
@@ -104,6 +117,9 @@ def search_arrangements(
     what = _parse_over(over)
     engine = build(model)
     refuse_unknown(engine, objective.quantities)
+    of_gas = [q.name for q in objective.quantities if q.kind in GAS_KINDS]
+    if of_gas and what in ("throws", "firing_order"):
+        raise BalcliError(f"{of_gas[0]}: a search over {what} is of inertia alone")
     locked = _find_locked(model, what)
     candidates = _SEARCHES[what](_Task(model, objective, count, even_firing, locked, tell))
     found = tuple(islice(drop_mirror_images(candidates, model), count))

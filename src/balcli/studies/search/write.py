@@ -6,9 +6,8 @@ from ...engine.build import build
 from ...engine.load import parse
 from ...enginefile.edit import set_keys
 from ...errors import BalcliError, InputError
-from .designs import Design
+from .designs import TABLES, Design
 
-TABLES = {"throws": "crank", "splay": "crank", "firing_order": "layout", "bank_angle": "layout"}
 NOTE = "found by balcli"
 
 

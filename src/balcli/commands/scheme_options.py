@@ -1,0 +1,162 @@
+"""What a balance scheme is asked for, wherever devices are fitted: `balance`, and all that shows an
+engine with them beside the engine as it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated
+
+from ..errors import BalcliError
+from ..limits import MOST_FACTORS
+from ..render.formats import Units
+from ..sizing.options import SchemeOptions
+from .amounts import is_bare, read_lengths, read_mass, read_share
+from .completion import complete_schemes
+from .declare import optional
+
+Scheme = Annotated[
+    str | None,
+    optional(
+        "NAME",
+        "Also with the devices of a balance scheme, such as auto: before and after.",
+        "--scheme",
+        autocompletion=complete_schemes,
+    ),
+]
+Order = Annotated[
+    int | None,
+    optional(
+        "N",
+        "Order to balance; default: the lowest that has what the scheme takes (single-shaft: a "
+        "force turning against the crank); a note says what it leaves at lower ones.",
+    ),
+]
+At = Annotated[
+    list[str] | None,
+    optional(
+        "X,Y",
+        "Place in mm of the shaft; of a pair, of the one turning against the crank. Given "
+        "twice: of that one, then of the other.",
+    ),
+]
+Position = Annotated[
+    str | None,
+    optional("Z", "Axial place of new devices, mm."),
+]
+Planes = Annotated[
+    str | None,
+    optional(
+        "ends|throws|Z,Z...",
+        "Where along the crank: at its end throws, at every throw, or at these z in mm. With a "
+        "factor the default is where the counterweights of the file stand, else every throw.",
+    ),
+]
+Factor = Annotated[
+    str | None,
+    optional(
+        "K|K:K:STEP",
+        "Share of the reciprocating mass that counterweights take, such as 51% or 0.51; "
+        "default 50%. A range such as 50%:54%:1% gives a table, and fits the best.",
+    ),
+]
+Measured = Annotated[
+    str | None,
+    optional(
+        "MASS",
+        'Instead of --factor: what balances each bare pin, such as "812 g" (a bare number is '
+        "g): says which factor that is.",
+    ),
+]
+Roll = Annotated[
+    str | None,
+    optional("zero", "Place two shafts such that they cancel the roll of this order, too."),
+]
+
+
+def parse_scheme_options(
+    order: int | None,
+    at: Sequence[str] | None,
+    position: str | None,
+    planes: str | None,
+    factor: str | None,
+    measured: str | None,
+    roll: str | None,
+    units: Units,
+) -> SchemeOptions:
+    """What a scheme is asked for, in SI; BalcliError for a text that says nothing, with the
+    text.
+    """
+    return SchemeOptions(
+        order=order,
+        at=tuple(_parse_place(text, units) for text in at) if at else None,
+        position=None if position is None else _parse_position(position, units),
+        planes=None if planes is None else _parse_planes(planes, units),
+        factor=None if factor is None else _parse_factors(factor),
+        measured=None if measured is None else _parse_measured(measured, units),
+        roll=roll,
+    )
+
+
+def choose_scheme(asked: str | None, options: SchemeOptions, usual: str = "auto") -> str:
+    """The scheme asked for; without one `factor` where there is a factor, else the usual one."""
+    if asked is not None:
+        return asked
+    by_factor = options.factor is not None or options.measured is not None
+    return "factor" if by_factor else usual
+
+
+def choose_beside(asked: str | None, options: SchemeOptions) -> str | None:
+    """The scheme to show beside the engine as it is; None if nothing of one was asked for."""
+    if asked is None and options == SchemeOptions():
+        return None
+    return choose_scheme(asked, options)
+
+
+def _parse_place(text: str, units: Units) -> complex:
+    x, y = read_lengths("--at", text, "x,y of a shaft in mm, such as -40,60", 2, units)
+    return complex(x, y)
+
+
+def _parse_position(text: str, units: Units) -> float:
+    (z,) = read_lengths("--position", text, "one place along z in mm, such as 40", 1, units)
+    return z
+
+
+def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
+    if text in ("ends", "throws"):
+        return text
+    wanted = "ends, throws, or places along z in mm, such as -200,200"
+    return read_lengths("--planes", text, wanted, units=units)
+
+
+def _parse_measured(text: str, units: Units) -> float:
+    """A mass in kg; a bare number is in g, as on the scales of a shop."""
+    mass = read_mass("--measured", text, units)
+    if mass < 0:
+        raise BalcliError(f'--measured "{text[:60]}": a mass on the pin is not negative')
+    return mass / 1e3 if is_bare(text) else mass
+
+
+def _parse_factors(text: str) -> tuple[float, ...]:
+    """`0.5`, `51%`, `0.4,0.5` or `0:1:0.1` (ends included)."""
+    wanted = "a share of the reciprocating mass such as 51% or 0.51, or a range such as 50%:54%:1%"
+    if ":" not in text:
+        return tuple(read_share("--factor", part, wanted) for part in text.split(","))
+    parts = [read_share("--factor", part, wanted) for part in text.split(":")]
+    if not _is_range(parts):
+        raise BalcliError(
+            f'--factor "{text}": a range is first:last:step, rising, with at most {MOST_FACTORS} '
+            f"steps; give {wanted}"
+        )
+    first, last, step = parts
+    steps = int((last - first) / step + 1e-9)
+    return tuple(round(first + k * step, 12) for k in range(steps + 1))
+
+
+def _is_range(parts: Sequence[float]) -> bool:
+    """Whether these are first, last and step of a range of no more than MOST_FACTORS steps."""
+    if len(parts) != 3:
+        return False
+    first, last, step = parts
+    return step > 0 and last >= first and (last - first) / step <= MOST_FACTORS

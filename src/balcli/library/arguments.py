@@ -1,0 +1,90 @@
+"""What a user of Python gives, as the rooms take it; what is wrong is told in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core.phasors import Array
+from ..errors import BalcliError, wrong_type
+from ..limits import MOST_SPEEDS
+
+Words = str | Iterable[str]  # names, or a text of them with commas between
+
+
+def join_words(function: str, words: Words | None) -> str | None:
+    """Names as the command line has them, with commas between; None as it is.
+
+    Raises:
+        TypeError: they are no names.
+    """
+    if words is None or isinstance(words, str):
+        return words
+    if isinstance(words, Iterable):
+        listed = list(words)
+        if all(isinstance(word, str) for word in listed):
+            return ",".join(listed)
+    raise wrong_type(function, words, 'give names, such as ["force.2.major", "moment.1.backward"]')
+
+
+def check_mapping(function: str, value: object, example: str) -> Mapping[Any, Any]:
+    """A dict that a function was given.
+
+    Raises:
+        TypeError: it is none.
+    """
+    if not isinstance(value, Mapping):
+        raise wrong_type(function, value, f"give a dict, such as {example}")
+    return value
+
+
+def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
+    """Speeds as an array that rises, rpm; None as it is.
+
+    Raises:
+        BalcliError: one that is not above 0; too many.
+        TypeError: they are no numbers.
+    """
+    if speeds_rpm is None:
+        return None
+    try:
+        found = np.unique(np.asarray(speeds_rpm, dtype=float))
+    except (TypeError, ValueError):
+        raise wrong_type(function, speeds_rpm, "give speeds in rpm, such as [1500, 2000]") from None
+    if not found.size or not np.all((found > 0) & (found < 1e9)):
+        raise BalcliError("speeds_rpm: give crank speeds above 0 in rpm, such as [1500, 2000]")
+    if found.size > MOST_SPEEDS:
+        raise BalcliError(f"speeds_rpm: {found.size} speeds; at most {MOST_SPEEDS} are computed")
+    return found
+
+
+def check_count(name: str, value: object, least: int = 1) -> int:
+    """A whole number that a function was given.
+
+    Raises:
+        BalcliError: it is too small.
+        TypeError: it is none.
+    """
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+        raise wrong_type(name, value, f"give a whole number from {least}")
+    if value < least:
+        raise BalcliError(f"{name}: {value} is less than {least}")
+    return int(value)
+
+
+def read_share(name: str, value: float | str) -> float:
+    """A share of 0 to 1: a number such as 0.005, or a text such as "0.5%".
+
+    Raises:
+        BalcliError: it is neither.
+    """
+    if isinstance(value, str):
+        from ..studies.tolerances import parse_percentage
+
+        return parse_percentage(value, name)
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 <= value < 1:
+        raise BalcliError(f'{name} {value}: give a share from 0 to 1, such as 0.005 or "0.5%"')
+    return float(value)

@@ -1,0 +1,47 @@
+"""`balcli.compare`"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+
+from ..engine.build import Engine, check_engine
+from ..errors import BalcliError
+from ..results.comparison import Comparison, compare_engines
+
+
+def compare(
+    *engines: Engine,
+    names: Sequence[str] | None = None,
+    orders: Iterable[float] | None = None,
+    only: str | Collection[str] | None = None,
+) -> Comparison:
+    """Engines side by side: free forces and moments by order, peaks, and their ratios to the first
+    engine's.
+
+    Args:
+        engines: two or more, as `load` makes them.
+        names: what to call them; default: as their files do, or by number where names are missing
+            or stand for several.
+        orders: which to show; default: all that are not negligible in one of them.
+        only: any of force, moment, couple, torque, roll, peak, sizing, inner, guide, gas; default:
+            all but sizing, inner and guide.
+
+    Returns:
+        One line a figure in `result.lines`, with the values of all engines in SI units and their
+        ratios.
+
+    Raises:
+        BalcliError: fewer than two engines; other than one name for each; an unknown quantity.
+        TypeError: one that is no engine.
+
+    Example:
+        >>> compare(load("i4.toml"), load("i6.toml")).to_pandas()
+    """
+    checked = [check_engine("compare", engine) for engine in engines]
+    called = list(names or (engine.name for engine in checked))
+    if names is None and ("" in called or len(set(called)) < len(called)):
+        called = [f"engine {k}" for k in range(1, len(checked) + 1)]
+    if len(called) != len(checked):
+        raise BalcliError(f"{len(called)} names for {len(checked)} engines; give one for each")
+    wanted = only.split(",") if isinstance(only, str) else only
+    return compare_engines(checked, called, orders, wanted)

@@ -1,0 +1,76 @@
+"""`balcli.analyze_mounts`"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from ..engine.build import Engine, check_engine, take_model
+from ..enginefile.model import EngineFile
+from ..enginefile.plain_tables import normalize_tables
+from ..enginefile.read import check_tables, read_tables
+from ..enginefile.toml_text import name_file, read_bytes
+from ..errors import wrong_type
+from ..mounting.read import check_mounted
+from ..mounting.report import MountReport, report_mounts
+from .arguments import check_speeds
+
+
+def analyze_mounts(
+    source: Engine | str | Path | Mapping[str, Any],
+    speeds_rpm: ArrayLike | None = None,
+    *,
+    orders: Iterable[float] | None = None,
+    scheme: str | None = None,
+    others: Mapping[str, Engine] | None = None,
+) -> MountReport:
+    """What the frame feels of an engine on its mounts: natural modes, rest, forces of the mounts
+    and motion of points over a range of speeds.
+
+    Args:
+        source: an Engine whose file has [body] and [[mount]]; or the path of such a file, its text
+            or a dict of its tables, which may also describe the body and mounts alone.
+        speeds_rpm: default: from an eighth of the file's speed to this.
+        orders: that count; default: all that are not negligible.
+        scheme: a balance scheme; the response is then also that with its devices (`fitted`).
+        others: engines by name, put on the same mounts and told beside.
+
+    Returns:
+        `modes.six` (`hertz`, `motion`, shapes), `response` (forces of mounts, N, and motion of
+        points, m, by speed; None without an engine), `fitted`, `others`.
+
+    Raises:
+        BalcliError: a resonance without damping; a scheme that cannot be fitted.
+        InputError: every mistake of the file; a motion that no mount holds.
+        TypeError: the source is none of these.
+
+    Example:
+        >>> [mode.hertz for mode in analyze_mounts("i4_mounts.toml").modes.six]
+    """
+    speeds = check_speeds("analyze_mounts", speeds_rpm)
+    engines = {name: check_engine("analyze_mounts", one) for name, one in (others or {}).items()}
+    asked = None if orders is None else list(orders)
+    model, engine, name = _read(source)
+    return report_mounts(model, engine, speeds, asked, scheme, list(engines.items()), name)
+
+
+def _read(source: object) -> tuple[EngineFile, Engine | None, str]:
+    """The file, its engine if it has one, and its name."""
+    if isinstance(source, Engine):
+        return take_model(source), source, ""
+    name = ""
+    if isinstance(source, Mapping):
+        draft = check_tables(normalize_tables(source), Path(), bare=True)
+    elif isinstance(source, str) and "\n" in source:
+        draft = read_tables(source, bare=True)
+    elif isinstance(source, (str, Path)):
+        name = name_file(source)
+        draft = read_tables(read_bytes(source), name, bare=True)
+    else:
+        wanted = "give an Engine, or the path, text or dict of a file with [body] and [[mount]]"
+        raise wrong_type("analyze_mounts", source, wanted)
+    found = check_mounted(draft, name)
+    return found.model, found.engine, name

@@ -1,0 +1,50 @@
+"""`balcli.balance_rotor`"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from pathlib import Path
+from typing import Any, Literal
+
+from ..enginefile.plain_tables import normalize_tables
+from ..enginefile.toml_text import name_file
+from ..errors import wrong_type
+from ..field_balancing.balance import FieldBalance, find_corrections
+from ..field_balancing.read import check_runs, parse_runs, read_runs
+
+
+def balance_rotor(
+    runs: str | Path | Mapping[str, Any],
+    minimise: Literal["squares", "max"] = "squares",
+    *,
+    without: Collection[str] = (),
+) -> FieldBalance:
+    """Balance a rotor on the machine or in its bearings: from readings with trial weights to
+    correction weights, places or drill holes, and what is left.
+
+    Args:
+        runs: the path of a file of runs, its text (TOML), or a dict of its tables: `planes`, and
+            under `run` one dict a run with its `readings` and `weights`, such as "5 @ 30" (size and
+            angle in degrees).
+        minimise: "squares", the least sum of squared readings, or "max", the smallest largest one.
+        without: planes that get no weight.
+
+    Returns:
+        `planes`, each with its `total` weight (complex, in the file's unit) and `pieces`; `after`,
+        the readings that are to be expected, shape (readings,).
+
+    Raises:
+        BalcliError: there is nothing to read; planes to leave out that are none, or all of them.
+        InputError: every mistake of the runs; runs that do not tell what each plane does.
+        TypeError: the runs are none of these.
+
+    Example:
+        >>> balance_rotor("fan.toml", "max").to_pandas()
+    """
+    if isinstance(runs, Mapping):
+        return find_corrections(check_runs(normalize_tables(runs)), minimise, without)
+    if not isinstance(runs, (str, Path)):
+        raise wrong_type("balance_rotor", runs, "give the path, text or dict of a file of runs")
+    if isinstance(runs, str) and "\n" in runs:
+        return find_corrections(parse_runs(runs), minimise, without)
+    return find_corrections(read_runs(runs), minimise, without, name_file(runs))

@@ -1,0 +1,85 @@
+"""`balcli.scatter`"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from ..engine.build import Engine, check_engine, take_model
+from ..enginefile.fields import Number
+from ..enginefile.units import ANGLE
+from ..errors import BalcliError
+from ..forces.kinds import DEFAULT_QUANTITIES
+from ..forces.quantity import leave_out_unknown
+from ..studies.deviations import Tolerances
+from ..studies.mount_scatter import scatter_mounts
+from ..studies.quantities import parse_quantities, part_quantities
+from ..studies.tolerances import Scatter, scatter_engine
+from .arguments import Words, check_count, join_words, read_share
+
+ENGINES, SETS_OF_MOUNTS = 100_000, 500
+
+
+def scatter(
+    engine: Engine,
+    quantities: Words | None = None,
+    *,
+    mass: float | str = 0.005,
+    length: float | str = 0.0,
+    angle_deg: float | str = 0.0,
+    stiffness: float | str = 0.15,
+    samples: int | None = None,
+    seed: int | None = None,
+    distribution: Literal["uniform", "normal"] = "uniform",
+) -> Scatter:
+    """How free forces and moments spread when masses, rod lengths and throw angles vary, and which
+    tolerance matters most; or forces and modes of mounts when their stiffness does.
+
+    Args:
+        engine: as `load` makes it.
+        quantities: sizes of vectors (`force.1.major`, `couple.4.amplitude`), or quantities of
+            mounts (`mode.roll.Hz`, `mount.left.force`). Default: force and moment of orders 1 and
+            2, as far as they are known.
+        mass: tolerance of every piston, rod and throw mass, as a share (0.005) or a text ("0.5%").
+        length: of every rod length, likewise.
+        angle_deg: of every throw angle, a number or a text with its unit.
+        stiffness: of every mount, a share or a text, for quantities of mounts.
+        samples: random engines; default: 100000, of mounts 500.
+        seed: of the random numbers, to repeat them.
+        distribution: within the tolerances, or with a third of them as standard deviation.
+
+    Returns:
+        For each quantity in `result.spreads` its nominal value, mean, percentiles, largest, a
+        bound, and the share of each tolerance, SI.
+
+    Raises:
+        BalcliError: quantities without a spread, no tolerance, too many samples.
+        TypeError: what is no engine, no names.
+
+    Example:
+        >>> scatter(engine, "force.1.major", mass="1%", seed=1).spreads[0].percentiles["p95"]
+    """
+    model = take_model(check_engine("scatter", engine))
+    asked = join_words("scatter", quantities)
+    of_engine, on_mounts = part_quantities(parse_quantities(asked or DEFAULT_QUANTITIES))
+    count = SETS_OF_MOUNTS if on_mounts else ENGINES
+    count = count if samples is None else check_count("samples", samples)
+    seed = None if seed is None else check_count("seed", seed, 0)
+    if distribution not in ("uniform", "normal"):
+        raise BalcliError(f'distribution {distribution!r}: choose "uniform" or "normal"')
+    if on_mounts:
+        share = read_share("stiffness", stiffness)
+        return scatter_mounts(model, share, on_mounts, count, seed, distribution)
+    if asked is None:
+        of_engine = leave_out_unknown(engine, of_engine)
+    tolerances = Tolerances(
+        read_share("mass", mass), read_share("length", length), _read_angle(angle_deg)
+    )
+    return scatter_engine(model, tolerances, of_engine, count, seed, distribution)
+
+
+def _read_angle(value: float | str) -> float:
+    """A tolerance of angles, deg."""
+    try:
+        return Number(ANGLE, least=0, most=90).read(value)
+    except ValueError as error:
+        raise BalcliError(f"angle_deg: {error}") from None

@@ -1,0 +1,62 @@
+"""`balcli.search`"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal
+
+from ..engine.build import Engine, check_engine, take_model
+from ..studies.search.objective import parse_objective
+from ..studies.search.search import Search, search_arrangements
+from .arguments import Words, check_count, check_mapping, join_words
+
+Over = Literal["throws", "firing_order", "bank_angle", "splay"]
+
+
+def search(
+    engine: Engine,
+    over: Over,
+    minimise: Words | Mapping[str, float],
+    *,
+    limits: Mapping[str, float] | None = None,
+    top: int = 10,
+    even_firing: bool = False,
+) -> Search:
+    """The best crank, firing order, bank angle or splay of an engine; mirror images and rotations
+    once.
+
+    Args:
+        engine: as `load` makes it.
+        over: what to arrange: the throw angles of the file along the crank ("throws"), its
+            "firing_order", its "bank_angle" or the "splay" of its split pins.
+        minimise: the quantity that should be small (`moment.1.major`), several, which are added
+            up, or a dict of weights by quantity.
+        limits: what quantities must stay below, N or N m.
+        top: how many to list.
+        even_firing: only what can fire at even intervals.
+
+    Returns:
+        The arrangements, best first: `result.results[0].design`, `.objective` and `.figures`;
+        `result.engine(1)` is the engine with the first.
+
+    Raises:
+        BalcliError: there is nothing to arrange, or nothing keeps the limits; unknown quantities.
+        TypeError: what is no engine, no names, no dict.
+
+    Example:
+        >>> search(engine, "throws", "moment.1.major").to_pandas()
+    """
+    model = take_model(check_engine("search", engine))
+    if isinstance(minimise, Mapping):
+        wanted = ",".join(f"{name}={weight!r}" for name, weight in _as_floats(minimise).items())
+    else:
+        wanted = join_words("search", minimise) or ""
+    bounds = check_mapping("search", limits or {}, '{"moment.2.major": 100}')
+    texts = [f"{name}<{bound!r}" for name, bound in _as_floats(bounds).items()]
+    goal = parse_objective(wanted, texts)
+    return search_arrangements(model, over, goal, check_count("top", top), even_firing)
+
+
+def _as_floats(figures: Mapping[str, float]) -> dict[str, object]:
+    """Numbers of numpy as Python's, whose texts are digits."""
+    return {name: float(v) if hasattr(v, "dtype") else v for name, v in figures.items()}

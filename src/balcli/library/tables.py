@@ -1,0 +1,43 @@
+"""`balcli.tables`"""
+
+from __future__ import annotations
+
+from ..errors import wrong_type
+from ..printed_tables.ranges import Ranges, parse_crank_ratios, parse_range
+from ..printed_tables.recomputed import Table
+from ..printed_tables.registry import NAMES, recompute
+
+
+def tables(
+    name: str, *, ratios: str | None = None, angles: str | None = None, power: int | None = None
+) -> Table:
+    """A printed coefficient table, recomputed, beside its print.
+
+    Args:
+        name: of the table, such as "tsinghua-1-2" or "series"; `tables.names` lists them.
+        ratios: other crank ratios (crank radius over rod length) than the printed ones, where the
+            table has them as columns, such as "0.20:0.40:0.01" or "0.25,1/3".
+        angles: other crank angles, deg, likewise.
+        power: highest power of the crank ratio in "series".
+
+    Returns:
+        The table: `exact` cells as `columns` name them, the `printed` texts, and `errata`, every
+        printed figure that is not the exact one rounded.
+
+    Raises:
+        BalcliError: there is no such table, with the nearest name; a range that it does not take.
+        TypeError: the name is no text.
+
+    Example:
+        >>> tables("tsinghua-1-2").errata
+    """
+    if not isinstance(name, str):
+        raise wrong_type("tables", name, f"give the name of a table, such as {NAMES[1]!r}")
+    return recompute(
+        name,
+        Ranges(
+            None if ratios is None else parse_crank_ratios(ratios),
+            None if angles is None else parse_range(angles, "angles"),
+            power,
+        ),
+    )

@@ -1,0 +1,84 @@
+"""`balcli.analyze_torsion`"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core.phasors import Array
+from ..engine.build import Engine, take_model
+from ..engine.load import load
+from ..enginefile.plain_tables import normalize_tables
+from ..enginefile.toml_text import name_file, parse_toml, read_bytes
+from ..errors import wrong_type
+from ..torsion.analysis import Question, TorsionAnalysis, answer_question
+from ..torsion.damper_sizing import DamperAsked
+from ..torsion.load import ChainSource, Source, make_source
+from ..torsion.read_chain import describes_chain, read_chain_tables
+from .arguments import check_speeds
+
+
+def analyze_torsion(
+    source: Engine | str | Path | Mapping[str, Any],
+    speeds_rpm: ArrayLike | None = None,
+    *,
+    orders: Iterable[float] | None = None,
+    damper: Literal["viscous", "rubber", "pendulum"] | None = None,
+    damper_at: str | None = None,
+    damper_inertia: float | None = None,
+) -> TorsionAnalysis:
+    """Torsional vibration of a crankshaft, or of any shafts: natural modes, critical speeds, and
+    vibratory torque and stress over a range of speeds.
+
+    Args:
+        source: an Engine whose file has [torsion]; or a chain of inertias and shafts: its path, its
+            text or a dict of its tables (or those of such an engine).
+        speeds_rpm: at which the forced vibration is wanted; default: modes and criticals alone.
+        orders: which of those that excite, multiples of 1/2; default: all of a chain, to 12 of an
+            engine.
+        damper: sized to make the largest stress over `speeds_rpm` least; the answer is then that
+            with it.
+        damper_at: name of what carries it; default: the foremost part.
+        damper_inertia: of its ring, or of its pendulums about the axis, kg m2; default: that in the
+            file, or a usual share.
+
+    Returns:
+        `modes` (`frequency_hz`, shapes), `criticals` (speed, order, mode), `response` (`torque`,
+        N m, and `stress`, Pa, shape (speeds, shafts)), `barred_rpm`.
+
+    Raises:
+        BalcliError: no [torsion]; a response without excitation or through an undamped resonance; a
+            damper that nothing can carry.
+        InputError: every mistake of the file.
+        TypeError: the source is none of these.
+
+    Example:
+        >>> analyze_torsion(load("i6_diesel.toml"), range(1000, 2501, 25)).barred_rpm
+    """
+    asked = None if orders is None else np.unique(np.asarray(list(orders), dtype=float))
+    sized = None if damper is None else DamperAsked(damper, damper_at, damper_inertia)
+    question = Question(check_speeds("analyze_torsion", speeds_rpm), asked, (), sized)
+    return answer_question(_read_source(source, asked), question)
+
+
+def _read_source(source: Any, orders: Array | None) -> Source:
+    name = ""
+    tables: Mapping[str, Any] = {}
+    if isinstance(source, Mapping):
+        tables = normalize_tables(source)
+    elif isinstance(source, str) and "\n" in source:
+        tables = parse_toml(source, name)
+    elif isinstance(source, (str, Path)):
+        name = name_file(source)
+        tables = parse_toml(read_bytes(source), name)
+    elif not isinstance(source, Engine):
+        wanted = "give an Engine, or the path, text or dict of a chain of inertias and shafts"
+        raise wrong_type("analyze_torsion", source, wanted)
+    if describes_chain(tables):
+        return ChainSource(name, b"", read_chain_tables(tables, name))
+    engine = source if isinstance(source, Engine) else load(source)
+    return make_source(take_model(engine), engine, name or engine.name, orders)

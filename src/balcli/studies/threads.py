@@ -1,0 +1,51 @@
+"""Work shared among the threads of this process."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from itertools import islice
+from typing import TypeVar
+
+T = TypeVar("T")
+R = TypeVar("R")
+ALONE_S = 1.0  # before several threads share what is left: most sweeps have ended by then
+
+
+def share_work(
+    work: Callable[[T], R], items: Iterable[T], threads: int, alone_s: float = ALONE_S
+) -> Iterator[R]:
+    """What becomes of each item, in their order.
+
+    Args:
+        work: what is done with one; numpy does most of its own outside Python's lock.
+        items: to work on.
+        threads: that do it.
+        alone_s: seconds for which one does it alone.
+    """
+    waiting = iter(items)
+    end = time.monotonic() + (alone_s if threads > 1 else math.inf)
+    for item in waiting:
+        yield work(item)
+        if time.monotonic() > end:
+            break
+    yield from _share(work, waiting, threads)
+
+
+def _share(work: Callable[[T], R], items: Iterator[T], threads: int) -> Iterator[R]:
+    """The same by so many threads, a little ahead of who asks for it."""
+    first = list(islice(items, 2 * threads))
+    if not first:
+        return
+    from concurrent.futures import ThreadPoolExecutor  # most sweeps have ended without it
+
+    pool = ThreadPoolExecutor(threads)
+    try:
+        waiting = deque(pool.submit(work, item) for item in first)
+        while waiting:
+            yield waiting.popleft().result()
+            waiting.extend(pool.submit(work, item) for item in islice(items, 1))
+    finally:
+        pool.shutdown(cancel_futures=True)

@@ -1,0 +1,415 @@
+"""Studies in Python: they agree with engines that are varied one by one, and say in words what is
+wrong.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+import balcli
+from balcli.limits import MOST_PARAMETER_VALUES, MOST_SPEEDS
+from balcli.studies import swept
+
+V8, FOUR = balcli.load_example("v8_crossplane"), balcli.load_example("i4")
+MOUNTS, DIESEL = balcli.load_example("i4_mounts"), balcli.load_example("i6_diesel")
+CLOSE = 1e-12
+
+
+# ------------------------------------------------------------------ sweep
+def test_a_sweep_is_the_engine_varied_point_by_point():
+    angles, ratios = np.array([60.0, 75.0, 90.0]), [0.25, 0.3]
+    found = balcli.sweep(
+        V8, {"layout.bank_angle": angles, "rod.ratio": ratios}, ["force.2.major", "moment.1.major"]
+    )
+    assert found["moment.1.major"].shape == (3, 2)
+    for i, angle in enumerate(angles):
+        for k, ratio in enumerate(ratios):
+            engine = V8.vary({"layout.bank_angle": angle, "rod.ratio": ratio})
+            spectra = balcli.analyze(engine, [1, 2]).spectra
+            largest = found["moment.1.major"].max()
+            assert found["force.2.major"][i, k] == pytest.approx(
+                spectra.force.major[1], abs=CLOSE * largest
+            )
+            assert found["moment.1.major"][i, k] == pytest.approx(
+                spectra.moment.major[0], rel=CLOSE
+            )
+
+
+def test_what_varies_are_the_axes_of_a_dataset():
+    found = balcli.sweep(FOUR, {"rod.ratio": [0.25, 0.3], "piston.mass": (0.4, "450 g", 0.5)})
+    data = found.to_xarray()
+    assert dict(data.sizes) == {"rod.ratio": 2, "piston.mass": 3}
+    assert data["piston.mass"].values.tolist() == [0.4, 0.45, 0.5]
+    assert data["piston.mass"].attrs["units"] == "kg"
+    assert data["force.2.major"].dims == ("rod.ratio", "piston.mass")
+    assert data["force.2.major"].attrs["units"] == "N"
+    one = data["force.2.major"].sel({"rod.ratio": 0.3, "piston.mass": 0.5})
+    assert float(one) == found["force.2.major"][1, 2]
+    frame = found.to_pandas()
+    assert frame["piston.mass"].tolist() == [0.4, 0.45, 0.5] * 2
+    assert frame["force.2.major"].tolist() == found["force.2.major"].ravel().tolist()
+
+
+def test_ways_to_give_values():
+    wanted = [0.25, 0.26, 0.27]
+    for values in (wanted, tuple(wanted), np.array(wanted), "0.25:0.27:0.01", "0.25,0.26,0.27"):
+        found = balcli.sweep(FOUR, {"rod.ratio": values}, "force.2.major")
+        assert found["rod.ratio"].tolist() == wanted
+    assert balcli.sweep(FOUR, {"rod.length": "6 in"})["rod.length"].tolist() == [152.4]
+    assert balcli.sweep(FOUR, {"rod.length": 150})["rod.length"].tolist() == [150]
+    assert balcli.sweep(FOUR, {"rod.length": range(150, 153)})["rod.length"].tolist() == [
+        150,
+        151,
+        152,
+    ]
+
+
+def test_quantities_by_default_are_those_that_are_known():
+    tables = FOUR.to_dict()
+    del tables["crank"]["spacing"]
+    found = balcli.sweep(balcli.load(tables), {"rod.ratio": 0.3})
+    assert [q.name for q in found.sweep.quantities] == ["force.1.major", "force.2.major"]
+
+
+def test_any_number_of_threads_finds_the_same():
+    vary = {"layout.bank_angle": np.arange(0, 181.0)}
+    one, three = (balcli.sweep(V8, vary, "moment.1.major", threads=n) for n in (1, 3))
+    assert np.array_equal(one["moment.1.major"], three["moment.1.major"])
+
+
+def test_what_a_sweep_does_not_have_is_no_key():
+    found = balcli.sweep(FOUR, {"rod.ratio": 0.3}, "force.2.major")
+    with pytest.raises(KeyError, match=r"force\.1\.major; there are force\.2\.major, rod\.ratio"):
+        found["force.1.major"]
+
+
+def test_a_sweep_too_large_to_keep_names_the_command(monkeypatch):
+    monkeypatch.setattr(swept, "MOST_KEPT_FIGURES", 3)
+    with pytest.raises(balcli.BalcliError) as caught:
+        balcli.sweep(FOUR, {"rod.ratio": [0.25, 0.3]}, ["force.2.major", "force.4.major"])
+    assert str(caught.value) == (
+        "4 figures are too many to keep (3 are allowed): balcli sweep -o FILE.parquet writes them as "
+        "they are computed"
+    )
+
+
+def test_quantities_of_chapters():
+    found = balcli.sweep(DIESEL, {"torsion.rear.1.inertia": [9e5, 1e6]}, "torsion.1.Hz")
+    engine = DIESEL.vary({"torsion.rear.1.inertia": 1e6})
+    assert found["torsion.1.Hz"][1] == pytest.approx(
+        balcli.analyze_torsion(engine).modes[0].frequency_hz, rel=CLOSE
+    )
+    assert found["torsion.1.Hz"][0] > found["torsion.1.Hz"][1]
+
+
+# ------------------------------------------------------------------ search, scatter, compare
+@pytest.mark.parametrize(
+    ("engine", "over"),
+    [(V8, "throws"), (balcli.load_example("v6_60"), "bank_angle"), (FOUR, "firing_order")],
+)
+def test_the_engine_that_a_search_finds_is_as_good_as_it_says(engine, over):
+    found = balcli.search(engine, over, "moment.1.major", top=2)
+    best = balcli.analyze(found.engine(), [1]).spectra.moment.major[0]
+    scale = balcli.analyze(engine, [1]).of_one_cylinder["moment"]
+    assert best == pytest.approx(found.results[0].objective, abs=CLOSE * scale)
+    with pytest.raises(IndexError, match=r"^rank 3: there are \d, from 1$"):
+        found.engine(3)
+
+
+def test_weights_and_limits_of_a_search():
+    weighed = {"moment.1.major": 1, "moment.2.major": np.float64(0.5)}
+    for one in balcli.search(V8, "throws", weighed, limits={"moment.2.major": 1000.0}).results:
+        assert one.objective == pytest.approx(
+            one.figures["moment.1.major"] + 0.5 * one.figures["moment.2.major"], rel=CLOSE
+        )
+        assert one.figures["moment.2.major"] < 1000
+    both = balcli.search(V8, "throws", ["moment.1.major", "moment.2.major"])
+    assert both.results[0].figures.keys() == weighed.keys()
+
+
+def test_angles_of_a_search_are_numbers_of_a_frame():
+    frame = balcli.search(balcli.load_example("v6_90_split"), "splay", "moment.1.major").to_pandas()
+    assert frame["splay"].dtype == float
+    assert frame.attrs["units"]["splay"] == "deg"
+    throws = balcli.search(V8, "throws", "moment.1.major").to_pandas()["throws"]
+    assert throws[0] == "0-180-90-270"
+
+
+def test_tolerances_are_shares_or_percentages():
+    one, other, third = (
+        balcli.scatter(FOUR, "force.1.major", mass=mass, angle_deg=angle, samples=50, seed=3)
+        for mass, angle in ((0.01, 0.2), ("1%", "0.2 deg"), (np.float64(0.01), 0.1))
+    )
+    assert one.spreads[0].mean == other.spreads[0].mean
+    assert third.spreads[0].bound < one.spreads[0].bound
+
+
+def test_stiffness_of_mounts_scatters():
+    found = balcli.scatter(MOUNTS, "mode.1.Hz", stiffness="10%", samples=20, seed=1)
+    assert found.of_mounts
+    (spread,) = found.spreads
+    assert spread.nominal == pytest.approx(balcli.analyze_mounts(MOUNTS).modes.six[0].hertz)
+
+
+def test_engines_side_by_side_have_names():
+    assert balcli.compare(V8, FOUR).names == (V8.name, FOUR.name)
+    assert balcli.compare(V8, V8.vary({"layout.bank_angle": 60})).names == ("engine 1", "engine 2")
+    found = balcli.compare(V8, V8, names=["as it is", "again"], orders=[1], only="moment")
+    assert found.rows()[0]["again"] == found.rows()[0]["as it is"] > 0
+    with pytest.raises(balcli.BalcliError, match=r"^1 names for 2 engines; give one for each$"):
+        balcli.compare(V8, FOUR, names=["one"])
+
+
+def test_tables_with_other_ranges():
+    table = balcli.tables("tsinghua-1-2", ratios="0.25,1/3", angles="0:90:45")
+    assert [row["alpha_deg"] for row in table.rows()] == [0, 45, 90]
+    assert table.rows()[2]["1/3"] == pytest.approx(1 + 3 * (1 - np.sqrt(1 - 1 / 9)))
+    assert balcli.tables("series", power=4).rows()
+    assert balcli.tables("tsinghua-1-2").errata
+
+
+# ------------------------------------------------------------------ chapters
+CHAIN = """\
+[[node]]
+name = "motor"
+inertia = 2e6
+[[node]]
+name = "pump"
+inertia = 1e6
+[[shaft]]
+from = "motor"
+to = "pump"
+stiffness = 8000
+"""
+
+
+def test_a_chain_is_a_path_a_text_or_a_dict(tmp_path):
+    (tmp_path / "chain.toml").write_text(CHAIN)
+    found = [
+        balcli.analyze_torsion(source).modes[0].frequency_hz
+        for source in (
+            tmp_path / "chain.toml",
+            str(tmp_path / "chain.toml"),
+            CHAIN,
+            tomllib.loads(CHAIN),
+        )
+    ]
+    wanted = np.sqrt(8000 * (1 / 2 + 1 / 1)) / (2 * np.pi)
+    assert found == pytest.approx([wanted] * 4, rel=1e-9)
+
+
+def test_torsion_of_an_engine_is_that_of_its_file(tmp_path):
+    by_engine = balcli.analyze_torsion(DIESEL, [1500, 1000], orders=[3, 6])
+    by_dict = balcli.analyze_torsion(DIESEL.to_dict(), [1000, 1500], orders=[3, 6])
+    assert np.array_equal(by_engine.response.torque, by_dict.response.torque)
+    assert by_engine.response.torque.shape[0] == 2
+    damped = balcli.analyze_torsion(DIESEL, range(1000, 2001, 100), damper="viscous", orders=[3, 6])
+    assert damped.damper.damper is not None
+
+
+def test_mounts_of_an_engine_a_dict_or_a_body_alone():
+    found = balcli.analyze_mounts(MOUNTS, [2000], orders=[2], scheme="two-shaft")
+    again = balcli.analyze_mounts(MOUNTS.to_dict(), [2000], orders=[2])
+    assert found.modes.six[0].hertz == again.modes.six[0].hertz
+    worst = max(one.value for one in found.response.worst_force)
+    assert max(one.value for one in found.fitted.response.worst_force) < worst
+    alone = {key: table for key, table in MOUNTS.to_dict().items() if key in ("body", "mount")}
+    assert balcli.analyze_mounts(alone).response is None
+    beside = balcli.analyze_mounts(MOUNTS, [2000], orders=[2], others={"V8": V8})
+    assert [other.name for other in beside.others] == ["V8"]
+
+
+# ------------------------------------------------------------------ what is wrong, in words
+ENGINE = "give an Engine; load(...) makes one of a path or a dict"
+NAMES = 'give names, such as ["force.2.major", "moment.1.backward"]'
+RATIO = {"rod.ratio": 0.3}
+WRONG: list[tuple[Callable[[], object], type[Exception], str]] = [
+    (lambda: balcli.analyze("v8.toml"), TypeError, f"analyze: 'v8.toml' (str): {ENGINE}"),
+    (lambda: balcli.balance(None), TypeError, f"balance: None (NoneType): {ENGINE}"),
+    (lambda: balcli.sweep({}, {}), TypeError, f"sweep: {{}} (dict): {ENGINE}"),
+    (lambda: balcli.search(3, "throws", ""), TypeError, f"search: 3 (int): {ENGINE}"),
+    (lambda: balcli.scatter(3), TypeError, f"scatter: 3 (int): {ENGINE}"),
+    (lambda: balcli.compare(V8, 3), TypeError, f"compare: 3 (int): {ENGINE}"),
+    (lambda: balcli.analyze_torque(3), TypeError, f"analyze_torque: 3 (int): {ENGINE}"),
+    (
+        lambda: balcli.analyze_mounts(MOUNTS, others={"a": 3}),
+        TypeError,
+        f"analyze_mounts: 3 (int): {ENGINE}",
+    ),
+    (lambda: balcli.compare(V8), balcli.BalcliError, "compare needs at least two engine files"),
+    (
+        lambda: balcli.analyze(V8, orders="1"),
+        TypeError,
+        "orders: '1' (str): give numbers, such as [1, 2, 4]",
+    ),
+    (
+        lambda: balcli.analyze(V8, orders=1),
+        TypeError,
+        "orders: 1 (int): give numbers, such as [1, 2, 4]",
+    ),
+    (
+        lambda: balcli.analyze(V8, orders=["x"]),
+        TypeError,
+        "orders: 'x' (str): give numbers, such as [1, 2, 4]",
+    ),
+    (
+        lambda: balcli.sweep(V8, 5),
+        TypeError,
+        'sweep: 5 (int): give a dict, such as {"rod.ratio": [0.24, 0.28, 0.32]}',
+    ),
+    (
+        lambda: balcli.sweep(V8, {}),
+        balcli.BalcliError,
+        'sweep: nothing varies; give numbers and values, such as {"rod.ratio": [0.24, 0.28, 0.32]}',
+    ),
+    (
+        lambda: balcli.sweep(V8, {"rod.ratoi": 3}),
+        balcli.BalcliError,
+        "rod.ratoi: unknown parameter; did you mean rod.ratio?",
+    ),
+    (
+        lambda: balcli.sweep(V8, {"rod.ratio": []}),
+        balcli.BalcliError,
+        f"rod.ratio: values of shape (0,); give a list or an array of one axis with 1 to {MOST_PARAMETER_VALUES} values",
+    ),
+    (
+        lambda: balcli.sweep(V8, {"rod.ratio": [[1]]}),
+        balcli.BalcliError,
+        f"rod.ratio: values of shape (1, 1); give a list or an array of one axis with 1 to {MOST_PARAMETER_VALUES} values",
+    ),
+    (
+        lambda: balcli.sweep(V8, {"rod.ratio": 1j}),
+        TypeError,
+        "rod.ratio: 1j (complex): give numbers, such as [0.24, 0.28], or a range 0.24:0.32:0.01",
+    ),
+    (
+        lambda: balcli.sweep(V8, {"rod.ratio": [2.0]}),
+        balcli.BalcliError,
+        "rod.ratio: 2 is not below 1; a plain number is wanted, without quotes, below 1",
+    ),
+    (
+        lambda: balcli.sweep(V8, {"rod.ratio": ["x"]}),
+        balcli.BalcliError,
+        'rod.ratio: "x" is not a number followed by a unit; a plain number is wanted, without quotes',
+    ),
+    (lambda: balcli.sweep(V8, {"rod.length": ["3 parsecs"]}), balcli.BalcliError, "rod.length: "),
+    (lambda: balcli.sweep(V8, RATIO, 5), TypeError, f"sweep: 5 (int): {NAMES}"),
+    (lambda: balcli.sweep(V8, RATIO, [5]), TypeError, f"sweep: [5] (list): {NAMES}"),
+    (
+        lambda: balcli.sweep(V8, RATIO, ["forse.1.major"]),
+        balcli.BalcliError,
+        "forse.1.major is no quantity: did you mean force?",
+    ),
+    (
+        lambda: balcli.sweep(V8, RATIO, threads="x"),
+        TypeError,
+        "threads: 'x' (str): give a whole number from 1",
+    ),
+    (lambda: balcli.sweep(V8, RATIO, threads=0), balcli.BalcliError, "threads: 0 is less than 1"),
+    (lambda: balcli.search(V8, "throws", 5), TypeError, f"search: 5 (int): {NAMES}"),
+    (
+        lambda: balcli.search(V8, "throws", "force.1.major", limits=5),
+        TypeError,
+        'search: 5 (int): give a dict, such as {"moment.2.major": 100}',
+    ),
+    (
+        lambda: balcli.search(V8, "throws", "force.1.major", top=0),
+        balcli.BalcliError,
+        "top: 0 is less than 1",
+    ),
+    (
+        lambda: balcli.scatter(V8, mass=2),
+        balcli.BalcliError,
+        'mass 2: give a share from 0 to 1, such as 0.005 or "0.5%"',
+    ),
+    (
+        lambda: balcli.scatter(V8, length="x"),
+        balcli.BalcliError,
+        'length "x": give a percentage of 0 to 100, such as 0.5%',
+    ),
+    (
+        lambda: balcli.scatter(V8, angle_deg="x"),
+        balcli.BalcliError,
+        'angle_deg: "x" is not a number followed by a unit; an angle is wanted',
+    ),
+    (lambda: balcli.scatter(V8, seed=-1), balcli.BalcliError, "seed: -1 is less than 0"),
+    (
+        lambda: balcli.scatter(V8, samples=1.5),
+        TypeError,
+        "samples: 1.5 (float): give a whole number from 1",
+    ),
+    (
+        lambda: balcli.scatter(V8, distribution="odd"),
+        balcli.BalcliError,
+        'distribution \'odd\': choose "uniform" or "normal"',
+    ),
+    (
+        lambda: balcli.tables(3),
+        TypeError,
+        "tables: 3 (int): give the name of a table, such as 'tsinghua-1-2'",
+    ),
+    (
+        lambda: balcli.load_example(3),
+        TypeError,
+        'load_example: 3 (int): give the name of an example, such as "i4"',
+    ),
+    (
+        lambda: balcli.load_example("v8_crosplane"),
+        balcli.BalcliError,
+        'there is no example "v8_crosplane": balcli engines lists them. Did you mean v8_crossplane',
+    ),
+    (
+        lambda: balcli.analyze_torsion(V8),
+        balcli.BalcliError,
+        "90-degree cross-plane V8: has no [torsion]; write it with throw_stiffness",
+    ),
+    (
+        lambda: balcli.analyze_torsion(5),
+        TypeError,
+        "analyze_torsion: 5 (int): give an Engine, or the path, text or dict of a chain of inertias and shafts",
+    ),
+    (
+        lambda: balcli.analyze_torsion(DIESEL, "x"),
+        TypeError,
+        "analyze_torsion: 'x' (str): give speeds in rpm, such as [1500, 2000]",
+    ),
+    (
+        lambda: balcli.analyze_torsion(DIESEL, [0]),
+        balcli.BalcliError,
+        "speeds_rpm: give crank speeds above 0 in rpm, such as [1500, 2000]",
+    ),
+    (
+        lambda: balcli.analyze_torsion(DIESEL, range(1, MOST_SPEEDS + 2)),
+        balcli.BalcliError,
+        f"speeds_rpm: {MOST_SPEEDS + 1} speeds; at most {MOST_SPEEDS} are computed",
+    ),
+    (
+        lambda: balcli.analyze_mounts(V8),
+        balcli.InputError,
+        "engine: 2 mistakes\n  body: is missing",
+    ),
+    (lambda: balcli.analyze_mounts("no.toml"), balcli.BalcliError, "no.toml: no such file"),
+    (
+        lambda: balcli.analyze_mounts(5),
+        TypeError,
+        "analyze_mounts: 5 (int): give an Engine, or the path, text or dict of a file with [body] and [[mount]]",
+    ),
+    (
+        lambda: balcli.balance_rotor(5),
+        TypeError,
+        "balance_rotor: 5 (int): give the path, text or dict of a file of runs",
+    ),
+    (lambda: balcli.balance_rotor({"planes": ["a"]}), balcli.InputError, "engine: run: is missing"),
+    (lambda: balcli.balance_rotor("no.toml"), balcli.BalcliError, "no.toml: no such file"),
+]
+
+
+@pytest.mark.parametrize(("call", "kind", "message"), WRONG, ids=[m[:40] for *_, m in WRONG])
+def test_what_is_wrong_is_told(call, kind, message):
+    with pytest.raises(kind) as caught:
+        call()
+    assert str(caught.value).startswith(message)

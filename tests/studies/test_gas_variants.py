@@ -1,0 +1,156 @@
+"""Torque with gas over variants: as of each engine built by itself."""
+
+from __future__ import annotations
+
+import csv
+import json
+from io import StringIO
+from itertools import product
+
+import numpy as np
+import pytest
+from support.commands import refusal, run_here
+
+from balcli.engine.build import build
+from balcli.engine.load import parse
+from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
+from balcli.forces.spectrum import compute_spectra
+from balcli.studies.deviations import DeviatingEngine, Tolerances
+
+FOUR = """
+name = "four"
+[crank]
+stroke = 86
+throws = [0, 180, 180, 0]
+spacing = 95
+throw_mass = 0.8
+[rod]
+length = 150
+mass = 0.6
+cg = 45
+[piston]
+bore = 86
+mass = 0.5
+offset = 0.8
+[layout]
+firing_order = [1, 3, 4, 2]
+[cylinder.2]
+rod_length = 151
+[operation]
+speed = 4000
+[gas]
+cycle = "wiebe"
+compression_ratio = 10
+imep = 12
+"""
+NAMES = (
+    "torque.2.amplitude,torque.1.5.cos,gas.0.5.sin,roll_total.3.amplitude,torque_total.4.amplitude"
+)
+
+
+def analyse(text: str) -> list[float]:
+    """The same figures of one engine, by its spectra."""
+    found = compute_spectra(
+        build(parse(text)), [0.5, 1.5, 2, 3, 4], ["gas", "torque_total", "roll_total"]
+    )
+    total, gas, roll = found["torque_total"], found["gas"], found["roll_total"]
+    return [
+        float(total.major[2]),
+        float(total.x[1].real),
+        float(-gas.x[0].imag),
+        float(roll.major[3]),
+        float(total.major[4]),
+    ]
+
+
+def test_a_grid_of_masses_lengths_and_pressures(tmp_path):
+    path = tmp_path / "four.toml"
+    path.write_text(FOUR, encoding="utf-8")
+    grid = {"gas.imep": (9, 12), "piston.mass": (0.4, 0.5, 0.7), "rod.length": (140, 150)}
+    vary = [
+        part
+        for key, values in grid.items()
+        for part in ("--vary", f"{key}={','.join(map(str, values))}")
+    ]
+    done = run_here("sweep", path, *vary, "-q", NAMES)
+    assert (done.status, done.err) == (0, "")
+    head, *rows = csv.reader(StringIO(done.out))
+    assert head == [*grid, *NAMES.split(",")]
+    assert [tuple(map(float, row[:3])) for row in rows] == list(product(*grid.values()))
+    for row in rows:
+        imep, mass, length = map(float, row[:3])
+        text = FOUR.replace("imep = 12", f"imep = {imep}").replace("mass = 0.5", f"mass = {mass}")
+        said = analyse(text.replace("length = 150", f"length = {length}", 1))
+        largest = max(map(abs, said))
+        assert [float(x) for x in row[3:]] == pytest.approx(said, rel=1e-12, abs=1e-12 * largest)
+
+
+def test_cycles_that_cannot_be_are_told_with_their_figures(tmp_path):
+    path = tmp_path / "four.toml"
+    path.write_text(FOUR, encoding="utf-8")
+    told = refusal("sweep", path, "--vary", "gas.burn_duration=50,200", "-q", "gas.2.amplitude")
+    assert told.startswith(f"{path}: gas.burn_duration = 200: 2 mistakes\n")
+
+
+def test_what_no_gas_is_asked_of_does_not_build_it(tmp_path, monkeypatch):
+    path = tmp_path / "four.toml"
+    path.write_text(FOUR, encoding="utf-8")
+    counted = []
+    monkeypatch.setattr("balcli.engine.gas.build_gas", counted.append)
+    done = run_here("sweep", path, "--vary", "rod.length=140,150", "-q", "force.2.major")
+    assert done.status == 0
+    assert counted == []
+
+
+@pytest.mark.parametrize("text", [FOUR, FOUR.replace("[1, 3, 4, 2]", "[1, 2, 4, 3]")])
+def test_deviating_engines_have_the_gas_of_their_own_rods_and_throws(text):
+    model = parse(text)
+    engines = DeviatingEngine(model, Tolerances(mass=0.01, length=0.004, angle_deg=0.4))
+    random = np.random.default_rng(3)
+    tolerances = np.array([source.tolerance for source in engines.sources])
+    deviations = tolerances[:, None] * (2 * random.random((len(tolerances), 4)) - 1)
+    wanted = parse_quantity_list(NAMES, with_gas=True)
+    found = np.array(evaluate_quantities(engines.deviate(deviations), wanted))
+    lengths = {1: 150, 2: 151, 3: 150, 4: 150}
+    for sample in range(4):
+        own = dict(zip(engines.sources, deviations[:, sample], strict=True))
+        varied = {}
+        for source, value in own.items():
+            if source.what == "rod length":
+                varied[f"cylinder.{source.number}.rod_length"] = lengths[source.number] * (
+                    1 + value
+                )
+            if source.what == "throw angle":
+                angle = (0, 180, 180, 0)[source.number - 1]
+                varied[f"crank.throws.{source.number}"] = angle + value
+            if source.what == "piston mass":
+                varied[f"cylinder.{source.number}.piston_mass"] = 0.5 * (1 + value)
+            if source.what == "rod mass":
+                varied[f"cylinder.{source.number}.rod_mass"] = 0.6 * (1 + value)
+        # the rod's centre of mass stays at its share of the length there, and at 45 mm here
+        varied |= {
+            f"cylinder.{number}.rod_cg": 45 * varied[f"cylinder.{number}.rod_length"] / length
+            for number, length in lengths.items()
+        }
+        alone = [float(value) for value in evaluate_quantities(build(model, varied), wanted)]
+        largest = max(map(abs, alone))
+        sizes = [0, 3, 4]  # phases count from cylinder 1's own throw in one of both
+        assert found[sizes, sample] == pytest.approx(
+            [alone[k] for k in sizes], rel=1e-9, abs=1e-9 * largest
+        )
+
+
+def test_scatter_counts_the_gas(tmp_path):
+    path = tmp_path / "four.toml"
+    path.write_text(FOUR, encoding="utf-8")
+    asked = ("-q", "torque.2.amplitude,gas.2.amplitude", "--samples", "2000", "--seed", "1")
+    said = json.loads(run_here("scatter", path, *asked, "-f", "json").out)["quantities"]
+    assert said["torque.2.amplitude"]["nominal"] == pytest.approx(analyse(FOUR)[0], rel=1e-12)
+    gas = said["gas.2.amplitude"]
+    assert gas["mean"] == pytest.approx(gas["nominal"], rel=1e-12), "masses leave it alone"
+    assert gas["max"] == pytest.approx(gas["nominal"], rel=1e-12)
+    assert said["torque.2.amplitude"]["p95"] > said["torque.2.amplitude"]["p05"]
+    bare = tmp_path / "bare.toml"
+    bare.write_text(FOUR.partition("[gas]")[0], encoding="utf-8")
+    told = refusal("scatter", bare, "-q", "gas.2.amplitude")
+    assert told == "gas.2.amplitude: the engine file has no [gas]"
