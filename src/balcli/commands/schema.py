@@ -46,7 +46,7 @@ def schema(
     output: Output = None,
 ) -> None:
     """Print the JSON Schema of the engine file, a file of runs or a chain file, for editors; or of
-    what a command prints as JSON, for programs that read it.
+    what a command prints as JSON.
     """
     require_ending(output, ".json")
     described = _describe_file(kind or File.ENGINE) if of is None else _describe_result(of, kind)
