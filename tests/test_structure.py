@@ -20,6 +20,7 @@ from support.paths import ENGINES, PACKAGE, ROOT
 import balcli
 from balcli.cli import COMMANDS
 from balcli.commands import options
+from balcli.commands.file_names import Place
 from balcli.documents.names import DOCUMENTS
 from balcli.render.formats import Format
 
@@ -90,7 +91,7 @@ def paths_of(command: str) -> tuple[set[str], set[str]]:
     plain = get_type_hints(function).items()
     return (
         {name for name, kind in marked if kind in engines},
-        {name for name, kind in plain if kind in (Path, Path | None)},
+        {name for name, kind in plain if kind in (Path, Path | None, Place | None)},
     )
 
 
