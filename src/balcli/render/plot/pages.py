@@ -80,6 +80,11 @@ class Subject:
 
 def draw_page(subject: Subject, what: str, form: Form) -> bytes:
     """The content of a file with a page of pictures; `what` is one of PAGES."""
+    return save_figure(make_page(subject, what, form), form)
+
+
+def make_page(subject: Subject, what: str, form: Form) -> Figure:
+    """The same as a figure."""
     width, height, layout = PAGES[what]
     with open_figure(width, height, form) as fig:
         layout(fig, subject)
@@ -89,7 +94,7 @@ def draw_page(subject: Subject, what: str, form: Form) -> bytes:
             x=0.01,
             ha="left",
         )
-        return save_figure(fig, form)
+        return fig
 
 
 def draw_panel(subject: Subject, what: str, quantity: str) -> str:
