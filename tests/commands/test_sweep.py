@@ -186,8 +186,8 @@ def test_chunks_of_a_long_table_are_passed_over(engine: str, monkeypatch) -> Non
     whole = sweep_strokes(engine, "40:60:0.1", "-f", "table")
     own = sweep_output.until_stopped
 
-    def split(chunks, progress):
-        for chunk in own(chunks, progress):
+    def split(chunks, *others):
+        for chunk in own(chunks, *others):
             (cut,) = chunk.box
             for start in range(cut.start, cut.stop, 7):
                 part = slice(start, min(start + 7, cut.stop))
