@@ -31,6 +31,8 @@ from typing import Any
 
 import tomli_w
 
+from balcli.sizing.schemes import NAMES
+
 ROOT = Path(__file__).parents[1]
 MOST_CALLS = 15_000_000  # of functions, Python's and C's, for one case
 CALLS_A_MB = 1_000_000  # further ones for each MB of results that a case asks for
@@ -432,21 +434,7 @@ TEXTS = (
     "force.1.major=nan",
     "even-firing",
 )
-SCHEMES = (
-    "auto",
-    "counterweights",
-    "factor",
-    "minimax",
-    "single-shaft",
-    "two-shaft",
-    "four-shaft",
-    "couple-shaft",
-    "slider",
-    "eccentric-slider",
-    "oldham",
-    "knuckles",
-    "nonsense",
-)
+SCHEMES = (*NAMES, "nonsense")
 FORMATS = ("table", "json", "csv", "markdown")
 
 

@@ -6,6 +6,8 @@ from enum import StrEnum
 from types import MappingProxyType
 from typing import Any
 
+import typer
+
 from .declare import optional
 
 SHORT = MappingProxyType({"md": "markdown", "txt": "table", "text": "table"})

@@ -17,6 +17,7 @@ from .singular_values import Complex, Real
 _SAMPLES = 8  # for each period of the highest order
 _ROUNDS = 40  # Newton's method needs 3 or 4 where a peak is round, more where it is flat
 _SETTLED = 1e-16  # gain, as a share of the curve, that ends the climb
+_SHORT = 1e-6  # of the distance of two samples: a step within which a curve is a parabola
 _EQUAL = 1e-12  # peaks that differ by a smaller share are equal
 
 
@@ -135,7 +136,7 @@ def _common_harmonics(
 def _sample(harmonics: NDArray[np.int64], curves: Complex) -> Real:
     """Values (..., samples) of curves (..., harmonics) at equal distances over a cycle."""
     count = _SAMPLES * max(int(harmonics.max(initial=1)), 1)
-    spectrum = np.zeros((*curves.shape[:-1], count // 2 + 1), complex)
+    spectrum = np.zeros((*curves.shape[:-1], int(harmonics.max(initial=0)) + 1), complex)
     spectrum[..., harmonics] = np.where(harmonics, curves / 2, curves.real)
     return np.fft.irfft(spectrum, count, axis=-1, norm="forward")
 
@@ -145,9 +146,9 @@ def _evaluate(harmonics: NDArray[np.int64], curves: Complex, angle: Real) -> Slo
     factors = np.ones((*angle.shape, int(harmonics.max(initial=0)) + 1), complex)
     factors[..., 1:] = np.exp(1j * angle)[..., None]
     turned = curves * np.cumprod(factors, axis=-1)[..., harmonics]
-    x, xx = turned.real, np.stack([np.ones(len(harmonics)), -(harmonics**2)], axis=1)
-    value, second = np.moveaxis(x @ xx, -1, 0)
-    return value, -(turned.imag @ harmonics.astype(float)), second
+    weights = np.vander(harmonics.astype(float), 3, increasing=True).astype(complex)
+    sums = turned @ weights
+    return sums[..., 0].real, -sums[..., 1].imag, -sums[..., 2].real
 
 
 def _find_tops(samples: Real, slack: Real, size: Real, evaluate: Evaluate) -> tuple[Real, Real]:
@@ -156,13 +157,17 @@ def _find_tops(samples: Real, slack: Real, size: Real, evaluate: Evaluate) -> tu
     """
     highest = np.argmax(samples, axis=-1)
     each = np.arange(len(samples))
-    rises = samples > np.roll(samples, 1, axis=-1)
-    top = rises & ~np.roll(rises, -1, axis=-1)
-    top &= samples >= (samples[each, highest] - slack)[:, None]
-    top[each, highest] = True
-    curve, at = np.nonzero(top)
+    near = samples >= (samples[each, highest] - slack)[:, None]
+    curve, at = np.nonzero(near)
+    here, before = samples[curve, at], samples[curve, at - 1]
+    after = samples[curve, (at + 1) % samples.shape[-1]]
+    top = (here > before) & (here >= after)
+    top |= at == highest[curve]
+    curve, at, before, here, after = (column[top] for column in (curve, at, before, here, after))
     step = 2 * np.pi / samples.shape[-1]
-    value, angle = _climb(curve, at * step, size[curve], step, evaluate)
+    bend = before - 2 * here + after  # of the parabola through the three
+    start = at + (before - after) / (2 * np.where(bend < 0, bend, -np.inf))
+    value, angle = _climb(curve, start * step, size[curve], step, evaluate)
     starts = np.searchsorted(curve, each)
     best = np.maximum.reduceat(value, starts)
     angle = np.round(angle % (2 * np.pi), 12) % np.round(2 * np.pi, 12)
@@ -180,9 +185,11 @@ def _climb(
         x, slope, bend = evaluate(curve[moving], angle[moving])
         uphill = np.where(bend < 0, -slope / np.where(bend < 0, bend, -1), np.sign(slope) * step)
         move = np.clip(uphill, -step, step)
-        value[moving] = x
+        gain = slope * move / 2  # of a parabola
+        value[moving] = x + gain
         angle[moving] += move
-        moving = moving[np.abs(slope * move) > _SETTLED * size[moving]]
+        far = np.abs(move) > _SHORT * step
+        moving = moving[far & (2 * np.abs(gain) > _SETTLED * size[moving])]
         if not len(moving):
             break
     return value, angle

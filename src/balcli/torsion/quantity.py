@@ -22,7 +22,7 @@ from ..forces.target_quantity import (
 )
 from .build_engine import build_engine_system, excite_engine
 from .modes import find_natural_modes
-from .response import Response, find_response
+from .response import find_largest_torques, stress_by_torque
 from .system import Excitation, TorsionalSystem
 
 SLOWEST, FASTEST, SPEEDS = 0.5, 1.5, 101  # range of speeds, over the file's own, and how many
@@ -112,8 +112,6 @@ class Variants:
         self._model, self._quantities = model, quantities
         self._engines = EngineVariants(model)
         self._excitations: dict[Values, Excitation] = {}
-        self._runs = any(q.kind == "shaft" for q in quantities)
-        self._vibrates = any(q.kind == "torsion" for q in quantities)
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
         """The value of each quantity for one variant, by the figures that vary.
@@ -128,13 +126,28 @@ class Variants:
             self._excitations, key, lambda: excite_engine(self._model, engine, None)
         )
         system = _build(vary_torsion(self._model, values), engine, excitation)
-        hertz = []
-        if self._vibrates:
-            hertz = [mode.frequency_hz for mode in find_natural_modes(system)]
-        response = None
-        if self._runs:
-            response = find_response(system, excitation, choose_speeds(engine))
-        return [_read(system, hertz, response, q) for q in self._quantities]
+        found: dict[TargetQuantity, float] = {}
+        if of_modes := [q for q in self._quantities if q.kind == "torsion"]:
+            modes = find_natural_modes(system)
+            found |= {q: modes[int(q.target) - 1].frequency_hz for q in of_modes}
+        if of_shafts := [q for q in self._quantities if q.kind == "shaft"]:
+            found |= _find_largest(system, excitation, choose_speeds(engine), of_shafts)
+        return [found[q] for q in self._quantities]
+
+
+def _find_largest(
+    system: TorsionalSystem, excitation: Excitation, speeds: Real, quantities: list[TargetQuantity]
+) -> dict[TargetQuantity, float]:
+    """Torque and stress of shafts."""
+    shafts = sorted({system.shafts.index(q.target) for q in quantities})
+    torques = find_largest_torques(system, excitation, speeds, shafts)
+    largest = dict(zip(shafts, map(float, torques), strict=True))
+    by_torque = {"torque": np.ones(len(system.shafts)), "stress": stress_by_torque(system)}
+    return {
+        q: largest[shaft] * float(by_torque[q.part][shaft])
+        for q in quantities
+        for shaft in [system.shafts.index(q.target)]
+    }
 
 
 def choose_speeds(engine: Engine) -> Real:
@@ -150,12 +163,3 @@ def _build(model: EngineFile, engine: Engine, excitation: Excitation | None) -> 
     if excitation is None:
         excitation = excite_engine(model, engine, None)
     return build_engine_system(model, engine, excitation)
-
-
-def _read(
-    system: TorsionalSystem, hertz: Sequence[float], response: Response | None, q: TargetQuantity
-) -> float:
-    if q.part == "Hz" or response is None:
-        return hertz[int(q.target) - 1]
-    found = response.torque if q.part == "torque" else response.stress
-    return float(found[:, system.shafts.index(q.target)].max())

@@ -4,7 +4,7 @@ follows from it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +20,7 @@ from ..limits import MOST_TORSION_TORQUES
 from .system import Excitation, TorsionalSystem
 
 _AT_A_TIME = 1 << 20  # samples of a cycle, of all shafts and speeds, that are computed together
+_ROUNDS = 12  # in which the speeds are looked at, those with the largest amplitudes first
 _HALVINGS = 24  # of an interval of speeds in which a limit is passed
 
 
@@ -100,6 +101,35 @@ def find_response(
         heat,
         names,
     )
+
+
+def find_largest_torques(
+    system: TorsionalSystem, excitation: Excitation, speeds_rpm: Real, shafts: Sequence[int]
+) -> Real:
+    """Largest half of peak to peak of the vibratory torque of some shafts (shafts,), N m, over
+    speeds (speeds,), rising: as of `find_response`.
+
+    No curve swings further than the sum of its amplitudes, so that most need not be added up.
+
+    Raises:
+        BalcliError: an undamped mode is driven at its own frequency.
+    """
+    _refuse_too_many(len(excitation.orders), len(speeds_rpm), len(system.shafts))
+    _refuse_resonance(system, excitation, speeds_rpm)
+    parts = [
+        move(system, excitation, speeds_rpm[some]).torque[:, :, shafts]
+        for some in _split(system, excitation, speeds_rpm)
+    ]
+    torque = np.concatenate(parts, axis=1)
+    most = sum_amplitudes(torque)
+    largest = np.zeros(len(shafts))
+    for some in np.array_split(np.argsort(-most, axis=0), _ROUNDS):
+        speed, shaft = np.nonzero(np.take_along_axis(most, some, axis=0) >= largest)
+        if not len(speed):
+            break
+        swings = find_swing(excitation.orders, torque[:, some[speed, shaft], shaft]).half
+        np.maximum.at(largest, shaft, swings)
+    return largest
 
 
 def _refuse_too_many(orders: int, speeds: int, shafts: int) -> None:
