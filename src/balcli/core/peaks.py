@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from .phasors import Array, Complex, Phasors
 
-
 TURN = 2 * math.pi
 
 
