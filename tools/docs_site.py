@@ -28,8 +28,8 @@ FUNCTION = r"(<mi>(?:sin|cos|tan)</mi>|<msup><mi>(?:sin|cos|tan)</mi><mn>\d</mn>
 PRIME = r"(\\[a-z]+|[A-Za-z])('+)"
 API = """# Python, name by name
 
-What `import balcli` promises. Everything inside is SI, angles are radians; the
-[tour](index.md#as-a-library) shows how it is used.
+What `import balcli` promises. Everything inside is SI, angles are radians;
+[in Python](in-python.md) shows how it is used.
 
 ::: balcli
 """
@@ -79,7 +79,7 @@ def link_here(text: str, repository: str) -> str:
     def target(found: re.Match[str]) -> str:
         path, heading = found[1], found[2] or ""
         if path.startswith("docs/"):
-            return f"]({path.removeprefix('docs/')}{heading})"
+            return f"]({path.removeprefix('docs/').replace('.ipynb', '.md')}{heading})"
         if path in PAGES:
             return f"]({PAGES[path]}{heading})"
         return f"]({repository}/blob/main/{path}{heading})"
