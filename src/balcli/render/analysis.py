@@ -22,6 +22,7 @@ from .order_tables import (
     textbook_tables,
 )
 from .overview import (
+    ALL_ORDERS,
     find_orders_that_matter,
     roll_and_peaks,
     sizing_in_brief,
@@ -119,7 +120,7 @@ def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterato
         tables += textbook_tables(shown_book, system, every=every)
     yield from tables
     if tables and others:
-        yield Text("", (others,))
+        yield Text("", (f"{others} {ALL_ORDERS}",))
     yield from _peaks(result, system)
 
 

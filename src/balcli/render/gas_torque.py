@@ -44,7 +44,8 @@ def gas_grid(spectra: Spectra, system: System, *, every_order: bool) -> Iterator
         f"About the crank axis with gas, {unit.name}",
         ("order", "inertia torque", "gas torque", "torque", "roll of the frame", "peak, deg"),
         tuple(tuple(row(k)) for k in shown),
-        "Torque = inertia + gas. Mean torque, flywheel and more: balcli torque.",
+        "Torque = inertia + gas.",
+        hint="Mean torque, flywheel and more: balcli torque.",
     )
 
 

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from ..forces.spectrum import Spectra
     from ..results.analysis import Analysis, Sizing
     from .units import System, Unit
+ALL_ORDERS = "All: --all."  # how they are asked for
 
 
 def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[float]:
@@ -63,11 +64,13 @@ def vectors_grid(spectra: Spectra, shown: list[float], system: System) -> Grid:
         for kind, _, unit in vectors
         for head in (f"{kind.name}, {unit.name}", "with crank", "against")
     ]
+    others = tell_others(spectra, shown, system)
     return Grid(
         "Largest by order, and its parts that turn with the crank and against it",
         ("order", *heads),
         tuple(tuple(row(k)) for k in range(len(shown))),
-        tell_others(spectra, shown, system),
+        others,
+        hint=ALL_ORDERS if others else "",
     )
 
 
@@ -89,7 +92,7 @@ def tell_others(spectra: Spectra, shown: list[float], system: System) -> str:
     names = ", ".join(map(order_name, others[:6]))
     more = ", …" if len(others) > 6 else ""
     plural = "s" * (len(others) > 1)
-    return f"Negligible: order{plural} {names}{more} (at most {', '.join(sizes)}). All: --all."
+    return f"Negligible: order{plural} {names}{more} (at most {', '.join(sizes)})."
 
 
 def roll_and_peaks(result: Analysis, system: System) -> Facts:

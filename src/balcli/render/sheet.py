@@ -19,6 +19,7 @@ NOTHING, UNKNOWN = "balanced", "–"  # a force or moment of 0, and one that is 
 class Grid(NamedTuple):
     """A table. Cells are text; the first column is a heading of its row. Cells in `marked` (row,
     column) stand out, and the columns in `words` are read, not compared: they stand to the left.
+    A `hint` names the command that shows more; pages and notebooks leave it out.
     """
 
     title: str
@@ -27,6 +28,12 @@ class Grid(NamedTuple):
     note: str = ""
     marked: frozenset[tuple[int, int]] = frozenset()
     words: tuple[int, ...] = (0,)
+    hint: str = ""
+
+    @property
+    def told(self) -> str:
+        """What stands below it where commands are typed: note and hint."""
+        return f"{self.note} {self.hint}".strip()
 
 
 class Facts(NamedTuple):
