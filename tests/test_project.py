@@ -74,10 +74,11 @@ def test_workflows_run_every_part_of_the_checks(workflow):
 
 def test_site_shows_every_document():
     nav = text("mkdocs.yml").partition("\nnav:\n")[2]
-    listed = re.findall(r"([\w/-]+\.(?:md|ipynb))$", nav, re.MULTILINE)
+    listed = re.findall(r"([\w/-]+\.md)$", nav, re.MULTILINE)
     assert len(set(listed)) == len(listed)
     written = {file.relative_to(ROOT / "docs").as_posix() for file in ROOT.glob("docs/**/*.md")}
-    assert set(listed) == written | {*docs_site.PAGES.values(), "python.md"}
+    notebooks = {f"notebooks/{notebook.stem}.md" for notebook in docs_site.NOTEBOOKS}
+    assert set(listed) == written | notebooks | {*docs_site.PAGES.values(), "api.md"}
 
 
 def test_site_turns_the_links_of_the_readme_to_its_pages():
@@ -85,7 +86,9 @@ def test_site_turns_the_links_of_the_readme_to_its_pages():
     links = re.findall(r"\]\(([^)]+)\)", readme)
     assert {"theory.md", "changelog.md", "gas.md"} <= set(links)
     assert "recipes.md#a-bobweight-card-from-scales-to-drill-holes" in links
-    assert not [link for link in links if "/" in link and not link.startswith("https://")]
+    elsewhere = [link for link in links if not link.startswith(("https://", "notebooks/"))]
+    assert not [link for link in elsewhere if "/" in link]
+    assert "notebooks/bank-angles.md" in links
     contributing = docs_site.link_here(text("CONTRIBUTING.md"), "https://example.org")
     assert "(https://example.org/blob/main/engines)" in contributing
 

@@ -20,6 +20,8 @@ from support.paths import ENGINES, PACKAGE, ROOT
 import balcli
 from balcli.cli import COMMANDS
 from balcli.commands import options
+from balcli.commands.file_names import Place
+from balcli.documents.names import DOCUMENTS
 from balcli.render.formats import Format
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -89,7 +91,7 @@ def paths_of(command: str) -> tuple[set[str], set[str]]:
     plain = get_type_hints(function).items()
     return (
         {name for name, kind in marked if kind in engines},
-        {name for name, kind in plain if kind in (Path, Path | None)},
+        {name for name, kind in plain if kind in (Path, Path | None, Place | None)},
     )
 
 
@@ -159,6 +161,7 @@ ON_REQUEST = {
         *("balcli.render.speeds", "balcli.results.speeds"),
     ),
     "balcli.commands.completion": (
+        "balcli.documents.names",
         "balcli.enginefile.examples",
         "balcli.enginefile.templates",
         "balcli.field_balancing.starting_file",
@@ -324,3 +327,11 @@ def test_the_library_does_what_the_command_does():
     left = balcli.balance(engine, "counterweights").after.spectra.moment
     assert found.major[0] > 1000
     assert left.major[0] < 1e-9 * found.major[0]
+
+
+def test_every_format_of_json_has_a_schema():
+    """Its types are in documents/, its name in documents/names.py; docs/json.md lists it."""
+    found = set()
+    for file in PACKAGE.rglob("*.py"):
+        found |= {*re.findall(r'"balcli\.([a-z_]+)/1"', file.read_text(encoding="utf-8"))}
+    assert found == {*DOCUMENTS}

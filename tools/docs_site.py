@@ -3,6 +3,7 @@
 - the addresses of the project, from pyproject.toml;
 - README.md as the first page, and the pages beside it, with their links turned to the site's;
 - the pictures of docs/gallery.md, made by the commands that it shows;
+- the notebooks of docs/notebooks as pages, as they were run last;
 - formulas (`$$` … `$$`) as MathML, which browsers show by themselves: no script, no network.
 """
 
@@ -22,12 +23,13 @@ PAGES = {  # of the repository's root, by their names on the site
     "CONTRIBUTING.md": "contributing.md",
     "SECURITY.md": "security.md",
 }
+NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
 FUNCTION = r"(<mi>(?:sin|cos|tan)</mi>|<msup><mi>(?:sin|cos|tan)</mi><mn>\d</mn></msup>)"
 PRIME = r"(\\[a-z]+|[A-Za-z])('+)"
-LIBRARY = """# Python
+API = """# Python, name by name
 
-What `import balcli` promises. Everything inside is SI, angles are radians; the
-[tour](index.md#as-a-library) shows how it is used.
+What `import balcli` promises. Everything inside is SI, angles are radians;
+[in Python](in-python.md) shows how it is used.
 
 ::: balcli
 """
@@ -53,11 +55,14 @@ def on_files(files: Any, config: Any) -> Any:
         files.append(
             File.generated(config, target, content=link_here(text, config.extra["repository"]))
         )
-    files.append(File.generated(config, "python.md", content=LIBRARY))
+    made: dict[str, str | bytes] = {"api.md": API}
+    for notebook in NOTEBOOKS:
+        made |= _convert_notebook(notebook)
     with TemporaryDirectory() as folder:
         for picture in _draw_gallery(Path(folder)):
-            name = f"gallery/{picture.name}"
-            files.append(File.generated(config, name, content=picture.read_bytes()))
+            made[f"gallery/{picture.name}"] = picture.read_bytes()
+    for name, content in made.items():
+        files.append(File.generated(config, name, content=content))
     return files
 
 
@@ -74,12 +79,22 @@ def link_here(text: str, repository: str) -> str:
     def target(found: re.Match[str]) -> str:
         path, heading = found[1], found[2] or ""
         if path.startswith("docs/"):
-            return f"]({path.removeprefix('docs/')}{heading})"
+            return f"]({path.removeprefix('docs/').replace('.ipynb', '.md')}{heading})"
         if path in PAGES:
             return f"]({PAGES[path]}{heading})"
         return f"]({repository}/blob/main/{path}{heading})"
 
     return re.sub(r"\]\((?!#|[a-z]+:)([^)\s#]+)(#[^)\s]*)?\)", target, text)
+
+
+def _convert_notebook(notebook: Path) -> dict[str, str | bytes]:
+    """The page that a notebook becomes, and its pictures, by their names on the site."""
+    from nbconvert import MarkdownExporter  # tests of the rest do without it
+
+    page, extra = MarkdownExporter().from_filename(str(notebook), {"unique_key": notebook.stem})
+    own = f"\n\nAs a notebook: [{notebook.name}]({notebook.name})\n"
+    pictures = {f"notebooks/{name}": content for name, content in extra["outputs"].items()}
+    return {f"notebooks/{notebook.stem}.md": page + own, **pictures}
 
 
 def _draw_gallery(folder: Path) -> list[Path]:

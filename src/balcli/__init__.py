@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from .library.compare import compare
     from .library.examples import load_example
     from .library.mounts import analyze_mounts
+    from .library.plot import plot
     from .library.rotor import balance_rotor
     from .library.scatter import scatter
     from .library.search import search
@@ -69,6 +70,7 @@ __all__ = [
     "compare",
     "load",
     "load_example",
+    "plot",
     "scatter",
     "search",
     "sweep",
@@ -90,6 +92,7 @@ _ROOMS = {
     "FieldBalance": "field_balancing.balance",
     "balance_rotor": "library.rotor",
     "MountReport": "mounting.report",
+    "plot": "library.plot",
     "analyze_mounts": "library.mounts",
     "Result": "result",
     "Scatter": "studies.tolerances",

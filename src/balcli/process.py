@@ -13,7 +13,8 @@ from collections.abc import Callable
 from contextlib import suppress
 
 _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3  # as <malloc.h> has them
-unfinished: set[str] = set()  # temporary files, which nobody finds there once the process has ended
+# Temporary files, and folders of such, which nobody finds there once the process has ended.
+unfinished: set[str] = set()
 last_words: list[Callable[[], str]] = []  # the last one says how far a long computation is
 
 
@@ -31,12 +32,24 @@ def end_on_signals() -> None:
 def _end(number: int, _frame: object) -> None:
     """Not by an exception: what is being imported, or deleted, would swallow or wrap it."""
     for path in tuple(unfinished):
-        with suppress(OSError):  # not made yet, or in its place already
-            os.unlink(path)
+        discard(path)
     if number == signal.SIGINT and last_words:
         with suppress(OSError):  # past `sys.stderr`, which may be in the middle of a line
             os.write(2, last_words[-1]().encode())
     os._exit(128 + number)
+
+
+def discard(path: str) -> None:
+    """Delete a temporary file, or a folder with its files, unless it has been moved to its place or
+    was not made yet.
+    """
+    with suppress(OSError):
+        if not os.path.isdir(path):
+            os.unlink(path)
+            return
+        for name in os.listdir(path):
+            os.unlink(os.path.join(path, name))
+        os.rmdir(path)
 
 
 def keep_freed_memory() -> None:

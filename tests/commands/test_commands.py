@@ -337,7 +337,7 @@ def test_no_pyarrow_no_parquet(balcli, four, tmp_path, monkeypatch):
 
 def test_row_groups_of_a_parquet_file_hold_all_rows(balcli, four, tmp_path, monkeypatch):
     parquet = pytest.importorskip("pyarrow.parquet")
-    monkeypatch.setattr("balcli.commands.sweep_output.ROWS_A_GROUP", 1)
+    monkeypatch.setattr("balcli.render.sweep_parquet.ROWS_A_GROUP", 1)
     assert balcli("sweep", four, *SWEEP, "-o", tmp_path / "x.parquet")[0] == 0
     assert parquet.read_table(tmp_path / "x.parquet")["rod.ratio"].to_pylist() == [0.2, 0.25, 0.3]
 

@@ -4,25 +4,9 @@ from __future__ import annotations
 
 import pytest
 from support.commands import refusal, run_here
+from support.gas_engines import FOUR
 from support.paths import ENGINES
 
-FOUR = """\
-[crank]
-stroke = 90
-throws = [0, 180, 180, 0]
-spacing = 100
-[rod]
-length = 150
-mass = 0.6
-cg = 45
-[piston]
-bore = 86
-mass = 0.5
-[layout]
-firing_order = [1, 3, 4, 2]
-[operation]
-speed = 3000
-"""
 TWO_STROKE = FOUR.replace("0, 180, 180, 0", "0, 180").replace("1, 3, 4, 2", "1, 2")
 FILES = {
     "four.toml": FOUR,

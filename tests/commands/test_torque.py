@@ -4,13 +4,22 @@ from __future__ import annotations
 
 import json
 
+import numpy as np
 import pytest
 from support.commands import run_here
 from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINES
 
 TORQUE = "angle_deg,torque_Nm\n0,0\n90,1000\n180,0\n360,0\n"
-WHOLE = {"format", "speed_rpm", "cycle_deg", "imep_Pa", "max_pressure_Pa", "max_pressure_deg"}
+WHOLE = {
+    "format",
+    "version",
+    "speed_rpm",
+    "cycle_deg",
+    "imep_Pa",
+    "max_pressure_Pa",
+    "max_pressure_deg",
+}
 WHOLE |= {"mean_torque_Nm", "power_W", "torque", "orders", "energy"}
 
 
@@ -88,7 +97,15 @@ def test_what_is_written_turns_as_unevenly(four, tmp_path):
 
 def test_a_curve_needs_no_engine(curve):
     found = json.loads(torque("--curve", curve, "--format", "json"))
-    assert set(found) == {"format", "cycle_deg", "mean_torque_Nm", "torque", "orders", "energy"}
+    assert set(found) == {
+        "format",
+        "version",
+        "cycle_deg",
+        "mean_torque_Nm",
+        "torque",
+        "orders",
+        "energy",
+    }
     assert found["mean_torque_Nm"] == pytest.approx(250)
     assert found["cycle_deg"] == 360
     assert found["torque"]["max_Nm"] == 1000
@@ -218,6 +235,28 @@ def test_curves_of_a_cylinder_go_over_its_cycle(four):
 
 
 # ------------------------------------------------------------------ sweeps and pictures
+def test_curves_of_an_engine_have_the_gas_torque_over_the_cycle(four, tmp_path):
+    found = json.loads(run_here("curves", four, "--step", "4", "-f", "json").out)
+    curves = found["curves"]
+    assert len(found["crank_deg"]) == 180
+    text = torque(four, "--orders", "0-80", "-f", "json")
+    for name in ("gas_torque_Nm", "inertia_torque_Nm", "torque_Nm"):
+        angle = np.radians(found["crank_deg"])
+        waves = [
+            entry[name]["cos"] * np.cos(entry["order"] * angle)
+            + entry[name]["sin"] * np.sin(entry["order"] * angle)
+            for entry in json.loads(text)["orders"]
+        ]
+        size = np.abs(curves[name]).max()
+        assert sum(waves) == pytest.approx(curves[name], abs=5e-3 * size)
+    rolled = np.array(curves["couple_Nm"]) - curves["torque_Nm"]
+    assert curves["roll_total_Nm"] == pytest.approx(rolled, abs=1e-9 * np.abs(rolled).max())
+    bare = tmp_path / "bare.toml"
+    bare.write_text(FOUR)
+    assert "gas" not in run_here("curves", str(bare)).out
+    assert len(run_here("curves", str(bare), "--step", "4").out.splitlines()) == 91
+
+
 def test_sweeps_of_gas_and_torque_are_what_torque_says(four, tmp_path):
     """Each variant as if the file said so."""
     asked = (

@@ -4,10 +4,11 @@ written into it. Nowhere else is an ending read.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from ..errors import BalcliError
 from ..render.formats import Format
@@ -45,6 +46,19 @@ class VariantsFormat(StrEnum):
 
 SERIES = {".csv": SeriesFormat.CSV, ".json": SeriesFormat.JSON}
 VARIANTS = {f".{form}": form for form in VariantsFormat}
+
+
+class Place(NamedTuple):
+    """Where results of a sweep go: one file, or a folder of several."""
+
+    path: Path
+    is_folder: bool
+
+
+def read_place(text: str) -> Place | None:
+    """A folder ends with a slash; None is standard output."""
+    path = parse_output(Path(text))
+    return None if path is None else Place(path, text.endswith(("/", os.sep)))
 
 
 def parse_output(path: Path | None) -> Path | None:

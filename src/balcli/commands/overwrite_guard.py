@@ -9,11 +9,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ..errors import BalcliError
+from .file_names import Place
 
 STANDARD_INPUT = "-"
 
 
-def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | None]) -> None:
+def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Place | None]) -> None:
     """Refuse to write onto a file that is read, two results into one file, or one where there is no
     folder; and to read standard input twice.
 
@@ -27,7 +28,11 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | None
     if list(reads).count(STANDARD_INPUT) > 1:
         raise BalcliError("standard input (-) is named twice, and can be read only once")
     sources = [path for path in reads if path != STANDARD_INPUT]
-    targets = [(option, str(path)) for option, path in writes.items() if path is not None]
+    targets = [
+        (option, str(place.path if isinstance(place, Place) else place))
+        for option, place in writes.items()
+        if place is not None
+    ]
     for k, (option, target) in enumerate(targets):
         if any(_same_file(target, source) for source in sources):
             raise BalcliError(

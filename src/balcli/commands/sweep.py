@@ -4,26 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..errors import BalcliError
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..limits import MOST_THREADS
 from ..process import count_cores
 from ..render.sweep_plot import check_drawable, draw_sweep
 from ..studies.quantity_names import describe_names
+from ..studies.threads import share_work
 from .declare import optional
-from .file_names import VARIANTS, VariantsFormat, format_of, picture_form
+from .file_names import VARIANTS, Place, VariantsFormat, format_of, picture_form, read_place
 from .format_names import format_option
-from .options import EnginePath, Output, ProgressAtOnce
+from .options import EnginePath, ProgressAtOnce
 from .output import is_seen, write_file
 from .overwrite_guard import refuse_overwriting
 from .progress import exit_if_cut_short, reporting_until_stopped
 
 if TYPE_CHECKING:
     from ..studies.sweep import Chunk, Sweep
+    from .sweep_folder import Share
 
 
 def sweep(
@@ -54,7 +58,20 @@ def sweep(
             VariantsFormat, "How to write the variants; default: by the ending of -o, else csv."
         ),
     ] = None,
-    output: Output = None,
+    output: Annotated[
+        Place | None,
+        optional(
+            "FILE|FOLDER/",
+            "Write into this file instead, its ending says the format; or into a folder, as "
+            "numbered Parquet files that threads or workers write. - is standard output.",
+            "--output",
+            "-o",
+            parser=read_place,
+        ),
+    ] = None,
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace the earlier sweep that is in the folder.")
+    ] = False,
     progress: ProgressAtOnce = False,
     plot: Annotated[
         Path | None,
@@ -87,28 +104,54 @@ def sweep(
     Ctrl-C ends it with the variants computed so far, in -o's FILE.part if there is a -o.
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
-    kind = format_of(output, form, VARIANTS, VariantsFormat.CSV)
+    kind = _choose_format(output, form, plot)
     drawn = picture_form(plot, "--plot") if plot is not None else None
     from ..studies.sweep import join_chunks, read_sweep
     from . import sweep_output as out
     from .inputs import warn_of_unknown_moments
+    from .sweep_folder import write_parts
 
     job = read_sweep(path, vary, quantity)
     if quantity is None and all(asked.kind != "moment" for asked in job.of_engine):
         warn_of_unknown_moments(job.name)
     if drawn is not None:
         check_drawable(job)
-    kept: list[Chunk] = []
-    with (
-        reporting_until_stopped("variants", job.variants, progress, not is_seen(output)) as watch,
-        _computing(job, jobs, dask) as chunks,
-    ):
-        counted = out.until_stopped(chunks, watch)
-        all_of_them = counted if drawn is None else out.keeping(counted, kept)
-        place = out.write_sweep(job, all_of_them, kind, output, watch)
+    file = None if output is None else output.path
+    kept: list[Chunk] | None = [] if drawn else None
+    with reporting_until_stopped("variants", job.variants, progress, not is_seen(file)) as watch:
+        if output is not None and output.is_folder:
+            place = write_parts(job, output.path, _sharing(jobs, dask), watch, force=force)
+        else:
+            with _computing(job, jobs, dask) as chunks:
+                counted = out.until_stopped(chunks, watch, kept)
+                place = out.write_sweep(job, counted, kind, file, watch)
     exit_if_cut_short(watch, place)
     if plot is not None and drawn is not None:
-        write_file(draw_sweep(job, join_chunks(job, kept), drawn), plot)
+        write_file(draw_sweep(job, join_chunks(job, kept or ()), drawn), plot)
+
+
+def _choose_format(
+    output: Place | None, form: VariantsFormat | None, plot: Path | None
+) -> VariantsFormat:
+    """How to write the variants.
+
+    Raises:
+        BalcliError: as of `format_of`; or for what does not go with a folder.
+    """
+    if output is None or not output.is_folder:
+        file = None if output is None else output.path
+        return format_of(file, form, VARIANTS, VariantsFormat.CSV)
+    if form not in (None, VariantsFormat.PARQUET):
+        raise BalcliError(
+            f"--output {output.path}/: a folder takes Parquet files, but --format says {form}; "
+            "leave one of them out"
+        )
+    if plot is not None:
+        raise BalcliError(
+            f"--plot {plot}: figures that go into a folder are not kept for a picture; write one "
+            "file, or leave --plot out"
+        )
+    return VariantsFormat.PARQUET
 
 
 @contextmanager
@@ -121,9 +164,25 @@ def _computing(job: Sweep, jobs: int | None, dask: str) -> Iterator[Iterator[Chu
     if not dask:
         from ..studies.sweep import evaluate_chunks
 
-        yield evaluate_chunks(job, jobs or min(count_cores(), MOST_THREADS))
+        yield evaluate_chunks(job, _count_threads(jobs))
         return
     from ..studies.dask_cluster import connect_cluster, evaluate_on_cluster
 
     with connect_cluster(dask) as client:
         yield evaluate_on_cluster(job, client)
+
+
+@contextmanager
+def _sharing(jobs: int | None, dask: str) -> Iterator[Share]:
+    """What shares work among threads, or on a cluster; errors as of `_computing`."""
+    if not dask:
+        yield partial(share_work, threads=_count_threads(jobs))
+        return
+    from ..studies.dask_cluster import connect_cluster, run_on_cluster
+
+    with connect_cluster(dask) as client:
+        yield partial(run_on_cluster, client)
+
+
+def _count_threads(jobs: int | None) -> int:
+    return jobs or min(count_cores(), MOST_THREADS)

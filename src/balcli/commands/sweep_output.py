@@ -9,17 +9,12 @@ from itertools import chain, islice
 from pathlib import Path
 from typing import TextIO
 
-import numpy as np
-
-from .. import __version__
-from ..core.phasors import Array
 from ..errors import BalcliError
 from ..render.sweep import csv_text, json_text
+from ..render.sweep_parquet import write_parquet
 from ..studies.sweep import Chunk, Sweep, list_columns
 from .output import replacing, standard_output
 from .progress import Progress
-
-ROWS_A_GROUP = 1 << 20  # of a Parquet file
 
 
 def write_sweep(
@@ -40,7 +35,7 @@ def write_sweep(
         return ""
     with replacing(output) as place:
         if kind == "parquet":
-            _write_parquet(sweep, chunks, place)
+            write_parquet(sweep, (list_columns(sweep, chunk) for chunk in chunks), place)
         else:
             with place.open("w", encoding="utf-8") as stream:
                 _write_text(sweep, chunks, kind, stream)
@@ -63,54 +58,17 @@ def _first_at_once(chunks: Iterable[Chunk]) -> Iterator[Chunk]:
     return chain(list(islice(waiting, 1)), waiting)
 
 
-def _write_parquet(sweep: Sweep, chunks: Iterable[Chunk], place: Path) -> None:
-    try:
-        import pyarrow
-        from pyarrow import parquet
-    except ImportError:
-        raise BalcliError("a .parquet file needs pyarrow: install balcli[scale]") from None
-    units = {quantity.name: {"unit": quantity.unit} for quantity in sweep.quantities}
-    schema = pyarrow.schema(
-        [
-            pyarrow.field(name, pyarrow.float64(), metadata=units.get(name))
-            for name in sweep.columns
-        ],
-        metadata={
-            "balcli.format": "balcli.sweep/1",
-            "balcli.version": __version__,
-            "balcli.engine": sweep.file.name,
-        },
-    )
-    with parquet.ParquetWriter(place, schema) as writer:
-        for columns in _row_groups(sweep, chunks):
-            nulls = [pyarrow.array(column, from_pandas=True) for column in columns]  # for nan
-            writer.write_table(pyarrow.table(nulls, schema=schema))
-
-
-def _row_groups(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[list[Array]]:
-    """Columns of many chunks together: ROWS_A_GROUP rows or a few more, fewer in the last."""
-    waiting: list[list[Array]] = []
-    for chunk in chunks:
-        waiting.append(list_columns(sweep, chunk))
-        if sum(len(c[0]) for c in waiting) >= ROWS_A_GROUP:
-            yield [np.concatenate(parts) for parts in zip(*waiting, strict=True)]
-            waiting = []
-    if waiting:
-        yield [np.concatenate(parts) for parts in zip(*waiting, strict=True)]
-
-
-def until_stopped(chunks: Iterable[Chunk], progress: Progress) -> Iterator[Chunk]:
-    """The chunks, each counted when it has been written, until Ctrl-C is noted."""
+def until_stopped(
+    chunks: Iterable[Chunk], progress: Progress, kept: list[Chunk] | None = None
+) -> Iterator[Chunk]:
+    """The chunks, each counted when it has been written, until Ctrl-C is noted; and kept, where
+    there is a list for them.
+    """
     done = 0
     for chunk in chunks:
+        if kept is not None:
+            kept.append(chunk)
         yield chunk
         done += len(chunk.values[0])
         if progress(done):
             return
-
-
-def keeping(chunks: Iterable[Chunk], kept: list[Chunk]) -> Iterator[Chunk]:
-    """The chunks, each of which is kept, too."""
-    for chunk in chunks:
-        kept.append(chunk)
-        yield chunk

@@ -14,7 +14,8 @@ def tables(
     """A printed coefficient table, recomputed, beside its print.
 
     Args:
-        name: of the table, such as "tsinghua-1-2" or "series"; `tables.names` lists them.
+        name: of the table, such as "tsinghua-1-2" or "series"; the message for one that is not
+            there has them all, and so has `balcli tables`.
         ratios: other crank ratios (crank radius over rod length) than the printed ones, where the
             table has them as columns, such as "0.20:0.40:0.01" or "0.25,1/3".
         angles: other crank angles, deg, likewise.

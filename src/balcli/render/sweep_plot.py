@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +12,8 @@ from .plot import style
 from .units import SI, Unit
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from ..core.phasors import Array
     from ..studies.parameters import Parameter
     from ..studies.sweep import Sweep
@@ -40,27 +43,32 @@ def _varied_parameters(sweep: Sweep) -> list[Parameter]:
     return [p for p in sweep.parameters if len(p) > 1]
 
 
-def draw_sweep(sweep: Sweep, values: list[Array], form: style.Form) -> bytes:
+def draw_sweep(sweep: Sweep, values: Sequence[Array], form: style.Form) -> bytes:
     """A picture of a sweep that can be drawn, in this form.
 
     Args:
         values: each quantity on the whole grid.
     """
+    return style.save_figure(make_sweep(sweep, values, form), form)
+
+
+def make_sweep(sweep: Sweep, values: Sequence[Array], form: style.Form) -> Figure:
+    """The same as a figure."""
     several = _varied_parameters(sweep)
     if len(several) == 1:
         with style.open_figure(7, 4.2, form) as page:
             _draw_curves(page.subplots(), sweep, values)
-            return style.save_figure(page, form)
+        return page
     with style.open_figure(6 * len(values), 4.8, form) as page:
         places = page.subplots(1, len(values), squeeze=False)[0]
         for axes, quantity, value in zip(places, sweep.quantities, values, strict=True):
             unit = _fit(quantity.unit, value)
             title = f"{quantity.name}, {unit.name}"
             _draw_contours(page, axes, several, value.squeeze() / unit.size, title)
-        return style.save_figure(page, form)
+    return page
 
 
-def _draw_curves(axes: Any, sweep: Sweep, values: list[Array]) -> None:
+def _draw_curves(axes: Any, sweep: Sweep, values: Sequence[Array]) -> None:
     parameter = next(p for p in sweep.parameters if len(p) > 1)
     looks = [
         (colour, line)

@@ -25,6 +25,11 @@ _SIZE = (11.0, 6.2)
 
 def draw_field(result: FieldBalance, form: Form) -> bytes:
     """The picture in this form."""
+    return save_figure(make_field(result, form), form)
+
+
+def make_field(result: FieldBalance, form: Form) -> Figure:
+    """The same as a figure."""
     phases, weights = find_senses(result)
     with open_figure(*_SIZE, form) as fig:
         fig.set_layout_engine("none")
@@ -38,7 +43,7 @@ def draw_field(result: FieldBalance, form: Form) -> bytes:
         )
         name = fit_name(result.file.name or "rotor without a name")
         fig.suptitle(f"{name}: field balancing", x=0.01, ha="left")
-        return save_figure(fig, form)
+        return fig
 
 
 def _add_polar(fig: Figure, left: float) -> PolarAxes:

@@ -34,6 +34,7 @@ from .style import (
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _LOOKS = tuple(product(("-", "--", ":"), (BLUE, RED, GREEN, INK)))
 _MOST_CURVES = 12  # that are told apart
@@ -44,6 +45,11 @@ _SIZE, _SHAPES_ALONE = (11.0, 8.6), (11.0, 3.2)
 
 def draw_mounts(result: MountReport, form: Form, system: System) -> bytes:
     """The picture in this form."""
+    return save_figure(make_mounts(result, form, system), form)
+
+
+def make_mounts(result: MountReport, form: Form, system: System) -> Figure:
+    """The same as a figure."""
     title = f"{fit_name(result.name or NAMELESS)}: on its mounts"
     with open_figure(*(_SHAPES_ALONE if result.response is None else _SIZE), form) as fig:
         fig.suptitle(title, x=0.01, ha="left")
@@ -60,7 +66,7 @@ def draw_mounts(result: MountReport, form: Form, system: System) -> bytes:
             shapes = lower.subplots(1, 6)
         for k, (ax, mode) in enumerate(zip(shapes, result.modes.six, strict=True), 1):
             _draw_mode(ax, k, mode, result)
-        return save_figure(fig, form)
+        return fig
 
 
 def _draw_forces(ax: Axes, result: MountReport, unit: Unit) -> None:

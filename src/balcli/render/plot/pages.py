@@ -80,6 +80,11 @@ class Subject:
 
 def draw_page(subject: Subject, what: str, form: Form) -> bytes:
     """The content of a file with a page of pictures; `what` is one of PAGES."""
+    return save_figure(make_page(subject, what, form), form)
+
+
+def make_page(subject: Subject, what: str, form: Form) -> Figure:
+    """The same as a figure."""
     width, height, layout = PAGES[what]
     with open_figure(width, height, form) as fig:
         layout(fig, subject)
@@ -89,7 +94,7 @@ def draw_page(subject: Subject, what: str, form: Form) -> bytes:
             x=0.01,
             ha="left",
         )
-        return save_figure(fig, form)
+        return fig
 
 
 def draw_panel(subject: Subject, what: str, quantity: str) -> str:
@@ -211,11 +216,12 @@ def _lay_out_inner(fig: Figure, subject: Subject) -> None:
 def _lay_out_inner_with_gas(fig: Figure, loads: Sequence[LoadsWithGas], system: System) -> None:
     shaft, block, bearings = fig.subplots(3, 1, sharex=True)
     titles = "Bending moment in the crankshaft, with gas", "moment"
-    draw_along(shaft, [found.bending for found in loads], titles, system.moment)
+    over = "the cycle"
+    draw_along(shaft, [found.bending for found in loads], titles, system.moment, over=over)
     titles = "Bending moment in the block, with gas", "moment"
-    draw_along(block, [found.block_bending for found in loads], titles, system.moment)
+    draw_along(block, [found.block_bending for found in loads], titles, system.moment, over=over)
     titles = "Load of each main bearing, with gas", "force"
-    draw_along(bearings, [found.bearings for found in loads], titles, system.force, "")
+    draw_along(bearings, [found.bearings for found in loads], titles, system.force, "", over)
     bearings.set_xlabel("z, mm (free end on the left)")
     for ax in (shaft, block):
         ax.label_outer()

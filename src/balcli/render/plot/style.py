@@ -18,6 +18,8 @@ from .legends import fold_wide_legends
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from .picture import Picture
+
 Form = Literal["svg", "png", "pdf"]
 
 # Wong, Nature Methods 8 (2011) 441: told apart by colour-blind readers; line styles and hatches do
@@ -95,14 +97,20 @@ _UNDATED = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
 
 
 @contextmanager
-def open_figure(width: float, height: float, form: Form) -> Iterator[Figure]:
-    """A figure of that size in inches, in our style; save it (`save_figure`) before the context
-    ends.
-    """
+def open_figure(width: float, height: float, form: Form) -> Iterator[Picture]:
+    """A figure of that size in inches, for which everything is drawn in our style."""
+    with in_our_style(form):
+        from .picture import Picture
+
+        yield Picture(figsize=(width, height), layout="constrained")
+
+
+@contextmanager
+def in_our_style(form: Form) -> Iterator[None]:
+    """What is drawn in this context is drawn in our style, whatever the user's own is."""
     # "building the font cache" is no news for our users
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
     import matplotlib
-    from matplotlib.figure import Figure as Page
 
     with warnings.catch_warnings(), matplotlib.rc_context():
         warnings.filterwarnings("ignore", message="Glyph .* missing from")
@@ -110,16 +118,28 @@ def open_figure(width: float, height: float, form: Form) -> Iterator[Figure]:
         matplotlib.rcParams.update(
             STYLE | {"font.family": ["sans-serif", *(_eastern_families() if form != "svg" else ())]}
         )
-        yield Page(figsize=(width, height), layout="constrained")
+        yield
 
 
-def save_figure(figure: Figure, form: Form) -> bytes:
-    """The picture as a file's content; the same figure gives the same bytes."""
+def lay_out_figure(figure: Figure) -> None:
+    """Find places for everything in a figure."""
     lay_out = figure.get_layout_engine()
     if lay_out is not None:
         lay_out.execute(figure)
         if fold_wide_legends(figure):
             lay_out.execute(figure)
+
+
+def save_figure(figure: Figure, form: Form) -> bytes:
+    """The picture as a file's content; the same figure gives the same bytes. Nothing can be changed
+    in the figure afterwards.
+    """
+    with in_our_style(form):
+        return _save(figure, form)
+
+
+def _save(figure: Figure, form: Form) -> bytes:
+    lay_out_figure(figure)
     figure.set_layout_engine(None)  # matplotlib would lay it out again, and draw it twice
     for ax in figure.axes:  # the solver of the layout is exact to the last bits only
         left, bottom, width, height = (round(edge, 5) for edge in ax.get_position().bounds)

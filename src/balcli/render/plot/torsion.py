@@ -32,6 +32,11 @@ def draw_torsion(result: TorsionAnalysis, what: str, form: Form, *, titled: bool
     """The content of a file with a page of pictures, as far as they were asked for; `what` is one
     of PAGES. With the system's name above them, unless they are not to be titled.
     """
+    return save_figure(make_torsion(result, what, form, titled=titled), form)
+
+
+def make_torsion(result: TorsionAnalysis, what: str, form: Form, *, titled: bool = True) -> Figure:
+    """The same as a figure."""
     parts: list[Callable[[Axes], None]] = []
     if what in ("all", "modes"):
         parts.append(lambda ax: _draw_modes(ax, result))
@@ -52,7 +57,7 @@ def draw_torsion(result: TorsionAnalysis, what: str, form: Form, *, titled: bool
         name = fit_name(result.system.name) or "shafts without a name"
         if titled:
             fig.suptitle(f"{name}: torsion", x=0.01, ha="left")
-        return save_figure(fig, form)
+        return fig
 
 
 def _lay_out(fig: Figure, rows: int, columns: int) -> list[Axes]:

@@ -1,4 +1,4 @@
-"""Curves of one cylinder of an engine with gas, over its whole cycle."""
+"""Curves over the crank angle of an engine with gas, and of one of its cylinders."""
 
 from __future__ import annotations
 
@@ -11,12 +11,35 @@ from ..core.phasors import Array
 from ..engine.build import Engine
 from ..forces.curves import Curves, compute_cylinder_torque
 from ..forces.gas import take_gas
+from ..forces.kinds import GAS, ROLL, ROLL_TOTAL, TORQUE, TORQUE_TOTAL
 from ..forces.rod_forces import compute_rod_forces
 
 _ROUNDING = 1e-14
+_APART = 15.0  # deg, of the angles where the size of the torque is taken
 
 
-def add_gas_curves(engine: Engine, number: int, curves: Curves) -> Curves:
+def add_gas_torque(engine: Engine, curves: Curves) -> Curves:
+    """The curves of a whole engine, with gas torque, total torque and total roll (N m).
+
+    Args:
+        curves: of the engine, from `forces.curves.compute_engine_curves`.
+    """
+    everywhere = np.arange(0.0, take_gas(engine).cycle_deg, _APART)
+    size = np.abs(_find_gas_torques(engine, everywhere)).sum(axis=0).max()
+    gas = _find_gas_torques(engine, curves.crank_deg).sum(axis=0)
+    gas = np.where(np.abs(gas) <= _ROUNDING * size, 0.0, gas)
+    inertia, roll = curves.values[TORQUE.key], curves.values[ROLL.key]
+    added = {GAS.key: gas, TORQUE_TOTAL.key: inertia + gas, ROLL_TOTAL.key: roll - gas}
+    return replace(curves, values={**curves.values, **added})
+
+
+def _find_gas_torques(engine: Engine, crank_deg: Array) -> Array:
+    """Of each cylinder, N m, shape (cylinders, angles)."""
+    at = np.radians(crank_deg)
+    return np.stack([c.share * c.torque.at(at - c.fires) for c in take_gas(engine).cylinders])
+
+
+def add_cylinder_gas(engine: Engine, number: int, curves: Curves) -> Curves:
     """The motion of one piston, with pressure (Pa), volume (m3), gas force, side thrust, force
     along the rod, force on its crank or knuckle pin along and across the cylinder (N), and the
     cylinder's torque of gas and inertia (N m); as far as they are known.
