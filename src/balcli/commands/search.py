@@ -24,9 +24,9 @@ def search(
         str,
         optional(
             "throws|firing_order|bank_angle|splay|NUMBER=FROM:TO",
-            "What to arrange: the file's throw angles along the crank, the firing order, the "
-            "angle of the vee, or of its split pins; or any number of the file in a range, such as "
-            "mount.left.loss=0.05:0.3.",
+            "What to arrange: the file's throw angles along the crank (or those of its firing "
+            "order), the firing order, the angle of the vee, or of its split pins; or any number "
+            "of the file in a range, such as mount.left.loss=0.05:0.3.",
             "--over",
         ),
     ],
@@ -83,8 +83,7 @@ def search(
     watching = reporting_until_stopped if over in ("throws", "firing_order") else reporting
     with watching("arrangements") as progress:
         found = search_arrangements(model, over, goal, top, bool(require), progress)
-    best = "" if write is None else write_design(text, found.results[0].design, name)
     show([found], renderer, form, output)
     if write is not None:
-        write_file(best, write)
+        write_file(write_design(text, found.results[0].design, name), write)
     exit_if_cut_short(progress, "these are the best of them")

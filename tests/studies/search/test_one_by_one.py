@@ -118,8 +118,11 @@ def test_a_minimum_inside_and_a_limit():
 def test_numbers_are_shown_and_not_written(tmp_path):
     path, out = ENGINES / "i4.toml", tmp_path / "new.toml"
     args = ("--over", "rod.length=120:160", "--minimise", "force.2.major")
-    told = refusal("search", path, *args, "--write", out)
-    assert told.startswith("--write takes throws, firing orders and angles; write rod.length = 160")
+    done = run_here("search", path, *args, "--write", out)
+    assert (done.status, out.exists()) == (2, False)
+    told = "--write takes throws, firing orders and angles; write rod.length = 160 by hand"
+    assert done.err == f"balcli: {told}\n"
+    assert "Best rod.length" in done.out
     (best,) = search(path, *args)
     assert best["rod.length"] == 160
     lines = run_here("search", path, *args, "-f", "csv").out.splitlines()

@@ -73,7 +73,7 @@ def build_candidates(model: EngineFile, candidates: Candidates) -> Engine:
     """All candidates as one engine, with these as its trailing axis."""
     paths: dict[str, Array] = {}
     if "throws" in candidates:
-        model = _without_firing_order(model)
+        model = drop_firing_order(model)
         for number, column in enumerate(candidates["throws"].T, 1):
             paths[f"crank.throws.{number}"] = column
     if "bank_angle" in candidates:
@@ -98,7 +98,7 @@ def find_buildable(model: EngineFile, key: str, angles: Array) -> NDArray[np.boo
     return np.ones(len(angles), bool)
 
 
-def _without_firing_order(model: EngineFile) -> EngineFile:
+def drop_firing_order(model: EngineFile) -> EngineFile:
     """With throws of some kind and no firing order, so that any throws can be tried."""
     throws = model.crank.throws or (0.0,) * plan_cylinders(model.crank, model.layout).throws
     crank = model.crank.model_copy(update={"throws": throws})

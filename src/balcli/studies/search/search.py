@@ -31,6 +31,7 @@ from .designs import (
     Design,
     Found,
     build_candidates,
+    drop_firing_order,
     evaluate_engine,
     find_buildable,
     rank_candidates,
@@ -114,9 +115,9 @@ def search_arrangements(
     """The best arrangements, mirror images and rotations once.
 
     Args:
-        over: throws (permutes those of the file), firing_order (all even ones; cranks follow where
-            the file gives no throws), bank_angle (of a vee), splay; or a number of the file and its
-            range, `mount.left.loss=0.05:0.3`.
+        over: throws (permutes those of the file, or those that its firing order asks for),
+            firing_order (all even ones; cranks follow where the file gives no throws), bank_angle
+            (of a vee), splay; or a number of the file and its range, `mount.left.loss=0.05:0.3`.
         count: at most so many.
         even_firing: only arrangements that can fire evenly.
         tell: of a search over throws, which alone takes long: `throws.find_best_throws`.
@@ -137,7 +138,8 @@ def search_arrangements(
         candidates = rank_one_by_one(model, designs, objective, tell_nobody)
     elif sums is None:
         designs = _list_designs(model, what, objective, even_firing)
-        candidates = rank_one_by_one(model, designs, objective, tell)
+        base = drop_firing_order(model) if what == "throws" else model
+        candidates = rank_one_by_one(base, designs, objective, tell)
     else:
         locked = _find_locked(model, what)
         candidates = _SEARCHES[what](_Task(model, sums, count, even_firing, locked, tell))
@@ -182,8 +184,7 @@ def _list_designs(
             for order in slots.find_orders(throws)
         )
     if what == "throws":
-        _check_throws(model)
-        designs = list_throws(model)
+        designs = list_throws(_give_throws(model))
         return (one for one in designs if not even_firing or _fires_evenly(model, one))
     _check_angle(model, what)
     even = find_even_angles(model, what, SPANS[what]) if even_firing else None
@@ -215,16 +216,8 @@ def _parse_over(text: str) -> What:
 
 
 # ------------------------------------------------------------------ the four searches
-def _check_throws(model: EngineFile) -> None:
-    if model.crank.throws is None or len(model.crank.throws) < 2:
-        raise BalcliError(
-            "there is nothing to permute: the file gives no crank.throws, or one alone"
-        )
-
-
 def _search_throws(task: _Task) -> Iterator[Found]:
-    model, objective = task.model, task.objective
-    _check_throws(model)
+    model, objective = _give_throws(task.model), task.objective
     if peaks := [q.name for q in objective.quantities if q.part == "peak"]:
         raise BalcliError(
             f"a search over throws adds up orders, which {peaks[0]} does not allow; name orders, "
@@ -239,6 +232,25 @@ def _search_throws(task: _Task) -> Iterator[Found]:
     if len(throws):
         throws = count_from(throws[:, :1], throws)
     return rank_candidates(model, {"throws": throws}, objective)
+
+
+def _give_throws(model: EngineFile) -> EngineFile:
+    """The same with the throws that its firing order asks for, where it gives none.
+
+    Raises:
+        BalcliError: the crank has one throw.
+    """
+    if model.crank.throws is None and model.layout.firing_order:
+        found = assemble(model).throws_deg
+        throws = [float(found[throw]) for throw in range(len(found))]
+        crank = model.crank.model_copy(update={"throws": throws})
+        model = model.model_copy(update={"crank": crank})
+    if len(model.crank.throws or ()) < 2:
+        raise BalcliError(
+            "there is nothing to permute: the crank has one throw; give crank.throws, or a "
+            "layout.firing_order they follow from"
+        )
+    return model
 
 
 def _find_slots(model: EngineFile) -> tuple[Slots, Array]:
