@@ -250,6 +250,7 @@ def test_json_of_analyze_has_the_keys_of_the_contract(balcli):
     scalar = {"cos", "sin", "amplitude", "peak_deg", "balanced"}
     assert list(document) == [
         "format",
+        "version",
         "engine",
         "speed_rpm",
         "reference_mm",
@@ -298,7 +299,10 @@ def test_json_of_analyze_has_the_keys_of_the_contract(balcli):
 def test_what_is_left_out_is_no_key(balcli, only, keys, whole):
     document = json.loads(balcli("analyze", V8, "--format", "json", "--only", only)[1])
     assert set(document["orders"][0]) == keys
-    assert set(document) - {"format", "engine", "speed_rpm", "reference_mm", "orders"} == whole
+    assert (
+        set(document) - {"format", "version", "engine", "speed_rpm", "reference_mm", "orders"}
+        == whole
+    )
 
 
 def test_shares_of_the_cylinders_add_up(balcli, good):

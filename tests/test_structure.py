@@ -21,6 +21,7 @@ import balcli
 from balcli.cli import COMMANDS
 from balcli.commands import options
 from balcli.commands.file_names import Place
+from balcli.documents.names import DOCUMENTS
 from balcli.render.formats import Format
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -160,6 +161,7 @@ ON_REQUEST = {
         *("balcli.render.speeds", "balcli.results.speeds"),
     ),
     "balcli.commands.completion": (
+        "balcli.documents.names",
         "balcli.enginefile.examples",
         "balcli.enginefile.templates",
         "balcli.field_balancing.starting_file",
@@ -325,3 +327,11 @@ def test_the_library_does_what_the_command_does():
     left = balcli.balance(engine, "counterweights").after.spectra.moment
     assert found.major[0] > 1000
     assert left.major[0] < 1e-9 * found.major[0]
+
+
+def test_every_format_of_json_has_a_schema():
+    """Its types are in documents/, its name in documents/names.py; docs/json.md lists it."""
+    found = set()
+    for file in PACKAGE.rglob("*.py"):
+        found |= {*re.findall(r'"balcli\.([a-z_]+)/1"', file.read_text(encoding="utf-8"))}
+    assert found == {*DOCUMENTS}

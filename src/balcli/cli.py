@@ -67,7 +67,7 @@ GROUPS = {
         "chain file, for `torsion`) to start from.",
         "engines": "List the example engines that come with balcli, print one, or copy it.",
         "schema": "Print the JSON Schema of the engine file, a file of runs or a chain "
-        "file, for editors.",
+        "file, for editors; or of what a command prints as JSON.",
         "check": "Recompute engines and compare with their recorded results; exit status 1 "
         "if anything moved.",
         "tables": "The printed coefficient tables of five books and papers, recomputed, and "

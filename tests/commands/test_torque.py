@@ -11,7 +11,15 @@ from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINES
 
 TORQUE = "angle_deg,torque_Nm\n0,0\n90,1000\n180,0\n360,0\n"
-WHOLE = {"format", "speed_rpm", "cycle_deg", "imep_Pa", "max_pressure_Pa", "max_pressure_deg"}
+WHOLE = {
+    "format",
+    "version",
+    "speed_rpm",
+    "cycle_deg",
+    "imep_Pa",
+    "max_pressure_Pa",
+    "max_pressure_deg",
+}
 WHOLE |= {"mean_torque_Nm", "power_W", "torque", "orders", "energy"}
 
 
@@ -89,7 +97,15 @@ def test_what_is_written_turns_as_unevenly(four, tmp_path):
 
 def test_a_curve_needs_no_engine(curve):
     found = json.loads(torque("--curve", curve, "--format", "json"))
-    assert set(found) == {"format", "cycle_deg", "mean_torque_Nm", "torque", "orders", "energy"}
+    assert set(found) == {
+        "format",
+        "version",
+        "cycle_deg",
+        "mean_torque_Nm",
+        "torque",
+        "orders",
+        "energy",
+    }
     assert found["mean_torque_Nm"] == pytest.approx(250)
     assert found["cycle_deg"] == 360
     assert found["torque"]["max_Nm"] == 1000

@@ -185,6 +185,25 @@ def test_what_is_suspicious_of_a_diagram(beside):
     assert doubts[2].startswith("gas.imep is 4 bar, and the diagram has ")
 
 
+def test_a_diagram_in_another_unit_is_suspicious(beside):
+    path = beside('indicator = "p.csv"\nphase = -360\n', content=DIAGRAM.replace(",6", ",60"))
+    (doubt,) = load(path).gas.doubts
+    assert doubt == (
+        "gas.indicator: the highest pressure is 600 bar, where at most 500 is usual; does the "
+        "heading of its column name the right unit?"
+    )
+
+
+def test_a_diagram_may_have_so_many_rows(beside):
+    rows = "\n".join(f"{k * 0.03:.2f},0.1" for k in range(20001))
+    path = beside('indicator = "p.csv"\n', content=f"angle_deg,pressure_MPa\n{rows}\n")
+    with pytest.raises(InputError, match=r"p\.csv: has 20002 lines; at most 20000 are read"):
+        load(path)
+    path = beside('indicator = "p.csv"\n', content=f"angle_deg,pressure_MPa\n{' ' * 6_000_000}")
+    with pytest.raises(InputError, match=r"p\.csv: has more than 6 MB"):
+        load(path)
+
+
 # ------------------------------------------------------------------ mistakes
 @pytest.mark.parametrize(
     ("text", "told"),
@@ -230,6 +249,14 @@ def test_what_is_suspicious_of_a_diagram(beside):
         (
             FOUR + WIEBE.replace("imep = 9", "max_pressure = 5"),
             ["gas.max_pressure: is 5 bar, below the "],
+        ),
+        (
+            FOUR + WIEBE.replace("imep = 9", "max_pressure = 0"),
+            ["gas.max_pressure: is 0 bar, below the "],
+        ),
+        (
+            FOUR + WIEBE.replace("wiebe", "dual") + "max_pressure = 0\n",
+            ["gas.max_pressure: is 0 bar, below the "],
         ),
         (
             FOUR + WIEBE.replace("wiebe", "diesel").replace("imep = 9", "cut_off = 40"),

@@ -57,6 +57,10 @@ def test_a_class_or_words_pick_engines():
             ["--class", "cars"],
             'there is no class "cars" of engines: layout, aero, car, historic, marine, motorcycle',
         ),
+        (
+            ["i4", "--find", "v8"],
+            "--find and --class list engines; NAME prints one: give one of the two",
+        ),
         (["--find", "v3"], 'no example mentions "v3": balcli engines lists them all'),
     ],
 )

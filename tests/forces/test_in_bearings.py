@@ -116,10 +116,17 @@ def test_largest_values_are_on_the_curves(seed):
             assert peak.value == pytest.approx(sizes[k].max(), rel=0.02, abs=1e-9 * sizes.max())
 
 
-@pytest.mark.parametrize("seed", [1, 4])
+def draw_uneven():
+    lines = "[{ order = 1, amplitude = 0.03, angle = 40 }, { order = 0.5, amplitude = 0.02 }]"
+    return engine(FOUR + f"speed_ripple = {lines}\n" + WIEBE + DEVICES)
+
+
+@pytest.mark.parametrize("seed", [1, 4, None])
 def test_shaft_and_block_together_bear_what_inertia_makes(seed):
-    """Gas presses on throw and head alike; the block has its shafts and sliders besides."""
-    found = draw(seed)
+    """Gas presses on throw and head alike; the block has its shafts and sliders besides. Of an
+    uneven speed, too.
+    """
+    found = draw_uneven() if seed is None else draw(seed)
     orders = np.arange(1.0, 7.0)
     loads, inertia = compute_loads_with_gas(found, orders), compute_inner_loads(found, orders)
     others = [d for d in found.devices if d.order != 1 or d.place or d.backward]

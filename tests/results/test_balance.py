@@ -65,6 +65,7 @@ def test_json_has_devices_reasons_and_both_analyses(file):
     doc = document(file, "--scheme", "two-shaft", "--at=-40,60", "--order", "2")
     assert list(doc) == [
         "format",
+        "version",
         "scheme",
         "order",
         "counterweights",

@@ -30,6 +30,13 @@ def complete_tables(incomplete: str) -> list[str]:
     return _beginning_with(incomplete, registry.NAMES)
 
 
+def complete_documents(incomplete: str) -> list[str]:
+    """Results that JSON has, of `balcli schema --of`."""
+    from ..documents.names import DOCUMENTS
+
+    return _beginning_with(incomplete, DOCUMENTS)
+
+
 def complete_examples(incomplete: str) -> list[str]:
     """Example engines, of `balcli engines`."""
     from ..enginefile import examples

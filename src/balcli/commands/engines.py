@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from ..enginefile import examples
+from ..errors import BalcliError
 from .completion import complete_classes, complete_examples
 from .file_names import parse_output, require_ending
 from .output import emit, refuse_existing
@@ -50,6 +51,8 @@ def engines(
     if name is None:
         emit(_list(examples.find(find, group)))
         return
+    if find or group:
+        raise BalcliError("--find and --class list engines; NAME prints one: give one of the two")
     text = examples.text(name)
     require_ending(path, ".toml", "FILE")
     refuse_existing(path, force)

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import json
 from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
+from ..documents.names import DOCUMENTS
+from ..errors import BalcliError
+from .completion import complete_documents
 from .file_names import require_ending
 from .options import Output
 from .output import emit
@@ -23,16 +26,34 @@ class File(StrEnum):
 
 def schema(
     kind: Annotated[
-        File,
+        File | None,
         typer.Argument(
+            show_default="engine",
             help="engine: the engine file; field: runs of a rotor on a machine; torsion: a chain "
-            "of inertias and shafts."
+            "of inertias and shafts.",
         ),
-    ] = File.ENGINE,
+    ] = None,
+    of: Annotated[
+        str | None,
+        typer.Option(
+            "--of",
+            metavar="RESULT",
+            show_default=False,
+            autocompletion=complete_documents,
+            help=f"Of a result as JSON instead: {', '.join(DOCUMENTS)}.",
+        ),
+    ] = None,
     output: Output = None,
 ) -> None:
-    """Print the JSON Schema of the engine file, a file of runs or a chain file, for editors."""
+    """Print the JSON Schema of the engine file, a file of runs or a chain file, for editors; or of
+    what a command prints as JSON.
+    """
     require_ending(output, ".json")
+    described = _describe_file(kind or File.ENGINE) if of is None else _describe_result(of, kind)
+    emit(json.dumps(described, indent=2, ensure_ascii=False), output)
+
+
+def _describe_file(kind: File) -> dict[str, Any]:
     from ..enginefile.schema import describe_engine_file  # pydantic
     from ..field_balancing.schema import describe_runs_file
     from ..torsion.schema import describe_chain_file
@@ -42,4 +63,18 @@ def schema(
         File.FIELD: describe_runs_file,
         File.TORSION: describe_chain_file,
     }
-    emit(json.dumps(describe[kind](), indent=2, ensure_ascii=False), output)
+    return describe[kind]()
+
+
+def _describe_result(name: str, kind: File | None) -> dict[str, Any]:
+    if kind is not None:
+        raise BalcliError(f"--of {name}: is of a result; leave {kind} out, which is a file")
+    if name not in DOCUMENTS:
+        from difflib import get_close_matches
+
+        near = get_close_matches(name, DOCUMENTS, 1)
+        hint = f"did you mean {near[0]}?" if near else f"there are {', '.join(DOCUMENTS)}"
+        raise BalcliError(f"--of {name[:60]}: there is no such result; {hint}")
+    from ..documents.schema import describe_document  # pydantic
+
+    return describe_document(name)

@@ -46,7 +46,7 @@ Misfire = Annotated[
 ]
 LoadsOption = Annotated[
     str | None,
-    optional("pin,main", "Also loads of crank pins and of main bearings.", "--loads"),
+    optional("pin,main", "Also loads of crank and knuckle pins, and of main bearings.", "--loads"),
 ]
 Curve = Annotated[
     Path | None,

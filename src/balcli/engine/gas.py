@@ -29,6 +29,7 @@ from ..core.phasors import Figure
 from ..core.tangential_force import tangential_torque
 from ..enginefile.csv_columns import Columns, locate_beside, read_columns
 from ..enginefile.gas_tables import DIAGRAM_KEYS, GOALS, Gas
+from ..enginefile.suspicious import MAX_PRESSURE
 from ..errors import BalcliError, InputError, Problem
 from ..limits import HIGHEST_TABLE_ORDER
 
@@ -280,6 +281,11 @@ class _Builder:
                 f"{math.degrees(angle):.4g} deg from the firing dead centre, where within "
                 f"{NEAR_DEG:g} is usual; are gas.zero and gas.phase right?"
             )
+        if value > MAX_PRESSURE * BAR:
+            self.doubts.append(
+                f"{source.path}: the highest pressure is {value / BAR:.4g} bar, where at most "
+                f"{MAX_PRESSURE:g} is usual; does the heading of its column name the right unit?"
+            )
         stated = self.gas.imep
         if stated is not None and source.path == "gas.indicator":
             found = gas.imep / BAR
@@ -337,7 +343,7 @@ class _Builder:
     def _process(self) -> Process:
         g = self.gas
         return Process(
-            compression_ratio=g.compression_ratio or math.nan,
+            compression_ratio=_find_known(g.compression_ratio),
             strokes=self.strokes,
             compression_index=g.compression_index,
             expansion_index=g.expansion_index,
@@ -353,7 +359,7 @@ class _Builder:
             case "diesel":
                 return Diesel()
             case "dual":
-                return Dual((g.max_pressure or math.nan) * BAR)
+                return Dual(_find_known(g.max_pressure) * BAR)
             case "wiebe":
                 return Wiebe(g.burn_start, g.burn_duration, g.burn_shape)
             case _:
@@ -393,9 +399,14 @@ def find_goal(gas: Gas) -> Goal:
     if gas.imep is not None:
         return Goal("imep", gas.imep * BAR)
     if gas.bmep is not None:
-        return Goal("imep", gas.bmep * BAR / (gas.mechanical_efficiency or math.nan))
+        return Goal("imep", gas.bmep * BAR / _find_known(gas.mechanical_efficiency))
     if gas.heat is not None:
         return Goal("heat", gas.heat)
     if gas.cut_off is not None:
         return Goal("cut_off", gas.cut_off)
-    return Goal("max_pressure", (gas.max_pressure or math.nan) * BAR)
+    return Goal("max_pressure", _find_known(gas.max_pressure) * BAR)
+
+
+def _find_known(figure: float | None) -> float:
+    """A figure that the rules of [gas] ask for; nan after a mistake."""
+    return math.nan if figure is None else figure

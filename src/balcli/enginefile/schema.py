@@ -31,7 +31,12 @@ def describe_engine_file() -> Node:
     for table in tables:
         document["$defs"][table.__name__] |= _exclusions(table)
     document["properties"]["cylinder"]["propertyNames"] = {"pattern": "^[1-9][0-9]*$"}
-    return {"$schema": DIALECT, **document, "title": "balcli engine file"}
+    return {
+        "$schema": DIALECT,
+        "$id": "urn:balcli:schema:engine-file",
+        **document,
+        "title": "balcli engine file",
+    }
 
 
 def tidy_schema(schema: Node) -> Node:

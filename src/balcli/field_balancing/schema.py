@@ -12,4 +12,9 @@ def describe_runs_file() -> dict[str, Any]:
     """JSON Schema (draft 2020-12): every key with description, unit, bounds and an example."""
     Run.model_rebuild()
     document: dict[str, Any] = tidy_schema(RunsFile.model_json_schema())
-    return {"$schema": DIALECT, **document, "title": "balcli file of runs"}
+    return {
+        "$schema": DIALECT,
+        "$id": "urn:balcli:schema:runs-file",
+        **document,
+        "title": "balcli file of runs",
+    }

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Iterator
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
+from .json import stamp
+
 if TYPE_CHECKING:
     from ..studies.sweep import Chunk, Sweep
 
@@ -27,7 +29,7 @@ def json_text(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
         "engine": {"name": sweep.file.name},
         "columns": sweep.columns,
     }
-    yield json.dumps(head, ensure_ascii=False)[:-1] + ', "rows": ['
+    yield json.dumps(stamp(head), ensure_ascii=False)[:-1] + ', "rows": ['
     before = ""
     for chunk in chunks:
         yield before + ",\n".join(f"[{line}]" for line in _lines(sweep, chunk, "null"))

@@ -17,4 +17,9 @@ def describe_chain_file() -> dict[str, Any]:
     for table in tables:
         table.model_rebuild()
     document: dict[str, Any] = tidy_schema(ChainFile.model_json_schema())
-    return {"$schema": DIALECT, **document, "title": "balcli chain file"}
+    return {
+        "$schema": DIALECT,
+        "$id": "urn:balcli:schema:chain-file",
+        **document,
+        "title": "balcli chain file",
+    }

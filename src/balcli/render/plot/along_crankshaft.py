@@ -22,13 +22,15 @@ def draw_along(
     titles: tuple[str, str],
     unit: Unit,
     steps: str = "default",
+    over: str = "a revolution",
 ) -> None:
-    """Draw the largest values over a revolution at places along the crank.
+    """Draw the largest values over a revolution, or a cycle, at places along the crank.
 
     Args:
         now_and_before: one curve, or two to compare.
         titles: of the picture, and what is measured.
         steps: how matplotlib joins the places; empty: columns.
+        over: what the values are the largest of.
     """
     title, what = titles
     curves = [
@@ -38,7 +40,7 @@ def draw_along(
     looks: Any = (
         (
             {"color": BLUE, "linewidth": 2.2, "zorder": 3},
-            "after" if len(curves) > 1 else "largest over a revolution",
+            "after" if len(curves) > 1 else f"largest over {over}",
         ),
         ({"color": SOFT, "linewidth": 1.1, "linestyle": (0, (4, 2)), "zorder": 2}, "before"),
     )

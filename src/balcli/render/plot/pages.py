@@ -216,11 +216,12 @@ def _lay_out_inner(fig: Figure, subject: Subject) -> None:
 def _lay_out_inner_with_gas(fig: Figure, loads: Sequence[LoadsWithGas], system: System) -> None:
     shaft, block, bearings = fig.subplots(3, 1, sharex=True)
     titles = "Bending moment in the crankshaft, with gas", "moment"
-    draw_along(shaft, [found.bending for found in loads], titles, system.moment)
+    over = "the cycle"
+    draw_along(shaft, [found.bending for found in loads], titles, system.moment, over=over)
     titles = "Bending moment in the block, with gas", "moment"
-    draw_along(block, [found.block_bending for found in loads], titles, system.moment)
+    draw_along(block, [found.block_bending for found in loads], titles, system.moment, over=over)
     titles = "Load of each main bearing, with gas", "force"
-    draw_along(bearings, [found.bearings for found in loads], titles, system.force, "")
+    draw_along(bearings, [found.bearings for found in loads], titles, system.force, "", over)
     bearings.set_xlabel("z, mm (free end on the left)")
     for ax in (shaft, block):
         ax.label_outer()

@@ -1,0 +1,1 @@
+"""What the JSON of every command is made of, and its JSON Schema."""

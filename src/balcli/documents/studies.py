@@ -1,0 +1,141 @@
+"""Documents of many variants, of several engines, over the crank angle, and of tables."""
+
+from __future__ import annotations
+
+from typing import Literal, NotRequired
+
+from typing_extensions import TypedDict
+
+from .figures import Assumed, Document, NamedEngine, Order
+
+Cell = float | int | str | None
+
+
+class Sweep(Document):
+    """Variants of an engine, a row each: the figures that vary, then the quantities; null: what has
+    no value, such as the axis of a circle.
+    """
+
+    format: Literal["balcli.sweep/1"]
+    engine: NamedEngine
+    columns: list[str]
+    rows: list[list[float | None]]
+
+
+class Arranged(TypedDict):
+    """One arrangement; one of the first four says it."""
+
+    throws: NotRequired[list[float]]
+    firing_order: NotRequired[list[int]]
+    bank_angle: NotRequired[float]
+    splay: NotRequired[float]
+    objective: float
+    quantities: dict[str, float]
+
+
+class Search(Document):
+    """Best arrangements, best first; locked: angles at which articulated rods cannot turn."""
+
+    format: Literal["balcli.search/1"]
+    engine: NamedEngine
+    over: Literal["throws", "firing_order", "bank_angle", "splay"]
+    results: list[Arranged]
+    locked: NotRequired[list[list[float]]]
+
+
+class Spread(TypedDict):
+    """One quantity over all samples, in its SI unit; sensitivity: by tolerance, largest first."""
+
+    nominal: float
+    mean: float
+    p05: float
+    p50: float
+    p95: float
+    max: float
+    bound: float
+    sensitivity: dict[str, float]
+
+
+class Scatter(Document):
+    """How quantities spread when masses and lengths vary within their tolerances."""
+
+    format: Literal["balcli.scatter/1"]
+    engine: NamedEngine
+    samples: int
+    distribution: Literal["uniform", "normal"]
+    quantities: dict[str, Spread]
+
+
+class ComparedFigure(TypedDict):
+    """One figure of all engines, and its ratios to the first one's; order null: a peak."""
+
+    quantity: str
+    order: Order | None
+    values: list[float | None]
+    ratios: list[float | None]
+
+
+class Compare(Document):
+    """Engines side by side."""
+
+    format: Literal["balcli.compare/1"]
+    engines: list[str]
+    figures: list[ComparedFigure]
+
+
+class Curves(Document):
+    """Quantities over the crank angle; null: what has no value there."""
+
+    format: Literal["balcli.curves/1"]
+    engine: str
+    speed_rpm: float
+    crank_deg: list[float]
+    curves: dict[str, list[float | None]]
+    assumed: NotRequired[Assumed]
+
+
+class Erratum(TypedDict):
+    """A printed figure that is not the exact one rounded."""
+
+    row: int
+    column: str
+    printed: str
+    exact: Cell
+    kind: str
+
+
+class Table(Document):
+    """A printed table, recomputed."""
+
+    format: Literal["balcli.table/1"]
+    name: str
+    title: str
+    source: str
+    columns: list[str]
+    rows: list[list[Cell]]
+    printed: list[list[str | None]]
+    errata: list[Erratum]
+
+
+class Timed(TypedDict):
+    """One way to some figures; error null: there is nothing to compare with."""
+
+    task: str
+    method: str
+    seconds: float
+    error: float | None
+
+
+class Ratio(TypedDict):
+    """Of two run times."""
+
+    what: str
+    value: float
+
+
+class Bench(Document):
+    """Run time against error."""
+
+    format: Literal["balcli.bench/1"]
+    rows: list[Timed]
+    ratios: list[Ratio]

@@ -1,0 +1,297 @@
+"""`balcli.mounts/1` and `balcli.torsion/1`."""
+
+from __future__ import annotations
+
+from typing import Literal, NotRequired
+
+from typing_extensions import TypedDict
+
+from .figures import Document, Order, Place
+
+Row = list[float | None]
+
+
+class Axes(TypedDict):
+    """Along and about x, y, z."""
+
+    x: float
+    y: float
+    z: float
+    rx: float
+    ry: float
+    rz: float
+
+
+class Meeting(TypedDict):
+    """An order meets a natural frequency at this speed."""
+
+    order: Order
+    speed_rpm: float
+
+
+class BodyMode(TypedDict):
+    """A natural mode of the body on its mounts."""
+
+    frequency_Hz: float
+    energy_percent: Axes
+    shape: Row
+    motion: str
+    loss_factor: float
+    meets: list[Meeting]
+
+
+class MountAtRest(TypedDict):
+    """Of weight and mean torque."""
+
+    name: str
+    force_N: Place
+    travel_mm: Place
+
+
+class AtRest(TypedDict):
+    """All mounts at rest."""
+
+    mounts: list[MountAtRest]
+
+
+class ForceOfOrder(TypedDict):
+    """Largest force of one order, by speed."""
+
+    order: Order
+    force_N: Row
+
+
+class WorstForce(TypedDict):
+    """Of all speeds."""
+
+    force_N: float
+    speed_rpm: float
+    order: Order
+    order_force_N: float
+
+
+class MountForce(TypedDict):
+    """Of one mount, by order and speed; peak: all orders together."""
+
+    name: str
+    orders: list[ForceOfOrder]
+    peak_N: Row
+    worst: WorstForce
+
+
+class MotionOfOrder(TypedDict):
+    """Largest motion of one order, by speed."""
+
+    order: Order
+    motion_mm: Row
+
+
+class WorstMotion(TypedDict):
+    """Of all speeds."""
+
+    motion_mm: float
+    speed_rpm: float
+    order: Order
+    order_motion_mm: float
+
+
+class PointMotion(TypedDict):
+    """Of one point, by order and speed; peak: all orders together."""
+
+    name: str
+    orders: list[MotionOfOrder]
+    peak_mm: Row
+    worst: WorstMotion
+
+
+class Load(TypedDict):
+    """Amplitudes by speed of force and moment about the centre of gravity, where there are any."""
+
+    force_x_N: NotRequired[Row]
+    force_y_N: NotRequired[Row]
+    force_z_N: NotRequired[Row]
+    moment_x_Nm: NotRequired[Row]
+    moment_y_Nm: NotRequired[Row]
+    moment_z_Nm: NotRequired[Row]
+
+
+class Passed(TypedDict):
+    """What the frame gets of one order from a rigid engine, and through the mounts."""
+
+    order: Order
+    rigid: Load
+    on_mounts: Load
+
+
+class BodyResponse(TypedDict):
+    """Of the body to the engine, over speeds."""
+
+    speeds_rpm: Row
+    mounts: list[MountForce]
+    points: list[PointMotion]
+    passed: list[Passed]
+
+
+class Fitted(TypedDict):
+    """With the devices of a scheme."""
+
+    scheme: str
+    response: BodyResponse
+
+
+class Other(TypedDict):
+    """With another engine."""
+
+    name: str
+    response: BodyResponse
+
+
+class Mounts(Document):
+    """An engine on its mounts."""
+
+    format: Literal["balcli.mounts/1"]
+    name: str
+    modes: list[BodyMode]
+    roll_axis: Place
+    elastic_centre_mm: Place
+    static: AtRest
+    stiffness_N_per_m: list[Row]
+    response: NotRequired[BodyResponse]
+    fitted: NotRequired[Fitted]
+    others: NotRequired[list[Other]]
+
+
+class Node(TypedDict):
+    """An inertia of the chain; gear: its speed over the first one's."""
+
+    name: str
+    inertia_kg_m2: float
+    gear: float
+
+
+class Joint(TypedDict):
+    """A shaft; null: rigid."""
+
+    name: str
+    stiffness_Nm_per_rad: float | None
+
+
+class TorsionMode(TypedDict):
+    """A natural mode; nodes: how many places stand still, and in which shafts."""
+
+    frequency_Hz: float
+    shape: Row
+    nodes: int
+    node_in: list[str]
+    loss: float
+
+
+class Critical(TypedDict):
+    """A speed at which an order drives a mode."""
+
+    mode: int
+    order: Order
+    speed_rpm: float
+    phase_sum: float
+    work_share: float
+
+
+class HolzerRow(TypedDict):
+    """One inertia of Holzer's table; stiffness null: rigid, or no further shaft."""
+
+    node: str
+    inertia_kg_m2: float
+    angle: float | None
+    torque_Nm: float | None
+    sum_Nm: float | None
+    stiffness_Nm_per_rad: float | None
+    twist: float | None
+
+
+class Holzer(TypedDict):
+    """Holzer's table."""
+
+    mode: NotRequired[int]
+    frequency_Hz: float
+    rows: list[HolzerRow]
+    residual_Nm: float
+
+
+class TorqueOfOrder(TypedDict):
+    """Amplitude of one order."""
+
+    order: Order
+    amplitude_Nm: float
+
+
+class WorstTorque(TypedDict):
+    """Of all speeds."""
+
+    speed_rpm: float
+    half_peak_to_peak_Nm: float
+    orders: list[TorqueOfOrder]
+
+
+class ShaftResponse(TypedDict):
+    """Vibratory torque of one shaft, by speed; stress: half peak to peak, where there is a
+    diameter.
+    """
+
+    name: str
+    half_peak_to_peak_Nm: Row
+    sum_of_amplitudes_Nm: Row
+    stress_Pa: NotRequired[Row]
+    worst: WorstTorque
+
+
+class Heat(TypedDict):
+    """Power that a damper turns to heat, by speed."""
+
+    node: str
+    heat_W: Row
+
+
+class TorsionResponse(TypedDict):
+    """Forced vibration over speeds."""
+
+    speeds_rpm: Row
+    shafts: list[ShaftResponse]
+    free_end_deg: Row
+    dampers: NotRequired[list[Heat]]
+
+
+class SizedDamper(TypedDict):
+    """A damper that was sized, and the largest stress (or torque) without and with it."""
+
+    node: str
+    kind: str
+    inertia_kg_m2: NotRequired[float]
+    damping_Nms_per_rad: NotRequired[float]
+    stiffness_Nm_per_rad: NotRequired[float]
+    loss: NotRequired[float]
+    mass_kg: NotRequired[float]
+    radius_m: NotRequired[float]
+    length_m: NotRequired[float]
+    order: NotRequired[Order]
+    mode: int
+    before_Pa: NotRequired[float | None]
+    after_Pa: NotRequired[float | None]
+    before_Nm: NotRequired[float | None]
+    after_Nm: NotRequired[float | None]
+    heat_W: float
+    heat_rpm: float
+
+
+class Torsion(Document):
+    """Torsional vibration of a chain of inertias and shafts."""
+
+    format: Literal["balcli.torsion/1"]
+    name: str | None
+    nodes: list[Node]
+    shafts: list[Joint]
+    modes: list[TorsionMode]
+    criticals: NotRequired[list[Critical]]
+    holzer: NotRequired[list[Holzer]]
+    response: NotRequired[TorsionResponse]
+    damper: NotRequired[SizedDamper]
+    barred_rpm: NotRequired[list[list[float]]]
