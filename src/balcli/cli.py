@@ -51,7 +51,7 @@ GROUPS = {
     },
     "Study": {
         "sweep": "Figures of many variants of an engine: numbers of its file over ranges, "
-        "as CSV, JSON or (by the name of -o) Parquet.",
+        "as a table, CSV, JSON or Parquet.",
         "search": "The best crank, firing order, bank angle or splay; mirror images and "
         "rotations once.",
         "scatter": "How free forces and moments spread when masses (rod lengths, throw "

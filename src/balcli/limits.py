@@ -56,6 +56,7 @@ LARGEST_TABLE_VALUE = 10**9  # in such a range
 MOST_PARAMETER_VALUES = 10_000_000  # of one parameter: all are kept, 80 MB; grids may have more
 MOST_THREADS = 64  # of a sweep: each computes a few boxes ahead, of some 10 MB each
 MOST_KEPT_FIGURES = 100_000_000  # of a sweep in Python: all are kept, 0.8 GB
+MOST_ROWS_READ = 50  # of the table of a sweep: of more the first and the last are shown
 MOST_PICTURE_VARIANTS = 4_000_000  # of a sweep: a picture keeps all of them in memory
 MOST_TOLERANCE_SAMPLES = 20_000_000  # a minute or two, and mean and percentiles stand long before
 MOST_ARRANGEMENTS = 10**10  # of given throws: branch and bound tries few of them

@@ -451,7 +451,8 @@ def test_a_search_and_a_scatter_in_csv(balcli, four):
         ),
         (
             ("search", "single", "--over", "throws", "--minimise", "force.1.major"),
-            "there is nothing to permute",
+            "there is nothing to permute: the crank has one throw; give crank.throws, or a "
+            "layout.firing_order they follow from",
         ),
     ],
 )

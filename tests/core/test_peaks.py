@@ -23,7 +23,7 @@ def curve(*terms: tuple[float, complex, complex]) -> Phasors:
 
 
 def test_nothing_has_no_peak():
-    assert tuple(find_peak(curve((1, 0, 0), (2, 0, 0)))) == (0, 0)
+    assert find_peak(curve((1, 0, 0), (2, 0, 0)))[:2] == (0, 0)
 
 
 @pytest.mark.parametrize("order", [1, 2, 7, 40, 300])
@@ -77,7 +77,34 @@ def test_beside_top_dead_centre():
 def test_a_mean_counts():
     found = find_peak(curve((0, 2, 0), (1, 0.5, 0.5)))
     assert found.value == pytest.approx(3, rel=RELATIVE)
-    assert tuple(find_peak(curve((0, -2j, 0)))) == pytest.approx((2, 0))
+    assert find_peak(curve((0, -2j, 0)))[:2] == pytest.approx((2, 0))
+
+
+@pytest.mark.parametrize(
+    ("parts", "every"),
+    [
+        ([(1, 0.5, 0.5)], np.pi),
+        ([(1, 0.5, 0.5), (2, 0.125, 0.125)], 2 * np.pi),
+        ([(2, 0.5, 0.5), (4, 0.1j, -0.1j)], np.pi),
+        ([(3, 1, 0.2), (9, 0.3, 0)], np.pi / 3),
+        ([(1, 1, 0), (4, 0.1, 0.2)], 2 * np.pi),
+        ([(1, 1, 0), (6, 0, 0.2)], 2 * np.pi / 7),
+        ([(5, 1j, 0)], 0),
+        ([(0, 1, 0)], 0),
+        ([(0.5, 0.5, 0.5), (1.5, 0.1, 0.1)], 2 * np.pi),
+        ([(0, 1, 0), (0.5, 0.5, 0.5)], 4 * np.pi),
+    ],
+)
+def test_after_which_angle_a_curve_repeats_its_size(parts, every):
+    """By its samples: after this angle, and not after a half or a third of it."""
+    found = curve(*parts)
+    assert find_peak(found).every == pytest.approx(every)
+    theta = np.linspace(0, 4 * np.pi, 97)
+    size = np.abs(found.values(theta))
+    assert np.abs(found.values(theta + every)) == pytest.approx(size)
+    for part in (2, 3):
+        again = np.abs(found.values(theta + every / part))
+        assert (every == 0) == (again == pytest.approx(size))
 
 
 def test_a_narrow_peak_between_samples():

@@ -7,13 +7,16 @@ from __future__ import annotations
 import csv
 import json
 import re
+from dataclasses import replace
 from io import StringIO
 from types import SimpleNamespace
 
 import pytest
 from support.engines import RADIAL, STAGGERED_TWIN, build_text, inline_engine, rotary_engine
+from support.paths import ENGINES
 
 from balcli.commands.options import parse_parts
+from balcli.core.peaks import Peak
 from balcli.errors import BalcliError
 from balcli.render import analysis, analysis_data
 from balcli.render.formats import Format, render
@@ -243,3 +246,41 @@ def test_the_sizing_in_brief_says_where_its_planes_are():
     twin = analyze(build_text(STAGGERED_TWIN), only=QUANTITIES)
     lines = analysis.sheet(twin, SYSTEMS["si"]).parts[-1].paragraphs
     assert lines[0].endswith("; all at z = -10, 10 mm.")
+
+
+def test_equal_peaks_are_told_by_the_first_and_how_far_they_are_apart(balcli):
+    _, four, _ = balcli("analyze", ENGINES / "i4.toml", "--only", "force,peak")
+    assert "kN at crank angle 90.0 deg and every 180 deg" in four
+    _, three, _ = balcli("analyze", ENGINES / "i3.toml", "--only", "moment,peak")
+    assert re.search(r"moment +[0-9.]+ N·m at crank angle [0-9.]+ deg\n", three)
+
+
+def test_a_force_that_only_turns_is_as_large_at_every_crank_angle():
+    star = analyze(rotary_engine("radial = 9"), only=["force", "peak"])
+    turning = replace(star, force=Peak(7.0, 0.0, 0.0))
+    facts = analysis.sheet(turning, SYSTEMS["si"], View(parts=frozenset({"force", "peak"})))
+    told = [pair for part in facts.parts if isinstance(part, Facts) for pair in part.pairs]
+    assert ("force", "7 N at every crank angle") in told
+
+
+def test_roll_beside_that_with_gas_is_told_to_be_of_inertia_alone(balcli):
+    diesel, petrol = ENGINES / "i6_diesel.toml", ENGINES / "i6.toml"
+    told = "About the crank axis of inertia alone, N·m"
+    assert told in balcli("analyze", diesel, "--only", "roll,guide").out
+    assert told not in balcli("analyze", petrol, "--only", "roll,guide").out
+    assert "roll C − T, inertia alone" in balcli("analyze", diesel).out
+
+
+def test_all_has_the_guide_moments_and_json_has_not(balcli):
+    assert "Guide-force moments" in balcli("analyze", ENGINES / "i3.toml", "--all").out
+    assert "guide" not in json.loads(
+        balcli("analyze", ENGINES / "i3.toml", "--all", "-f", "json").out
+    )
+
+
+@pytest.mark.parametrize("more", [(), ("--all",)])
+def test_orders_that_are_asked_for_are_shown_balanced_or_not(balcli, more):
+    given = ("--only", "textbook", "--orders", "1-6", *more)
+    table = balcli("analyze", ENGINES / "i5.toml", *given).out.partition("Free moment in")[2]
+    assert re.findall(r"^(\d) +", table, re.MULTILINE) == list("123456")
+    assert "Free moment by order" not in table

@@ -111,3 +111,20 @@ def test_json_is_one_document_a_line_without_what_json_has_no_word_for(show, nam
     for line in lines:
         document = json.loads(line, parse_constant=refuse)
         assert isinstance(document, list) or document["format"].startswith("balcli.")
+
+
+def test_the_table_of_a_search_fits_a_terminal_and_one_quantity_is_its_own_objective(balcli):
+    throws = ("search", ENGINES / "i5.toml", "--over", "throws", "--minimise")
+    one = balcli(*throws, "moment.1.major").out.splitlines()
+    assert one[3].split() == ["throws", "moment.1.major,", "N·m"]
+    assert re.fullmatch(r"0-144-216-288-72 +973[.]12 [(]1[.]333 F1·a[)]", one[5])
+    two = balcli(*throws, "moment.1.major,moment.2.major").out.splitlines()
+    assert two[3].split()[:2] == ["throws", "objective"]
+    assert max(map(len, two[:-2])) <= 80
+
+
+def test_the_list_of_tables_names_each_source_once(balcli):
+    titles, _, sources = balcli("tables").out.partition("Sources\n")
+    assert "tsinghua-1-6" in titles
+    assert sources.count("Automobile Engine Design") == 1
+    assert max(map(len, titles.splitlines())) <= 80

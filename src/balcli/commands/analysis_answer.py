@@ -55,7 +55,7 @@ def _answer_at_one_speed(paths: Sequence[str], asked: Request, target: Target) -
         show(named, analyses, *target)
 
     def find(engine: Engine) -> Analysis:
-        return _ask(asked, engine)(engine, asked.orders)
+        return _ask(asked, engine, target)(engine, asked.orders)
 
     _analyze_files(paths, asked, find, present, target)
 
@@ -71,7 +71,7 @@ def _answer_over_speed(paths: Sequence[str], asked: Request, target: Target) -> 
         show(named, speeds, *target)
 
     def find(engine: Engine) -> SpeedSeries:
-        return analyze_speeds(engine, asked.speeds_rpm, asked.orders, _ask(asked, engine))
+        return analyze_speeds(engine, asked.speeds_rpm, asked.orders, _ask(asked, engine, target))
 
     _analyze_files(paths, asked, find, present, target)
 
@@ -92,12 +92,17 @@ def _answer_marine(paths: Sequence[str], asked: Request, target: Target) -> None
     _analyze_files(paths, asked, find, present, target)
 
 
-def _ask(asked: Request, engine: Engine) -> Callable[[Engine, Iterable[float] | None], Analysis]:
+def _ask(
+    asked: Request, engine: Engine, target: Target
+) -> Callable[[Engine, Iterable[float] | None], Analysis]:
     """What is asked of an engine like this one, at whatever speed and by whatever orders."""
     wanted = asked.quantities
     if wanted is None:
-        sizing = () if asked.over_speed else ("sizing",)  # it is the same at all speeds
-        wanted = [*list_quantities(engine), *sizing]
+        wanted = list(list_quantities(engine))
+        if not asked.over_speed:  # it is the same at all speeds
+            wanted.append("sizing")
+        if asked.whole and target.form in (Format.TABLE, Format.MARKDOWN):
+            wanted.append("guide")
     return partial(
         analyze,
         only=wanted,

@@ -39,13 +39,21 @@ class SeriesFormat(StrEnum):
 class VariantsFormat(StrEnum):
     """How the variants of a sweep are written."""
 
+    TABLE = "table"
+    MARKDOWN = "markdown"
     CSV = "csv"
     JSON = "json"
     PARQUET = "parquet"
 
 
 SERIES = {".csv": SeriesFormat.CSV, ".json": SeriesFormat.JSON}
-VARIANTS = {f".{form}": form for form in VariantsFormat}
+VARIANTS = {
+    ".csv": VariantsFormat.CSV,
+    ".json": VariantsFormat.JSON,
+    ".parquet": VariantsFormat.PARQUET,
+    ".txt": VariantsFormat.TABLE,
+    ".md": VariantsFormat.MARKDOWN,
+}
 
 
 class Place(NamedTuple):

@@ -24,8 +24,8 @@ def search(
         str,
         optional(
             "throws|firing_order|bank_angle|splay",
-            "What to arrange: the file's throw angles along the crank, the firing order, the "
-            "angle of the vee, or of its split pins.",
+            "What to arrange: the file's throw angles along the crank (or those of its firing "
+            "order), the firing order, the angle of the vee, or of its split pins.",
             "--over",
         ),
     ],

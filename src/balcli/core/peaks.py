@@ -13,14 +13,21 @@ from numpy.typing import NDArray
 
 from .phasors import Array, Complex, Phasors
 
+TURN = 2 * math.pi
+
 
 class Peak(NamedTuple):
-    """Largest absolute value over a revolution, and one crank angle (rad, in [0, 2 pi)) at which it
-    is reached; over two revolutions where there are half orders.
+    """Largest absolute value over a revolution, and the first crank angle (rad, in [0, 2 pi)) at
+    which it is reached; over two revolutions where there are half orders.
+
+    Attributes:
+        every: after which angle (rad) the curve repeats its size, by the orders that it has; 0: it
+            always has this size.
     """
 
     value: float
     theta: float
+    every: float = TURN
 
 
 MOST_CANDIDATES = 64  # for the highest peak of a curve
@@ -45,8 +52,8 @@ def find_peak(curve: Phasors) -> Peak:
         return Peak(0.0, 0.0)
     curve = Phasors(curve.orders[there], curve.forward[there], curve.backward[there], np.zeros(1))
     if np.count_nonzero(curve.orders % 1):  # of half the crank angle all are whole
-        value, half = find_peak(replace(curve, orders=2 * curve.orders))
-        return Peak(value, 2 * half)
+        half = find_peak(replace(curve, orders=2 * curve.orders))
+        return Peak(half.value, 2 * half.theta, 2 * half.every)
     theta = find_candidates(curve)
     step = np.pi / (8 * max(curve.orders[-1], 1))
     theta = np.concatenate(
@@ -57,7 +64,18 @@ def find_peak(curve: Phasors) -> Peak:
         values >= values.max() * (1 - _EQUAL)
     )  # of equal peaks the first, whatever the rounding
     best = equal[np.argmin(np.round(turned[equal], 9) % np.round(2 * np.pi, 9))]
-    return Peak(float(values.max()), float(turned[best]))
+    return Peak(float(values.max()), float(turned[best]), _find_repetition(curve))
+
+
+def _find_repetition(curve: Phasors) -> float:
+    """After which angle (rad) |F| is the same again, whatever the phasors of whole orders are: F is
+    a sum of vectors that turn m times a revolution (m < 0: backward), and |F| of what their turns
+    differ by.
+    """
+    ahead, against = curve.orders[curve.forward != 0], curve.orders[curve.backward != 0]
+    turns = np.concatenate([ahead, -against]).astype(int)
+    times = int(np.gcd.reduce(turns - turns[0]))
+    return TURN / times if times else 0.0
 
 
 def find_candidates(curve: Phasors, most: int = MOST_CANDIDATES) -> Array:

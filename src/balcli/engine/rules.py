@@ -157,9 +157,10 @@ def check_speed(parts: Assembly) -> Iterator[Problem]:
         amplitudes, angles = variant[::2], variant[1::2]
         if sum(map(abs, amplitudes)) < 1 - STANDSTILL:
             continue
-        least, theta = speed_ripple.find_slowest(list(zip(orders, amplitudes, angles, strict=True)))
-        if least <= STANDSTILL:
-            yield Problem("operation.speed_ripple", _describe_standstill(least, theta))
+        slowest = speed_ripple.find_slowest(list(zip(orders, amplitudes, angles, strict=True)))
+        if slowest.value <= STANDSTILL:
+            told = _describe_standstill(slowest.value, slowest.theta)
+            yield Problem("operation.speed_ripple", told)
             return
 
 

@@ -166,7 +166,7 @@ def are_products(engine: Engine, quantities: Sequence[Quantity]) -> bool:
     smaller than they (`core.factored_phasors`): then a variant more takes little more than its
     result.
     """
-    if any(q.part == "peak" for q in quantities):
+    if not engine.equal or any(q.part == "peak" for q in quantities):
         return False
     for orders, members in _group_by_orders(quantities):
         found = compute_spectra(engine, orders, {q.kind for q in members})

@@ -52,10 +52,10 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
         yield speed_facts(result.engine)
     if not view.parts <= TABLES or not view.parts:
         yield from _judge(result, system)
-    if view.whole:
-        yield from _all_order_parts(result, system)
-    elif view.parts:
+    if view.parts:
         yield from _chosen_order_parts(result, system, view)
+    elif view.whole:
+        yield from _all_order_parts(result, system, view)
     else:
         yield from _order_parts_in_brief(result, system, view)
     known = result.moments_known
@@ -88,32 +88,35 @@ def _known_spectra(result: Analysis) -> Spectra:
     return result.spectra if result.moments_known else replace(result.spectra, moment=None)
 
 
-def _all_order_parts(result: Analysis, system: System) -> Iterator[Part]:
+def _all_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
     """All tables of all orders."""
-    spectra = _shown_spectra(result)
-    yield from order_tables(spectra, system)
-    yield from direction_tables(spectra, system)
+    spectra, every = _shown_spectra(result), view.every_order
+    with_gas = result.engine.gas is not None
+    yield from order_tables(spectra, system, with_gas=with_gas, every=every)
+    yield from direction_tables(spectra, system, every=every)
     if spectra.vectors():
-        yield from textbook_tables(result.textbook, system)
+        yield from textbook_tables(result.textbook, system, every=every)
     yield from _peaks(result, system)
 
 
 def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
-    """The tables that `--only` names, of orders that matter unless orders were asked for."""
-    spectra = _shown_spectra(result)
+    """The tables that `--only` names, of orders that matter unless all or some were asked for."""
+    spectra, every = _shown_spectra(result), view.every_order
     others = ""
-    if not view.every_order:
+    if not (view.whole or every):
         shown = find_orders_that_matter(spectra, result.of_one_cylinder)
         others = tell_others(spectra, shown, system)
         spectra = spectra.select_orders(shown)
     tables: list[Grid] = []
     if view.parts.intersection(EVERY_KIND):
         named = spectra.only(view.parts | (GAS_KINDS.keys() if GAS.name in view.parts else set()))
-        tables += order_tables(named, system)
+        with_gas = result.engine.gas is not None
+        tables += order_tables(named, system, with_gas=with_gas, every=every)
     if "xy" in view.parts:
-        tables += direction_tables(spectra, system)
+        tables += direction_tables(spectra, system, every=every)
     if "textbook" in view.parts:
-        tables += textbook_tables(replace(result, spectra=spectra).textbook, system)
+        shown_book = replace(result, spectra=spectra).textbook
+        tables += textbook_tables(shown_book, system, every=every)
     yield from tables
     if tables and others:
         yield Text("", (others,))

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from .units import System, Unit
 
 Cells = tuple[str, ...]
+WHOLE_TURN = 360 - 1e-6  # deg
 _UNKNOWN_SIZES: Mapping[str, float] = MappingProxyType({})
 _AS_BUILT = (
     "Reciprocating masses in the planes of the throws; as built: with rotating masses and stagger, "
@@ -40,26 +41,36 @@ _AS_BUILT = (
 )
 
 
-def order_tables(spectra: Spectra, system: System, roll: str = "") -> Iterator[Grid]:
+def order_tables(
+    spectra: Spectra, system: System, roll: str = "", *, with_gas: bool = False, every: bool = False
+) -> Iterator[Grid]:
     """A table of each vector, and one of what acts about the crank's axis.
 
     Args:
         roll: a sentence on what the roll is, if it is more than the couple C less the torque T.
+        with_gas: whether the engine has gas, beside which that of inertia alone is told as such.
+        every: also orders above 2 in which all is balanced.
     """
     for kind, phasors in spectra.vectors():
-        yield _vector_table(kind, phasors, system.unit(kind))
-    if spectra.scalars():
-        yield from _scalar_tables(spectra, system.moment, roll)
+        yield _vector_table(kind, phasors, system.unit(kind), every)
+    of_inertia, of_gas = spectra.only(KINDS), spectra.only(GAS_KINDS)
+    if of_inertia.scalars():
+        what = " of inertia alone" if with_gas else ""
+        yield _scalar_table(of_inertia, system.moment, roll, what, every)
+    if of_gas.scalars():
+        yield _scalar_table(of_gas, system.moment, "", " with gas", every)
 
 
-def direction_tables(spectra: Spectra, system: System) -> Iterator[Grid]:
-    """Vectors along x and y, if there are any."""
+def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -> Iterator[Grid]:
+    """Vectors along x and y, if there are any; `every` as of `order_tables`."""
     if spectra.vectors():
-        yield _direction_table(spectra, system)
+        yield _direction_table(spectra, system, every)
 
 
-def textbook_tables(book: Textbook, system: System) -> Iterator[Grid]:
-    """Force and moment as multiples of the units of textbooks, where there are such units."""
+def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> Iterator[Grid]:
+    """Force and moment as multiples of the units of textbooks, where there are such units; `every`
+    as of `order_tables`.
+    """
     units = book.units
     if not units.force:
         return
@@ -69,11 +80,12 @@ def textbook_tables(book: Textbook, system: System) -> Iterator[Grid]:
             f"F1 = m r ω² = {size_text(units.force, system.force, 5)} "
             f"(reciprocating mass of {cylinder}), Fn = A_n F1 its n-th order. {_AS_BUILT}"
         )
-        yield _textbook_table(FORCE, book, note)
+        yield _textbook_table(FORCE, book, note, every)
     if book.built.moment is not None and units.arm == units.arm:
         arm = f"{number(system.length.of(units.arm), 4)} {system.length.name}"
         note = f"a = {arm}, the smallest distance of neighbouring throws."
-        yield _textbook_table(MOMENT, book, note if book.built.force else f"{note} {_AS_BUILT}")
+        note = note if book.built.force else f"{note} {_AS_BUILT}"
+        yield _textbook_table(MOMENT, book, note, every)
 
 
 def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
@@ -112,17 +124,19 @@ def peak_facts(
 
 
 def _shown_rows(
-    orders: Array, phasors: list[Phasors], cells: Callable[[int], Cells]
+    orders: Array, phasors: list[Phasors], cells: Callable[[int], Cells], every: bool
 ) -> tuple[Cells, ...]:
-    """Rows of orders up to 2, and of those in which one of these quantities is not balanced."""
+    """Rows of orders up to 2, and of those in which one of these quantities is not balanced, or of
+    every one.
+    """
     return tuple(
         cells(k)
         for k, order in enumerate(orders)
-        if order <= 2 or not all(p.balanced[k] for p in phasors)
+        if every or order <= 2 or not all(p.balanced[k] for p in phasors)
     )
 
 
-def _vector_table(kind: Kind, phasors: Phasors, unit: Unit) -> Grid:
+def _vector_table(kind: Kind, phasors: Phasors, unit: Unit, every: bool) -> Grid:
     unit = _fit(unit, phasors)
 
     def cells(k: int) -> Cells:
@@ -138,20 +152,11 @@ def _vector_table(kind: Kind, phasors: Phasors, unit: Unit) -> Grid:
     return Grid(
         f"{capitalized(kind.label)} by order, {unit.name}",
         ("order", "largest", "smallest", "axis, deg", "with crank", "against"),
-        _shown_rows(phasors.orders, [phasors], cells),
+        _shown_rows(phasors.orders, [phasors], cells, every),
     )
 
 
-def _scalar_tables(spectra: Spectra, unit: Unit, roll: str) -> Iterator[Grid]:
-    """What inertia does about the crank's axis, and what it does with the gas."""
-    of_inertia, of_gas = spectra.only(KINDS), spectra.only(GAS_KINDS)
-    if of_inertia.scalars():
-        yield _scalar_table(of_inertia, unit, roll)
-    if of_gas.scalars():
-        yield _scalar_table(of_gas, unit, "", " with gas")
-
-
-def _scalar_table(spectra: Spectra, unit: Unit, roll: str, what: str = "") -> Grid:
+def _scalar_table(spectra: Spectra, unit: Unit, roll: str, what: str, every: bool) -> Grid:
     scalars = spectra.scalars()
     unit = _fit(unit, *(phasors for _, phasors in scalars))
 
@@ -164,7 +169,7 @@ def _scalar_table(spectra: Spectra, unit: Unit, roll: str, what: str = "") -> Gr
     return Grid(
         f"About the crank axis{what}, {unit.name}",
         ("order", *heads),
-        _shown_rows(spectra.orders, [phasors for _, phasors in scalars], cells),
+        _shown_rows(spectra.orders, [phasors for _, phasors in scalars], cells, every),
         note=roll,
     )
 
@@ -187,7 +192,7 @@ def _fit(unit: Unit, *columns: Phasors) -> Unit:
     return unit.fit(max(float(np.nan_to_num(p.major).max(initial=0)) for p in columns))
 
 
-def _direction_table(spectra: Spectra, system: System) -> Grid:
+def _direction_table(spectra: Spectra, system: System, every: bool) -> Grid:
     """Vertical and horizontal, as builders state them."""
     vectors = [(phasors, _fit(system.unit(kind), phasors)) for kind, phasors in spectra.vectors()]
 
@@ -198,17 +203,18 @@ def _direction_table(spectra: Spectra, system: System) -> Grid:
                 yield number(unit.of(abs(c)), 4) if c else NOTHING
                 yield degrees(phase_deg(c)) if c else ""
 
+    phasors = [phasors for phasors, _ in vectors]
     axes = [kind.symbol + axis for kind, _ in spectra.vectors() for axis in "xy"]
     return Grid(
         f"Along x (vertical) and y (horizontal), {', '.join(unit.name for _, unit in vectors)}",
         ("order", *(head for axis in axes for head in (axis, "deg"))),
-        _shown_rows(spectra.orders, [phasors for phasors, _ in vectors], lambda k: (*cells(k),)),
+        _shown_rows(spectra.orders, phasors, lambda k: (*cells(k),), every),
         note="Value = amplitude · cos(order · θ − angle). My is the moment of the "
         "forces along x (marine: M1V, M2V), Mx of those along y (M1H).",
     )
 
 
-def _textbook_table(kind: Kind, book: Textbook, note: str) -> Grid:
+def _textbook_table(kind: Kind, book: Textbook, note: str, every: bool) -> Grid:
     """Multiples of each order's own unit."""
     alone, built = book.reciprocating[kind.name], book.built[kind.name]
 
@@ -220,7 +226,7 @@ def _textbook_table(kind: Kind, book: Textbook, note: str) -> Grid:
 
     unit = book.units.name(kind)
     heads = ("order", f"largest, {unit}", "with crank", "against", "as built")
-    rows = _shown_rows(built.orders, [alone, built], cells)
+    rows = _shown_rows(built.orders, [alone, built], cells, every)
     return Grid(f"{capitalized(kind.label)} in textbook units", heads, rows, note)
 
 
@@ -242,5 +248,9 @@ def _peak(peak: Peak, unit: Unit, least: float) -> str:
         return NOTHING
     if peak.value < least:
         return f"negligible ({size_text(peak.value, unit, 2)})"
-    at = degrees(float(np.degrees(peak.theta)))
-    return f"{size_text(peak.value, unit, 5)} at crank angle {at} deg"
+    size = size_text(peak.value, unit, 5)
+    if not peak.every:
+        return f"{size} at every crank angle"
+    at, every = degrees(float(np.degrees(peak.theta))), float(np.degrees(peak.every))
+    again = f" and every {every:.6g} deg" if every < WHOLE_TURN else ""
+    return f"{size} at crank angle {at} deg{again}"

@@ -96,7 +96,8 @@ def roll_and_peaks(result: Analysis, system: System) -> Facts:
     """What acts about the crank's axis, and the largest values over a revolution, a line each."""
     peaks = peak_facts(result, system, "", result.of_one_cylinder).pairs
     roll = result.spectra.roll
-    pairs = [] if roll is None else [(ROLL.label, _tell_roll(result, roll, system))]
+    name = ROLL.label if result.engine.gas is None else f"{ROLL.label}, inertia alone"
+    pairs = [] if roll is None else [(name, _tell_roll(result, roll, system))]
     title = "Largest over a revolution" if peaks else "About the crank axis"
     return Facts((*pairs, *peaks), title)
 

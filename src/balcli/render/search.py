@@ -62,16 +62,15 @@ def rows(result: Search, _system: System) -> Rows:
 
 
 def sheet(result: Search, _system: System) -> Sheet:
-    """The best arrangements, a row each, in SI units and in those of textbooks: F_n of the order,
-    and F_n a of moments.
+    """The best arrangements, a row each: figures in SI units, with those in textbooks' in brackets,
+    F_n of the order, and F_n a of moments. One quantity alone is its own objective.
     """
     first = result.results[0]
     units = {q.name: q.unit for q in result.objective.quantities}
     heads = [
         *(name.replace("_", " ") for name in first.design.given()),
-        "objective",
+        *(["objective"] if _is_sum(result) else []),
         *(f"{name}, {units[name]}" for name in first.figures),
-        *(f"{name}, {unit}" for name, (_, unit) in _textbook(result, first).items()),
     ]
     grid = Grid(
         f"Best {result.over.replace('_', ' ')}",
@@ -99,12 +98,26 @@ def _notes(result: Search) -> Iterator[str]:
 
 
 def _cells(result: Search, one: Found) -> tuple[str, ...]:
+    multiples = _textbook(result, one)
     return (
         *map(_setting, one.design.given().values()),
-        number(one.objective),
-        *map(number, one.figures.values()),
-        *(number(value, 4) for value, _ in _textbook(result, one).values()),
+        *([number(one.objective)] if _is_sum(result) else []),
+        *(_figure(value, multiples.get(name)) for name, value in one.figures.items()),
     )
+
+
+def _figure(value: float, multiple: tuple[float, str] | None) -> str:
+    """`973.12 (1.333 F1·a)`."""
+    if multiple is None or not value:
+        return number(value)
+    times, unit = multiple
+    return f"{number(value)} ({number(times, 4)} {unit})"
+
+
+def _is_sum(result: Search) -> bool:
+    """Whether the objective is more than one of the figures."""
+    weights = list(result.objective.weights.values())
+    return weights != [1.0]
 
 
 def _textbook(result: Search, one: Found) -> dict[str, tuple[float, str]]:

@@ -14,12 +14,16 @@ COLUMNS = ("name", "title", "source", "errata")
 
 
 def sheet(tables: Sequence[Table], _system: System) -> Sheet:
-    """A table a row, and what to ask next."""
-    lines = tuple((t.name, str(len(t.errata)), t.title, t.source) for t in tables)
+    """A table a row, and what to ask next; then where they were printed, by the
+    first word of their names.
+    """
+    lines = tuple((t.name, str(len(t.errata)), t.title) for t in tables)
     errata = sum(len(t.errata) for t in tables)
     note = f"{errata} errata; balcli tables NAME shows a table, --errata lists them"
-    grid = Grid("", ("name", "errata", "title", "source"), lines, note=note, words=(0, 2, 3))
-    return Sheet("Printed tables, recomputed", (grid,))
+    titles = Grid("", ("name", "errata", "title"), lines, note=note, words=(0, 2))
+    sources = {t.name.partition("-")[0]: t.source.partition(", Table ")[0] for t in tables}
+    printed = Grid("Sources", ("tables", "printed in"), tuple(sources.items()), words=(0, 1))
+    return Sheet("Printed tables, recomputed", (titles, printed))
 
 
 def document(tables: Sequence[Table]) -> list[dict[str, Any]]:

@@ -112,6 +112,6 @@ def _measure(
     panels = find_panels(compute, find_breaks(engine), 1.0)
     rows = zip(names, places.tolist(), compute(panels.angles), strict=True)
     for name, z, samples in rows:
-        size, angle = panels.find_largest(samples)
+        size, angle, _ = panels.find_largest(samples)
         mean = panels.find_mean_size(samples)
         yield Load(name, z, Extreme(angle, size), mean, None if area is None else size / area)

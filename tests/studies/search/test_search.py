@@ -421,3 +421,28 @@ def test_a_sum_of_forces_and_moments_is_said_to_be_one(minimise: str, told: bool
     found = search_arrangements(load(SHUFFLED), "throws", parse_objective(minimise))
     (grid,) = sheet(found, SYSTEMS["si"]).parts
     assert ("Objective: N·m and N added as plain numbers" in grid.note) is told
+
+
+def test_throws_that_follow_from_the_firing_order_are_permuted_like_those_given():
+    """1-5-3-6-2-4 asks for 0, 240, 120, 120, 240, 0 of a six with four strokes."""
+    six = """
+[crank]
+stroke = 90
+spacing = 100
+{throws}
+[rod]
+length = 160
+[piston]
+mass = 0.5
+[layout]
+firing_order = [1, 5, 3, 6, 2, 4]
+"""
+    goal = parse_objective("moment.1.major,moment.2.major")
+    derived, given = (
+        search_arrangements(load(six.format(throws=throws)), "throws", goal, 5)
+        for throws in ("", "throws = [0, 240, 120, 120, 240, 0]")
+    )
+    assert len(given.results) == 5
+    assert given.results[0].objective == 0
+    assert [one.design for one in derived.results] == [one.design for one in given.results]
+    assert [one.objective for one in derived.results] == [one.objective for one in given.results]

@@ -159,6 +159,6 @@ def amplify_rounding(samples: Array, condition: Array | float = 1.0) -> Array:
     what each is multiplied by (`condition`). Shape of the samples without their last axis.
     """
     spread: Array = np.sqrt(2 * np.mean(samples**2, axis=-1))
-    if np.isscalar(condition):
+    if np.ndim(condition) == 0:
         return spread
     return spread + np.mean(np.abs(samples) * condition, axis=-1)

@@ -53,7 +53,8 @@ class Linkage(ABC):
 
         Args:
             psi: their own crank angles (rad) or e^{i psi}, shape (samples,) or one row each.
-            figures: as `figures` gives them, with a last axis of length 1 for the samples.
+            figures: as `figures` gives them, with a last axis of length 1 for the samples; or
+                without, where the samples are the first axis of psi.
         """
 
     def motion(self, psi: Array | Complex, lam: Array, eps: Array) -> Motion:

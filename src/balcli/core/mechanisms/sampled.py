@@ -27,7 +27,7 @@ from .fourier import (
 from .motion import Motion, Move
 
 MOST_SAMPLES = 1 << 18
-_AT_ONCE = 1 << 14
+_AT_ONCE = 1 << 15
 _LIMIT = SAMPLING / 4  # of the upper half of a spectrum that holds rounding errors alone
 
 _OF_ROD: Mapping[str, Callable[[Motion], Array]] = MappingProxyType(
@@ -85,7 +85,8 @@ def sample_mechanisms(
     Args:
         orders: shape (orders,).
         wanted: names of series (`fourier.SERIES`).
-        move: the mechanisms in motion, by e^{i psi} and figures of shape (mechanisms, 1).
+        move: the mechanisms in motion, by e^{i psi} of shape (samples, 1) and figures of shape
+            (mechanisms,): arrays that run along many mechanisms are quicker than along samples.
         figures: what distinguishes them, each of shape (mechanisms,).
         counts: samples of a revolution that each takes at first, powers of two.
         highest: where given, a mechanism whose samples are too few for orders up to this one takes
@@ -99,10 +100,11 @@ def sample_mechanisms(
         count = min(waiting)
         circle, again = unit_circle(count), []
         for rows in _divide(waiting.pop(count), max(_AT_ONCE // count, 1)):
-            motion = move(circle, *(values[rows, None] for values in figures))
+            motion = move(circle[:, None], *(values[rows] for values in figures))
             enough = np.ones(len(rows), bool)
             for name, samples, condition in _take_samples(motion, wanted):
-                rounding, spectrum = amplify_rounding(samples, condition), np.fft.rfft(samples)
+                rounding = amplify_rounding(samples.T, np.transpose(condition))
+                spectrum = np.fft.rfft(samples, axis=0).T
                 if name not in found:
                     shape = len(n), len(counts)
                     found[name] = _Room(np.zeros(shape, complex), np.zeros(shape[1]))

@@ -104,8 +104,9 @@ def search_arrangements(
     """The best arrangements, mirror images and rotations once.
 
     Args:
-        over: throws (permutes those of the file), firing_order (all even ones; cranks follow where
-            the file gives no throws), bank_angle (of a vee) or splay.
+        over: throws (permutes those of the file, or those that its firing order asks for),
+            firing_order (all even ones; cranks follow where the file gives no throws), bank_angle
+            (of a vee) or splay.
         count: at most so many.
         even_firing: only arrangements that can fire evenly.
         tell: of a search over throws, which alone takes long: `throws.find_best_throws`.
@@ -143,10 +144,11 @@ def _parse_over(text: str) -> What:
 
 # ------------------------------------------------------------------ the four searches
 def _search_throws(task: _Task) -> Iterator[Found]:
-    model, objective = task.model, task.objective
-    if model.crank.throws is None or len(model.crank.throws) < 2:
+    model, objective = _give_throws(task.model), task.objective
+    if len(model.crank.throws or ()) < 2:
         raise BalcliError(
-            "there is nothing to permute: the file gives no crank.throws, or one alone"
+            "there is nothing to permute: the crank has one throw; give crank.throws, or a "
+            "layout.firing_order they follow from"
         )
     if peaks := [q.name for q in objective.quantities if q.part == "peak"]:
         raise BalcliError(
@@ -162,6 +164,16 @@ def _search_throws(task: _Task) -> Iterator[Found]:
     if len(throws):
         throws = count_from(throws[:, :1], throws)
     return rank_candidates(model, {"throws": throws}, objective)
+
+
+def _give_throws(model: EngineFile) -> EngineFile:
+    """The same with the throws that its firing order asks for, where it gives none."""
+    if model.crank.throws is not None or not model.layout.firing_order:
+        return model
+    found = assemble(model).throws_deg
+    throws = [float(found[throw]) for throw in range(len(found))]
+    crank = model.crank.model_copy(update={"throws": throws})
+    return model.model_copy(update={"crank": crank})
 
 
 def _search_firing_order(task: _Task) -> Iterator[Found]:
