@@ -48,6 +48,7 @@ FARTHEST_DEG = 1e6  # phase and turn of a second engine: angles keep 10 digits
 FARTHEST_M = 1e6  # place of a second engine
 LARGEST_FACTOR = 10  # share of the reciprocating mass, either way: shops take 0 to 1
 MOST_HOLES = 50  # in one counterweight: none has room for more
+MOST_DIGITS = 15  # of figures in tables: what a floating-point number has
 MOST_FACTORS = 1000  # steps of a range of balance factors
 MOST_TABLE_VALUES = 100_000  # steps of a range of a printed table
 LARGEST_TABLE_VALUE = 10**9  # in such a range
