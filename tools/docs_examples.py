@@ -32,7 +32,12 @@ LEFT_OUT = "…"
 FUNCTION = (
     f'balcli() {{ "{sys.executable}" -m balcli "$@"; }}; python() {{ "{sys.executable}" "$@"; }}\n'
 )
-ENVIRONMENT = os.environ | {"PYTHONPATH": str(ROOT / "src"), "NO_COLOR": "1", "COLUMNS": "80"}
+ENVIRONMENT = os.environ | {
+    "BALCLI_CONFIG": "",
+    "PYTHONPATH": str(ROOT / "src"),
+    "NO_COLOR": "1",
+    "COLUMNS": "80",
+}
 
 
 class Shown(NamedTuple):

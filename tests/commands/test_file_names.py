@@ -40,7 +40,7 @@ TEXTS = {"txt": "table", "json": "json", "csv": "csv", "md": "markdown"}
 SERIES = {"csv": "csv", "json": "json"}
 COMMANDS = [
     *(("analyze", TEXTS), ("balance", TEXTS), ("curves --step 90", SERIES)),
-    *((f"sweep {' '.join(VARY)}", SERIES), (f"search {' '.join(SEARCH)}", TEXTS)),
+    *((f"sweep {' '.join(VARY)}", TEXTS), (f"search {' '.join(SEARCH)}", TEXTS)),
     ("scatter --samples 9 --seed 1", TEXTS),
 ]
 
@@ -70,7 +70,7 @@ PICTURES = ".svg, .png or .pdf"
         (("analyze", "-f", "csv", "-o", "r.PDF"), ".txt, .json, .csv or .md"),
         (("analyze", "-o", "r.xyz"), ".txt, .json, .csv or .md"),
         (("curves", "-o", "r.md"), ".csv or .json"),
-        (("sweep", *VARY, "-o", "r.png"), ".csv, .json or .parquet"),
+        (("sweep", *VARY, "-o", "r.png"), ".csv, .json, .parquet, .txt or .md"),
         (("sweep", *VARY, "--plot", "r.csv"), PICTURES),
         (("plot", "-o", "r.jpg"), PICTURES),
         (("report", "-o", "r.pdf"), ".html or .htm"),

@@ -50,7 +50,7 @@ def test_a_table_is_a_text(balcli, name):
         ("analyze", "'table', 'json', 'csv', 'markdown', 'marine'"),
         ("compare", "'table', 'json', 'csv', 'markdown'"),
         ("curves", "'csv', 'json'"),
-        ("sweep", "'csv', 'json', 'parquet'"),
+        ("sweep", "'table', 'markdown', 'csv', 'json', 'parquet'"),
     ],
 )
 def test_what_is_no_format_is_told_with_those_that_are(balcli, command, known):

@@ -15,6 +15,8 @@ import pytest
 from support.commands import HANGS, run_command, run_here, start_command
 from support.engines import GOOD
 
+from balcli.commands import sweep_output
+
 
 @pytest.fixture
 def engine(tmp_path: Path) -> str:
@@ -163,6 +165,70 @@ def test_parquet_and_pictures(engine: str, tmp_path: Path) -> None:
     assert table.column_names == ["rod.ratio", "crank.stroke", "force.2.major"]
     assert table["rod.ratio"].to_pylist() == [0.2] * 3 + [0.3] * 3
     assert picture.read_text().lstrip().startswith("<?xml")
+
+
+def read_markdown(text: str) -> list[list[str]]:
+    """Cells of a table, its heads first."""
+    lines = [line for line in text.splitlines() if line.startswith("|")]
+    cells = [[cell.strip().replace("\\", "") for cell in line.split("|")[1:-1]] for line in lines]
+    return [cells[0], *cells[2:]]
+
+
+def sweep_strokes(engine: str, values: str, *options: object) -> str:
+    asked = ("--vary", f"crank.stroke={values}", "-q", "force.2.major,force.1.axis")
+    status, out, err = run_here("sweep", engine, *asked, *options)
+    assert (status, err) == (0, "")
+    return out
+
+
+@pytest.mark.parametrize("count", [1, 50, 51, 2000])
+def test_a_table_of_variants(engine: str, count: int) -> None:
+    """Fifty are shown whole; of more the first twenty and the last ten, as CSV has them."""
+    values = f"40:{40 + 0.05 * (count - 1)}:0.05" if count > 1 else "40"
+    csv = [line.split(",") for line in sweep_strokes(engine, values, "-f", "csv").splitlines()[1:]]
+    assert len(csv) == count
+    text = sweep_strokes(engine, values, "-f", "markdown")
+    heads, *rows = read_markdown(text)
+    assert heads[0] == "crank.stroke, mm"
+    assert heads[1] in ("force.2.major, N", "force.2.major, kN")
+    size = 1e3 if "kN" in heads[1] else 1
+    wanted = csv
+    if count > 50:
+        assert rows.pop(20) == ["…"] * 3
+        assert f"{count} variants, of which {count - 30} are not shown" in text
+        wanted = csv[:20] + csv[-10:]
+    assert len(rows) == len(wanted)
+    for row, exact in zip(rows, wanted, strict=True):
+        assert float(row[0]) == float(exact[0])
+        assert float(row[1]) * size == pytest.approx(float(exact[1]), rel=1e-4)
+        assert (row[2], exact[2]) == ("–", "")
+
+
+def test_chunks_of_a_long_table_are_passed_over(engine: str, monkeypatch) -> None:
+    """Its ends do not depend on where the chunks end."""
+    whole = sweep_strokes(engine, "40:60:0.1", "-f", "table")
+    own = sweep_output.until_stopped
+
+    def split(chunks, *others):
+        for chunk in own(chunks, *others):
+            (cut,) = chunk.box
+            for start in range(cut.start, cut.stop, 7):
+                part = slice(start, min(start + 7, cut.stop))
+                inner = slice(part.start - cut.start, part.stop - cut.start)
+                yield chunk._replace(box=(part,), values=[v[inner] for v in chunk.values])
+
+    monkeypatch.setattr(sweep_output, "until_stopped", split)
+    assert sweep_strokes(engine, "40:60:0.1", "-f", "table") == whole
+
+
+def test_a_terminal_shows_a_table_and_a_pipe_csv(engine: str) -> None:
+    asked = ("sweep", engine, "--vary", "crank.stroke=80,90")
+    seen = run_here(*asked, terminal=True).out
+    assert "in-line four: variants" in seen
+    assert "crank.stroke,force" not in seen
+    piped = run_here(*asked).out
+    assert piped.startswith("crank.stroke,force.1.major,")
+    assert run_here(*asked, "-f", "csv", terminal=True).out == piped
 
 
 def test_search_writes_the_best(engine: str, tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from ..errors import BalcliError
 from ..render.formats import Format
+from . import defaults
 
 if TYPE_CHECKING:
     from ..render.plot.style import Form
@@ -39,13 +40,21 @@ class SeriesFormat(StrEnum):
 class VariantsFormat(StrEnum):
     """How the variants of a sweep are written."""
 
+    TABLE = "table"
+    MARKDOWN = "markdown"
     CSV = "csv"
     JSON = "json"
     PARQUET = "parquet"
 
 
 SERIES = {".csv": SeriesFormat.CSV, ".json": SeriesFormat.JSON}
-VARIANTS = {f".{form}": form for form in VariantsFormat}
+VARIANTS = {
+    ".csv": VariantsFormat.CSV,
+    ".json": VariantsFormat.JSON,
+    ".parquet": VariantsFormat.PARQUET,
+    ".txt": VariantsFormat.TABLE,
+    ".md": VariantsFormat.MARKDOWN,
+}
 
 
 class Place(NamedTuple):
@@ -80,8 +89,10 @@ def choose_target(second: Path | None, output: Path | None, example: str) -> Pat
 
 
 def text_format(output: Path | None, asked: Format | None) -> Format:
-    """How to write what people read; a table by default. Errors as `format_of`."""
-    return format_of(output, asked, TEXTS, Format.TABLE)
+    """How to write what people read; a table by default, or what a user has set as default. Errors
+    as `format_of`.
+    """
+    return format_of(output, asked, TEXTS, defaults.usual.format or Format.TABLE)
 
 
 def format_of(

@@ -55,7 +55,10 @@ def sweep(
     form: Annotated[
         VariantsFormat | None,
         format_option(
-            VariantsFormat, "How to write the variants; default: by the ending of -o, else csv."
+            VariantsFormat,
+            "How to write the variants; default: by the ending of -o (.csv, .json, .parquet, .txt, "
+            ".md), else a table in a terminal and csv in a pipe. Tables show 50 variants whole, of "
+            "more the first and the last.",
         ),
     ] = None,
     output: Annotated[
@@ -98,13 +101,13 @@ def sweep(
         optional("ADDRESS|local", "Compute on a dask cluster.", "--dask"),
     ] = "",
 ) -> None:
-    """Figures of many variants of an engine: numbers of its file over ranges, as CSV, JSON or (by
-    the name of -o) Parquet.
+    """Figures of many variants of an engine: numbers of its file over ranges, as a table, CSV, JSON
+    or Parquet.
 
     Ctrl-C ends it with the variants computed so far, in -o's FILE.part if there is a -o.
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
-    kind = _choose_format(output, form, plot)
+    file, kind = _choose_target(output, form, plot)
     drawn = picture_form(plot, "--plot") if plot is not None else None
     from ..studies.sweep import join_chunks, read_sweep
     from . import sweep_output as out
@@ -116,9 +119,9 @@ def sweep(
         warn_of_unknown_moments(job.name)
     if drawn is not None:
         check_drawable(job)
-    file = None if output is None else output.path
     kept: list[Chunk] | None = [] if drawn else None
-    with reporting_until_stopped("variants", job.variants, progress, not is_seen(file)) as watch:
+    shown = not is_seen(file) or kind in (VariantsFormat.TABLE, VariantsFormat.MARKDOWN)
+    with reporting_until_stopped("variants", job.variants, progress, shown) as watch:
         if output is not None and output.is_folder:
             place = write_parts(job, output.path, _sharing(jobs, dask), watch, force=force)
         else:
@@ -130,17 +133,18 @@ def sweep(
         write_file(draw_sweep(job, join_chunks(job, kept or ()), drawn), plot)
 
 
-def _choose_format(
+def _choose_target(
     output: Place | None, form: VariantsFormat | None, plot: Path | None
-) -> VariantsFormat:
-    """How to write the variants.
+) -> tuple[Path | None, VariantsFormat]:
+    """Where to write the variants, None for standard output, and how.
 
     Raises:
         BalcliError: as of `format_of`; or for what does not go with a folder.
     """
+    file = None if output is None else output.path
     if output is None or not output.is_folder:
-        file = None if output is None else output.path
-        return format_of(file, form, VARIANTS, VariantsFormat.CSV)
+        usual = VariantsFormat.TABLE if is_seen(file) else VariantsFormat.CSV
+        return file, format_of(file, form, VARIANTS, usual)
     if form not in (None, VariantsFormat.PARQUET):
         raise BalcliError(
             f"--output {output.path}/: a folder takes Parquet files, but --format says {form}; "
@@ -151,7 +155,7 @@ def _choose_format(
             f"--plot {plot}: figures that go into a folder are not kept for a picture; write one "
             "file, or leave --plot out"
         )
-    return VariantsFormat.PARQUET
+    return file, VariantsFormat.PARQUET
 
 
 @contextmanager

@@ -4,50 +4,86 @@ file.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterable, Iterator
 from itertools import chain, islice
 from pathlib import Path
-from typing import TextIO
+
+import numpy as np
 
 from ..errors import BalcliError
+from ..limits import MOST_ROWS_READ
+from ..render.formats import Format, lay_out
 from ..render.sweep import csv_text, json_text
 from ..render.sweep_parquet import write_parquet
+from ..render.sweep_table import Ends, make_sheet
 from ..studies.sweep import Chunk, Sweep, list_columns
-from .output import replacing, standard_output
+from .file_names import VariantsFormat
+from .output import is_seen, replacing, standard_output
 from .progress import Progress
+
+_FIRST, _LAST = 20, 10  # rows of a table of many
 
 
 def write_sweep(
-    sweep: Sweep, chunks: Iterable[Chunk], kind: str, output: Path | None, progress: Progress
+    sweep: Sweep,
+    chunks: Iterable[Chunk],
+    kind: VariantsFormat,
+    output: Path | None,
+    progress: Progress,
 ) -> str:
-    """Write all chunks as csv, json or parquet. A file takes its place when it is whole; what there
-    is of one that Ctrl-C has cut short, a whole document of fewer rows, goes to `name.part` beside
-    it. Returns where that is, in words.
+    """Write all chunks as csv, json or parquet, or a table of them. A file takes its place when it
+    is whole; what there is of one that Ctrl-C has cut short, a whole document of fewer rows, goes
+    to `name.part` beside it. Returns where that is, in words.
 
     Raises:
         BalcliError: parquet without a file, the file cannot be written, or pyarrow is missing.
     """
-    if output is None and kind == "parquet":
+    if output is None and kind is VariantsFormat.PARQUET:
         raise BalcliError("parquet is written into a file: name one with -o")
     if output is None:
         with standard_output() as stream:
-            _write_text(sweep, chunks, kind, stream)
+            stream.writelines(_make_text(sweep, chunks, kind, seen=is_seen(output)))
         return ""
     with replacing(output) as place:
-        if kind == "parquet":
+        if kind is VariantsFormat.PARQUET:
             write_parquet(sweep, (list_columns(sweep, chunk) for chunk in chunks), place)
         else:
             with place.open("w", encoding="utf-8") as stream:
-                _write_text(sweep, chunks, kind, stream)
+                stream.writelines(_make_text(sweep, chunks, kind))
         if not progress.cut_short or place == output:  # a device has what it has
             return ""
         part = place.replace(output.with_name(f"{output.name}.part"))
     return f"they are in {part}"
 
 
-def _write_text(sweep: Sweep, chunks: Iterable[Chunk], kind: str, stream: TextIO) -> None:
-    write = json_text if kind == "json" else csv_text
-    stream.writelines(write(sweep, _first_at_once(chunks)))
+def _make_text(
+    sweep: Sweep, chunks: Iterable[Chunk], kind: VariantsFormat, *, seen: bool = False
+) -> Iterator[str]:
+    whole = _first_at_once(chunks)
+    match kind:
+        case VariantsFormat.JSON:
+            return json_text(sweep, whole)
+        case VariantsFormat.TABLE | VariantsFormat.MARKDOWN:
+            sheet = make_sheet(sweep, _take_ends(sweep, whole))
+            return iter([lay_out([sheet], Format(kind), seen=seen)])
+        case _:
+            return csv_text(sweep, whole)
+
+
+def _take_ends(sweep: Sweep, chunks: Iterable[Chunk]) -> Ends:
+    """The rows of a table: all if there are few, and no more kept than it shows."""
+    first: list[tuple[float, ...]] = []
+    last: deque[tuple[float, ...]] = deque(maxlen=_LAST)
+    seen = 0
+    for chunk in chunks:
+        columns = list_columns(sweep, chunk)
+        first += zip(*(column[: max(MOST_ROWS_READ - seen, 0)] for column in columns), strict=True)
+        last += zip(*(column[-_LAST:] for column in columns), strict=True)
+        seen += len(columns[0])
+    if seen <= MOST_ROWS_READ:
+        return Ends(np.array(first), np.empty((0, len(sweep.columns))), 0)
+    return Ends(np.array(first[:_FIRST]), np.array(last), seen - _FIRST - _LAST)
 
 
 def _first_at_once(chunks: Iterable[Chunk]) -> Iterator[Chunk]:

@@ -28,6 +28,21 @@ class Units(StrEnum):
     IMPERIAL = "imperial"
 
 
+USUAL_DIGITS = 5
+_digits = USUAL_DIGITS  # significant ones, of most figures in tables
+
+
+def set_digits(digits: int) -> None:
+    """How many significant digits tables have, for the rest of this process."""
+    global _digits
+    _digits = digits
+
+
+def get_digits() -> int:
+    """How many significant digits figures of tables have, unless a table says otherwise."""
+    return _digits
+
+
 R = TypeVar("R")
 R_contra = TypeVar("R_contra", contravariant=True)
 
@@ -57,19 +72,9 @@ def render(
         seen: whether a person will see it in a terminal, with colours and at its width.
     """
     match form:  # the module of the one format that is asked for is imported
-        case Format.TABLE:
+        case Format.TABLE | Format.MARKDOWN:
             sheets = [renderer.sheet(result, system) for result in results]
-            if seen:
-                from .terminal import terminal  # rich
-
-                return terminal(sheets)
-            from .table import plain_text
-
-            return plain_text(sheets)
-        case Format.MARKDOWN:
-            from .markdown import markdown
-
-            return markdown([renderer.sheet(result, system) for result in results])
+            return lay_out(sheets, form, seen=seen)
         case Format.CSV:
             from .csv import csv_text
 
@@ -80,3 +85,18 @@ def render(
             return "\n".join(json_text(renderer.document(result)) for result in results)
         case _:
             assert_never(form)
+
+
+def lay_out(sheets: list[Sheet], form: Format, *, seen: bool) -> str:
+    """Sheets as tables or Markdown, one after the other; `seen` as of `render`."""
+    if form is Format.MARKDOWN:
+        from .markdown import markdown
+
+        return markdown(sheets)
+    if seen:
+        from .terminal import terminal  # rich
+
+        return terminal(sheets)
+    from .table import plain_text
+
+    return plain_text(sheets)

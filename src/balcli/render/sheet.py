@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from .formats import get_digits
+
 if TYPE_CHECKING:
     from .units import Unit
 
@@ -66,10 +68,11 @@ def order_name(order: float) -> str:
     return f"{int(whole) or ''}½" if half else str(int(whole))
 
 
-def number(value: float, digits: int = 5) -> str:
-    """A number for people: that many significant digits, no exponent between 0.001 and a million, a
-    plain 0.
+def number(value: float, digits: int | None = None) -> str:
+    """A number for people: that many significant digits (default: `get_digits`), no
+    exponent between 0.001 and a million, a plain 0.
     """
+    digits = digits or get_digits()
     if value != value:
         return "–"
     if value == 0:

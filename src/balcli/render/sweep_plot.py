@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import BalcliError
 from ..limits import MOST_PICTURE_VARIANTS
 from .plot import style
-from .units import SI, Unit
+from .units import Unit, name_with_unit, unit_of_name
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -63,7 +63,7 @@ def make_sweep(sweep: Sweep, values: Sequence[Array], form: style.Form) -> Figur
         places = page.subplots(1, len(values), squeeze=False)[0]
         for axes, quantity, value in zip(places, sweep.quantities, values, strict=True):
             unit = _fit(quantity.unit, value)
-            title = f"{quantity.name}, {unit.name}"
+            title = name_with_unit(quantity.name, unit.name)
             _draw_contours(page, axes, several, value.squeeze() / unit.size, title)
     return page
 
@@ -84,26 +84,26 @@ def _draw_curves(axes: Any, sweep: Sweep, values: Sequence[Array]) -> None:
             value.ravel() / unit.size,
             color=colour,
             linestyle=line,
-            label=f"{quantity.name}, {unit.name}",
+            label=name_with_unit(quantity.name, unit.name),
         )
-    axes.set(xlabel=_name_axis(parameter), title=style.fit_name(sweep.file.name))
+    axes.set(
+        xlabel=name_with_unit(parameter.path, parameter.unit), title=style.fit_name(sweep.file.name)
+    )
     axes.ticklabel_format(axis="y", useOffset=False, style="plain")
     axes.legend()
 
 
 def _fit(name: str, value: Array) -> Unit:
     """The unit for the largest of these values, which are in SI units of this name."""
-    own = {unit.name: unit for unit in (SI.force, SI.moment)}.get(name, Unit(name, 1))
-    return own.fit(float(abs(value[value == value]).max(initial=0)))
-
-
-def _name_axis(parameter: Parameter) -> str:
-    """`operation.speed, rpm`: the parameter with its unit."""
-    return f"{parameter.path}, {parameter.unit}" if parameter.unit else parameter.path
+    return unit_of_name(name).fit(float(abs(value[value == value]).max(initial=0)))
 
 
 def _draw_contours(figure: Any, axes: Any, parameters: Any, value: Array, title: str) -> None:
     first, second = parameters
     filled = axes.contourf(second.values, first.values, value, LEVELS)
     figure.colorbar(filled, ax=axes)
-    axes.set(xlabel=_name_axis(second), ylabel=_name_axis(first), title=title)
+    axes.set(
+        xlabel=name_with_unit(second.path, second.unit),
+        ylabel=name_with_unit(first.path, first.unit),
+        title=title,
+    )

@@ -70,3 +70,13 @@ IMPERIAL = System(
     Unit("in³", INCH**3),
 )
 SYSTEMS = {"si": SI, "imperial": IMPERIAL}
+
+
+def unit_of_name(name: str) -> Unit:
+    """The unit of this name, which gives way to a larger one if it is that of force or moment."""
+    return next((unit for unit in (SI.force, SI.moment) if unit.name == name), Unit(name, 1))
+
+
+def name_with_unit(name: str, unit: str) -> str:
+    """`operation.speed, rpm`: a column or an axis with its unit, if it has one."""
+    return f"{name}, {unit}" if unit else name
