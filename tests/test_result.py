@@ -15,7 +15,6 @@ from support.paths import ENGINES
 from support.rotors import three_runs
 
 import balcli
-from balcli.forces.curves import compute_engine_curves, divide_revolution
 from balcli.render import exchange
 from balcli.result import Result
 from balcli.results.analysis import QUANTITIES
@@ -48,7 +47,7 @@ ANSWERS: dict[str, tuple[Callable[[], Result], tuple[str, ...]]] = {
         ("compare", FILES["i3"], FILES["i4"]),
     ),
     "Curves": (
-        lambda: compute_engine_curves(load("i3"), divide_revolution(30)),
+        lambda: balcli.curves(load("i3"), 30),
         ("curves", FILES["i3"], "--step", "30"),
     ),
     "FieldBalance": (
@@ -198,11 +197,11 @@ def test_a_notebook_shows_what_the_command_prints(name):
 
 
 def test_a_notebook_shows_the_ends_of_what_is_long():
-    found = compute_engine_curves(load("i3"), divide_revolution(1))
+    found = balcli.curves(load("i3"))
     shown = re.findall(r"<tr><td>([\d.]+)</td>", found._repr_html_())
     assert shown == ["0", "1", "2", "3", "4", "...", "355", "356", "357", "358", "359"]
     assert "360 rows" in read_page(found).text
-    few = compute_engine_curves(load("i3"), divide_revolution(36))
+    few = balcli.curves(load("i3"), 36)
     assert "..." not in read_page(few).text
 
 

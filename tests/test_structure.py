@@ -173,7 +173,7 @@ ON_REQUEST = {
         "balcli.engine.articulation",
         "balcli.engine.gas",
     ),
-    "balcli.engine.build": ("balcli.engine.vary",),
+    "balcli.engine.build": ("balcli.engine.vary", "balcli.enginefile.suspicious"),
     "balcli.engine.rules": ("balcli.engine.articulation",),
     "balcli.forces.spectrum": ("balcli.forces.gas",),
     "balcli.forces.symmetry": ("balcli.forces.gas_symmetry",),
@@ -199,6 +199,7 @@ ON_REQUEST = {
     ),
     "balcli.commands.inputs": ("balcli.enginefile.assumed",),
     "balcli.commands.scatter": ("balcli.studies.mount_scatter",),
+    "balcli.studies.curves": ("balcli.torque.curves",),
 }
 
 

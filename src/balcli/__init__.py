@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from .engine.load import load
     from .errors import BalcliError, InputError
     from .field_balancing.balance import FieldBalance
+    from .forces.curves import Curves
     from .library.compare import compare
+    from .library.curves import curves
     from .library.examples import load_example
     from .library.mounts import analyze_mounts
     from .library.plot import plot
@@ -48,6 +50,7 @@ __all__ = [
     "Balance",
     "BalcliError",
     "Comparison",
+    "Curves",
     "Engine",
     "FieldBalance",
     "InputError",
@@ -68,6 +71,7 @@ __all__ = [
     "balance",
     "balance_rotor",
     "compare",
+    "curves",
     "load",
     "load_example",
     "plot",
@@ -86,6 +90,8 @@ _ROOMS = {
     "InputError": "errors",
     "Comparison": "results.comparison",
     "compare": "library.compare",
+    "Curves": "forces.curves",
+    "curves": "library.curves",
     "Engine": "engine.build",
     "load": "engine.load",
     "load_example": "library.examples",

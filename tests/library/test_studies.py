@@ -172,6 +172,22 @@ def test_tables_with_other_ranges():
     assert balcli.tables("tsinghua-1-2").errata
 
 
+def test_curves_of_an_engine_and_of_a_piston():
+    found = balcli.curves(FOUR, 5)
+    assert len(found.rows()) == 72
+    spectra = balcli.analyze(FOUR, range(1, 33), only="force").spectra
+    wanted = spectra.force.values(np.radians(found.crank_deg)).real
+    assert found.values["force_x_N"] == pytest.approx(wanted, abs=1e-9 * np.abs(wanted).max())
+    piston = balcli.curves(FOUR, 90, cylinder=2)
+    assert piston.values["travel_m"].max() == pytest.approx(2 * FOUR.cylinders.radius)
+    assert "travel_m" in piston.to_pandas()
+    assert len(balcli.curves(balcli.load_example("i4_wiebe"), 90).rows()) == 8
+    with pytest.raises(
+        balcli.BalcliError, match=r"in-line four, 2 litres has the cylinders 1, 2, 3, 4$"
+    ):
+        balcli.curves(FOUR, cylinder=9)
+
+
 # ------------------------------------------------------------------ chapters
 CHAIN = """\
 [[node]]

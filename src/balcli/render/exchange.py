@@ -14,6 +14,7 @@ from ..errors import BalcliError
 from ..printed_tables.recomputed import Table
 from ..result import Result
 from .csv import Column, Columns, Rows
+from .json import stamp
 from .printed_table import RoundedTable
 from .units import SI
 
@@ -45,7 +46,7 @@ def find_renderer(result: Result) -> tuple[Any, Any]:
 def describe(result: Result) -> dict[str, Any]:
     """The JSON document of an answer."""
     renderer, shown = find_renderer(result)
-    found: dict[str, Any] = renderer.document(shown)
+    found: dict[str, Any] = stamp(renderer.document(shown))
     return found
 
 
