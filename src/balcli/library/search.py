@@ -28,7 +28,8 @@ def search(
     Args:
         engine: as `load` makes it.
         over: what to arrange: the throw angles of the file along the crank ("throws"), its
-            "firing_order", its "bank_angle" or the "splay" of its split pins.
+            "firing_order", its "bank_angle" or the "splay" of its split pins; or any number of
+            the file and its range ("mount.left.loss=0.05:0.3").
         minimise: the quantity that should be small (`moment.1.major`), several, which are added
             up, or a dict of weights by quantity.
         limits: what quantities must stay below, N or N m.
@@ -53,7 +54,7 @@ def search(
         wanted = join_words("search", minimise) or ""
     bounds = check_mapping("search", limits or {}, '{"moment.2.major": 100}')
     texts = [f"{name}<{bound!r}" for name, bound in _as_floats(bounds).items()]
-    goal = parse_objective(wanted, texts)
+    goal = parse_objective(wanted, texts, with_gas=model.gas is not None)
     return search_arrangements(model, over, goal, check_count("top", top), even_firing)
 
 
