@@ -1,10 +1,14 @@
 """What all tests share: hypothesis repeats itself and has no deadline (machines are shared)."""
 
+import os
+
 import numpy as np
 import pytest
 from hypothesis import settings
 from support.commands import run_here
 
+for variable in [name for name in os.environ if name.startswith("BALCLI_")]:
+    del os.environ[variable]  # what whoever runs the tests finds usual
 settings.register_profile("repeatable", deadline=None, derandomize=True, max_examples=60)
 settings.load_profile("repeatable")
 

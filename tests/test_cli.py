@@ -660,6 +660,33 @@ def test_a_plain_analysis_imports_no_other_format_chapter_or_kind_of_engine(form
     assert {name.partition(".")[0] for name in names} & {*CHAPTERS} == set()
 
 
+MAY_IMPORT = {
+    "": "__main__ cli errors limits process result",
+    "commands": "amounts analysis_answer analysis_options analyze declare defaults file_names "
+    "format_names inputs options output overwrite_guard speed_range",
+    "core": "cylinders factored_phasors least_squares loads peaks phases phasors speed_ripple",
+    "core.mechanisms": "closed_form distinct fourier harmonics motion sampled slidercrank",
+    "engine": "arrays assembly build devices figures firing layout load positions rods rules",
+    "enginefile": "exclusive fields messages model plain_tables read suspicious toml_text units",
+    "forces": "kinds orders spectrum",
+    "render": "analyses analysis_data crankshaft csv devices figures formats guide_moments json "
+    "sheet strokes symmetry units view",
+    "results": "analysis",
+    "sizing": "auto details device_tables effects fitting options planes reasons remedy "
+    "residual schemes",
+}
+
+
+def test_a_plain_analysis_as_json_imports_these_modules_and_no_other():
+    """What else a change brings along is here for all to see: does everybody need it?"""
+    loaded = run_python("-c", OWN, "analyze", V8, "--format", "json").stderr.split()
+    allowed = {f"balcli.{package}".rstrip(".") for package in MAY_IMPORT}
+    for package, names in MAY_IMPORT.items():
+        allowed |= {f"balcli.{package}.{name}".replace("..", ".") for name in names.split()}
+    assert {*loaded} <= allowed
+    assert len({*loaded}) > len(allowed) / 2
+
+
 # ------------------------------------------------------------------ the end of the process
 def test_an_interruption_has_its_own_status(balcli, monkeypatch, good):
     def interrupted(**_):

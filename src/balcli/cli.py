@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 import sys
 import time
-from collections.abc import Collection
+from collections.abc import Iterable, Iterator
 from copy import copy
 from importlib import import_module
 from inspect import cleandoc
@@ -21,7 +21,10 @@ from typer.core import TyperGroup
 from typer.main import get_command
 
 from . import __version__
+from .commands.defaults import load_defaults, origins
 from .errors import BalcliError, Exit, Loudness, note, say, set_loudness
+from .limits import MOST_DIGITS
+from .render.formats import USUAL_DIGITS, set_digits
 
 # What each does in a line; the first paragraph of its own help says the same.
 GROUPS = {
@@ -78,6 +81,8 @@ GROUPS = {
 }
 COMMANDS = {name: text for group in GROUPS.values() for name, text in group.items()}
 
+IN_FULL_PRECISION = ("curves", "sweep")  # series of numbers
+
 
 class _OnDemand(TyperGroup):
     """The commands by name; the module of one is imported when it is called, or its help is asked
@@ -96,8 +101,7 @@ class _OnDemand(TyperGroup):
         function = getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name)
         single.command(cmd_name, help=_unwrapped(cleandoc(function.__doc__)))(function)
         command = get_command(single)
-        taken = {word for option in command.params for word in option.opts}
-        command.params += [_sparing(option, taken) for option in self.params if _is_shared(option)]
+        command.params += _share(self.params, cmd_name, command.params)
         return command
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
@@ -132,16 +136,19 @@ app = typer.Typer(
 )
 
 
-def _is_shared(option: Any) -> bool:
-    """Whether an option of the program stands after the command's name, too."""
-    return option.name in ("quiet", "verbose")
-
-
-def _sparing(option: Any, taken: Collection[str]) -> Any:
-    """The option without the words that are a command's own: `-q` of `sweep` is its --quantity."""
-    own = copy(option)
-    own.opts = [word for word in option.opts if word not in taken]
-    return own
+def _share(options: Iterable[Any], command: str, own: Iterable[Any]) -> Iterator[Any]:
+    """The options of the program that stand after the command's name, too, without words that are
+    its own: `-q` of `sweep` is its --quantity.
+    """
+    taken = {word for option in own for word in option.opts}
+    tables = "--format" in taken and command not in IN_FULL_PRECISION
+    for option in options:
+        if option.name in ("quiet", "verbose") or (option.name == "digits" and tables):
+            shared = copy(option)
+            shared.opts = [word for word in option.opts if word not in taken]
+            shared.expose_value = False
+            if shared.opts:
+                yield shared
 
 
 def _version(wanted: bool) -> None:
@@ -160,8 +167,15 @@ def _verbose(wanted: bool) -> None:
         set_loudness(Loudness.VERBOSE)
 
 
+def _digits(wanted: int | None) -> int | None:
+    if wanted is not None:
+        set_digits(wanted)
+    return wanted
+
+
 @app.callback()
 def _options(
+    context: typer.Context,
     version: Annotated[
         bool,
         typer.Option(
@@ -188,6 +202,18 @@ def _options(
             help="Also what was read and assumed, and how long it took, on standard error.",
         ),
     ] = False,
+    digits: Annotated[
+        int | None,
+        typer.Option(
+            "--digits",
+            callback=_digits,
+            min=1,
+            max=MOST_DIGITS,
+            metavar="N",
+            show_default=False,
+            help=f"Significant digits of figures in tables; default: {USUAL_DIGITS}.",
+        ),
+    ] = None,
 ) -> None:
     """Engine balance: which free forces and moments an engine makes, order by order, and what
     cancels them.
@@ -195,6 +221,10 @@ def _options(
     Describe the engine in a TOML file (`balcli new inline i4.toml` writes one to start from), then
     `balcli analyze i4.toml`.
     """
+    usual = load_defaults()
+    set_digits(digits or usual.digits or USUAL_DIGITS)
+    if usual.units is not None and context.invoked_subcommand is not None:
+        context.default_map = {context.invoked_subcommand: {"units": usual.units.value}}
 
 
 def main() -> NoReturn:
@@ -204,11 +234,8 @@ def main() -> NoReturn:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(encoding="utf-8", errors="replace")
-    set_loudness(Loudness.USUAL)
     try:
-        status = app(prog_name="balcli", standalone_mode=False)
-        note(f"{time.process_time():.2f} s of processor time, the start of Python included")
-        sys.exit(status)
+        sys.exit(_run())
     except BalcliError as error:
         say(f"balcli: {error}")
     except typer.TyperException as error:
@@ -224,6 +251,16 @@ def main() -> NoReturn:
             sys.exit(Exit.DONE)
         raise
     sys.exit(Exit.BAD_INPUT)
+
+
+def _run() -> Any:
+    """The exit status of the command of `sys.argv`."""
+    set_loudness(Loudness.USUAL)
+    status = app(prog_name="balcli", standalone_mode=False)
+    for origin in origins:
+        note(origin)
+    note(f"{time.process_time():.2f} s of processor time, the start of Python included")
+    return status
 
 
 def _usage(error: Any) -> str:

@@ -48,6 +48,7 @@ FARTHEST_DEG = 1e6  # phase and turn of a second engine: angles keep 10 digits
 FARTHEST_M = 1e6  # place of a second engine
 LARGEST_FACTOR = 10  # share of the reciprocating mass, either way: shops take 0 to 1
 MOST_HOLES = 50  # in one counterweight: none has room for more
+MOST_DIGITS = 15  # of figures in tables: what a floating-point number has
 MOST_FACTORS = 1000  # steps of a range of balance factors
 MOST_TABLE_VALUES = 100_000  # steps of a range of a printed table
 LARGEST_TABLE_VALUE = 10**9  # in such a range
@@ -60,6 +61,7 @@ MOST_ROWS_READ = 50  # of the table of a sweep: of more the first and the last a
 MOST_PICTURE_VARIANTS = 4_000_000  # of a sweep: a picture keeps all of them in memory
 MOST_TOLERANCE_SAMPLES = 20_000_000  # a minute or two, and mean and percentiles stand long before
 MOST_ARRANGEMENTS = 10**10  # of given throws: branch and bound tries few of them
+MOST_DESIGNS_ONE_BY_ONE = 2000  # of gas, mounts or torsion: each takes 10 to 50 ms
 MOST_EVEN_CRANKS = 200_000  # with an even firing order: each of them is tried
 MOST_CYLINDERS_FIRED = 64  # whose firing orders are looked for
 

@@ -182,7 +182,7 @@ def test_what_is_left_out_is_named_in_one_line():
     grid = next(part for part in found.parts if isinstance(part, Grid))
     assert [row[:4] for row in grid.rows] == [(n, "balanced", "", "") for n in "12"]
     assert re.fullmatch(
-        r"Negligible: orders 6, 12 \(at most force [\d.e-]+ N\)\. All: --all\.", grid.told
+        r"Negligible: orders 6, 12 \(at most force [\d.e-]+ N\)\. All: --all\.", grid.note
     )
 
 

@@ -46,7 +46,7 @@ def print_by_rich(sheets: list[Sheet]) -> str:
 def pieces_for_rich(part: Grid | Facts | Text) -> list:
     match part:
         case Grid():
-            return [grid_for_rich(part), *([Line(part.told)] if part.told else [])]
+            return [grid_for_rich(part), *([Line(part.note)] if part.note else [])]
         case Facts():
             table = Table.grid(padding=(0, 2))
             for name, value in part.pairs:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from ..errors import BalcliError
 from ..render.formats import Format
+from . import defaults
 
 if TYPE_CHECKING:
     from ..render.plot.style import Form
@@ -88,8 +89,10 @@ def choose_target(second: Path | None, output: Path | None, example: str) -> Pat
 
 
 def text_format(output: Path | None, asked: Format | None) -> Format:
-    """How to write what people read; a table by default. Errors as `format_of`."""
-    return format_of(output, asked, TEXTS, Format.TABLE)
+    """How to write what people read; a table by default, or what a user has set as default. Errors
+    as `format_of`.
+    """
+    return format_of(output, asked, TEXTS, defaults.usual.format or Format.TABLE)
 
 
 def format_of(

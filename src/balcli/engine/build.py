@@ -15,10 +15,10 @@ from ..core.cylinders import Cylinders, Device
 from ..core.phasors import Array, Figure, Phasors
 from ..enginefile.model import EngineFile
 from ..enginefile.plain_tables import list_tables
-from ..errors import BalcliError, InputError, wrong_type
+from ..errors import BalcliError, InputError, check_type, wrong_type
 from .assembly import Assembly, Ripple
 from .devices import build_devices
-from .positions import are_places_known
+from .positions import MOMENTS_UNKNOWN, are_places_known
 from .rules import find_contradictions
 
 if TYPE_CHECKING:
@@ -141,6 +141,7 @@ class Engine:
         """
         from .vary import vary_engine
 
+        check_type("vary", changes, Mapping, 'give a dict, such as {"rod.length": 150}')
         return vary_engine(self, {**changes, **named})
 
     def to_dict(self) -> dict[str, Any]:
@@ -154,6 +155,15 @@ class Engine:
 
     def __repr__(self) -> str:
         return f"<Engine {self.summary}>"
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """What its file says that is allowed and yet unlikely, in words; what is not known."""
+        from ..enginefile.suspicious import find_suspicious
+
+        said = () if self.model is None else find_suspicious(self.model)
+        unknown = () if self.places_known else (MOMENTS_UNKNOWN,)
+        return (*unknown, *said, *(() if self.gas is None else self.gas.doubts))
 
     @property
     def summary(self) -> str:

@@ -28,6 +28,21 @@ class Units(StrEnum):
     IMPERIAL = "imperial"
 
 
+USUAL_DIGITS = 5
+_digits = USUAL_DIGITS  # significant ones, of most figures in tables
+
+
+def set_digits(digits: int) -> None:
+    """How many significant digits tables have, for the rest of this process."""
+    global _digits
+    _digits = digits
+
+
+def get_digits() -> int:
+    """How many significant digits figures of tables have, unless a table says otherwise."""
+    return _digits
+
+
 R = TypeVar("R")
 R_contra = TypeVar("R_contra", contravariant=True)
 

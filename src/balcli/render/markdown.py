@@ -33,7 +33,7 @@ def _part(part: Grid | Facts | Text) -> str:
     match part:
         case Grid():
             return (
-                head + "\n".join(_lines(part)) + (f"\n\n{escape(part.told)}" if part.told else "")
+                head + "\n".join(_lines(part)) + (f"\n\n{escape(part.note)}" if part.note else "")
             )
         case Facts():
             return head + "\n".join(

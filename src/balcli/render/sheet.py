@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from .formats import get_digits
+
 if TYPE_CHECKING:
     from .units import Unit
 
@@ -19,7 +21,6 @@ NOTHING, UNKNOWN = "balanced", "–"  # a force or moment of 0, and one that is 
 class Grid(NamedTuple):
     """A table. Cells are text; the first column is a heading of its row. Cells in `marked` (row,
     column) stand out, and the columns in `words` are read, not compared: they stand to the left.
-    A `hint` names the command that shows more; pages and notebooks leave it out.
     """
 
     title: str
@@ -28,12 +29,6 @@ class Grid(NamedTuple):
     note: str = ""
     marked: frozenset[tuple[int, int]] = frozenset()
     words: tuple[int, ...] = (0,)
-    hint: str = ""
-
-    @property
-    def told(self) -> str:
-        """What stands below it where commands are typed: note and hint."""
-        return f"{self.note} {self.hint}".strip()
 
 
 class Facts(NamedTuple):
@@ -73,10 +68,11 @@ def order_name(order: float) -> str:
     return f"{int(whole) or ''}½" if half else str(int(whole))
 
 
-def number(value: float, digits: int = 5) -> str:
-    """A number for people: that many significant digits, no exponent between 0.001 and a million, a
-    plain 0.
+def number(value: float, digits: int | None = None) -> str:
+    """A number for people: that many significant digits (default: `get_digits`), no
+    exponent between 0.001 and a million, a plain 0.
     """
+    digits = digits or get_digits()
     if value != value:
         return "–"
     if value == 0:

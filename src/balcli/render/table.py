@@ -33,8 +33,8 @@ def _lines(sheet: Sheet) -> Iterator[str]:
         match part:
             case Grid():
                 yield from _grid_lines(part)
-                if part.told:
-                    yield part.told
+                if part.note:
+                    yield part.note
             case Facts():
                 yield from _fact_lines(part)
             case Text():

@@ -44,8 +44,8 @@ def _pieces(part: Grid | Facts | Text, width: int) -> Iterator[RenderableType]:
     match part:
         case Grid():
             yield from _fitting(part, width)
-            if part.told:
-                yield Line(part.told, style="dim")
+            if part.note:
+                yield Line(part.note, style="dim")
         case Facts():
             yield _facts_table(part)
         case Text():

@@ -1,0 +1,131 @@
+"""Units, format and digits that are usual: from options, environment and files, in this order."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from support.commands import refusal, run_here
+from support.paths import ENGINES
+
+from balcli.render.formats import USUAL_DIGITS, set_digits
+
+ASKED = ("analyze", ENGINES / "i4.toml", "--only", "force", "--orders", "2")
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """The folder above the one that commands run in."""
+    (tmp_path / "below").mkdir()
+    monkeypatch.chdir(tmp_path / "below")
+    yield tmp_path
+    set_digits(USUAL_DIGITS)
+
+
+def imperial(*more: object) -> bool:
+    return "lbf" in run_here(*ASKED, *more).out
+
+
+def test_an_option_comes_before_the_environment_and_that_before_the_file(folder, monkeypatch):
+    assert not imperial()
+    (folder / "balcli.toml").write_text('units = "imperial"')
+    assert imperial()
+    monkeypatch.setenv("BALCLI_UNITS", "si")
+    assert not imperial()
+    assert imperial("--units", "imperial")
+    monkeypatch.setenv("BALCLI_UNITS", "")  # as if it were not there
+    assert imperial()
+
+
+def test_the_nearest_file_counts_and_of_one_folder_balcli_toml(folder):
+    (folder / "balcli.toml").write_text('units = "imperial"')
+    here = folder / "below" / "pyproject.toml"
+    here.write_text('[project]\nname = "a"\n[tool.other]\nx = "balcli"')  # says nothing of it
+    assert imperial()
+    here.write_text("[tool.balcli]\ndigits = 3")
+    assert not imperial()
+    here.write_text('[tool.balcli]\nunits = "SI"')
+    (folder / "below" / "balcli.toml").write_text('units = "imperial"')
+    assert imperial()
+
+
+def test_another_file_or_none(folder, monkeypatch):
+    (folder / "balcli.toml").write_text('units = "imperial"')
+    monkeypatch.setenv("BALCLI_CONFIG", "")
+    assert not imperial()
+    (folder / "other.toml").write_text('units = "imperial"')
+    monkeypatch.setenv("BALCLI_CONFIG", str(folder / "other.toml"))
+    assert imperial()
+    monkeypatch.setenv("BALCLI_CONFIG", "nowhere.toml")
+    assert refusal("layouts") == "nowhere.toml: cannot be read (No such file or directory)"
+
+
+def test_the_format_where_nothing_else_says_one(folder, monkeypatch):
+    monkeypatch.setenv("BALCLI_FORMAT", "csv")
+    assert run_here(*ASKED).out.startswith("engine,cylinder,")
+    assert "Free force by order" in run_here(*ASKED, "-f", "table").out
+    run_here(*ASKED, "-o", "x.json")
+    assert json.loads(Path("x.json").read_text())["format"] == "balcli.analysis/1"
+    run_here(*ASKED, "-o", "plain")
+    assert Path("plain").read_text().startswith("engine,cylinder,")
+    swept = run_here("sweep", ASKED[1], "--vary", "rod.ratio=0.3", "--quantity", "force.2.major")
+    assert swept.out.startswith("rod.ratio,force.2.major\n")
+
+
+def test_digits_of_tables_and_json_that_nothing_changes(folder, monkeypatch):
+    usual = run_here(*ASKED, "-f", "json").out
+    monkeypatch.setenv("BALCLI_UNITS", "imperial")
+    monkeypatch.setenv("BALCLI_DIGITS", "8")
+    assert run_here(*ASKED, "-f", "json").out == usual
+    monkeypatch.setenv("BALCLI_UNITS", "si")
+    largest = json.loads(usual)["orders"][0]["force_N"]["major"] / 1000
+    for options, digits in (((), 8), (("--digits", "3"), 3)):
+        assert f" {largest:.{digits}g} " in run_here(*ASKED, *options).out
+        assert f" {largest:.{digits}g} " in run_here(*options, *ASKED).out
+    monkeypatch.delenv("BALCLI_DIGITS")
+    assert f" {largest:.5g} " in run_here(*ASKED).out
+
+
+def test_every_mistake_of_a_file_is_told_by_its_path(folder):
+    file = folder / "balcli.toml"
+    file.write_text('unit = "si"\nformat = "xml"\ndigits = "4"\nunits = 7\ncolour = 1')
+    assert refusal("layouts") == (
+        f"{file}: 5 mistakes\n"
+        "  unit: unknown key; did you mean units?\n"
+        '  format: "xml": choose from table, json, csv, markdown\n'
+        '  digits: "4": give a whole number from 1 to 15\n'
+        "  units: 7: choose from si, imperial\n"
+        "  colour: unknown key; there are units, format, digits"
+    )
+    file.write_text("units = ")
+    assert refusal("layouts").startswith(f"{file}: Invalid value")
+    file.unlink()
+    project = folder / "pyproject.toml"
+    project.write_text('[tool.balcli]\nunits = "metric"')
+    assert refusal("layouts") == (
+        f'{project}: tool.balcli.units: "metric": choose from si, imperial'
+    )
+
+
+@pytest.mark.parametrize(
+    ("variable", "value", "told"),
+    [
+        ("BALCLI_UNITS", "metric", '"metric": choose from si, imperial'),
+        ("BALCLI_FORMAT", "xml", '"xml": choose from table, json, csv, markdown'),
+        ("BALCLI_DIGITS", "0", "0: give a whole number from 1 to 15"),
+        ("BALCLI_DIGITS", "many", '"many": give a whole number from 1 to 15'),
+    ],
+)
+def test_a_variable_that_says_nothing_right(folder, monkeypatch, variable, value, told):
+    monkeypatch.setenv(variable, value)
+    assert refusal("layouts") == f"{variable}: {told}"
+
+
+def test_verbose_says_what_came_from_where(folder, monkeypatch):
+    (folder / "balcli.toml").write_text("digits = 4")
+    monkeypatch.setenv("BALCLI_UNITS", "si")
+    told = run_here(*ASKED, "-v").err.splitlines()
+    assert f"note: {folder / 'balcli.toml'}: digits = 4" in told
+    assert "note: BALCLI_UNITS: units = si" in told
