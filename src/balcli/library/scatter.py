@@ -60,7 +60,8 @@ def scatter(
     """
     model = take_model(check_engine("scatter", engine))
     asked = join_words("scatter", quantities)
-    wanted = parse_quantities(asked or DEFAULT_QUANTITIES, with_gas=model.gas is not None)
+    names = DEFAULT_QUANTITIES if asked is None else asked
+    wanted = parse_quantities(names, with_gas=model.gas is not None)
     of_engine, on_mounts = part_quantities(wanted)
     count = SETS_OF_MOUNTS if on_mounts else ENGINES
     count = count if samples is None else check_count("samples", samples)
