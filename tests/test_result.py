@@ -228,6 +228,15 @@ def test_orders_of_an_analysis_are_a_table_with_units():
     assert (units["force.major"], units["force.axis"], units["moment.minor"]) == ("N", "deg", "N·m")
 
 
+def test_columns_of_one_name_stay_apart():
+    four = load("i4")
+    rows = balcli.compare(
+        four, four.vary({"operation.speed": 2 * four.speed_rpm}), names=["order", "order"]
+    ).rows()
+    largest = next(row for row in rows if row["quantity"] == "force" and row["order"] == 2)
+    assert largest["order (5)"] == pytest.approx(4 * largest["order (4)"])
+
+
 def test_moments_that_are_not_known_have_no_value():
     tables = load("i4").to_dict()
     del tables["crank"]["spacing"]

@@ -13,8 +13,6 @@ TYPE_CHECKING = (
     False  # typing takes longer than all else here, and until then Ctrl-C is a traceback
 )
 if TYPE_CHECKING:
-    from typing import Any
-
     from .engine.build import Engine
     from .engine.load import load
     from .errors import BalcliError, InputError
@@ -122,10 +120,12 @@ def __dir__() -> list[str]:
     return __all__
 
 
-def __getattr__(name: str) -> Any:
-    """The library's door: what is behind it is imported when it is first asked for."""
-    if name not in _ROOMS:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from importlib import import_module
+if not TYPE_CHECKING:  # which would else believe in any name
 
-    return getattr(import_module(f".{_ROOMS[name]}", __name__), name)
+    def __getattr__(name: str) -> object:
+        """The library's door: what is behind it is imported when it is first asked for."""
+        if name not in _ROOMS:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        from importlib import import_module
+
+        return getattr(import_module(f".{_ROOMS[name]}", __name__), name)

@@ -60,7 +60,8 @@ def scatter(
     """
     model = take_model(check_engine("scatter", engine))
     asked = join_words("scatter", quantities)
-    wanted = parse_quantities(asked or DEFAULT_QUANTITIES, with_gas=model.gas is not None)
+    names = DEFAULT_QUANTITIES if asked is None else asked
+    wanted = parse_quantities(names, with_gas=model.gas is not None)
     of_engine, of_parts = part_quantities(wanted)
     count = SETS_OF_PARTS if of_parts else ENGINES
     count = count if samples is None else check_count("samples", samples)

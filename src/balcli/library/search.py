@@ -3,27 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal
 
 from ..engine.build import Engine, check_engine, take_model
 from ..studies.search.objective import parse_objective
 from ..studies.search.search import Search, search_arrangements
 from .arguments import Words, check_count, check_mapping, join_words
 
-Over = Literal["throws", "firing_order", "bank_angle", "splay"]
-
 
 def search(
     engine: Engine,
-    over: Over,
+    over: str,
     minimise: Words | Mapping[str, float],
     *,
     limits: Mapping[str, float] | None = None,
     top: int = 10,
     even_firing: bool = False,
 ) -> Search:
-    """The best crank, firing order, bank angle or splay of an engine; mirror images and rotations
-    once.
+    """The best crank, firing order, bank angle, splay or value of any number of an engine; mirror
+    images and rotations once.
 
     Args:
         engine: as `load` makes it.

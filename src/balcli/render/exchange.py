@@ -77,7 +77,8 @@ def _read_columns(rows: Rows) -> Columns:
     """
     lines = list(rows.lines)
     values: dict[str, Column] = {}
-    for k, name in enumerate(rows.header):
+    for k, head in enumerate(rows.header):
+        name = f"{head} ({k + 1})" if head in values else head  # an engine may be called "order"
         cells = [line[k] for line in lines]
         numbers = [_number(cell) for cell in cells]
         words = [_word(cell) for cell in cells]
