@@ -53,6 +53,8 @@ GROUPS = {
         "left.",
     },
     "Study": {
+        "numbers": "What can be varied of an engine file, and what can be asked of it: names "
+        "for `sweep`, `search` and `scatter`, with values, units and meanings.",
         "sweep": "Figures of many variants of an engine: numbers of its file over ranges, "
         "as a table, CSV, JSON or Parquet.",
         "search": "The best crank, firing order, bank angle or splay; mirror images and "

@@ -13,6 +13,7 @@ from ..forces.kinds import KINDS, VECTORS
 from ..limits import HIGHEST_ORDER
 from ..render.formats import Format, Units
 from .amounts import read_length, read_speed
+from .completion import complete_parts
 from .declare import optional
 from .file_names import parse_output
 from .format_names import format_option
@@ -86,6 +87,7 @@ Only = Annotated[
         f"Compute only some of {', '.join(KINDS)}, peak, sizing, gas; or inner "
         "(shear, bending, bearing loads along crankshaft and block) and guide (H- and X-type).",
         "--only",
+        autocompletion=complete_parts,
     ),
 ]
 OnlyParts = Annotated[
@@ -95,6 +97,7 @@ OnlyParts = Annotated[
         f"Only some of {', '.join(KINDS)}, peak, sizing; inner (shear, bending, bearing "
         "loads along crankshaft and block), guide (H- and X-type); or xy, textbook, verdict.",
         "--only",
+        autocompletion=complete_parts,
     ),
 ]
 Whole = Annotated[

@@ -9,6 +9,7 @@ import typer
 
 from ..enginefile.toml_text import name_file, read_bytes
 from ..render import search as renderer
+from .completion import complete_quantities, complete_searches
 from .declare import optional
 from .file_names import require_ending, text_format
 from .named_files import refuse_leaving_files
@@ -27,6 +28,7 @@ def search(
             "What to arrange: the file's throw angles along the crank (or those of its firing "
             "order), the firing order, the angle of the vee, or of its split pins.",
             "--over",
+            autocompletion=complete_searches,
         ),
     ],
     minimise: Annotated[
@@ -36,6 +38,7 @@ def search(
             "What should be small, such as moment.1.major,force.2.major=0.5.",
             "--minimise",
             "--minimize",
+            autocompletion=complete_quantities,
         ),
     ],
     limit: Annotated[
