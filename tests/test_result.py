@@ -15,7 +15,6 @@ from support.paths import ENGINES
 from support.rotors import three_runs
 
 import balcli
-from balcli.forces.curves import compute_engine_curves, divide_revolution
 from balcli.render import exchange
 from balcli.result import Result
 from balcli.results.analysis import QUANTITIES
@@ -48,7 +47,7 @@ ANSWERS: dict[str, tuple[Callable[[], Result], tuple[str, ...]]] = {
         ("compare", FILES["i3"], FILES["i4"]),
     ),
     "Curves": (
-        lambda: compute_engine_curves(load("i3"), divide_revolution(30)),
+        lambda: balcli.curves(load("i3"), 30),
         ("curves", FILES["i3"], "--step", "30"),
     ),
     "FieldBalance": (
@@ -198,11 +197,11 @@ def test_a_notebook_shows_what_the_command_prints(name):
 
 
 def test_a_notebook_shows_the_ends_of_what_is_long():
-    found = compute_engine_curves(load("i3"), divide_revolution(1))
+    found = balcli.curves(load("i3"))
     shown = re.findall(r"<tr><td>([\d.]+)</td>", found._repr_html_())
     assert shown == ["0", "1", "2", "3", "4", "...", "355", "356", "357", "358", "359"]
     assert "360 rows" in read_page(found).text
-    few = compute_engine_curves(load("i3"), divide_revolution(36))
+    few = balcli.curves(load("i3"), 36)
     assert "..." not in read_page(few).text
 
 
@@ -227,6 +226,15 @@ def test_orders_of_an_analysis_are_a_table_with_units():
     assert value == pytest.approx(found.spectra.torque.values(np.array([theta]))[0].real, rel=1e-12)
     units = found.to_pandas().attrs["units"]
     assert (units["force.major"], units["force.axis"], units["moment.minor"]) == ("N", "deg", "N·m")
+
+
+def test_columns_of_one_name_stay_apart():
+    four = load("i4")
+    rows = balcli.compare(
+        four, four.vary({"operation.speed": 2 * four.speed_rpm}), names=["order", "order"]
+    ).rows()
+    largest = next(row for row in rows if row["quantity"] == "force" and row["order"] == 2)
+    assert largest["order (5)"] == pytest.approx(4 * largest["order (4)"])
 
 
 def test_moments_that_are_not_known_have_no_value():

@@ -174,7 +174,7 @@ ON_REQUEST = {
         "balcli.engine.articulation",
         "balcli.engine.gas",
     ),
-    "balcli.engine.build": ("balcli.engine.vary",),
+    "balcli.engine.build": ("balcli.engine.vary", "balcli.enginefile.suspicious"),
     "balcli.engine.rules": ("balcli.engine.articulation",),
     "balcli.forces.spectrum": ("balcli.forces.gas",),
     "balcli.forces.symmetry": ("balcli.forces.gas_symmetry",),
@@ -200,6 +200,7 @@ ON_REQUEST = {
     ),
     "balcli.commands.inputs": ("balcli.enginefile.assumed",),
     "balcli.commands.scatter": ("balcli.studies.mount_scatter",),
+    "balcli.studies.curves": ("balcli.torque.curves",),
 }
 
 
@@ -305,7 +306,7 @@ def test_files_speak_for_themselves(file):
 
 def names_for_type_checkers() -> set[str]:
     """Of the library's door, as far as they are those of its rooms."""
-    (block,) = (node for node in tree(PACKAGE / "__init__.py").body if isinstance(node, ast.If))
+    block, _ = (node for node in tree(PACKAGE / "__init__.py").body if isinstance(node, ast.If))
     imports = [node for node in block.body if isinstance(node, ast.ImportFrom) and node.level]
     assert all(balcli._ROOMS[alias.name] == node.module for node in imports for alias in node.names)
     return {alias.name for node in imports for alias in node.names}

@@ -50,7 +50,8 @@ def clean(notebook: Any) -> Any:
         if cell.cell_type == "code":
             cell.execution_count = None
             for output in cell.outputs:
-                output.metadata = {}
+                if "metadata" in output:  # text printed has none
+                    output.metadata = {}
                 if output.output_type == "execute_result":
                     output.execution_count = None
     return notebook

@@ -13,13 +13,13 @@ TYPE_CHECKING = (
     False  # typing takes longer than all else here, and until then Ctrl-C is a traceback
 )
 if TYPE_CHECKING:
-    from typing import Any
-
     from .engine.build import Engine
     from .engine.load import load
     from .errors import BalcliError, InputError
     from .field_balancing.balance import FieldBalance
+    from .forces.curves import Curves
     from .library.compare import compare
+    from .library.curves import curves
     from .library.examples import load_example
     from .library.mounts import analyze_mounts
     from .library.plot import plot
@@ -48,6 +48,7 @@ __all__ = [
     "Balance",
     "BalcliError",
     "Comparison",
+    "Curves",
     "Engine",
     "FieldBalance",
     "InputError",
@@ -68,6 +69,7 @@ __all__ = [
     "balance",
     "balance_rotor",
     "compare",
+    "curves",
     "load",
     "load_example",
     "plot",
@@ -86,6 +88,8 @@ _ROOMS = {
     "InputError": "errors",
     "Comparison": "results.comparison",
     "compare": "library.compare",
+    "Curves": "forces.curves",
+    "curves": "library.curves",
     "Engine": "engine.build",
     "load": "engine.load",
     "load_example": "library.examples",
@@ -116,10 +120,12 @@ def __dir__() -> list[str]:
     return __all__
 
 
-def __getattr__(name: str) -> Any:
-    """The library's door: what is behind it is imported when it is first asked for."""
-    if name not in _ROOMS:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from importlib import import_module
+if not TYPE_CHECKING:  # which would else believe in any name
 
-    return getattr(import_module(f".{_ROOMS[name]}", __name__), name)
+    def __getattr__(name: str) -> object:
+        """The library's door: what is behind it is imported when it is first asked for."""
+        if name not in _ROOMS:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        from importlib import import_module
+
+        return getattr(import_module(f".{_ROOMS[name]}", __name__), name)

@@ -62,6 +62,7 @@ MOST_ROWS_READ = 50  # of the table of a sweep: of more the first and the last a
 MOST_PICTURE_VARIANTS = 4_000_000  # of a sweep: a picture keeps all of them in memory
 MOST_TOLERANCE_SAMPLES = 20_000_000  # a minute or two, and mean and percentiles stand long before
 MOST_ARRANGEMENTS = 10**10  # of given throws: branch and bound tries few of them
+MOST_DESIGNS_ONE_BY_ONE = 2000  # of gas, mounts or torsion: each takes 10 to 50 ms
 MOST_EVEN_CRANKS = 200_000  # with an even firing order: each of them is tried
 MOST_CYLINDERS_FIRED = 64  # whose firing orders are looked for
 

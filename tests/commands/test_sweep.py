@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 from support.commands import HANGS, run_command, run_here, start_command
 from support.engines import GOOD
@@ -63,7 +64,7 @@ def test_a_refused_sweep_leaves_the_older_file(engine: str, tmp_path: Path) -> N
 
 
 def test_a_variant_that_cannot_be_is_told_before_anything_is_written(tmp_path: Path) -> None:
-    """One between the corners of the grid: the ripple's angle."""
+    """One between the corners of the grid, the ripple's angle; the first such is named."""
     file = tmp_path / "rip.toml"
     file.write_text(
         "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = "
@@ -79,9 +80,31 @@ def test_a_variant_that_cannot_be_is_told_before_anything_is_written(tmp_path: P
         "force.1.major",
     )
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith(
-        f"balcli: {file}: operation.speed_ripple: the crank would turn back: at crank angle "
+    theta = np.radians(np.arange(0, 360, 0.1))
+    first = next(
+        angle
+        for angle in range(0, 361, 30)
+        if min(1 + 0.6 * np.cos(theta) + 0.5 * np.cos(2 * theta - np.radians(angle))) <= 0
     )
+    assert done.stderr.startswith(
+        f"balcli: {file}: operation.speed_ripple.2.angle = {first}: operation.speed_ripple: the "
+        "crank would turn back: at crank angle "
+    )
+
+
+def test_a_corner_that_cannot_be_is_named(tmp_path: Path) -> None:
+    """A V6 whose crank and split pins fire evenly at a bank angle of 60 deg alone."""
+    file = tmp_path / "v6.toml"
+    file.write_text(
+        "[crank]\nstroke = 80\nspacing = 100\nsplay = -60\n[rod]\nlength = 150\n[piston]\n"
+        "mass = 0.5\n[layout]\nbank_angle = 60\nfiring_order = [1, 2, 3, 4, 5, 6]\n"
+        "numbering = [[1, 3, 5], [2, 4, 6]]\n"
+    )
+    vary = ("--vary", "layout.bank_angle=60:90:15", "--vary", "rod.ratio=0.2,0.3")
+    status, out, err = run_here("sweep", file, *vary, "--quantity", "force.1.major")
+    assert (status, out) == (2, "")
+    told = f"balcli: {file}: layout.bank_angle = 90, rod.ratio = 0.2: layout.firing_order: "
+    assert err.startswith(told)
 
 
 HEAD = 100_000  # bytes: more than what is written before the first rows

@@ -376,6 +376,19 @@ def test_engines_with_gas_are_compared_by_what_it_does(four, tmp_path):
     assert "gas_torque_Nm" not in mixed.out
 
 
+@pytest.mark.parametrize("only", ["gas", "inner", "guide"])
+def test_engines_of_different_cycles_are_compared_by_the_orders_of_both(tmp_path, only):
+    """A misfire makes half orders, which a two-stroke engine does not have."""
+    four, two = tmp_path / "four.toml", tmp_path / "two.toml"
+    four.write_text(FOUR + WIEBE + "[cylinder.3]\ngas = 0\n")
+    two.write_text(FOUR.replace("firing_order = [1, 3, 4, 2]", "strokes = 2") + WIEBE)
+    status, out, err = run_here("compare", str(four), str(two), "--only", only, "-f", "json")
+    assert (status, err) == (0, "")
+    halves = [line for line in json.loads(out)["figures"] if (line["order"] or 0) % 1]
+    assert halves
+    assert all(line["values"][0] > 0 and line["values"][1] == 0 for line in halves)
+
+
 def test_guide_moments_include_the_gas(four, tmp_path):
     arguments = ("--only", "guide", "--orders", "0.5-4", "-f", "json")
     found = json.loads(run_here("analyze", four, *arguments).out)["guide"]

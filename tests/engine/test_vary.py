@@ -255,3 +255,14 @@ def test_an_engine_in_a_line_and_in_a_notebook():
     shown = engine._repr_html_()
     assert "<h4>90-degree cross-plane V8</h4>" in shown
     assert '<th style="text-align: left">speed</th>' in shown
+
+
+def test_what_is_doubtful_is_told():
+    engine = balcli.load(GOOD)
+    assert engine.doubts == ()
+    assert "Doubtful" not in engine._repr_html_()
+    light = engine.vary({"piston.mass": 0, "crank.spacing": None})
+    unknown, piston, *_ = light.doubts
+    assert unknown.startswith("moments are not known, because crank.spacing is missing")
+    assert piston.startswith("piston.mass is 0: only the rod moves to and fro")
+    assert "<b>Doubtful</b>" in light._repr_html_()

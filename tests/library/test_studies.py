@@ -148,6 +148,24 @@ def test_tolerances_are_shares_or_percentages():
     assert third.spreads[0].bound < one.spreads[0].bound
 
 
+def test_with_gas_torque_is_that_of_gas_and_inertia():
+    """As of the commands."""
+    gas = balcli.load_example("i4_wiebe")
+    torque = balcli.analyze(gas, [2], only="gas").spectra["torque_total"].major[0]
+    (spread,) = balcli.scatter(gas, "torque.2.amplitude", samples=10, seed=1).spreads
+    assert spread.nominal == pytest.approx(torque)
+    best = balcli.search(gas, "firing_order", "torque.2.amplitude", top=1).results[0]
+    assert best.objective == pytest.approx(torque)
+    found = balcli.sweep(gas, {"operation.speed": gas.speed_rpm}, "torque.2.amplitude")
+    assert found["torque.2.amplitude"][0] == pytest.approx(torque)
+
+
+def test_a_search_over_a_number_of_the_file():
+    found = balcli.search(FOUR, "rod.length=120:200", "force.2.major", top=1)
+    assert found.engine().to_dict()["rod"]["length"] == pytest.approx(200, abs=0.1)
+    assert found.to_pandas().filter(like="rod.length").iloc[0, 0] == pytest.approx(200, abs=0.1)
+
+
 def test_stiffness_of_mounts_scatters():
     found = balcli.scatter(MOUNTS, "mode.1.Hz", stiffness="10%", samples=20, seed=1)
     assert found.of_mounts
@@ -170,6 +188,22 @@ def test_tables_with_other_ranges():
     assert table.rows()[2]["1/3"] == pytest.approx(1 + 3 * (1 - np.sqrt(1 - 1 / 9)))
     assert balcli.tables("series", power=4).rows()
     assert balcli.tables("tsinghua-1-2").errata
+
+
+def test_curves_of_an_engine_and_of_a_piston():
+    found = balcli.curves(FOUR, 5)
+    assert len(found.rows()) == 72
+    spectra = balcli.analyze(FOUR, range(1, 33), only="force").spectra
+    wanted = spectra.force.values(np.radians(found.crank_deg)).real
+    assert found.values["force_x_N"] == pytest.approx(wanted, abs=1e-9 * np.abs(wanted).max())
+    piston = balcli.curves(FOUR, 90, cylinder=2)
+    assert piston.values["travel_m"].max() == pytest.approx(2 * FOUR.cylinders.radius)
+    assert "travel_m" in piston.to_pandas()
+    assert len(balcli.curves(balcli.load_example("i4_wiebe"), 90).rows()) == 8
+    with pytest.raises(
+        balcli.BalcliError, match=r"in-line four, 2 litres has the cylinders 1, 2, 3, 4$"
+    ):
+        balcli.curves(FOUR, cylinder=9)
 
 
 # ------------------------------------------------------------------ chapters

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, assert_never
+from typing import Annotated, assert_never
 
 import typer
 
@@ -15,11 +15,6 @@ from .format_names import format_option
 from .options import EnginePath, Output, Speed, parse_speed
 from .output import emit
 from .overwrite_guard import refuse_overwriting
-
-if TYPE_CHECKING:
-    from ..core.phasors import Array
-    from ..engine.build import Engine
-    from ..forces.curves import Curves
 
 Cylinder = Annotated[
     int | None,
@@ -53,11 +48,12 @@ def curves(
     form = format_of(output, form, SERIES, SeriesFormat.CSV)
     from ..forces.curves import divide_revolution
     from ..render import curves as renderer
+    from ..studies.curves import compute_curves
     from .inputs import read_engine
 
     engine = read_engine(path, parse_speed(speed), None if cylinder is None else ()).engine
     angles = divide_revolution(read_angle("--step", step), engine.cycle_revolutions)
-    found = _compute(engine, cylinder, angles)
+    found = compute_curves(engine, cylinder, angles)
     match form:
         case SeriesFormat.CSV:
             text = csv_text([renderer.rows(found)])
@@ -66,20 +62,3 @@ def curves(
         case _:
             assert_never(form)
     emit(text, output)
-
-
-def _compute(engine: Engine, cylinder: int | None, crank_deg: Array) -> Curves:
-    """Curves of the engine, or of one of its cylinders, with gas if it has some."""
-    from ..forces.curves import compute_cylinder_curves, compute_engine_curves
-
-    if cylinder is None:
-        found = compute_engine_curves(engine, crank_deg)
-    else:
-        found = compute_cylinder_curves(engine, cylinder, crank_deg)
-    if engine.gas is None:
-        return found
-    from ..torque.curves import add_cylinder_gas, add_gas_torque
-
-    if cylinder is None:
-        return add_gas_torque(engine, found)
-    return add_cylinder_gas(engine, cylinder, found)

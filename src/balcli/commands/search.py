@@ -24,9 +24,10 @@ def search(
     over: Annotated[
         str,
         optional(
-            "throws|firing_order|bank_angle|splay",
+            "throws|firing_order|bank_angle|splay|NUMBER=FROM:TO",
             "What to arrange: the file's throw angles along the crank (or those of its firing "
-            "order), the firing order, the angle of the vee, or of its split pins.",
+            "order), the firing order, the angle of the vee, or of its split pins; or any number "
+            "of the file in a range, such as mount.left.loss=0.05:0.3.",
             "--over",
             autocompletion=complete_searches,
         ),
@@ -35,7 +36,8 @@ def search(
         str,
         optional(
             "WHAT[=WEIGHT],...",
-            "What should be small, such as moment.1.major,force.2.major=0.5.",
+            "What should be small, such as moment.1.major,force.2.major=0.5; any quantity that "
+            "sweep has, such as shaft.flywheel.torque.",
             "--minimise",
             "--minimize",
             autocompletion=complete_quantities,
@@ -45,7 +47,7 @@ def search(
         list[str] | None,
         optional(
             "WHAT<VALUE",
-            "What must stay below a value (N, N·m), such as 'moment.2.major<100'.",
+            "What must stay below a value (N, N·m, Hz, Pa), such as 'moment.2.major<100'.",
             "--limit",
         ),
     ] = None,
@@ -61,7 +63,9 @@ def search(
         optional("OUT.toml", "Write the engine file with the best one.", "--write"),
     ] = None,
 ) -> None:
-    """The best crank, firing order, bank angle or splay; mirror images and rotations once."""
+    """The best crank, firing order, bank angle or splay, or value of any number; mirror images and
+    rotations once.
+    """
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     form = text_format(output, form)
     require_ending(write, ".toml", "--write")
@@ -71,16 +75,15 @@ def search(
     from ..studies.search.write import write_design
 
     if require not in ("", "even-firing"):
-        raise typer.BadParameter(
-            f'"{require}": only even-firing can be required', param_hint="--require"
-        )
+        message = f'"{require}": only even-firing can be required'
+        raise typer.BadParameter(message, param_hint="--require")
     text, name = read_bytes(path), name_file(path)
     model = parse(text, name)
     build_named(model, name)  # what is wrong with the file itself is told with its name
     if write is not None:
         refuse_leaving_files(text, path, write)
     goal = parse_objective(minimise, limit or (), with_gas=model.gas is not None)
-    watching = reporting_until_stopped if over == "throws" else reporting  # no other takes long
+    watching = reporting_until_stopped if over in ("throws", "firing_order") else reporting
     with watching("arrangements") as progress:
         found = search_arrangements(model, over, goal, top, bool(require), progress)
     show([found], renderer, form, output)

@@ -53,7 +53,8 @@ class Panels:
 
         Args:
             samples: of forces, shape (forces, samples).
-            orders: shape (orders,), none higher than the panels were made for.
+            orders: shape (orders,), none higher than the panels were made for; those that the
+                period does not have are 0.
         """
         weighed = (samples * self._weights).T
         step = max(_AT_ONCE // len(self.angles), 1)
@@ -64,6 +65,9 @@ class Panels:
             backward.append(np.conj(turned) @ weighed)
         ahead, against = np.concatenate(forward), np.concatenate(backward)
         against[orders == 0] = 0.0  # a mean stands in one of them
+        waves = orders * (self.breaks[-1] - self.breaks[0]) / (2 * np.pi)
+        there = np.abs(waves - np.rint(waves)) < 0.1  # the period has no others
+        ahead[~there] = against[~there] = 0.0
         return ahead, against
 
     def find_largest(self, samples: Complex) -> Peak:

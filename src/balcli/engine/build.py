@@ -18,7 +18,7 @@ from ..enginefile.plain_tables import list_tables
 from ..errors import BalcliError, InputError, wrong_type
 from .assembly import Assembly, Ripple
 from .devices import build_devices
-from .positions import are_places_known
+from .positions import MOMENTS_UNKNOWN, are_places_known
 from .rules import find_contradictions
 
 if TYPE_CHECKING:
@@ -154,6 +154,15 @@ class Engine:
 
     def __repr__(self) -> str:
         return f"<Engine {self.summary}>"
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """What its file says that is allowed and yet unlikely, in words; what is not known."""
+        from ..enginefile.suspicious import find_suspicious
+
+        said = () if self.model is None else find_suspicious(self.model)
+        unknown = () if self.places_known else (MOMENTS_UNKNOWN,)
+        return (*unknown, *said, *(() if self.gas is None else self.gas.doubts))
 
     @property
     def summary(self) -> str:

@@ -92,21 +92,14 @@ def compute_rod_forces(engine: Engine, crank_deg: Array, *, before: bool = False
     along = heads * up + gas
     spin_rate = motion.spin_rate * motion.omega**2 + motion.spin * motion.xi
     moment = d.imag * (along + small * up) + _column(engine.cylinders.couple) * spin_rate
-    bare = small * piston.acceleration + big * foot.acceleration + along
-
-    def find_across(rows: slice | list[int], more: Array | float = 0.0) -> Array:
-        """W_y of some cylinders, whose knuckle pins add a moment."""
-        return np.asarray((moment[rows] + more) / d.real[rows] - (small * aside)[rows])
-
-    across = find_across(slice(None))
-    pin = -(bare + 1j * across)
+    across = moment / d.real - small * aside
+    pin = -(small * piston.acceleration + big * foot.acceleration + along + 1j * across)
     for master, hung in list_hung_rows(engine).items():
-        here = [master]
         loads = axis[hung] * pin[hung]
         arms = axis[hung] * foot.at[hung] - axis[master] * foot.at[master]
-        across[here] = find_across(here, (np.conj(arms) * loads).imag.sum(axis=0))
-        carried = np.conj(axis[master]) * loads.sum(axis=0)
-        pin[here] = carried - (bare[here] + 1j * across[here])
+        held = (np.conj(arms) * loads).imag.sum(axis=0) / d.real[master]
+        across[master] += held
+        pin[master] += np.conj(axis[master]) * loads.sum(axis=0) - 1j * held
     lean = d / np.abs(d)
     pressed = lean.real * along + lean.imag * across
     thrust = across - heads * aside

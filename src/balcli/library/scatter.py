@@ -60,7 +60,9 @@ def scatter(
     """
     model = take_model(check_engine("scatter", engine))
     asked = join_words("scatter", quantities)
-    of_engine, on_mounts = part_quantities(parse_quantities(asked or DEFAULT_QUANTITIES))
+    names = DEFAULT_QUANTITIES if asked is None else asked
+    wanted = parse_quantities(names, with_gas=model.gas is not None)
+    of_engine, on_mounts = part_quantities(wanted)
     count = SETS_OF_MOUNTS if on_mounts else ENGINES
     count = count if samples is None else check_count("samples", samples)
     seed = None if seed is None else check_count("seed", seed, 0)

@@ -3,32 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal
 
 from ..engine.build import Engine, check_engine, take_model
 from ..studies.search.objective import parse_objective
 from ..studies.search.search import Search, search_arrangements
 from .arguments import Words, check_count, check_mapping, join_words
 
-Over = Literal["throws", "firing_order", "bank_angle", "splay"]
-
 
 def search(
     engine: Engine,
-    over: Over,
+    over: str,
     minimise: Words | Mapping[str, float],
     *,
     limits: Mapping[str, float] | None = None,
     top: int = 10,
     even_firing: bool = False,
 ) -> Search:
-    """The best crank, firing order, bank angle or splay of an engine; mirror images and rotations
-    once.
+    """The best crank, firing order, bank angle, splay or value of any number of an engine; mirror
+    images and rotations once.
 
     Args:
         engine: as `load` makes it.
         over: what to arrange: the throw angles of the file along the crank ("throws"), its
-            "firing_order", its "bank_angle" or the "splay" of its split pins.
+            "firing_order", its "bank_angle" or the "splay" of its split pins; or any number of
+            the file and its range ("mount.left.loss=0.05:0.3").
         minimise: the quantity that should be small (`moment.1.major`), several, which are added
             up, or a dict of weights by quantity.
         limits: what quantities must stay below, N or N m.
@@ -53,7 +51,7 @@ def search(
         wanted = join_words("search", minimise) or ""
     bounds = check_mapping("search", limits or {}, '{"moment.2.major": 100}')
     texts = [f"{name}<{bound!r}" for name, bound in _as_floats(bounds).items()]
-    goal = parse_objective(wanted, texts)
+    goal = parse_objective(wanted, texts, with_gas=model.gas is not None)
     return search_arrangements(model, over, goal, check_count("top", top), even_firing)
 
 

@@ -14,6 +14,7 @@ from ..errors import BalcliError
 from ..printed_tables.recomputed import Table
 from ..result import Result
 from .csv import Column, Columns, Rows
+from .json import stamp
 from .printed_table import RoundedTable
 from .units import SI
 
@@ -45,7 +46,7 @@ def find_renderer(result: Result) -> tuple[Any, Any]:
 def describe(result: Result) -> dict[str, Any]:
     """The JSON document of an answer."""
     renderer, shown = find_renderer(result)
-    found: dict[str, Any] = renderer.document(shown)
+    found: dict[str, Any] = stamp(renderer.document(shown))
     return found
 
 
@@ -76,7 +77,8 @@ def _read_columns(rows: Rows) -> Columns:
     """
     lines = list(rows.lines)
     values: dict[str, Column] = {}
-    for k, name in enumerate(rows.header):
+    for k, head in enumerate(rows.header):
+        name = f"{head} ({k + 1})" if head in values else head  # an engine may be called "order"
         cells = [line[k] for line in lines]
         numbers = [_number(cell) for cell in cells]
         words = [_word(cell) for cell in cells]

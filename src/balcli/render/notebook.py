@@ -23,7 +23,8 @@ def show(result: Any) -> str:
     """An engine or an answer as a person reads it, in SI units."""
     if isinstance(result, Engine):
         facts = engine_facts(result, SI, higher=False, whole=False)
-        return html_text(Sheet(result.name or NAMELESS, (facts,)))
+        doubts = (Text("Doubtful", result.doubts),) if result.doubts else ()
+        return html_text(Sheet(result.name or NAMELESS, (facts, *doubts)))
     if isinstance(result, Analysis):
         return html_text(analysis.sheet(result, SI))
     renderer, shown = find_renderer(result)

@@ -93,7 +93,7 @@ def _notes(result: Search) -> Iterator[str]:
     added = list(dict.fromkeys(q.unit for q in result.objective.weights))
     if len(added) > 1:
         yield f"Objective: {' and '.join(added)} added as plain numbers; NAME=W weighs them."
-    if any(q.order == 1 and q.part == "major" for q in result.objective.quantities):
+    if any(q.order == 1 and q.part == "major" for q in result.of_engine):
         yield _FORWARD
 
 
@@ -123,7 +123,7 @@ def _is_sum(result: Search) -> bool:
 def _textbook(result: Search, one: Found) -> dict[str, tuple[float, str]]:
     """Forces and moments in the textbook's units, where those tell more than the figures alone."""
     shown: dict[str, tuple[float, str]] = {}
-    for q in result.objective.quantities:
+    for q in result.of_engine:
         kind = EVERY_KIND[q.kind]
         if kind.vector and q.part != "peak":
             size = result.scale.size(kind, q.order)

@@ -142,6 +142,7 @@ def analyze(
     by_cylinder: bool = False,
     reasons: bool = False,
     guide_height_m: float | None = None,
+    beside: Collection[Engine] = (),
 ) -> Analysis:
     """Free forces and moments of an engine, order by order.
 
@@ -155,6 +156,8 @@ def analyze(
         reasons: also why each order is balanced, or is not.
         guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
             moment; default: the rods' lengths.
+        beside: engines that are analysed by the same orders: half orders have to be this one's, or
+            one of theirs.
 
     Raises:
         BalcliError: an unknown quantity, an order that is negative or above HIGHEST_ORDER, too many
@@ -165,7 +168,7 @@ def analyze(
         >>> analyze(load("v8.toml"), orders=[1, 2]).spectra.moment.major
     """
     wanted = _choose_quantities(check_engine("analyze", engine), only)
-    asked = None if orders is None else check_orders(orders, [engine])
+    asked = None if orders is None else check_orders(orders, [engine, *beside])
     peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
     shown = wanted.intersection(EVERY_KIND)
     computed = _choose_computed(engine, asked, whole=bool(peaked))

@@ -113,7 +113,7 @@ def compare_engines(
     wanted = set(QUANTITIES) - {"sizing"} if only is None else set(only)
     if only is None and all(engine.gas is not None for engine in engines):
         wanted.add(GAS.name)
-    analyses = analyze_alike(engines, orders, partial(analyze, only=wanted))
+    analyses = analyze_alike(engines, orders, partial(analyze, only=wanted, beside=engines))
     return Comparison(tuple(names), list_lines(analyses), whole or orders is not None)
 
 
@@ -147,6 +147,8 @@ def _list_orders(one: Analysis) -> Iterator[Array]:
     yield one.orders
     if one.inner is not None:
         yield one.inner.bending.phasors.orders
+        if one.inner.with_gas is not None:
+            yield one.inner.with_gas.bending.phasors.orders
     if one.guide is not None:
         yield one.guide.h.orders
 
@@ -198,7 +200,8 @@ def _compare_inner(analyses: Sequence[Analysis]) -> Iterator[Line]:
             continue  # a crank with one throw has no bearings that are known
         sizes = [along.phasors.major.max(axis=1) for along in there]
         for order, *values in zip(there[0].phasors.orders, *sizes, strict=True):
-            yield Line(kind, float(order), tuple(map(float, values)))
+            if order % 1 == 0 or any(values):
+                yield Line(kind, float(order), tuple(map(float, values)))
         peaks = (max(peak.value for peak in along.peaks) for along in there)
         yield Line(kind, None, tuple(map(float, peaks)))
 

@@ -118,8 +118,38 @@ class Sweep:
         """All variants in a box of the grid, as one engine with an axis for each parameter.
 
         Raises:
-            InputError: one of them cannot be.
+            InputError: one of them cannot be; it is named.
         """
+        try:
+            return self._build(box)
+        except InputError:
+            self._refuse_first_bad(box)
+            raise
+
+    def _refuse_first_bad(self, box: Box) -> None:
+        """Halve a box that has a variant which cannot be, axis by axis, until that is alone.
+
+        Raises:
+            InputError: what is wrong with it, with its figures.
+        """
+        for axis, n in enumerate(self.shape):
+            low, high, _ = box[axis].indices(n)
+            while high - low > 1:
+                middle = (low + high) // 2
+                try:
+                    self._build((*box[:axis], slice(low, middle), *box[axis + 1 :]))
+                    low = middle
+                except InputError:
+                    high = middle
+            box = (*box[:axis], slice(low, high), *box[axis + 1 :])
+        pairs = zip(self.parameters, box, strict=True)
+        where = ", ".join(f"{p.path} = {p.values[cut][0]:g}" for p, cut in pairs)
+        try:
+            self._build(box)
+        except InputError as error:
+            raise InputError(error.problems, f"{self.name}: {where}") from None
+
+    def _build(self, box: Box) -> Engine:
         rank = len(self.parameters)
         axes = {
             p.path: p.values[cut].reshape(-1, *(1,) * (rank - 1 - k))

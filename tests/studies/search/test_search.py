@@ -301,14 +301,21 @@ def test_even_firing() -> None:
         assert bool(fires_evenly(build(file), file)) is even
 
 
+CHOICES = (
+    "choose from throws, firing_order, bank_angle, splay, or give a number of the file with its "
+    "range, such as mount.left.loss=0.05:0.3"
+)
+
+
 @pytest.mark.parametrize(
     ("over", "message"),
     [
-        ("colour", '--over "colour": choose from throws, firing_order, bank_angle, splay'),
+        ("colour", f'--over "colour": {CHOICES}'),
+        ("trows", f'--over "trows": {CHOICES}; did you mean throws?'),
         (
-            "trows",
-            '--over "trows": choose from throws, firing_order, bank_angle, splay; did you mean '
-            "throws?",
+            "rod.length=150",
+            '--over "rod.length=150": give the ends of a range, such as rod.length=from:to; balcli '
+            "sweep takes steps and lists",
         ),
         (
             "bank_angle",

@@ -33,20 +33,26 @@ class Design(NamedTuple):
         firing_order: numbers of the cylinders.
         throws: angles along the crank, deg.
         bank_angle, splay: deg.
+        number: any other number of the file, by its dotted name, with its value.
     """
 
     firing_order: tuple[int, ...] | None = None
     throws: tuple[float, ...] | None = None
     bank_angle: float | None = None
     splay: float | None = None
+    number: tuple[str, float] | None = None
 
     def given(self) -> dict[str, float | list[float] | list[int]]:
         """What is not as it was, by key of the engine file, as JSON has it."""
+        if self.number is not None:
+            return dict([self.number])
         there = {key: value for key, value in self._asdict().items() if value is not None}
         return {key: list(v) if isinstance(v, tuple) else v for key, v in there.items()}
 
     def changes(self) -> dict[str, Any]:
         """The same by dotted keys, for `Engine.vary`."""
+        if self.number is not None:
+            return dict([self.number])
         changed: dict[str, Any] = {
             f"{TABLES[key]}.{key}": value for key, value in self.given().items()
         }
@@ -67,7 +73,7 @@ def build_candidates(model: EngineFile, candidates: Candidates) -> Engine:
     """All candidates as one engine, with these as its trailing axis."""
     paths: dict[str, Array] = {}
     if "throws" in candidates:
-        model = _without_firing_order(model)
+        model = drop_firing_order(model)
         for number, column in enumerate(candidates["throws"].T, 1):
             paths[f"crank.throws.{number}"] = column
     if "bank_angle" in candidates:
@@ -92,7 +98,7 @@ def find_buildable(model: EngineFile, key: str, angles: Array) -> NDArray[np.boo
     return np.ones(len(angles), bool)
 
 
-def _without_firing_order(model: EngineFile) -> EngineFile:
+def drop_firing_order(model: EngineFile) -> EngineFile:
     """With throws of some kind and no firing order, so that any throws can be tried."""
     throws = model.crank.throws or (0.0,) * plan_cylinders(model.crank, model.layout).throws
     crank = model.crank.model_copy(update={"throws": throws})
@@ -101,7 +107,7 @@ def _without_firing_order(model: EngineFile) -> EngineFile:
 
 
 def evaluate_engine(
-    engine: Engine, objective: Objective, count: int
+    engine: Engine, objective: Objective[Quantity], count: int
 ) -> tuple[dict[Quantity, Array], Array]:
     """Each quantity and the objective of so many candidates, shape (candidates,) each."""
     found = evaluate_quantities(engine, objective.quantities)
@@ -113,7 +119,7 @@ def evaluate_engine(
 
 
 def rank_candidates(
-    model: EngineFile, candidates: Candidates, objective: Objective
+    model: EngineFile, candidates: Candidates, objective: Objective[Quantity]
 ) -> Iterator[Found]:
     """Candidates that keep the limits, with their figures, computed anew for the whole engine, best
     first.

@@ -47,4 +47,4 @@ def _find_images(design: Design, other_end: Mapping[int, int]) -> Iterator[Image
                 yield tuple(round(angle, 6) % 360.0 for angle in turned_deg)
     else:
         angle = design.splay if design.bank_angle is None else design.bank_angle
-        yield (round(angle or 0.0, 6),)
+        yield (round(angle or 0.0, 6),) if design.number is None else design.number[1:]

@@ -4,27 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Generic, TypeVar
 
 import numpy as np
 
 from ...core.phasors import Array
 from ...errors import BalcliError
-from ...forces.quantity import Quantity, parse_quantity_list
+from ...forces.kinds import GAS_KINDS
+from ...forces.quantity import Quantity
+from ..quantities import AnyQuantity, parse_quantities
+
+Q = TypeVar("Q", bound=AnyQuantity)
+_SIGNED = ("torque.mean", "torque.min")
 
 
 @dataclass(frozen=True)
-class Objective:
+class Objective(Generic[Q]):
     """Weights by quantity, and upper limits by quantity (SI)."""
 
-    weights: dict[Quantity, float]
-    limits: dict[Quantity, float]
+    weights: dict[Q, float]
+    limits: dict[Q, float]
 
     @property
-    def quantities(self) -> tuple[Quantity, ...]:
+    def quantities(self) -> tuple[Q, ...]:
         """All that have to be known, each once."""
         return tuple(dict.fromkeys((*self.weights, *self.limits)))
 
-    def evaluate(self, value: Callable[[Quantity], float | Array]) -> Array:
+    def evaluate(self, value: Callable[[Q], float | Array]) -> Array:
         """The weighted sum, infinite where a limit is broken, shape (candidates,).
 
         Args:
@@ -38,7 +44,7 @@ class Objective:
 
 def parse_objective(
     minimise: str, limits: Sequence[str] = (), *, with_gas: bool = False
-) -> Objective:
+) -> Objective[AnyQuantity]:
     """`moment.1.major,force.2.major=0.5` and limits such as `moment.2.major<100` (N, N m).
 
     Args:
@@ -47,12 +53,12 @@ def parse_objective(
     Raises:
         BalcliError: what is no quantity, weight or limit.
     """
-    weights: dict[Quantity, float] = {}
+    weights: dict[AnyQuantity, float] = {}
     for term in minimise.split(","):
         name, _, weight = term.partition("=")
         share = _parse_positive(weight, term) if weight else 1.0
         weights |= dict.fromkeys(_parse_sizes(name, with_gas), share)
-    bounds: dict[Quantity, float] = {}
+    bounds: dict[AnyQuantity, float] = {}
     for text in limits:
         name, less, bound = text.partition("<")
         if not less:
@@ -64,10 +70,32 @@ def parse_objective(
     return Objective(weights, bounds)
 
 
-def _parse_sizes(name: str, with_gas: bool) -> tuple[Quantity, ...]:
+def choose_sums(objective: Objective[AnyQuantity]) -> Objective[Quantity] | None:
+    """The same objective, if all its quantities are sums over the cylinders by inertia, which are
+    evaluated for many candidates at once; else None.
+    """
+    weights = {q: w for q, w in objective.weights.items() if _is_sum(q)}
+    limits = {q: limit for q, limit in objective.limits.items() if _is_sum(q)}
+    if len(weights) < len(objective.weights) or len(limits) < len(objective.limits):
+        return None
+    return Objective(
+        {q: w for q, w in weights.items() if isinstance(q, Quantity)},
+        {q: limit for q, limit in limits.items() if isinstance(q, Quantity)},
+    )
+
+
+def _is_sum(q: AnyQuantity) -> bool:
+    return isinstance(q, Quantity) and q.kind not in GAS_KINDS
+
+
+def _parse_sizes(name: str, with_gas: bool) -> tuple[AnyQuantity, ...]:
     """Quantities that can be large or small."""
-    found = parse_quantity_list(name, with_gas=with_gas)
+    found = parse_quantities(name, with_gas=with_gas)
     for q in found:
+        if not isinstance(q, Quantity):
+            if q.name in _SIGNED:
+                raise BalcliError(f"{q.name} may be negative; name a size such as torque.max")
+            continue
         if q.part == "axis":
             raise BalcliError(
                 f"{q.name} is a direction, which cannot be large or small; name a size such as "

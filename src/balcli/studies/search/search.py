@@ -1,4 +1,6 @@
-"""Best arrangements of an engine: throws along the crank, firing order, bank angle, splay."""
+"""Best arrangements of an engine: throws along the crank, firing order, bank angle, splay; or the
+best value of any number of its file.
+"""
 
 from __future__ import annotations
 
@@ -19,14 +21,17 @@ from ...engine.vary import vary_engine
 from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
-from ...forces.kinds import GAS_KINDS
 from ...forces.quantity import Quantity, refuse_unknown
 from ...forces.textbook import TextbookUnits, find_textbook_units
 from ...result import Result
+from ..parameters import parse as parse_parameter
+from ..quantities import AnyQuantity, choose_of_engine, refuse_unknown_of_chapters
 from .angles import STEP, Curve, Span, find_minima
 from .designs import (
+    Design,
     Found,
     build_candidates,
+    drop_firing_order,
     evaluate_engine,
     find_buildable,
     rank_candidates,
@@ -34,7 +39,8 @@ from .designs import (
 from .even_firing import find_even_angles, fires_evenly
 from .firing_orders import Slots
 from .mirror_images import drop_mirror_images
-from .objective import Objective
+from .objective import Objective, choose_sums
+from .one_by_one import list_numbers, list_throws, rank_one_by_one
 from .throws import count_from, find_best_throws
 
 Angle = Literal["bank_angle", "splay"]
@@ -56,8 +62,8 @@ class Search(Result):
     """
 
     model: EngineFile
-    over: What
-    objective: Objective
+    over: str
+    objective: Objective[AnyQuantity]
     results: tuple[Found, ...]
     scale: TextbookUnits
     locked: tuple[tuple[float, float], ...] = ()
@@ -67,6 +73,11 @@ class Search(Result):
         """Over what, and how many were found."""
         found = f"{len(self.results)} result{'s' * (len(self.results) != 1)}"
         return f"over {self.over} of {self.model.name or 'an engine'}: {found}"
+
+    @property
+    def of_engine(self) -> tuple[Quantity, ...]:
+        """Those quantities of its objective that are of forces and moments."""
+        return choose_of_engine(self.objective.quantities)
 
     def engine(self, rank: int = 1) -> Engine:
         """The engine with the arrangement of this rank, the best being 1. A firing order that its
@@ -86,7 +97,7 @@ class _Task(NamedTuple):
     """
 
     model: EngineFile
-    objective: Objective
+    objective: Objective[Quantity]
     wanted: int
     even_firing: bool
     locked: tuple[tuple[float, float], ...]
@@ -96,7 +107,7 @@ class _Task(NamedTuple):
 def search_arrangements(
     model: EngineFile,
     over: str,
-    objective: Objective,
+    objective: Objective[AnyQuantity],
     count: int = 10,
     even_firing: bool = False,
     tell: Tell = tell_nobody,
@@ -106,7 +117,7 @@ def search_arrangements(
     Args:
         over: throws (permutes those of the file, or those that its firing order asks for),
             firing_order (all even ones; cranks follow where the file gives no throws), bank_angle
-            (of a vee) or splay.
+            (of a vee), splay; or a number of the file and its range, `mount.left.loss=0.05:0.3`.
         count: at most so many.
         even_firing: only arrangements that can fire evenly.
         tell: of a search over throws, which alone takes long: `throws.find_best_throws`.
@@ -115,20 +126,81 @@ def search_arrangements(
         BalcliError: an engine that has nothing to arrange, or no arrangement that keeps the limits,
         a moment of an engine whose file does not say where its throws stand.
     """
-    what = _parse_over(over)
     engine = build(model)
-    refuse_unknown(engine, objective.quantities)
-    of_gas = [q.name for q in objective.quantities if q.kind in GAS_KINDS]
-    if of_gas and what in ("throws", "firing_order"):
-        raise BalcliError(f"{of_gas[0]}: a search over {what} is of inertia alone")
-    locked = _find_locked(model, what)
-    candidates = _SEARCHES[what](_Task(model, objective, count, even_firing, locked, tell))
+    refuse_unknown(engine, choose_of_engine(objective.quantities))
+    refuse_unknown_of_chapters(model, objective.quantities)
+    key, is_number, _ = over.partition("=")
+    what = None if is_number else _parse_over(over)
+    sums = choose_sums(objective)
+    locked: tuple[tuple[float, float], ...] = ()
+    if what is None:
+        designs = _list_numbers(model, over, objective)
+        candidates = rank_one_by_one(model, designs, objective, tell_nobody)
+    elif sums is None:
+        designs = _list_designs(model, what, objective, even_firing)
+        base = drop_firing_order(model) if what == "throws" else model
+        candidates = rank_one_by_one(base, designs, objective, tell)
+    else:
+        locked = _find_locked(model, what)
+        candidates = _SEARCHES[what](_Task(model, sums, count, even_firing, locked, tell))
     found = tuple(islice(drop_mirror_images(candidates, model), count))
     if not found:
         also = " and fires evenly" if even_firing else ""
-        raise BalcliError(f"no {what.replace('_', ' ')} keeps these limits{also}")
-    orders = np.unique([float(quantity.order) for quantity in objective.quantities])
-    return Search(model, what, objective, found, find_textbook_units(engine, orders), locked)
+        raise BalcliError(f"no {key.replace('_', ' ')} keeps these limits{also}")
+    orders = np.unique([float(q.order) for q in choose_of_engine(objective.quantities)])
+    return Search(model, key, objective, found, find_textbook_units(engine, orders), locked)
+
+
+def _list_numbers(
+    model: EngineFile, over: str, objective: Objective[AnyQuantity]
+) -> Iterator[Design]:
+    """The best values of a number of the file in a range, `mount.left.loss=0.1:0.4`.
+
+    Raises:
+        BalcliError: what is no number and range.
+    """
+    path, _, ends = over.partition("=")
+    if ends.count(":") != 1:
+        raise BalcliError(
+            f'--over "{over}": give the ends of a range, such as {path}=from:to; balcli sweep '
+            "takes steps and lists"
+        )
+    values = parse_parameter(f"{path}={ends.replace(':', ',')}", model).values
+    low, high = float(values.min()), float(values.max())
+    return list_numbers(
+        model, lambda value: Design(number=(path.strip(), value)), low, high, objective
+    )
+
+
+def _list_designs(
+    model: EngineFile, what: What, objective: Objective[AnyQuantity], even_firing: bool
+) -> Iterator[Design]:
+    """What there is to arrange, for figures that take each arrangement by itself."""
+    if what == "firing_order":
+        slots, cranks = _find_slots(model)
+        return (
+            Design(firing_order=order, throws=tuple(throws))
+            for throws in cranks.tolist()
+            for order in slots.find_orders(throws)
+        )
+    if what == "throws":
+        designs = list_throws(_give_throws(model))
+        return (one for one in designs if not even_firing or _fires_evenly(model, one))
+    _check_angle(model, what)
+    even = find_even_angles(model, what, SPANS[what]) if even_firing else None
+    if even is not None:
+        return (_design_angle(what, angle) for angle in even.tolist())
+    low, high = SPANS[what].low, SPANS[what].high
+    return list_numbers(model, partial(_design_angle, what), low, high, objective)
+
+
+def _design_angle(key: Angle, angle: float) -> Design:
+    return Design(bank_angle=angle) if key == "bank_angle" else Design(splay=angle)
+
+
+def _fires_evenly(model: EngineFile, design: Design) -> bool:
+    engine = build_candidates(model, {"throws": np.array([design.throws])})
+    return bool(fires_evenly(engine, model)[0])
 
 
 def _parse_over(text: str) -> What:
@@ -138,18 +210,14 @@ def _parse_over(text: str) -> What:
     near = nearest(text, tuple(_SEARCHES))
     raise BalcliError(
         f'--over "{text}": choose from '
-        f"{', '.join(_SEARCHES)}{f'; did you mean {near}?' if near else ''}"
+        f"{', '.join(_SEARCHES)}, or give a number of the file with its range, such as "
+        f"mount.left.loss=0.05:0.3{f'; did you mean {near}?' if near else ''}"
     )
 
 
 # ------------------------------------------------------------------ the four searches
 def _search_throws(task: _Task) -> Iterator[Found]:
     model, objective = _give_throws(task.model), task.objective
-    if len(model.crank.throws or ()) < 2:
-        raise BalcliError(
-            "there is nothing to permute: the crank has one throw; give crank.throws, or a "
-            "layout.firing_order they follow from"
-        )
     if peaks := [q.name for q in objective.quantities if q.part == "peak"]:
         raise BalcliError(
             f"a search over throws adds up orders, which {peaks[0]} does not allow; name orders, "
@@ -167,17 +235,32 @@ def _search_throws(task: _Task) -> Iterator[Found]:
 
 
 def _give_throws(model: EngineFile) -> EngineFile:
-    """The same with the throws that its firing order asks for, where it gives none."""
-    if model.crank.throws is not None or not model.layout.firing_order:
-        return model
-    found = assemble(model).throws_deg
-    throws = [float(found[throw]) for throw in range(len(found))]
-    crank = model.crank.model_copy(update={"throws": throws})
-    return model.model_copy(update={"crank": crank})
+    """The same with the throws that its firing order asks for, where it gives none.
+
+    Raises:
+        BalcliError: the crank has one throw.
+    """
+    if model.crank.throws is None and model.layout.firing_order:
+        found = assemble(model).throws_deg
+        throws = [float(found[throw]) for throw in range(len(found))]
+        crank = model.crank.model_copy(update={"throws": throws})
+        model = model.model_copy(update={"crank": crank})
+    if len(model.crank.throws or ()) < 2:
+        raise BalcliError(
+            "there is nothing to permute: the crank has one throw; give crank.throws, or a "
+            "layout.firing_order they follow from"
+        )
+    return model
 
 
-def _search_firing_order(task: _Task) -> Iterator[Found]:
-    model, layout = task.model, plan_cylinders(task.model.crank, task.model.layout)
+def _find_slots(model: EngineFile) -> tuple[Slots, Array]:
+    """The firings of a cycle, and the cranks with even firing orders, shape (cranks, throws), deg,
+    cylinder 1's throw at 0.
+
+    Raises:
+        BalcliError: cylinders with throws of their own; there is no even firing order.
+    """
+    layout = plan_cylinders(model.crank, model.layout)
     top_deg = assemble(model).tops_deg
     if any(own.throw is not None for own in model.cylinder.values()):
         raise BalcliError(
@@ -194,7 +277,12 @@ def _search_firing_order(task: _Task) -> Iterator[Found]:
     if not possible or next(slots.find_orders(possible[0]), None) is None:
         raise BalcliError("these throws allow no even firing order")
     throws = np.array(possible)
-    from_first = count_from(throws[:, :1], throws)
+    return slots, count_from(throws[:, :1], throws)
+
+
+def _search_firing_order(task: _Task) -> Iterator[Found]:
+    model = task.model
+    slots, from_first = _find_slots(model)
     return (
         one._replace(design=one.design._replace(firing_order=order))
         for one in rank_candidates(model, {"throws": from_first}, task.objective)
@@ -234,7 +322,17 @@ def _find_lock(model: EngineFile, grid: Array, row: np.intp, side: int) -> float
 def _search_angle(key: Angle, task: _Task) -> Iterator[Found]:
     """Over an angle of the engine file."""
     span = SPANS[key]
-    model, objective, name = task.model, task.objective, key.replace("_", " ")
+    model, objective = task.model, task.objective
+    _check_angle(model, key)
+
+    even = find_even_angles(model, key, span) if task.even_firing else None
+    angles = _find_best_angles(key, task) if even is None else even
+    return rank_candidates(model, {key: angles}, objective)
+
+
+def _check_angle(model: EngineFile, key: Angle) -> None:
+    """Nothing, unless the engine has no such angle, or its crank follows from it."""
+    name = key.replace("_", " ")
     one_bank = plan_cylinders(model.crank, model.layout).banks < 2
     if one_bank or (key == "bank_angle" and model.layout.bank_angle is None):
         raise BalcliError(
@@ -245,10 +343,6 @@ def _search_angle(key: Angle, task: _Task) -> Iterator[Found]:
             f"the crank follows from the firing order, which fits no other {name}: give "
             "crank.throws, so that the crank stays as it is"
         )
-
-    even = find_even_angles(model, key, span) if task.even_firing else None
-    angles = _find_best_angles(key, task) if even is None else even
-    return rank_candidates(model, {key: angles}, objective)
 
 
 def _find_best_angles(key: Angle, task: _Task) -> Array:

@@ -36,7 +36,7 @@ BLOCK = 7  # throws of which all arrangements are tried at a time (7! = 5040)
 
 def find_best_throws(
     model: EngineFile,
-    objective: Objective,
+    objective: Objective[Quantity],
     count: int,
     allowed: Allowed | None = None,
     tell: Tell = tell_nobody,
@@ -154,7 +154,7 @@ class _Tree:
     def __init__(
         self,
         model: EngineFile,
-        objective: Objective,
+        objective: Objective[Quantity],
         places: _Places,
         best: _BestSoFar,
         allowed: Allowed | None,

@@ -18,6 +18,11 @@ def write_design(text: bytes, design: Design, name: str = "") -> str:
     Raises:
         BalcliError: the engine needs one.
     """
+    if design.number is not None:
+        path, best = design.number
+        raise BalcliError(
+            f"--write takes throws, firing orders and angles; write {path} = {best:.9g} by hand"
+        )
     new = text.decode("utf-8-sig")
     for key, value in design.given().items():
         new = set_keys(new, TABLES[key], {key: value}, NOTE)

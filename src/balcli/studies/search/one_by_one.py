@@ -1,0 +1,158 @@
+"""Designs computed each by itself: for quantities of gas, guides, mounts and torsion, which are no
+sums over throws.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from itertools import islice, permutations
+
+import numpy as np
+
+from ...core.phasors import Array
+from ...core.telling import Tell
+from ...engine.arrays import ranked
+from ...engine.build import build
+from ...engine.load import parse_dict
+from ...enginefile.model import EngineFile
+from ...enginefile.plain_tables import change_tables
+from ...errors import BalcliError, InputError
+from ...forces.quantity import evaluate_quantities
+from ...limits import MOST_DESIGNS_ONE_BY_ONE
+from ..quantities import AnyQuantity, choose_of_engine, group_by_chapter, load_chapter
+from .designs import Design, Found
+from .objective import Objective
+from .throws import count_from
+
+_GRID = 32  # parts of a range, in which minima are looked for
+_MINIMA = 3  # of these, the lowest, are followed
+_ROUNDS = 24  # golden sections: 1e-5 of a part
+_GOLDEN = (3 - 5**0.5) / 2
+
+
+def rank_one_by_one(
+    model: EngineFile, designs: Iterable[Design], objective: Objective[AnyQuantity], tell: Tell
+) -> Iterator[Found]:
+    """Designs that keep the limits, with their figures, best first.
+
+    Args:
+        tell: which share of them is done; it may say that these are enough.
+
+    Raises:
+        BalcliError: more than MOST_DESIGNS_ONE_BY_ONE.
+    """
+    every = list(islice(designs, MOST_DESIGNS_ONE_BY_ONE + 1))
+    if len(every) > MOST_DESIGNS_ONE_BY_ONE:
+        raise BalcliError(
+            f"there are more than {MOST_DESIGNS_ONE_BY_ONE} arrangements, and each takes a "
+            "computation of its own: give crank.throws, or look for what inertia alone does"
+        )
+    found = []
+    for k, design in enumerate(every, 1):
+        found.append(_try(model, design, objective))
+        if tell(k / len(every)):
+            break
+    order = np.argsort(ranked([one.objective for one in found]), kind="stable")
+    return (found[k] for k in order if np.isfinite(found[k].objective))
+
+
+def _try(model: EngineFile, design: Design, objective: Objective[AnyQuantity]) -> Found:
+    changed = parse_dict(change_tables(model, design.changes()), model.folder)
+    figures = _evaluate(changed, objective.quantities)
+    by_name = {q.name: value for q, value in figures.items()}
+    return Found(design, float(objective.evaluate(figures.__getitem__)), by_name)
+
+
+def _evaluate(model: EngineFile, quantities: tuple[AnyQuantity, ...]) -> dict[AnyQuantity, float]:
+    """Each quantity of an engine file."""
+    of_engine = choose_of_engine(quantities)
+    found: dict[AnyQuantity, float] = {}
+    if of_engine:
+        values = evaluate_quantities(build(model), of_engine)
+        found |= {q: float(value) for q, value in zip(of_engine, values, strict=True)}
+    for chapter, members in group_by_chapter(quantities).items():
+        figures = load_chapter(chapter).Variants(model, members).evaluate({})
+        found |= dict(zip(members, figures, strict=True))
+    return found
+
+
+def list_throws(model: EngineFile) -> Iterator[Design]:
+    """All arrangements of the throw angles of a file, the first throw at 0, each once.
+
+    Raises:
+        BalcliError: gas in four strokes, which fires by an order of its own.
+    """
+    if model.gas is not None and model.layout.strokes == 4:
+        raise BalcliError(
+            "with [gas] in four strokes the firing order decides, too: search --over firing_order "
+            "(without crank.throws in the file it tries all cranks)"
+        )
+    seen = set()
+    for throws in permutations(model.crank.throws or ()):
+        angles = np.asarray(throws, float)
+        turned = tuple(count_from(angles[:1], angles).tolist())
+        if turned not in seen:
+            seen.add(turned)
+            yield Design(throws=turned)
+
+
+def find_best_numbers(
+    evaluate: Callable[[float], float], low: float, high: float
+) -> Iterator[float]:
+    """Where a function of a number is least in a range: local minima, found on a grid and followed,
+    lowest first.
+
+    Args:
+        evaluate: infinite where it cannot be or may not be.
+    """
+    grid = np.linspace(low, high, _GRID + 1)
+    values = np.array([evaluate(float(x)) for x in grid])
+    before, after = np.append(np.inf, values[:-1]), np.append(values[1:], np.inf)
+    bottoms = np.flatnonzero((values <= before) & (values <= after) & np.isfinite(values))
+    lowest = bottoms[np.argsort(values[bottoms], kind="stable")][:_MINIMA]
+    found = [_follow(evaluate, grid, values, int(k)) for k in lowest]
+    yield from (x for _, x in sorted(found))
+
+
+def _follow(
+    evaluate: Callable[[float], float], grid: Array, values: Array, k: int
+) -> tuple[float, float]:
+    """The least value beside a point of the grid, and where it is, by golden sections."""
+    low, high = float(grid[max(k - 1, 0)]), float(grid[min(k + 1, len(grid) - 1)])
+    one, two = low + _GOLDEN * (high - low), high - _GOLDEN * (high - low)
+    at_one, at_two = evaluate(one), evaluate(two)
+    best = min((float(values[k]), float(grid[k])), (at_one, one), (at_two, two))
+    for _ in range(_ROUNDS):
+        if at_one <= at_two:
+            high, two, at_two = two, one, at_one
+            one = low + _GOLDEN * (high - low)
+            at_one = evaluate(one)
+            best = min(best, (at_one, one))
+        else:
+            low, one, at_one = one, two, at_two
+            two = high - _GOLDEN * (high - low)
+            at_two = evaluate(two)
+            best = min(best, (at_two, two))
+    return best
+
+
+def list_numbers(
+    model: EngineFile,
+    name: Callable[[float], Design],
+    low: float,
+    high: float,
+    objective: Objective[AnyQuantity],
+) -> Iterator[Design]:
+    """Designs with the best values of a number in a range.
+
+    Args:
+        name: the design that has a value of it.
+    """
+
+    def evaluate(value: float) -> float:
+        try:
+            return _try(model, name(value), objective).objective
+        except InputError:
+            return np.inf
+
+    return map(name, find_best_numbers(evaluate, low, high))

@@ -1,0 +1,167 @@
+"""Searches by quantities of gas, mounts and torsion: each design as a file that says so."""
+
+from __future__ import annotations
+
+import csv
+import json
+from io import StringIO
+from itertools import permutations
+
+import pytest
+from support.commands import refusal, run_here
+from support.diesel import write_diesel
+from support.paths import ENGINES
+
+from balcli.core.telling import tell_nobody
+from balcli.engine.load import parse
+from balcli.studies.search import one_by_one
+from balcli.studies.search.designs import Design
+from balcli.studies.search.objective import parse_objective
+
+GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 16\nimep = 15\n'
+SIX = write_diesel(extra=GAS)
+ORDER = "firing_order = [1, 5, 3, 6, 2, 4]"
+
+
+def search(path, *args):
+    done = run_here("search", path, *args, "-f", "json")
+    assert (done.status, done.err) == (0, "")
+    return json.loads(done.out)["results"]
+
+
+def find_torque(text: str) -> float:
+    """Largest torque of the flywheel's shaft, by the command itself."""
+    options = ("--speeds", "1000:3000:20", "--format", "json")
+    said = json.loads(run_here("torsion", "-", *options, stdin=text).out)
+    return max(said["response"]["shafts"][-1]["half_peak_to_peak_Nm"])
+
+
+def test_firing_orders_by_shaft_torque(tmp_path):
+    """All that the crank allows: in a six with mirrored throws, of each pair one and the other."""
+    path = tmp_path / "six.toml"
+    text = SIX.replace(ORDER, f"{ORDER}\n").replace(
+        "spacing = 120", "spacing = 120\nthrows = [0, 240, 120, 120, 240, 0]"
+    )
+    path.write_text(text, encoding="utf-8")
+    found = search(path, "--over", "firing_order", "--minimise", "shaft.flywheel.torque")
+    pairs = [(2, 5), (3, 4)]
+    possible = set()
+    for row in permutations(range(2, 7)):
+        order = (1, *row)
+        half = {tuple(sorted((order[k], order[k + 3]))) for k in range(3)}
+        if half == {(1, 6), *pairs} and {order[1], order[4]} == {2, 5}:
+            possible.add(order)
+    orders = [tuple(one["firing_order"]) for one in found]
+    torques = [one["quantities"]["shaft.flywheel.torque"] for one in found]
+    assert torques == sorted(torques)
+    assert torques[0] == pytest.approx(
+        find_torque(text.replace(ORDER, f"firing_order = {list(orders[0])}")), rel=1e-12
+    )
+    every = {
+        order: find_torque(text.replace(ORDER, f"firing_order = {list(order)}"))
+        for order in possible
+    }
+    assert min(every.values()) == pytest.approx(torques[0], rel=1e-9)
+    assert {*orders} == {*every}
+    for order, torque in zip(orders, torques, strict=True):
+        assert torque == pytest.approx(every[order], rel=1e-12)
+
+
+def test_throws_by_shaft_torque_without_gas(tmp_path):
+    path = tmp_path / "three.toml"
+    text = (
+        SIX.replace(GAS, "")
+        .replace(ORDER, "")
+        .replace("spacing = 120", "spacing = 120\nthrows = [0, 120, 240, 240, 120, 0]")
+    )
+    path.write_text(text, encoding="utf-8")
+    found = search(path, "--over", "throws", "--minimise", "shaft.flywheel.torque", "--top", "100")
+    for one in (found[0], found[-1]):
+        own = text.replace("[0, 120, 240, 240, 120, 0]", str(one["throws"]))
+        torque = one["quantities"]["shaft.flywheel.torque"]
+        assert torque == pytest.approx(find_torque(own), rel=1e-12)
+    assert len(found) > 15
+    assert found[0]["objective"] < found[-1]["objective"]
+
+
+def test_the_firing_order_decides_where_gas_fires_in_two_turns(tmp_path):
+    path = tmp_path / "six.toml"
+    path.write_text(
+        SIX.replace("spacing = 120", "spacing = 120\nthrows = [0, 240, 120, 120, 240, 0]")
+    )
+    told = refusal("search", path, "--over", "throws", "--minimise", "torque.2.amplitude")
+    assert told.startswith("with [gas] in four strokes the firing order decides, too")
+
+
+def test_a_number_in_a_range(tmp_path):
+    """The best is at least as good as all of a fine sweep, and a limit is kept."""
+    path = ENGINES / "i4_mounts.toml"
+    key, quantity = "mount.left.stiffness.2", "mode.roll.share"
+    found = search(path, "--over", f"{key}=60:400", "--minimise", quantity)
+    done = run_here("sweep", path, "--vary", f"{key}=60:400:10", "-q", quantity)
+    values = [float(row[quantity]) for row in csv.DictReader(StringIO(done.out))]
+    assert found[0]["objective"] <= min(values) * (1 + 1e-9)
+    alone = run_here("sweep", path, "--vary", f"{key}={found[0][key]!r}", "-q", quantity)
+    (row,) = csv.DictReader(StringIO(alone.out))
+    assert float(row[quantity]) == pytest.approx(found[0]["objective"], rel=1e-12)
+
+
+def test_a_minimum_inside_and_a_limit():
+    """A parabola of known place, and the end of a range that a limit cuts off."""
+    found = list(one_by_one.find_best_numbers(lambda x: (x - 3.21) ** 2, 0.0, 10.0))
+    assert found == [pytest.approx(3.21, abs=1e-4)]
+    cut = list(one_by_one.find_best_numbers(lambda x: x if x > 4.7 else float("inf"), 0.0, 10.0))
+    assert cut == [pytest.approx(4.7, abs=1e-4)]
+    assert list(one_by_one.find_best_numbers(lambda _: float("inf"), 0.0, 10.0)) == []
+
+
+def test_numbers_are_shown_and_not_written(tmp_path):
+    path, out = ENGINES / "i4.toml", tmp_path / "new.toml"
+    args = ("--over", "rod.length=120:160", "--minimise", "force.2.major")
+    done = run_here("search", path, *args, "--write", out)
+    assert (done.status, out.exists()) == (2, False)
+    told = "--write takes throws, firing orders and angles; write rod.length = 160 by hand"
+    assert done.err == f"balcli: {told}\n"
+    assert "Best rod.length" in done.out
+    (best,) = search(path, *args)
+    assert best["rod.length"] == 160
+    lines = run_here("search", path, *args, "-f", "csv").out.splitlines()
+    assert lines[0] == "rod.length,objective,force.2.major"
+
+
+@pytest.mark.parametrize(
+    ("over", "minimise", "message"),
+    [
+        (
+            "rod.lenth=1:2",
+            "force.2.major",
+            "rod.lenth: unknown parameter; did you mean rod.length?",
+        ),
+        (
+            "rod.length=1:2:3",
+            "force.2.major",
+            '--over "rod.length=1:2:3": give the ends of a range',
+        ),
+        ("throws", "torque.min", "torque.min may be negative; name a size such as torque.max"),
+        ("throws", "shaft.x.torque", "has no [torsion]"),
+    ],
+)
+def test_mistakes(over, minimise, message):
+    assert refusal(
+        "search", ENGINES / "i4.toml", "--over", over, "--minimise", minimise
+    ).startswith(message)
+
+
+def test_no_more_designs_than_can_be_waited_for(monkeypatch):
+    monkeypatch.setattr(one_by_one, "MOST_DESIGNS_ONE_BY_ONE", 3)
+    model, goal = parse(SIX), parse_objective("torque.3.amplitude", with_gas=True)
+    designs = (Design(number=("rod.length", 200.0 + k)) for k in range(9))
+    with pytest.raises(Exception, match="there are more than 3 arrangements"):
+        one_by_one.rank_one_by_one(model, designs, goal, tell_nobody)
+
+
+def test_who_is_told_may_say_that_it_is_enough():
+    model, goal = parse(SIX), parse_objective("torque.3.amplitude", with_gas=True)
+    designs = [Design(number=("rod.length", 200.0 + k)) for k in range(4)]
+    found = list(one_by_one.rank_one_by_one(model, designs, goal, lambda share: share >= 0.5))
+    assert len(found) == 2
