@@ -90,15 +90,6 @@ def _spell_out(pattern: str, words: str, typed: str) -> Iterator[str]:
             yield name
 
 
-def complete_parts(incomplete: str) -> list[str]:
-    """Words of `--only`, the last one of those with commas between them."""
-    from .inputs import WORDS_OF_ONLY
-
-    before, comma, last = incomplete.rpartition(",")
-    left = [word for word in WORDS_OF_ONLY if word not in before.split(",")]
-    return [f"{before}{comma}{word}" for word in _beginning_with(last, left)]
-
-
 def complete_searches(incomplete: str) -> list[str]:
     """What can be arranged, of `--over`."""
     return _beginning_with(incomplete, ("throws", "firing_order", "bank_angle", "splay"))

@@ -13,13 +13,21 @@ from ..forces.kinds import KINDS, VECTORS
 from ..limits import HIGHEST_ORDER
 from ..render.formats import Format, Units
 from .amounts import read_length, read_speed
-from .completion import complete_parts
 from .declare import optional
 from .file_names import parse_output
 from .format_names import format_option
 
 # words of `analyze --only` that name a table or text of what is computed anyway
 PARTS = ("xy", "textbook", "verdict")
+WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "gas", "inner", "guide", *PARTS)
+
+
+def complete_parts(incomplete: str) -> list[str]:
+    """Words of `--only` for the shell, the last one of those with commas between them."""
+    before, comma, last = incomplete.rpartition(",")
+    left = [word for word in WORDS_OF_ONLY if word not in before.split(",")]
+    return [f"{before}{comma}{word}" for word in left if word.startswith(last)]
+
 
 EnginePath = Annotated[
     str,
