@@ -75,6 +75,14 @@ def anchors(document: Path) -> set[str]:
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
+def test_commands_md_has_the_help_of_every_command() -> None:
+    """And that is what is printed, like all that documents show."""
+    text = (guide.ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
+    shown = [one.command for one in guide.shown(text)]
+    assert shown == ["balcli --help", *(f"balcli {name} --help" for name in COMMANDS)]
+    assert re.findall(r"^### (\w+)$", text, re.MULTILINE) == list(COMMANDS)
+
+
 def test_engine_file_reference_is_up_to_date() -> None:
     assert reference.DOCUMENT.read_text(encoding="utf-8") == reference.document(), (
         "python tools/engine_file_reference.py writes it anew"

@@ -25,10 +25,12 @@ from io import StringIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
+from unittest.mock import patch
 
 ROOT = Path(__file__).resolve().parent.parent
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 LEFT_OUT = "…"
+WIDTH = patch.dict(os.environ, {"COLUMNS": "80"})
 FUNCTION = (
     f'balcli() {{ "{sys.executable}" -m balcli "$@"; }}; python() {{ "{sys.executable}" "$@"; }}\n'
 )
@@ -126,7 +128,7 @@ def _inside(command: str, folder: Path) -> tuple[object, str]:
 
     output, argv, sys.argv = StringIO(), sys.argv, shlex.split(command)
     try:
-        with chdir(folder), redirect_stdout(output), redirect_stderr(output):
+        with chdir(folder), redirect_stdout(output), redirect_stderr(output), WIDTH:
             main()
     except SystemExit as end:
         return end.code, output.getvalue()
