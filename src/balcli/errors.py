@@ -115,6 +115,31 @@ class InputError(BalcliError):
         return "\n".join([f"{head}: {count} mistakes", *(f"  {p}" for p in self.problems), *last])
 
 
+def check_type(function: str, value: object, kind: type | tuple[type, ...], wanted: str) -> None:
+    """For the library: refuse what is not of this kind, with what would be right.
+
+    Raises:
+        TypeError: it is not.
+    """
+    if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
+        raise wrong_type(function, value, wanted)
+
+
+def list_words(name: str, words: str | Iterable[str]) -> list[str]:
+    """For the library: words as a list, or in a text with commas between.
+
+    Raises:
+        TypeError: they are no words.
+    """
+    if isinstance(words, str):
+        return [word.strip() for word in words.split(",")]
+    check_type(name, words, Iterable, 'give words, such as ["force", "moment"]')
+    listed = list(words)
+    for word in listed:
+        check_type(name, word, str, 'give words, such as ["force", "moment"]')
+    return listed
+
+
 def wrong_type(function: str, value: object, wanted: str) -> TypeError:
     """For the library: what a function was given, and what would be right."""
     text = repr(value)

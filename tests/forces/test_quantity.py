@@ -135,3 +135,9 @@ def test_quantities_keep_the_order_asked_for() -> None:
         evaluate_quantities(engine, parse_quantity_list(name))[0] for name in names.split(",")
     ]
     assert np.array_equal(evaluate_quantities(engine, parse_quantity_list(names)), one_by_one)
+
+
+def test_senses_are_named_as_tables_head_them() -> None:
+    assert parse_quantity_list("force.1.against,moment.2.with") == parse_quantity_list(
+        "force.1.backward,moment.2.forward"
+    )

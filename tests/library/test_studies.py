@@ -16,6 +16,7 @@ from balcli.studies import swept
 
 V8, FOUR = balcli.load_example("v8_crossplane"), balcli.load_example("i4")
 MOUNTS, DIESEL = balcli.load_example("i4_mounts"), balcli.load_example("i6_diesel")
+GAS = balcli.load_example("i4_wiebe")
 CLOSE = 1e-12
 
 
@@ -439,6 +440,59 @@ WRONG: list[tuple[Callable[[], object], type[Exception], str]] = [
     ),
     (lambda: balcli.balance_rotor({"planes": ["a"]}), balcli.InputError, "engine: run: is missing"),
     (lambda: balcli.balance_rotor("no.toml"), balcli.BalcliError, "no.toml: no such file"),
+    (lambda: balcli.balance(V8, 5), TypeError, "balance: 5 (int): give the name of a scheme"),
+    (
+        lambda: balcli.balance(V8, "factor", {"factor": 0.5}),
+        TypeError,
+        "balance: {'factor': 0.5} (dict): give SchemeOptions(factor=(0.5,))",
+    ),
+    (
+        lambda: balcli.analyze(V8, only=5),
+        TypeError,
+        'only: 5 (int): give words, such as ["force", "moment"]',
+    ),
+    (
+        lambda: balcli.analyze(V8, only=[5]),
+        TypeError,
+        'only: 5 (int): give words, such as ["force", "moment"]',
+    ),
+    (
+        lambda: balcli.analyze(V8, only="force, forse"),
+        balcli.BalcliError,
+        "there is no quantity forse: choose from",
+    ),
+    (
+        lambda: balcli.compare(V8, V8, only=5),
+        TypeError,
+        'only: 5 (int): give words, such as ["force", "moment"]',
+    ),
+    (lambda: balcli.curves(V8, "x"), TypeError, "step_deg: 'x' (str): give a step in degrees"),
+    (
+        lambda: balcli.analyze_torque(GAS, fluctuation="1/200"),
+        TypeError,
+        "fluctuation: '1/200' (str): give a number, as 1 / 200",
+    ),
+    (
+        lambda: balcli.analyze_torque(GAS, loads=("pins",)),
+        balcli.BalcliError,
+        "loads: 'pins'; choose from pin, main",
+    ),
+    (
+        lambda: balcli.analyze_mounts(MOUNTS, scheme=5),
+        TypeError,
+        'scheme: 5 (int): give its name, such as "counterweights"',
+    ),
+    (
+        lambda: balcli.analyze_torsion(DIESEL, [2000], damper="odd"),
+        balcli.BalcliError,
+        "damper 'odd': choose from viscous, rubber, pendulum",
+    ),
+    (
+        lambda: balcli.balance_rotor({}, "odd"),
+        balcli.BalcliError,
+        'minimise \'odd\': choose "squares" or "max"',
+    ),
+    (lambda: V8.vary(5), TypeError, 'vary: 5 (int): give a dict, such as {"rod.length": 150}'),
 ]
 
 

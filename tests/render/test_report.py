@@ -94,6 +94,12 @@ def test_it_says_what_the_terminal_says():
         assert expected in text
 
 
+def test_a_page_names_no_options_of_a_command():
+    text = report((ENGINES / "i5.toml").read_text(encoding="utf-8"))
+    assert "Negligible: orders 4, 6, 8, 10 (at most" in text
+    assert "All: --all" not in text
+
+
 def test_a_hostile_name_stays_text():
     tame, wild = report(GOOD), report(changed(('"in-line four"', json.dumps(HOSTILE))))
     assert Outline(wild).tags == Outline(tame).tags

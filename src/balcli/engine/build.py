@@ -15,7 +15,7 @@ from ..core.cylinders import Cylinders, Device
 from ..core.phasors import Array, Figure, Phasors
 from ..enginefile.model import EngineFile
 from ..enginefile.plain_tables import list_tables
-from ..errors import BalcliError, InputError, wrong_type
+from ..errors import BalcliError, InputError, check_type, wrong_type
 from .assembly import Assembly, Ripple
 from .devices import build_devices
 from .positions import MOMENTS_UNKNOWN, are_places_known
@@ -141,6 +141,7 @@ class Engine:
         """
         from .vary import vary_engine
 
+        check_type("vary", changes, Mapping, 'give a dict, such as {"rod.length": 150}')
         return vary_engine(self, {**changes, **named})
 
     def to_dict(self) -> dict[str, Any]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -23,6 +24,7 @@ from .spectrum import compute_spectra
 
 _SIZES = ("major", "minor", "forward", "backward")
 _ALONG_AXES = ("x", "y", "x_cos", "x_sin", "y_cos", "y_sin")
+_SENSES = MappingProxyType({"with": "forward", "against": "backward"})  # as tables head them
 VECTOR_PARTS = (*_SIZES, "axis", *_ALONG_AXES)
 SCALAR_PARTS = ("amplitude", "major", "cos", "sin")
 
@@ -108,6 +110,7 @@ def _parse_quantity(text: str) -> Quantity:
         hint = f"did you mean {near}?" if near else f"it begins with {', '.join(KINDS)} or peak"
         raise BalcliError(f"{text} is no quantity: {hint}")
     order, part = split_order(rest)
+    part = _SENSES.get(part, part)
     allowed = VECTOR_PARTS if EVERY_KIND[kind].vector else SCALAR_PARTS
     if order is None:
         raise BalcliError(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Sequence
 
 from ..engine.build import Engine, check_engine
-from ..errors import BalcliError
+from ..errors import BalcliError, list_words
 from ..results.comparison import Comparison, compare_engines
 
 
@@ -43,5 +43,5 @@ def compare(
         called = [f"engine {k}" for k in range(1, len(checked) + 1)]
     if len(called) != len(checked):
         raise BalcliError(f"{len(called)} names for {len(checked)} engines; give one for each")
-    wanted = only.split(",") if isinstance(only, str) else only
+    wanted = None if only is None else list_words("only", only)
     return compare_engines(checked, called, orders, wanted)

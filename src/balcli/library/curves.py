@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ..engine.build import Engine, check_engine
+from ..errors import check_type
 from ..forces.curves import Curves, divide_revolution
 from ..studies.curves import compute_curves
 from .arguments import check_count
@@ -28,5 +31,6 @@ def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None
         >>> curves(load("i4.toml"), 10).to_pandas()
     """
     engine = check_engine("curves", engine)
+    check_type("step_deg", step_deg, (int, float, np.number), "give a step in degrees")
     number = None if cylinder is None else check_count("cylinder", cylinder)
     return compute_curves(engine, number, divide_revolution(step_deg, engine.cycle_revolutions))

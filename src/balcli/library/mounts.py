@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
+from types import NoneType
 from typing import Any
 
 from numpy.typing import ArrayLike
@@ -13,7 +14,7 @@ from ..enginefile.model import EngineFile
 from ..enginefile.plain_tables import normalize_tables
 from ..enginefile.read import check_tables, read_tables
 from ..enginefile.toml_text import name_file, read_bytes
-from ..errors import wrong_type
+from ..errors import check_type, wrong_type
 from ..mounting.read import check_mounted
 from ..mounting.report import MountReport, report_mounts
 from .arguments import check_speeds
@@ -52,6 +53,7 @@ def analyze_mounts(
     """
     speeds = check_speeds("analyze_mounts", speeds_rpm)
     engines = {name: check_engine("analyze_mounts", one) for name, one in (others or {}).items()}
+    check_type("scheme", scheme, (str, NoneType), 'give its name, such as "counterweights"')
     asked = None if orders is None else list(orders)
     model, engine, name = _read(source)
     return report_mounts(model, engine, speeds, asked, scheme, list(engines.items()), name)

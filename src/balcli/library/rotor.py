@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from ..enginefile.plain_tables import normalize_tables
 from ..enginefile.toml_text import name_file
-from ..errors import wrong_type
+from ..errors import BalcliError, wrong_type
 from ..field_balancing.balance import FieldBalance, find_corrections
 from ..field_balancing.read import check_runs, parse_runs, read_runs
 
@@ -41,6 +41,8 @@ def balance_rotor(
     Example:
         >>> balance_rotor("fan.toml", "max").to_pandas()
     """
+    if minimise not in ("squares", "max"):
+        raise BalcliError(f'minimise {minimise!r}: choose "squares" or "max"')
     if isinstance(runs, Mapping):
         return find_corrections(check_runs(normalize_tables(runs)), minimise, without)
     if not isinstance(runs, (str, Path)):

@@ -14,12 +14,14 @@ from ..engine.build import Engine, take_model
 from ..engine.load import load
 from ..enginefile.plain_tables import normalize_tables
 from ..enginefile.toml_text import name_file, parse_toml, read_bytes
-from ..errors import wrong_type
+from ..errors import BalcliError, wrong_type
 from ..torsion.analysis import Question, TorsionAnalysis, answer_question
 from ..torsion.damper_sizing import DamperAsked
 from ..torsion.load import ChainSource, Source, make_source
 from ..torsion.read_chain import describes_chain, read_chain_tables
 from .arguments import check_speeds
+
+KINDS_OF_DAMPERS = ("viscous", "rubber", "pendulum")
 
 
 def analyze_torsion(
@@ -59,6 +61,8 @@ def analyze_torsion(
     Example:
         >>> analyze_torsion(load("i6_diesel.toml"), range(1000, 2501, 25)).barred_rpm
     """
+    if damper not in (None, *KINDS_OF_DAMPERS):
+        raise BalcliError(f"damper {damper!r}: choose from {', '.join(KINDS_OF_DAMPERS)}")
     asked = None if orders is None else np.unique(np.asarray(list(orders), dtype=float))
     sized = None if damper is None else DamperAsked(damper, damper_at, damper_inertia)
     question = Question(check_speeds("analyze_torsion", speeds_rpm), asked, (), sized)

@@ -105,7 +105,7 @@ def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterato
     others = ""
     if not (view.whole or every):
         shown = find_orders_that_matter(spectra, result.of_one_cylinder)
-        others = tell_others(spectra, shown, system)
+        others = tell_others(spectra, shown, system, hints=view.hints)
         spectra = spectra.select_orders(shown)
     tables: list[Grid] = []
     if view.parts.intersection(EVERY_KIND):
@@ -130,10 +130,10 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
     if not view.every_order:
         shown = find_orders_that_matter(vectors, result.of_one_cylinder)
     if vectors.vectors():
-        yield vectors_grid(vectors, shown, system)
+        yield vectors_grid(vectors, shown, system, hints=view.hints)
     if (facts := roll_and_peaks(result, system)).pairs:
         yield facts
-    yield from gas_grid(result.spectra, system, every_order=view.every_order)
+    yield from gas_grid(result.spectra, system, every_order=view.every_order, hints=view.hints)
 
 
 def _peaks(result: Analysis, system: System) -> Iterator[Facts]:

@@ -17,9 +17,12 @@ if TYPE_CHECKING:
 _SHOWN = ("torque", "gas", "torque_total", "roll_total")  # names of kinds
 
 
-def gas_grid(spectra: Spectra, system: System, *, every_order: bool) -> Iterator[Grid]:
+def gas_grid(spectra: Spectra, system: System, *, every_order: bool, hints: bool) -> Iterator[Grid]:
     """Inertia torque, gas torque, both together and the roll of the frame, by order, if all of them
     are known; negligible orders are left out unless every one was asked for.
+
+    Args:
+        hints: whether the command that shows more is named.
     """
     found = [phasors for kind, phasors in spectra.items() if kind.name in _SHOWN]
     if len(found) < len(_SHOWN):
@@ -44,7 +47,7 @@ def gas_grid(spectra: Spectra, system: System, *, every_order: bool) -> Iterator
         f"About the crank axis with gas, {unit.name}",
         ("order", "inertia torque", "gas torque", "torque", "roll of the frame", "peak, deg"),
         tuple(tuple(row(k)) for k in shown),
-        "Torque = inertia + gas. Mean torque, flywheel and more: balcli torque.",
+        "Torque = inertia + gas." + (" Mean torque, flywheel and more: balcli torque." * hints),
     )
 
 

@@ -17,6 +17,7 @@ from .plot.pages import Subject, draw_panel
 from .plot.style import inline_svg
 from .sheet import Facts, Grid, Sheet, Text
 from .units import System
+from .view import ON_A_PAGE
 
 if TYPE_CHECKING:
     from ..mounting.report import MountReport
@@ -76,7 +77,7 @@ def page(
         drawn = [(what, draw_torsion(twisted, what, "svg", titled=False)) for what in _OF_TORSION]
         chapters["torsion"] = torsion.sheet(twisted, system)
         chapters["twists"] = [Markup(inline_svg(svg, f"torsion-{what}")) for what, svg in drawn]
-    own, remedy = analysis.sheet(result, system), balance.sheet(balanced, system)
+    own, remedy = analysis.sheet(result, system, ON_A_PAGE), balance.sheet(balanced, system)
     told = ("force", "about", *(["moment"] if result.moments_known else []))
     fitted = bool(balanced.remedy.reasons)
     compared = _COMPARED if fitted else ()

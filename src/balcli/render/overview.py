@@ -46,9 +46,9 @@ def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[
     ]
 
 
-def vectors_grid(spectra: Spectra, shown: list[float], system: System) -> Grid:
+def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints: bool) -> Grid:
     """Force and moment side by side, with the parts of each that turn with the crank and against
-    it; the other orders in one line.
+    it; the other orders in one line, with a hint how to see them.
     """
     chosen = spectra.select_orders(shown)
     vectors = [(kind, p, _unit_of(kind, p, system)) for kind, p in chosen.vectors()]
@@ -67,11 +67,11 @@ def vectors_grid(spectra: Spectra, shown: list[float], system: System) -> Grid:
         "Largest by order, and its parts that turn with the crank and against it",
         ("order", *heads),
         tuple(tuple(row(k)) for k in range(len(shown))),
-        tell_others(spectra, shown, system),
+        tell_others(spectra, shown, system, hints=hints),
     )
 
 
-def tell_others(spectra: Spectra, shown: list[float], system: System) -> str:
+def tell_others(spectra: Spectra, shown: list[float], system: System, *, hints: bool) -> str:
     """One line on the orders that are not shown, or nothing."""
     others = [
         float(order)
@@ -89,7 +89,8 @@ def tell_others(spectra: Spectra, shown: list[float], system: System) -> str:
     names = ", ".join(map(order_name, others[:6]))
     more = ", …" if len(others) > 6 else ""
     plural = "s" * (len(others) > 1)
-    return f"Negligible: order{plural} {names}{more} (at most {', '.join(sizes)}). All: --all."
+    told = f"Negligible: order{plural} {names}{more} (at most {', '.join(sizes)})."
+    return f"{told} All: --all." if hints else told
 
 
 def roll_and_peaks(result: Analysis, system: System) -> Facts:

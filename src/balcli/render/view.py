@@ -13,12 +13,15 @@ class View(NamedTuple):
         parts: words of `--only`, such as `force`, `xy`, `verdict`; empty: the usual ones.
         every_order: whether orders that are negligible are shown, too.
         pictures: whether there are pictures made of characters, too.
+        hints: whether commands and options that show more are named.
     """
 
     whole: bool = False
     parts: frozenset[str] = frozenset()
     every_order: bool = False
     pictures: bool = False
+    hints: bool = True
 
 
 IN_BRIEF = View()
+ON_A_PAGE = View(hints=False)

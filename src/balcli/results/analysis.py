@@ -13,7 +13,7 @@ import numpy as np
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array
 from ..engine.build import Engine, check_engine
-from ..errors import BalcliError
+from ..errors import BalcliError, list_words
 from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, KINDS, SCALARS, VECTORS, Kind
 from ..forces.orders import (
     check_orders,
@@ -201,7 +201,7 @@ def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> se
     """What is computed; `gas` stands for all that gas does."""
     if only is None:
         return set(list_quantities(engine))
-    wanted = {*(only.split(",") if isinstance(only, str) else only)}
+    wanted = {*list_words("only", only)}
     if strangers := sorted(wanted.difference(QUANTITIES, GAS_KINDS, EXTRAS)):
         raise BalcliError(
             f"there is no quantity {', '.join(strangers)}: choose from "

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from types import NoneType
 from typing import NamedTuple
 
 import numpy as np
 
 from ..engine.build import Engine, check_engine
+from ..errors import check_type
 from ..result import Result
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import Remedy, fit_devices
@@ -87,7 +89,10 @@ def balance(
     Example:
         >>> balance(load("i3.toml"), "counterweights").after.moment.value
     """
-    remedy = size(check_engine("balance", engine), scheme, options)
+    check_engine("balance", engine)
+    check_type("balance", scheme, str, 'give the name of a scheme, such as "counterweights"')
+    check_type("balance", options, (SchemeOptions, NoneType), "give SchemeOptions(factor=(0.5,))")
+    remedy = size(engine, scheme, options)
     tools = tools or Tools()
     practical = find_practical(engine, remedy, tools)
     balanced = fit_devices(engine, remedy)

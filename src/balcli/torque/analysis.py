@@ -12,6 +12,7 @@ from ..core.phasors import Array
 from ..core.piecewise import Extreme
 from ..core.speed_variation import Surplus, surplus
 from ..engine.build import Engine, check_engine
+from ..errors import BalcliError, check_type
 from ..forces.gas import take_gas
 from ..forces.orders import check_orders, list_gas_orders
 from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
@@ -24,7 +25,7 @@ from .course import (
     find_torque_curves,
 )
 from .flywheel import Flywheel, Question, find_flywheel
-from .loads import Loads, analyze_loads
+from .loads import KINDS_OF_LOAD, Loads, analyze_loads
 
 KINDS_OF_TORQUE = ("gas", "torque", "torque_total")
 
@@ -116,6 +117,10 @@ def analyze_torque(
         >>> analyze_torque(load("i4_wiebe.toml"), fluctuation=1 / 200).flywheel.needed
     """
     gas = take_gas(check_engine("analyze_torque", engine))
+    if fluctuation is not None:
+        check_type("fluctuation", fluctuation, (int, float, np.number), "give a number, as 1 / 200")
+    if strange := [word for word in loads if word not in KINDS_OF_LOAD]:
+        raise BalcliError(f"loads: {strange[0]!r}; choose from {', '.join(KINDS_OF_LOAD)}")
     steady = replace(engine, ripple=())
     shown = list_gas_orders(engine.strokes) if orders is None else check_orders(orders)
     row = find_row(engine, cylinder, "--cylinder")
