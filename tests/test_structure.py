@@ -198,7 +198,7 @@ ON_REQUEST = {
         "balcli.render.page_torque",
     ),
     "balcli.commands.inputs": ("balcli.enginefile.assumed",),
-    "balcli.commands.scatter": ("balcli.studies.mount_scatter",),
+    "balcli.commands.scatter": ("balcli.studies.part_scatter",),
     "balcli.studies.curves": ("balcli.torque.curves",),
 }
 
