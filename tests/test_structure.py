@@ -166,6 +166,7 @@ ON_REQUEST = {
         "balcli.enginefile.templates",
         "balcli.field_balancing.starting_file",
         "balcli.sizing.schemes",
+        "balcli.studies.quantity_names",
         "balcli.torsion.starting_file",
     ),
     "balcli.engine.assembly": (
@@ -198,7 +199,7 @@ ON_REQUEST = {
         "balcli.render.page_torque",
     ),
     "balcli.commands.inputs": ("balcli.enginefile.assumed",),
-    "balcli.commands.scatter": ("balcli.studies.mount_scatter",),
+    "balcli.commands.scatter": ("balcli.studies.part_scatter",),
     "balcli.studies.curves": ("balcli.torque.curves",),
 }
 

@@ -1,10 +1,10 @@
 """Engine balance: free forces and moments of reciprocating engines, order by order, and what
 cancels them.
 
-from balcli import load, analyze, balance
+    from balcli import load, analyze, balance
 
-engine = load("v8.toml")
-print(analyze(engine).spectra.moment.major)
+    engine = load("v8.toml")
+    print(analyze(engine).spectra.moment.major)
 """
 
 from __future__ import annotations

@@ -169,7 +169,7 @@ def test_a_search_over_a_number_of_the_file():
 
 def test_stiffness_of_mounts_scatters():
     found = balcli.scatter(MOUNTS, "mode.1.Hz", stiffness="10%", samples=20, seed=1)
-    assert found.of_mounts
+    assert found.varied == "sets of mounts"
     (spread,) = found.spreads
     assert spread.nominal == pytest.approx(balcli.analyze_mounts(MOUNTS).modes.six[0].hertz)
 

@@ -11,6 +11,7 @@ import typer
 from ..enginefile.toml_text import name_file
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..render import tolerances as renderer
+from .completion import complete_quantities
 from .file_names import text_format
 from .options import EnginePath, FormatOption, Output
 from .output import show
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from ..engine.build import Engine
     from ..forces.quantity import Quantity
 
-_ENGINES, _SETS_OF_MOUNTS = 100_000, 500
+_ENGINES, _SETS_OF_PARTS = 100_000, 500
 
 
 class Distribution(StrEnum):
@@ -38,7 +39,7 @@ def scatter(
         typer.Option(
             "--mass-scatter",
             metavar="PERCENT",
-            help="Tolerance of every piston, rod and throw mass.",
+            help="Tolerance of every piston, rod and throw mass, and of inertias for torsion.",
         ),
     ] = "0.5%",
     length: Annotated[
@@ -52,18 +53,19 @@ def scatter(
         ),
     ] = "0",
     stiffness: Annotated[
-        str,
+        str | None,
         typer.Option(
             "--stiffness-scatter",
             metavar="PERCENT",
-            help="Tolerance of the stiffness of every mount, for quantities on mounts.",
+            show_default="15% of mounts, 5% of shafts",
+            help="Tolerance of the stiffness of every mount, or shaft, for their quantities.",
         ),
-    ] = "15%",
+    ] = None,
     samples: Annotated[
         int | None,
         typer.Option(
             "--samples",
-            help="Number of random engines, 100000; of random mounts, 500.",
+            help="Number of random engines, 100000; of random mounts or crankshafts, 500.",
             show_default=False,
         ),
     ] = None,
@@ -90,8 +92,9 @@ def scatter(
             "-q",
             metavar="WHAT,...",
             show_default=DEFAULT_QUANTITIES,
-            help="As force.1.major, couple.4.amplitude; or on mounts, as mode.roll.Hz, "
-            "mount.left.force.",
+            autocompletion=complete_quantities,
+            help="As force.1.major, couple.4.amplitude; of mounts, as mode.roll.Hz, "
+            "mount.left.force; or of torsion, as torsion.1.Hz, shaft.flywheel.torque.",
         ),
     ] = None,
     form: FormatOption = None,
@@ -107,18 +110,18 @@ def scatter(
     from .inputs import read_engine
 
     tolerances = parse_tolerances(mass, length, angle)
-    share = parse_percentage(stiffness, "--stiffness-scatter")
+    share = None if stiffness is None else parse_percentage(stiffness, "--stiffness-scatter")
     _, model, engine = read_engine(path, asked=())
     names = DEFAULT_QUANTITIES if quantity is None else quantity
-    asked, on_mounts = part_quantities(parse_quantities(names, with_gas=model.gas is not None))
+    asked, of_parts = part_quantities(parse_quantities(names, with_gas=model.gas is not None))
     if quantity is None:
         asked = _leave_out_unknown(engine, asked, name_file(path))
-    count = samples if samples is not None else _SETS_OF_MOUNTS if on_mounts else _ENGINES
+    count = samples if samples is not None else _SETS_OF_PARTS if of_parts else _ENGINES
     draw = partial(scatter_engine, model, tolerances, asked)
-    if on_mounts:
-        from ..studies.mount_scatter import scatter_mounts
+    if of_parts:
+        from ..studies.part_scatter import scatter_parts
 
-        draw = partial(scatter_mounts, model, share, on_mounts)
+        draw = partial(scatter_parts, model, share, tolerances.mass, of_parts)
     with reporting_until_stopped("samples", count) as progress:
         found = draw(count, seed, distribution.value, progress)
     show([found], renderer, form, output)

@@ -11,12 +11,12 @@ from ..errors import BalcliError
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..forces.quantity import leave_out_unknown
 from ..studies.deviations import Tolerances
-from ..studies.mount_scatter import scatter_mounts
+from ..studies.part_scatter import scatter_parts
 from ..studies.quantities import parse_quantities, part_quantities
 from ..studies.tolerances import Scatter, scatter_engine
 from .arguments import Words, check_count, join_words, read_share
 
-ENGINES, SETS_OF_MOUNTS = 100_000, 500
+ENGINES, SETS_OF_PARTS = 100_000, 500
 
 
 def scatter(
@@ -26,24 +26,24 @@ def scatter(
     mass: float | str = 0.005,
     length: float | str = 0.0,
     angle_deg: float | str = 0.0,
-    stiffness: float | str = 0.15,
+    stiffness: float | str | None = None,
     samples: int | None = None,
     seed: int | None = None,
     distribution: Literal["uniform", "normal"] = "uniform",
 ) -> Scatter:
     """How free forces and moments spread when masses, rod lengths and throw angles vary, and which
-    tolerance matters most; or forces and modes of mounts when their stiffness does.
+    tolerance matters most; or forces and modes of mounts, or of torsion, when their stiffness does.
 
     Args:
         engine: as `load` makes it.
         quantities: sizes of vectors (`force.1.major`, `couple.4.amplitude`), or quantities of
-            mounts (`mode.roll.Hz`, `mount.left.force`). Default: force and moment of orders 1 and
-            2, as far as they are known.
+            mounts (`mode.roll.Hz`, `mount.left.force`) or torsion (`torsion.1.Hz`). Default: force
+            and moment of orders 1 and 2, as far as they are known.
         mass: tolerance of every piston, rod and throw mass, as a share (0.005) or a text ("0.5%").
         length: of every rod length, likewise.
         angle_deg: of every throw angle, a number or a text with its unit.
-        stiffness: of every mount, a share or a text, for quantities of mounts.
-        samples: random engines; default: 100000, of mounts 500.
+        stiffness: of every mount (default: 15 %) or shaft (5 %), a share or a text.
+        samples: random engines; default: 100000, of mounts and torsion 500.
         seed: of the random numbers, to repeat them.
         distribution: within the tolerances, or with a third of them as standard deviation.
 
@@ -62,15 +62,16 @@ def scatter(
     asked = join_words("scatter", quantities)
     names = DEFAULT_QUANTITIES if asked is None else asked
     wanted = parse_quantities(names, with_gas=model.gas is not None)
-    of_engine, on_mounts = part_quantities(wanted)
-    count = SETS_OF_MOUNTS if on_mounts else ENGINES
+    of_engine, of_parts = part_quantities(wanted)
+    count = SETS_OF_PARTS if of_parts else ENGINES
     count = count if samples is None else check_count("samples", samples)
     seed = None if seed is None else check_count("seed", seed, 0)
     if distribution not in ("uniform", "normal"):
         raise BalcliError(f'distribution {distribution!r}: choose "uniform" or "normal"')
-    if on_mounts:
-        share = read_share("stiffness", stiffness)
-        return scatter_mounts(model, share, on_mounts, count, seed, distribution)
+    if of_parts:
+        share = None if stiffness is None else read_share("stiffness", stiffness)
+        heavier = read_share("mass", mass)
+        return scatter_parts(model, share, heavier, of_parts, count, seed, distribution)
     if asked is None:
         of_engine = leave_out_unknown(engine, of_engine)
     tolerances = Tolerances(

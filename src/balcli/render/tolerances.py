@@ -19,7 +19,7 @@ _BOUND: dict[Shape, str] = {
     "go beyond a tolerance, three times their standard deviation, in 1 of 370",
 }
 
-_BOUND_OF_MOUNTS = (
+_BOUND_OF_PARTS = (
     "bound: nominal and all changes added up, to first order: a set may go a little beyond"
 )
 
@@ -60,13 +60,13 @@ def rows(result: Scatter, _system: System) -> Rows:
 def sheet(result: Scatter, _system: System) -> Sheet:
     """Percentiles in SI units, and which tolerances matter most."""
     spread = Grid(
-        f"Spread of {result.samples} {'sets of mounts' if result.of_mounts else 'engines'}",
+        f"Spread of {result.samples} {result.varied}",
         ("quantity", *_statistics(result.spreads[0])),
         tuple(
             (f"{s.quantity.name}, {s.quantity.unit}", *map(number, _statistics(s).values()))
             for s in result.spreads
         ),
-        note=_BOUND_OF_MOUNTS if result.of_mounts else _BOUND[result.shape],
+        note=_BOUND[result.shape] if result.varied == "engines" else _BOUND_OF_PARTS,
     )
     shares = Grid(
         "What each tolerance alone changes, most first",

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
@@ -40,7 +41,9 @@ def connect_cluster(address: str) -> Iterator[Any]:
     with ExitStack() as ends:
         try:
             if address == "local":
-                own = dask.LocalCluster(threads_per_worker=1, dashboard_address=None)
+                own = dask.LocalCluster(
+                    threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL
+                )  # its workers, when it ends, complain of the scheduler's absence
                 client = ends.enter_context(dask.Client(ends.enter_context(own)))
             else:
                 client = ends.enter_context(dask.Client(address, timeout=10))

@@ -14,7 +14,16 @@ from ..enginefile.model import EngineFile
 from ..errors import BalcliError
 from ..forces.quantity import Quantity, parse_quantity_list
 from ..forces.target_quantity import TargetQuantity
-from .quantity_names import BEGINNINGS, CHAPTERS, ENGINE, MOUNTS, Chapter, Form, find_chapter
+from .quantity_names import (
+    BEGINNINGS,
+    CHAPTERS,
+    ENGINE,
+    MOUNTS,
+    TORSION,
+    Chapter,
+    Form,
+    find_chapter,
+)
 
 
 class ChapterQuantity(Protocol):
@@ -136,18 +145,20 @@ def _list_of_chapter(chapter: Chapter, model: EngineFile) -> Iterator[Form]:
 def part_quantities(
     wanted: Sequence[AnyQuantity],
 ) -> tuple[tuple[Quantity, ...], tuple[TargetQuantity, ...]]:
-    """Those of the engine, or those of it on its mounts: what scatters.
+    """Those of the engine, or those of its mounts or of torsion: what scatters.
 
     Raises:
-        BalcliError: there are both, or others.
+        BalcliError: there are several kinds, or others.
     """
-    of_engine, groups = choose_of_engine(wanted), dict(group_by_chapter(wanted))
-    on_mounts = tuple(groups.pop(MOUNTS, ()))
-    for members in groups.values():
-        raise BalcliError(f"{members[0].name} has no scatter; vary single figures with sweep")
-    if of_engine and on_mounts:
+    of_engine, groups = choose_of_engine(wanted), group_by_chapter(wanted)
+    for chapter, members in groups.items():
+        if chapter not in (MOUNTS, TORSION):
+            raise BalcliError(f"{members[0].name} has no scatter; vary single figures with sweep")
+    kinds = [*([of_engine] if of_engine else []), *groups.values()]
+    if len(kinds) > 1:
         raise BalcliError(
-            f"{of_engine[0].name} and {on_mounts[0].name} have tolerances of their own; ask for "
-            "quantities of the engine and of its mounts one after the other"
+            f"{kinds[0][0].name} and {kinds[1][0].name} have tolerances of their own; ask for "
+            "quantities of the engine, of its mounts and of torsion one after the other"
         )
-    return of_engine, cast("tuple[TargetQuantity, ...]", on_mounts)
+    of_parts = () if of_engine or not kinds else tuple(kinds[0])
+    return of_engine, cast("tuple[TargetQuantity, ...]", of_parts)

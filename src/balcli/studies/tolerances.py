@@ -26,7 +26,7 @@ from .percentiles import Sample
 
 if TYPE_CHECKING:
     from ..forces.target_quantity import TargetQuantity
-    from .mount_scatter import MountSource
+    from .part_scatter import PartSource
 
 CHUNK = 8_192  # samples at a time
 AT_ONCE = 400_000  # deviations at a time, where there are many sources
@@ -81,7 +81,7 @@ class Spread:
     percentiles: dict[str, float]
     largest: float
     bound: float
-    shares: tuple[tuple[Source | MountSource, float], ...]
+    shares: tuple[tuple[Source | PartSource, float], ...]
 
 
 @dataclass(frozen=True, repr=False)
@@ -90,14 +90,14 @@ class Scatter(Result):
 
     Attributes:
         shape: of the distribution of each deviation.
-        of_mounts: whether it is the mounts that deviate, not the engine.
+        varied: of what there are samples, in words: "engines".
     """
 
     model: EngineFile
     samples: int
     shape: Shape
     spreads: tuple[Spread, ...]
-    of_mounts: bool = False
+    varied: str = "engines"
 
     @property
     def summary(self) -> str:

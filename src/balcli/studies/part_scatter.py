@@ -1,0 +1,202 @@
+"""How figures of mounts and of torsion spread when the parts that make them vary within tolerances:
+rubber is made to 15 %, the stiffness of a crankshaft is known to about 5 %.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from math import isfinite
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.phasors import Array
+from ..core.telling import Tell, tell_nobody
+from ..engine.build import build
+from ..enginefile.model import EngineFile, label_table
+from ..enginefile.shafting import find_stiffness
+from ..enginefile.torsion_tables import Part, Torsion
+from ..errors import BalcliError
+from ..forces.target_quantity import TargetQuantity
+from ..limits import MOST_MOUNT_SAMPLES
+from .quantities import group_by_chapter, load_chapter
+from .quantity_names import MOUNTS
+from .tolerances import PERCENTILES, TOLD, Scatter, Shape, Spread
+
+OF_MOUNTS, OF_SHAFTS = 0.15, 0.05  # tolerance of stiffness, unless another is given
+
+
+class PartSource(NamedTuple):
+    """What deviates as one.
+
+    Attributes:
+        name: as tables have it: `stiffness left`.
+        tolerance: relative.
+        figures: of the file, by dotted name, as they are.
+    """
+
+    name: str
+    tolerance: float
+    figures: Mapping[str, float]
+
+
+def scatter_parts(
+    model: EngineFile,
+    stiffness: float | None,
+    mass: float,
+    quantities: Sequence[TargetQuantity],
+    samples: int,
+    seed: int | None = None,
+    shape: Shape = "uniform",
+    tell: Tell = tell_nobody,
+) -> Scatter:
+    """Spread of quantities over random mounts, or shafts and inertias, each variant computed by
+    itself.
+
+    Args:
+        stiffness: tolerance of that of every mount or shaft; None: OF_MOUNTS, OF_SHAFTS.
+        mass: of every inertia and piston, for quantities of torsion.
+        quantities: of mounts, or of torsion.
+        seed: of the random numbers, to repeat them.
+        shape: uniform within the tolerance, or normal with a third of it as standard deviation.
+        tell: is told how many samples have been computed, and says whether these are enough.
+
+    Raises:
+        InputError, BalcliError: what is wrong with the file; quantities of what it does not have;
+            too many samples, no tolerance.
+    """
+    (chapter,) = group_by_chapter(quantities)
+    of_mounts = chapter is MOUNTS
+    if not 1 <= samples <= MOST_MOUNT_SAMPLES:
+        where = "on mounts" if of_mounts else "of torsion"
+        raise BalcliError(
+            f"{samples} samples: {where}, where each is computed by itself, from 1 to "
+            f"{MOST_MOUNT_SAMPLES} are allowed"
+        )
+    load_chapter(chapter).refuse_unknown(model, quantities)
+    if stiffness is None:
+        stiffness = OF_MOUNTS if of_mounts else OF_SHAFTS
+    if not of_mounts:
+        model = _spell_out(model)
+    every = _list_mounts(model, stiffness) if of_mounts else _list_shafting(model, stiffness, mass)
+    sources = [source for source in every if source.tolerance]
+    if not sources:
+        raise BalcliError("nothing deviates; give a tolerance, such as --stiffness-scatter 15%")
+    variants = load_chapter(chapter).Variants(model, quantities)
+
+    def evaluate(deviations: Array) -> Array:
+        values = {
+            path: value * (1 + float(deviation))
+            for source, deviation in zip(sources, deviations, strict=True)
+            for path, value in source.figures.items()
+        }
+        return np.array(variants.evaluate(values))
+
+    tolerances = np.array([source.tolerance for source in sources])
+    nominal = evaluate(np.zeros(len(sources)))
+    changes = np.array([(evaluate(row) - evaluate(-row)) / 2 for row in np.diag(tolerances)])
+    rows = []
+    for row in _draw(tolerances, samples, seed, shape):
+        rows.append(evaluate(row))
+        if tell(len(rows)):
+            break
+    values = np.array(rows)
+    spreads = tuple(
+        _spread(q, float(nominal[k]), values[:, k], sources, changes[:, k])
+        for k, q in enumerate(quantities)
+    )
+    varied = "sets of mounts" if of_mounts else "crankshafts"
+    return Scatter(model, len(rows), shape, spreads, varied)
+
+
+# ------------------------------------------------------------------ what deviates
+def _list_mounts(model: EngineFile, tolerance: float) -> Iterator[PartSource]:
+    """The stiffness of every mount, along all its axes alike."""
+    for number, mount in enumerate(model.mount, 1):
+        label = label_table(mount, number)
+        figures = {
+            f"mount.{label}.stiffness.{axis}": value
+            for axis, value in enumerate(mount.stiffness, 1)
+        }
+        yield PartSource(f"stiffness {label}", tolerance, figures)
+
+
+def _spell_out(model: EngineFile) -> EngineFile:
+    """The file with a stiffness and an inertia for every throw, and one for every shaft that is
+    given by its length.
+    """
+    torsion = model.torsion
+    if not isinstance(torsion, Torsion):
+        return model
+    throws = len(build(model).throws_m)
+    stiffness, inertia = torsion.throw_stiffness or (), torsion.throw_inertia
+    update = {
+        "throw_stiffness": stiffness * (throws - 1) if len(stiffness) == 1 else stiffness,
+        "throw_inertia": inertia * throws if inertia and len(inertia) == 1 else inertia,
+        "front": tuple(map(_stiffen, torsion.front)),
+        "rear": tuple(map(_stiffen, torsion.rear)),
+    }
+    return model.model_copy(update={"torsion": torsion.model_copy(update=update)})
+
+
+def _stiffen(part: Part) -> Part:
+    return part.model_copy(update={"stiffness": find_stiffness(part), "length": None})
+
+
+def _list_shafting(model: EngineFile, stiffness: float, mass: float) -> Iterator[PartSource]:
+    """Stiffness of every shaft, inertia of every node, mass of every piston."""
+    torsion = model.torsion
+    if not isinstance(torsion, Torsion):
+        return
+    for k, value in enumerate(torsion.throw_stiffness or (), 1):
+        path = f"torsion.throw_stiffness.{k}"
+        yield PartSource(f"stiffness throw {k}-{k + 1}", stiffness, {path: value})
+    for k, value in enumerate(torsion.throw_inertia or (), 1):
+        yield PartSource(f"inertia throw {k}", mass, {f"torsion.throw_inertia.{k}": value})
+    if not torsion.throw_inertia and model.crank.inertia is not None:
+        yield PartSource("inertia crankshaft", mass, {"crank.inertia": model.crank.inertia})
+    for key, parts in (("front", torsion.front), ("rear", torsion.rear)):
+        for k, part in enumerate(parts, 1):
+            path = f"torsion.{key}.{k}"
+            if part.stiffness is not None and isfinite(part.stiffness):
+                figures = {f"{path}.stiffness": part.stiffness}
+                yield PartSource(f"stiffness {part.name}", stiffness, figures)
+            if part.inertia is not None:
+                yield PartSource(f"inertia {part.name}", mass, {f"{path}.inertia": part.inertia})
+    engine = build(model)
+    for number, weighed in sorted(zip(engine.numbers, engine.weighed, strict=True)):
+        figures = {f"cylinder.{number}.piston_mass": float(weighed.piston)}
+        yield PartSource(f"piston mass {number}", mass, figures)
+
+
+def _draw(tolerances: Array, samples: int, seed: int | None, shape: Shape) -> Array:
+    """(samples, sources) deviations; of normal ones none makes a spring negative."""
+    random = np.random.default_rng(seed)
+    size = samples, len(tolerances)
+    if shape == "uniform":
+        return tolerances * (2 * random.random(size) - 1)
+    return np.maximum(tolerances / 3 * random.standard_normal(size), -0.99)
+
+
+def _spread(
+    quantity: TargetQuantity,
+    nominal: float,
+    values: Array,
+    sources: Sequence[PartSource],
+    changes: Array,
+) -> Spread:
+    unit = np.abs(changes).max() * TOLD or 1.0
+    shares = sorted(
+        zip(sources, map(float, changes), strict=True),
+        key=lambda share: -round(abs(share[1]) / unit),
+    )
+    percentiles = np.percentile(values, list(PERCENTILES.values())).tolist()
+    return Spread(
+        quantity,
+        nominal,
+        mean=float(values.mean()),
+        percentiles=dict(zip(PERCENTILES, percentiles, strict=True)),
+        largest=float(values.max()),
+        bound=nominal + float(np.abs(changes).sum()),
+        shares=tuple(shares),
+    )

@@ -1,0 +1,136 @@
+"""Tolerances of shafts and inertias."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from support.commands import refusal, run_here
+
+TWO = """
+name = "one throw and a wheel"
+[crank]
+stroke = 80
+[rod]
+length = 140
+mass = 0
+cg = 0
+[piston]
+mass = 0.4
+[torsion]
+throw_inertia = 20000
+loss = 0.05
+[[torsion.rear]]
+name = "wheel"
+inertia = 30000
+stiffness = 2e5
+diameter = 40
+"""
+GAS = """
+[layout]
+firing_order = [1, 3, 2]
+[gas]
+cycle = "wiebe"
+compression_ratio = 10
+imep = 9
+"""
+THREE = """
+[crank]
+stroke = 100
+[rod]
+length = 165
+mass = 0.9
+cg = 50
+[piston]
+bore = 86
+mass = 0.6
+[operation]
+speed = 3000
+[torsion]
+throw_stiffness = 0.9e6
+throw_inertia = 20000
+damping = 1.5
+loss = 0.03
+[[torsion.rear]]
+name = "wheel"
+inertia = 300000
+diameter = 70
+length = 200
+"""
+
+
+def scatter(path, *args):
+    done = run_here("scatter", path, *args, "-f", "json")
+    assert (done.status, done.err) == (0, "")
+    return json.loads(done.out)
+
+
+def test_two_inertias_by_hand(tmp_path):
+    """`f = sqrt(k (1/J1 + 1/J2))/2 pi`, with the same random numbers."""
+    path = tmp_path / "two.toml"
+    path.write_text(TWO, encoding="utf-8")
+    options = (
+        "--samples",
+        "60",
+        "--seed",
+        "5",
+        "--stiffness-scatter",
+        "8%",
+        "--mass-scatter",
+        "2%",
+    )
+    found = scatter(path, "-q", "torsion.1.Hz", *options)["quantities"]["torsion.1.Hz"]
+    names = ["inertia throw 1", "stiffness wheel", "inertia wheel", "piston mass 1"]
+    assert {*found["sensitivity"]} == {*names}
+    theta = np.linspace(0, 2 * np.pi, 4096, endpoint=False)
+    across = 0.04 * np.sin(theta)
+    travel = across * (1 + 0.04 * np.cos(theta) / np.sqrt(0.14**2 - across**2))
+    gear = 0.4 * np.mean(travel**2)
+    shares = 2 * np.random.default_rng(5).random((60, 4)) - 1
+    one, spring, two, piston = 1 + (shares * [0.02, 0.08, 0.02, 0.02]).T
+    mass = 1 / (0.02 * one + gear * piston) + 1 / (0.03 * two)
+    hertz = np.sqrt(2e5 * spring * mass) / (2 * np.pi)
+    assert found["mean"] == pytest.approx(hertz.mean(), rel=1e-12)
+    assert found["max"] == pytest.approx(hertz.max(), rel=1e-12)
+    assert found["p05"] == pytest.approx(np.percentile(hertz, 5), rel=1e-12)
+    nominal = np.sqrt(2e5 * (1 / (0.02 + gear) + 1 / 0.03)) / (2 * np.pi)
+    assert found["nominal"] == pytest.approx(nominal, rel=1e-12)
+    assert found["sensitivity"]["stiffness wheel"] == pytest.approx(nominal * 0.04, rel=1e-2)
+    assert -0.01 * nominal < found["sensitivity"]["piston mass 1"] < 0
+
+
+def test_every_throw_deviates_by_itself_and_with_gas(tmp_path):
+    path = tmp_path / "three.toml"
+    path.write_text(THREE + GAS, encoding="utf-8")
+    said = scatter(path, "-q", "shaft.wheel.stress", "--samples", "3", "--seed", "1")
+    found = said["quantities"]["shaft.wheel.stress"]
+    assert {*found["sensitivity"]} == {
+        *("stiffness throw 1-2", "stiffness throw 2-3", "stiffness wheel", "inertia wheel"),
+        *(f"inertia throw {k}" for k in (1, 2, 3)),
+        *(f"piston mass {k}" for k in (1, 2, 3)),
+    }
+    assert found["p05"] < found["p95"]
+    out = run_here("scatter", path, "-q", "torsion.1.Hz", "--samples", "3").out
+    assert "Spread of 3 crankshafts" in out
+
+
+def test_what_does_not_scatter(tmp_path):
+    path = tmp_path / "two.toml"
+    path.write_text(TWO, encoding="utf-8")
+    told = refusal("scatter", path, "-q", "torsion.1.Hz,force.2.major")
+    assert told == (
+        "force.2.major and torsion.1.Hz have tolerances of their own; ask for quantities of the "
+        "engine, of its mounts and of torsion one after the other"
+    )
+    told = refusal("scatter", path, "-q", "torsion.1.Hz", "--samples", "30000")
+    assert told == (
+        "30000 samples: of torsion, where each is computed by itself, from 1 to 20000 are allowed"
+    )
+    none = ("--mass-scatter", "0%", "--stiffness-scatter", "0%")
+    told = refusal("scatter", path, "-q", "torsion.1.Hz", *none)
+    assert told == "nothing deviates; give a tolerance, such as --stiffness-scatter 15%"
+    told = refusal("scatter", path, "-q", "guide.2.H")
+    assert told == "guide.2.H has no scatter; vary single figures with sweep"
+    told = refusal("scatter", path, "-q", "shaft.x.torque")
+    assert told.startswith('shaft.x.torque: the file has no shaft "x"')
