@@ -166,6 +166,7 @@ ON_REQUEST = {
         "balcli.enginefile.templates",
         "balcli.field_balancing.starting_file",
         "balcli.sizing.schemes",
+        "balcli.studies.quantity_names",
         "balcli.torsion.starting_file",
     ),
     "balcli.engine.assembly": (

@@ -53,10 +53,12 @@ GROUPS = {
         "left.",
     },
     "Study": {
+        "numbers": "What can be varied of an engine file, and what can be asked of it: names "
+        "for `sweep`, `search` and `scatter`, with values, units and meanings.",
         "sweep": "Figures of many variants of an engine: numbers of its file over ranges, "
         "as a table, CSV, JSON or Parquet.",
-        "search": "The best crank, firing order, bank angle or splay; mirror images and "
-        "rotations once.",
+        "search": "The best crank, firing order, bank angle or splay, or value of any number; "
+        "mirror images and rotations once.",
         "scatter": "How free forces and moments spread when masses (rod lengths, throw "
         "angles) vary, and which tolerance matters most.",
         "mounts": "What the frame feels of an engine on its mounts: natural modes, rest, "

@@ -54,6 +54,7 @@ MOST_TABLE_VALUES = 100_000  # steps of a range of a printed table
 LARGEST_TABLE_VALUE = 10**9  # in such a range
 
 # Variants ------------------------------------------------------------------------------------
+MOST_PARAMETERS = 16  # that vary at once: each is an axis of arrays, which have up to 32
 MOST_PARAMETER_VALUES = 10_000_000  # of one parameter: all are kept, 80 MB; grids may have more
 MOST_THREADS = 64  # of a sweep: each computes a few boxes ahead, of some 10 MB each
 MOST_KEPT_FIGURES = 100_000_000  # of a sweep in Python: all are kept, 0.8 GB

@@ -105,6 +105,7 @@ RESULTS = {
     "throws": ("search", I4, "--over", "throws", "--minimise", "moment.1.major"),
     "firing order": ("search", I4, "--over", "firing_order", "--minimise", "moment.1.major"),
     "bank angle": ("search", TWO_BANKS, "--over", "bank_angle", "--minimise", "force.1.major"),
+    "numbers": ("numbers", V8),
     "scatter": ("scatter", I4, "--samples", "50"),
     "mounts": ("mounts", ENGINES / "i4_mounts.toml", I4, "--scheme", "auto", *SPEEDS),
     "torsion": (

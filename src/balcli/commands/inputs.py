@@ -17,7 +17,7 @@ from ..enginefile.model import EngineFile
 from ..enginefile.suspicious import find_suspicious
 from ..enginefile.toml_text import name_file, read_bytes
 from ..errors import BalcliError, Exit, is_verbose, legible, note, say, warn
-from ..forces.kinds import KINDS
+from .options import WORDS_OF_ONLY
 
 # What says something of moments besides them, of all that can be asked for.
 ABOUT_MOMENTS = frozenset({"peak", "sizing", "guide", "xy", "textbook", "verdict"})
@@ -26,9 +26,6 @@ SETTINGS = frozenset({"balcli.toml", "pyproject.toml"})  # TOML beside engines, 
 
 P = TypeVar("P")
 T = TypeVar("T")
-
-
-WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "inner", "guide", "xy", "textbook", "verdict")
 
 
 class Source(NamedTuple):

@@ -19,6 +19,15 @@ from .format_names import format_option
 
 # words of `analyze --only` that name a table or text of what is computed anyway
 PARTS = ("xy", "textbook", "verdict")
+WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "gas", "inner", "guide", *PARTS)
+
+
+def complete_parts(incomplete: str) -> list[str]:
+    """Words of `--only` for the shell, the last one of those with commas between them."""
+    before, comma, last = incomplete.rpartition(",")
+    left = [word for word in WORDS_OF_ONLY if word not in before.split(",")]
+    return [f"{before}{comma}{word}" for word in left if word.startswith(last)]
+
 
 EnginePath = Annotated[
     str,
@@ -86,6 +95,7 @@ Only = Annotated[
         f"Compute only some of {', '.join(KINDS)}, peak, sizing, gas; or inner "
         "(shear, bending, bearing loads along crankshaft and block) and guide (H- and X-type).",
         "--only",
+        autocompletion=complete_parts,
     ),
 ]
 OnlyParts = Annotated[
@@ -95,6 +105,7 @@ OnlyParts = Annotated[
         f"Only some of {', '.join(KINDS)}, peak, sizing; inner (shear, bending, bearing "
         "loads along crankshaft and block), guide (H- and X-type); or xy, textbook, verdict.",
         "--only",
+        autocompletion=complete_parts,
     ),
 ]
 Whole = Annotated[

@@ -11,6 +11,7 @@ import typer
 from ..enginefile.toml_text import name_file
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..render import tolerances as renderer
+from .completion import complete_quantities
 from .file_names import text_format
 from .options import EnginePath, FormatOption, Output
 from .output import show
@@ -91,6 +92,7 @@ def scatter(
             "-q",
             metavar="WHAT,...",
             show_default=DEFAULT_QUANTITIES,
+            autocompletion=complete_quantities,
             help="As force.1.major, couple.4.amplitude; of mounts, as mode.roll.Hz, "
             "mount.left.force; or of torsion, as torsion.1.Hz, shaft.flywheel.torque.",
         ),

@@ -9,6 +9,7 @@ import typer
 
 from ..enginefile.toml_text import name_file, read_bytes
 from ..render import search as renderer
+from .completion import complete_quantities, complete_searches
 from .declare import optional
 from .file_names import require_ending, text_format
 from .named_files import refuse_leaving_files
@@ -28,6 +29,7 @@ def search(
             "order), the firing order, the angle of the vee, or of its split pins; or any number "
             "of the file in a range, such as mount.left.loss=0.05:0.3.",
             "--over",
+            autocompletion=complete_searches,
         ),
     ],
     minimise: Annotated[
@@ -38,6 +40,7 @@ def search(
             "sweep has, such as shaft.flywheel.torque.",
             "--minimise",
             "--minimize",
+            autocompletion=complete_quantities,
         ),
     ],
     limit: Annotated[

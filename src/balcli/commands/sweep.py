@@ -17,6 +17,7 @@ from ..process import count_cores
 from ..render.sweep_plot import check_drawable, draw_sweep
 from ..studies.quantity_names import describe_names
 from ..studies.threads import share_work
+from .completion import complete_numbers, complete_quantities
 from .declare import optional
 from .file_names import VARIANTS, Place, VariantsFormat, format_of, picture_form, read_place
 from .format_names import format_option
@@ -40,6 +41,7 @@ def sweep(
             "(from:to:step, ends included) or crank.throws.2=90,180. "
             "Several span a grid, the last one fastest.",
             "--vary",
+            autocompletion=complete_numbers,
         ),
     ],
     quantity: Annotated[
@@ -49,6 +51,7 @@ def sweep(
             "-q",
             metavar="WHAT,...",
             show_default=DEFAULT_QUANTITIES,
+            autocompletion=complete_quantities,
             help=f"Figures by name: {describe_names()}",
         ),
     ] = None,

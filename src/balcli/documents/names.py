@@ -10,6 +10,7 @@ DOCUMENTS = {
     "field": "field",
     "marine": "analysis",
     "mounts": "vibration",
+    "numbers": "studies",
     "scatter": "studies",
     "search": "studies",
     "speeds": "analysis",

@@ -66,6 +66,32 @@ class Scatter(Document):
     quantities: dict[str, Spread]
 
 
+class NumberOfFile(TypedDict):
+    """A number of an engine file; null: it is not there."""
+
+    path: str
+    value: float | None
+    unit: str
+    meaning: str
+
+
+class NameOfQuantity(TypedDict):
+    """Quantities by a pattern: N for an order, PART for a word of the meaning."""
+
+    name: str
+    unit: str
+    meaning: str
+
+
+class Numbers(Document):
+    """What can be varied of an engine file, and what can be asked of it."""
+
+    format: Literal["balcli.numbers/1"]
+    engine: NamedEngine
+    numbers: list[NumberOfFile]
+    quantities: list[NameOfQuantity]
+
+
 class ComparedFigure(TypedDict):
     """One figure of all engines, and its ratios to the first one's; order null: a peak."""
 

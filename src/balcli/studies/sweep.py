@@ -35,6 +35,7 @@ from ..forces.quantity import (
     refuse_unknown,
 )
 from ..forces.spectrum import count_samples
+from ..limits import MOST_PARAMETERS
 from ..process import keep_freed_memory
 from .boxes import Box, BoxSize, divide_grid, divide_into_boxes, divide_into_tiles
 from .parameters import Parameter, parse
@@ -206,8 +207,13 @@ def check_corners(sweep: Sweep) -> None:
 
     Raises:
         InputError: one of them cannot be.
-        BalcliError: a moment is asked for, and the file does not say where the throws stand.
+        BalcliError: a moment is asked for, and the file does not say where the throws stand; too
+            many numbers vary.
     """
+    if len(sweep.parameters) > MOST_PARAMETERS:
+        raise BalcliError(
+            f"{len(sweep.parameters)} numbers vary; at most {MOST_PARAMETERS} can at once"
+        )
     refuse_unknown(build_corners(sweep), sweep.of_engine)
     try:
         refuse_unknown_of_chapters(sweep.file, sweep.quantities)

@@ -1,0 +1,76 @@
+"""Numbers that can be varied and quantities that can be asked for, as a table, JSON and CSV."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Any
+
+from .csv import Rows
+from .sheet import NAMELESS, UNKNOWN, Grid, Sheet
+from .units import System
+
+if TYPE_CHECKING:
+    from ..studies.numbers import FileNumber, NamedNumbers
+
+_OF_CYLINDER = re.compile(r"cylinder\.\d+\.")
+
+
+def sheet(result: NamedNumbers, _system: System) -> Sheet:
+    """Both, a name a row; what no cylinder has of its own is told once for all of them."""
+    rows = dict.fromkeys(_list_rows(result.numbers))
+    numbers = Grid(
+        "Numbers: sweep --vary NAME=VALUES",
+        ("name", "value", "unit", "meaning"),
+        tuple(rows),
+        words=(0, 2, 3),
+        note="–: not in the file; N stands for the number of a cylinder.",
+    )
+    quantities = Grid(
+        "Quantities: --quantity NAME,... (search --minimise, too)",
+        ("name", "unit", "meaning"),
+        tuple((form.pattern, form.unit, form.words) for form in result.quantities),
+        words=(0, 1, 2),
+        note="N stands for an order, PART for one of the words after the colon.",
+    )
+    return Sheet(result.engine or NAMELESS, (numbers, quantities))
+
+
+def _list_rows(numbers: Iterable[FileNumber]) -> Iterator[tuple[str, str, str, str]]:
+    """Of the members of a list, the first has the meaning."""
+    before = ""
+    for number in numbers:
+        stem = number.path.rstrip("0123456789")
+        meaning = "" if stem == before and stem.endswith(".") else number.meaning
+        before = stem
+        if number.value is not None:
+            yield number.path, f"{number.value:.12g}", number.unit, meaning
+        else:
+            yield _OF_CYLINDER.sub("cylinder.N.", number.path), UNKNOWN, number.unit, meaning
+
+
+def document(result: NamedNumbers) -> dict[str, Any]:
+    """`balcli.numbers/1`."""
+    return {
+        "format": "balcli.numbers/1",
+        "engine": {"name": result.engine},
+        "numbers": [number._asdict() for number in result.numbers],
+        "quantities": [
+            {"name": form.pattern, "unit": form.unit, "meaning": form.words}
+            for form in result.quantities
+        ],
+    }
+
+
+def rows(result: NamedNumbers, _system: System) -> Rows:
+    """CSV: a name a line; quantities have no value."""
+    return Rows(
+        ("kind", "name", "value", "unit", "meaning"),
+        [
+            *(("number", *number) for number in result.numbers),
+            *(
+                ("quantity", form.pattern, None, form.unit, form.words)
+                for form in result.quantities
+            ),
+        ],
+    )
