@@ -14,7 +14,7 @@ from fractions import Fraction
 from math import lcm
 from typing import NamedTuple
 
-ANGLES_SHOWN = 6  # and no more, of phasors that are told by their angles
+ANGLES_SHOWN = 6  # of phasors; where there are more, only how many
 PAIRS_SHOWN = 6
 _HALF = Fraction(1, 2)
 _POLYGONS = {2: "opposite pairs", 3: "triangles", 5: "pentagons", 7: "heptagons"}
@@ -128,7 +128,8 @@ def _take_apart(sizes: Mapping[Fraction, Fraction]) -> set[int] | None:
     """
     left = dict(sizes)
     found = set()
-    for p in _prime_factors(lcm(*(angle.denominator for angle in left))):
+    primes = _prime_factors(lcm(*(angle.denominator for angle in left)))
+    for p in (p for p in primes if p <= len(left)):
         for angle in sizes:
             corners = [(angle + Fraction(k, p)) % 1 for k in range(p)]
             least = min(left.get(corner, Fraction(0)) for corner in corners)

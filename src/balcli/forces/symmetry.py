@@ -327,9 +327,9 @@ def _tell_why(sums: list[tuple[int, list[list[Term]]]]) -> str:
         if all(map(_vanishes, own))
     }
     if len(told) == len(of_side):
-        ahead, *others = told.values()
-        if all(other == ahead for other in others):
-            return ahead
+        ways = {way for way in told.values() if way}
+        if len(ways) < 2:
+            return "".join(ways)
         return f"with the crank {told[1]}; against it {told[-1]}"
     if told:
         ((side, cancelled),) = told.items()
