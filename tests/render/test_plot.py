@@ -15,6 +15,7 @@ from support.commands import run_python
 from support.engines import GOOD, changed, inline_engine
 
 from balcli.commands.plot import What
+from balcli.core.phasors import Phasors
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.render.plot import style, torsion
@@ -194,6 +195,20 @@ def test_locus_has_x_upwards(ax):
     force = 0.8 * 0.045 * (3000 * np.pi / 30) ** 2
     assert (right[0], up[0]) == pytest.approx((0, force))
     assert (right[90], up[90]) == pytest.approx((force, 0), abs=1e-9 * force)
+
+
+@pytest.mark.parametrize(("share", "marked"), [(0.5, True), (0.1, False), (0.01, False)])
+def test_a_small_locus_says_its_size_instead_of_crank_angles(ax, share, marked):
+    """Marks would lie on one another."""
+    before = Phasors(np.array([1.0]), np.array([100 + 0j]), np.zeros(1, complex), np.zeros(1))
+    after = replace(before, forward=share * before.forward)
+    draw_locus(ax, after, "force", SI.force, before)
+    texts = [text.get_text() for text in ax.texts]
+    assert ("60°" in texts) == marked
+    assert (f"at most {100 * share:g} N" in texts) != marked
+    widths = [max(x) - min(x) for x in (line.get_xdata() for line in ax.lines) if len(x) > 20]
+    drawn = any(width == pytest.approx(200 * share) for width in widths)
+    assert drawn == (share > 0.02)
 
 
 def test_bars_are_both_vectors_and_add_up_to_the_largest_value(ax, four):

@@ -94,10 +94,25 @@ def test_it_says_what_the_terminal_says():
         assert expected in text
 
 
-def test_a_page_names_no_options_of_a_command():
-    text = report((ENGINES / "i5.toml").read_text(encoding="utf-8"))
-    assert "Negligible: orders 4, 6, 8, 10 (at most" in text
-    assert "All: --all" not in text
+@pytest.mark.parametrize("name", ["i5", "i4_wiebe", "i6_diesel", "i4_mounts"])
+def test_a_page_names_no_command(tmp_path, name):
+    """Whoever reads it has no command line beside it."""
+    file = tmp_path / "page.html"
+    run_here("report", ENGINES / f"{name}.toml", file)
+    text = file.read_text(encoding="utf-8")
+    shown = re.sub(r"<(script|style|svg)\b.*?</\1>", "", text.partition("<body")[2], flags=re.S)
+    words = re.sub(r"<[^>]+>", " ", shown)
+    assert "--" not in words
+    assert re.findall(r"balcli (?!\d)\S+", words) == []
+    assert "--all" in run_here("analyze", ENGINES / f"{name}.toml").out
+
+
+def test_what_has_no_picture_is_said_once_a_section():
+    """A four is balanced in its moment: before, and beside its devices."""
+    text = report(GOOD)
+    assert re.findall(r">(balanced|negligible [^<]*)</text>", text) == ["balanced", "balanced"]
+    assert text.count(">moment along x, ") == 0
+    assert text.count(">force along x, ") == 2
 
 
 def test_a_hostile_name_stays_text():

@@ -4,6 +4,7 @@ loaded from elsewhere.
 
 from __future__ import annotations
 
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +14,7 @@ from ..results.analysis import Analysis
 from ..results.balance import Balance
 from . import analysis, balance
 from .page_scene import scene
-from .plot.pages import Subject, draw_panel
+from .plot.pages import Subject, draw_panel, has_picture
 from .plot.style import inline_svg
 from .sheet import Facts, Grid, Sheet, Text
 from .units import System
@@ -82,8 +83,8 @@ def page(
     fitted = bool(balanced.remedy.reasons)
     compared = _COMPARED if fitted else ()
     now, after = Subject(result, None, system), Subject(balanced.after, balanced.before, system)
-    alone = [(now, *each) for each in _PICTURES if each[1] in told]
-    beside = [(after, *each) for each in compared if each[1] in told]
+    alone = _choose_panels(now, _PICTURES, told)
+    beside = _choose_panels(after, compared, told)
     pictures = []
     for panel in (*alone, *beside):
         pictures.append(Markup(draw_panel(*panel)))
@@ -103,6 +104,18 @@ def page(
         script=Markup((FOLDER / "report.js").read_text(encoding="utf-8")),
         **chapters,
     )
+
+
+def _choose_panels(
+    subject: Subject, panels: Sequence[tuple[str, str]], told: Collection[str]
+) -> list[tuple[Subject, str, str]]:
+    """Those of the quantities that are told; of one without a picture the first, which says so."""
+    chosen: list[tuple[Subject, str, str]] = []
+    for what, quantity in panels:
+        is_first = all(quantity != other for _, _, other in chosen)
+        if quantity in told and (is_first or has_picture(subject, quantity)):
+            chosen.append((subject, what, quantity))
+    return chosen
 
 
 def kind(part: Grid | Facts | Text) -> str:

@@ -39,12 +39,15 @@ def draw_locus(
     if old is not None:
         put_legend_above(ax)
     largest = float(np.abs(values).max())
-    if largest < 0.02 * limit * s.size:
-        ax.plot(0, 0, "o", color=BLUE, markersize=4)
+    if largest < 0.15 * limit * s.size:  # crank angles would lie on one another
+        if largest < 0.02 * limit * s.size:
+            ax.plot(0, 0, "o", color=BLUE, markersize=4)
+        else:
+            ax.plot(values.imag / s.size, values.real / s.size, color=BLUE)
         told = f"at most {size_text(largest, unit, 3)}" if largest else NOTHING
         ax.text(
             0,
-            0.06 * limit,
+            largest / s.size + 0.06 * limit,
             told,
             ha="center",
             va="bottom",

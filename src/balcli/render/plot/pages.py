@@ -99,7 +99,10 @@ def make_page(subject: Subject, what: str, form: Form) -> Figure:
 
 def draw_panel(subject: Subject, what: str, quantity: str) -> str:
     """One picture of one quantity, as an SVG to stand in a page of ours."""
-    with open_figure(*((4.2, 4.0) if what == "polar" else (5.2, 3.1)), "svg") as fig:
+    width, height = (4.2, 4.0) if what == "polar" else (5.2, 3.1)
+    if _find_words(subject, quantity):
+        height = 0.6
+    with open_figure(width, height, "svg") as fig:
         fig.set_facecolor("none")
         _PANELS[what](fig, subject, quantity)
         return inline_svg(
@@ -253,6 +256,11 @@ def _lay_out_main(fig: Figure, subject: Subject) -> None:
 
 
 # ------------------------------------------------------------------ panels
+def has_picture(subject: Subject, quantity: str) -> bool:
+    """Whether a force or moment, or what is about the crank, is drawn; else words are written."""
+    return not _find_words(subject, quantity)
+
+
 def _find_words(subject: Subject, quantity: str) -> str:
     """What stands in place of a picture: of a moment that is not known, of what is nothing, and of
     what is negligible beside one cylinder's; else nothing.
