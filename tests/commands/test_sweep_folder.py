@@ -126,6 +126,21 @@ def test_a_sweep_that_fails_leaves_nothing():
     assert os.listdir() == ["good.toml"]
 
 
+def test_what_a_lost_worker_has_not_finished_is_not_kept():
+    """One that began the first part, and did not say that it is written."""
+    sweep = read_sweep("good.toml", [VARY[1], VARY[3]], FIGURES[1])
+    progress = Progress("variants", sweep.variants, at_once=False, shown=False)
+
+    def share(work, tasks):
+        (folder, _) = work.args
+        (folder / ".part-000000.parquet.half").write_text("half")
+        return share_work(work, tasks, 1)
+
+    assert write_parts(sweep, Path("out"), nullcontext(share), progress, force=False) == ""
+    assert dataset.dataset("out").count_rows() == sweep.variants
+    assert not [name for name in os.listdir("out") if not name.startswith("part-")]
+
+
 def test_what_is_written_until_ctrl_c_is_whole():
     """Of a sweep that is stopped after its second part."""
     sweep = read_sweep("good.toml", [VARY[1], VARY[3]], FIGURES[1])
@@ -150,6 +165,26 @@ def test_a_folder_that_cannot_be_written_is_named(monkeypatch):
     monkeypatch.setattr("balcli.commands.sweep_folder.write_parquet", full)
     assert refusal(*ASKED, "-o", "out/") == "out/: cannot be written (No space left on device)"
     assert os.listdir() == ["good.toml"]
+
+
+def test_an_earlier_sweep_stays_where_the_new_one_cannot_take_its_place(monkeypatch):
+    assert run_here("sweep", "good.toml", *ASKED, "-o", "out/")[0] == 0
+    before, rename = sorted(os.listdir("out")), Path.rename
+    renamed: list[Path] = []
+
+    def busy(path, target):
+        renamed.append(path)
+        if len(renamed) == 2:  # after the earlier one has made way
+            raise OSError(16, "Device or resource busy")
+        return rename(path, target)
+
+    monkeypatch.setattr(Path, "rename", busy)
+    few = ("--vary", "rod.ratio=0.2,0.3", "-q", "force.2.major")
+    assert refusal(*few, "-o", "out/", "--force") == (
+        "out/: cannot be written (Device or resource busy)"
+    )
+    assert sorted(os.listdir("out")) == before
+    assert sorted(os.listdir()) == ["good.toml", "out"]
 
 
 def test_what_is_unfinished_is_discarded_with_its_files():

@@ -56,10 +56,10 @@ def write_parts(
             write = partial(_write_part, folder.absolute(), size)
             with sharing as share:
                 written = _count_parts(share(write, tasks), progress)
+            _keep_first(folder, written)
             if not progress.cut_short:
                 _move(folder, real)
                 return ""
-            _keep_first(folder, written)
             part = real.with_name(f"{real.name}.part")
             _refuse_content(part, force=True)
             _move(folder, part)
@@ -85,7 +85,7 @@ def _write_part(folder: Path, size: BoxSize, task: Task) -> int:
     keep_freed_memory()
     number, boxes = task
     name = _name_part(number)
-    place = folder / f".{name}.{os.urandom(6).hex()}"
+    place = _name_hidden(folder / name)
     every = (Chunk(box.whole, evaluate_box(box, box.whole, size)) for box in boxes)
     rows = (list_columns(box, chunk) for box, chunk in zip(boxes, every, strict=True))
     write_parquet(boxes[0], rows, place)
@@ -123,7 +123,7 @@ def _beside(target: Path) -> Iterator[Path]:
     """A new folder beside the target; it is gone afterwards unless it has been moved, also where a
     signal ends the process.
     """
-    folder = target.parent / f".{target.name[:40]}.{os.urandom(6).hex()}"
+    folder = _name_hidden(target)
     unfinished.add(str(folder))
     try:
         folder.mkdir()
@@ -133,8 +133,13 @@ def _beside(target: Path) -> Iterator[Path]:
         unfinished.discard(str(folder))
 
 
+def _name_hidden(target: Path) -> Path:
+    """A name beside the target that nobody has."""
+    return target.parent / f".{target.name[:40]}.{os.urandom(6).hex()}"
+
+
 def _keep_first(folder: Path, count: int) -> None:
-    """Delete all but so many parts: later ones, and what was being written."""
+    """Delete all but so many parts: later ones, and what a lost worker has not finished."""
     kept = set(map(_name_part, range(count)))
     for file in folder.iterdir():
         if file.name not in kept:
@@ -146,7 +151,11 @@ def _move(folder: Path, target: Path) -> None:
     if not target.exists():
         folder.rename(target)
         return
-    with _beside(target) as old:
-        old.rmdir()
-        target.rename(old)
+    old = _name_hidden(target)
+    target.rename(old)
+    try:
         folder.rename(target)
+    except OSError:
+        old.rename(target)
+        raise
+    discard(str(old))
