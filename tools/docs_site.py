@@ -24,6 +24,7 @@ PAGES = {  # of the repository's root, by their names on the site
     "SECURITY.md": "security.md",
 }
 NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
+# what wants a space behind it, and primes, which browsers would raise and make small twice
 FUNCTION = r"(<mi>(?:sin|cos|tan)</mi>|<msup><mi>(?:sin|cos|tan)</mi><mn>\d</mn></msup>)"
 PRIME = r"(\\[a-z]+|[A-Za-z])('+)"
 API = """# Python, name by name
@@ -50,12 +51,10 @@ def on_files(files: Any, config: Any) -> Any:
     """MkDocs has listed docs/: what is made is added."""
     from mkdocs.structure.files import File  # tests of the rest do without it
 
+    made: dict[str, str | bytes] = {"api.md": API}
     for source, target in PAGES.items():
         text = (ROOT / source).read_text(encoding="utf-8")
-        files.append(
-            File.generated(config, target, content=link_here(text, config.extra["repository"]))
-        )
-    made: dict[str, str | bytes] = {"api.md": API}
+        made[target] = link_here(text, config.extra["repository"])
     for notebook in NOTEBOOKS:
         made |= _convert_notebook(notebook)
     with TemporaryDirectory() as folder:

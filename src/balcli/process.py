@@ -6,6 +6,7 @@ the system does, and leaves what is unfinished.
 
 from __future__ import annotations
 
+import errno
 import os
 import signal
 import sys
@@ -63,6 +64,14 @@ def keep_freed_memory() -> None:
         mallopt = CDLL(None).mallopt
         mallopt(_M_MMAP_THRESHOLD, 32 << 20)  # its own maximum
         mallopt(_M_TRIM_THRESHOLD, 64 << 20)
+
+
+WINDOWS = os.name == "nt"
+
+
+def has_no_reader(error: OSError) -> bool:
+    """Whether nobody reads a pipe any more: on Windows that is no BrokenPipeError."""
+    return isinstance(error, BrokenPipeError) or (WINDOWS and error.errno == errno.EINVAL)
 
 
 def count_cores() -> int:

@@ -27,7 +27,7 @@ def analyze(
     \b
     Examples:
       balcli analyze v8.toml --why
-      balcli analyze v8.toml --only xy,roll --orders 0.5-8
+      balcli analyze v8.toml --only xy,roll --orders 1-8
       balcli analyze s50.toml --format marine --speed 60:124:8
     """
     refuse_overwriting(reads=paths, writes={"--output": output})

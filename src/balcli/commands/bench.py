@@ -12,6 +12,10 @@ from .output import show, write_file
 def bench(form: FormatOption = None, output: Output = None) -> None:
     """Run time against error of every way to the same figures, on this machine; with -o X.svg also
     as a picture.
+
+    \b
+    Example:
+      balcli bench -o bench.svg
     """
     from ..bench.bench import bench as measure
 

@@ -28,6 +28,11 @@ def check(
 ) -> None:
     """Recompute engines and compare with their recorded results; exit status 1 if anything
     moved.
+
+    \b
+    Examples:
+      balcli check v8.toml --update
+      balcli check v8.toml
     """
     from ..regression import Difference, find_differences, find_record, record_result
     from .inputs import exit_on_errors, find_engine_files, read_engine, try_each

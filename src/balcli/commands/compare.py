@@ -34,6 +34,10 @@ def compare(
 ) -> None:
     """Engines side by side: free forces and moments by order, peaks, and their ratios to the first
     engine's.
+
+    \b
+    Example:
+      balcli compare i4.toml v8.toml --only force,moment
     """
     refuse_overwriting(reads=paths, writes={"--output": output})
     form = text_format(output, form)

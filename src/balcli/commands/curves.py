@@ -43,6 +43,11 @@ def curves(
     """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston.
 
     With [gas] over the whole cycle, its torque too.
+
+    \b
+    Examples:
+      balcli curves i4.toml --step 5 -o curves.csv
+      balcli curves i4.toml --cylinder 1
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = format_of(output, form, SERIES, SeriesFormat.CSV)

@@ -47,7 +47,13 @@ def engines(
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
 ) -> None:
-    """List the example engines that come with balcli, print one, or copy it."""
+    """List the example engines that come with balcli, print one, or copy it.
+
+    \b
+    Examples:
+      balcli engines --find v8
+      balcli engines i4 my_engine.toml
+    """
     if name is None:
         emit(_list(examples.find(find, group)))
         return

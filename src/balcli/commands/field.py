@@ -59,6 +59,11 @@ def field(
 
     `balcli new field runs.toml` writes a file to start from: planes, then a run as found and one
     with a trial weight in each plane.
+
+    \b
+    Examples:
+      balcli field runs.toml
+      balcli field runs.toml --plot weights.svg
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     form = text_format(output, form)

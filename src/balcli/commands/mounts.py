@@ -66,6 +66,10 @@ def mounts(
     The file has [body], [[mount]] and, if motion of points is wanted, [[point]]; `balcli new
     mounts` writes one to start from. Without an engine in it, modes and rest are told. Engines of
     further files are put on the same mounts and shown beside.
+
+    \b
+    Example:
+      balcli mounts i4_mounts.toml --speeds 700:6000:50
     """
     refuse_overwriting(reads=paths, writes={"--output": output, "--plot": plot})
     form = text_format(output, form)

@@ -39,6 +39,10 @@ def new(
 ) -> None:
     """Write a commented, valid engine file (or file of runs, for `field`, or chain file, for
     `torsion`) to start from.
+
+    \b
+    Example:
+      balcli new vee v6.toml
     """
     chapters = {chapter.KIND: chapter.read_starting_file for chapter in (field, torsion)}
     text = chapters[kind]() if kind in chapters else template(kind)

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TextIO, TypeVar
 
 from ..errors import BalcliError, note, warn
-from ..process import unfinished
+from ..process import has_no_reader, unfinished
 from ..render.formats import Format, Renderer, Units, render
 from ..render.units import SYSTEMS
 
@@ -73,13 +73,12 @@ def standard_output() -> Iterator[TextIO]:
     try:
         yield sys.stdout
         sys.stdout.flush()
-    except BrokenPipeError:
-        _discard_what_is_left()
     except OSError as error:
         _discard_what_is_left()
-        raise BalcliError(
-            f"standard output: cannot be written ({error.strerror or error})"
-        ) from None
+        if not has_no_reader(error):
+            raise BalcliError(
+                f"standard output: cannot be written ({error.strerror or error})"
+            ) from None
 
 
 def _discard_what_is_left() -> None:

@@ -93,6 +93,10 @@ def plot(
 ) -> None:
     """Draw free forces and moments: loci over a revolution, order by order, and over the crank
     angle; or torsional vibration.
+
+    \b
+    Example:
+      balcli plot v8.toml v8.svg
     """
     refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
     output = choose_target(target, output, "X.svg")

@@ -59,6 +59,10 @@ def report(
 ) -> None:
     """Write one self-contained page: the engine in motion, what it shakes, and a balance scheme
     before and after.
+
+    \b
+    Example:
+      balcli report v8.toml v8.html
     """
     refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
     output = parse_output(choose_target(target, output, "X.html"))

@@ -102,6 +102,10 @@ def scatter(
 ) -> None:
     """How free forces and moments spread when masses (rod lengths, throw angles) vary, and which
     tolerance matters most.
+
+    \b
+    Example:
+      balcli scatter i4.toml --mass-scatter 0.5% --seed 1
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = text_format(output, form)

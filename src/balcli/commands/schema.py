@@ -47,6 +47,11 @@ def schema(
 ) -> None:
     """Print the JSON Schema of the engine file, a file of runs or a chain file, for editors; or of
     what a command prints as JSON.
+
+    \b
+    Examples:
+      balcli schema -o balcli.schema.json
+      balcli schema --of analysis
     """
     require_ending(output, ".json")
     described = _describe_file(kind or File.ENGINE) if of is None else _describe_result(of, kind)

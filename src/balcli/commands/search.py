@@ -65,6 +65,10 @@ def search(
 ) -> None:
     """The best crank, firing order, bank angle or splay, or value of any number; mirror images and
     rotations once.
+
+    \b
+    Example:
+      balcli search v8.toml --over throws --minimise moment.1.major
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     form = text_format(output, form)

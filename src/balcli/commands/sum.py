@@ -59,7 +59,12 @@ def sum(  # noqa: A001 (the command's name)
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """Two engines on one frame, geared one to one: H, U and opposed-piston engines."""
+    """Two engines on one frame, geared one to one: H, U and opposed-piston engines.
+
+    \b
+    Example:
+      balcli sum i4.toml i4.toml --phase 90 --at 300,0,0
+    """
     refuse_overwriting(reads=[first, second], writes={"--output": output})
     form = text_format(output, form)
     from ..render import two_engines as renderer

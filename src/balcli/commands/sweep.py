@@ -108,6 +108,11 @@ def sweep(
     or Parquet.
 
     Ctrl-C ends it with the variants computed so far, in -o's FILE.part if there is a -o.
+
+    \b
+    Examples:
+      balcli sweep v8.toml --vary layout.stagger=0:30:10 -q moment.1.major
+      balcli sweep i4.toml --vary rod.ratio=0.24:0.32:0.01 -o ratios.csv --jobs 2
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     file, kind = _choose_target(output, form, plot)

@@ -49,7 +49,7 @@ def write_sweep(
         if kind is VariantsFormat.PARQUET:
             write_parquet(sweep, (list_columns(sweep, chunk) for chunk in chunks), place)
         else:
-            with place.open("w", encoding="utf-8") as stream:
+            with place.open("w", encoding="utf-8", newline="\n") as stream:
                 stream.writelines(_make_text(sweep, chunks, kind))
         if not progress.cut_short or place == output:  # a device has what it has
             return ""

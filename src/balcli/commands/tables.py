@@ -66,6 +66,11 @@ def tables(
 ) -> None:
     """The printed coefficient tables of five books and papers, recomputed, and every misprint in
     them.
+
+    \b
+    Examples:
+      balcli tables tsinghua-1-2
+      balcli tables --errata --format json
     """
     form = text_format(output, form)
     from ..printed_tables.layouts import add_firing

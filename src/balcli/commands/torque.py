@@ -31,6 +31,11 @@ def torque(
     the uneven speed and the flywheel; or what a given torque curve does.
 
     `balcli torque v8.toml --fluctuation 1/200` says which inertia keeps the speed to that.
+
+    \b
+    Examples:
+      balcli torque v8_wiebe.toml
+      balcli torque v8_wiebe.toml --fluctuation 2%
     """
     reads = [str(name) for name in (path, curve, load) if name is not None]
     refuse_overwriting(reads=reads, writes={"--output": output, "--write": write})

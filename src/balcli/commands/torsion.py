@@ -105,6 +105,10 @@ def torsion(
     tables, vibratory torque and stress over a range of speeds, dampers, barred speeds.
 
     `balcli new torsion chain.toml` writes a file to start from: nodes, shafts, gears, torques.
+
+    \b
+    Example:
+      balcli torsion i6_diesel.toml --speeds 600:2400:20
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write, "--plot": plot})
     form = text_format(output, form)
