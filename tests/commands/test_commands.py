@@ -8,6 +8,7 @@ import csv
 import io
 import json
 import math
+import re
 import sys
 from contextlib import nullcontext
 from types import ModuleType
@@ -360,6 +361,18 @@ def test_pictures_of_one_and_two_parameters(balcli, four, tmp_path, vary):
     )
     assert status == 0
     assert "force.2.major, N" in (tmp_path / "x.svg").read_text()
+
+
+def test_curves_of_one_picture_have_one_unit(balcli, tmp_path):
+    """A moment in kN·m would else lie below one in N·m that is smaller."""
+    picture = tmp_path / "x.svg"
+    asked = ["--vary", "layout.bank_angle=60:120:30", "--plot", picture, "-o", tmp_path / "x.csv"]
+    assert balcli("sweep", ENGINES / "v6_60.toml", *asked)[0] == 0
+    told = re.findall(r">((?:force|moment)\.[^<]*)<", picture.read_text(encoding="utf-8"))
+    assert told == [
+        *("force.1.major, N", "force.2.major, N"),
+        *("moment.1.major, kN·m", "moment.2.major, kN·m"),
+    ]
 
 
 def test_no_picture_of_three_parameters(balcli, four, tmp_path):

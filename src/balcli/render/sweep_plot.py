@@ -56,8 +56,13 @@ def make_sweep(sweep: Sweep, values: Sequence[Array], form: style.Form) -> Figur
     """The same as a figure."""
     several = _varied_parameters(sweep)
     if len(several) == 1:
-        with style.open_figure(7, 4.2, form) as page:
-            _draw_curves(page.subplots(), sweep, values)
+        names = list(dict.fromkeys(quantity.unit for quantity in sweep.quantities))
+        with style.open_figure(7, 1.2 + 3 * len(names), form) as page:
+            places = page.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
+            for axes, name in zip(places, names, strict=True):
+                _draw_curves(axes, sweep, values, name)
+                axes.label_outer()
+            places[0].set_title(style.fit_name(sweep.file.name))
         return page
     with style.open_figure(6 * len(values), 4.8, form) as page:
         places = page.subplots(1, len(values), squeeze=False)[0]
@@ -68,27 +73,29 @@ def make_sweep(sweep: Sweep, values: Sequence[Array], form: style.Form) -> Figur
     return page
 
 
-def _draw_curves(axes: Any, sweep: Sweep, values: Sequence[Array]) -> None:
-    parameter = next(p for p in sweep.parameters if len(p) > 1)
+def _draw_curves(axes: Any, sweep: Sweep, values: Sequence[Array], name: str) -> None:
+    """Draw the quantities of one unit, all in the one that fits the largest of them."""
+    (parameter,) = _varied_parameters(sweep)
+    shown = [
+        (quantity.name, value.ravel())
+        for quantity, value in zip(sweep.quantities, values, strict=True)
+        if quantity.unit == name
+    ]
+    unit = max((_fit(name, value) for _, value in shown), key=lambda fitting: fitting.size)
     looks = [
         (colour, line)
         for line in ("-", "--", ":")
         for colour in (style.BLUE, style.RED, style.GREEN)
     ]
-    for quantity, value, (colour, line) in zip(
-        sweep.quantities, values, cycle(looks), strict=False
-    ):
-        unit = _fit(quantity.unit, value)
+    for (label, value), (colour, line) in zip(shown, cycle(looks), strict=False):
         axes.plot(
             parameter.values,
-            value.ravel() / unit.size,
+            value / unit.size,
             color=colour,
             linestyle=line,
-            label=name_with_unit(quantity.name, unit.name),
+            label=name_with_unit(label, unit.name),
         )
-    axes.set(
-        xlabel=name_with_unit(parameter.path, parameter.unit), title=style.fit_name(sweep.file.name)
-    )
+    axes.set(xlabel=name_with_unit(parameter.path, parameter.unit))
     axes.ticklabel_format(axis="y", useOffset=False, style="plain")
     axes.legend()
 
