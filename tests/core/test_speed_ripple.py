@@ -123,7 +123,7 @@ def test_torque(lines):
 )
 def test_the_least_speed_is_that_of_a_dense_grid(lines):
     theta = np.linspace(0, 2 * np.pi, 400_001)
-    least, at = ripple.find_slowest(lines)
+    least, at, _ = ripple.find_slowest(lines)
     grid = speed(lines, theta).min()
     bend = sum(n**2 * abs(a) for n, a, _ in lines)
     assert grid - bend * theta[1] ** 2 / 8 - 1e-14 <= least <= grid + 1e-14

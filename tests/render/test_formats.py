@@ -29,6 +29,7 @@ SHOWN = {  # by renderer
     "layouts": ("layouts",),
     "marine": ("analyze", V6, V8, "--format", "marine", "--speed", "60,124"),
     "mounts": ("mounts", PACKAGE / "enginefile" / "starting_files" / "mounts.toml"),
+    "numbers": ("numbers", V8),
     "printed_table": ("tables", "liu-1"),
     "search": ("search", V8, "--over", "throws", "--minimise", "moment.1.major"),
     "speeds": ("analyze", V6, V8, "--speed", "60:124:8", "--only", "force,peak,inner"),
