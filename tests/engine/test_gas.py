@@ -144,7 +144,13 @@ def test_harmonics_are_of_the_mean_tangential_pressure(beside):
         (
             'indicator = "p.csv"',
             DIAGRAM.replace("50,0.1", "50,-0.1"),
-            "gas.indicator: p.csv: line 8: the absolute pressure is -1 bar: give 0 or more",
+            "gas.indicator: p.csv: line 8: the absolute pressure is -1 bar: give 0 or more; is it "
+            'over the atmosphere? Then give pressure = "gauge"',
+        ),
+        (
+            'indicator = "p.csv"\npressure = "gauge"',
+            DIAGRAM.replace("30,0.1", "30,-0.2"),
+            "gas.indicator: p.csv: line 6: the absolute pressure is -0.98675 bar: give 0 or more",
         ),
         (
             'indicator = "p.csv"',
@@ -165,6 +171,12 @@ def test_harmonics_are_of_the_mean_tangential_pressure(beside):
             'harmonics = "p.csv"',
             "order,cos,sin\n1,1,0\n1,1,0\n",
             "gas.harmonics: p.csv: line 3: orders have to rise",
+        ),
+        (
+            'harmonics = "p.csv"',
+            "order,cos,sin\n0,2,5\n1,1,0\n",
+            "gas.harmonics: p.csv: line 2: order 0 has sin 5; it is the mean, which has no sine: "
+            "write 0",
         ),
     ],
 )
@@ -192,6 +204,18 @@ def test_a_diagram_in_another_unit_is_suspicious(beside):
         "gas.indicator: the highest pressure is 600 bar, where at most 500 is usual; does the "
         "heading of its column name the right unit?"
     )
+
+
+def test_a_diagram_that_goes_down_to_nothing_is_suspicious(beside):
+    zeroed = DIAGRAM.replace(",0.1", ",0.0")
+    path = beside('indicator = "p.csv"\nzero = "gas-exchange"\n', content=zeroed)
+    (doubt,) = load(path).gas.doubts
+    assert doubt == (
+        "gas.indicator: the lowest pressure is 0 bar absolute, where at least 0.1 is usual; is it "
+        'over the atmosphere? Then give pressure = "gauge"'
+    )
+    path = beside('indicator = "p.csv"\nzero = "gas-exchange"\n', content=DIAGRAM)
+    assert load(path).gas.doubts == ()
 
 
 def test_a_diagram_may_have_so_many_rows(beside):

@@ -63,6 +63,7 @@ def test_an_example_of_a_list_is_of_its_key(tmp_path):
     [
         ("[rod]", "[conrod]", "conrod: unknown key in an engine file; did you mean rod?"),
         ("stroke = 90", "stroke = 90\npin_offset = 30", "unknown key in [crank]; did you mean splay?"),
+        ("[operation]", '[cylinder.3]\npiston = "520 g"', "[cylinder]; did you mean piston_mass?"),
         ("[operation]", "[operation]\nrpm = 9000", "unknown key in [operation]; did you mean speed?"),
     ],
 )  # fmt: skip

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from support.engines import GOOD, changed
 
@@ -59,6 +61,7 @@ def test_ordinary_engines_pass(text):
         (
             changed(
                 ("bore = 86", "bore = 300"),
+                ("spacing = 100", "spacing = 400"),
                 ("mass = 0.5", "mass = 20"),
                 ("mass = 0.6", "mass = 16"),
             ),
@@ -108,10 +111,10 @@ def test_ordinary_engines_pass(text):
         (
             changed(
                 ("[layout]", "[layout]\nstagger = 220"),
-                ("spacing = 100", "positions = [-90, -30, 40, 90]"),
+                ("spacing = 100", "positions = [-190, -90, 10, 90]"),
             ),
             (
-                "layout.stagger is 220 mm, more than the distance of neighbouring throws (50 mm); "
+                "layout.stagger is 220 mm, more than the distance of neighbouring throws (80 mm); "
                 "it is the "
                 "distance of two rods "
                 "on one throw"
@@ -137,10 +140,61 @@ def test_ordinary_engines_pass(text):
                 'as in "130 psi" or "0.9 MPa"'
             ),
         ),
+        (
+            changed(("spacing = 100", "spacing = 4.4")),
+            "crank.spacing puts neighbouring cylinders of one bank 4.4 mm apart, which is less "
+            "than their bore of 86 mm; is it in mm? Another unit is said as in "
+            '"4.4 in" or "1.02 m"',
+        ),
+        (
+            changed(("spacing = 100", "positions = [15, 10, -10, -15]")),
+            "crank.positions puts neighbouring cylinders of one bank 5 mm apart, which is less "
+            "than their bore of 86 mm; is it in mm? Another unit is said as in "
+            '"4.4 in" or "1.02 m"',
+        ),
+        (
+            changed(("throw_mass = 0.8", "throw_mass = 800")),
+            "crank.throw_mass is 800 kg, more than 20 times the rods and pistons of a throw (1.1 "
+            'kg); is it in kg? Grams are said as in "800 g"',
+        ),
+        (
+            changed(more="[bobweight]\nrod_bearing = 47\noil = 0.004\n"),
+            "bobweight.rod_bearing is 47 kg, more than 0.5 times a rod with its piston (1.1 kg); "
+            'is it in kg? Grams are said as in "47 g"',
+        ),
+        (
+            changed(more="[bobweight]\nrod_bearing = 0.047\noil = 4\n"),
+            "bobweight.oil is 4 kg, more than 0.5 times a rod with its piston (1.1 kg); "
+            'is it in kg? Grams are said as in "4 g"',
+        ),
     ],
 )
 def test_warnings(text, warning):
     assert find_suspicious(parse(text)) == [warning]
+
+
+ENGINES = Path(__file__).parents[2] / "engines"
+
+
+def test_engines_of_the_project_are_of_usual_size():
+    """Places of cylinders and masses at the crank pin: no engine of the folder is doubted."""
+    files = sorted(ENGINES.rglob("*.toml"))
+    assert len(files) > 60
+    doubts = {file.name: find_suspicious(parse(file.read_text("utf-8"))) for file in files}
+    assert {name: told for name, told in doubts.items() if told} == {}
+
+
+@pytest.mark.parametrize(
+    "layout",
+    [
+        'banks = [-90, 90]\nrods = "alternating"',  # opposite cylinders overlap in side view
+        "radial = 9",
+    ],
+)
+def test_cylinders_of_different_banks_may_overlap(layout):
+    close = ("spacing = 100", "spacing = 50")
+    assert len(find_suspicious(parse(changed(close)))) == 1
+    assert find_suspicious(parse(changed(close, ("firing_order = [1, 3, 4, 2]", layout)))) == []
 
 
 def test_moving_masses_count_every_rod_of_a_vee():

@@ -48,6 +48,16 @@ from balcli.enginefile.units import (
         ("6000 rpm", SPEED, 6000.0),
         ("100 turn/s", SPEED, 6000.0),
         ("1 rad/s", SPEED, 30 / math.pi),
+        ("5500 1/min", SPEED, 5500.0),
+        ("55001/min", SPEED, 55001.0),
+        ("5500 min-1", SPEED, 5500.0),
+        ("5500. min^-1", SPEED, 5500.0),
+        ("5500 min⁻¹", SPEED, 5500.0),
+        ("5500 U/min", SPEED, 5500.0),
+        ("5500 r/min", SPEED, 5500.0),
+        ("5500 rev/min", SPEED, 5500.0),
+        ("150 Hz", SPEED, 9000.0),
+        ("0.25 rev", ANGLE, 90.0),
         ("820 ms", TIME, 0.82),
     ],
 )
@@ -117,10 +127,28 @@ def test_units_that_only_pint_knows(text, dimension, expected):
             ),
         ),
         (
-            "50 Hz",
+            "50 kHz",
             SPEED,
             'is a frequency, but a speed of rotation is wanted: a bare number in rpm, or "6000 '
             'rpm" or "300 rad/s"',
+        ),
+        (
+            "300 1/s",  # turns, or radians
+            SPEED,
+            "is not a number followed by a unit; a speed of rotation is wanted: a bare number in "
+            'rpm, or "6000 rpm" or "300 rad/s"',
+        ),
+        (
+            "50 Hz",
+            ANGLE,
+            'is a frequency, but an angle is wanted: a bare number in deg, or "30 deg" or "1.2 '
+            'rad" or "1/7 turn"',
+        ),
+        (
+            "72 grad",
+            ANGLE,
+            'has the unit "grad": deg, or gon (0.9 deg)? an angle is wanted: a bare number in '
+            'deg, or "30 deg" or "1.2 rad" or "1/7 turn"',
         ),
         (
             "3 ampere",

@@ -45,6 +45,8 @@ PRESSURE_HEADS = {
     "pressure_Pa": 1.0,
     "pressure_psi": 0.45359237 * 9.80665 / 0.0254**2,
 }
+LOW_PRESSURE = 0.1  # bar; a throttled engine draws in at 0.3
+ASK_GAUGE = '; is it over the atmosphere? Then give pressure = "gauge"'
 NEAR_DEG = 45.0  # from the firing dead centre: there the pressure of every engine is highest
 SAME_IMEP = 0.03  # by which a diagram may miss the stated mean effective pressure
 
@@ -259,7 +261,9 @@ class _Builder:
         wrong = list(diagrams.mistakes(angle, pressure, strokes=self.strokes))
         if wrong:
             line = "" if wrong[0].row is None else f"line {columns.lines[wrong[0].row]}: "
-            raise BalcliError(f"{name}: {line}{wrong[0].message}")
+            below_zero = wrong[0].row is not None and pressure[wrong[0].row] < 0
+            hint = ASK_GAUGE if below_zero and not gauge else ""
+            raise BalcliError(f"{name}: {line}{wrong[0].message}{hint}")
         firing = 360.0 if gas.zero == "gas-exchange" else 0.0
         found = diagrams.pressure_diagram(
             angle, pressure, strokes=self.strokes, firing_deg=firing - gas.phase
@@ -286,6 +290,12 @@ class _Builder:
                 f"{source.path}: the highest pressure is {value / BAR:.4g} bar, where at most "
                 f"{MAX_PRESSURE:g} is usual; does the heading of its column name the right unit?"
             )
+        lowest = gas.pressure.curve.extremes()[0].value / BAR
+        if lowest < LOW_PRESSURE:
+            self.doubts.append(
+                f"{source.path}: the lowest pressure is {lowest:.4g} bar absolute, where at least "
+                f"{LOW_PRESSURE:g} is usual{ASK_GAUGE}"
+            )
         stated = self.gas.imep
         if stated is not None and source.path == "gas.indicator":
             found = gas.imep / BAR
@@ -308,6 +318,11 @@ class _Builder:
             raise BalcliError(
                 f"{name}: line {columns.lines[high[0]]}: order {orders[high[0]]:g} is above "
                 f"{HIGHEST_TABLE_ORDER}, where no table goes"
+            )
+        if not orders[0] and sines[0]:
+            raise BalcliError(
+                f"{name}: line {columns.lines[0]}: order 0 has sin {sines[0]:g}; it is the mean, "
+                "which has no sine: write 0"
             )
         radius = float(self.cylinders.radius)
         try:

@@ -32,12 +32,19 @@ OFFSET_SHARE = 0.2  # of the stroke; pin offsets have up to 0.05, narrow-angle v
 # Indicated or brake mean pressure: 8 to 30 bar is usual, racing engines had 50; 100 psi is 7 bar.
 MEAN_PRESSURE = 60.0  # bar
 MAX_PRESSURE = 500.0  # bar; engines have 50 to 250
+THROW_HEAVY = 20.0  # unbalanced mass of a throw / its rods and pistons: engines have up to 1.4
+BEARING_HEAVY = 0.5  # shells or oil of a rod / rod and piston: engines have up to 0.05
+# Cylinders in line need more than their bore from one to the next: engines have 1.05 to 1.8.
+NEIGHBOURS_CLOSE = 0.9
 UNBALANCE_SHARE = 5.0  # of all moving masses x crank radius; balancing needs 1 or 2
 
 
 def find_suspicious(model: EngineFile) -> list[str]:
     """Warnings for what is allowed and yet unlikely; empty for an ordinary engine."""
-    parts = (_piston, _proportions, _rod, _inertia, _motion, _layout, _counterweights, _gas)
+    parts = (
+        *(_piston, _proportions, _rod, _inertia, _motion, _neighbours, _layout),
+        *(_throw, _bobweight, _counterweights, _gas),
+    )
     return [warning for part in parts for warning in part(model)]
 
 
@@ -132,6 +139,17 @@ def _motion(model: EngineFile) -> Iterator[str]:
         )
 
 
+def _neighbours(model: EngineFile) -> Iterator[str]:
+    bore, gap = model.piston.bore, _find_gap_in_bank(model)
+    if bore is not None and gap is not None and gap < NEIGHBOURS_CLOSE * bore:
+        key = "spacing" if model.crank.positions is None else "positions"
+        yield (
+            f"crank.{key} puts neighbouring cylinders of one bank {gap:g} mm apart, which is less "
+            f"than their bore of {bore:g} mm; is it in mm? Another unit is said as in "
+            '"4.4 in" or "1.02 m"'
+        )
+
+
 def _layout(model: EngineFile) -> Iterator[str]:
     spacing = _spacing(model)
     if spacing and abs(model.layout.stagger) > spacing:
@@ -142,12 +160,33 @@ def _layout(model: EngineFile) -> Iterator[str]:
         )
 
 
+def _throw(model: EngineFile) -> Iterator[str]:
+    throws, rods = _throws_and_rods(model)
+    given, moving = model.crank.throw_mass, rods / throws * _rod_and_piston(model)
+    if moving and given > THROW_HEAVY * moving:
+        yield (
+            f"crank.throw_mass is {given:.4g} kg, more than {THROW_HEAVY:g} times the rods and "
+            f"pistons of a throw ({moving:.3g} kg); is it in kg? Grams are said as in "
+            f'"{given:.4g} g"'
+        )
+
+
+def _bobweight(model: EngineFile) -> Iterator[str]:
+    moving = _rod_and_piston(model)
+    for key in ("rod_bearing", "oil"):
+        given = getattr(model.bobweight, key)
+        if moving and given > BEARING_HEAVY * moving:
+            yield (
+                f"bobweight.{key} is {given:.4g} kg, more than {BEARING_HEAVY:g} times a rod with "
+                f"its piston ({moving:.3g} kg); is it in kg? Grams are said as in "
+                f'"{given:.4g} g"'
+            )
+
+
 def _counterweights(model: EngineFile) -> Iterator[str]:
     radius = model.crank.stroke / 2
     throws, rods = _throws_and_rods(model)
-    mass = throws * model.crank.throw_mass + rods * (
-        _piston_mass(model) + (_rod_mass(model) or 0.0)
-    )
+    mass = throws * model.crank.throw_mass + rods * _rod_and_piston(model)
     limit = UNBALANCE_SHARE * mass * 1e3 * radius
     for number, weight in enumerate(model.counterweight, 1):
         if limit and abs(_unbalance(weight)) > limit:
@@ -217,6 +256,29 @@ def _name_piston_mass(model: EngineFile) -> str:
 def _rod_mass(model: EngineFile) -> float | None:
     rod = model.rod
     return rod.mass if rod.small_end is None or rod.big_end is None else rod.small_end + rod.big_end
+
+
+def _rod_and_piston(model: EngineFile) -> float:
+    """One of each, kg."""
+    return _piston_mass(model) + (_rod_mass(model) or 0.0)
+
+
+def _find_gap_in_bank(model: EngineFile) -> float | None:
+    """Least distance of two cylinders of one bank, mm; None where it is not known, or where rows
+    of a radial or cylinders with axes of their own may reach between one another.
+    """
+    layout, crank = model.layout, model.crank
+    own = [c for c in model.cylinder.values() if c.bank is not None or c.position is not None]
+    if layout.radial is not None or own:
+        return None
+    throws, _ = _throws_and_rods(model)
+    banks = len(layout.banks or ()) or 1
+    step = banks if layout.rods == "alternating" else 1  # from one throw of a bank to its next
+    if step >= throws:
+        return None
+    if crank.positions is None:
+        return None if crank.spacing is None else step * crank.spacing
+    return min(abs(b - a) for a, b in zip(crank.positions, crank.positions[step:], strict=False))
 
 
 def _spacing(model: EngineFile) -> float | None:

@@ -83,7 +83,13 @@ COMMON = {
     "psi": Unit(_POUND_FORCE / INCH**2, _PRESSURE),
 }
 
-AMBIGUOUS = {"gr": "g, or grain (65 mg)?", "gm": "g, or gigametre?"}
+AMBIGUOUS = {
+    "gr": "g, or grain (65 mg)?",
+    "gm": "g, or gigametre?",
+    "grad": "deg, or gon (0.9 deg)?",
+    "grade": "deg, or gon (0.9 deg)?",
+}
+ALSO = {"rev": "turn", "r": "turn", "U": "turn"}  # revolution; German Umdrehung
 
 LENGTH = Dimension("mm", "a length", _LENGTH, ("90 mm", "3.5 in"))
 MASS = Dimension("kg", "a mass", _MASS, ("650 g", "0.8 lb"))
@@ -129,6 +135,9 @@ FIGURE = (
     rf"\s*([+-]?{_NUMBER})(?:\s*/\s*({_NUMBER}))?\s*({_UNIT})?\s*"  # compiled when a string is met
 )
 _INCH_MARK = r'^([^"”″]*\d)\s*["”″]\s*$'  # 3.5"
+# A crank speed counts turns, said or not. 1/s stays out: it is as often meant as rad/s.
+_PER_MINUTE = r"(\d\.?)(?:(?:\s+1)?\s*/\s*min|\s*min(?:\^|\*\*)?-1|\s*min⁻¹)\s*$"
+_HERTZ = r"(\d\.?)\s*Hz\s*$"
 _PART = r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([²³]))?"
 
 
@@ -137,7 +146,8 @@ def convert(text: str, dimension: Dimension) -> float:
     what would be right.
     """
     inches = re.sub(_INCH_MARK, r"\1 in", text[:LONGEST_FIGURE])
-    match = re.fullmatch(FIGURE, inches, re.ASCII) if len(text) <= LONGEST_FIGURE else None
+    figure = _count_turns(inches) if dimension is SPEED else inches
+    match = re.fullmatch(FIGURE, figure, re.ASCII) if len(text) <= LONGEST_FIGURE else None
     if match is None:
         raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
     above, below, names = match.groups()
@@ -167,6 +177,7 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
     for joint, name, power, superscript in re.findall(_PART, names, re.ASCII):
         if name in AMBIGUOUS:
             raise ValueError(f'has the unit "{name}": {AMBIGUOUS[name]} {wanted(dimension)}')
+        name = ALSO.get(name, name)
         part = COMMON.get(name) or COMMON.get(_in_small(name)) or _ask_pint(name)
         if part is None:
             raise ValueError(f'has the unknown unit "{name}"; {wanted(dimension)}')
@@ -174,6 +185,11 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
         scale *= part.scale**exponent
         powers = Powers(*(p + exponent * q for p, q in zip(powers, part.powers, strict=True)))
     return Unit(scale, powers)
+
+
+def _count_turns(speed: str) -> str:
+    """A speed of rotation with its turns said: "150 Hz" -> "150 turn/s", "5500 1/min" -> rpm."""
+    return re.sub(_PER_MINUTE, r"\1 rpm", re.sub(_HERTZ, r"\1 turn/s", speed))
 
 
 def _in_small(name: str) -> str:
