@@ -7,6 +7,7 @@ import re
 import sys
 from collections.abc import Callable
 from html.parser import HTMLParser
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -267,3 +268,19 @@ def test_a_parquet_file_that_cannot_be_written_is_named(tmp_path):
     pytest.importorskip("pyarrow")
     with pytest.raises(balcli.BalcliError, match=r"nowhere/a\.parquet: cannot be written"):
         balcli.analyze(load("i4"), [2]).to_parquet(tmp_path / "nowhere/a.parquet")
+
+
+def test_a_parquet_file_that_fails_leaves_the_older_one(monkeypatch, tmp_path):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    place = tmp_path / "a.parquet"
+    place.write_text("old")
+
+    def run_full(table, path):
+        Path(path).write_text("half")
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(parquet, "write_table", run_full)
+    with pytest.raises(balcli.BalcliError, match=r"a\.parquet: cannot be written \(No space"):
+        balcli.analyze(load("i4"), [2]).to_parquet(str(place))
+    assert place.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [place]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from enum import IntEnum
 from typing import NamedTuple
@@ -26,8 +26,13 @@ def legible(text: str) -> str:
     return text.translate(_CONTROL)
 
 
+before_messages: list[Callable[[], None]] = []  # take away a line that is to be rewritten
+
+
 def say(text: str) -> None:
     """A message on standard error, whether somebody reads it or not."""
+    for clear_line in before_messages:
+        clear_line()
     with suppress(OSError):
         print(legible(text), file=sys.stderr, flush=True)
 

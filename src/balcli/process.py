@@ -42,15 +42,34 @@ def _end(number: int, _frame: object) -> None:
 
 def discard(path: str) -> None:
     """Delete a temporary file, or a folder with its files, unless it has been moved to its place or
-    was not made yet.
+    was not made yet. Threads may still write into a folder: it gets another name, where they do not
+    find it.
     """
-    with suppress(OSError):
-        if not os.path.isdir(path):
+    if not os.path.isdir(path):
+        with suppress(OSError):
             os.unlink(path)
-            return
-        for name in os.listdir(path):
-            os.unlink(os.path.join(path, name))
+        return
+    moved = f"{path}.old"
+    unfinished.add(moved)  # for the next signal
+    with suppress(OSError):  # Windows moves no folder of open files
+        os.rename(path, moved)
+        path = moved
+    while _delete_files(path):
+        pass
+    with suppress(OSError):
         os.rmdir(path)
+    unfinished.discard(moved)
+
+
+def _delete_files(folder: str) -> int:
+    """How many of its files could be deleted."""
+    deleted = 0
+    with suppress(OSError):
+        for name in os.listdir(folder):
+            with suppress(OSError):
+                os.unlink(os.path.join(folder, name))
+                deleted += 1
+    return deleted
 
 
 def keep_freed_memory() -> None:

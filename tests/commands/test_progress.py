@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import signal
 import sys
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 
 import pytest
 import typer
@@ -104,6 +106,39 @@ def test_ctrl_c_ends_what_can_be_whole_with_what_there_is(
     )
     stop_in_the_middle(8)  # all was done by then
     assert capsys.readouterr() == ("what there is\n", "")
+
+
+@unix
+def test_an_interrupt_that_is_ignored_stays_so() -> None:
+    """As under `nohup`, or in the background of a script."""
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        with progress.reporting_until_stopped("engines", 8) as tell:
+            signal.raise_signal(signal.SIGINT)
+            assert not tell(2)
+        assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.parametrize("reporting", [progress.reporting, progress.reporting_until_stopped])
+def test_a_warning_takes_the_line_away_first(
+    reporting: Callable[..., AbstractContextManager[progress.Progress]],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    now = watch_clock(monkeypatch)
+    with reporting("engines", 4, at_once=True) as tell:
+        now[0] += 1
+        tell(1)
+        line = "balcli: 1 of 4 engines (25%) in 1 s, about 3 s left"
+        assert capsys.readouterr().err == f"\r{line}"
+        errors.warn("the rod is short")
+        errors.warn("the rod is light")
+        told = "warning: the rod is short\nwarning: the rod is light\n"
+        assert capsys.readouterr().err == f"\r{'':{len(line)}}\r{told}"
+    errors.warn("it is all")
+    assert capsys.readouterr().err == "warning: it is all\n"
 
 
 def test_items_are_counted_until_ctrl_c(capsys: pytest.CaptureFixture[str]) -> None:

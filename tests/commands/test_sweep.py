@@ -16,6 +16,9 @@ from support.commands import HANGS, run_command, run_here, start_command
 from support.engines import GOOD
 
 from balcli.commands import sweep_output
+from balcli.commands.file_names import VariantsFormat
+from balcli.commands.progress import Progress
+from balcli.studies.sweep import evaluate_chunks, read_sweep
 
 
 @pytest.fixture
@@ -144,6 +147,20 @@ def test_ctrl_c_leaves_a_valid_part_beside_the_older_file(engine: str, tmp_path:
     )
     assert len(rows) > 0
     assert target.read_text() == "old"
+
+
+def test_a_folder_where_the_part_would_go_costs_no_variants(engine: str, tmp_path: Path) -> None:
+    target = tmp_path / "x.csv"
+    (tmp_path / "x.csv.part").mkdir()
+    sweep = read_sweep(engine, [SWEEP[1]], SWEEP[3])
+    progress = Progress("variants", sweep.variants, at_once=False, shown=False)
+    progress.stopped, progress.done = True, 1
+    place = sweep_output.write_sweep(
+        sweep, evaluate_chunks(sweep), VariantsFormat.CSV, target, progress
+    )
+    assert place == f"they are in {target}.part2"
+    assert len((tmp_path / "x.csv.part2").read_text().splitlines()) == 3
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["four.toml", "x.csv.part", "x.csv.part2"]
 
 
 def test_parquet_and_pictures(engine: str, tmp_path: Path) -> None:

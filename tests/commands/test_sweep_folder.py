@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from contextlib import nullcontext
+import sys
+from contextlib import nullcontext, suppress
 from functools import partial
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from balcli.studies.threads import share_work
 dataset = pytest.importorskip("pyarrow.dataset")
 parquet = pytest.importorskip("pyarrow.parquet")
 
+unix = pytest.mark.skipif(sys.platform == "win32", reason="symbolic links")
 VARY = ("--vary", "rod.ratio=0.2:0.299:0.001", "--vary", "piston.mass=0.4,0.5,0.6")
 FIGURES = ("-q", "force.2.major,force.1.axis")
 ASKED = (*VARY, *FIGURES)
@@ -158,6 +160,33 @@ def test_what_is_written_until_ctrl_c_is_whole():
     assert sorted(os.listdir()) == ["good.toml", "out.part"]
 
 
+@pytest.mark.parametrize("what", ["notes", "file", pytest.param("link", marks=unix)])
+def test_ctrl_c_spares_what_stands_where_the_part_would_go(what):
+    """After hours there is nobody to choose another name."""
+    part = Path("out.part")
+    match what:
+        case "notes":
+            part.mkdir()
+            (part / "notes.txt").write_text("mine")
+        case "file":
+            part.write_text("mine")
+        case _:
+            os.mkdir("elsewhere")
+            part.symlink_to("elsewhere")
+    before = part.lstat().st_ino, part.is_symlink()
+    sweep = read_sweep("good.toml", [VARY[1], VARY[3]], FIGURES[1])
+    for _ in range(2):  # an earlier part makes way
+        progress = Progress("variants", sweep.variants, at_once=False, shown=False)
+        progress.stopped = True
+        share = nullcontext(partial(share_work, threads=1))
+        place = write_parts(sweep, Path("out"), share, progress, force=False)
+        assert place == "they are in out.part2/"
+    assert os.listdir("out.part2") == ["part-000000.parquet"]
+    assert (part.lstat().st_ino, part.is_symlink()) == before
+    assert what != "notes" or os.listdir(part) == ["notes.txt"]
+    assert [name for name in sorted(os.listdir()) if name.startswith(".")] == []
+
+
 def test_a_folder_that_cannot_be_written_is_named(monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
@@ -194,3 +223,49 @@ def test_what_is_unfinished_is_discarded_with_its_files():
     for name in ("folder", "file", "never made"):
         discard(name)
     assert os.listdir() == ["good.toml"]
+
+
+def test_a_folder_that_is_discarded_loses_those_who_write_into_it(monkeypatch):
+    """A new file is made each time the folder is read; and one cannot be deleted at first."""
+    os.mkdir("folder")
+    for name in ("a", "b", "c"):
+        Path("folder", name).write_text("half")
+    listdir, unlink, failed = os.listdir, os.unlink, []
+
+    def list_and_write(path):
+        names = listdir(path)
+        with suppress(OSError):
+            Path("folder", f"late{len(names)}").write_text("half")
+        return names
+
+    def fail_once(path):
+        if not failed:
+            failed.append(path)
+            raise OSError(13, "Permission denied")
+        unlink(path)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(os, "listdir", list_and_write)
+        patched.setattr(os, "unlink", fail_once)
+        discard("folder")
+    assert failed
+    assert os.listdir() == ["good.toml"]
+
+
+@pytest.mark.parametrize("forbidden", [1, 3])
+def test_files_that_stay_do_not_hold_up_the_end(forbidden, monkeypatch):
+    os.mkdir("folder")
+    for name in ("a", "b", "c"):
+        Path("folder", name).write_text("half")
+    unlink, kept = os.unlink, os.listdir("folder")[:forbidden]
+
+    def refuse(path):
+        if os.path.basename(path) in kept:
+            raise OSError(13, "Permission denied")
+        unlink(path)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(os, "unlink", refuse)
+        discard("folder")
+    (left,) = (name for name in os.listdir() if name != "good.toml")
+    assert sorted(os.listdir(left)) == sorted(kept)

@@ -297,11 +297,11 @@ def test_a_signal_leaves_the_older_file_and_nothing_beside_it(good, name):
 import os, signal
 from collections.abc import Iterator
 from pathlib import Path
-from balcli.commands import output
+from balcli.files import replacing
 from balcli.process import end_on_signals
 signal.signal({int(number)}, signal.SIG_DFL)
 end_on_signals()
-with output.replacing(Path("out.csv")) as place:
+with replacing(Path("out.csv")) as place:
     place.write_text("half")
     print(len(list(Path().iterdir())))
     os.kill(os.getpid(), {int(number)})

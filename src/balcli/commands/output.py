@@ -1,10 +1,7 @@
-"""Where results go: standard output, or a file that is written beside its place and moved there
-when it is whole.
-"""
+"""Where results go: standard output, or a file."""
 
 from __future__ import annotations
 
-import errno
 import os
 import sys
 from collections.abc import Iterator, Sequence
@@ -12,8 +9,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TextIO, TypeVar
 
-from ..errors import BalcliError, note, warn
-from ..process import has_no_reader, unfinished
+from ..errors import BalcliError, warn
+from ..files import replacing
+from ..process import has_no_reader
 from ..render.formats import Format, Renderer, Units, render
 from ..render.units import SYSTEMS
 
@@ -122,51 +120,3 @@ def write_file(content: str | bytes, target: Path) -> None:
     data = content.encode() if isinstance(content, str) else content
     with replacing(target) as place:
         place.write_bytes(data)
-
-
-@contextmanager
-def replacing(target: Path) -> Iterator[Path]:
-    """A new file beside the target, which replaces it when all has gone well and is gone otherwise.
-
-    Through a symbolic link, what it points to is replaced. What is no ordinary file (/dev/null, a
-    pipe) is itself written to.
-
-    Raises:
-        BalcliError: if it cannot be written; an older one is left as it was.
-    """
-    try:
-        if target.is_dir():
-            raise BalcliError(f"{target}: is a folder, so no file can be written there")
-        if target.exists() and not target.is_file():
-            yield target
-            return
-        real = Path(os.path.realpath(target))
-        if real.is_symlink():
-            raise OSError(errno.ELOOP, "a symbolic link that leads to itself")
-        with _beside(real) as place:
-            yield place
-            if not place.exists():  # it is only a part, and has been moved elsewhere
-                return
-            if real.exists():
-                place.chmod(real.stat().st_mode & 0o777)
-            size = place.stat().st_size
-            place.replace(real)
-            note(f"{target}: written, {size} bytes")
-    except OSError as error:
-        raise BalcliError(f"{target}: cannot be written ({error.strerror or error})") from None
-
-
-@contextmanager
-def _beside(target: Path) -> Iterator[Path]:
-    """A new, empty file in the target's folder, as secret as the target is; it is gone afterwards
-    unless it has been moved, also where a signal ends the process.
-    """
-    place = target.parent / f".{target.name[:40]}.{os.urandom(6).hex()}"
-    mode = 0o600 if target.exists() else 0o666
-    unfinished.add(str(place))
-    try:
-        os.close(os.open(place, os.O_CREAT | os.O_EXCL | os.O_WRONLY, mode))
-        yield place
-    finally:
-        place.unlink(missing_ok=True)
-        unfinished.discard(str(place))

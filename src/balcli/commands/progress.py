@@ -110,10 +110,10 @@ def reporting(
     progress = Progress(what, total, at_once, shown)
     process.last_words.append(progress.last_word)
     try:
-        yield progress
+        with _giving_way(progress):
+            yield progress
     finally:
         process.last_words.pop()
-        progress.clear()
 
 
 @contextmanager
@@ -121,7 +121,7 @@ def reporting_until_stopped(
     what: str, total: float | None = None, at_once: bool = False, shown: bool = True
 ) -> Iterator[Progress]:
     """As `reporting`, for what can end early with a whole result of less: the first Ctrl-C is only
-    noted, the second one ends the process.
+    noted, the second one ends the process. Where it is ignored (`nohup`), it still is.
     """
     progress = Progress(what, total, at_once, shown)
 
@@ -129,11 +129,23 @@ def reporting_until_stopped(
         progress.stopped = True
         signal.signal(signal.SIGINT, before)
 
-    before = signal.signal(signal.SIGINT, note)
+    before = signal.getsignal(signal.SIGINT)
+    signal.signal(signal.SIGINT, before if before is signal.SIG_IGN else note)
     try:
-        yield progress
+        with _giving_way(progress):
+            yield progress
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+@contextmanager
+def _giving_way(progress: Progress) -> Iterator[None]:
+    """Messages take its line away before they are written; so does the end."""
+    errors.before_messages.append(progress.clear)
+    try:
+        yield
+    finally:
+        errors.before_messages.remove(progress.clear)
         progress.clear()
 
 

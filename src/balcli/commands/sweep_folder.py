@@ -7,13 +7,14 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, suppress
 from functools import partial
 from pathlib import Path
 from typing import TypeAlias
 
 from ..errors import BalcliError
-from ..process import discard, keep_freed_memory, unfinished
+from ..files import follow_link, make_folder, making_beside, name_hidden, name_part
+from ..process import discard, keep_freed_memory
 from ..render.sweep_parquet import write_parquet
 from ..studies.boxes import BoxSize, group_boxes
 from ..studies.sweep import Chunk, Sweep, divide_sweep, evaluate_box, list_columns, size_boxes
@@ -35,8 +36,8 @@ def write_parts(
     force: bool,
 ) -> str:
     """Write all variants into a folder, which takes its place when it is whole. What there is of
-    one that Ctrl-C has cut short, whole files of fewer rows, goes to `name.part` beside it. Returns
-    where that is, in words.
+    one that Ctrl-C has cut short, whole files of fewer rows, goes to `name.part` beside it, or
+    to `name.part2` if something else is there. Returns where that is, in words.
 
     Args:
         sharing: gives what shares work among threads or workers.
@@ -51,8 +52,8 @@ def write_parts(
     groups = group_boxes(divide_sweep(sweep, size), ROWS_A_PART)
     tasks = ((number, [sweep.cut(box) for box in group]) for number, group in enumerate(groups))
     try:
-        real = Path(os.path.realpath(target)) if target.is_symlink() else target
-        with _beside(real) as folder:
+        real = follow_link(target)
+        with making_beside(real, make_folder) as folder:
             write = partial(_write_part, folder.absolute(), size)
             with sharing as share:
                 written = _count_parts(share(write, tasks), progress)
@@ -60,8 +61,7 @@ def write_parts(
             if not progress.cut_short:
                 _move(folder, real)
                 return ""
-            part = real.with_name(f"{real.name}.part")
-            _refuse_content(part, force=True)
+            part = name_part(real, _is_sweep)
             _move(folder, part)
     except OSError as error:
         raise BalcliError(f"{target}/: cannot be written ({error.strerror or error})") from None
@@ -85,7 +85,7 @@ def _write_part(folder: Path, size: BoxSize, task: Task) -> int:
     keep_freed_memory()
     number, boxes = task
     name = _name_part(number)
-    place = _name_hidden(folder / name)
+    place = name_hidden(folder / name)
     every = (Chunk(box.whole, evaluate_box(box, box.whole, size)) for box in boxes)
     rows = (list_columns(box, chunk) for box, chunk in zip(boxes, every, strict=True))
     write_parquet(boxes[0], rows, place)
@@ -106,7 +106,7 @@ def _refuse_content(target: Path, force: bool) -> None:
     if not target.is_dir():
         raise BalcliError(f"{target}/: is a file; choose another name for the folder")
     names = sorted(os.listdir(target))
-    others = [name for name in names if not _PART.fullmatch(name)]
+    others = _list_others(names)
     if others:
         raise BalcliError(
             f"{target}/: holds {others[0]}, which is no part of a sweep; choose a folder that is "
@@ -118,24 +118,18 @@ def _refuse_content(target: Path, force: bool) -> None:
         )
 
 
-@contextmanager
-def _beside(target: Path) -> Iterator[Path]:
-    """A new folder beside the target; it is gone afterwards unless it has been moved, also where a
-    signal ends the process.
-    """
-    folder = _name_hidden(target)
-    unfinished.add(str(folder))
-    try:
-        folder.mkdir()
-        yield folder
-    finally:
-        discard(str(folder))
-        unfinished.discard(str(folder))
+def _is_sweep(path: Path) -> bool:
+    """Whether this is a folder that holds nothing but parts of a sweep, as far as can be seen."""
+    if path.is_symlink():
+        return False
+    with suppress(OSError):
+        return not _list_others(os.listdir(path))
+    return False
 
 
-def _name_hidden(target: Path) -> Path:
-    """A name beside the target that nobody has."""
-    return target.parent / f".{target.name[:40]}.{os.urandom(6).hex()}"
+def _list_others(names: list[str]) -> list[str]:
+    """Those that are no parts."""
+    return [name for name in names if not _PART.fullmatch(name)]
 
 
 def _keep_first(folder: Path, count: int) -> None:
@@ -151,7 +145,7 @@ def _move(folder: Path, target: Path) -> None:
     if not target.exists():
         folder.rename(target)
         return
-    old = _name_hidden(target)
+    old = name_hidden(target)
     target.rename(old)
     try:
         folder.rename(target)

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import BalcliError
+from ..files import follow_link, name_part, replacing
 from ..limits import MOST_ROWS_READ
 from ..render.formats import Format, lay_out
 from ..render.sweep import csv_text, json_text
@@ -19,7 +20,7 @@ from ..render.sweep_parquet import write_parquet
 from ..render.sweep_table import Ends, make_sheet
 from ..studies.sweep import Chunk, Sweep, list_columns
 from .file_names import VariantsFormat
-from .output import is_seen, replacing, standard_output
+from .output import is_seen, standard_output
 from .progress import Progress
 
 _FIRST, _LAST = 20, 10  # rows of a table of many
@@ -34,7 +35,8 @@ def write_sweep(
 ) -> str:
     """Write all chunks as csv, json or parquet, or a table of them. A file takes its place when it
     is whole; what there is of one that Ctrl-C has cut short, a whole document of fewer rows, goes
-    to `name.part` beside it. Returns where that is, in words.
+    to `name.part` beside it, or to `name.part2` if something else is there. Returns where that is,
+    in words.
 
     Raises:
         BalcliError: parquet without a file, the file cannot be written, or pyarrow is missing.
@@ -53,7 +55,7 @@ def write_sweep(
                 stream.writelines(_make_text(sweep, chunks, kind))
         if not progress.cut_short or place == output:  # a device has what it has
             return ""
-        part = place.replace(output.with_name(f"{output.name}.part"))
+        part = place.replace(name_part(follow_link(output), Path.is_file))
     return f"they are in {part}"
 
 

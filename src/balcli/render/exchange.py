@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import __version__
 from ..errors import BalcliError
+from ..files import replacing
 from ..printed_tables.recomputed import Table
 from ..result import Result
 from .csv import Column, Columns, Rows
@@ -149,7 +150,7 @@ def make_dataset(result: Result) -> Any:
 
 
 def write_parquet(result: Result, path: str | Path) -> None:
-    """A Parquet file."""
+    """A Parquet file, which takes its place when it is whole; errors as of `replacing`."""
     parquet = import_library("pyarrow.parquet", "to_parquet()")
     pyarrow = import_library("pyarrow", "to_parquet()")
     found = list_columns(result)
@@ -159,9 +160,6 @@ def write_parquet(result: Result, path: str | Path) -> None:
         for name, array in zip(found.values, arrays, strict=True)
     ]
     about = {"balcli.version": __version__, "balcli.result": type(result).__name__}
-    try:
-        parquet.write_table(
-            pyarrow.table(arrays, schema=pyarrow.schema(fields, metadata=about)), path
-        )
-    except OSError as error:
-        raise BalcliError(f"{path}: cannot be written ({error.strerror or error})") from None
+    table = pyarrow.table(arrays, schema=pyarrow.schema(fields, metadata=about))
+    with replacing(Path(path)) as place:
+        parquet.write_table(table, place)
