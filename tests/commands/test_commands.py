@@ -74,12 +74,12 @@ def test_plot_refuses_a_scheme_where_nothing_is_compared(balcli, tmp_path, what,
     assert not picture.exists()
 
 
-@pytest.mark.parametrize("command", ["plot", "report"])
 @pytest.mark.parametrize(
-    ("options", "same"),
+    ("command", "options", "same"),
     [
-        (["--factor", "51%"], ["--scheme", "factor", "--factor", "0.51"]),
+        ("report", ["--factor", "51%"], ["--scheme", "factor", "--factor", "0.51"]),
         (
+            "plot",
             ["--scheme", "single-shaft", "--order=1", "--at=-60,80"],
             ["--scheme", "single-shaft", "--at=-6cm,8cm"],
         ),
