@@ -200,6 +200,7 @@ ON_REQUEST = {
         "balcli.render.page_torque",
     ),
     "balcli.commands.inputs": ("balcli.enginefile.assumed",),
+    "balcli.commands.output": ("balcli.files",),
     "balcli.commands.scatter": ("balcli.studies.part_scatter",),
     "balcli.studies.curves": ("balcli.torque.curves",),
 }

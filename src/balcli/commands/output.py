@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TextIO, TypeVar
 
 from ..errors import BalcliError, warn
-from ..files import replacing
 from ..process import has_no_reader
 from ..render.formats import Format, Renderer, Units, render
 from ..render.units import SYSTEMS
@@ -117,6 +116,8 @@ def write_file(content: str | bytes, target: Path) -> None:
     Raises:
         BalcliError: if it cannot be written; an older one is left as it was.
     """
+    from ..files import replacing  # most results are printed
+
     data = content.encode() if isinstance(content, str) else content
     with replacing(target) as place:
         place.write_bytes(data)
