@@ -176,6 +176,7 @@ ON_REQUEST = {
     ),
     "balcli.engine.build": ("balcli.engine.vary", "balcli.enginefile.suspicious"),
     "balcli.engine.rules": ("balcli.engine.articulation",),
+    "balcli.enginefile.toml_text": ("balcli.enginefile.examples",),
     "balcli.forces.spectrum": ("balcli.forces.gas",),
     "balcli.forces.symmetry": ("balcli.forces.gas_symmetry",),
     "balcli.render.analyses": ("balcli.render.analysis",),

@@ -80,6 +80,12 @@ def test_files_words_and_options_that_were_nearly_right(tmp_path, monkeypatch):
     assert run_here("analyze", "ford").err == (
         "balcli: ford: no such file; ford.toml is there: did you mean it?\n"
     )
+    for name in ("i3", "engines/i3.toml"):
+        assert run_here("analyze", name).err == (
+            f"balcli: {name}: no such file; i3 is an example: balcli engines i3 i3.toml\n"
+        )
+    assert run_here("check", "i3").err.endswith("i3 is an example: balcli engines i3 i3.toml\n")
+    assert run_here("analyze", "i3.csv").err == "balcli: i3.csv: no such file\n"
     err = run_here("analyze", "ford.toml", "--only", "force", "moment").err
     assert "--only force,moment" in err
     assert "That is vee: balcli new vee" in run_here("new", "v8").err

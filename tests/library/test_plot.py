@@ -62,6 +62,23 @@ def test_what_is_changed_in_a_figure_is_seen():
     assert figure._repr_png_() != before
 
 
+def test_a_sweep_has_an_axis_and_a_unit_for_each_dimension():
+    """All curves of an axis are in the unit it names, large or small."""
+    sizes = {"N": 1, "kN": 1e3, "N·m": 1, "kN·m": 1e3}
+    names = "moment.1.forward,moment.1.backward,moment.2.major,peak.force"
+    swept = balcli.sweep(VEE, {"operation.speed": "3000:9000:1000"}, names)
+    figure = balcli.plot(swept)
+    found = {}
+    for axes in figure.axes:
+        size = sizes[axes.get_ylabel()]
+        found |= {line.get_label(): (axes, size * line.get_ydata()) for line in axes.lines}
+    assert list(found) == names.split(",")
+    assert len({axes for axes, _ in found.values()}) == 2
+    assert figure.axes[0].get_ylabel() == "kN·m"
+    for (_, drawn), value in zip(found.values(), swept.values, strict=True):
+        assert drawn == pytest.approx(value.ravel(), rel=1e-12)
+
+
 def test_neither_pyplot_nor_a_backend_is_needed():
     code = (
         "import sys, balcli\n"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+import tomllib
 from io import StringIO
 
 import pytest
@@ -48,6 +49,32 @@ def test_a_grade_may_be_written_as_the_standard_writes_it():
     )
 
 
+def test_new_counterweights_have_a_tolerance():
+    table = run_here(*ASKED).out.partition("ISO 21940-11, G 16\n")[2].splitlines()
+    assert table[0].endswith("tolerance")
+    unbalance = float(table[2].split()[1])
+    assert table[2].endswith(f" ±{WHOLE / 2 / unbalance:.2%}")
+
+
+def test_what_is_missing_is_told_in_percent_of_what_may_be(tmp_path):
+    """Half as much again as the grade permits is over it; the heavier crank may lack that."""
+    whole, light = tmp_path / "whole.toml", tmp_path / "light.toml"
+    asked = ("--factor", "51%", "--planes=-200,200", "--grade", "G16")
+    run_here("balance", V8, "--factor", "51%", "--planes=-200,200", "--write", whole)
+    model = tomllib.loads(whole.read_text())
+    unbalance = model["counterweight"][0]["unbalance"]
+    lacking = 1.5 * WHOLE * 6000 / 5000 / 2
+    text = whole.read_text()
+    light.write_text(text.replace(f"{unbalance!r}", f"{unbalance - lacking!r}", 1))
+    for mass, told in ((31, "150.0%, over"), (62, "75.0%, within")):
+        table = run_here("balance", light, *asked, "--mass", mass).out
+        head, _, row, *_ = table.partition("ISO 21940-11, G 16\n")[2].splitlines()
+        assert head.endswith("of permitted")
+        assert row.endswith(told)
+        markdown = run_here("balance", light, *asked, "--mass", mass, "-f", "md").out
+        assert f"{told} |" in markdown
+
+
 def test_planes_that_have_their_weights_already_share_it_too(tmp_path):
     """Two planes, of which the first lacks nothing."""
     whole, half = tmp_path / "whole.toml", tmp_path / "half.toml"
@@ -61,6 +88,7 @@ def test_planes_that_have_their_weights_already_share_it_too(tmp_path):
         table = result.out.partition("ISO 21940-11, G 16\n")[2].splitlines()
         assert [row.split()[0] for row in table[2:4]] == ["-200", "200"]
         assert [row.split()[1] == "0" for row in table[2:4]] == complete
+        assert [row.endswith("0.0%, within") for row in table[2:4]] == complete
         said = json.loads(run_here("balance", file, *asked, "-f", "json").out)["permitted"]
         assert said["each_g_mm"] == pytest.approx(WHOLE * 6000 / 5000 / 2, rel=1e-12)
 

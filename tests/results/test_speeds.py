@@ -28,6 +28,13 @@ def test_a_range_has_its_ends_and_every_analysis_is_that_of_its_speed(balcli):
         )
 
 
+@pytest.mark.parametrize("form", ["table", "marine"])
+def test_that_gas_stays_is_said_where_there_are_several_speeds_and_gas(balcli, form):
+    for engine, speeds, told in ((DIESEL, "900,1000", 1), (DIESEL, "900", 0), (FIVE, "90,100", 0)):
+        out = balcli("analyze", engine, "--speed", speeds, "-f", form)[1]
+        assert out.count("; gas as in the file at every speed\n") == told
+
+
 def test_gas_stays_and_inertia_grows_with_the_square(balcli):
     asked = ("--speed", "1000,2000", "--only", "gas,torque", "--orders", "3", "-f", "csv")
     lines = list(csv.DictReader(io.StringIO(balcli("analyze", DIESEL, *asked)[1])))

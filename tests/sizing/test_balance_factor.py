@@ -523,6 +523,16 @@ def test_a_card_alone_chooses_the_scheme_of_factors(ford, tmp_path):
     assert "ends in .txt" in refusal("balance", ford, "--format", "card", "-o", tmp_path / "x.json")
 
 
+def test_a_card_says_from_which_rim_holes_go_inwards(ford):
+    """Without a radius it is the crank's, which nobody has said."""
+    asked = ("balance", ford, "--planes=-220,230", "--drill", "25.4", "--format", "card")
+    given = " ".join(run_here(*asked, "--radius", "2.7 in").out.split())
+    assert "Holes: radial, from a rim at 68.58 mm (2.7 in) (--radius) inwards." in given
+    assumed = " ".join(run_here(*asked).out.split())
+    assert "(the crank radius, assumed: --radius says where it is) inwards." in assumed
+    assert "from a rim" not in run_here("balance", ford, "--format", "card").out
+
+
 def test_a_card_says_what_is_still_missing_or_that_nothing_is(ford):
     ford.write_text(FORD + "[[counterweight]]\nunbalance = 30000\nangle = 90\nposition = -200\n")
     page = run_here("balance", ford, "--format", "card", "--planes=-200,250").out

@@ -6,6 +6,7 @@ import re
 
 from support.commands import run_here
 from support.diesel import write_diesel
+from support.paths import ENGINES
 
 
 def test_the_page_shows_torsion(tmp_path):
@@ -27,6 +28,17 @@ def test_the_page_shows_torsion(tmp_path):
         assert title in section
     ids = re.findall(r' id="([^"]+)"', text)
     assert len(ids) == len(set(ids))
+
+
+def test_that_gas_stays_is_said_of_an_engine_with_gas(tmp_path):
+    """The published six has none, the shipped one has."""
+    without = tmp_path / "six.toml"
+    without.write_text(write_diesel(), encoding="utf-8")
+    for engine, told in ((ENGINES / "i6_diesel.toml", 1), (without, 0)):
+        status, out, _ = run_here("torsion", engine, "--speeds", "1000:1100:50")
+        assert status == 0
+        assert " ".join(out.split()).count("Gas as in the file at every speed.") == told
+        assert run_here("torsion", engine, "--speed", "1000:1100:50").out == out
 
 
 def test_pages_of_other_engines_have_no_such_section(tmp_path):

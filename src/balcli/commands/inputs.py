@@ -15,7 +15,7 @@ from ..engine.load import build_named, parse
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..enginefile.model import EngineFile
 from ..enginefile.suspicious import find_suspicious
-from ..enginefile.toml_text import name_file, read_bytes
+from ..enginefile.toml_text import find_near_file, name_file, read_bytes
 from ..errors import BalcliError, Exit, is_verbose, legible, note, say, warn
 from .options import WORDS_OF_ONLY
 
@@ -126,7 +126,9 @@ def find_engine_files(paths: Sequence[Path]) -> list[Path]:
         folder = os.path.isdir(path)
         found = sorted(filter(_is_engine, _walk(path))) if folder else [path]
         if not found or not os.path.exists(path):
-            reason = "has no engine files (*.toml)" if folder else "no such file or folder"
+            reason = "has no engine files (*.toml)"
+            if not folder:
+                reason = f"no such file or folder{find_near_file(path)}"
             raise BalcliError(f"{path}: {reason}")
         files += found
     return files

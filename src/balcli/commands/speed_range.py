@@ -18,6 +18,7 @@ Speeds = Annotated[
         "RPM:RPM:STEP|RPM,...",
         "Crank speeds; default: from an eighth of the file's speed to this.",
         "--speeds",
+        "--speed",
     ),
 ]
 

@@ -61,6 +61,11 @@ def names() -> list[str]:
     return [path.stem for path in _paths()]
 
 
+def is_example(name: str) -> bool:
+    """Whether there is an example of this short name; not in an installation without any."""
+    return any(path.stem == name for place in _PLACES for path in place.rglob("*.toml"))
+
+
 def groups() -> list[str]:
     """The classes, layouts first."""
     return list(dict.fromkeys(_group(path) for path in _paths()))

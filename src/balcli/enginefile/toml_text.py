@@ -32,17 +32,23 @@ def read_bytes(source: str | Path) -> bytes:
     except IsADirectoryError:
         raise BalcliError(f"{source}: is a folder; name an engine file in it") from None
     except FileNotFoundError:
-        raise BalcliError(f"{source}: no such file{_near_file(source)}") from None
+        raise BalcliError(f"{source}: no such file{find_near_file(source)}") from None
     except (OSError, ValueError) as error:  # ValueError: a zero byte in the name
         reason = error.strerror if isinstance(error, OSError) else error
         name = "standard input" if str(source) == "-" else repr(str(source)[:200])
         raise BalcliError(f"{name}: cannot be read ({reason})") from None
 
 
-def _near_file(source: str | Path) -> str:
-    """The file that was probably meant, in words."""
-    with_ending = f"{source}.toml"
-    return f"; {with_ending} is there: did you mean it?" if Path(with_ending).is_file() else ""
+def find_near_file(source: str | Path) -> str:
+    """The file or example that was probably meant, in words; empty if none comes to mind."""
+    from .examples import is_example  # after a mistake alone
+
+    with_ending, asked = f"{source}.toml", Path(source)
+    if Path(with_ending).is_file():
+        return f"; {with_ending} is there: did you mean it?"
+    if asked.suffix in ("", ".toml") and is_example(asked.stem):
+        return f"; {asked.stem} is an example: balcli engines {asked.stem} {asked.stem}.toml"
+    return ""
 
 
 def name_file(source: str | Path) -> str:

@@ -70,18 +70,18 @@ def sheet(result: Balance, system: System) -> Sheet:
 
 
 def _permitted(result: Balance, system: System) -> Iterator[Grid]:
-    """What a grade permits beside each counterweight, or in each plane that has some already, if
-    one was asked for.
+    """What a grade permits, if one was asked for: of planes that have counterweights already, and
+    what they lack of it; of new ones, and how exactly each must be made.
     """
     if result.permitted is None:
         return
     remedy, unit, length = result.remedy, system.unbalance, system.length
     each, rpm = result.permitted.each, result.before.engine.speed_rpm
     if remedy.needs:
-        head, what = f"plane at z, {length.name}", "missing"
+        head, what, last = f"plane at z, {length.name}", "missing", "of permitted"
         found = [(number(length.of(need.z)), abs(need.missing)) for need in remedy.needs]
     else:
-        head, what = "counterweight", "unbalance"
+        head, what, last = "counterweight", "unbalance", "tolerance"
         weights = result.practical[: len(remedy.counterweights)]
         found = [(str(k), weight.unbalance) for k, weight in enumerate(weights, 1)]
     rows = tuple(
@@ -89,16 +89,26 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
             name,
             number(unit.of(size)),
             number(unit.of(each), 4),
-            f"{each / size:.2%}" if size else "–",
+            _judge(size, each) if remedy.needs else _tolerance(size, each),
         )
         for name, size in found
     )
     yield Grid(
         f"Permitted residual unbalance, ISO 21940-11, G {result.permitted.grade:g}",
-        (head, f"{what}, {unit.name}", f"permitted, {unit.name}", "share"),
+        (head, f"{what}, {unit.name}", f"permitted, {unit.name}", last),
         rows,
         f"A crankshaft of {result.permitted.mass:g} kg at {rpm:g} rpm; all share alike.",
     )
+
+
+def _judge(missing: float, permitted: float) -> str:
+    """What is missing in percent of what may be."""
+    return f"{missing / permitted:.1%}, {'over' if missing > permitted else 'within'}"
+
+
+def _tolerance(unbalance: float, permitted: float) -> str:
+    """How exactly a counterweight must be made, if there is one."""
+    return f"±{permitted / unbalance:.2%}" if unbalance else "–"
 
 
 # ------------------------------------------------------------------ before and after

@@ -13,7 +13,7 @@ from ..limits import MOST_HOLES
 from ..sizing.bobweight_card import NO_THROW
 from ..sizing.device_tables import find_unbalance
 from .bobweights import group_equal_pins, multiply, name_pins, percent
-from .devices import explain_holes
+from .devices import explain_holes, tell_rim
 from .sheet import NAMELESS, capitalized, degrees, number
 from .units import IMPERIAL, INCH, POUND, SI
 
@@ -117,8 +117,12 @@ def _correct(result: Balance) -> Iterator[str]:
     yield _RULE
     for k, (weight, figures) in enumerate(zip(weights, result.practical, strict=True), 1):
         yield from _correct_plane(k, weight, figures, result)
-    told = " ".join(explain_holes(result.practical, result.tools, SI.length))
-    yield from wrap(told, WIDTH)
+    if result.tools.drill is not None:
+        rim = result.practical[0].radius
+        size = f"{number(1e3 * rim, 4)} mm ({number(rim / INCH, 3)} in)"
+        told = [f"Holes: radial, {tell_rim(result.tools, size)} inwards."]
+        told += explain_holes(result.practical, result.tools, SI.length)
+        yield from wrap(" ".join(told), WIDTH)
     if remedy.note:
         yield from wrap(capitalized(f"{remedy.note}."), WIDTH)
     yield from wrap(_WHERE, WIDTH)

@@ -126,7 +126,7 @@ def holes_grid(
     """Where to drill, how many holes and how deep; or where to put slugs. There must be a drill."""
     unit = system.length
     drill = f"{number(unit.of(tools.drill or 0.0), 4)} {unit.name}"
-    rim = f"{number(unit.of(practical[0].radius), 4)} {unit.name}"
+    rim = tell_rim(tools, f"{number(unit.of(practical[0].radius), 4)} {unit.name}")
     heads = ("for", "holes at, deg", "holes", f"depth of each, {unit.name}")
     rows = tuple(
         (f"{k} {name_kind(device)}", *_holes_row(figures.holes, unit))
@@ -139,11 +139,17 @@ def holes_grid(
     else:
         title = f"Holes for slugs of {number(tools.slug / 1e3)} g/cm³, {drill}"
         what = "Slugs stand where weight is to be added and count less the steel removed for them"
-    note = f"{what}; radial, from a rim at {rim} (--radius) inwards, side by side along the crank."
+    note = f"{what}; radial, {rim} inwards, side by side along the crank."
     for reason in dict.fromkeys(p.holes.reason for p in practical if p.holes and p.holes.reason):
         note += f" {capitalized(reason)}."
     note = " ".join([note, *explain_holes(practical, tools, unit)])
     return Grid(title, heads, rows, note)
+
+
+def tell_rim(tools: Tools, radius: str) -> str:
+    """From where holes go inwards, and whether anybody has said so."""
+    why = "--radius" if tools.radius else "the crank radius, assumed: --radius says where it is"
+    return f"from a rim at {radius} ({why})"
 
 
 def explain_holes(practical: Sequence[Practical], tools: Tools, unit: Unit) -> Iterator[str]:

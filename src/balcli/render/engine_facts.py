@@ -45,7 +45,7 @@ def engine_facts(
         ("crank", _crank(engine, system)),
         ("throws", _throws(engine)),
         ("firing", _firing(engine)),
-        ("speed", _speeds(speeds_rpm) if len(speeds_rpm) > 1 else _speed(engine)),
+        ("speed", _speeds(engine, speeds_rpm) if len(speeds_rpm) > 1 else _speed(engine)),
         ("masses", _masses(engine, system, whole=whole)),
         ("devices", devices),
         ("orders", orders if whole else ""),
@@ -60,9 +60,10 @@ def _speed(engine: Engine) -> str:
     return f"{number(float(engine.speed_rpm), 6)} rpm{uneven}"
 
 
-def _speeds(speeds_rpm: Sequence[float]) -> str:
+def _speeds(engine: Engine, speeds_rpm: Sequence[float]) -> str:
     first, last = (number(float(speed), 6) for speed in (speeds_rpm[0], speeds_rpm[-1]))
-    return f"{first} to {last} rpm, {len(speeds_rpm)} speeds"
+    gas = "" if engine.gas is None else "; gas as in the file at every speed"
+    return f"{first} to {last} rpm, {len(speeds_rpm)} speeds{gas}"
 
 
 def _throws(engine: Engine) -> str:

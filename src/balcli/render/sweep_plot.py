@@ -93,9 +93,9 @@ def _draw_curves(axes: Any, sweep: Sweep, values: Sequence[Array], name: str) ->
             value / unit.size,
             color=colour,
             linestyle=line,
-            label=name_with_unit(label, unit.name),
+            label=label,
         )
-    axes.set(xlabel=name_with_unit(parameter.path, parameter.unit))
+    axes.set(xlabel=name_with_unit(parameter.path, parameter.unit), ylabel=unit.name)
     axes.ticklabel_format(axis="y", useOffset=False, style="plain")
     axes.legend()
 

@@ -192,6 +192,8 @@ def _response(result: TorsionAnalysis, response: Response) -> Grid | Text:
         "Largest half of peak to peak, orders added up in time; sum: of their amplitudes, which "
         f"do not peak together. {_tell_swing(result, response)}"
     )
+    if _has_gas(result):
+        note += " Gas as in the file at every speed."
     for k, name in enumerate(response.dampers):
         hottest = int(np.argmax(response.heat[:, k]))
         note += (
@@ -202,6 +204,14 @@ def _response(result: TorsionAnalysis, response: Response) -> Grid | Text:
     heads = ["shaft", "± N·m", "at rpm", "sum, N·m", *["N/mm²"] * stressed, "largest orders"]
     title = f"Vibratory torque, {span}"
     return Grid(title, tuple(heads), tuple(rows), note, words=(0, len(heads) - 1))
+
+
+def _has_gas(result: TorsionAnalysis) -> bool:
+    """Whether an engine excites it that has gas: beside the torque of inertia some stays as it is,
+    whatever the speed.
+    """
+    excitation = result.system.excitation
+    return excitation is not None and bool(excitation.growing.any() and excitation.steady.any())
 
 
 def _tell_swing(result: TorsionAnalysis, response: Response) -> str:
