@@ -165,3 +165,28 @@ def test_who_is_told_may_say_that_it_is_enough():
     designs = [Design(number=("rod.length", 200.0 + k)) for k in range(4)]
     found = list(one_by_one.rank_one_by_one(model, designs, goal, lambda share: share >= 0.5))
     assert len(found) == 2
+
+
+def test_a_stretch_of_equal_values_is_one_minimum_at_its_first_point():
+    def bowl(x):
+        return max(abs(x - 5.0), 2.0)
+
+    assert one_by_one.find_best_numbers(lambda _: 0.0, 2.0, 10.0) == [2.0]
+    assert one_by_one.find_best_numbers(bowl, 0.0, 16.0) == [3.0]
+
+
+def test_a_search_over_a_number_tells_how_far_it_is_and_may_be_ended():
+    told = []
+
+    def stop_after_twenty(share):
+        told.append(share)
+        return len(told) == 20
+
+    found = one_by_one.find_best_numbers(lambda x: (x - 1.0) ** 2, 0.0, 32.0, stop_after_twenty)
+    assert found == [1.0]
+    assert len(told) == 20
+    assert told == sorted(told)
+    told.clear()
+    one_by_one.find_best_numbers(lambda x: (x - 1.1) ** 2, 0.0, 32.0, lambda s: told.append(s))
+    assert told[-1] > 0.9
+    assert max(told) <= 1

@@ -9,8 +9,9 @@ from itertools import islice, permutations
 
 import numpy as np
 
+from ...core.golden_section import find_least
 from ...core.phasors import Array
-from ...core.telling import Tell
+from ...core.telling import Tell, tell_nobody
 from ...engine.arrays import ranked
 from ...engine.build import build
 from ...engine.load import parse_dict
@@ -26,8 +27,6 @@ from .throws import count_from
 
 _GRID = 32  # parts of a range, in which minima are looked for
 _MINIMA = 3  # of these, the lowest, are followed
-_ROUNDS = 24  # golden sections: 1e-5 of a part
-_GOLDEN = (3 - 5**0.5) / 2
 
 
 def rank_one_by_one(
@@ -97,43 +96,48 @@ def list_throws(model: EngineFile) -> Iterator[Design]:
 
 
 def find_best_numbers(
-    evaluate: Callable[[float], float], low: float, high: float
-) -> Iterator[float]:
+    evaluate: Callable[[float], float], low: float, high: float, tell: Tell = tell_nobody
+) -> list[float]:
     """Where a function of a number is least in a range: local minima, found on a grid and followed,
-    lowest first.
+    lowest first; of a stretch of equal values the first point of the grid.
 
     Args:
         evaluate: infinite where it cannot be or may not be.
+        tell: which share is done; it may say that what is found by then is enough.
     """
     grid = np.linspace(low, high, _GRID + 1)
-    values = np.array([evaluate(float(x)) for x in grid])
-    before, after = np.append(np.inf, values[:-1]), np.append(values[1:], np.inf)
-    bottoms = np.flatnonzero((values <= before) & (values <= after) & np.isfinite(values))
-    lowest = bottoms[np.argsort(values[bottoms], kind="stable")][:_MINIMA]
-    found = [_follow(evaluate, grid, values, int(k)) for k in lowest]
-    yield from (x for _, x in sorted(found))
+    values = np.full(len(grid), np.inf)
+    share = 1 / (len(grid) + _MINIMA)
+    for k, x in enumerate(grid):
+        values[k] = evaluate(float(x))
+        enough = tell((k + 1) * share)
+        if enough:
+            break
+    followed = _find_bottoms(values)
+    found = [(float(values[k]), float(grid[k])) for k in followed]
+    for n, k in enumerate(followed):
+        if enough:
+            break
+        near = find_least(
+            evaluate, float(grid[max(k - 1, 0)]), float(grid[min(k + 1, len(grid) - 1)])
+        )
+        value = evaluate(near)
+        if value < found[n][0]:
+            found[n] = (value, near)
+        enough = tell((len(grid) + n + 1) * share)
+    return [x for _, x in sorted(found)]
 
 
-def _follow(
-    evaluate: Callable[[float], float], grid: Array, values: Array, k: int
-) -> tuple[float, float]:
-    """The least value beside a point of the grid, and where it is, by golden sections."""
-    low, high = float(grid[max(k - 1, 0)]), float(grid[min(k + 1, len(grid) - 1)])
-    one, two = low + _GOLDEN * (high - low), high - _GOLDEN * (high - low)
-    at_one, at_two = evaluate(one), evaluate(two)
-    best = min((float(values[k]), float(grid[k])), (at_one, one), (at_two, two))
-    for _ in range(_ROUNDS):
-        if at_one <= at_two:
-            high, two, at_two = two, one, at_one
-            one = low + _GOLDEN * (high - low)
-            at_one = evaluate(one)
-            best = min(best, (at_one, one))
-        else:
-            low, one, at_one = one, two, at_two
-            two = high - _GOLDEN * (high - low)
-            at_two = evaluate(two)
-            best = min(best, (at_two, two))
-    return best
+def _find_bottoms(values: Array) -> list[int]:
+    """Which of a row of values lie below their neighbours, the lowest three; one of each stretch of
+    equal ones.
+    """
+    starts = np.flatnonzero(np.append(True, values[1:] != values[:-1]))
+    steps = values[starts]
+    before, after = np.append(np.inf, steps[:-1]), np.append(steps[1:], np.inf)
+    bottoms = np.flatnonzero((steps <= before) & (steps <= after) & np.isfinite(steps))
+    lowest = bottoms[np.argsort(steps[bottoms], kind="stable")][:_MINIMA]
+    return [int(k) for k in starts[lowest]]
 
 
 def list_numbers(
@@ -142,11 +146,13 @@ def list_numbers(
     low: float,
     high: float,
     objective: Objective[AnyQuantity],
+    tell: Tell = tell_nobody,
 ) -> Iterator[Design]:
     """Designs with the best values of a number in a range.
 
     Args:
         name: the design that has a value of it.
+        tell: as of `find_best_numbers`.
     """
 
     def evaluate(value: float) -> float:
@@ -155,4 +161,4 @@ def list_numbers(
         except InputError:
             return np.inf
 
-    return map(name, find_best_numbers(evaluate, low, high))
+    return map(name, find_best_numbers(evaluate, low, high, tell))

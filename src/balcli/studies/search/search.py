@@ -120,7 +120,7 @@ def search_arrangements(
             (of a vee), splay; or a number of the file and its range, `mount.left.loss=0.05:0.3`.
         count: at most so many.
         even_firing: only arrangements that can fire evenly.
-        tell: of a search over throws, which alone takes long: `throws.find_best_throws`.
+        tell: of what takes long: `throws.find_best_throws`, and designs one by one.
 
     Raises:
         BalcliError: an engine that has nothing to arrange, or no arrangement that keeps the limits,
@@ -134,10 +134,10 @@ def search_arrangements(
     sums = choose_sums(objective)
     locked: tuple[tuple[float, float], ...] = ()
     if what is None:
-        designs = _list_numbers(model, over, objective)
+        designs = _list_numbers(model, over, objective, tell)
         candidates = rank_one_by_one(model, designs, objective, tell_nobody)
     elif sums is None:
-        designs = _list_designs(model, what, objective, even_firing)
+        designs = _list_designs(model, what, objective, even_firing, tell)
         base = drop_firing_order(model) if what == "throws" else model
         candidates = rank_one_by_one(base, designs, objective, tell)
     else:
@@ -152,7 +152,7 @@ def search_arrangements(
 
 
 def _list_numbers(
-    model: EngineFile, over: str, objective: Objective[AnyQuantity]
+    model: EngineFile, over: str, objective: Objective[AnyQuantity], tell: Tell
 ) -> Iterator[Design]:
     """The best values of a number of the file in a range, `mount.left.loss=0.1:0.4`.
 
@@ -168,12 +168,16 @@ def _list_numbers(
     values = parse_parameter(f"{path}={ends.replace(':', ',')}", model).values
     low, high = float(values.min()), float(values.max())
     return list_numbers(
-        model, lambda value: Design(number=(path.strip(), value)), low, high, objective
+        model, lambda value: Design(number=(path.strip(), value)), low, high, objective, tell
     )
 
 
 def _list_designs(
-    model: EngineFile, what: What, objective: Objective[AnyQuantity], even_firing: bool
+    model: EngineFile,
+    what: What,
+    objective: Objective[AnyQuantity],
+    even_firing: bool,
+    tell: Tell,
 ) -> Iterator[Design]:
     """What there is to arrange, for figures that take each arrangement by itself."""
     if what == "firing_order":
@@ -191,7 +195,7 @@ def _list_designs(
     if even is not None:
         return (_design_angle(what, angle) for angle in even.tolist())
     low, high = SPANS[what].low, SPANS[what].high
-    return list_numbers(model, partial(_design_angle, what), low, high, objective)
+    return list_numbers(model, partial(_design_angle, what), low, high, objective, tell)
 
 
 def _design_angle(key: Angle, angle: float) -> Design:
