@@ -74,12 +74,12 @@ def test_plot_refuses_a_scheme_where_nothing_is_compared(balcli, tmp_path, what,
     assert not picture.exists()
 
 
-@pytest.mark.parametrize("command", ["plot", "report"])
 @pytest.mark.parametrize(
-    ("options", "same"),
+    ("command", "options", "same"),
     [
-        (["--factor", "51%"], ["--scheme", "factor", "--factor", "0.51"]),
+        ("report", ["--factor", "51%"], ["--scheme", "factor", "--factor", "0.51"]),
         (
+            "plot",
             ["--scheme", "single-shaft", "--order=1", "--at=-60,80"],
             ["--scheme", "single-shaft", "--at=-6cm,8cm"],
         ),
@@ -360,7 +360,8 @@ def test_pictures_of_one_and_two_parameters(balcli, four, tmp_path, vary):
         tmp_path / "x.svg",
     )
     assert status == 0
-    assert "force.2.major, N" in (tmp_path / "x.svg").read_text()
+    words = set(re.findall(r">([^<>]+)</text>", (tmp_path / "x.svg").read_text("utf-8")))
+    assert words >= {"force.2.major", "N"} if len(vary) == 1 else "force.2.major, N" in words
 
 
 def test_curves_of_one_picture_have_one_unit(balcli, tmp_path):

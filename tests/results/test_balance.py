@@ -11,10 +11,11 @@ from pathlib import Path
 import pytest
 from support.commands import refusal, run_here
 from support.engines import GOOD, changed
+from support.paths import ENGINES
 
 from balcli.core.drilled_hole import STEEL, find_drill_depth
 from balcli.engine.build import build
-from balcli.engine.load import parse
+from balcli.engine.load import load, parse
 from balcli.enginefile.model import Counterweight, Slider
 from balcli.errors import BalcliError
 from balcli.results.balance import balance
@@ -425,3 +426,28 @@ def test_holes_as_the_shop_reads_them(file):
     slugs = run("-", *options, "--slug", "tungsten", text=SINGLE).out
     assert "Holes for slugs of 17 g/cm³, 25.4 mm" in slugs
     assert "1 counterweight           180.0" in slugs
+
+
+def list_orders(*options: object) -> list[str]:
+    """The table of orders, without its heads: rows, and a note if there is one."""
+    out = run_here("balance", ENGINES / "i3.toml", "--scheme", "counterweights", *options).out
+    table = out.partition("Largest value by order, before and after\n")[2].partition("\n\n")[0]
+    return table.splitlines()[2:]
+
+
+def test_orders_that_are_negligible_before_and_after_are_told_in_one_line() -> None:
+    """A thousandth of one cylinder's, whose torque at the crank radius is the smallest of these;
+    orders that are asked for have a row.
+    """
+    *rows, note = list_orders()
+    assert [row.split()[0] for row in rows] == ["1", "2", "3", "4", "6"]
+    found = balance(load(ENGINES / "i3.toml"), "counterweights", orders=[8, 9, 12])
+    roll, moment = (
+        max(float(one.spectra[kind].major.max()) for one in (found.before, found.after))
+        for kind in ("roll", "moment")
+    )
+    assert max(roll, moment) < 1e-3 * found.before.of_one_cylinder["roll"]
+    assert note.startswith("Negligible: orders 8, 9, 12 (at most force ")
+    assert note.endswith(f", moment {moment:.4g} N·m, roll {roll:.4g} N·m).")
+    asked = list_orders("--orders", "1,8,9")
+    assert [row.split()[0] for row in asked] == ["1", "8", "9"]

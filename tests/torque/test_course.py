@@ -4,11 +4,14 @@ step-by-step integration of the equation of motion.
 
 from __future__ import annotations
 
+import json
+import re
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
+from support.commands import run_here
 from support.gas_engines import FOUR, WIEBE, draw_engine, engine
 from support.paths import ENGINES
 
@@ -214,3 +217,27 @@ def test_what_repeats_itself_is_computed_once(name, times):
     heavy = replace(found, flywheel_inertia=1e9)
     whole = analyze_torque(heavy)
     assert whole.flywheel.speed.fluctuation == pytest.approx(whole.flywheel.speed.small, rel=1e-6)
+
+
+def test_large_figures_have_large_units(tmp_path):
+    """Gas does work by the square of the bore."""
+    small = (ENGINES / "i4_wiebe.toml").read_text()
+    text = run_here("torque", ENGINES / "i4_wiebe.toml").out
+    assert " N·m at " in text
+    assert re.search(r"work of a cycle +[\d.]+ J\n", text)
+    heavy = small.replace("[flywheel]\ninertia = ", "[flywheel]\ninertia = 10000")
+    assert "bore = 86" in heavy != small
+    told = {}
+    for factor in (6, 60):
+        path = tmp_path / f"{factor}.toml"
+        path.write_text(heavy.replace("bore = 86", f"bore = {factor * 86}"))
+        out = run_here("torque", path).out
+        figures = json.loads(run_here("torque", path, "-f", "json").out)
+        assert "Torque by order, kN·m\n" in out
+        found = re.search(r"work of a cycle +([\d.]+) (\w+)\n", out)
+        told[factor] = found[2]
+        size = {"kJ": 1e3, "MJ": 1e6}[found[2]]
+        assert float(found[1]) * size == pytest.approx(figures["energy"]["work_J"], rel=1e-3)
+        mean = re.search(r"mean torque +([\d.]+) kN·m\n", out)
+        assert float(mean[1]) * 1e3 == pytest.approx(figures["mean_torque_Nm"], rel=1e-3)
+    assert told == {6: "kJ", 60: "MJ"}

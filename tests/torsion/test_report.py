@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import re
 
+import pytest
 from support.commands import run_here
 from support.diesel import write_diesel
 from support.paths import ENGINES
@@ -39,6 +41,21 @@ def test_that_gas_stays_is_said_of_an_engine_with_gas(tmp_path):
         assert status == 0
         assert " ".join(out.split()).count("Gas as in the file at every speed.") == told
         assert run_here("torsion", engine, "--speed", "1000:1100:50").out == out
+
+
+def test_large_torques_are_in_kilonewton_metres():
+    """Sums from 5000 N m on; JSON has N m."""
+    asked = ("torsion", ENGINES / "i6_diesel.toml", "--speeds", "2000:2200:25")
+    out = run_here(*asked).out
+    assert re.search(r"shaft +± kN·m +at rpm +sum, kN·m", out)
+    row = re.search(r"(?m)^flywheel +([\d.]+) +\d+ +([\d.]+) ", out[out.index("Vibratory") :])
+    assert row is not None
+    shafts = {
+        each["name"]: each
+        for each in json.loads(run_here(*asked, "-f", "json").out)["response"]["shafts"]
+    }
+    largest = max(shafts["flywheel"]["half_peak_to_peak_Nm"])
+    assert float(row[1]) == pytest.approx(largest / 1e3, rel=1e-4)
 
 
 def test_pages_of_other_engines_have_no_such_section(tmp_path):

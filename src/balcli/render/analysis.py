@@ -105,7 +105,7 @@ def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterato
     others = ""
     if not (view.whole or every):
         shown = find_orders_that_matter(spectra, result.of_one_cylinder)
-        others = tell_others(spectra, shown, system, hints=view.hints)
+        others = tell_others([spectra], shown, system, hints=view.hints)
         spectra = spectra.select_orders(shown)
     tables: list[Grid] = []
     if view.parts.intersection(EVERY_KIND):

@@ -24,6 +24,7 @@ from .devices import (
     practical_grid,
 )
 from .figures import assumptions, figure_rows
+from .overview import find_orders_that_matter, tell_others
 from .scheme_details import details_document, details_parts
 from .sheet import (
     NAMELESS,
@@ -113,8 +114,13 @@ def _tolerance(unbalance: float, permitted: float) -> str:
 
 # ------------------------------------------------------------------ before and after
 def _orders(result: Balance, system: System) -> Grid:
+    """Those that matter before or after; all that were asked for."""
     columns = (FORCE, MOMENT, ROLL)
-
+    names = [kind.name for kind in columns]
+    states = [analysis.spectra.only(names) for analysis in (result.before, result.after)]
+    orders, one = result.before.orders.tolist(), result.before.of_one_cylinder
+    shown = {order for state in states for order in find_orders_that_matter(state, one)}
+    rows = [k for k, order in enumerate(orders) if result.every_order or order in shown]
     units = {kind: _fit(result, kind, system) for kind in columns}
 
     def row(k: int) -> tuple[str, ...]:
@@ -136,7 +142,8 @@ def _orders(result: Balance, system: System) -> Grid:
     return Grid(
         "Largest value by order, before and after",
         ("order", *heads),
-        tuple(map(row, range(len(result.before.orders)))),
+        tuple(map(row, rows)),
+        tell_others(states, [orders[k] for k in rows], system, hints=False),
     )
 
 

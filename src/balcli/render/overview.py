@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING
 
@@ -67,25 +67,31 @@ def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints:
         "Largest by order, and its parts that turn with the crank and against it",
         ("order", *heads),
         tuple(tuple(row(k)) for k in range(len(shown))),
-        tell_others(spectra, shown, system, hints=hints),
+        tell_others([spectra], shown, system, hints=hints),
     )
 
 
-def tell_others(spectra: Spectra, shown: list[float], system: System, *, hints: bool) -> str:
-    """One line on the orders that are not shown, or nothing."""
+def tell_others(
+    states: Sequence[Spectra], shown: list[float], system: System, *, hints: bool
+) -> str:
+    """One line on the orders that are not shown, or nothing.
+
+    Args:
+        states: of one engine, as of now or before and after, with the same orders.
+    """
     others = [
         float(order)
-        for k, order in enumerate(spectra.orders)
-        if order not in shown and any(p.major[k] for _, p in spectra.items())
+        for k, order in enumerate(states[0].orders)
+        if order not in shown and any(p.major[k] for one in states for _, p in one.items())
     ]
     if not others:
         return ""
-    rest = spectra.select_orders(others)
-    sizes = [
-        f"{kind.name} {size_text(largest, system.unit(kind))}"
-        for kind, p in rest.items()
-        if (largest := float(p.major.max())) > 0  # nan where it is not known
-    ]
+    rest = [one.select_orders(others) for one in states]
+    sizes = []
+    for kind, _ in rest[0].items():
+        largest = max(float(np.nan_to_num(one[kind.name].major).max()) for one in rest)
+        if largest:  # nan, and so 0 here, where it is not known
+            sizes.append(f"{kind.name} {size_text(largest, system.unit(kind))}")
     names = ", ".join(map(order_name, others[:6]))
     more = ", …" if len(others) > 6 else ""
     plural = "s" * (len(others) > 1)

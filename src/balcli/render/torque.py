@@ -17,7 +17,7 @@ from ..torque.loads import Load
 from .csv import Rows
 from .figures import FigureRow, clean, order_entries, order_rows, peak_deg
 from .sheet import NAMELESS, Facts, Grid, Sheet, degrees, number, order_name, order_number
-from .units import System, Unit
+from .units import ENERGY, System, Unit
 
 RPM = 30 / np.pi  # in rad/s
 Result = TorqueAnalysis | CurveAnalysis
@@ -301,7 +301,8 @@ def _silent(result: TorqueAnalysis) -> str:
 
 
 def _mean_pairs(mean: float, power: float | None, system: System) -> Iterator[tuple[str, str]]:
-    yield "mean torque", f"{number(system.moment.of(mean))} {system.moment.name}"
+    unit = system.moment.fit(mean)
+    yield "mean torque", f"{number(unit.of(mean))} {unit.name}"
     if power is not None:
         yield "power", f"{number(power / 1e3)} kW"
 
@@ -319,19 +320,23 @@ def _course_facts(
     torque: PiecewiseCurve, surplus: Surplus, cycle_deg: float, system: System
 ) -> Facts:
     lowest, highest = torque.extremes()
-    unit = system.moment
+    unit = system.moment.fit(max(abs(lowest.value), abs(highest.value)))
     start, end = (tenths(degrees_in_cycle(a, cycle_deg)) for a in (surplus.start, surplus.end))
 
     def told(value: float, angle: float) -> str:
         at = tenths(degrees_in_cycle(angle, cycle_deg))
         return f"{number(unit.of(value))} {unit.name} at {at} deg"
 
+    def energy(joules: float) -> str:
+        fitting = ENERGY.fit(joules)
+        return f"{number(fitting.of(joules))} {fitting.name}"
+
     pairs = (
         ("largest", told(highest.value, highest.angle)),
         ("smallest", told(lowest.value, lowest.angle)),
         ("reversals", str(torque.reversals())),
-        ("work of a cycle", f"{number(surplus.work)} J"),
-        ("surplus", f"{number(surplus.energy)} J from {start} to {end} deg"),
+        ("work of a cycle", energy(surplus.work)),
+        ("surplus", f"{energy(surplus.energy)} from {start} to {end} deg"),
     )
     return Facts(pairs, "Torque over the cycle")
 
@@ -369,9 +374,10 @@ def _speed_pairs(speed: Speed, cycle_deg: float) -> Iterator[tuple[str, str]]:
 
 def _order_table(result: TorqueAnalysis, system: System) -> Grid:
     """Orders in which the engine or the one cylinder has something."""
-    unit, spectra, single = system.moment, result.spectra, result.single
+    spectra, alone = result.spectra, result.single["gas"]
     columns = [spectra[kind] for kind in KINDS_OF_TORQUE]
-    alone = single["gas"]
+    largest = max(float(abs(phasors.x).max(initial=0)) for phasors in (*columns, alone))
+    unit = system.moment.fit(largest)
 
     def cells(k: int) -> Iterator[str]:
         n = float(spectra.orders[k])
@@ -404,7 +410,7 @@ def _amplitude(c: complex, order: float, unit: Unit) -> tuple[str, str]:
 
 
 def _curve_table(result: CurveAnalysis, system: System) -> Grid:
-    unit = system.moment
+    unit = system.moment.fit(float(abs(result.harmonics).max(initial=0)))
     rows = tuple(
         (f"{round(float(n), 9):g}", *_amplitude(complex(c), float(n), unit))
         for n, c in zip(result.orders, result.harmonics, strict=True)

@@ -13,7 +13,7 @@ from ..torsion.damper_sizing import SizedDamper
 from ..torsion.response import Response
 from .sheet import Facts, Grid, Sheet, Text, number, order_number
 from .torsion_document import document, rows
-from .units import System
+from .units import SI, System, Unit
 
 __all__ = ["document", "rows", "sheet"]
 
@@ -176,18 +176,19 @@ def _response(result: TorsionAnalysis, response: Response) -> Grid | Text:
     if not result.system.shafts:
         return Text(f"Vibration, {span}", (_tell_swing(result, response),))
     rows = []
+    unit = SI.moment.fit(float(response.sums.max()))
     stressed = bool(np.any(np.isfinite(response.stress)))
     for k, name in enumerate(result.system.shafts):
         worst = int(np.argmax(response.torque[:, k]))
         cells = [
             name,
-            number(float(response.torque[worst, k])),
+            number(unit.of(float(response.torque[worst, k]))),
             number(float(response.speeds_rpm[worst])),
-            number(float(response.sums[worst, k])),
+            number(unit.of(float(response.sums[worst, k]))),
         ]
         if stressed:
             cells.append(number(float(response.stress[worst, k]) / 1e6, 4))
-        rows.append((*cells, _name_orders(response, worst, k)))
+        rows.append((*cells, _name_orders(response, worst, k, unit)))
     note = (
         "Largest half of peak to peak, orders added up in time; sum: of their amplitudes, which "
         f"do not peak together. {_tell_swing(result, response)}"
@@ -201,7 +202,14 @@ def _response(result: TorsionAnalysis, response: Response) -> Grid | Text:
             f"{number(float(response.heat[hottest, k]), 4)} W to heat, at "
             f"{number(float(response.speeds_rpm[hottest]))} rpm."
         )
-    heads = ["shaft", "± N·m", "at rpm", "sum, N·m", *["N/mm²"] * stressed, "largest orders"]
+    heads = [
+        "shaft",
+        f"± {unit.name}",
+        "at rpm",
+        f"sum, {unit.name}",
+        *["N/mm²"] * stressed,
+        "largest orders",
+    ]
     title = f"Vibratory torque, {span}"
     return Grid(title, tuple(heads), tuple(rows), note, words=(0, len(heads) - 1))
 
@@ -222,12 +230,12 @@ def _tell_swing(result: TorsionAnalysis, response: Response) -> str:
     return f"{result.system.nodes[0]} swings by ±{swing} deg at {speed} rpm."
 
 
-def _name_orders(response: Response, speed: int, shaft: int) -> str:
-    """The largest orders of a shaft's torque with their amplitudes in N m."""
+def _name_orders(response: Response, speed: int, shaft: int, unit: Unit) -> str:
+    """The largest orders of a shaft's torque with their amplitudes in this unit."""
     sizes = response.amplitudes[:, speed, shaft]
     largest = np.argsort(-sizes, kind="stable")[:_MOST_ORDERS]
     return ", ".join(
-        f"{order_number(float(response.orders[k]))}: {number(float(sizes[k]), 3)}"
+        f"{order_number(float(response.orders[k]))}: {number(unit.of(float(sizes[k])), 3)}"
         for k in largest
         if sizes[k] > 1e-3 * sizes.max()
     )

@@ -32,9 +32,9 @@ class Unit(NamedTuple):
         return value / self.size
 
     def fit(self, largest: float) -> Unit:
-        """The unit for values up to this one (SI; nan: not known): this one, or the larger."""
+        """The unit for values up to this one (SI; nan: not known): this one, or a larger."""
         if self.larger is not None and abs(largest) >= self.most * self.size:
-            return self.larger
+            return self.larger.fit(largest)
         return self
 
 
@@ -69,6 +69,7 @@ IMPERIAL = System(
     Unit("in", INCH),
     Unit("in³", INCH**3),
 )
+ENERGY = Unit("J", 1, Unit("kJ", 1e3, Unit("MJ", 1e6), 5000), 5000)
 SYSTEMS = {"si": SI, "imperial": IMPERIAL}
 
 

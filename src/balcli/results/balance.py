@@ -46,6 +46,7 @@ class Balance(Result):
         tools: what the workshop has.
         speed_note: how remedy and analyses differ in speed; empty if they do not.
         permitted: what a grade permits, if one was asked for.
+        every_order: whether orders were asked for, so that none of them is left out.
     """
 
     remedy: Remedy
@@ -55,6 +56,7 @@ class Balance(Result):
     tools: Tools = field(default_factory=Tools)
     speed_note: str = ""
     permitted: PermittedUnbalance | None = None
+    every_order: bool = False
 
     @property
     def summary(self) -> str:
@@ -100,4 +102,6 @@ def balance(
     if orders is None and not np.array_equal(before.orders, after.orders):
         both = np.union1d(before.orders, after.orders)
         before, after = analyze(engine, both, SHOWN), analyze(balanced, both, SHOWN)
-    return Balance(remedy, before, after, practical, tools, _UNEVEN if engine.ripple else "")
+    note = _UNEVEN if engine.ripple else ""
+    every = orders is not None
+    return Balance(remedy, before, after, practical, tools, note, every_order=every)

@@ -126,7 +126,8 @@ def balance_knuckles(
     if speed_rpm is not None:
         old, new = replace(old, speed_rpm=speed_rpm), replace(new, speed_rpm=speed_rpm)
     before = analyze(old, orders, SHOWN)
-    return Balance(remedy, before, after=analyze(new, before.orders, SHOWN))
+    after = analyze(new, before.orders, SHOWN)
+    return Balance(remedy, before, after, every_order=orders is not None)
 
 
 def _find_range(values: Array) -> Range:
