@@ -169,6 +169,7 @@ ON_REQUEST = {
         "balcli.studies.quantity_names",
         "balcli.torsion.starting_file",
     ),
+    "balcli.commands.defaults": ("balcli.enginefile.toml_text",),
     "balcli.engine.assembly": (
         "balcli.core.mechanisms.rotary",
         "balcli.engine.articulation",

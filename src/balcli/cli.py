@@ -21,8 +21,8 @@ from typer.core import TyperGroup
 from typer.main import get_command
 
 from . import __version__
-from .commands.defaults import load_defaults, origins
-from .errors import BalcliError, Exit, Loudness, note, say, set_loudness
+from .commands.defaults import Defaults, load_defaults, origins
+from .errors import BalcliError, Exit, Loudness, note, say, set_loudness, warn
 from .limits import MOST_DIGITS
 from .render.formats import USUAL_DIGITS, set_digits
 
@@ -84,6 +84,7 @@ GROUPS = {
 COMMANDS = {name: text for group in GROUPS.values() for name, text in group.items()}
 
 IN_FULL_PRECISION = ("curves", "sweep")  # series of numbers
+WITHOUT_DEFAULTS = ("new", "engines", "schema", "check")  # have no format, units or digits
 
 
 class _OnDemand(TyperGroup):
@@ -223,10 +224,24 @@ def _options(
     Describe the engine in a TOML file (`balcli new inline i4.toml` writes one to start from), then
     `balcli analyze i4.toml`.
     """
-    usual = load_defaults()
+    usual = _load_defaults(context)
     set_digits(digits or usual.digits or USUAL_DIGITS)
     if usual.units is not None and context.invoked_subcommand is not None:
         context.default_map = {context.invoked_subcommand: {"units": usual.units.value}}
+
+
+def _load_defaults(context: typer.Context) -> Defaults:
+    """Those of the command that is called; what is wrong with them does not keep anyone from its
+    help, or from a command that uses none.
+    """
+    try:
+        return load_defaults()
+    except BalcliError as error:
+        wants_help = not {*context.help_option_names}.isdisjoint(sys.argv[1:])
+        if not wants_help and context.invoked_subcommand not in WITHOUT_DEFAULTS:
+            raise
+        warn(str(error))
+        return Defaults()
 
 
 def main() -> NoReturn:
@@ -269,4 +284,6 @@ def _usage(error: Any) -> str:
     """How the command is used and what is wrong, plain: a box would fold it, even in a pipe."""
     text = StringIO()
     error.show(text)
-    return text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's words
+    told = text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's words
+    blank = ': a value or a name with a blank goes in quotes, such as "52 %".'
+    return told + (blank if "unexpected extra argument" in told else "")

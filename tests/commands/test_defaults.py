@@ -9,7 +9,9 @@ from pathlib import Path
 import pytest
 from support.commands import refusal, run_here
 from support.paths import ENGINES
+from typer.main import get_command
 
+from balcli.cli import COMMANDS, WITHOUT_DEFAULTS, app
 from balcli.render.formats import USUAL_DIGITS, set_digits
 
 ASKED = ("analyze", ENGINES / "i4.toml", "--only", "force", "--orders", "2")
@@ -100,7 +102,7 @@ def test_every_mistake_of_a_file_is_told_by_its_path(folder):
         "  colour: unknown key; there are units, format, digits"
     )
     file.write_text("units = ")
-    assert refusal("layouts").startswith(f"{file}: Invalid value")
+    assert refusal("layouts").startswith(f"{file}: is not valid TOML: Invalid value")
     file.unlink()
     project = folder / "pyproject.toml"
     project.write_text('[tool.balcli]\nunits = "metric"')
@@ -115,12 +117,65 @@ def test_every_mistake_of_a_file_is_told_by_its_path(folder):
         ("BALCLI_UNITS", "metric", '"metric": choose from si, imperial'),
         ("BALCLI_FORMAT", "xml", '"xml": choose from table, json, csv, markdown'),
         ("BALCLI_DIGITS", "0", "0: give a whole number from 1 to 15"),
+        ("BALCLI_DIGITS", "9" * 5000, f'"{"9" * 59}: give a whole number from 1 to 15'),
         ("BALCLI_DIGITS", "many", '"many": give a whole number from 1 to 15'),
     ],
 )
 def test_a_variable_that_says_nothing_right(folder, monkeypatch, variable, value, told):
     monkeypatch.setenv(variable, value)
     assert refusal("layouts") == f"{variable}: {told}"
+
+
+def test_a_file_that_nobody_could_read_whole(folder, monkeypatch):
+    file = folder / "balcli.toml"
+    file.write_text("a = " + "[" * 5000)
+    assert refusal("layouts").startswith(f"{file}: lists or tables are nested too deeply")
+    file.write_bytes(b'units = "\xff"')
+    assert refusal("layouts") == f"{file}: is not UTF-8 text (line 1); save it as UTF-8"
+    if Path("/dev/zero").exists():
+        monkeypatch.setenv("BALCLI_CONFIG", "/dev/zero")
+        assert refusal("layouts").startswith("/dev/zero: has more than 6 MB")
+
+
+def test_help_and_commands_without_defaults_do_not_need_a_right_file(folder):
+    file = folder / "balcli.toml"
+    file.write_text('unit = "si"')
+    told = f"{file}: unit: unknown key; did you mean units?"
+    assert refusal("analyze", ASKED[1]) == told
+    for args in (("analyze", "--help"), ("tables", "-h"), ("schema",), ("new", "inline")):
+        status, out, err = run_here(*args)
+        assert (status, err) == (0, f"warning: {told}\n")
+        assert out
+
+
+def test_which_commands_have_no_defaults():
+    commands = {name: get_command(app).get_command(None, name) for name in COMMANDS}
+    words = {name: {word for p in one.params for word in p.opts} for name, one in commands.items()}
+    taking = {"--format", "--units", "--digits"}
+    assert {name for name in COMMANDS if not words[name] & taking} == {*WITHOUT_DEFAULTS}
+
+
+def test_every_way_to_write_the_table_in_a_project(folder):
+    project = folder / "pyproject.toml"
+    for text in (
+        '[tool]\nbalcli = {units = "imperial"}',
+        '[tool.balcli]\nunits = "imperial"',
+        '[ tool . "balcli" ]\nunits = "imperial"',
+        'tool.balcli.units = "imperial"',
+    ):
+        project.write_text(text)
+        assert imperial(), text
+    for text in ('tool = "balcli"', 'project.dependencies = ["balcli"]'):
+        project.write_text(text)
+        assert not imperial(), text
+
+
+def test_short_names_of_formats(folder, monkeypatch):
+    monkeypatch.setenv("BALCLI_FORMAT", "MD")
+    assert run_here(*ASKED).out == run_here(*ASKED, "-f", "markdown").out
+    monkeypatch.delenv("BALCLI_FORMAT")
+    (folder / "balcli.toml").write_text('format = "md"')
+    assert run_here(*ASKED).out == run_here(*ASKED, "-f", "markdown").out
 
 
 def test_verbose_says_what_came_from_where(folder, monkeypatch):

@@ -10,12 +10,13 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import BalcliError, InputError, Problem
-from ..limits import LONGEST_SHOWN, MOST_DIGITS
+from ..limits import LARGEST_FILE_BYTES, LONGEST_SHOWN, MOST_DIGITS
 from ..render.formats import Format, Units
+from .format_names import SHORT
 
 _VARIABLES = {"units": "BALCLI_UNITS", "format": "BALCLI_FORMAT", "digits": "BALCLI_DIGITS"}
 _FILE = "BALCLI_CONFIG"  # to be read instead of one that is looked for; empty: none
-_MARK = b"tool.balcli"  # without it, a pyproject.toml is not worth reading
+_MARK = b"balcli"  # without it, a pyproject.toml is not worth reading
 
 
 class Defaults(NamedTuple):
@@ -48,7 +49,8 @@ def _read_environment() -> dict[str, Any]:
     found = {}
     for key, variable in _VARIABLES.items():
         if text := os.environ.get(variable):
-            value: object = int(text) if key == "digits" and text.isdecimal() else text
+            is_number = key == "digits" and text.isdecimal() and len(text) <= LONGEST_SHOWN
+            value: object = int(text) if is_number else text
             try:
                 found[key] = _read_value(key, value)
             except ValueError as error:
@@ -67,7 +69,7 @@ def _read_file() -> dict[str, Any]:
         try:
             found[key] = _read_value(key, value)
         except ValueError as error:
-            problems.append(Problem(prefix + key, str(error)))
+            problems.append(Problem(prefix + key[:LONGEST_SHOWN], str(error)))
         else:
             origins.append(f"{file}: {prefix}{key} = {value}")
     if problems:
@@ -99,21 +101,20 @@ def _list_candidates() -> Iterator[Path]:
 def _open(path: Path) -> tuple[Path, str, Mapping[str, Any]] | None:
     """None of a pyproject.toml that says nothing of balcli."""
     try:
-        data = path.read_bytes()
+        with path.open("rb") as stream:
+            data = stream.read(LARGEST_FILE_BYTES + 1)
     except OSError as error:
         raise BalcliError(f"{path}: cannot be read ({error.strerror or error})") from None
     of_project = path.name == "pyproject.toml"
     if of_project and _MARK not in data:
         return None
-    import tomllib
+    from ..enginefile.toml_text import parse_toml  # most start without such a file
 
-    try:
-        content = tomllib.loads(data.decode())
-    except ValueError as error:
-        raise BalcliError(f"{path}: {error}") from None
+    content = parse_toml(data, str(path))
     if not of_project:
         return path, "", content
-    table = content.get("tool", {}).get("balcli")
+    tools = content.get("tool")
+    table = tools.get("balcli") if isinstance(tools, dict) else None
     return (path, "tool.balcli.", table) if isinstance(table, dict) else None
 
 
@@ -130,8 +131,10 @@ def _read_value(key: str, value: object) -> Units | Format | int:
         near = get_close_matches(key, _VARIABLES, 1)
         hint = f"did you mean {near[0]}?" if near else f"there are {', '.join(_VARIABLES)}"
         raise ValueError(f"unknown key; {hint}")
-    if isinstance(value, str) and value.lower() in [*kinds[key]]:
-        return kinds[key](value.lower())
+    small = value.lower() if isinstance(value, str) else ""
+    name = SHORT.get(small, small) if key == "format" else small
+    if name in [*kinds[key]]:
+        return kinds[key](name)
     raise ValueError(f"{_shown(value)}: choose from {', '.join(kinds[key])}")
 
 
