@@ -107,6 +107,7 @@ def test_wrong_usage_shows_how_a_command_is_used(balcli, args, command, message)
         ["analyze", V8, "--format", "xml"],
         ["analyze", V8, "--only"],
         ["new"],
+        ["balance", V8, "--factor", "52", "%"],
     ],
 )
 def test_bad_usage_that_the_parser_words(balcli, args):
@@ -121,6 +122,7 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         "--only": "--only",
         "analyze": "FILE",
         "new": "KIND",
+        "%": '(%): a value or a name with a blank goes in quotes, such as "52 %"',
     }[args[-1]] in last
     assert "Traceback" not in err
 

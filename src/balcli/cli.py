@@ -284,4 +284,6 @@ def _usage(error: Any) -> str:
     """How the command is used and what is wrong, plain: a box would fold it, even in a pipe."""
     text = StringIO()
     error.show(text)
-    return text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's words
+    told = text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's words
+    blank = ': a value or a name with a blank goes in quotes, such as "52 %".'
+    return told + (blank if "unexpected extra argument" in told else "")

@@ -335,7 +335,7 @@ def test_what_names_a_file_beside_it_is_written_beside_it(tmp_path):
     commands = (
         ("torque",),
         ("balance",),
-        ("torsion", "--damper", "viscous", "--speeds", "1000:2000:500"),
+        ("torsion", "--damper", "viscous", "--speeds", "1000:2000:500", "--damper-inertia", "2e6"),
         ("search", "--over", "firing_order", "--minimise", "force.1.major"),
     )
     for command, *options in commands:

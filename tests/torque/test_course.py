@@ -58,6 +58,15 @@ def test_mean_torque_and_pressure(seed):
     assert found.power == pytest.approx(found.mean_torque * found.engine.speed_rpm * np.pi / 30)
 
 
+def test_gas_without_work_has_no_mean_torque(tmp_path):
+    """A table without order 0: what the panels leave of the mean is rounding."""
+    (tmp_path / "h.csv").write_text("order,cos,sin\n1,3,9\n2,5,6\n3.5,5,3\n")
+    (tmp_path / "four.toml").write_text(FOUR + '[gas]\nharmonics = "h.csv"\n')
+    found = analyze_torque(silence(load(tmp_path / "four.toml"), 3))
+    assert found.curves.gas.extremes()[1].value > 100
+    assert (found.mean_torque, found.power, found.surplus.work) == (0, 0, 0)
+
+
 def test_a_misfire_takes_a_quarter_of_the_work():
     four = engine(FOUR + WIEBE)
     missing = analyze_torque(silence(four, 3))

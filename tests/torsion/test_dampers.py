@@ -105,6 +105,50 @@ def test_what_it_costs_is_the_power_lost_in_it():
     assert sized["damper"]["heat_rpm"] == speeds[int(np.argmax(told["heat_W"]))]
 
 
+LOSSY = """loss = 0.05
+[[excitation]]"""
+# A nose of 0.001 kg m2 on a stiff shaft before the disc: room for little
+NOSE = f"""{SINGLE.replace("[[excitation]]", LOSSY)}
+[[node]]
+name = "nose"
+inertia = 1000
+[[shaft]]
+from = "nose"
+to = "disc"
+stiffness = 1e6
+"""
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        ((), ""),
+        (
+            ("--damper-inertia", "20"),
+            "a viscous damper of 2e-05 kg m2 at disc lowers the largest torque by less than 1%; the "
+            "whole system has 1.001 kg m2. Bare numbers of --damper-inertia are kg mm2; "
+            "--damper-at says where it sits",
+        ),
+        (
+            ("--damper-inertia", "3e6"),
+            "the damper has 3 kg m2, more than the whole system (1.001 kg m2): bare numbers of "
+            "--damper-inertia are kg mm2",
+        ),
+        (
+            ("--damper-at", "nose"),
+            "the damper that is proposed has 0.3003 kg m2, 300 times as much as nose, which carries "
+            "it (0.001 kg m2): say what there is room for, such as --damper-inertia "
+            '"0.001 kg m^2"',
+        ),
+        (("--damper-at", "nose", "--damper-inertia", "0.3 kg m^2"), ""),
+    ],
+)
+def test_dampers_of_unlikely_size(options, told):
+    status, _, err = run_here("torsion", "-", *RANGE, "--damper", "viscous", *options, stdin=NOSE)
+    assert status == 0
+    assert err == (f"warning: --damper: {told}\n" if told else "")
+
+
 @pytest.mark.parametrize("line_end", ["\n", "\r\n"])
 def test_what_is_written_does_what_was_said(tmp_path, line_end):
     chain, fitted = tmp_path / "chain.toml", tmp_path / "fitted.toml"

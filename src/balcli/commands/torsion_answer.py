@@ -49,7 +49,10 @@ def find_answer(
     for doubt in source.doubts():
         warn(f"{name_file(path)}: {doubt}")
     with reporting("work", at_once=progress) as tell:
-        return source, answer_question(source, asked, tell)
+        found = answer_question(source, asked, tell)
+    for doubt in found.damper.doubts if found.damper is not None else ():
+        warn(f"--damper: {doubt}")
+    return source, found
 
 
 def write_damper(source: Source, result: TorsionAnalysis) -> str:

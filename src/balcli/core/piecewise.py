@@ -31,7 +31,7 @@ _HALVINGS = 48
 _SAME = 1e-11  # rad; an angle so near to a breakpoint is the breakpoint
 _SAME_X = 1e-15  # of a panel's half width, where Newton's method has arrived
 _NOTHING = 1e-9  # values below this share of the largest have no sign
-_ROUNDING = 1e-14  # a smaller share of the largest value is 0
+_ROUNDING = 1e-14  # a smaller share of the largest value, or of what is added up, is 0
 _TIE = 1e-12  # extremes that differ by a smaller share of the range are equal
 
 
@@ -116,8 +116,10 @@ class PiecewiseCurve:
 
     @cached_property
     def integral(self) -> float:
-        """Over one period."""
-        return float(np.sum(self.series[0] * np.diff(self.breaks)))
+        """Over one period; 0 where it is what rounding leaves of panels that cancel."""
+        panels = self.series[0] * np.diff(self.breaks)
+        total = float(np.sum(panels))
+        return 0.0 if abs(total) <= _ROUNDING * float(np.sum(np.abs(panels))) else total
 
     @property
     def mean(self) -> float:

@@ -5,7 +5,7 @@ the one that makes the largest stress over a range of speeds least.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from itertools import count
 from typing import NamedTuple
 
@@ -30,6 +30,8 @@ _FIGURE = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  #
 _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # range of the search, times and over
 _PENDULUM_RADIUS = 0.06  # m, where nothing says where one hangs
 _PLACES = 13  # looked at over this range before the best is approached
+_HARDLY = 0.99  # of the largest stress without it: one that leaves more is no use
+_HEAVY = 10.0  # times the inertia of what carries it: for more there is no room
 _RESPONSES = _PLACES + 2 + ROUNDS + 2  # the last of the best damper, and without any
 
 
@@ -63,6 +65,7 @@ class SizedDamper(NamedTuple):
             diameter.
         before, after: largest over all shafts and speeds without a damper there, and with it.
         heat: largest power it turns to heat, W, and at which speed, rpm.
+        doubts: what is unlikely of it, in words.
     """
 
     node: str
@@ -76,6 +79,7 @@ class SizedDamper(NamedTuple):
     after: float
     heat: float
     heat_rpm: float
+    doubts: tuple[str, ...]
 
 
 def size_damper(
@@ -119,7 +123,7 @@ def size_damper(
     mine = [k for k, name in enumerate(response.dampers) if name.removesuffix(" ring") == node]
     heat = response.heat[:, mine].sum(axis=1)
     hottest = int(np.argmax(heat))
-    return SizedDamper(
+    found = SizedDamper(
         node,
         damper,
         start,
@@ -131,7 +135,50 @@ def size_damper(
         after,
         float(heat[hottest]),
         float(speeds[hottest]),
+        (),
     )
+    of_file = own is not None and own.kind == asked.kind
+    doubts = _doubt(found, bare, of_file or asked.inertia is not None)
+    return found._replace(doubts=tuple(doubts))
+
+
+def _doubt(found: SizedDamper, bare: TorsionalSystem, given: bool) -> Iterator[str]:
+    """What is unlikely of a damper; `given`: its size was not proposed here."""
+    inertia, node = _find_inertia(found.damper), printable(found.node)
+    carrier = float(bare.chain.inertia[bare.nodes.index(found.node)])
+    whole = float(np.sum(bare.chain.inertia))
+    if found.after > _HARDLY * found.before:
+        yield (
+            f"a {found.damper.kind} damper of {inertia:.4g} kg m2 at {node} lowers the largest "
+            f"{found.measure} by less than {1 - _HARDLY:.0%}; the whole system has {whole:.4g} "
+            "kg m2. Bare numbers of --damper-inertia are kg mm2; --damper-at says where it sits"
+        )
+    elif given and inertia > whole:
+        yield (
+            f"the damper has {inertia:.4g} kg m2, more than the whole system ({whole:.4g} kg m2): "
+            "bare numbers of --damper-inertia are kg mm2"
+        )
+    elif not given and inertia > _HEAVY * carrier > 0:
+        yield (
+            f"the damper that is proposed has {inertia:.4g} kg m2, {inertia / carrier:.3g} times "
+            f"as much as {node}, which carries it ({carrier:.4g} kg m2): say what there is room "
+            'for, such as --damper-inertia "'
+            f'{float(f"{carrier:.2g}"):.12g} kg m^2"{_ask_radius(found.damper)}'
+        )
+
+
+def _ask_radius(damper: Damper) -> str:
+    if damper.kind != "pendulum":
+        return ""
+    return "; pendulums farther out are lighter: give a pendulum damper with its radius in the file"
+
+
+def _find_inertia(damper: Damper) -> float:
+    """About the axis, kg m2: of the ring, or of the pendulums as they hang."""
+    if damper.inertia is not None:
+        return damper.inertia / 1e6
+    out = ((damper.radius or 0.0) + (damper.length or 0.0)) / 1e3
+    return (damper.mass or 0.0) * out**2
 
 
 def _judge_bare(respond: Callable[[None], tuple[float, Response]]) -> float:
