@@ -180,6 +180,7 @@ ON_REQUEST = {
     "balcli.enginefile.toml_text": ("balcli.enginefile.examples",),
     "balcli.forces.spectrum": ("balcli.forces.gas",),
     "balcli.forces.symmetry": ("balcli.forces.gas_symmetry",),
+    "balcli.library.arguments": ("balcli.studies.tolerances",),
     "balcli.render.analyses": ("balcli.render.analysis",),
     "balcli.render.formats": (
         *(f"balcli.render.{form}" for form in Format),

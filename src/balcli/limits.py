@@ -52,6 +52,7 @@ MOST_DIGITS = 15  # of figures in tables: what a floating-point number has
 MOST_FACTORS = 1000  # steps of a range of balance factors
 MOST_TABLE_VALUES = 100_000  # steps of a range of a printed table
 LARGEST_TABLE_VALUE = 10**9  # in such a range
+HIGHEST_POWER = 200  # of lambda in a table of series: exact fractions, a second or two
 
 # Variants ------------------------------------------------------------------------------------
 MOST_PARAMETERS = 16  # that vary at once: each is an axis of arrays, which have up to 32
@@ -61,6 +62,7 @@ MOST_KEPT_FIGURES = 100_000_000  # of a sweep in Python: all are kept, 0.8 GB
 MOST_ROWS_READ = 50  # of the table of a sweep: of more the first and the last are shown
 MOST_PICTURE_VARIANTS = 4_000_000  # of a sweep: a picture keeps all of them in memory
 MOST_TOLERANCE_SAMPLES = 20_000_000  # a minute or two, and mean and percentiles stand long before
+MOST_FOUND = 1000  # designs that a search lists: nobody reads more
 MOST_ARRANGEMENTS = 10**10  # of given throws: branch and bound tries few of them
 MOST_DESIGNS_ONE_BY_ONE = 2000  # of gas, mounts or torsion: each takes 10 to 50 ms
 MOST_EVEN_CRANKS = 200_000  # with an even firing order: each of them is tried
@@ -83,6 +85,7 @@ MOST_MOUNT_RESULTS = 4_000_000  # orders x speeds x mounts and points: 300 MB
 
 # Torsion -------------------------------------------------------------------------------------
 MOST_TORSION_NODES = 200  # of a chain: modes of all of them take a second
+LARGEST_INERTIA = 1e18  # kg m2, of a damper or flywheel: its square is no overflow
 HIGHEST_TORSION_ORDER = 256  # a cycle is sampled 16 times as often
 MOST_TORSION_TORQUES = 10_000_000  # orders x speeds x shafts: all are kept, 8 bytes each
 HIGHEST_TORSION_ORDER_UNASKED = 12  # by which cylinders excite: tables of builders end here

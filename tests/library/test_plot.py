@@ -4,6 +4,7 @@ in matplotlib's settings.
 
 from __future__ import annotations
 
+import logging
 import subprocess
 import sys
 
@@ -79,6 +80,17 @@ def test_a_sweep_has_an_axis_and_a_unit_for_each_dimension():
         assert drawn == pytest.approx(value.ravel(), rel=1e-12)
 
 
+def test_what_matplotlib_tells_is_left_to_the_host(tmp_path):
+    logger = logging.getLogger("matplotlib")
+    level = logger.level
+    try:
+        logger.setLevel(logging.INFO)
+        balcli.plot(THREE, "polar").savefig(tmp_path / "a.svg")
+        assert logger.level == logging.INFO
+    finally:
+        logger.setLevel(level)
+
+
 def test_neither_pyplot_nor_a_backend_is_needed():
     code = (
         "import sys, balcli\n"
@@ -100,6 +112,9 @@ def test_neither_pyplot_nor_a_backend_is_needed():
         (lambda: balcli.plot(balcli.analyze_torsion(DIESEL), "response"), balcli.BalcliError, "plot: there is no 'response' of it; choose from all, modes, campbell"),
         (lambda: balcli.plot(balcli.analyze_torque(GAS), "polar"), balcli.BalcliError, "plot: there is no 'polar' of it; choose from torque, pressure, p-v, pin, main"),
         (lambda: balcli.plot(balcli.balance_rotor(three_runs()), "polar"), balcli.BalcliError, "plot: there is no 'polar' of it; choose from all"),
+        (lambda: balcli.plot(THREE, orders=3), TypeError, "orders: 3 (int): give numbers, such as [1, 2, 4]"),
+        (lambda: balcli.plot(DIESEL, "campbell", orders=3), TypeError, "orders: 3 (int): give numbers, such as [1, 2, 4]"),
+        (lambda: balcli.plot(DIESEL, "campbell", orders=["a"]), TypeError, "orders: 'a' (str): give numbers, such as [1, 2, 4]"),
         (lambda: balcli.plot(THREE, "torque"), balcli.BalcliError, "in-line three: has no [gas]"),
         (lambda: balcli.plot(THREE, "modes"), balcli.BalcliError, "in-line three: has no [torsion]"),
     ],

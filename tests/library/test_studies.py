@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Callable
+from ctypes import CDLL
 
 import numpy as np
 import pytest
@@ -147,6 +148,21 @@ def test_tolerances_are_shares_or_percentages():
     )
     assert one.spreads[0].mean == other.spreads[0].mean
     assert third.spreads[0].bound < one.spreads[0].bound
+
+
+def test_a_tolerance_is_a_number_of_numpy_too():
+    usual = balcli.scatter(V8, "force.1.major", mass=0.5, length=0, seed=1, samples=100)
+    of_numpy = balcli.scatter(
+        V8, "force.1.major", mass=np.float32(0.5), length=np.int64(0), seed=1, samples=100
+    )
+    assert of_numpy.spreads == usual.spreads
+
+
+def test_the_memory_of_the_host_is_left_as_it_is(monkeypatch):
+    asked = []
+    monkeypatch.setattr("ctypes.CDLL", lambda name: asked.append(name) or CDLL(name))
+    balcli.sweep(FOUR, {"rod.ratio": [0.25, 0.3]}, "force.2.major")
+    assert asked == []
 
 
 def test_with_gas_torque_is_that_of_gas_and_inertia():
@@ -491,6 +507,79 @@ WRONG: list[tuple[Callable[[], object], type[Exception], str]] = [
         lambda: balcli.balance_rotor({}, "odd"),
         balcli.BalcliError,
         'minimise \'odd\': choose "squares" or "max"',
+    ),
+    (
+        lambda: balcli.analyze_torsion(DIESEL, damper="viscous", damper_inertia=-1),
+        balcli.BalcliError,
+        "damper_inertia: -1; give a moment of inertia in kg m2, above 0",
+    ),
+    (
+        lambda: balcli.analyze_torsion(DIESEL, damper="viscous", damper_inertia="x"),
+        TypeError,
+        "damper_inertia: 'x' (str): give a moment of inertia in kg m2, such as 0.1",
+    ),
+    (
+        lambda: balcli.analyze_torsion(DIESEL, orders=["a"]),
+        TypeError,
+        "orders: 'a' (str): give numbers, such as [1, 2, 4]",
+    ),
+    (
+        lambda: balcli.analyze_torsion(DIESEL, orders=3),
+        TypeError,
+        "orders: 3 (int): give numbers, such as [1, 2, 4]",
+    ),
+    (
+        lambda: balcli.analyze_torsion(DIESEL, orders=[0, 300]),
+        balcli.BalcliError,
+        "orders: 0 to 300; those of torsional vibration are above 0, to 256 at most",
+    ),
+    (
+        lambda: balcli.tables("series", ratios=0.25),
+        TypeError,
+        'ratios: 0.25 (float): give a text, such as "0.20:0.40:0.01"',
+    ),
+    (
+        lambda: balcli.tables("liu-3", angles=[1]),
+        TypeError,
+        'angles: [1] (list): give a text, such as "0:180:5"',
+    ),
+    (
+        lambda: balcli.tables("series", power="x"),
+        TypeError,
+        "power: 'x' (str): give a whole number from 0",
+    ),
+    (
+        lambda: balcli.tables("series", power=-1),
+        balcli.BalcliError,
+        "power: -1 is less than 0",
+    ),
+    (
+        lambda: balcli.tables("series", power=201),
+        balcli.BalcliError,
+        "power: give 200 at most",
+    ),
+    (
+        lambda: balcli.search(V8, 5, "moment.1.major"),
+        TypeError,
+        'search: 5 (int): give what to arrange, such as "throws"',
+    ),
+    (
+        lambda: balcli.search(V8, "throws", "moment.1.major", top=10**9),
+        balcli.BalcliError,
+        "top: give 1000 at most",
+    ),
+    (
+        lambda: balcli.sweep(V8, {"rod.ratio": 0.3}, threads=10**6),
+        balcli.BalcliError,
+        "threads: give 64 at most",
+    ),
+    *(
+        (
+            lambda names=names: balcli.compare(V8, V8, names=names),
+            TypeError,
+            f"names: {names!r} ({type(names).__name__}): give a text for each engine, such as ",
+        )
+        for names in ([1, 2], "ab", 5)
     ),
     (lambda: V8.vary(5), TypeError, 'vary: 5 (int): give a dict, such as {"rod.length": 150}'),
 ]

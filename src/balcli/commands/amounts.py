@@ -12,10 +12,9 @@ import re
 
 from ..enginefile.units import ANGLE, INERTIA, LENGTH, MASS, SPEED, Dimension, convert, wanted
 from ..errors import BalcliError
-from ..limits import LONGEST_SHOWN
+from ..limits import LARGEST_INERTIA, LONGEST_SHOWN
 from ..render.formats import Units
 
-_LARGEST_INERTIA = 1e24  # kg mm2: its square is no overflow
 _IMPERIAL_AND_SI = {LENGTH: ("in", "mm"), MASS: ("lb", "kg")}
 
 
@@ -57,10 +56,10 @@ def read_inertia(option: str, text: str) -> float:
     """A moment of inertia in kg m2; BalcliError with the option and its text, or for one that is
     not above 0.
     """
-    found = _read(option, text, INERTIA, Units.SI)
-    if not 0 < found < _LARGEST_INERTIA:
+    found = _read(option, text, INERTIA, Units.SI) / 1e6
+    if not 0 < found < LARGEST_INERTIA:
         raise BalcliError(f"{_shown(option, text)}: {wanted(INERTIA)}, above 0")
-    return found / 1e6
+    return found
 
 
 def is_bare(text: str) -> bool:

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from ..enginefile.toml_text import name_file, read_bytes
+from ..limits import MOST_FOUND
 from ..render import search as renderer
 from .completion import complete_quantities, complete_searches
 from .declare import optional
@@ -55,7 +56,9 @@ def search(
         str,
         optional("even-firing", "even-firing: only what can fire at even intervals.", "--require"),
     ] = "",
-    top: Annotated[int, typer.Option("--top", min=1, max=1000, help="How many to show.")] = 10,
+    top: Annotated[
+        int, typer.Option("--top", min=1, max=MOST_FOUND, help="How many to show.")
+    ] = 10,
     form: FormatOption = None,
     output: Output = None,
     write: Annotated[

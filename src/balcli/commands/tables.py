@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from ..limits import HIGHEST_POWER
 from ..render import errata as errata_renderer
 from ..render import layouts, printed_table, table_list
 from .amounts import as_bare_angles
@@ -43,7 +44,10 @@ Angle = Annotated[
 Power = Annotated[
     int | None,
     typer.Option(
-        min=0, max=200, show_default=False, help="Highest power of lambda in `series`; default 12."
+        min=0,
+        max=HIGHEST_POWER,
+        show_default=False,
+        help="Highest power of lambda in `series`; default 12.",
     ),
 ]
 Digits = Annotated[

@@ -10,9 +10,11 @@ from numpy.typing import ArrayLike
 
 from ..core.phasors import Array
 from ..errors import BalcliError, wrong_type
-from ..limits import MOST_SPEEDS
+from ..forces.orders import check_orders
+from ..limits import HIGHEST_TORSION_ORDER, LARGEST_INERTIA, MOST_SPEEDS
 
 Words = str | Iterable[str]  # names, or a text of them with commas between
+_REAL = (int, float, np.integer, np.floating)
 
 
 def join_words(function: str, words: Words | None) -> str | None:
@@ -61,17 +63,53 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
     return found
 
 
-def check_count(name: str, value: object, least: int = 1) -> int:
+def check_torsion_orders(orders: Iterable[float] | None) -> Array | None:
+    """Orders that excite torsional vibration, ascending, each once; None as it is.
+
+    Raises:
+        BalcliError: there are none, some are no multiples of 1/2, not above 0, or too high.
+        TypeError: they are no numbers.
+    """
+    if orders is None:
+        return None
+    found = check_orders(orders)
+    if not 0 < found[0] <= found[-1] <= HIGHEST_TORSION_ORDER:
+        raise BalcliError(
+            f"orders: {found[0]:g} to {found[-1]:g}; those of torsional vibration are above 0, to "
+            f"{HIGHEST_TORSION_ORDER} at most"
+        )
+    return found
+
+
+def check_inertia(name: str, value: object) -> float | None:
+    """A moment of inertia that a function was given, kg m2; None as it is.
+
+    Raises:
+        BalcliError: it is not above 0, or beyond computing.
+        TypeError: it is no number.
+    """
+    if value is None:
+        return None
+    if isinstance(value, bool) or not isinstance(value, _REAL):
+        raise wrong_type(name, value, "give a moment of inertia in kg m2, such as 0.1")
+    if not 0 < value < LARGEST_INERTIA:
+        raise BalcliError(f"{name}: {value}; give a moment of inertia in kg m2, above 0")
+    return float(value)
+
+
+def check_count(name: str, value: object, least: int = 1, most: int | None = None) -> int:
     """A whole number that a function was given.
 
     Raises:
-        BalcliError: it is too small.
+        BalcliError: it is too small or too large.
         TypeError: it is none.
     """
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
         raise wrong_type(name, value, f"give a whole number from {least}")
     if value < least:
         raise BalcliError(f"{name}: {value} is less than {least}")
+    if most is not None and value > most:
+        raise BalcliError(f"{name}: give {most} at most")
     return int(value)
 
 
@@ -82,9 +120,9 @@ def read_share(name: str, value: float | str) -> float:
         BalcliError: it is neither.
     """
     if isinstance(value, str):
-        from ..studies.tolerances import parse_percentage
+        from ..studies.tolerances import parse_percentage  # `scatter` alone needs it
 
         return parse_percentage(value, name)
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 <= value < 1:
+    if isinstance(value, bool) or not isinstance(value, _REAL) or not 0 <= value < 1:
         raise BalcliError(f'{name} {value}: give a share from 0 to 1, such as 0.005 or "0.5%"')
     return float(value)

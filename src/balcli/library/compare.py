@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Sequence
 
 from ..engine.build import Engine, check_engine
-from ..errors import BalcliError, list_words
+from ..errors import BalcliError, list_words, wrong_type
 from ..results.comparison import Comparison, compare_engines
 
 
@@ -32,16 +32,24 @@ def compare(
 
     Raises:
         BalcliError: fewer than two engines; other than one name for each; an unknown quantity.
-        TypeError: one that is no engine.
+        TypeError: one that is no engine; names that are no texts.
 
     Example:
         >>> compare(load("i4.toml"), load("i6.toml")).to_pandas()
     """
     checked = [check_engine("compare", engine) for engine in engines]
-    called = list(names or (engine.name for engine in checked))
+    called = [engine.name for engine in checked] if names is None else _check_names(names)
     if names is None and ("" in called or len(set(called)) < len(called)):
         called = [f"engine {k}" for k in range(1, len(checked) + 1)]
     if len(called) != len(checked):
         raise BalcliError(f"{len(called)} names for {len(checked)} engines; give one for each")
     wanted = None if only is None else list_words("only", only)
     return compare_engines(checked, called, orders, wanted)
+
+
+def _check_names(names: object) -> list[str]:
+    if isinstance(names, Iterable) and not isinstance(names, str):
+        listed = list(names)
+        if all(isinstance(name, str) for name in listed):
+            return listed
+    raise wrong_type("names", names, 'give a text for each engine, such as ["before", "after"]')

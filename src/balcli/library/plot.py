@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.phasors import Array
 from ..engine.build import Engine, take_model
 from ..enginefile.fields import nearest
 from ..errors import BalcliError, wrong_type
 from ..field_balancing.balance import FieldBalance
+from ..forces.orders import check_orders
 from ..mounting.report import MountReport
 from ..render.plot import torsion as torsion_pages
 from ..render.plot.field_balancing import make_field
@@ -29,7 +29,7 @@ from ..torque.analysis import TorqueAnalysis
 from ..torsion.analysis import Question, TorsionAnalysis, answer_question
 from ..torsion.load import make_source
 from ..torsion.quantity import choose_speeds
-from .arguments import check_speeds
+from .arguments import check_speeds, check_torsion_orders
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -126,21 +126,18 @@ def _plot_engine(
     speeds_rpm: ArrayLike | None,
 ) -> Figure:
     _choose(what, (*PAGES, *_TORSION))
-    asked = None if orders is None else list(orders)
     if what not in _TORSION:
+        asked = None if orders is None else check_orders(orders).tolist()
         study = compute_study(engine, what, asked, scheme)
         return make_page(Subject(system=SI, **study._asdict()), what, "png")
-    source = make_source(take_model(engine), engine, engine.name, _as_array(asked))
+    exciting = check_torsion_orders(orders)
+    source = make_source(take_model(engine), engine, engine.name, exciting)
     speeds = check_speeds("plot", speeds_rpm)
     if speeds is None and what in ("response", "waterfall"):
         speeds = np.asarray(choose_speeds(engine), dtype=float)
-    return _plot_torsion(answer_question(source, Question(speeds, _as_array(asked))), what)
+    return _plot_torsion(answer_question(source, Question(speeds, exciting)), what)
 
 
 def _plot_torsion(result: TorsionAnalysis, what: str) -> Figure:
     known = torsion_pages.PAGES if result.response is not None else ("all", "modes", "campbell")
     return make_torsion(result, _choose(what, known), "png")
-
-
-def _as_array(values: Sequence[float] | None) -> Array | None:
-    return None if values is None else np.unique(np.asarray(values, dtype=float))

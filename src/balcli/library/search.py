@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ..engine.build import Engine, check_engine, take_model
+from ..errors import wrong_type
+from ..limits import MOST_FOUND
 from ..studies.search.objective import parse_objective
 from ..studies.search.search import Search, search_arrangements
 from .arguments import Words, check_count, check_mapping, join_words
@@ -30,7 +32,7 @@ def search(
         minimise: the quantity that should be small (`moment.1.major`), several, which are added
             up, or a dict of weights by quantity.
         limits: what quantities must stay below, N or N m.
-        top: how many to list.
+        top: how many to list, at most 1000.
         even_firing: only what can fire at even intervals.
 
     Returns:
@@ -45,6 +47,8 @@ def search(
         >>> search(engine, "throws", "moment.1.major").to_pandas()
     """
     model = take_model(check_engine("search", engine))
+    if not isinstance(over, str):
+        raise wrong_type("search", over, 'give what to arrange, such as "throws"')
     if isinstance(minimise, Mapping):
         wanted = ",".join(f"{name}={weight!r}" for name, weight in _as_floats(minimise).items())
     else:
@@ -52,7 +56,9 @@ def search(
     bounds = check_mapping("search", limits or {}, '{"moment.2.major": 100}')
     texts = [f"{name}<{bound!r}" for name, bound in _as_floats(bounds).items()]
     goal = parse_objective(wanted, texts, with_gas=model.gas is not None)
-    return search_arrangements(model, over, goal, check_count("top", top), even_firing)
+    return search_arrangements(
+        model, over, goal, check_count("top", top, most=MOST_FOUND), even_firing
+    )
 
 
 def _as_floats(figures: Mapping[str, float]) -> dict[str, object]:

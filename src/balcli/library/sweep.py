@@ -34,7 +34,8 @@ def sweep(
             `moment.1.backward`, `couple.4.amplitude`, `peak.force`; of engines with mounts,
             torsion or gas also `mode.3.Hz`, `mount.left.force`, `torsion.1.Hz`, `torque.mean`.
             Default: force and moment of orders 1 and 2, as far as they are known.
-        threads: that compute what takes more than a second; default: one a core.
+        threads: that compute what takes more than a second; at most 64; default: one
+            a core.
 
     Returns:
         The grid: `result["force.2.major"]` has one axis a name in `vary`, in SI units or degrees;
@@ -57,7 +58,8 @@ def sweep(
     )
     if not parameters:
         raise BalcliError(f"sweep: nothing varies; give numbers and values, such as {example}")
-    count = min(count_cores(), MOST_THREADS) if threads is None else check_count("threads", threads)
+    wanted = min(count_cores(), MOST_THREADS) if threads is None else threads
+    count = check_count("threads", wanted, most=MOST_THREADS)
     asked = join_words("sweep", quantities)
     plan = plan_sweep(model, parameters, asked, engine.name or "engine")
     return compute_sweep(plan, count)

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from types import NoneType
+
 from ..errors import wrong_type
+from ..limits import HIGHEST_POWER
 from ..printed_tables.ranges import Ranges, parse_crank_ratios, parse_range
 from ..printed_tables.recomputed import Table
 from ..printed_tables.registry import NAMES, recompute
+from .arguments import check_count
 
 
 def tables(
@@ -19,7 +23,7 @@ def tables(
         ratios: other crank ratios (crank radius over rod length) than the printed ones, where the
             table has them as columns, such as "0.20:0.40:0.01" or "0.25,1/3".
         angles: other crank angles, deg, likewise.
-        power: highest power of the crank ratio in "series".
+        power: highest power of the crank ratio in "series", 0 to 200.
 
     Returns:
         The table: `exact` cells as `columns` name them, the `printed` texts, and `errata`, every
@@ -27,18 +31,24 @@ def tables(
 
     Raises:
         BalcliError: there is no such table, with the nearest name; a range that it does not take.
-        TypeError: the name is no text.
+        TypeError: the name or a range is no text, the power no whole number.
 
     Example:
         >>> tables("tsinghua-1-2").errata
     """
     if not isinstance(name, str):
         raise wrong_type("tables", name, f"give the name of a table, such as {NAMES[1]!r}")
+    for option, text, example in (
+        ("ratios", ratios, "0.20:0.40:0.01"),
+        ("angles", angles, "0:180:5"),
+    ):
+        if not isinstance(text, (str, NoneType)):
+            raise wrong_type(option, text, f'give a text, such as "{example}"')
     return recompute(
         name,
         Ranges(
             None if ratios is None else parse_crank_ratios(ratios),
             None if angles is None else parse_range(angles, "angles"),
-            power,
+            None if power is None else check_count("power", power, 0, HIGHEST_POWER),
         ),
     )

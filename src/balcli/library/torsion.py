@@ -6,7 +6,6 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, Literal
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.phasors import Array
@@ -19,7 +18,7 @@ from ..torsion.analysis import Question, TorsionAnalysis, answer_question
 from ..torsion.damper_sizing import DamperAsked
 from ..torsion.load import ChainSource, Source, make_source
 from ..torsion.read_chain import describes_chain, read_chain_tables
-from .arguments import check_speeds
+from .arguments import check_inertia, check_speeds, check_torsion_orders
 
 KINDS_OF_DAMPERS = ("viscous", "rubber", "pendulum")
 
@@ -53,18 +52,19 @@ def analyze_torsion(
         N m, and `stress`, Pa, shape (speeds, shafts)), `barred_rpm`.
 
     Raises:
-        BalcliError: no [torsion]; a response without excitation or through an undamped resonance; a
-            damper that nothing can carry.
+        BalcliError: no [torsion]; orders or an inertia that cannot be; a response without
+            excitation or through an undamped resonance; a damper that nothing can carry.
         InputError: every mistake of the file.
-        TypeError: the source is none of these.
+        TypeError: the source is none of these; what is no number.
 
     Example:
         >>> analyze_torsion(load("i6_diesel.toml"), range(1000, 2501, 25)).barred_rpm
     """
     if damper not in (None, *KINDS_OF_DAMPERS):
         raise BalcliError(f"damper {damper!r}: choose from {', '.join(KINDS_OF_DAMPERS)}")
-    asked = None if orders is None else np.unique(np.asarray(list(orders), dtype=float))
-    sized = None if damper is None else DamperAsked(damper, damper_at, damper_inertia)
+    asked = check_torsion_orders(orders)
+    inertia = check_inertia("damper_inertia", damper_inertia)
+    sized = None if damper is None else DamperAsked(damper, damper_at, inertia)
     question = Question(check_speeds("analyze_torsion", speeds_rpm), asked, (), sized)
     return answer_question(_read_source(source, asked), question)
 

@@ -36,7 +36,6 @@ from ..forces.quantity import (
 )
 from ..forces.spectrum import count_samples
 from ..limits import MOST_PARAMETERS
-from ..process import keep_freed_memory
 from .boxes import Box, BoxSize, divide_grid, divide_into_boxes, divide_into_tiles
 from .parameters import Parameter, parse
 from .quantities import (
@@ -350,7 +349,6 @@ def evaluate_chunks(sweep: Sweep, threads: int = 1, alone_s: float = ALONE_S) ->
         sweep: what to compute.
         threads, alone_s: as of `share_work`.
     """
-    keep_freed_memory()
     size = size_boxes(sweep)
     compute = partial(_evaluate_chunk, sweep, size)
     return share_work(compute, divide_sweep(sweep, size), threads, alone_s)

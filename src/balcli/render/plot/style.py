@@ -108,8 +108,18 @@ def open_figure(width: float, height: float, form: Form) -> Iterator[Picture]:
 @contextmanager
 def in_our_style(form: Form) -> Iterator[None]:
     """What is drawn in this context is drawn in our style, whatever the user's own is."""
-    # "building the font cache" is no news for our users
-    logging.getLogger("matplotlib").setLevel(logging.ERROR)
+    logger = logging.getLogger("matplotlib")
+    usual = logger.level
+    logger.setLevel(logging.ERROR)  # "building the font cache" is no news for our users
+    try:
+        with _set_style(form):
+            yield
+    finally:
+        logger.setLevel(usual)
+
+
+@contextmanager
+def _set_style(form: Form) -> Iterator[None]:
     import matplotlib
 
     with warnings.catch_warnings(), matplotlib.rc_context():
