@@ -183,7 +183,7 @@ LONG = {
     "torsion": ("torsion", ENGINES / "i6_diesel.toml", "--speeds", "1000:1200:10"),
     "damper": (
         *("torsion", ENGINES / "i6_diesel.toml"),
-        *("--speeds", "1000:1020:10", "--damper", "viscous"),
+        *("--speeds", "1000:2500:500", "--damper", "viscous"),
     ),
     "report": ("report", ENGINES / "single.toml", "-o", "x.html"),
 }

@@ -141,7 +141,8 @@ def _motion(model: EngineFile) -> Iterator[str]:
 
 def _neighbours(model: EngineFile) -> Iterator[str]:
     bore, gap = model.piston.bore, _find_gap_in_bank(model)
-    if bore is not None and gap is not None and gap < NEIGHBOURS_CLOSE * bore:
+    # 0 is said on purpose: all throws in one plane.
+    if bore is not None and gap is not None and 0 < gap < NEIGHBOURS_CLOSE * bore:
         key = "spacing" if model.crank.positions is None else "positions"
         yield (
             f"crank.{key} puts neighbouring cylinders of one bank {gap:g} mm apart, which is less "
