@@ -18,6 +18,7 @@ import notebooks  # noqa: E402
 LARGEST = 400_000  # bytes
 
 
+@pytest.mark.stress  # a process of its own for each, and all that notebooks need
 @pytest.mark.parametrize("path", notebooks.NOTEBOOKS, ids=lambda path: path.stem)
 def test_a_notebook_shows_what_it_computes(path: Path, tmp_path: Path) -> None:
     shown = nbformat.read(path, as_version=4)
