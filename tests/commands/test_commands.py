@@ -74,6 +74,7 @@ def test_plot_refuses_a_scheme_where_nothing_is_compared(balcli, tmp_path, what,
     assert not picture.exists()
 
 
+@pytest.mark.stress
 @pytest.mark.parametrize(
     ("command", "options", "same"),
     [

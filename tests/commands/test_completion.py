@@ -54,6 +54,7 @@ OF_FILES = [
 ]
 
 
+@pytest.mark.stress
 @pytest.mark.parametrize(("typed", "offered"), OF_FILES, ids=[typed for typed, _ in OF_FILES])
 def test_tab_offers_what_the_file_has(typed, offered, tmp_path, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)

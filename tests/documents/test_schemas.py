@@ -59,6 +59,7 @@ def check(text: str) -> dict[str, Any]:
     return document
 
 
+@pytest.mark.stress
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_the_analysis_and_the_balance_of_every_example(file: Path) -> None:
     for command in (("analyze", file), ("balance", file)):

@@ -24,6 +24,8 @@ from balcli.forces.orders import find_relevant_orders
 from balcli.forces.spectrum import Spectra, compute_spectra
 from balcli.results.analysis import QUANTITIES, analyze
 
+pytestmark = pytest.mark.stress
+
 BOUNDS = {  # by row of docs/accuracy.md; roundings, or relative errors
     "closed forms": 2e-15,
     "closed forms, near the lock": 2e-14,

@@ -18,6 +18,8 @@ from support.paths import SOURCE
 
 from balcli.core.phasors import Phasors
 
+pytestmark = pytest.mark.stress
+
 SEED = 20
 
 
@@ -27,7 +29,6 @@ def place() -> Iterator[Path]:
         yield folder
 
 
-@pytest.mark.stress
 @pytest.mark.parametrize(
     ("run", "only", "count", "accepted"),
     [(fuzz.run, "force", 1700, 200), (fuzz.run, "", 300, 30), (fuzz.counted, "", 60, 6)],
@@ -62,7 +63,6 @@ def process(args: list[str], place: Path) -> fuzz.Outcome:
     )
 
 
-@pytest.mark.stress
 def test_as_processes(place):
     cases = islice((case for case in fuzz.cases(SEED + 1, 1000) if "." not in case.args), 50)
     done = [(case, process(fuzz.prepared(case, place), place)) for case in cases]
@@ -137,7 +137,6 @@ COSTLY = {
 }
 
 
-@pytest.mark.stress
 @pytest.mark.parametrize("what", COSTLY)
 def test_the_costliest_files(place, what):
     """What a file of a few bytes to 6 MB can ask for at worst, refused or not, stays below the
@@ -274,7 +273,6 @@ def test_a_search_that_cannot_end_is_refused(place, data, over, message):
     assert done.calls < fuzz.MOST_CALLS / 3
 
 
-@pytest.mark.stress
 @pytest.mark.parametrize(
     "args",
     [

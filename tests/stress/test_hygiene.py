@@ -19,6 +19,8 @@ from balcli.engine.build import Engine
 from balcli.forces.kinds import KINDS
 from balcli.forces.spectrum import compute_spectra
 
+pytestmark = pytest.mark.stress
+
 ORDERS = np.arange(1.0, 17.0)
 
 

@@ -14,6 +14,7 @@ import copy
 from typing import Any
 
 import numpy as np
+import pytest
 import tomli_w
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -24,6 +25,8 @@ from balcli.engine.build import Engine, build
 from balcli.engine.load import parse
 from balcli.forces.kinds import KINDS
 from balcli.forces.spectrum import Spectra, compute_spectra
+
+pytestmark = pytest.mark.stress
 
 SCALED = 1e-12
 ORDERS = np.arange(0.0, 9.0)

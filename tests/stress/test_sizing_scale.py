@@ -23,6 +23,8 @@ from balcli.sizing.remedy import fit_devices
 from balcli.sizing.schemes import SCHEMES
 from balcli.sizing.sizing import size
 
+pytestmark = pytest.mark.stress
+
 LEFT = 1e-12
 
 

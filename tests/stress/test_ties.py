@@ -18,6 +18,8 @@ from balcli.studies.search.objective import Objective, parse_objective
 from balcli.studies.search.search import search_arrangements
 from balcli.studies.tolerances import scatter_engine
 
+pytestmark = pytest.mark.stress
+
 ENGINES = ROOT / "engines"
 
 

@@ -100,6 +100,7 @@ def test_only_a_vee_has_a_bank_angle(text, reason):
         compute_study(engine(text), "bank")
 
 
+@pytest.mark.stress
 @pytest.mark.parametrize(
     ("what", "text"),
     [

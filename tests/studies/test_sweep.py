@@ -282,6 +282,7 @@ def test_threads_end_with_who_asks_for_their_figures(monkeypatch: pytest.MonkeyP
     assert len(boxes) <= 1 + 2 * 2 + 2
 
 
+@pytest.mark.stress
 def test_a_mistake_in_a_later_box_is_told_by_threads_too(monkeypatch: pytest.MonkeyPatch) -> None:
     """A ripple that stops the crank between the corners of the grid."""
     ripple = "[[operation.speed_ripple]]\norder = 1\namplitude = 0.6\n"

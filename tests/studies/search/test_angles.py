@@ -138,6 +138,7 @@ def found_by(file: EngineFile, over: str, wanted: Objective) -> tuple[Array, Arr
     return np.array([[r.design.given()[over], r.objective] for r in results]).T
 
 
+@pytest.mark.stress
 @pytest.mark.parametrize("seed", range(40))
 def test_no_angle_of_a_dense_sweep_is_better(seed: int) -> None:
     random = np.random.default_rng(seed)
