@@ -9,11 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import cached_property, reduce
+from functools import reduce
 from operator import add
 
 import numpy as np
 
+from .cached_property import cached_property
 from .cylinders import Cylinders, Device
 from .mechanisms.fourier import Harmonics, Series
 from .phases import SUM, Phases, Vectors

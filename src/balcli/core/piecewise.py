@@ -11,12 +11,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .cached_property import cached_property
 from .phasors import Array, Complex
 
 Function: TypeAlias = Callable[[Array], Array]  # value at angles (rad), of their shape

@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
 
+from .cached_property import cached_property
 from .peaks import Peak
 from .phasors import Array, Complex
 from .piecewise import PiecewiseCurve, cut, gauss, legendre, resolved, values_to_series

@@ -12,12 +12,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import partial
 from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 
+from ..core.cached_property import cached_property
 from ..core.phasors import Array
 from ..engine.build import Engine, build
 from ..engine.gas_figures import concerns_gas

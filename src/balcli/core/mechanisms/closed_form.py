@@ -16,12 +16,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterable
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..cached_property import cached_property
 from ..phasors import EPS, Array, Figure
 from .fourier import NONE, SERIES, Harmonics, Series
 

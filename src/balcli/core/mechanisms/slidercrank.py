@@ -18,12 +18,12 @@ neighbourhood of its zeros.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..cached_property import cached_property
 from ..phasors import Array, Complex
 from .motion import Motion
 

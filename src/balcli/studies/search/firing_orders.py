@@ -11,9 +11,9 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import islice
 
+from ...core.cached_property import cached_property
 from ...engine.firing import TOLERANCE_DEG
 from ...engine.layout import Cell
 from ...errors import BalcliError
