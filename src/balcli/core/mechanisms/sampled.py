@@ -27,7 +27,7 @@ from .fourier import (
 from .motion import Motion, Move
 
 MOST_SAMPLES = 1 << 18
-_AT_ONCE = 1 << 16  # samples: with fewer, threads wait for each other in Python; more leave the cache
+_AT_ONCE = 1 << 16  # samples: of fewer, threads hand each other Python's lock; more leave the cache
 _LIMIT = SAMPLING / 4  # of the upper half of a spectrum that holds rounding errors alone
 
 _OF_ROD: Mapping[str, Callable[[Motion], Array]] = MappingProxyType(
