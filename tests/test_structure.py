@@ -170,6 +170,10 @@ ON_REQUEST = {
         "balcli.torsion.starting_file",
     ),
     "balcli.commands.defaults": ("balcli.enginefile.toml_text",),
+    "balcli.core.mechanisms.harmonics": (
+        "balcli.core.mechanisms.sampled",
+        "balcli.core.mechanisms.slidercrank",
+    ),
     "balcli.engine.assembly": (
         "balcli.core.mechanisms.rotary",
         "balcli.engine.articulation",
@@ -181,7 +185,11 @@ ON_REQUEST = {
     "balcli.forces.spectrum": ("balcli.forces.gas",),
     "balcli.forces.symmetry": ("balcli.forces.gas_symmetry",),
     "balcli.library.arguments": ("balcli.studies.tolerances",),
-    "balcli.render.analyses": ("balcli.render.analysis",),
+    "balcli.render.analyses": ("balcli.render.analysis", "balcli.render.analysis_data"),
+    "balcli.render.analysis_data": (
+        *("balcli.render.crankshaft", "balcli.render.guide_moments"),
+        *("balcli.render.strokes", "balcli.render.symmetry"),
+    ),
     "balcli.render.formats": (
         *(f"balcli.render.{form}" for form in Format),
         "balcli.render.terminal",

@@ -15,8 +15,9 @@ from ..core.mechanisms.articulated import Articulated
 from ..core.mechanisms.linkage import STEPS, Linkage, revolution
 from ..core.mechanisms.rotary import Rotary
 from ..core.phasors import Array, Figure, unit
+from ..enginefile.articulation_tables import Articulation
 from ..enginefile.fields import counted
-from ..enginefile.model import Articulation, EngineFile
+from ..enginefile.model import EngineFile
 from ..errors import Problem
 from ..limits import NEAREST_TO_LOCK
 from .arrays import column

@@ -31,6 +31,7 @@ from .units import (
 )
 
 if TYPE_CHECKING:
+    from .articulation_tables import Articulation
     from .gas_tables import Bearing, Flywheel, Gas
     from .mounting_tables import Body, Mount, Point
     from .torsion_tables import Torsion
@@ -365,38 +366,6 @@ class Frame(Table):
     )
 
 
-class ArticulatedRod(Rod):
-    """An articulated rod, from its knuckle pin (its big end) to its piston pin."""
-
-    length: Size | None = Field(
-        None, description="from the knuckle pin to the piston pin", examples=[200]
-    )
-    cg: Length | None = Field(
-        None, description="from the knuckle pin to the centre of mass", examples=[100]
-    )
-    big_end: Mass | None = Field(
-        None, description="mass weighed at the knuckle pin, instead of mass and cg", examples=[0.3]
-    )
-
-
-class Articulation(Table):
-    """A radial with one master rod, to which the others are hinged."""
-
-    master: Count = Field(
-        1, description="number of the bank that carries the master rod", examples=[1]
-    )
-    knuckle_radius: Size = Field(
-        description="from the crank pin to the knuckle pins", examples=[55]
-    )
-    knuckle_angles: Angles | None = Field(
-        None,
-        examples=[[0, 72, 144, 216, 288]],
-        description="one for each bank, from the master rod's axis (its own is 0); left out: bank "
-        "angles from it",
-    )
-    rod: ArticulatedRod = Field(description="the articulated rods")
-
-
 class Override(Table):
     """What differs in one cylinder."""
 
@@ -495,7 +464,7 @@ class EngineFile(Table):
     bobweight: Bobweight = Bobweight.model_construct()
     operation: Operation = Operation.model_construct()
     frame: Frame = Frame.model_construct()
-    articulation: Articulation | None = None
+    articulation: "Articulation | None" = None
     gas: "Gas | None" = None
     flywheel: "Flywheel | None" = None
     bearing: "Bearing | None" = None

@@ -1,6 +1,7 @@
 """Analyses of several engines, one after the other.
 
-What is for people takes a dozen modules that JSON and CSV do without: a sheet imports them.
+What is for people takes a dozen modules that JSON and CSV do without, and these some that a sheet
+does without: each imports its own.
 """
 
 from __future__ import annotations
@@ -8,7 +9,6 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from ..results.analysis import Analysis
-from . import analysis_data
 from .csv import Rows, name_cell
 from .sheet import Sheet
 from .units import System
@@ -37,10 +37,14 @@ def sheet(one: NamedAnalysis, system: System) -> Sheet:
 
 def document(one: NamedAnalysis) -> dict[str, Any]:
     """`balcli.analysis/1`."""
+    from . import analysis_data
+
     return analysis_data.document(one.result)
 
 
 def rows(one: NamedAnalysis, system: System) -> Rows:
     """CSV: the rows of the analysis, each after the engine's name."""
+    from . import analysis_data
+
     header, lines = analysis_data.rows(one.result, system)
     return Rows(("engine", *header), ((name_cell(one.name), *line) for line in lines))

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import crankshaft, guide_moments, strokes, symmetry
 from .csv import Columns, Rows
 from .devices import device_entries
 from .figures import FigureRow, assumptions, clean, figure_rows, order_entries, peak_entries
@@ -46,12 +45,20 @@ def document(result: Analysis) -> dict[str, Any]:
             for number, spectra in result.cylinders
         ]
     if result.inner is not None:
+        from . import crankshaft
+
         found["inner"] = crankshaft.document(result.inner)
     if result.guide is not None:
+        from . import guide_moments
+
         found["guide"] = guide_moments.document(result.guide)
     if result.travel is not None:
+        from . import strokes
+
         found["travel"] = strokes.document(result.travel, result.engine.numbers)
     if result.why is not None:
+        from . import symmetry
+
         found["why"] = symmetry.document(result.why)
     return found
 
@@ -96,10 +103,18 @@ def rows(result: Analysis, system: System) -> Rows:
 def _all_rows(result: Analysis, system: System) -> Iterator[FigureRow]:
     yield from figure_rows(result, system)
     if result.travel is not None:
+        from . import strokes
+
         yield from strokes.rows(result.travel, result.engine.numbers, system)
     if result.inner is not None:
+        from . import crankshaft
+
         yield from crankshaft.rows(result.inner, system)
     if result.guide is not None:
+        from . import guide_moments
+
         yield from guide_moments.rows(result.guide, system)
     if result.why is not None:
+        from . import symmetry
+
         yield from symmetry.rows(result.why)

@@ -20,7 +20,7 @@ from .units import IMPERIAL, INCH, POUND, SI
 if TYPE_CHECKING:
     from ..enginefile.model import Counterweight
     from ..results.balance import Balance
-    from ..sizing.details import Bobweight
+    from ..sizing.scheme_figures import Bobweight
     from ..sizing.workshop import Practical
 
 WIDTH = 80

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..sizing.details import Bobweight, CardLine
+from ..sizing.scheme_figures import Bobweight, CardLine
 from .sheet import number
 
 

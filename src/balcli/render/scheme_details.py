@@ -8,17 +8,9 @@ from typing import Any
 
 from ..results.balance import Balance
 from ..sizing.bobweight_card import PISTON
-from ..sizing.details import (
-    Bobweight,
-    Detail,
-    Dimension,
-    FactorPeaks,
-    Optima,
-    Optimum,
-    PlaneNeed,
-    Range,
-)
+from ..sizing.details import Detail, Dimension, Range
 from ..sizing.device_tables import measure_direction
+from ..sizing.scheme_figures import Bobweight, FactorPeaks, Optima, Optimum, PlaneNeed
 from .bobweights import group_equal_pins, multiply, name_pins, percent
 from .figures import clean
 from .sheet import Facts, Grid, degrees, number

@@ -21,12 +21,13 @@ from ..forces.orders import find_relevant_orders
 from ..forces.spectrum import compute_spectra
 from ..limits import LARGEST_FACTOR
 from .bobweight_card import DEFINITION, NO_THROW, fill_card
-from .details import Detail, FactorPeaks, PlaneNeed
+from .details import Detail
 from .effects import LEFT, Slot
 from .fitting import Fitting
 from .options import SchemeOptions
 from .planes import SAME_PLACE, read_planes
 from .remedy import Remedy, fit_devices
+from .scheme_figures import FactorPeaks, PlaneNeed
 
 COMPLETE = "nothing is missing: the counterweights of the file balance this factor"
 OWN_PLACES = (

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ..engine.build import Engine, Weighed
-from .details import Bobweight, CardLine
+from .scheme_figures import Bobweight, CardLine
 
 DEFINITION = (
     "bobweight of a crank pin = rotating mass + factor x reciprocating mass of the rods on that "

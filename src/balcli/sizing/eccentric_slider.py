@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from ..core.mechanisms import closed_form
 from ..core.phasors import Array, Complex
 from ..errors import BalcliError
-from .details import Optimum
+from .scheme_figures import Optimum
 
 DESIGNS = ("a", "b")  # pin on the shaft, slot in the disc; pin on the disc, slot on the shaft
 CRITERIA = ("largest", "mean")

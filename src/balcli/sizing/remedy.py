@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
-from typing import NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from ..core.cylinders import Device
 from ..engine.build import Engine
 from ..engine.devices import build_device
 from ..enginefile.model import Counterweight, EngineFile, Shaft, Slider
-from .details import Bobweight, Detail, FactorPeaks, Optima, PlaneNeed
+from .details import Detail
 from .device_tables import KINDS, DeviceTable, find_free
+
+if TYPE_CHECKING:
+    from .scheme_figures import Bobweight, FactorPeaks, Optima, PlaneNeed
 
 T = TypeVar("T")
 

@@ -10,13 +10,14 @@ from ..core.cylinders import Device
 from ..core.phasors import unit
 from ..engine.build import Engine
 from ..errors import BalcliError
-from .details import Detail, Optima, Optimum
+from .details import Detail
 from .eccentric_slider import expand_shaft_wave, find_optima
 from .effects import Slot
 from .fitting import Fitting
 from .options import SchemeOptions
 from .remedy import Remedy
 from .residual import FORWARD_FORCE
+from .scheme_figures import Optima, Optimum
 
 _SMALLEST = 1e-17  # harmonics of the shafts below this share are left out
 _ECCENTRIC_SLIDER = (

@@ -19,8 +19,8 @@ from ..forces.spectrum import compute_spectra
 from ..results.analysis import Analysis, analyze, load_crankshaft
 from ..results.balance import balance
 from ..sizing.balance_factor import find_best_factor
-from ..sizing.details import FactorPeaks
 from ..sizing.options import SchemeOptions
+from ..sizing.scheme_figures import FactorPeaks
 from ..sizing.sizing import size
 from ..torque.pictures import PAGES, GasPictures, compute_pictures
 

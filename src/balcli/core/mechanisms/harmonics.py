@@ -14,8 +14,6 @@ from ..phasors import EPS, Array
 from . import closed_form
 from .distinct import find_distinct
 from .fourier import SERIES, Harmonics, Rows, join_mechanisms
-from .sampled import sample_mechanisms
-from .slidercrank import SliderCrank
 
 HARDEST = 1 << 16  # samples of a revolution that a mechanism takes at 1 - 1e-6 of its lock
 CLOSED_FORM = 4096  # highest order of closed forms; only mechanisms near their lock have more
@@ -109,5 +107,8 @@ def sample_harmonics(
         wanted: names of series (`fourier.SERIES`).
         highest: of all orders for which the samples must be enough.
     """
+    from .sampled import sample_mechanisms
+    from .slidercrank import SliderCrank
+
     counts = count_samples(lam, eps, highest)
     return sample_mechanisms(orders, wanted, SliderCrank, (lam, eps), counts).as_harmonics()

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...sizing.details import FactorPeaks
+from ...sizing.scheme_figures import FactorPeaks
 from ..sheet import size_text
 from ..units import Unit
 from .axes import LOOKS

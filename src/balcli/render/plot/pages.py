@@ -12,7 +12,7 @@ from ...core.phasors import Phasors
 from ...forces.crankshaft import InnerLoads
 from ...forces.kinds import KINDS, ROLL, SCALARS, VECTORS
 from ...results.analysis import Analysis
-from ...sizing.details import FactorPeaks
+from ...sizing.scheme_figures import FactorPeaks
 from ...studies.pictures import Banks
 from ...torque.pictures import GasPictures
 from ..sheet import NAMELESS, NEGLIGIBLE, NOTHING, size_text
