@@ -10,6 +10,7 @@ from support.engines import GOOD, changed
 
 from balcli.engine.load import parse
 from balcli.enginefile import model
+from balcli.enginefile.articulation_tables import ArticulatedRod
 from balcli.errors import InputError
 
 
@@ -97,7 +98,7 @@ rod = { length = 120, mass = 0.4, cg = 60 }
     )
     assert engine.articulation is not None
     assert (engine.articulation.master, engine.articulation.knuckle_angles) == (1, None)
-    assert engine.articulation.rod == model.ArticulatedRod(length=120, mass=0.4, cg=60)
+    assert engine.articulation.rod == ArticulatedRod(length=120, mass=0.4, cg=60)
 
 
 @pytest.mark.parametrize(

@@ -26,8 +26,8 @@ TABLES: dict[str, type[model.Table]] = {
     "operation": model.Operation,
     "frame": model.Frame,
 }
-# Tables of chapters beyond balance: the module of each, imported for files that have the table. Its
-# class is called like the key.
+# Tables that few engines have, or of chapters beyond balance: the module of each, imported for
+# files that have the table. Its class is called like the key.
 CHAPTERS = {
     "articulation": "articulation_tables",
     "gas": "gas_tables",
