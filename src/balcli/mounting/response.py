@@ -35,9 +35,9 @@ from ..forces.spectrum import Spectra, compute_spectra
 from ..limits import MOST_MOUNT_RESULTS
 from .build import MountedBody
 from .modes import BodyModes
+from .motions import ROLL
 
 _KINDS = ("force", "moment", "roll")
-_ROLL = 5  # of the six parts of a load, the moment about the crankshaft's axis
 _CLOSER = 20  # golden sections of the step of speed about a highest peak: 1e-4 of it
 _SPEEDS_AT_A_TIME = 512  # whose curves are sampled together
 _GOLDEN = (3 - 5**0.5) / 2
@@ -149,7 +149,7 @@ def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Load
     loads = Loads(found.orders, inertia, float(engine.omega))
     if engine.gas is not None:
         gas = np.zeros_like(inertia)
-        gas[:, _ROLL] = -found["gas"].x
+        gas[:, ROLL] = -found["gas"].x
         mean = compute_spectra(engine, [0.0], ["gas"])["gas"].x[0].real
         loads = replace(loads, gas=gas, mean=-float(mean))
     return loads if orders is not None else _leave_out_none(loads)
