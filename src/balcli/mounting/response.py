@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.cycle_peaks import find_longest, largest_of_ellipse
+from ..core.golden_section import find_highest
 from ..core.rigid_body import (
     BodyResponse,
     carry_points,
@@ -38,9 +39,7 @@ from .modes import BodyModes
 from .motions import ROLL
 
 _KINDS = ("force", "moment", "roll")
-_CLOSER = 20  # golden sections of the step of speed about a highest peak: 1e-4 of it
 _SPEEDS_AT_A_TIME = 512  # whose curves are sampled together
-_GOLDEN = (3 - 5**0.5) / 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -281,17 +280,8 @@ def _find_worst(
         own = press(at)[:, each, each]
         return own, find_longest(loads.orders, own).value
 
-    one, two = low + _GOLDEN * (high - low), high - _GOLDEN * (high - low)
-    at_one, at_two = evaluate(one)[1], evaluate(two)[1]
-    for _ in range(_CLOSER):
-        left = at_one >= at_two
-        low, high = np.where(left, low, one), np.where(left, two, high)
-        new = np.where(left, low + _GOLDEN * (high - low), high - _GOLDEN * (high - low))
-        at_new = evaluate(new)[1]
-        one, two = np.where(left, new, two), np.where(left, one, new)
-        at_one, at_two = np.where(left, at_new, at_two), np.where(left, at_one, at_new)
-    best = np.where(at_one >= at_two, one, two)
-    best = np.where(np.maximum(at_one, at_two) > peaks[top, each], best, omega[top])
+    place, highest = find_highest(lambda at: evaluate(at)[1], low, high)
+    best = np.where(highest > peaks[top, each], place, omega[top])
     own, value = evaluate(best)
     alone = largest_of_ellipse(own)
     leading = alone.argmax(axis=0)
