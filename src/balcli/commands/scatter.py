@@ -107,28 +107,24 @@ def scatter(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = text_format(output, form)
+    from ..studies import part_scatter, tolerances
     from ..studies.quantities import parse_quantities, part_quantities
-    from ..studies.tolerances import (
-        RANDOM_ENGINES,
-        parse_percentage,
-        parse_tolerances,
-        scatter_engine,
-    )
     from .inputs import read_engine
 
-    tolerances = parse_tolerances(mass, length, angle)
-    share = None if stiffness is None else parse_percentage(stiffness, "--stiffness-scatter")
+    within = tolerances.parse_tolerances(mass, length, angle)
+    share = None
+    if stiffness is not None:
+        share = tolerances.parse_percentage(stiffness, "--stiffness-scatter")
     _, model, engine = read_engine(path, asked=())
     names = DEFAULT_QUANTITIES if quantity is None else quantity
     asked, of_parts = part_quantities(parse_quantities(names, with_gas=model.gas is not None))
     if quantity is None:
         asked = _leave_out_unknown(engine, asked, name_file(path))
-    draw, usual = partial(scatter_engine, model, tolerances, asked), RANDOM_ENGINES
+    draw = partial(tolerances.scatter_engine, model, within, asked)
+    usual = tolerances.RANDOM_ENGINES
     if of_parts:
-        from ..studies.part_scatter import RANDOM_SETS, scatter_parts
-
-        draw = partial(scatter_parts, model, share, tolerances.mass, of_parts)
-        usual = RANDOM_SETS
+        draw = partial(part_scatter.scatter_parts, model, share, within.mass, of_parts)
+        usual = part_scatter.RANDOM_SETS
     count = usual if samples is None else samples
     with reporting_until_stopped("samples", count) as progress:
         found = draw(count, seed, distribution.value, progress)
