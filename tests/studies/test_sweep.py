@@ -164,7 +164,7 @@ def test_boxes_are_the_smaller_the_more_each_variant_needs(
     assert size_boxes(asked(engine, vary, of=of)).variants <= most
 
 
-@pytest.mark.parametrize(("rows", "lengths"), [(1, [1] * 20), (7, [2] * 10), (1000, [8, 8, 4])])
+@pytest.mark.parametrize(("rows", "lengths"), [(1, [1] * 20), (8, [2] * 10), (1000, [8, 8, 4])])
 def test_groups_of_boxes_are_whole_and_in_order(rows: int, lengths: list[int]) -> None:
     """20 boxes of 3 variants: by eight, or as many as have so many rows, and one at least."""
     boxes = list(divide_grid((60,), 3))
