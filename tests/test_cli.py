@@ -682,7 +682,8 @@ IMPORTED = {
     "speed_ripple",
     "core.mechanisms": "closed_form distinct fourier harmonics",
     "engine": "arrays assembly build devices figures firing layout load positions rods rules",
-    "enginefile": "exclusive fields messages model plain_tables read suspicious toml_text units",
+    "enginefile": "exclusive fields messages model plain_tables read suspicious toml_text unit_table "
+    "units",
     "forces": "kinds orders spectrum",
     "render": "analyses analysis_data csv devices figures formats json sheet units view",
     "results": "analysis",
