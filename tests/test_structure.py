@@ -203,6 +203,8 @@ ON_REQUEST = {
     ),
     "balcli.commands.inputs": ("balcli.enginefile.assumed",),
     "balcli.commands.output": ("balcli.files",),
+    "balcli.commands.torque_options": ("balcli.enginefile.edit",),
+    "balcli.torque.analysis": ("balcli.torque.find_loads",),
     "balcli.commands.scatter": ("balcli.studies.part_scatter",),
     "balcli.studies.curves": ("balcli.torque.curves",),
 }
