@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ..engine.build import Engine
     from ..forces.quantity import Quantity
 
-_ENGINES, _SETS_OF_PARTS = 100_000, 500
+_ENGINES, _ONE_BY_ONE = 100_000, 500
 
 
 class Distribution(StrEnum):
@@ -65,7 +65,8 @@ def scatter(
         int | None,
         typer.Option(
             "--samples",
-            help="Number of random engines, 100000; of random mounts or crankshafts, 500.",
+            help="Number of random engines, 100000; of those computed one by one (torque over the "
+            "cycle, guides, mounts, torsion), 500.",
             show_default=False,
         ),
     ] = None,
@@ -93,8 +94,9 @@ def scatter(
             metavar="WHAT,...",
             show_default=DEFAULT_QUANTITIES,
             autocompletion=complete_quantities,
-            help="As force.1.major, couple.4.amplitude; of mounts, as mode.roll.Hz, "
-            "mount.left.force; or of torsion, as torsion.1.Hz, shaft.flywheel.torque.",
+            help="As force.1.major, couple.4.amplitude; of the cycle, as torque.max, fluctuation, "
+            "guide.6.H; of mounts, as mode.roll.Hz, mount.left.force; or of torsion, as "
+            "torsion.1.Hz, shaft.flywheel.torque.",
         ),
     ] = None,
     form: FormatOption = None,
@@ -109,7 +111,7 @@ def scatter(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = text_format(output, form)
-    from ..studies.quantities import parse_quantities, part_quantities
+    from ..studies.quantities import parse_quantities, sort_scattered
     from ..studies.tolerances import parse_percentage, parse_tolerances, scatter_engine
     from .inputs import read_engine
 
@@ -117,11 +119,17 @@ def scatter(
     share = None if stiffness is None else parse_percentage(stiffness, "--stiffness-scatter")
     _, model, engine = read_engine(path, asked=())
     names = DEFAULT_QUANTITIES if quantity is None else quantity
-    asked, of_parts = part_quantities(parse_quantities(names, with_gas=model.gas is not None))
+    asked, of_cycle, of_parts = sort_scattered(
+        parse_quantities(names, with_gas=model.gas is not None)
+    )
     if quantity is None:
         asked = _leave_out_unknown(engine, asked, name_file(path))
-    count = samples if samples is not None else _SETS_OF_PARTS if of_parts else _ENGINES
+    count = samples if samples is not None else _ENGINES if asked else _ONE_BY_ONE
     draw = partial(scatter_engine, model, tolerances, asked)
+    if of_cycle:
+        from ..studies.cycle_scatter import scatter_cycles
+
+        draw = partial(scatter_cycles, model, tolerances, of_cycle)
     if of_parts:
         from ..studies.part_scatter import scatter_parts
 
