@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import StrEnum
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
@@ -20,7 +21,11 @@ from .progress import exit_if_cut_short, reporting_until_stopped
 
 if TYPE_CHECKING:
     from ..engine.build import Engine
+    from ..enginefile.model import EngineFile
     from ..forces.quantity import Quantity
+    from ..studies.deviations import Tolerances
+    from ..studies.quantities import Scattered
+    from ..studies.tolerances import Scatter
 
 _ENGINES, _ONE_BY_ONE = 100_000, 500
 
@@ -111,8 +116,8 @@ def scatter(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = text_format(output, form)
-    from ..studies.quantities import parse_quantities, sort_scattered
-    from ..studies.tolerances import parse_percentage, parse_tolerances, scatter_engine
+    from ..studies.quantities import Scattered, parse_quantities, sort_scattered
+    from ..studies.tolerances import parse_percentage, parse_tolerances
     from .inputs import read_engine
 
     tolerances = parse_tolerances(mass, length, angle)
@@ -125,19 +130,28 @@ def scatter(
     if quantity is None:
         asked = _leave_out_unknown(engine, asked, name_file(path))
     count = samples if samples is not None else _ENGINES if asked else _ONE_BY_ONE
-    draw = partial(scatter_engine, model, tolerances, asked)
-    if of_cycle:
-        from ..studies.cycle_scatter import scatter_cycles
-
-        draw = partial(scatter_cycles, model, tolerances, of_cycle)
-    if of_parts:
-        from ..studies.part_scatter import scatter_parts
-
-        draw = partial(scatter_parts, model, share, tolerances.mass, of_parts)
+    draw = _choose_way(model, tolerances, share, Scattered(asked, of_cycle, of_parts))
     with reporting_until_stopped("samples", count) as progress:
         found = draw(count, seed, distribution.value, progress)
     show([found], renderer, form, output)
     exit_if_cut_short(progress, "the figures are of these")
+
+
+def _choose_way(
+    model: EngineFile, tolerances: Tolerances, stiffness: float | None, asked: Scattered
+) -> Callable[..., Scatter]:
+    """What draws the samples, by their number, seed, distribution and who is told of them."""
+    if asked.of_cycle:
+        from ..studies.cycle_scatter import scatter_cycles
+
+        return partial(scatter_cycles, model, tolerances, asked.of_cycle)
+    if asked.of_parts:
+        from ..studies.part_scatter import scatter_parts
+
+        return partial(scatter_parts, model, stiffness, tolerances.mass, asked.of_parts)
+    from ..studies.tolerances import scatter_engine
+
+    return partial(scatter_engine, model, tolerances, asked.by_order)
 
 
 def _leave_out_unknown(
