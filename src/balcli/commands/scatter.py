@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from ..studies.quantities import Scattered
     from ..studies.tolerances import Scatter
 
-_ENGINES, _ONE_BY_ONE = 100_000, 500
-
 
 class Distribution(StrEnum):
     """How figures deviate within their tolerances."""
@@ -120,7 +118,7 @@ def scatter(
     from ..studies.tolerances import parse_percentage, parse_tolerances
     from .inputs import read_engine
 
-    tolerances = parse_tolerances(mass, length, angle)
+    within = parse_tolerances(mass, length, angle)
     share = None if stiffness is None else parse_percentage(stiffness, "--stiffness-scatter")
     _, model, engine = read_engine(path, asked=())
     names = DEFAULT_QUANTITIES if quantity is None else quantity
@@ -129,8 +127,8 @@ def scatter(
     )
     if quantity is None:
         asked = _leave_out_unknown(engine, asked, name_file(path))
-    count = samples if samples is not None else _ENGINES if asked else _ONE_BY_ONE
-    draw = _choose_way(model, tolerances, share, Scattered(asked, of_cycle, of_parts))
+    draw, usual = _choose_way(model, within, share, Scattered(asked, of_cycle, of_parts))
+    count = usual if samples is None else samples
     with reporting_until_stopped("samples", count) as progress:
         found = draw(count, seed, distribution.value, progress)
     show([found], renderer, form, output)
@@ -138,20 +136,21 @@ def scatter(
 
 
 def _choose_way(
-    model: EngineFile, tolerances: Tolerances, stiffness: float | None, asked: Scattered
-) -> Callable[..., Scatter]:
-    """What draws the samples, by their number, seed, distribution and who is told of them."""
+    model: EngineFile, within: Tolerances, stiffness: float | None, asked: Scattered
+) -> tuple[Callable[..., Scatter], int]:
+    """What draws the samples, by their number, seed, distribution and who is told of them; and
+    their usual number.
+    """
+    from ..studies import cycle_scatter, part_scatter, tolerances
+    from ..studies.spread_one_by_one import RANDOM_SINGLES
+
     if asked.of_cycle:
-        from ..studies.cycle_scatter import scatter_cycles
-
-        return partial(scatter_cycles, model, tolerances, asked.of_cycle)
+        return partial(cycle_scatter.scatter_cycles, model, within, asked.of_cycle), RANDOM_SINGLES
     if asked.of_parts:
-        from ..studies.part_scatter import scatter_parts
-
-        return partial(scatter_parts, model, stiffness, tolerances.mass, asked.of_parts)
-    from ..studies.tolerances import scatter_engine
-
-    return partial(scatter_engine, model, tolerances, asked.by_order)
+        draw = partial(part_scatter.scatter_parts, model, stiffness, within.mass, asked.of_parts)
+        return draw, RANDOM_SINGLES
+    draw = partial(tolerances.scatter_engine, model, within, asked.by_order)
+    return draw, tolerances.RANDOM_ENGINES
 
 
 def _leave_out_unknown(

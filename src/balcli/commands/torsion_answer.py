@@ -39,8 +39,17 @@ def require_options(asked: Question, write: Path | None, plot: Path | None, what
         )
     if plot is None and what != "all":
         raise BalcliError(f"--what {what}: give --plot and a file for the picture")
-    if what in ("response", "waterfall") and asked.speeds_rpm is None:
-        raise BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")
+    if _lacks_range(asked, what):
+        raise _range_missing(what)
+
+
+def _lacks_range(asked: Question, what: str) -> bool:
+    """Whether a picture is over speed, and no range of speeds was given."""
+    return asked.speeds_rpm is None and what in ("response", "waterfall")
+
+
+def _range_missing(what: str) -> BalcliError:
+    return BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")
 
 
 def find_answer(
@@ -74,10 +83,10 @@ def make_figures_of_torsion(
     """
     asked = Question(parse_speeds(speeds), parse_half_orders(orders))
     source = load_source(path, asked.orders)
-    of_speeds = [page for page in pages if page in ("response", "waterfall")]
-    if asked.speeds_rpm is None and of_speeds:
+    without = [page for page in pages if _lacks_range(asked, page)]
+    if without:
         if isinstance(source, ChainSource):
-            raise BalcliError(f"--what {of_speeds[0]}: give the range, such as --speeds 1000:2500")
+            raise _range_missing(without[0])
         asked = asked._replace(speeds_rpm=choose_speeds(source.engine))
     found = answer_question(source, asked)
     for page in pages:

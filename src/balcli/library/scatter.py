@@ -14,10 +14,9 @@ from ..studies.cycle_scatter import scatter_cycles
 from ..studies.deviations import Tolerances
 from ..studies.part_scatter import scatter_parts
 from ..studies.quantities import parse_quantities, sort_scattered
-from ..studies.tolerances import Scatter, scatter_engine
+from ..studies.spread_one_by_one import RANDOM_SINGLES
+from ..studies.tolerances import RANDOM_ENGINES, Scatter, scatter_engine
 from .arguments import Words, check_count, join_words, read_share
-
-ENGINES, ONE_BY_ONE = 100_000, 500
 
 
 def scatter(
@@ -66,8 +65,8 @@ def scatter(
     names = DEFAULT_QUANTITIES if asked is None else asked
     wanted = parse_quantities(names, with_gas=model.gas is not None)
     of_engine, of_cycle, of_parts = sort_scattered(wanted)
-    count = ENGINES if of_engine else ONE_BY_ONE
-    count = count if samples is None else check_count("samples", samples)
+    usual = RANDOM_ENGINES if of_engine else RANDOM_SINGLES
+    count = usual if samples is None else check_count("samples", samples)
     seed = None if seed is None else check_count("seed", seed, 0)
     if distribution not in ("uniform", "normal"):
         raise BalcliError(f'distribution {distribution!r}: choose "uniform" or "normal"')

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .deviations import Source
     from .part_scatter import PartSource
 
+RANDOM_SINGLES = 500  # samples, unless their number is given: each takes milliseconds
 _ROUNDING = 1e-12  # of a figure: a smaller change of it is none
 _LEAST = -0.99  # relative deviation: a normal one makes no mass and no spring negative
 
