@@ -15,6 +15,7 @@ from ..torque.flywheel import Flywheel, Speed
 from ..torque.given_curve import CurveAnalysis
 from ..torque.loads import Load
 from .csv import Rows
+from .engine_facts import tell_strokes
 from .figures import FigureRow, clean, order_entries, order_rows, peak_deg
 from .sheet import NAMELESS, Facts, Grid, Sheet, degrees, number, order_name, order_number
 from .units import ENERGY, System, Unit
@@ -278,7 +279,8 @@ def _load_table(
 
 def _work_facts(result: TorqueAnalysis, system: System) -> Facts:
     gas = result.max_pressure
-    pairs = [("speed", f"{number(float(result.engine.speed_rpm), 6)} rpm")]
+    pairs = [("cycle", f"{tell_strokes(result.engine)}, {_whole(result.cycle_deg)} deg")]
+    pairs.append(("speed", f"{number(float(result.engine.speed_rpm), 6)} rpm"))
     pairs.append(("mean pressure", f"{number(result.imep / 1e5)} bar indicated"))
     if result.bmep is not None:
         pairs[-1] = (pairs[-1][0], f"{pairs[-1][1]}, {number(result.bmep / 1e5)} bar brake")
