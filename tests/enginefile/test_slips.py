@@ -2,13 +2,17 @@
 word.
 """
 
+import tomllib
+
 import pytest
 from support.commands import run_here
 from support.engines import GOOD, changed
 
+from balcli import load
 from balcli.engine.load import parse
 from balcli.enginefile.suspicious import find_suspicious
 from balcli.enginefile.units import LENGTH, SPEED, convert
+from balcli.errors import InputError
 
 NOT_TOML = "is not valid TOML: "
 
@@ -72,6 +76,48 @@ def test_other_words_for_a_key_lead_to_it(tmp_path, old, new, meant):
     file = tmp_path / "words.toml"
     file.write_text(text.replace(old, new, 1))
     assert meant in run_here("analyze", file).err
+
+
+COUNT = "the number of cylinders follows from throws and banks; give every throw its angle, such as"
+KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes a vee"
+
+
+@pytest.mark.parametrize(
+    ("keys", "answer"),
+    [
+        ({"layout": {"cylinders": 7}}, f"layout.cylinders: unknown key in [layout]; {COUNT}"),
+        ({"cylinders": 4}, f"cylinders: unknown key in an engine file; {COUNT}"),
+        ({"cylinder": 4}, f"cylinder: does not name a cylinder; {COUNT}"),
+        ({"cylinder": {"bore": 80}}, "cylinder.bore: does not name a cylinder; bore belongs to [piston]"),
+        ({"engine": {"cylinders": 4}}, f"engine.cylinders: there is no table [engine]; {COUNT}"),
+        ({"engine": {"bore": 80}}, "engine.bore: there is no table [engine]; bore belongs to [piston]"),
+        ({"engine": {"rpm": 80}}, "engine.rpm: there is no table [engine]; did you mean speed of [operation]?"),
+        ({"foo": {"bar": 1}}, "foo.bar: there is no table [foo]"),
+        ({"crank": {"radius": 45}}, "crank.radius: unknown key in [crank]; give crank.stroke, which is twice the crank"),
+        ({"crank": {"strokes": 4}}, "crank.strokes: unknown key in [crank]; strokes belongs to [layout]"),
+        ({"crank": {"phase": [0, 180]}}, "crank.phase: unknown key in [crank]; did you mean throws?"),
+        ({"bore": 80}, "bore: unknown key in an engine file; bore belongs to [piston]"),
+        ({"mass": 80}, "mass: unknown key in an engine file; mass belongs to [rod] or [piston]"),
+        ({"rpm": 3000}, "rpm: unknown key in an engine file; did you mean speed of [operation]?"),
+        ({"lambda": 0.3}, "lambda: unknown key in an engine file; did you mean ratio of [rod]?"),
+        ({"rod": {"lambda": 0.3}}, "rod.lambda: unknown key in [rod]; did you mean ratio?"),
+        ({"rod": {"l": 130}}, "rod.l: unknown key in [rod]; did you mean length?"),
+        ({"rod": {"name": "x"}}, "rod.name: unknown key in [rod]; name stands at the head of the file, above all tables"),
+        ({"piston": {"weight": 1}}, "piston.weight: unknown key in [piston]; did you mean mass?"),
+        ({"layout": {"angle": 60}}, "layout.angle: unknown key in [layout]; did you mean bank_angle?"),
+        ({"layout": {"type": "V"}}, f"layout.type: unknown key in [layout]; {KIND}"),
+        ({"layout": {"stroke": 90}}, "layout.stroke: unknown key in [layout]; stroke belongs to [crank]"),
+        ({"units": "in"}, "units: unknown key in an engine file; bare numbers are mm, kg, degrees and rpm;"),
+        ({"displacement": 2}, "displacement: unknown key in an engine file; the displacement follows from"),
+    ],
+)  # fmt: skip
+def test_keys_of_newcomers_are_answered_with_what_to_write_instead(keys, answer):
+    tables = tomllib.loads(GOOD)
+    for name, value in keys.items():
+        tables[name] = tables.get(name, {}) | value if isinstance(value, dict) else value
+    with pytest.raises(InputError) as error:
+        load(tables)
+    assert str(error.value).partition(": ")[2].startswith(answer)
 
 
 def test_files_words_and_options_that_were_nearly_right(tmp_path, monkeypatch):

@@ -25,7 +25,7 @@ from .devices import (
 )
 from .figures import assumptions, figure_rows
 from .overview import find_orders_that_matter, tell_others
-from .scheme_details import details_document, details_parts
+from .scheme_details import details_document, details_parts, tell_growing_rolls
 from .sheet import (
     NAMELESS,
     NOTHING,
@@ -57,8 +57,8 @@ def sheet(result: Balance, system: System) -> Sheet:
     else:
         why = () if remedy.note or not known else ("Orders 1 and 2 are balanced.",)
         parts.append(Text("Nothing is fitted", why))
-    if remedy.note:
-        parts.append(Text("Note", (remedy.note,)))
+    if notes := tuple(filter(None, (remedy.note, *tell_growing_rolls(remedy, system)))):
+        parts.append(Text("Note", notes))
     if not known:
         parts.append(Text("Forces alone", (capitalized(f"{MOMENTS_UNKNOWN}."),)))
     parts += _permitted(result, system)

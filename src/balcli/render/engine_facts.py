@@ -45,6 +45,7 @@ def engine_facts(
         ("crank", _crank(engine, system)),
         ("throws", _throws(engine)),
         ("firing" if engine.fires_deg else "cycle", _firing(engine)),
+        ("no gas in", list_silent(engine)),
         ("speed", _speeds(engine, speeds_rpm) if len(speeds_rpm) > 1 else _speed(engine)),
         ("masses", _masses(engine, system, whole=whole)),
         ("devices", devices),
@@ -161,15 +162,26 @@ def _firing(engine: Engine) -> str:
     instants = [*engine.fires_deg.values(), 180.0 * engine.strokes]
     gaps = [b - a for a, b in pairwise(instants)]
     if max(gaps) - min(gaps) < EVEN_DEG:
-        intervals = f"every {gaps[0]:.4g}"
+        intervals, even = f"every {gaps[0]:.4g}", ""
     else:
         intervals = f"after {', '.join(f'{gap:.4g}' for gap in gaps)}"
-    return f"{'-'.join(map(str, engine.fires_deg))}, {intervals} deg, {tell_strokes(engine)}"
+        splay = engine.splay_for_even_firing
+        even = "" if splay is None else f" (evenly with crank.splay = {splay:g})"
+    order = "-".join(map(str, engine.fires_deg))
+    return f"{order}, {intervals} deg{even}, {tell_strokes(engine)}"
 
 
 def tell_strokes(engine: Engine) -> str:
     """`four-stroke` or `two-stroke`."""
     return "two-stroke" if engine.strokes == 2 else "four-stroke"
+
+
+def list_silent(engine: Engine) -> str:
+    """Numbers of the cylinders without gas, where there is gas in others."""
+    if engine.gas is None:
+        return ""
+    shares = zip(engine.numbers, engine.gas.cylinders, strict=True)
+    return ", ".join(str(n) for n, c in sorted(shares, key=lambda pair: pair[0]) if not c.share)
 
 
 def _knows_strokes(engine: Engine) -> bool:
