@@ -218,6 +218,16 @@ def practical_entry(p: Practical) -> dict[str, float | None]:
     return entry
 
 
+def practical_columns(p: Practical) -> Iterator[tuple[str, float | None, str]]:
+    """Name, value and unit of every workshop's figure but the unbalance, which the device has."""
+    for key, value in practical_entry(p).items():
+        name, _, unit = key.rpartition("_")
+        if unit in ("kg", "mm", "N", "rpm", "deg"):
+            yield name, value, unit
+        elif key == "holes":
+            yield key, value, ""
+
+
 def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, Any, str]]:
     """Name, value and unit of every figure of a device, as an engine file would say it."""
     length, unbalance = system.length, system.unbalance
