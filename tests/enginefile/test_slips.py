@@ -3,6 +3,7 @@ word.
 """
 
 import tomllib
+from pathlib import Path
 
 import pytest
 from support.commands import run_here
@@ -152,3 +153,85 @@ def test_a_crosshead_engine_is_ordinary():
         "[piston]\nbore = 500\nmass = 4800\n[layout]\nstrokes = 2\n[operation]\nspeed = 124\n"
     )
     assert find_suspicious(slow) == []
+
+
+def test_the_head_says_two_or_four_strokes_where_the_file_does(tmp_path):
+    for old, new, word in (
+        ("stroke = 90", "stroke = 90", "four-stroke"),
+        ("[layout]", "[layout]\nstrokes = 2", "two-stroke"),
+    ):
+        file = tmp_path / "strokes.toml"
+        file.write_text(changed((old, new), ("throws = [0, 180, 180, 0]", "")))
+        assert f"deg, {word}\n" in run_here("analyze", file).out
+    file.write_text(changed(("firing_order = [1, 3, 4, 2]", "")))
+    assert "stroke\n" not in run_here("analyze", file).out
+    file.write_text(changed(("firing_order = [1, 3, 4, 2]", "strokes = 4")))
+    assert "cycle      four-stroke\n" in run_here("analyze", file).out
+
+
+def test_short_names_of_numbers_are_understood_where_one_number_has_them(tmp_path):
+    file = tmp_path / "i4.toml"
+    file.write_text(GOOD)
+
+    def swept(name):
+        return run_here("sweep", file, "--vary", f"{name}=80,90", "-q", "force.2.major")
+
+    for name, path in (
+        ("rpm", "operation.speed"),
+        ("speed", "operation.speed"),
+        ("stroke", "crank.stroke"),
+    ):
+        assert swept(name).out == swept(path).out
+        assert swept(path).out.startswith(f"{path},force.2.major\n")
+    assert swept("mass").err.endswith("did you mean rod.mass or piston.mass?\n")
+
+
+def test_what_a_command_cannot_do_names_the_one_that_does(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("i4.toml").write_text(GOOD)
+    told = run_here("compare", "i4.toml", "i4.toml", "--only", "verdict").err
+    assert told == (
+        "balcli: --only verdict: is of one engine; balcli analyze i4.toml i4.toml --only verdict "
+        "shows each\n"
+    )
+    told = run_here("tables", "kvasnikov").err
+    assert told == "balcli: 'kvasnikov' is the source of kvasnikov-1 and kvasnikov-2: name one\n"
+    told = run_here("sweep", "i4.toml", "--vary", "rpm=1,2", "--scheme", "auto").err
+    assert "balcli balance FILE --scheme NAME --write FITTED.toml" in told
+
+
+def test_a_search_says_that_the_best_is_an_end_of_the_range(tmp_path):
+    file = tmp_path / "i4.toml"
+    file.write_text(GOOD)
+    search = ("search", file, "--minimise", "force.2.major", "--over")
+    assert (
+        "The best rod.length is an end of the range" in run_here(*search, "rod.length=140:180").out
+    )
+    search = ("search", file, "--minimise", "force.1.major", "--over")
+    assert "an end of the range" not in run_here(*search, "crank.throws.2=90:270").out
+
+
+def test_a_place_that_makes_the_roll_grow_is_told_so(tmp_path):
+    file = tmp_path / "twin.toml"
+    file.write_text(
+        changed(
+            ("throws = [0, 180, 180, 0]", "throws = [0, 90]"), ("firing_order = [1, 3, 4, 2]", "")
+        )
+    )
+    near, far = (
+        run_here("balance", file, "--scheme", "single-shaft", f"--at={at}").out
+        for at in ("0,0", "-200,90")
+    )
+    assert "The roll of order 1 grows by " in far
+    assert "grows by" not in near
+
+
+def test_a_project_file_whose_table_is_none_is_refused(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("BALCLI_CONFIG", raising=False)
+    Path("i4.toml").write_text(GOOD)
+    Path("pyproject.toml").write_text("tool.balcli = 3\n")
+    assert run_here("analyze", "i4.toml").err == (
+        f"balcli: {Path('pyproject.toml').resolve()}: tool.balcli: 3 stands where a table belongs; "
+        "write [tool.balcli] and its keys below it\n"
+    )

@@ -189,7 +189,7 @@ def test_a_force_has_no_free_place():
     """The shafts of a four at +2 and -2 add a roll wherever they stand but on the crank axis."""
     table = run_here("analyze", I4, "--only", "sizing").out
     assert "free: " not in table
-    assert "At 0, 0, where the crank is, a shaft adds no roll: elsewhere it does." in table
+    assert "At 0, 0, the crank's centre line, a shaft adds no roll; elsewhere" in table
 
 
 def test_the_file_says_which_are_free(tmp_path):

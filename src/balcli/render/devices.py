@@ -57,7 +57,10 @@ def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Ite
         yield "free: the shaft may stand anywhere, for it makes a moment alone."
     shafts = zip(devices, free, strict=True)
     if any(isinstance(d, Shaft) and not any(d.at) and not anywhere for d, anywhere in shafts):
-        yield "At 0, 0, where the crank is, a shaft adds no roll: elsewhere it does."
+        yield (
+            "At 0, 0, the crank's centre line, a shaft adds no roll; elsewhere, where a real one "
+            "stands, it does."
+        )
 
 
 def _grid_row(device: DeviceTable, free: bool, system: System) -> tuple[str, ...]:
