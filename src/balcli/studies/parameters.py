@@ -16,12 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..engine.layout import plan_cylinders
-from ..enginefile.fields import Number, nearest
+from ..enginefile.fields import Number, nearest, shorten
 from ..enginefile.model import EngineFile, Override, Table
 from ..enginefile.units import convert
 from ..enginefile.unknown_keys import SYNONYMS
 from ..errors import BalcliError, wrong_type
-from ..limits import MOST_PARAMETER_VALUES
+from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES
 
 _EXACT = 2**53  # whole numbers below it are exact as floating-point numbers
 _FIGURE = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?")
@@ -117,8 +117,10 @@ def parse(text: str, model: EngineFile) -> Parameter:
         raise BalcliError(_describe_unknown(path, known))
     try:
         values = _read_values(wanted, known[path])
-    except (ValueError, OverflowError) as error:
-        raise BalcliError(f'"{text}": {error}') from None
+    except ValueError as error:
+        raise BalcliError(f"{shorten(text)}: {error}") from None
+    except OverflowError:
+        raise BalcliError(f"{shorten(text)}: has too large a number") from None
     _check_bounds(path, known[path], values)
     return Parameter(path, values, known[path].dimension.unit)
 
@@ -140,7 +142,7 @@ def choose_values(path: str, values: Any, model: EngineFile) -> Parameter:
     number = known[path]
     try:
         array = np.atleast_1d(np.asarray(values, dtype=float))
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         array = np.array([_read_one(path, value, number) for value in _as_list(path, values)])
     if array.ndim != 1 or not 0 < array.size <= MOST_PARAMETER_VALUES:
         raise BalcliError(
@@ -226,9 +228,10 @@ def ladder(first: Fraction, step: Fraction, count: int) -> NDArray[np.float64]:
 
 def _read_exactly(text: str, number: Number) -> Fraction:
     """The figure in the bare unit of its field."""
-    if _FIGURE.fullmatch(text.strip()):
-        return Fraction(text.strip())
+    figure = text.strip()
+    if _FIGURE.fullmatch(figure) and len(figure) <= LONGEST_FIGURE:
+        return Fraction(figure)
     try:
-        return Fraction(convert(text, number.dimension))
+        return Fraction(convert(figure, number.dimension))
     except ValueError as error:
-        raise ValueError(f'"{text.strip()}" {error}') from None
+        raise ValueError(f"{shorten(figure)} {error}") from None
