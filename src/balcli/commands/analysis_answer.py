@@ -14,13 +14,13 @@ from ..render import analyses
 from ..render.formats import Format, Units
 from ..render.view import View
 from ..results.analysis import Analysis, analyze, list_quantities
-from .inputs import distinct_names, exit_on_errors, read_engine, try_each
+from .inputs import distinct_names, exit_on_errors, read_engine, silence_cylinders, try_each
 from .output import draws_sketch, show
 
 if TYPE_CHECKING:
     from .analysis_options import Request
 
-R = TypeVar("R")
+Found = TypeVar("Found")
 
 
 class Target(NamedTuple):
@@ -115,8 +115,8 @@ def _ask(
 def _analyze_files(
     paths: Sequence[str],
     asked: Request,
-    find: Callable[[Engine], R],
-    present: Callable[[Sequence[str], Sequence[R]], None],
+    find: Callable[[Engine], Found],
+    present: Callable[[Sequence[str], Sequence[Found]], None],
     target: Target,
 ) -> None:
     """Find something of every file and present it by the engines' names.
@@ -126,9 +126,9 @@ def _analyze_files(
     """
     rpm = asked.speeds_rpm[0] if asked.speeds_rpm else None
 
-    def find_one(path: str) -> tuple[str, str, R]:
+    def find_one(path: str) -> tuple[str, str, Found]:
         engine = read_engine(path, rpm, asked.words).engine
-        return engine.name, path, find(engine)
+        return engine.name, path, find(silence_cylinders(engine, asked.misfires))
 
     found, errors = try_each(paths, find_one)
     if found and not (errors and target.output):  # a file gets all of them or is left as it was

@@ -15,7 +15,7 @@ from .units import PLAIN, Dimension, convert, wanted
 if TYPE_CHECKING:
     from pydantic_core import CoreSchema
 
-STRING_PATTERN = r"^\s*[+-]?[0-9.].*[A-Za-z°µμ²³0-9]\s*$"
+STRING_PATTERN = r"^\s*[+-]?(?:[0-9.]|pi|π).*[A-Za-z°µμ²³0-9]\s*$"
 
 
 def printable(text: str) -> str:
@@ -201,7 +201,7 @@ class Halves(_Field):
         self.most = most
 
     def read(self, value: object) -> float:
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or value % 0.5 != 0:
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or 2 * value % 1:
             raise ValueError(f"{shorten(value)} is not a multiple of 1/2; {self._wanted()}")
         if not 0.5 <= value <= self.most:
             raise ValueError(f"{shorten(value)} is out of range; {self._wanted()}")
