@@ -201,7 +201,7 @@ ON_REQUEST = {
         *("balcli.render.torsion", "balcli.render.plot.torsion"),
         "balcli.render.page_torque",
     ),
-    "balcli.commands.inputs": ("balcli.enginefile.assumed",),
+    "balcli.commands.inputs": ("balcli.enginefile.assumed", "balcli.torque.course"),
     "balcli.commands.output": ("balcli.files",),
     "balcli.commands.scatter": ("balcli.studies.part_scatter",),
     "balcli.studies.curves": ("balcli.torque.curves",),
