@@ -39,10 +39,6 @@ Fluctuation = Annotated[
 Cylinder = Annotated[
     int, typer.Option(metavar="N", help="Whose torque is shown beside the engine's.")
 ]
-Misfire = Annotated[
-    list[int] | None,
-    optional("N", "A cylinder without gas; may be given again."),
-]
 LoadsOption = Annotated[
     str | None,
     optional("pin,main", "Also loads of crank and knuckle pins, and of main bearings.", "--loads"),
@@ -118,13 +114,10 @@ def analyze_file(
 ) -> tuple[bytes, TorqueAnalysis]:
     """Text of an engine file, and the torque of its engine."""
     from ..torque.analysis import analyze_torque
-    from ..torque.course import silence
-    from .inputs import named_by_file, read_engine
+    from .inputs import named_by_file, read_engine, silence_cylinders
 
     source = read_engine(path, parse_speed(speed))
-    engine = named_by_file(source.engine, path)
-    for number in misfire or ():
-        engine = silence(engine, number)
+    engine = silence_cylinders(named_by_file(source.engine, path), misfire or ())
     asked, allowed = parse_orders(orders), parse_fluctuation(fluctuation)
     found = analyze_torque(
         engine, asked, cylinder=cylinder, fluctuation=allowed, loads=parse_loads(loads)
