@@ -670,7 +670,8 @@ MAY_IMPORT = {
     "core": "cylinders factored_phasors least_squares loads peaks phases phasors speed_ripple",
     "core.mechanisms": "closed_form distinct fourier harmonics motion sampled slidercrank",
     "engine": "arrays assembly build devices figures firing layout load positions rods rules",
-    "enginefile": "exclusive fields messages model plain_tables read suspicious toml_text units",
+    "enginefile": "exclusive fields messages model plain_tables read suspicious toml_text "
+    "unit_table units",
     "forces": "kinds orders spectrum",
     "render": "analyses analysis_data crankshaft csv devices figures formats guide_moments json "
     "sheet strokes symmetry units view",
