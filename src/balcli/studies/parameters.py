@@ -19,6 +19,7 @@ from ..engine.layout import plan_cylinders
 from ..enginefile.fields import Number, nearest, shorten
 from ..enginefile.model import EngineFile, Override, Table
 from ..enginefile.units import convert
+from ..enginefile.unknown_keys import SYNONYMS
 from ..errors import BalcliError, wrong_type
 from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES
 
@@ -106,6 +107,7 @@ def parse(text: str, model: EngineFile) -> Parameter:
     """
     path, equals, wanted = (part.strip() for part in text.partition("="))
     known = find_numbers(model)
+    path = resolve_name(path, known)
     if not equals or not path:
         raise BalcliError(
             f'"{text}": give a number of the engine file and its values, such as '
@@ -134,6 +136,7 @@ def choose_values(path: str, values: Any, model: EngineFile) -> Parameter:
     if isinstance(values, str):
         return parse(f"{path}={values}", model)
     known = find_numbers(model)
+    path = resolve_name(path, known)
     if path not in known:
         raise BalcliError(_describe_unknown(path, known))
     number = known[path]
@@ -148,6 +151,15 @@ def choose_values(path: str, values: Any, model: EngineFile) -> Parameter:
         )
     _check_bounds(path, number, array)
     return Parameter(path, array, number.dimension.unit)
+
+
+def resolve_name(name: str, known: Mapping[str, Number]) -> str:
+    """The dotted name of the one number that is called so: `stroke` is `crank.stroke`, `rpm` and
+    `speed` are `operation.speed`. A name that several numbers have, or none, stays as it is.
+    """
+    called = {name, *SYNONYMS.get(name.lower(), ())}
+    meant = [path for path in known if path.rpartition(".")[2] in called]
+    return meant[0] if name not in known and len(meant) == 1 else name
 
 
 def _as_list(path: str, values: Any) -> list[Any]:
@@ -166,7 +178,7 @@ def _read_one(path: str, value: Any, number: Number) -> float:
 def _describe_unknown(path: str, known: Mapping[str, Number]) -> str:
     """With the nearest name, or some that begin alike."""
     inside = [name for name in known if name.rpartition(".")[2] == path]
-    if near := (inside[0] if inside else nearest(path, known)):
+    if near := (" or ".join(inside[:6]) or nearest(path, known)):
         hint = f"did you mean {near}?"
     else:
         first = path.partition(".")[0]
