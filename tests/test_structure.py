@@ -187,7 +187,12 @@ ON_REQUEST = {
     ),
     "balcli.commands.inputs": ("balcli.enginefile.assumed", "balcli.torque.course"),
     "balcli.commands.output": ("balcli.files",),
-    "balcli.commands.scatter": ("balcli.studies.part_scatter",),
+    "balcli.commands.torque_options": ("balcli.enginefile.edit",),
+    "balcli.torque.analysis": ("balcli.torque.find_loads",),
+    "balcli.commands.scatter": (
+        "balcli.studies.cycle_scatter",
+        "balcli.studies.part_scatter",
+    ),
     "balcli.studies.curves": ("balcli.torque.curves",),
 }
 

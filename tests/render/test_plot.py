@@ -15,7 +15,7 @@ import pytest
 from support.commands import run_python
 from support.engines import GOOD, changed, inline_engine
 
-from balcli.commands.plot import What
+from balcli.commands.plot_pages import What
 from balcli.core.phasors import Phasors
 from balcli.engine.build import build
 from balcli.engine.load import parse

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..enginefile.edit import set_keys
 from ..errors import BalcliError
 from .amounts import read_inertia
 from .declare import optional
@@ -179,6 +178,8 @@ def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path)
     Raises:
         BalcliError: the inertia is not known; the target cannot be written.
     """
+    from ..enginefile.edit import set_keys
+
     refuse_leaving_files(source, path, target)
     if result.flywheel is None or result.flywheel.speed is None:
         raise BalcliError(
