@@ -8,6 +8,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 from oracle import gas
+from support.pistons import slider_crank_piston
 
 from balcli import load
 from balcli.core.combustion import Wiebe
@@ -17,7 +18,6 @@ from balcli.core.cylinder_pressure import (
     PressureOnPiston,
     crank_torque,
     pistons,
-    slider_crank_piston,
 )
 from balcli.core.gas_cycle import Goal, Process, gas_cycle
 from balcli.core.mechanisms import harmonics

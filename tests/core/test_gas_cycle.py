@@ -6,9 +6,10 @@ import mpmath as mp
 import numpy as np
 import pytest
 from oracle import gas
+from support.pistons import slider_crank_piston
 
 from balcli.core.combustion import Diesel, Dual, Otto, Wiebe
-from balcli.core.cylinder_pressure import GasError, PressureOnPiston, slider_crank_piston
+from balcli.core.cylinder_pressure import GasError, PressureOnPiston
 from balcli.core.gas_cycle import Goal, Process, gas_cycle, mistakes
 
 OF_THE_LARGEST = 1e-13  # harmonics

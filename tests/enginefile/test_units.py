@@ -8,19 +8,25 @@ from fractions import Fraction
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from support.commands import run_python
 
-from balcli.enginefile import units
+from balcli.enginefile import unit_table
 from balcli.enginefile.units import (
     ANGLE,
+    DAMPING,
+    ENERGY,
     INERTIA,
     LENGTH,
     MASS,
     PLAIN,
+    PRESSURE,
     SPEED,
+    STIFFNESS,
+    STRESS,
     TIME,
+    TORQUE,
     UNBALANCE,
     convert,
+    read_unit,
 )
 
 
@@ -75,13 +81,6 @@ def test_the_bare_unit_changes_nothing(value):
     assert convert(f"{value!r} mm", LENGTH) == value
 
 
-@pytest.mark.parametrize("name", [name for name in units.COMMON if name != "°"])
-def test_the_table_agrees_with_pint(name):
-    here, pint = units.COMMON[name], units._ask_pint(name)
-    assert pint.powers == here.powers
-    assert float(pint.scale / here.scale) == pytest.approx(1, rel=1e-14)
-
-
 @pytest.mark.parametrize(
     ("text", "dimension", "expected"),
     [
@@ -93,7 +92,7 @@ def test_the_table_agrees_with_pint(name):
         ("1 ounce inch", UNBALANCE, 28.349523125 * 25.4),
     ],
 )
-def test_units_that_only_pint_knows(text, dimension, expected):
+def test_rarer_units(text, dimension, expected):
     assert convert(text, dimension) == pytest.approx(expected, rel=1e-12)
 
 
@@ -223,17 +222,185 @@ def test_any_text_is_read_or_refused_in_words(text):
         assert math.isfinite(outcome)
 
 
-def test_common_units_need_no_pint():
-    code = (
-        "import sys; from balcli.enginefile.units import INERTIA, convert; convert('8.1 lb in^2', "
-        "INERTIA); "
-        "sys.exit('pint' in sys.modules)"
-    )
-    assert run_python("-c", code).returncode == 0
+# In m, kg, s and turns: the SI brochure (2019), chapters 2 to 4 and table 8; the international yard
+# and pound (1959).
+EXACT = {
+    "m metre meter": 1,
+    "micron": 1e-6,
+    "in inch inches": 2.54e-2,
+    "mil thou": 2.54e-5,
+    "ft foot feet": 3.048e-1,
+    "yd yard": 9.144e-1,
+    "g gram gramme": 1e-3,
+    "t tonne": 1e3,
+    "lb pound lbm": 4.5359237e-1,
+    "oz ozm ounce": 2.8349523125e-2,
+    "grain": 6.479891e-5,
+    "s sec second": 1,
+    "min minute": 60,
+    "h hr hour": 3600,
+    "d day": 86400,
+    "turn rev revolution r U tr": 1,
+    "rad radian": 1 / 6.283185307179586,
+    "pi": 0.5,
+    "deg degree °": 1 / 360,
+    "arcmin arcminute": 1 / 21600,
+    "arcsec arcsecond": 1 / 1296000,
+    "gon gradian": 0.0025,
+    "rpm": 1 / 60,
+    "rps Hz hertz": 1,
+    "N newton": 1,
+    "dyn dyne": 1e-5,
+    "g_n kgf kp kilopond": 9.80665,
+    "gf pond": 9.80665e-3,
+    "tf": 9.80665e3,
+    "lbf": 4.4482216152605,
+    "kip": 4.4482216152605e3,
+    "Pa pascal": 1,
+    "bar": 1e5,
+    "atm atmosphere": 1.01325e5,
+    "at": 9.80665e4,
+    "J joule Nm Ns Nms": 1,
+    "erg": 1e-7,
+    "Wh": 3.6e3,
+    "Btu BTU": 1.05505585262e3,
+    "W watt": 1,
+    "Nmm": 1e-3,
+    "gmm": 1e-6,
+    "l L litre liter": 1e-3,
+    "cc ccm": 1e-6,
+    "K kelvin °C degC celsius °F degF fahrenheit": 1,
+    "A amp ampere V volt ohm mol mole cd candela of_another_kind": 1,
+}
+PRINTED = {  # NIST SP 811 (2008), appendix B.8: seven digits
+    "slug": 14.593903,
+    "slinch": 175.12684,
+    "ozf": 2.780139e-1,
+    "pdl poundal": 1.38255e-1,
+    "torr Torr": 1.333224e2,
+    "mmHg": 1.333224e2,
+    "inHg": 3.386389e3,
+    "psi": 6.894757e3,
+    "psf": 47.88026,
+    "ksi": 6.894757e6,
+    "Msi": 6.894757e9,
+    "hp": 7.456999e2,
+    "PS ch cv": 7.354988e2,
+}
 
 
-def test_pint_prints_nothing(capfd):
-    units._ask_pint.cache_clear()
-    units._registry.cache_clear()
-    assert convert("1 yard", LENGTH) == pytest.approx(914.4)
-    assert capfd.readouterr() == ("", "")
+def by_name(values):
+    return [(name, value) for names, value in values.items() for name in names.split()]
+
+
+@pytest.mark.parametrize(("name", "value"), by_name(EXACT))
+def test_a_unit_is_as_it_was_defined(name, value):
+    assert float(read_unit(name, PLAIN).scale) == pytest.approx(value, rel=2e-16)
+
+
+@pytest.mark.parametrize(("name", "value"), by_name(PRINTED))
+def test_a_unit_is_as_large_as_tables_print_it(name, value):
+    assert float(read_unit(name, PLAIN).scale) == pytest.approx(value, rel=5e-7)
+
+
+def test_every_unit_is_among_them():
+    assert set(unit_table.DEFINITIONS) <= set(dict(by_name(EXACT | PRINTED)))
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "expected"),
+    [
+        ("0.09 km", LENGTH, 9e4),
+        ("90 millimetres", LENGTH, 90),
+        ("9 centimeters", LENGTH, 90),
+        ("90000 µm", LENGTH, 90),
+        ("90000 μm", LENGTH, 90),
+        ("40 thou", LENGTH, 1.016),
+        ("2 kilograms", MASS, 2),
+        ("2 kgs", MASS, 2),
+        ("2 lbs", MASS, 0.90718474),
+        ("650000 mg", MASS, 0.65),
+        ("1 Mg", MASS, 1000),
+        ("500 mrad", ANGLE, 90 / math.pi),
+        ("90 degrees", ANGLE, 90),
+        ("30 arcmin", ANGLE, 0.5),
+        ("100 rps", SPEED, 6000),
+        ("6 krpm", SPEED, 6000),
+        ("5500 tr/min", SPEED, 5500),
+        ("2 hours", TIME, 7200),
+        ("20 ms", TIME, 0.02),
+        ("9.5 kgf/cm2", PRESSURE, 9.3163175),
+        ("9.5 kp/cm²", PRESSURE, 9.3163175),
+        ("900 kPa", PRESSURE, 9),
+        ("1013.25 hPa", PRESSURE, 1.01325),
+        ("900 mbar", PRESSURE, 0.9),
+        ("11.5 ksi", STRESS, 11.5 * 4.4482216152605 / 25.4**2 * 1e3),
+        ("1 kWh", ENERGY, 3.6e6),
+        ("100 ft lbf", ENERGY, 135.58179483314),
+        ("2 kNm", TORQUE, 2000),
+        ("2 lbf-ft", TORQUE, 2.7116358966628),
+        ("4 kN/mm", STIFFNESS, 4000),
+        ("2 kip/in", STIFFNESS, 2 * 4448.2216152605 / 25.4),
+        ("5 kNs/m", DAMPING, 5),
+        ("12.5 oz-in", UNBALANCE, 12.5 * 453.59237 / 16 * 25.4),
+        ("90 g.mm", UNBALANCE, 90),
+        ("90 gmm", UNBALANCE, 90),
+        ("2 kg m2", INERTIA, 2e6),
+        ("2 kg-m^2", INERTIA, 2e6),
+        ("3 1/2 in", LENGTH, 88.9),
+        ('3 1/2"', LENGTH, 88.9),
+        ("-3 7/16 in", LENGTH, -87.3125),
+        ("pi/2", ANGLE, 90),
+        ("pi/2 rad", ANGLE, 90),
+        ("-3*pi/4 rad", ANGLE, -135),
+        ("2/3 pi", ANGLE, 120),
+        ("0.5 pi", ANGLE, 90),
+        ("2π/3", ANGLE, 120),
+    ],
+)
+def test_units_as_people_write_them(text, dimension, expected):
+    assert convert(text, dimension) == pytest.approx(expected, rel=1e-14)
+
+
+def test_no_name_has_two_meanings():
+    """Neither a listed unit nor another prefix reads otherwise what a prefix makes."""
+    for name in unit_table.DEFINITIONS:
+        if found := unit_table.split_prefix(name):
+            power, unit = found
+            prefixed, listed = read_unit(unit, PLAIN), read_unit(name, PLAIN)
+            assert (10**power * prefixed.scale, prefixed.powers) == listed, name
+    assert set(unit_table.DEFINITIONS).isdisjoint(unit_table.AMBIGUOUS)
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "begin"),
+    [
+        ("90 mmm", LENGTH, 'has the unknown unit "mmm"; did you mean mm? a length is wanted: '),
+        ("2 Kg", MASS, 'has the unknown unit "Kg"; did you mean kg? a mass is wanted: '),
+        ("9 mpa", PRESSURE, 'has the unknown unit "mpa"; did you mean MPa? a pressure is '),
+        ("2 KN m", TORQUE, 'has the unknown unit "KN"; did you mean kN? a torque is wanted: '),
+        ("2 inchs", LENGTH, None),
+        ("2 tons", MASS, 'has the unit "tons": t (1000 kg), or 2000 lb, or 2240 lb? a mass is '),
+        ("2 Mm", LENGTH, 'has the unit "Mm": mm, or megametre? a length is wanted: '),
+        ("50 kW", ENERGY, "is a power, but an energy is wanted: "),
+        ("50 hp", TORQUE, "is a power, but a torque is wanted: "),
+        ("500 cc", LENGTH, "is a volume, but a length is wanted: "),
+        ("90 mm2", LENGTH, "is an area, but a length is wanted: "),
+        ("90 m/s", SPEED, "is a velocity, but a speed of rotation is wanted: "),
+        ("5 J", MASS, "is a torque or an energy, but a mass is wanted: "),
+        ("5 psi", MASS, "is a pressure, but a mass is wanted: "),
+        ("350 K", TIME, "is of another dimension, but a time is wanted: "),
+        ("3 5/2 in", LENGTH, "is not a number followed by a unit; a length is wanted: "),
+        ("1 000/3 in", LENGTH, "is not a number followed by a unit; a length is wanted: "),
+        ("1 1/0 in", LENGTH, "divides by zero"),
+        ("pi/0", ANGLE, "divides by zero"),
+        ("pi/2", LENGTH, "is not a number followed by a unit; a length is wanted: "),
+    ],
+)
+def test_refusals_say_what_is_near(text, dimension, begin):
+    if begin is None:
+        assert convert(text, dimension) == 50.8
+        return
+    with pytest.raises(ValueError) as caught:  # noqa: PT011 - its beginning is compared
+        convert(text, dimension)
+    assert str(caught.value).startswith(begin)

@@ -13,6 +13,7 @@ from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
+from balcli.mounting.motions import name_motions
 from balcli.mounting.read import read_mounted
 from balcli.mounting.report import report_mounts
 
@@ -337,3 +338,15 @@ def test_several_free_motions_are_counted(report):
 def test_where_throws_stand_must_be_known(report):
     text = ENGINE.replace("spacing = 100\n", "") + block("loss = 0.1")
     assert refused(report, text).startswith("engine.toml: ")
+
+
+@pytest.mark.parametrize(
+    ("up", "names"),
+    [
+        ((1, 0, 0), "up and down, sideways, lengthways, yaw, pitch, roll"),
+        ((0.3, -0.9, 0), "sideways, up and down, lengthways, pitch, yaw, roll"),
+        ((0, 0, -1), "along x, along y, up and down, turn about x, turn about y, roll"),
+    ],
+)
+def test_motions_are_called_by_where_up_is(up, names):
+    assert ", ".join(name_motions(np.array(up))) == names

@@ -7,6 +7,7 @@ import re
 
 import numpy as np
 import pytest
+from support.paths import ENGINES
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
@@ -84,11 +85,47 @@ def test_moments_that_are_not_known_are_none(balcli, tmp_path) -> None:
     file.write_text(TEXT.replace(f"spacing = {1e3 * SPACING}", ""))
     status, out, err = balcli("analyze", file, "--format", "marine", "-o", tmp_path / "s.json")
     assert (status, out) == (0, "")
-    assert "moments are not known" in err or "crank.spacing" in err
+    assert err == (
+        f"warning: {file}: moments are not known, because crank.spacing is missing: give it (or "
+        "crank.positions); 0 says that all throws stand in one plane\n"
+    )
     entry = json.loads((tmp_path / "s.json").read_text())["speeds"][0]["orders"][0]
     assert entry["force_v_N"] > 0
     assert entry["moment_v_Nm"] is None
     assert entry["guide_x_Nm"] is None
+
+
+def test_over_speed_a_table_without_orders_is_a_sentence(balcli, tmp_path) -> None:
+    file = tmp_path / "nowhere.toml"
+    file.write_text((ENGINES / "i4.toml").read_text().replace("spacing ", "# "))
+    for engine, told in ((file, "not known"), (ENGINES / "i4.toml", "balanced")):
+        out = balcli("analyze", engine, "--format", "marine", "--speed", "1000,2000")[1]
+        assert f"\nExternal moments: {told}.\n" in out
+        assert f"\nX-type guide-force moments of inertia alone, without gas: {told}.\n" in out
+
+
+def test_orders_that_matter_are_shown_with_the_first_two(balcli) -> None:
+    """An in-line four's order 1 is balanced, order 6 matters to the guides alone; of a five, what
+    one component has is negligible beside the other.
+    """
+    four = balcli("analyze", ENGINES / "i4.toml", "--format", "marine")[1]
+    assert [line.split()[0] for line in four.splitlines() if re.match(r"\d ", line)] == [
+        *("1", "2", "4"),
+        *("1", "2", "4", "6"),
+    ]
+    assert "1       balanced   balanced   balanced   balanced\n" in four
+    vr6 = ("analyze", ENGINES / "vr6.toml", "--format", "marine")
+    assert "\n3          74.83      54.32      13.41   negligible\n" in balcli(*vr6)[1]
+    assert "negligible" not in balcli(*vr6, "--all")[1]
+
+
+@pytest.mark.parametrize(
+    ("engine", "includes"),
+    [("i4.toml", "inertia, without gas"), ("i4_wiebe.toml", "inertia and gas")],
+)
+def test_json_says_whether_gas_is_in_it(balcli, engine, includes) -> None:
+    given = ("analyze", ENGINES / engine, "--format", "marine", "--format", "json")
+    assert json.loads(balcli(*given)[1])["includes"] == includes
 
 
 def test_names_of_orders_head_the_columns_over_speed(balcli, tmp_path) -> None:

@@ -15,7 +15,6 @@ WEIGHTY = frozenset(
         "pydantic",
         "rich",
         "matplotlib",
-        "pint",
         "jinja2",
         "tomli_w",
         "distributed",

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from support import chains
 from support.commands import refusal, run_here, run_in_terminal
+from support.paths import ENGINES
 
 from balcli.torsion.starting_file import read_starting_file
 
@@ -347,3 +348,48 @@ def test_more_torques_than_are_kept_are_refused_with_the_number(monkeypatch):
         "2 orders at 101 speeds in 4 shafts are 808 torques, and at most 800 are kept: take fewer "
         "speeds or orders"
     )
+
+
+RING = 'damper = { kind = "viscous", inertia = 2e5, damping = 50 }'
+PENDULUMS = 'damper = { kind = "pendulum", mass = 2, radius = 160, length = 10 }'
+
+
+@pytest.mark.parametrize(
+    ("dampers", "told"),
+    [
+        (("", ""), ""),
+        ((RING, ""), " Rings in oil are left out, as if they were not there."),
+        (("", PENDULUMS), " Pendulums are left out; they follow the order."),
+        (
+            (RING, PENDULUMS),
+            " Rings in oil are left out, as if they were not there. So are pendulums, which follow "
+            "the order.",
+        ),
+    ],
+)
+def test_what_modes_leave_out_is_said_and_tiny_orders_are_not_named(dampers, told):
+    first, second = dampers
+    chain = """
+        node = [{ name = "a", inertia = 1e6 }, { name = "b", inertia = 2e6 }]
+        shaft = [{ from = "a", to = "b", stiffness = 1e5, loss = 0.1 }]
+        excitation = [
+            { node = "b", order = 1, cos = 100 }, { node = "b", order = 2, cos = 0.001 }
+        ]
+        """
+    chain = chain.replace("inertia = 1e6", f"inertia = 1e6, {first}".rstrip(", "))
+    chain = chain.replace("inertia = 2e6", f"inertia = 2e6, {second}".rstrip(", "))
+    out = run_here("torsion", "-", "--speeds", "1000:2000:500", stdin=chain).out
+    assert f"\nNode in: the shafts whose ends turn against each other.{told}\n" in out
+    row = next(line for line in out.splitlines() if line.startswith("a-b  "))
+    assert re.search(r" 1: [\d.]+$", row), "order 1 alone"
+
+
+def test_what_a_table_of_an_engine_leaves_to_json_and_what_gas_does():
+    file = ENGINES / "i6_diesel.toml"
+    out = run_here("torsion", file, "--holzer", "2").out
+    found = json.loads(run_here("torsion", file, "--format", "json").out)
+    rows = re.search(r"\nCritical speeds\n.*\n.*\n((?:\d.*\n)+)", out)[1].count("\n")
+    assert f" JSON has {len(found['criticals']) - rows} more.\n" in out
+    assert "Left over at the end: 0 N·m." in out
+    over = run_here("torsion", file, "--speeds", "1000:1500:500").out
+    assert "deg at 1500 rpm. Gas as in the file at every speed.\n" in over

@@ -87,6 +87,22 @@ def test_a_pendulum_is_tuned_to_the_order_that_does_most():
     assert damper["heat_W"] == 0
 
 
+@pytest.mark.parametrize("stroke", [137, 2000])
+def test_pendulums_hang_as_far_out_as_the_crank_pins(stroke):
+    """Whatever the size of the engine; the file's own stay where they are."""
+    text = write_diesel().replace("stroke = 137", f"stroke = {stroke}")
+    text = text.replace("length = 207", f"length = {2 * stroke}")
+    options = ("--speeds", "3800:4400:100", "--damper", "pendulum", "--format", "json")
+
+    def find_radius(text):
+        return json.loads(run_here("torsion", "-", *options, stdin=text).out)["damper"]["radius_m"]
+
+    assert find_radius(text) == stroke / 2e3
+    own = 'damper = { kind = "pendulum", mass = 2, radius = 90, length = 9 }\n'
+    text = text.replace('name = "pulley"\n', f'name = "pulley"\n{own}')
+    assert find_radius(text) == 0.09
+
+
 def test_a_damper_of_the_file_is_the_one_that_is_sized():
     own = 'damper = { kind = "rubber", inertia = 12345, stiffness = 1, loss = 0.2 }\n'
     text = write_diesel().replace('name = "pulley"\n', f'name = "pulley"\n{own}')
@@ -145,9 +161,11 @@ stiffness = 1e6
     ],
 )
 def test_dampers_of_unlikely_size(options, told):
-    status, _, err = run_here("torsion", "-", *RANGE, "--damper", "viscous", *options, stdin=NOSE)
+    asked = (*RANGE, "--damper", "viscous", *options, "--format", "json")
+    status, out, err = run_here("torsion", "-", *asked, stdin=NOSE)
     assert status == 0
     assert err == (f"warning: --damper: {told}\n" if told else "")
+    assert json.loads(out)["damper"].get("doubts", []) == ([told] if told else [])
 
 
 def test_a_damper_that_cannot_be_is_told_in_words():
@@ -245,6 +263,11 @@ def test_a_file_in_inline_tables_is_written_anew(tmp_path):
             ("--damper", "viscous", "--damper-inertia", "3 kg", *RANGE),
             '--damper-inertia "3 kg": is a mass, but a moment of inertia is wanted: a bare number in '
             'kg mm^2, or "4200 kg mm^2" or "8.1 lb in^2"',
+        ),
+        (
+            ("--damper", "pendulum", *RANGE),
+            "--damper pendulum: a chain has no crank that says how far out pendulums hang: give "
+            'disc one, such as damper = { kind = "pendulum", mass = 2, radius = 60, length = 5 }',
         ),
         (
             ("--damper", "viscous", "--orders", "2", *RANGE),

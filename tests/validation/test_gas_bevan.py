@@ -7,8 +7,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from support import two_term
+from support.pistons import slider_crank_piston
 
-from balcli.core.cylinder_pressure import slider_crank_piston
 from balcli.core.speed_variation import small_fluctuation
 
 

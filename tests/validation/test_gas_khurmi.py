@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from support import two_term
+from support.pistons import slider_crank_piston
 
-from balcli.core.cylinder_pressure import slider_crank_piston
 from balcli.core.mechanisms import slidercrank
 from balcli.core.piecewise import polyline, resolved
 from balcli.core.speed_variation import needed_inertia, small_fluctuation, speed_variation, surplus

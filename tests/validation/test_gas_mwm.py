@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.pistons import slider_crank_piston
 
-from balcli.core.cylinder_pressure import PressureOnPiston, slider_crank_piston
+from balcli.core.cylinder_pressure import PressureOnPiston
 from balcli.core.piecewise import polyline
 from balcli.core.pressure_diagram import PressureDiagram
 

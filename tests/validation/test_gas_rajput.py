@@ -5,9 +5,9 @@ Textbook Companions. Ideal cycles: nothing is lost while the valves are open.
 from __future__ import annotations
 
 import pytest
+from support.pistons import slider_crank_piston
 
 from balcli.core.combustion import Dual, Otto
-from balcli.core.cylinder_pressure import slider_crank_piston
 from balcli.core.gas_cycle import Goal, Process, gas_cycle
 
 PISTON = slider_crank_piston(0.1875, 0.7, 0.25)

@@ -58,6 +58,7 @@ def printed(power: int) -> Coefficients:
 
 
 def find_closed_form(orders: list[int], lam: float) -> Array:
+    """As balcli computes them."""
     return closed_form.piston(orders, lam)
 
 

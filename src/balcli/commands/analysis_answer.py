@@ -20,7 +20,7 @@ from .output import draws_sketch, show
 if TYPE_CHECKING:
     from .analysis_options import Request
 
-R = TypeVar("R")
+Found = TypeVar("Found")
 
 
 class Target(NamedTuple):
@@ -115,8 +115,8 @@ def _ask(
 def _analyze_files(
     paths: Sequence[str],
     asked: Request,
-    find: Callable[[Engine], R],
-    present: Callable[[Sequence[str], Sequence[R]], None],
+    find: Callable[[Engine], Found],
+    present: Callable[[Sequence[str], Sequence[Found]], None],
     target: Target,
 ) -> None:
     """Find something of every file and present it by the engines' names.
@@ -126,7 +126,7 @@ def _analyze_files(
     """
     rpm = asked.speeds_rpm[0] if asked.speeds_rpm else None
 
-    def find_one(path: str) -> tuple[str, str, R]:
+    def find_one(path: str) -> tuple[str, str, Found]:
         engine = read_engine(path, rpm, asked.words).engine
         return engine.name, path, find(engine)
 

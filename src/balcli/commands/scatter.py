@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from ..engine.build import Engine
     from ..forces.quantity import Quantity
 
-_ENGINES, _SETS_OF_PARTS = 100_000, 500
-
 
 class Distribution(StrEnum):
     """How figures deviate within their tolerances."""
@@ -109,23 +107,25 @@ def scatter(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = text_format(output, form)
+    from ..studies import part_scatter, tolerances
     from ..studies.quantities import parse_quantities, part_quantities
-    from ..studies.tolerances import parse_percentage, parse_tolerances, scatter_engine
     from .inputs import read_engine
 
-    tolerances = parse_tolerances(mass, length, angle)
-    share = None if stiffness is None else parse_percentage(stiffness, "--stiffness-scatter")
+    within = tolerances.parse_tolerances(mass, length, angle)
+    share = None
+    if stiffness is not None:
+        share = tolerances.parse_percentage(stiffness, "--stiffness-scatter")
     _, model, engine = read_engine(path, asked=())
     names = DEFAULT_QUANTITIES if quantity is None else quantity
     asked, of_parts = part_quantities(parse_quantities(names, with_gas=model.gas is not None))
     if quantity is None:
         asked = _leave_out_unknown(engine, asked, name_file(path))
-    count = samples if samples is not None else _SETS_OF_PARTS if of_parts else _ENGINES
-    draw = partial(scatter_engine, model, tolerances, asked)
+    draw = partial(tolerances.scatter_engine, model, within, asked)
+    usual = tolerances.RANDOM_ENGINES
     if of_parts:
-        from ..studies.part_scatter import scatter_parts
-
-        draw = partial(scatter_parts, model, share, tolerances.mass, of_parts)
+        draw = partial(part_scatter.scatter_parts, model, share, within.mass, of_parts)
+        usual = part_scatter.RANDOM_SETS
+    count = usual if samples is None else samples
     with reporting_until_stopped("samples", count) as progress:
         found = draw(count, seed, distribution.value, progress)
     show([found], renderer, form, output)

@@ -37,8 +37,17 @@ def require_options(asked: Question, write: Path | None, plot: Path | None, what
         )
     if plot is None and what != "all":
         raise BalcliError(f"--what {what}: give --plot and a file for the picture")
-    if what in ("response", "waterfall") and asked.speeds_rpm is None:
-        raise BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")
+    if _lacks_range(asked, what):
+        raise _range_missing(what)
+
+
+def _lacks_range(asked: Question, what: str) -> bool:
+    """Whether a picture is over speed, and no range of speeds was given."""
+    return asked.speeds_rpm is None and what in ("response", "waterfall")
+
+
+def _range_missing(what: str) -> BalcliError:
+    return BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")
 
 
 def find_answer(
@@ -70,9 +79,9 @@ def draw_file(path: str, what: str, speeds: str | None, orders: str | None, form
     """
     asked = Question(parse_speeds(speeds), parse_half_orders(orders))
     source = load_source(path, asked.orders)
-    if asked.speeds_rpm is None and what in ("response", "waterfall"):
+    if _lacks_range(asked, what):
         if isinstance(source, ChainSource):
-            raise BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")
+            raise _range_missing(what)
         asked = asked._replace(speeds_rpm=choose_speeds(source.engine))
     return draw(answer_question(source, asked), what, form)
 

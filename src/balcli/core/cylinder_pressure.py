@@ -89,11 +89,6 @@ class Piston:
         return float(high)
 
 
-def slider_crank_piston(radius: float, rod: float, bore: float, offset: float = 0.0) -> Piston:
-    """The piston of a plain slider-crank; lengths in m, the offset as in `slidercrank`."""
-    return _plain_piston(radius, radius / rod, offset / rod, np.pi / 4 * bore**2)
-
-
 def pistons(cylinders: Cylinders, area: ArrayLike) -> list[Piston]:
     """The piston of every cylinder, for arrays without trailing axes; `area` of the bores, m2, one
     or one each.

@@ -272,7 +272,6 @@ class SizedDamper(TypedDict):
     mass_kg: NotRequired[float]
     radius_m: NotRequired[float]
     length_m: NotRequired[float]
-    order: NotRequired[Order]
     mode: int
     before_Pa: NotRequired[float | None]
     after_Pa: NotRequired[float | None]
@@ -280,6 +279,7 @@ class SizedDamper(TypedDict):
     after_Nm: NotRequired[float | None]
     heat_W: float
     heat_rpm: float
+    doubts: NotRequired[list[str]]
 
 
 class Torsion(Document):

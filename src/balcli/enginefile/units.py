@@ -1,8 +1,8 @@
 """Figures with a unit, as an engine file may give them: "3.5 in", "1/7 turn", "8.1 lb in^2".
 
 A figure is matched by a regular expression first and nothing is ever evaluated. The arithmetic is
-exact (fractions), so that a figure is rounded once. The commonest units are in a table here; pint
-is imported only for any other.
+exact (fractions), so that a figure is rounded once. Most units are told by others, in a table that
+is read as far as a figure needs it.
 """
 
 from __future__ import annotations
@@ -10,9 +10,10 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ..limits import LONGEST_FIGURE
+from .unit_table import AMBIGUOUS, DEFINITIONS, find_near_name, split_prefix
 
 PI = Fraction("3.14159265358979323846264338327950288419716939937510")
 
@@ -46,50 +47,25 @@ class Dimension(NamedTuple):
     examples: tuple[str, ...]
 
 
-_FOREIGN = Powers(99)  # ampere, kelvin: known, but no field has such a dimension
-_LENGTH, _MASS, _TIME, _ANGLE = Powers(length=1), Powers(mass=1), Powers(time=1), Powers(angle=1)
-_ENERGY = Powers(2, 1, -2)
+_LENGTH, _MASS, _ANGLE = Powers(length=1), Powers(mass=1), Powers(angle=1)
+_ENERGY, _PRESSURE = Powers(2, 1, -2), Powers(-1, 1, -2)
 # By definition: the international inch and pound (1959), standard gravity (CGPM 1901).
 INCH = Fraction(254, 10_000)  # m
 POUND = Fraction(45_359_237, 100_000_000)  # kg
-STANDARD_GRAVITY = 9.80665  # m/s2
-_FORCE, _PRESSURE = Powers(1, 1, -2), Powers(-1, 1, -2)
-_POUND_FORCE = POUND * Fraction("9.80665")  # N
+_GRAVITY = Fraction(980_665, 100_000)  # m/s2
+STANDARD_GRAVITY = float(_GRAVITY)
 
-COMMON = {
-    "mm": Unit(Fraction(1, 1000), _LENGTH),
-    "cm": Unit(Fraction(1, 100), _LENGTH),
+_BASE = {
     "m": Unit(Fraction(1), _LENGTH),
-    "in": Unit(INCH, _LENGTH),
-    "ft": Unit(12 * INCH, _LENGTH),
-    "kg": Unit(Fraction(1), _MASS),
     "g": Unit(Fraction(1, 1000), _MASS),
-    "lb": Unit(POUND, _MASS),
-    "oz": Unit(POUND / 16, _MASS),
-    "s": Unit(Fraction(1), _TIME),
-    "ms": Unit(Fraction(1, 1000), _TIME),
-    "min": Unit(Fraction(60), _TIME),
+    "s": Unit(Fraction(1), Powers(time=1)),
     "turn": Unit(Fraction(1), _ANGLE),
-    "deg": Unit(Fraction(1, 360), _ANGLE),
-    "°": Unit(Fraction(1, 360), _ANGLE),
     "rad": Unit(1 / (2 * PI), _ANGLE),
-    "rpm": Unit(Fraction(1, 60), Powers(time=-1, angle=1)),
-    "bar": Unit(Fraction(100_000), _PRESSURE),
-    "J": Unit(Fraction(1), _ENERGY),
-    "N": Unit(Fraction(1), _FORCE),
-    "lbf": Unit(_POUND_FORCE, _FORCE),
-    "MPa": Unit(Fraction(10**6), _PRESSURE),
-    "GPa": Unit(Fraction(10**9), _PRESSURE),
-    "psi": Unit(_POUND_FORCE / INCH**2, _PRESSURE),
+    "in": Unit(INCH, _LENGTH),
+    "lb": Unit(POUND, _MASS),
+    "g_n": Unit(_GRAVITY, Powers(1, 0, -2)),
+    "of_another_kind": Unit(Fraction(1), Powers(99)),
 }
-
-AMBIGUOUS = {
-    "gr": "g, or grain (65 mg)?",
-    "gm": "g, or gigametre?",
-    "grad": "deg, or gon (0.9 deg)?",
-    "grade": "deg, or gon (0.9 deg)?",
-}
-ALSO = {"rev": "turn", "r": "turn", "U": "turn"}  # revolution; German Umdrehung
 
 LENGTH = Dimension("mm", "a length", _LENGTH, ("90 mm", "3.5 in"))
 MASS = Dimension("kg", "a mass", _MASS, ("650 g", "0.8 lb"))
@@ -104,7 +80,7 @@ UNBALANCE = Dimension(
     ("9000 g mm", "12.5 oz in"),
 )
 SPEED = Dimension("rpm", "a speed of rotation", Powers(time=-1, angle=1), ("6000 rpm", "300 rad/s"))
-TIME = Dimension("s", "a time", _TIME, ("0.82 s", "820 ms"))
+TIME = Dimension("s", "a time", Powers(time=1), ("0.82 s", "820 ms"))
 PRESSURE = Dimension("bar", "a pressure", _PRESSURE, ("9.5 bar", "1.2 MPa", "150 psi"))
 ENERGY = Dimension("J", "an energy", _ENERGY, ("1400 J", "1.4 kJ"))
 STIFFNESS = Dimension("N/mm", "a stiffness", Powers(0, 1, -2), ("350 N/mm", "2000 lbf/in"))
@@ -122,51 +98,79 @@ TORSIONAL_DAMPING = Dimension(
 SHEAR_MODULUS = Dimension("GPa", "a modulus of elasticity", _PRESSURE, ("79.3 GPa", "11.5e6 psi"))
 STRESS = Dimension("N/mm^2", "a stress", _PRESSURE, ("40 N/mm^2", "5800 psi"))
 PLAIN = Dimension("", "a plain number", Powers(), ())
-_DIMENSIONS = (
-    *(LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PRESSURE, ENERGY, PLAIN),
-    *(TORQUE, TORSIONAL_STIFFNESS, TORSIONAL_DAMPING, STRESS, STIFFNESS, DAMPING),
-)
+_NAMES = {
+    **{
+        each.powers: each.name
+        for each in (LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, STIFFNESS, DAMPING)
+    },
+    **{each.powers: each.name for each in (TORSIONAL_STIFFNESS, TORSIONAL_DAMPING, PLAIN)},
+    _ENERGY: "a torque or an energy",
+    _PRESSURE: "a pressure",
+    Powers(1, 1, -2): "a force",
+    Powers(2, 1, -3): "a power",
+    Powers(time=-1): "a frequency",
+    Powers(2): "an area",
+    Powers(3): "a volume",
+    Powers(1, 0, -1): "a velocity",
+}
 
+# Compiled when a string is met
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
-_FACTOR = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[²³])?"
-_JOINT = r"\s*[*·⋅/]\s*|\s+"
+_FACTOR = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[²³23])?"
+_JOINT = r"\s*[*·⋅/]\s*|[.-]|\s+"
 _UNIT = rf"{_FACTOR}(?:(?:{_JOINT}){_FACTOR})*"
-FIGURE = (
-    rf"\s*([+-]?{_NUMBER})(?:\s*/\s*({_NUMBER}))?\s*({_UNIT})?\s*"  # compiled when a string is met
-)
+_WHOLE = r"(\d+)\s+(?=[1-9]\d*\s*/)"  # of "3 1/2"
+FIGURE = rf"\s*([+-]?)(?:{_WHOLE})?({_NUMBER})(?:\s*/\s*({_NUMBER}))?\s*({_UNIT})?\s*"
 _INCH_MARK = r'^([^"”″]*\d)\s*["”″]\s*$'  # 3.5"
 # A crank speed counts turns, said or not. 1/s stays out: it is as often meant as rad/s.
 _PER_MINUTE = r"(\d\.?)(?:(?:\s+1)?\s*/\s*min|\s*min(?:\^|\*\*)?-1|\s*min⁻¹)\s*$"
 _HERTZ = r"(\d\.?)\s*Hz\s*$"
-_PART = r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([²³]))?"
+# pi/2, -3*pi/4 rad
+_PI = rf"\s*([+-]?)(?:({_NUMBER})\s*[*·⋅]?)?\s*(?:pi|π)(?:\s*/\s*({_NUMBER}))?(?:\s+rad)?\s*"
+_PART = r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([²³23]))?"
+_RAISED = {"²": 2, "³": 3, "2": 2, "3": 3}
 
 
 def convert(text: str, dimension: Dimension) -> float:
     """The figure in the bare unit of `dimension`, correctly rounded. ValueError: what is wrong,
     what would be right.
     """
-    inches = re.sub(_INCH_MARK, r"\1 in", text[:LONGEST_FIGURE])
-    figure = _count_turns(inches) if dimension is SPEED else inches
-    match = re.fullmatch(FIGURE, figure, re.ASCII) if len(text) <= LONGEST_FIGURE else None
-    if match is None:
+    if len(text) > LONGEST_FIGURE:
         raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
-    above, below, names = match.groups()
-    if not names:
-        raise ValueError(f"has no unit; {wanted(dimension)}")
-    unit = read_unit(names, dimension)
-    if unit.powers != dimension.powers:
-        raise ValueError(f"is {_name(unit.powers)}, but {wanted(dimension)}")
+    figure = re.sub(_INCH_MARK, r"\1 in", text)
+    if dimension is SPEED:
+        figure = _count_turns(figure)
+    elif dimension is ANGLE:
+        figure = _name_pi(figure)
     try:
-        return float(
-            Fraction(above)
-            / Fraction(below or 1)
-            * unit.scale
-            / read_unit(dimension.unit, dimension).scale
-        )
+        found = _split(figure)
+        if found is None:
+            raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
+        number, names = found
+        if not names:
+            raise ValueError(f"has no unit; {wanted(dimension)}")
+        unit = read_unit(names, dimension)
+        if unit.powers != dimension.powers:
+            name = _NAMES.get(unit.powers, "of another dimension")
+            raise ValueError(f"is {name}, but {wanted(dimension)}")
+        return float(number * unit.scale / read_unit(dimension.unit, dimension).scale)
     except ZeroDivisionError:
         raise ValueError("divides by zero") from None
     except OverflowError:
         raise ValueError("is too large a number") from None
+
+
+def _split(figure: str) -> tuple[Fraction, str] | None:
+    """A figure's number, and the names of its unit; None: it is no figure."""
+    match = re.fullmatch(FIGURE, figure, re.ASCII)
+    if match is None:
+        return None
+    sign, whole, above, below, names = match.groups()
+    number = Fraction(above) / Fraction(below or 1)
+    if whole and number >= 1:  # not three and five halves
+        return None
+    number += Fraction(whole or 0)
+    return (-number if sign == "-" else number), names or ""
 
 
 def read_unit(names: str, dimension: Dimension) -> Unit:
@@ -174,22 +178,46 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
     `dimension`.
     """
     scale, powers = Fraction(1), Powers()
-    for joint, name, power, superscript in re.findall(_PART, names, re.ASCII):
-        if name in AMBIGUOUS:
-            raise ValueError(f'has the unit "{name}": {AMBIGUOUS[name]} {wanted(dimension)}')
-        name = ALSO.get(name, name)
-        part = COMMON.get(name) or COMMON.get(_in_small(name)) or _ask_pint(name)
+    for joint, name, power, raised in re.findall(_PART, names, re.ASCII):
+        if question := AMBIGUOUS.get(name) or AMBIGUOUS.get(name.removesuffix("s")):
+            raise ValueError(f'has the unit "{name}": {question} {wanted(dimension)}')
+        part = _find(name) or _find(_in_small(name))
         if part is None:
-            raise ValueError(f'has the unknown unit "{name}"; {wanted(dimension)}')
-        exponent = int(power or {"²": 2, "³": 3}.get(superscript, 1)) * (-1 if joint == "/" else 1)
+            near = find_near_name(name)
+            hint = f" did you mean {near}?" if near else ""
+            raise ValueError(f'has the unknown unit "{name}";{hint} {wanted(dimension)}')
+        exponent = int(power or _RAISED.get(raised, 1)) * (-1 if joint == "/" else 1)
         scale *= part.scale**exponent
         powers = Powers(*(p + exponent * q for p, q in zip(powers, part.powers, strict=True)))
     return Unit(scale, powers)
 
 
+@cache
+def _find(name: str) -> Unit | None:
+    """A unit by its name, with a prefix, or several of it; None: there is no such unit."""
+    if name in _BASE:
+        return _BASE[name]
+    if name in DEFINITIONS:
+        number, names = _split(DEFINITIONS[name]) or (Fraction(), "")
+        unit = read_unit(names, PLAIN)
+        return Unit(number * unit.scale, unit.powers)
+    if prefixed := split_prefix(name):
+        power, of_which = prefixed
+        unit = read_unit(of_which, PLAIN)
+        return Unit(Fraction(10) ** power * unit.scale, unit.powers)
+    one = name.removesuffix("s")
+    return _find(one) if one != name and len(one) > 1 and name.islower() else None
+
+
 def _count_turns(speed: str) -> str:
     """A speed of rotation with its turns said: "150 Hz" -> "150 turn/s", "5500 1/min" -> rpm."""
     return re.sub(_PER_MINUTE, r"\1 rpm", re.sub(_HERTZ, r"\1 turn/s", speed))
+
+
+def _name_pi(angle: str) -> str:
+    """Parts of pi with it as their unit, half a turn: "3 pi/4 rad" -> "3/4 pi"."""
+    match = re.fullmatch(_PI, angle, re.ASCII)
+    return f"{match[1]}{match[2] or 1}/{match[3] or 1} pi" if match else angle
 
 
 def _in_small(name: str) -> str:
@@ -203,53 +231,3 @@ def wanted(dimension: Dimension) -> str:
         return "a plain number is wanted, without quotes"
     examples = " or ".join(f'"{e}"' for e in dimension.examples)
     return f"{dimension.name} is wanted: a bare number in {dimension.unit}, or {examples}"
-
-
-def _name(powers: Powers) -> str:
-    named = {d.powers: d.name for d in _DIMENSIONS} | {
-        Powers(time=-1): "a frequency",
-        Powers(1, 1, -2): "a force",
-    }
-    return named.get(powers, "of another dimension")
-
-
-@cache
-def _ask_pint(name: str) -> Unit | None:
-    """A unit that is not in the table above; None if there is no such unit of length, mass, time
-    and angle.
-    """
-    registry = _registry()
-    try:
-        scale, _ = registry.get_base_units(name)  # in m, kg, s, rad
-        parts = dict(registry.get_dimensionality(name))
-    except (
-        AttributeError,
-        KeyError,
-        TypeError,
-        ValueError,
-    ):  # pint has no common base class for these
-        return None
-    powers = [parts.pop(key, 0) for key in ("[length]", "[mass]", "[time]", "[angle]")]
-    if parts or any(p != int(p) for p in powers):
-        return Unit(Fraction(scale), _FOREIGN)
-    return Unit(Fraction(scale) / (2 * PI) ** int(powers[3]), Powers(*map(int, powers)))
-
-
-@cache
-def _registry() -> Any:
-    import logging
-
-    import pint
-
-    log = logging.getLogger("pint")
-    level = log.level
-    log.setLevel(logging.ERROR)  # it would report the redefinition, which is meant
-    try:
-        registry: Any = pint.UnitRegistry()
-        registry.define(
-            "radian = [angle] = rad"
-        )  # pint takes an angle for a plain number; here it is a dimension
-        registry._build_cache()
-    finally:
-        log.setLevel(level)
-    return registry

@@ -68,18 +68,17 @@ class _Course(NamedTuple):
     acceleration: Complex
 
 
-def compute_rod_forces(engine: Engine, crank_deg: Array, *, before: bool = False) -> RodForces:
-    """Forces at crank angles.
+def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
+    """Forces at crank angles; at a jump of the pressure those after it.
 
     Args:
         engine: with gas of known pressure, without trailing axes.
         crank_deg: shape (angles,).
-        before: at a jump of the pressure, what is before it.
 
     Raises:
         BalcliError: no gas, or no pressures.
     """
-    pressure, gas = _find_gas_forces(engine, crank_deg, before=before)
+    pressure, gas = _find_gas_forces(engine, crank_deg)
     motion = Motion(engine, crank_deg)
     masses = engine.weighed
     heads = _column(np.array([w.piston for w in masses]))
@@ -159,7 +158,7 @@ def _follow_ends(engine: Engine, motion: Motion, throw: Complex) -> tuple[_Cours
     return follow(place + 1j * offset, -motion.v, -motion.a), foot
 
 
-def _find_gas_forces(engine: Engine, crank_deg: Array, *, before: bool) -> tuple[Array, Array]:
+def _find_gas_forces(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
     """Pressure (Pa) and gas force (N) of each cylinder, shape (cylinders, angles)."""
     theta = np.radians(crank_deg)
     pressures, forces = [], []
@@ -168,8 +167,8 @@ def _find_gas_forces(engine: Engine, crank_deg: Array, *, before: bool) -> tuple
         if not isinstance(torque, PressureOnPiston):
             raise BalcliError("loads of pins need pressures; harmonics of the torque have none")
         at = theta - cylinder.fires
-        pressures.append(torque.pressure.at(at, before=before))
-        forces.append(cylinder.share * torque.force(at, before=before))
+        pressures.append(torque.pressure.at(at))
+        forces.append(cylinder.share * torque.force(at))
     return np.stack(pressures), np.stack(forces)
 
 

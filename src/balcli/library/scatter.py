@@ -11,12 +11,10 @@ from ..errors import BalcliError
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..forces.quantity import leave_out_unknown
 from ..studies.deviations import Tolerances
-from ..studies.part_scatter import scatter_parts
+from ..studies.part_scatter import RANDOM_SETS, scatter_parts
 from ..studies.quantities import parse_quantities, part_quantities
-from ..studies.tolerances import Scatter, scatter_engine
+from ..studies.tolerances import RANDOM_ENGINES, Scatter, scatter_engine
 from .arguments import Words, check_count, join_words, read_share
-
-ENGINES, SETS_OF_PARTS = 100_000, 500
 
 
 def scatter(
@@ -63,8 +61,8 @@ def scatter(
     names = DEFAULT_QUANTITIES if asked is None else asked
     wanted = parse_quantities(names, with_gas=model.gas is not None)
     of_engine, of_parts = part_quantities(wanted)
-    count = SETS_OF_PARTS if of_parts else ENGINES
-    count = count if samples is None else check_count("samples", samples)
+    usual = RANDOM_SETS if of_parts else RANDOM_ENGINES
+    count = usual if samples is None else check_count("samples", samples)
     seed = None if seed is None else check_count("seed", seed, 0)
     if distribution not in ("uniform", "normal"):
         raise BalcliError(f'distribution {distribution!r}: choose "uniform" or "normal"')

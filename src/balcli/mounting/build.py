@@ -18,6 +18,7 @@ from ..core.rigid_body import (
 from ..core.singular_values import Real
 from ..enginefile.fields import counted, printable, shorten
 from ..enginefile.model import EngineFile
+from ..enginefile.mounting_tables import Body as BodyTable
 from ..enginefile.mounting_tables import Mount, Point
 from ..enginefile.units import STANDARD_GRAVITY
 from ..errors import InputError, Problem
@@ -61,9 +62,10 @@ def build_mounted_body(model: EngineFile, name: str = "") -> MountedBody:
     Raises:
         InputError: what is missing or does not fit together; a motion that no mount holds.
     """
-    if problems := list(find_mounting_faults(model)):
+    problems = list(find_mounting_faults(model))
+    if problems or model.body is None:
         raise InputError(problems, name)
-    body, weight = _build_body(model)
+    body, weight = _build_body(model.body)
     static = _build_mounts(model.mount)
     factors = np.array([mount.dynamic_factor for mount in model.mount])[:, None]
     mounted = MountedBody(
@@ -123,11 +125,8 @@ def _find_twice(key: str, tables: Sequence[Mount | Point]) -> Iterator[Problem]:
             yield Problem(f"{key}.{number}.name", message)
 
 
-def _build_body(model: EngineFile) -> tuple[Body, Real]:
-    """The body of a file that has one, and its weight (3,), N."""
-    table = model.body
-    if table is None:
-        raise InputError([Problem("body", "is missing")])
+def _build_body(table: BodyTable) -> tuple[Body, Real]:
+    """The body that a file tells of, and its weight (3,), N."""
     xx, yy, zz, xy, yz, zx = table.inertia
     tensor = np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]])
     body = Body(table.mass, _LENGTH * np.array(table.cg, float), _INERTIA * tensor)

@@ -9,12 +9,10 @@ import numpy as np
 
 from ..core.rigid_body import (
     ElasticCentre,
-    Screw,
     Settled,
     damping_matrix,
     elastic_centre,
     find_body_modes,
-    find_screw,
     roll_axis,
     settle_body,
     share_energy,
@@ -25,8 +23,6 @@ from ..core.vibration import Modes, modal_loss
 from .build import MountedBody
 from .motions import name_mode, name_motions
 
-_ROLL = 5  # the turn about the crankshaft's axis among the six motions
-
 
 class BodyMode(NamedTuple):
     """One natural mode.
@@ -36,7 +32,6 @@ class BodyMode(NamedTuple):
         shares: (6,) of its kinetic energy in each motion; their sum is 1.
         shape: (6,) of the centre of gravity, m and rad, of unit modal mass.
         motion: what it is, in words.
-        screw: the same as a turn about a line.
         loss: factor by which it is damped; alone at resonance it is magnified by the inverse.
     """
 
@@ -44,7 +39,6 @@ class BodyMode(NamedTuple):
     shares: Real
     shape: Real
     motion: str
-    screw: Screw
     loss: float
 
     @property
@@ -61,7 +55,6 @@ class BodyModes:
         six: the modes, lowest first.
         modes: the same, for computing.
         loss: (6,) of each mode.
-        motions: names of x, y, z and the turns about them.
         roll_axis: (3,) unit vector through the centre of gravity, about which a torque about the
             crankshaft turns the body where nothing holds it.
         centre: where forces move the body with the least turning.
@@ -72,16 +65,10 @@ class BodyModes:
     six: tuple[BodyMode, ...]
     modes: Modes
     loss: Real
-    motions: tuple[str, ...]
     roll_axis: Real
     centre: ElasticCentre
     settled: Settled
     stiffness: Real
-
-    @property
-    def roll(self) -> int:
-        """Which mode has the largest share of turning about the crankshaft's axis, from 0."""
-        return int(np.argmax([mode.shares[_ROLL] for mode in self.six]))
 
 
 def find_mounted_modes(mounted: MountedBody, torque: float = 0.0) -> BodyModes:
@@ -102,7 +89,6 @@ def find_mounted_modes(mounted: MountedBody, torque: float = 0.0) -> BodyModes:
             shares[k],
             _point_forward(modes.shapes[k], shares[k]),
             name_mode(shares[k], motions),
-            find_screw(modes.shapes[k], body.centre),
             float(loss[k]),
         )
         for k in range(len(modes.omega))
@@ -112,7 +98,6 @@ def find_mounted_modes(mounted: MountedBody, torque: float = 0.0) -> BodyModes:
         six,
         modes,
         loss,
-        motions,
         roll_axis(body),
         elastic_centre(complex_stiffness.real, body.centre),
         settle_body(body, mounted.static, load),

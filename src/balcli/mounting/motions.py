@@ -8,6 +8,7 @@ from ..core.rigid_body import find_screw
 from ..core.singular_values import Real
 
 AXES = ("x", "y", "z", "rx", "ry", "rz")
+ROLL = AXES.index("rz")  # the turn about the crankshaft's axis
 _ALONG = ("x", "y", "z")
 _ALONE = 0.8  # share of the energy with which a motion counts as one alone
 _PART = 0.15  # share with which it is named beside another
@@ -20,13 +21,10 @@ def name_motions(up: Real) -> tuple[str, ...]:
     Turns about z, the crankshaft's axis, are always its roll.
     """
     upright = int(np.argmax(np.abs(up)))
+    if upright == 2:
+        return "along x", "along y", "up and down", "turn about x", "turn about y", "roll"
     names = ["sideways", "sideways", "lengthways", "pitch", "pitch", "roll"]
-    names[upright] = "up and down"
-    if upright < 2:
-        names[3 + upright] = "yaw"
-    else:
-        names[5], names[3], names[4] = "roll", "turn about x", "turn about y"
-        names[0], names[1] = "along x", "along y"
+    names[upright], names[3 + upright] = "up and down", "yaw"
     return tuple(names)
 
 

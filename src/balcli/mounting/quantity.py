@@ -20,6 +20,7 @@ from ..forces.target_quantity import (
 )
 from .build import build_mounted_body
 from .modes import BodyModes, find_mounted_modes
+from .motions import AXES, ROLL
 from .report import choose_speeds
 from .response import find_loads, find_worst
 
@@ -28,7 +29,7 @@ _SUBJECTS = {
     "mount": Subject("left", {"force": "N", "static": "N"}),
     "point": Subject("lever", {"motion": "m"}),
 }
-_MOTIONS = {"x": 0, "y": 1, "z": 2, "rx": 3, "ry": 4, "rz": 5, "roll": 5}
+_MOTIONS = {axis: k for k, axis in enumerate(AXES)} | {"roll": ROLL}
 _NUMBERS = tuple("123456")
 _TABLES = ("body", "mount", "point")  # of the file, which no engine has
 _RUNS = ("force", "motion")  # what takes an engine that runs

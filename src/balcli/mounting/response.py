@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.cycle_peaks import find_longest, largest_of_ellipse
+from ..core.golden_section import find_highest
 from ..core.rigid_body import (
     BodyResponse,
     carry_points,
@@ -35,12 +36,10 @@ from ..forces.spectrum import Spectra, compute_spectra
 from ..limits import MOST_MOUNT_RESULTS
 from .build import MountedBody
 from .modes import BodyModes
+from .motions import ROLL
 
 _KINDS = ("force", "moment", "roll")
-_ROLL = 5  # of the six parts of a load, the moment about the crankshaft's axis
-_CLOSER = 20  # golden sections of the step of speed about a highest peak: 1e-4 of it
 _SPEEDS_AT_A_TIME = 512  # whose curves are sampled together
-_GOLDEN = (3 - 5**0.5) / 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,7 +156,7 @@ def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Load
     loads = Loads(found.orders, inertia, float(engine.omega))
     if engine.gas is not None:
         gas = np.zeros_like(inertia)
-        gas[:, _ROLL] = -found["gas"].x
+        gas[:, ROLL] = -found["gas"].x
         mean = compute_spectra(engine, [0.0], ["gas"])["gas"].x[0].real
         loads = replace(loads, gas=gas, mean=-float(mean))
     return loads if orders is not None else _leave_out_none(loads)
@@ -320,17 +319,8 @@ def _find_worst(
         own = _list_curves(mounted, _move(mounted, loads, at))[:, each, each]
         return own, find_longest(loads.orders, own).value
 
-    one, two = low + _GOLDEN * (high - low), high - _GOLDEN * (high - low)
-    at_one, at_two = evaluate(one)[1], evaluate(two)[1]
-    for _ in range(_CLOSER):
-        left = at_one >= at_two
-        low, high = np.where(left, low, one), np.where(left, two, high)
-        new = np.where(left, low + _GOLDEN * (high - low), high - _GOLDEN * (high - low))
-        at_new = evaluate(new)[1]
-        one, two = np.where(left, new, two), np.where(left, one, new)
-        at_one, at_two = np.where(left, at_new, at_two), np.where(left, at_one, at_new)
-    best = np.where(at_one >= at_two, one, two)
-    best = np.where(np.maximum(at_one, at_two) > heights[top, each], best, start)
+    place, highest = find_highest(lambda at: evaluate(at)[1], low, high)
+    best = np.where(highest > heights[top, each], place, start)
     own, value = evaluate(best)
     alone = largest_of_ellipse(own)
     leading = alone.argmax(axis=0)

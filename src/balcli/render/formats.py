@@ -43,27 +43,32 @@ def get_digits() -> int:
     return _digits
 
 
-R = TypeVar("R")
-R_contra = TypeVar("R_contra", contravariant=True)
+Shown = TypeVar("Shown")
+Shown_contra = TypeVar("Shown_contra", contravariant=True)
 
 
-class Renderer(Protocol[R_contra]):
+class Renderer(Protocol[Shown_contra]):
     """How results of one kind are shown; the modules of `render/` that are named as a kind of
     result are such.
     """
 
-    def sheet(self, result: R_contra, system: System, /) -> Sheet:
+    def sheet(self, result: Shown_contra, system: System, /) -> Sheet:
         """What a person reads, in these units."""
 
-    def document(self, result: R_contra, /) -> Any:
+    def document(self, result: Shown_contra, /) -> Any:
         """What JSON says, in SI units."""
 
-    def rows(self, result: R_contra, system: System, /) -> Rows:
+    def rows(self, result: Shown_contra, system: System, /) -> Rows:
         """What CSV lists, in these units."""
 
 
 def render(
-    results: Sequence[R], renderer: Renderer[R], form: Format, system: System, *, seen: bool = False
+    results: Sequence[Shown],
+    renderer: Renderer[Shown],
+    form: Format,
+    system: System,
+    *,
+    seen: bool = False,
 ) -> str:
     """Text of one or more results in one format: sheets one after the other, one JSON document a
     line, all rows of CSV under one header.

@@ -29,7 +29,7 @@ def sheet(result: MountReport, system: System) -> Sheet:
     """What matters first: what the frame feels, then modes, rest and the range of speeds."""
     parts: list[Grid | Facts | Text] = []
     if result.response is not None:
-        parts += [Text("What the frame feels", tuple(_answer(result, system)))]
+        parts += [Text("What the frame feels", tuple(_answer(result, result.response, system)))]
         parts += [_worst_forces(result, system)]
         if result.mounted.point_names:
             parts += [_worst_motions(result, system)]
@@ -41,11 +41,8 @@ def sheet(result: MountReport, system: System) -> Sheet:
     return Sheet(f"{result.name or NAMELESS}: on its mounts", tuple(parts))
 
 
-def _answer(result: MountReport, system: System) -> Iterator[str]:
+def _answer(result: MountReport, response: Response, system: System) -> Iterator[str]:
     """In words: where it is worst, and why; what a scheme is worth there."""
-    response = result.response
-    if response is None:
-        return
     name, worst = _find_hardest(result, response)
     if worst.value == 0:
         yield "The mounts feel nothing of the orders that count."
@@ -63,7 +60,7 @@ def _answer(result: MountReport, system: System) -> Iterator[str]:
         yield "Of inertia and the torque of the gas, the same diagram at every speed."
     for other in result.beside:
         after = max(other.response.worst_force, key=lambda one: one.value)
-        change = after.value / worst.value - 1 if worst.value else 0.0
+        change = after.value / worst.value - 1
         less = f"{abs(change):.0%} {'less' if change < 0 else 'more'}"
         less = "as much" if abs(change) < _SAME else less
         yield (
@@ -168,7 +165,7 @@ def _modes(result: MountReport) -> Grid:
             str(k),
             number(mode.hertz, 4),
             mode.motion,
-            *(f"{100 * share + 0.0:.1f}".replace("-0.0", "0.0") for share in mode.shares),
+            *(f"{round(100 * share, 1) + 0.0:.1f}" for share in mode.shares),
             *((f"{50 * mode.loss:.1f}",) if damped else ()),
         )
         for k, mode in enumerate(result.modes.six, 1)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Sequence
 from html import escape
-from typing import Any
 
 from ..engine.build import Engine
+from ..result import Result
 from ..results.analysis import Analysis
 from . import analysis
 from .csv import Columns
@@ -19,7 +19,7 @@ WORDS = "text-align: left"
 ENDS = 5  # rows of a long table that are shown, at its head and at its foot
 
 
-def show(result: Any) -> str:
+def show(result: Engine | Result) -> str:
     """An engine or an answer as a person reads it, in SI units."""
     if isinstance(result, Engine):
         facts = engine_facts(result, SI, higher=False, whole=False)
@@ -84,7 +84,9 @@ def _table(grid: Grid) -> Iterator[str]:
         yield f"<p><small>{escape(grid.note)}</small></p>\n"
 
 
-def _line(cells: Any, words: tuple[int, ...], tag: str, marked: Any = ()) -> str:
+def _line(
+    cells: Sequence[str], words: tuple[int, ...], tag: str, marked: Collection[int] = ()
+) -> str:
     texts = [
         f"<b>{escape(cell)}</b>" if k in marked else escape(cell) for k, cell in enumerate(cells)
     ]

@@ -70,21 +70,20 @@ def order_name(order: float) -> str:
 
 def number(value: float, digits: int | None = None) -> str:
     """A number for people: that many significant digits (default: `get_digits`), no
-    exponent between 0.001 and a million, a plain 0.
+    exponent between 0.0001 and a million, a plain 0.
     """
     digits = digits or get_digits()
     if value != value:
-        return "–"
+        return UNKNOWN
     if value == 0:
         return "0"
-    value = float(
-        f"{value:.12g}"
-    )  # the last digits, which are the machine's, decide to which side no half is rounded
+    # the last digits, which are the machine's, do not decide to which side a half is rounded
+    value = float(f"{value:.12g}")
     text = f"{value:.{digits}g}"
     if "e" not in text:
         return text
-    if 1e-4 <= abs(value) < 10 ** max(digits + 2, 6):
-        return f"{value:.0f}" if abs(value) >= 1 else f"{value:.{digits + 3}f}".rstrip("0")
+    if 1 <= abs(value) < 10 ** max(digits + 2, 6):
+        return f"{value:.0f}"
     mantissa, exponent = text.split("e")
     return f"{mantissa}e{int(exponent)}"
 
@@ -102,6 +101,6 @@ def degrees(value: float, turn: float = 360) -> str:
     which side a half is rounded, would else be for its last digits to say.
     """
     if value != value:
-        return "–"
+        return UNKNOWN
     tenths = round(round(value, 6), 1) + 0.0
     return f"{abs(tenths) if tenths == -turn / 2 else 0.0 if tenths == 360 else tenths:.1f}"

@@ -132,6 +132,7 @@ def _damper_document(sized: SizedDamper) -> dict[str, Any]:
     }
     figures = {key: clean(value / per) for key, (value, per) in si.items() if value is not None}
     unit = "Pa" if sized.measure == "stress" else "Nm"
+    doubts = {"doubts": list(sized.doubts)} if sized.doubts else {}
     return {
         "node": sized.node,
         "kind": damper.kind,
@@ -141,6 +142,7 @@ def _damper_document(sized: SizedDamper) -> dict[str, Any]:
         f"after_{unit}": clean(sized.after),
         "heat_W": clean(sized.heat),
         "heat_rpm": clean(sized.heat_rpm),
+        **doubts,
     }
 
 
@@ -200,7 +202,7 @@ def _mode_lines(number: int, mode: dict[str, Any], nodes: list[dict[str, Any]]) 
 
 def _damper_lines(damper: dict[str, Any]) -> Iterator[Line]:
     for key, value in damper.items():
-        if key not in ("node", "kind"):
+        if key not in ("node", "kind", "doubts"):
             figure, _, unit = key.partition("_")
             node = name_cell(damper["node"])
             yield "damper", None, None, None, node, figure, value, _DAMPER_UNITS.get(unit, "")

@@ -18,8 +18,8 @@ from ..process import keep_freed_memory
 from .boxes import Box, BoxSize, group_boxes
 from .sweep import Chunk, Sweep, divide_sweep, evaluate_box, size_boxes
 
-T = TypeVar("T")
-R = TypeVar("R")
+Item = TypeVar("Item")
+Outcome = TypeVar("Outcome")
 ROWS = 1 << 18  # of variants whose figures a worker sends at a time
 RETRIES = 3  # of what a worker has not finished
 AHEAD = 4  # tasks for each thread that may wait to be fetched
@@ -72,7 +72,9 @@ def _evaluate_parts(size: BoxSize, parts: list[tuple[Box, Sweep]]) -> list[Chunk
     return [Chunk(box, evaluate_box(part, part.whole, size)) for box, part in parts]
 
 
-def run_on_cluster(client: Any, work: Callable[[T], R], items: Iterable[T]) -> Iterator[R]:
+def run_on_cluster(
+    client: Any, work: Callable[[Item], Outcome], items: Iterable[Item]
+) -> Iterator[Outcome]:
     """What becomes of each item, in their order, by the workers of a client's cluster; a bounded
     number of items is under way at a time.
 

@@ -24,6 +24,7 @@ from .quantity_names import MOUNTS
 from .tolerances import PERCENTILES, TOLD, Scatter, Shape, Spread
 
 OF_MOUNTS, OF_SHAFTS = 0.15, 0.05  # tolerance of stiffness, unless another is given
+RANDOM_SETS = 500  # samples, unless their number is given: each takes milliseconds
 
 
 class PartSource(NamedTuple):

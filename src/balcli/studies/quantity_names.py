@@ -8,7 +8,7 @@ of x, y, z, rx, ry, rz and roll, `PART` for what the words name.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import groupby
 from typing import NamedTuple
 
@@ -131,9 +131,9 @@ def find_chapter(name: str) -> Chapter | None:
     return next((chapter for chapter in CHAPTERS if beginning in chapter.beginnings), None)
 
 
-def describe_names(chapters: Sequence[Chapter] = CHAPTERS) -> str:
+def describe_names() -> str:
     """All names in words, for help."""
-    names = "; ".join(", ".join(_shorten(chapter)) for chapter in chapters)
+    names = "; ".join(", ".join(_shorten(chapter)) for chapter in CHAPTERS)
     return (
         f"{names}. N: order or number; PART: of force and moment {_OF_VECTOR}; of others "
         f"{_OF_SCALAR}."

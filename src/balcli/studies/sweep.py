@@ -236,20 +236,19 @@ def build_corners(sweep: Sweep) -> Engine:
     return Sweep(sweep.file, corners, (), sweep.name).engine((slice(None),) * len(corners))
 
 
-def evaluate_box(sweep: Sweep, box: Box, size: BoxSize | None = None) -> list[Array]:
+def evaluate_box(sweep: Sweep, box: Box, size: BoxSize) -> list[Array]:
     """Each quantity for all variants of a box, SI or degrees, shape (variants in it,).
 
     Args:
         sweep: what to compute.
         box: of its grid.
-        size: of what is computed at a time, and figures that some axes do not change once; None:
-            all of it.
+        size: of what is computed at a time, and figures that some axes do not change once.
 
     Raises:
         InputError: one of them cannot be.
     """
     shape = tuple(len(range(*cut.indices(n))) for cut, n in zip(box, sweep.shape, strict=True))
-    tiles = [box] if size is None else list(divide_into_tiles(shape, size))
+    tiles = list(divide_into_tiles(shape, size))
     if len(tiles) == 1:
         values = _evaluate_tile(sweep, box)
         return [np.broadcast_to(one, shape).ravel() for one in values]

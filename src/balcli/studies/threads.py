@@ -9,14 +9,14 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import islice
 from typing import TypeVar
 
-T = TypeVar("T")
-R = TypeVar("R")
+Item = TypeVar("Item")
+Outcome = TypeVar("Outcome")
 ALONE_S = 1.0  # before several threads share what is left: most sweeps have ended by then
 
 
 def share_work(
-    work: Callable[[T], R], items: Iterable[T], threads: int, alone_s: float = ALONE_S
-) -> Iterator[R]:
+    work: Callable[[Item], Outcome], items: Iterable[Item], threads: int, alone_s: float = ALONE_S
+) -> Iterator[Outcome]:
     """What becomes of each item, in their order.
 
     Args:
@@ -34,7 +34,9 @@ def share_work(
     yield from _share(work, waiting, threads)
 
 
-def _share(work: Callable[[T], R], items: Iterator[T], threads: int) -> Iterator[R]:
+def _share(
+    work: Callable[[Item], Outcome], items: Iterator[Item], threads: int
+) -> Iterator[Outcome]:
     """The same by so many threads, a little ahead of who asks for it."""
     first = list(islice(items, 2 * threads))
     if not first:

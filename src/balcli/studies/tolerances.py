@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from ..forces.target_quantity import TargetQuantity
     from .part_scatter import PartSource
 
+RANDOM_ENGINES = 100_000  # samples, unless their number is given
 CHUNK = 8_192  # samples at a time
 AT_ONCE = 400_000  # deviations at a time, where there are many sources
 TOLD = 1e-8  # of the largest share: those that differ by less are equal

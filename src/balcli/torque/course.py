@@ -90,14 +90,14 @@ def find_constant_inertia(engine: Engine) -> float | None:
     return float(sum(given)) if given else None
 
 
-def silence(engine: Engine, number: int, option: str = "--misfire") -> Engine:
+def silence(engine: Engine, number: int) -> Engine:
     """The engine with a cylinder whose gas does nothing.
 
     Raises:
         BalcliError: it has no gas, or no such cylinder.
     """
     gas: EngineGas = take_gas(engine)
-    share = gas.with_share(find_row(engine, number, option), 0.0)
+    share = gas.with_share(find_row(engine, number, "--misfire"), 0.0)
     return replace(engine, gas=share, model=None)
 
 

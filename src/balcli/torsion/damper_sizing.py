@@ -30,7 +30,6 @@ RUBBER_LOSS = 0.15  # usual for damper rubber
 _SHARE = {"viscous": 0.3, "rubber": 0.15, "pendulum": 0.05}
 _FIGURE = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  # that is sized
 _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # range of the search, times and over
-_PENDULUM_RADIUS = 0.06  # m, where nothing says where one hangs
 _PLACES = 13  # looked at over this range before the best is approached
 _HARDLY = 0.99  # of the largest stress without it: one that leaves more is no use
 _HEAVY = 10.0  # times the inertia of what carries it: for more there is no room
@@ -100,7 +99,8 @@ def size_damper(
     node, own = _find_carrier(source.dampers(), asked.node)
     bare = source.with_damper(node, None).system()
     mode, order = _find_worst(bare, speeds, orders)
-    first = _propose(asked, own, bare, bare.nodes.index(node), mode, order)
+    place = bare.nodes.index(node)
+    first = _propose(asked, own, bare, place, mode, order, source.crank_radius)
     figure = _FIGURE[asked.kind]
     start = float(getattr(first, figure))
     tried = count(1)
@@ -237,10 +237,15 @@ def _propose(
     node: int,
     mode: NaturalMode,
     order: float,
+    crank_radius: float | None,
 ) -> Damper:
     """A damper of the inertia that is wanted, tuned as the optimum of a system with one degree of
     freedom has it: Houdaille's for oil, Den Hartog's tuning for rubber, the order itself for
-    pendulums.
+    pendulums. Those hang where the file says, else as far out as the crank pins (m).
+
+    Raises:
+        BalcliError: what is to carry it stands still in the mode; nothing says where pendulums
+            hang.
     """
     own = own if own is not None and own.kind == asked.kind else None
     if mode.shape[node] == 0:
@@ -256,7 +261,13 @@ def _propose(
         stiffness = inertia * (mode.omega / (1 + ratio)) ** 2
         loss = RUBBER_LOSS if own is None else own.loss
         return _make("rubber", inertia=written, stiffness=stiffness, loss=loss)
-    radius = _PENDULUM_RADIUS if own is None or own.radius is None else own.radius / 1e3
+    radius = crank_radius if own is None or own.radius is None else own.radius / 1e3
+    if radius is None:
+        raise BalcliError(
+            "--damper pendulum: a chain has no crank that says how far out pendulums hang: give "
+            f"{printable(system.nodes[node])} one, such as damper = "
+            '{ kind = "pendulum", mass = 2, radius = 60, length = 5 }'
+        )
     length = radius * (system.gears[node] / order) ** 2
     mass = float(f"{inertia / (radius + length) ** 2:.4g}")
     if own is not None and own.mass is not None and asked.inertia is None:

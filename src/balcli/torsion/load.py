@@ -37,6 +37,11 @@ class ChainSource:
         """What is suspicious of the file, in words."""
         return ()
 
+    @property
+    def crank_radius(self) -> float | None:
+        """None: it has no crank."""
+        return None
+
     def dampers(self) -> Mapping[str, Damper | None]:
         """What may carry a damper, by name, and those that do."""
         return {node.name: node.damper for node in self.model.node}
@@ -71,6 +76,11 @@ class EngineSource:
         """What is suspicious of the file, in words, each by its path."""
         gas = () if self.engine.gas is None else self.engine.gas.doubts
         return (*find_suspicious(self.model), *gas)
+
+    @property
+    def crank_radius(self) -> float | None:
+        """Half the stroke, m."""
+        return float(self.engine.cylinders.radius)
 
     def dampers(self) -> Mapping[str, Damper | None]:
         """What may carry a damper, by name, and those that do."""

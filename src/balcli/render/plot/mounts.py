@@ -4,7 +4,7 @@ and the body moving in each mode.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import combinations, product
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
@@ -59,52 +59,48 @@ def make_mounts(result: MountReport, form: Form, system: System) -> Figure:
             halves: Any = fig.subfigures(2, 1, height_ratios=(2.1, 1))
             upper, lower = halves
             several = upper.subplots(1, 3 if result.mounted.point_names else 2)
-            _draw_forces(several[0], result, system.force)
+            _draw_forces(several[0], result, result.response, system.force)
             _draw_meetings(several[1], result, result.response)
             if result.mounted.point_names:
-                _draw_motions(several[2], result, system.length)
+                _draw_motions(several[2], result, result.response, system.length)
             shapes = lower.subplots(1, 6)
         for k, (ax, mode) in enumerate(zip(shapes, result.modes.six, strict=True), 1):
             _draw_mode(ax, k, mode, result)
         return fig
 
 
-def _draw_forces(ax: Axes, result: MountReport, unit: Unit) -> None:
-    curves = [(each.force_peak, name) for each, name in _responses(result)]
-    _draw_curves(ax, result, result.mounted.names, curves, unit)
+def _draw_forces(ax: Axes, result: MountReport, response: Response, unit: Unit) -> None:
+    curves = [(response.force_peak, ""), *((r.force_peak, more) for r, more in _beside(result))]
+    _draw_curves(ax, response.speeds_rpm, result.mounted.names, curves, unit)
     ax.set_title("Force of each mount")
     ax.set_ylabel(f"{unit.name}, all orders")
 
 
-def _draw_motions(ax: Axes, result: MountReport, unit: Unit) -> None:
-    curves = [(each.motion_peak, name) for each, name in _responses(result)]
-    _draw_curves(ax, result, result.mounted.point_names, curves, unit)
+def _draw_motions(ax: Axes, result: MountReport, response: Response, unit: Unit) -> None:
+    curves = [(response.motion_peak, ""), *((r.motion_peak, more) for r, more in _beside(result))]
+    _draw_curves(ax, response.speeds_rpm, result.mounted.point_names, curves, unit)
     ax.set_title("Motion of points")
     ax.set_ylabel(f"{unit.name}, all orders")
 
 
-def _responses(result: MountReport) -> list[tuple[Response, str]]:
-    """Without a scheme, and with it, with what to add to a name."""
-    found = [] if result.response is None else [(result.response, "")]
-    return found + [(other.response, f", {fit_name(other.name, 20)}") for other in result.beside]
+def _beside(result: MountReport) -> Iterator[tuple[Response, str]]:
+    """What is shown beside, with what to add to a name."""
+    return ((other.response, f", {fit_name(other.name, 20)}") for other in result.beside)
 
 
 def _draw_curves(
     ax: Axes,
-    result: MountReport,
+    speeds_rpm: Real,
     names: Sequence[str],
     curves: Sequence[tuple[Real, str]],
     unit: Unit,
 ) -> None:
     """Over speed, a curve for each name; those with a scheme are thin and of the same look."""
-    response = result.response
-    if response is None:
-        return
     for k, name in enumerate(names[:_MOST_CURVES]):
         line, colour = _LOOKS[k % len(_LOOKS)]
         for values, more in curves:
             ax.plot(
-                response.speeds_rpm,
+                speeds_rpm,
                 [unit.of(value) for value in values[:, k]],
                 color=colour,
                 linestyle="-." if more else line,

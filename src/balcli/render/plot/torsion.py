@@ -132,12 +132,14 @@ def _shade_barred(ax: Axes, result: TorsionAnalysis) -> None:
 
 
 def _draw_torque(ax: Axes, result: TorsionAnalysis, response: Response) -> None:
-    """Half of peak to peak of each shaft, as stress where all drawn have diameters."""
-    largest = np.argsort(-response.torque.max(axis=0), kind="stable")
+    """Half of peak to peak of the shafts with the largest; as stress, of those with a diameter,
+    where the file limits it.
+    """
+    largest = np.argsort(-response.torque.max(axis=0), kind="stable").tolist()
     stressed = [k for k in largest if result.system.sections[k] is not None]
     limit = result.system.limit_pa
     by_stress = bool(stressed) and limit is not None
-    shown = sorted((stressed if by_stress else largest.tolist())[:_MOST_SHAFTS])
+    shown = sorted((stressed if by_stress else largest)[:_MOST_SHAFTS])
     values = response.stress / 1e6 if by_stress else response.torque
     for k, (line, colour) in zip(shown, cycle(_STYLES)):
         name = fit_name(result.system.shafts[k], 22)

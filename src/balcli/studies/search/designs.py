@@ -21,8 +21,7 @@ from .objective import Objective
 # One column by its key of the engine file: `throws`, shape (candidates, throws), or `bank_angle` or
 # `splay`, shape (candidates,); angles in deg.
 Candidates = Mapping[str, Array]
-
-
+# of the engine file, that have what is arranged
 TABLES = {"throws": "crank", "splay": "crank", "firing_order": "layout", "bank_angle": "layout"}
 
 
@@ -50,7 +49,7 @@ class Design(NamedTuple):
         return {key: list(v) if isinstance(v, tuple) else v for key, v in there.items()}
 
     def changes(self) -> dict[str, Any]:
-        """The same by dotted keys, for `Engine.vary`."""
+        """The same by dotted keys, as `engine.vary.vary_engine` takes them."""
         if self.number is not None:
             return dict([self.number])
         changed: dict[str, Any] = {

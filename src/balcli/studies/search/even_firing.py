@@ -33,7 +33,7 @@ def find_even_angles(
     """The angles in a span at which the cylinders fire evenly, deg; None if they do at any angle.
 
     Where the crank stands at a cylinder's top dead centre depends on the angle in proportion: that
-    of one cylinder that moves against cylinder 1 has to be at one of the slots of the cycle_deg.
+    of one cylinder that moves against cylinder 1 has to be at one of the slots of the cycle.
     """
     some = find_two_buildable(model, key, span)
     two = build_candidates(model, {key: some})
@@ -74,7 +74,7 @@ def _find_top_dead_centres(engine: Engine, model: EngineFile) -> Array:
     (cylinders, *candidates).
     """
     c = engine.cylinders
-    # of plain slider-cranks, see engine.tops; the pins of articulated ones are set for their lead
+    # of plain slider-cranks, as `Assembly.tops_deg`; articulated pins are set for their lead
     late = 0.0 if model.articulation else np.degrees(np.arcsin(c.eps / (1 + c.lam)))
     ready = c.axis_of_each_deg + late - c.pin_deg
     return np.asarray(ready - ready[engine.numbers.index(1)])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Generic, TypeVar
+from typing import Generic, TypeGuard, TypeVar
 
 import numpy as np
 
@@ -14,23 +14,23 @@ from ...forces.kinds import GAS_KINDS
 from ...forces.quantity import Quantity
 from ..quantities import AnyQuantity, parse_quantities
 
-Q = TypeVar("Q", bound=AnyQuantity)
+Asked = TypeVar("Asked", bound=AnyQuantity)
 _SIGNED = ("torque.mean", "torque.min")
 
 
 @dataclass(frozen=True)
-class Objective(Generic[Q]):
+class Objective(Generic[Asked]):
     """Weights by quantity, and upper limits by quantity (SI)."""
 
-    weights: dict[Q, float]
-    limits: dict[Q, float]
+    weights: dict[Asked, float]
+    limits: dict[Asked, float]
 
     @property
-    def quantities(self) -> tuple[Q, ...]:
+    def quantities(self) -> tuple[Asked, ...]:
         """All that have to be known, each once."""
         return tuple(dict.fromkeys((*self.weights, *self.limits)))
 
-    def evaluate(self, value: Callable[[Q], float | Array]) -> Array:
+    def evaluate(self, value: Callable[[Asked], float | Array]) -> Array:
         """The weighted sum, infinite where a limit is broken, shape (candidates,).
 
         Args:
@@ -78,13 +78,10 @@ def choose_sums(objective: Objective[AnyQuantity]) -> Objective[Quantity] | None
     limits = {q: limit for q, limit in objective.limits.items() if _is_sum(q)}
     if len(weights) < len(objective.weights) or len(limits) < len(objective.limits):
         return None
-    return Objective(
-        {q: w for q, w in weights.items() if isinstance(q, Quantity)},
-        {q: limit for q, limit in limits.items() if isinstance(q, Quantity)},
-    )
+    return Objective(weights, limits)
 
 
-def _is_sum(q: AnyQuantity) -> bool:
+def _is_sum(q: AnyQuantity) -> TypeGuard[Quantity]:
     return isinstance(q, Quantity) and q.kind not in GAS_KINDS
 
 

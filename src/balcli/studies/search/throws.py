@@ -199,7 +199,7 @@ class _Tree:
         sums = self._add(np.array([prefix], np.int8))
         to_come = self._places.free[len(prefix) :]
 
-        def find_least(q: Quantity) -> float:
+        def bound(q: Quantity) -> float:
             key = q.kind, q.order
             reach = float(self._table[key].reach[to_come].sum())
             ahead, astern = (max(float(np.abs(v[0])) - reach, 0.0) for v in sums[key])
@@ -207,7 +207,7 @@ class _Tree:
             sizes |= dict.fromkeys(("major", "amplitude"), ahead + astern)
             return sizes.get(q.part, 0.0)
 
-        return float(self._objective.evaluate(find_least))
+        return float(self._objective.evaluate(bound))
 
     def _try(self, rows: Indices) -> None:
         """Keep what is good enough of whole cranks, shape (candidates, free throws)."""
