@@ -12,6 +12,8 @@ import re
 import signal
 import subprocess
 import sys
+from collections.abc import Iterable
+from functools import cache
 from importlib import import_module
 from inspect import cleandoc
 from pathlib import Path
@@ -559,7 +561,6 @@ def test_a_real_terminal_gets_colours_and_lines_of_its_width(monkeypatch):
     "args",
     [
         ["analyze", V8],
-        ["schema"],
         ["new", "single"],
         ["check", str(ENGINES / "i4.toml")],
         ["--help"],
@@ -607,10 +608,19 @@ HEAVY = {"numpy", "pydantic", "rich", "matplotlib", "tomli_w", "jinja2", "scipy"
 PROBE = """
 import atexit, sys
 from balcli.__main__ import main
-names = lambda: " ".join(sorted({name.partition(".")[0] for name in sys.modules}))
-atexit.register(lambda: sys.stderr.write(names()))
+atexit.register(lambda: sys.stderr.write(" ".join(sys.modules)))
 main()
 """
+
+
+@cache
+def modules_of(*args: object) -> frozenset[str]:
+    """All modules that a command has imported when it ends."""
+    return frozenset(run_python("-c", PROBE, *args).stderr.split())
+
+
+def packages(modules: Iterable[str]) -> set[str]:
+    return {name.partition(".")[0] for name in modules}
 
 
 @pytest.mark.parametrize(
@@ -625,23 +635,35 @@ main()
         (["analyze", V8, "--format", "markdown"], {"numpy", "pydantic"}),
         (["analyze", V8], {"numpy", "pydantic"}),
         (["check", str(ENGINES / "i4.toml")], {"numpy", "pydantic"}),
-        *(([command, "--help"], {"pydantic"}) for command in COMMANDS),
     ],
     ids=lambda value: " ".join(Path(word).name for word in value) if type(value) is list else "",
 )
 def test_only_what_is_needed_is_imported(args, allowed):
-    loaded = set(run_python("-c", PROBE, *args).stderr.split())
+    loaded = packages(modules_of(*args))
     assert loaded & HEAVY <= allowed
     assert "balcli" in loaded
 
 
-OWN = """
-import atexit, sys
-from balcli.__main__ import main
-own = lambda: " ".join(name for name in sys.modules if name.startswith("balcli."))
-atexit.register(lambda: sys.stderr.write(own()))
-main()
+def test_the_help_of_a_command_needs_no_library():
+    """One process asks all of them, one after the other, and tells what was there after each."""
+    code = f"""
+import sys
+from balcli.cli import main
+for command in {list(COMMANDS)}:
+    sys.argv = ["balcli", command, "--help"]
+    try:
+        main()
+    except SystemExit as end:
+        packages = sorted({{name.partition(".")[0] for name in sys.modules}})
+        print(command, end.code, *packages, file=sys.stderr)
 """
+    lines = [line.split() for line in run_python("-c", code).stderr.splitlines()]
+    assert [line[:2] for line in lines] == [[command, "0"] for command in COMMANDS]
+    first = next((line for line in lines if {*line} & (HEAVY - {"pydantic"})), None)
+    assert first is None
+    assert all("balcli" in line for line in lines)
+
+
 CHAPTERS = (
     *("bench", "field_balancing", "mounting", "printed_tables"),
     *("studies", "torque", "torsion"),
@@ -650,12 +672,16 @@ FOR_WHO_ASKS = ("core.strokes", "forces.crankshaft", "forces.guide_moments", "fo
 FOR_PEOPLE = ("render.analysis", "render.verdict", "render.markdown", "render.terminal")
 
 
+def own_modules(*args: object) -> set[str]:
+    return {name for name in modules_of(*args) if name.startswith("balcli.")}
+
+
 @pytest.mark.parametrize(
     ("form", "left_out"),
     [("json", (*FOR_PEOPLE, "render.table")), ("table", ("render.markdown", "render.terminal"))],
 )
 def test_a_plain_analysis_imports_no_other_format_chapter_or_kind_of_engine(form, left_out):
-    loaded = run_python("-c", OWN, "analyze", V8, "--format", form).stderr.split()
+    loaded = own_modules("analyze", V8, "--format", form)
     rare = ("engine.articulation", "core.mechanisms.rotary", "core.mechanisms.articulated")
     names = {name.removeprefix("balcli.") for name in loaded}
     assert "results.analysis" in names
@@ -667,10 +693,13 @@ MAY_IMPORT = {
     "": "__main__ cli errors limits process result",
     "commands": "amounts analysis_answer analysis_options analyze declare defaults file_names "
     "format_names inputs options output overwrite_guard speed_range",
-    "core": "cylinders factored_phasors least_squares loads peaks phases phasors speed_ripple",
+    "core": "cached_property cylinders factored_phasors least_squares loads peaks phases phasors "
+    "speed_ripple",
     "core.mechanisms": "closed_form distinct fourier harmonics motion sampled slidercrank",
-    "engine": "arrays assembly build devices figures firing layout load positions rods rules",
-    "enginefile": "exclusive fields messages model plain_tables read suspicious toml_text units",
+    "engine": "arrays assembly build devices figures firing layout load positions rods rules "
+    "split_pins",
+    "enginefile": "exclusive fields messages model plain_tables read suspicious toml_text unit_table "
+    "units unknown_keys",
     "forces": "kinds orders spectrum",
     "render": "analyses analysis_data crankshaft csv devices figures formats guide_moments json "
     "sheet strokes symmetry units view",
@@ -682,12 +711,12 @@ MAY_IMPORT = {
 
 def test_a_plain_analysis_as_json_imports_these_modules_and_no_other():
     """What else a change brings along is here for all to see: does everybody need it?"""
-    loaded = run_python("-c", OWN, "analyze", V8, "--format", "json").stderr.split()
+    loaded = own_modules("analyze", V8, "--format", "json")
     allowed = {f"balcli.{package}".rstrip(".") for package in MAY_IMPORT}
     for package, names in MAY_IMPORT.items():
         allowed |= {f"balcli.{package}.{name}".replace("..", ".") for name in names.split()}
-    assert {*loaded} <= allowed
-    assert len({*loaded}) > len(allowed) / 2
+    assert loaded <= allowed
+    assert len(loaded) > len(allowed) / 2
 
 
 # ------------------------------------------------------------------ the end of the process
@@ -744,7 +773,7 @@ os.execv("/bin/sh", ["sh", "-c", f'"$0" "$@" {redirected}', sys.executable, *arg
 @pytest.mark.parametrize(
     "args",
     [
-        *(["check", I4], ["analyze", I4], ["new", "single"], ["schema"], ["engines"], ["tables"]),
+        *(["check", I4], ["analyze", I4], ["new", "single"], ["schema"]),
         *(["curves", I4], ["sweep", I4, "--vary", "crank.stroke=80,90"], ["--version"]),
     ],
     ids=lambda args: str(args[0]),

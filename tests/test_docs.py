@@ -32,6 +32,14 @@ def test_everything_shown_is_what_is_printed(document: Path, tmp_path: Path) -> 
     )
 
 
+def test_every_python_example_of_the_readme_shows_what_it_prints() -> None:
+    """So that it is run above, like the commands."""
+    text = README.read_text(encoding="utf-8")
+    ran = ["\n".join(block.lines) for block in guide.blocks(text) if block.language == "python"]
+    assert ran
+    assert ran == [one.command for one in guide.shown(text) if one.python]
+
+
 def test_comparison_sees_a_changed_figure_and_passes_over_what_is_left_out() -> None:
     found = ["force", "1  2.5", "2  0.5", "", "end"]
     assert guide.agrees(found, found)

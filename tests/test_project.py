@@ -4,13 +4,16 @@ promised; the package index, citations and hooks say what is so.
 
 from __future__ import annotations
 
+import os
 import re
+import sys
 import tomllib
 from pathlib import Path
 from types import SimpleNamespace
 
 import docs_site
 import pytest
+from support.commands import run_python
 from support.paths import ROOT
 
 import balcli
@@ -126,3 +129,16 @@ def test_citation_is_of_this_version():
 def test_links_of_community_pages_lead_to_files(page):
     for target in re.findall(r"\]\(([^)\s#]+)", text(page)):
         assert target.startswith("http") or Path(ROOT / target).exists(), target
+
+
+def test_processes_that_tests_start_compile_nothing_twice():
+    """Their byte code is kept: beside the source, or, where nothing may be written there, in a
+    folder of this run.
+    """
+    code = "import sys, balcli.limits as one; print(sys.dont_write_bytecode); print(one.__cached__)"
+    without, kept = run_python("-c", code).stdout.splitlines()
+    assert without == "False"
+    if sys.dont_write_bytecode:
+        assert Path(kept).is_relative_to(os.environ["PYTHONPYCACHEPREFIX"])
+        assert not Path(kept).is_relative_to(ROOT)
+        assert Path(kept).exists()

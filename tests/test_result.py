@@ -284,3 +284,16 @@ def test_a_parquet_file_that_fails_leaves_the_older_one(monkeypatch, tmp_path):
         balcli.analyze(load("i4"), [2]).to_parquet(str(place))
     assert place.read_text() == "old"
     assert list(tmp_path.iterdir()) == [place]
+
+
+def test_a_balance_has_a_row_for_every_device_with_its_units():
+    found = balcli.balance(load("i3"))
+    rows = found.rows()
+    assert len(rows) == len(found.remedy.devices)
+    kinds = [row["device"] for row in rows]
+    assert kinds == sorted(kinds)
+    first = found.remedy.devices[0]
+    assert (rows[0]["unbalance"], rows[0]["position"]) == (first.unbalance, first.position)
+    assert rows[0]["mass"] == found.practical[0].mass
+    units = exchange.list_columns(found).units
+    assert (units["unbalance"], units["mass"], units["force"]) == ("g·mm", "kg", "N")

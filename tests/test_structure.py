@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import ast
 import re
-import shutil
 import sys
 from collections.abc import Iterator
 from importlib import import_module
@@ -15,6 +14,7 @@ from typing import get_type_hints
 
 import pytest
 from support import imports
+from support.imports import tree
 from support.paths import ENGINES, PACKAGE, ROOT
 
 import balcli
@@ -28,10 +28,6 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 CORE = sorted((PACKAGE / "core").rglob("*.py"))
 RENDER = sorted((PACKAGE / "render").rglob("*.py"))
 LINES_OF_A_COMMAND = 25
-
-
-def tree(file: Path) -> ast.Module:
-    return ast.parse(file.read_text(encoding="utf-8"))
 
 
 def name_of(file: Path) -> str:
@@ -128,18 +124,6 @@ def test_modules_of_commands_are_commands_or_their_helpers():
     assert forgotten == []
 
 
-def test_python_examples_of_the_readme_run(tmp_path, monkeypatch):
-    """As they stand, beside a copy of engines/; what its commands show is the business of
-    test_docs.py.
-    """
-    shutil.copytree(ENGINES, tmp_path / "engines")
-    monkeypatch.chdir(tmp_path)
-    blocks = re.findall(r"^```python\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
-    assert blocks
-    for block in blocks:
-        exec(compile(block, "README.md", "exec"), {"__name__": "example"})
-
-
 # ------------------------------------------------------------------ rooms
 @pytest.mark.parametrize("file", CORE, ids=name_of)
 def test_core_knows_numpy_and_the_standard_library_alone(file):
@@ -201,22 +185,27 @@ ON_REQUEST = {
         *("balcli.render.torsion", "balcli.render.plot.torsion"),
         "balcli.render.page_torque",
     ),
-    "balcli.commands.inputs": ("balcli.enginefile.assumed",),
+    "balcli.commands.inputs": ("balcli.enginefile.assumed", "balcli.torque.course"),
     "balcli.commands.output": ("balcli.files",),
-    "balcli.commands.scatter": ("balcli.studies.part_scatter",),
+    "balcli.commands.torque_options": ("balcli.enginefile.edit",),
+    "balcli.torque.analysis": ("balcli.torque.find_loads",),
+    "balcli.commands.scatter": (
+        "balcli.studies.cycle_scatter",
+        "balcli.studies.part_scatter",
+    ),
     "balcli.studies.curves": ("balcli.torque.curves",),
 }
 
 
-@pytest.mark.parametrize("module", imports.FILES)
-def test_own_modules_are_imported_late_only_on_request_or_where_that_spares_a_library(module):
+def test_own_modules_are_imported_late_only_on_request_or_where_that_spares_a_library():
     """Numpy and pydantic for the help of a command, for one."""
-    needless = {
-        other
-        for other in imports.later(module)
+    needless = [
+        (module, other)
+        for module in imports.FILES
+        for other in imports.later(module) - {*ON_REQUEST.get(module, ())}
         if other in imports.FILES and not imports.weight(other) - imports.weight(module)
-    }
-    assert needless <= set(ON_REQUEST.get(module, ()))
+    ]
+    assert needless == []
 
 
 @pytest.mark.parametrize("module", ON_REQUEST)

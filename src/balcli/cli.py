@@ -285,5 +285,10 @@ def _usage(error: Any) -> str:
     text = StringIO()
     error.show(text)
     told = text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's words
+    if "No such option: --scheme" in told:
+        told += (
+            ". Fit the devices first, balcli balance FILE --scheme NAME --write FITTED.toml, and "
+            "give this command FITTED.toml."
+        )
     blank = ': a value or a name with a blank goes in quotes, such as "52 %".'
     return told + (blank if "unexpected extra argument" in told else "")

@@ -147,6 +147,9 @@ def list_words(name: str, words: str | Iterable[str]) -> list[str]:
 
 def wrong_type(function: str, value: object, wanted: str) -> TypeError:
     """For the library: what a function was given, and what would be right."""
-    text = repr(value)
+    try:
+        text = repr(value)
+    except ValueError:  # Python writes no number of thousands of digits
+        text = "a number of thousands of digits"
     shown = text if len(text) <= 60 and "\n" not in text else f"{text[:57].splitlines()[0]}..."
     return TypeError(f"{function}: {legible(shown)} ({type(value).__name__}): {wanted}")

@@ -80,6 +80,7 @@ MOST_ANALYSED_SPEEDS = 1_000  # of analyze: an analysis each, milliseconds of th
 
 # Engine mounts -------------------------------------------------------------------------------
 MOST_MOUNTS = 100  # and points: each has a curve for every speed
+MOST_CYCLE_SAMPLES = 20_000  # of random engines whose cycles are one by one: 10 to 100 ms each
 MOST_MOUNT_SAMPLES = 20_000  # of random mounts, each computed by itself: 2 ms, with an engine 50
 MOST_MOUNT_RESULTS = 4_000_000  # orders x speeds x mounts and points: 300 MB
 

@@ -413,6 +413,12 @@ def test_guide_moments_include_the_gas(four, tmp_path):
         ("angle_deg,torque_Nm\n0,1\n90\n", "line 3: has 1 of 2 columns"),
         ("angle_deg,torque\n0,1\n", 'the heading "angle_deg,torque" has no torque_Nm; head the'),
         ("angle_deg,torque_Nm\n0,inf\n", 'line 2: "inf" is not a number'),
+        ("angle_deg;torque_Nm\n0;1.000,5\n", 'line 2: "1.000.5" is not a number'),
+        (
+            "angle_deg,torque_Nm\n0,5,1,3\n",
+            "line 2: has 4 columns, the heading 2; where decimals have commas, part columns by "
+            "semicolons, in the heading too",
+        ),
     ],
 )
 def test_curves_that_cannot_be(tmp_path, content, told):
@@ -421,6 +427,14 @@ def test_curves_that_cannot_be(tmp_path, content, told):
     status, out, err = run_here("torque", "--curve", str(path))
     assert (status, out) == (2, "")
     assert told in err
+
+
+def test_semicolons_part_columns_and_commas_decimals(tmp_path):
+    path = tmp_path / "t.csv"
+    path.write_text("angle_deg,torque_Nm\n0,1.5\n90.5,-2.25\n360,1.5\n")
+    english = torque("--curve", path)
+    path.write_text("angle_deg;torque_Nm\n0;1,5\n90,5;-2,25\n360;1.5\n")
+    assert torque("--curve", path) == english
 
 
 def test_curves_that_are_no_text(tmp_path):

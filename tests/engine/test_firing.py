@@ -218,8 +218,33 @@ def test_shared_pins_that_an_order_cannot_have():
         "crank pin stands 0 deg "
         "ahead of cylinder 1's, and would have to stand at 60 deg (allowed difference 1 deg); "
         "change crank.splay, "
-        "firing_order or firing_intervals, or give crank.throws and no firing_order"
+        "firing_order or firing_intervals, or give crank.throws and no firing_order. They fit with "
+        "split pins: crank.splay = 60"
     )
+
+
+@pytest.mark.parametrize("angle", [60, 72, 90])
+def test_the_splay_that_makes_a_vee_six_fire_evenly(angle):
+    """The second rod of a throw fires 120 degrees after the first, its bank stands `angle` further
+    on: its pin leads by the difference.
+    """
+    layout = {"bank_angle": angle, "firing_order": [1, 4, 3, 6, 2, 5]}
+    crank = {"throws": [0, 240, 120]}
+    assert engine(crank=crank, layout=layout).splay_for_even_firing == angle - 120
+    split = engine(crank=crank | {"splay": angle - 120}, layout=layout)
+    assert list(split.fires_deg.values()) == [120 * k for k in range(6)]
+    assert refused(layout=layout).endswith(f"with split pins: crank.splay = {angle - 120}")
+
+
+def test_there_is_no_such_splay_where_throws_differ_or_intervals_are_said():
+    vee = {"bank_angle": 90, "firing_order": [1, 4, 3, 6, 2, 5]}
+    assert engine(crank={"throws": [0, 230, 120]}, layout=vee).splay_for_even_firing is None
+    said = vee | {"firing_intervals": [90, 150, 90, 150, 90, 150]}
+    assert engine(crank={"throws": [0, 240, 120]}, layout=said).splay_for_even_firing is None
+    twin = {"bank_angle": 45, "firing_order": [1, 2]}
+    assert engine(crank={"throws": [0]}, layout=twin).splay_for_even_firing is None
+    in_line = {"firing_order": [1, 3, 2]}
+    assert engine(crank={"throws": [0, 240, 100]}, layout=in_line).splay_for_even_firing is None
 
 
 @pytest.mark.parametrize(

@@ -2,13 +2,18 @@
 word.
 """
 
+import tomllib
+from pathlib import Path
+
 import pytest
 from support.commands import run_here
 from support.engines import GOOD, changed
 
+from balcli import load
 from balcli.engine.load import parse
 from balcli.enginefile.suspicious import find_suspicious
 from balcli.enginefile.units import LENGTH, SPEED, convert
+from balcli.errors import InputError
 
 NOT_TOML = "is not valid TOML: "
 
@@ -74,6 +79,48 @@ def test_other_words_for_a_key_lead_to_it(tmp_path, old, new, meant):
     assert meant in run_here("analyze", file).err
 
 
+COUNT = "the number of cylinders follows from throws and banks; give every throw its angle, such as"
+KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes a vee"
+
+
+@pytest.mark.parametrize(
+    ("keys", "answer"),
+    [
+        ({"layout": {"cylinders": 7}}, f"layout.cylinders: unknown key in [layout]; {COUNT}"),
+        ({"cylinders": 4}, f"cylinders: unknown key in an engine file; {COUNT}"),
+        ({"cylinder": 4}, f"cylinder: does not name a cylinder; {COUNT}"),
+        ({"cylinder": {"bore": 80}}, "cylinder.bore: does not name a cylinder; bore belongs to [piston]"),
+        ({"engine": {"cylinders": 4}}, f"engine.cylinders: there is no table [engine]; {COUNT}"),
+        ({"engine": {"bore": 80}}, "engine.bore: there is no table [engine]; bore belongs to [piston]"),
+        ({"engine": {"rpm": 80}}, "engine.rpm: there is no table [engine]; did you mean speed of [operation]?"),
+        ({"foo": {"bar": 1}}, "foo.bar: there is no table [foo]"),
+        ({"crank": {"radius": 45}}, "crank.radius: unknown key in [crank]; give crank.stroke, which is twice the crank"),
+        ({"crank": {"strokes": 4}}, "crank.strokes: unknown key in [crank]; strokes belongs to [layout]"),
+        ({"crank": {"phase": [0, 180]}}, "crank.phase: unknown key in [crank]; did you mean throws?"),
+        ({"bore": 80}, "bore: unknown key in an engine file; bore belongs to [piston]"),
+        ({"mass": 80}, "mass: unknown key in an engine file; mass belongs to [rod] or [piston]"),
+        ({"rpm": 3000}, "rpm: unknown key in an engine file; did you mean speed of [operation]?"),
+        ({"lambda": 0.3}, "lambda: unknown key in an engine file; did you mean ratio of [rod]?"),
+        ({"rod": {"lambda": 0.3}}, "rod.lambda: unknown key in [rod]; did you mean ratio?"),
+        ({"rod": {"l": 130}}, "rod.l: unknown key in [rod]; did you mean length?"),
+        ({"rod": {"name": "x"}}, "rod.name: unknown key in [rod]; name stands at the head of the file, above all tables"),
+        ({"piston": {"weight": 1}}, "piston.weight: unknown key in [piston]; did you mean mass?"),
+        ({"layout": {"angle": 60}}, "layout.angle: unknown key in [layout]; did you mean bank_angle?"),
+        ({"layout": {"type": "V"}}, f"layout.type: unknown key in [layout]; {KIND}"),
+        ({"layout": {"stroke": 90}}, "layout.stroke: unknown key in [layout]; stroke belongs to [crank]"),
+        ({"units": "in"}, "units: unknown key in an engine file; bare numbers are mm, kg, degrees and rpm;"),
+        ({"displacement": 2}, "displacement: unknown key in an engine file; the displacement follows from"),
+    ],
+)  # fmt: skip
+def test_keys_of_newcomers_are_answered_with_what_to_write_instead(keys, answer):
+    tables = tomllib.loads(GOOD)
+    for name, value in keys.items():
+        tables[name] = tables.get(name, {}) | value if isinstance(value, dict) else value
+    with pytest.raises(InputError) as error:
+        load(tables)
+    assert str(error.value).partition(": ")[2].startswith(answer)
+
+
 def test_files_words_and_options_that_were_nearly_right(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "ford.toml").write_text(GOOD)
@@ -106,3 +153,85 @@ def test_a_crosshead_engine_is_ordinary():
         "[piston]\nbore = 500\nmass = 4800\n[layout]\nstrokes = 2\n[operation]\nspeed = 124\n"
     )
     assert find_suspicious(slow) == []
+
+
+def test_the_head_says_two_or_four_strokes_where_the_file_does(tmp_path):
+    for old, new, word in (
+        ("stroke = 90", "stroke = 90", "four-stroke"),
+        ("[layout]", "[layout]\nstrokes = 2", "two-stroke"),
+    ):
+        file = tmp_path / "strokes.toml"
+        file.write_text(changed((old, new), ("throws = [0, 180, 180, 0]", "")))
+        assert f"deg, {word}\n" in run_here("analyze", file).out
+    file.write_text(changed(("firing_order = [1, 3, 4, 2]", "")))
+    assert "stroke\n" not in run_here("analyze", file).out
+    file.write_text(changed(("firing_order = [1, 3, 4, 2]", "strokes = 4")))
+    assert "cycle      four-stroke\n" in run_here("analyze", file).out
+
+
+def test_short_names_of_numbers_are_understood_where_one_number_has_them(tmp_path):
+    file = tmp_path / "i4.toml"
+    file.write_text(GOOD)
+
+    def swept(name):
+        return run_here("sweep", file, "--vary", f"{name}=80,90", "-q", "force.2.major")
+
+    for name, path in (
+        ("rpm", "operation.speed"),
+        ("speed", "operation.speed"),
+        ("stroke", "crank.stroke"),
+    ):
+        assert swept(name).out == swept(path).out
+        assert swept(path).out.startswith(f"{path},force.2.major\n")
+    assert swept("mass").err.endswith("did you mean rod.mass or piston.mass?\n")
+
+
+def test_what_a_command_cannot_do_names_the_one_that_does(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("i4.toml").write_text(GOOD)
+    told = run_here("compare", "i4.toml", "i4.toml", "--only", "verdict").err
+    assert told == (
+        "balcli: --only verdict: is of one engine; balcli analyze i4.toml i4.toml --only verdict "
+        "shows each\n"
+    )
+    told = run_here("tables", "kvasnikov").err
+    assert told == "balcli: 'kvasnikov' is the source of kvasnikov-1 and kvasnikov-2: name one\n"
+    told = run_here("sweep", "i4.toml", "--vary", "rpm=1,2", "--scheme", "auto").err
+    assert "balcli balance FILE --scheme NAME --write FITTED.toml" in told
+
+
+def test_a_search_says_that_the_best_is_an_end_of_the_range(tmp_path):
+    file = tmp_path / "i4.toml"
+    file.write_text(GOOD)
+    search = ("search", file, "--minimise", "force.2.major", "--over")
+    assert (
+        "The best rod.length is an end of the range" in run_here(*search, "rod.length=140:180").out
+    )
+    search = ("search", file, "--minimise", "force.1.major", "--over")
+    assert "an end of the range" not in run_here(*search, "crank.throws.2=90:270").out
+
+
+def test_a_place_that_makes_the_roll_grow_is_told_so(tmp_path):
+    file = tmp_path / "twin.toml"
+    file.write_text(
+        changed(
+            ("throws = [0, 180, 180, 0]", "throws = [0, 90]"), ("firing_order = [1, 3, 4, 2]", "")
+        )
+    )
+    near, far = (
+        run_here("balance", file, "--scheme", "single-shaft", f"--at={at}").out
+        for at in ("0,0", "-200,90")
+    )
+    assert "The roll of order 1 grows by " in far
+    assert "grows by" not in near
+
+
+def test_a_project_file_whose_table_is_none_is_refused(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("BALCLI_CONFIG", raising=False)
+    Path("i4.toml").write_text(GOOD)
+    Path("pyproject.toml").write_text("tool.balcli = 3\n")
+    assert run_here("analyze", "i4.toml").err == (
+        f"balcli: {Path('pyproject.toml').resolve()}: tool.balcli: 3 stands where a table belongs; "
+        "write [tool.balcli] and its keys below it\n"
+    )

@@ -175,8 +175,7 @@ LIMITS = [
 ]
 
 
-@pytest.mark.parametrize("minimise", ["squares", "max"])
-@pytest.mark.parametrize("sense", ["with", "against"])
+@pytest.mark.parametrize(("sense", "minimise"), [("with", "squares"), ("against", "max")])
 @pytest.mark.parametrize("limits", LIMITS)
 def test_what_does_not_fit_leaves_what_it_says(limits, sense, minimise):
     """The readings after are those of the pieces, and pieces a little otherwise leave more."""

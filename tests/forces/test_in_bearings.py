@@ -18,7 +18,7 @@ from balcli.forces.crankshaft import compute_inner_loads, place_bearings
 from balcli.forces.curves import compute_engine_curves
 from balcli.forces.in_bearings import compute_forces_along, compute_loads_with_gas
 from balcli.forces.spectrum import compute_device_force
-from balcli.torque.loads import analyze_loads
+from balcli.torque.find_loads import analyze_loads
 
 DEVICES = """
 [[counterweight]]

@@ -5,11 +5,10 @@ in matplotlib's settings.
 from __future__ import annotations
 
 import logging
-import subprocess
-import sys
 
 import matplotlib
 import pytest
+from support.commands import run_python
 from support.rotors import three_runs
 
 import balcli
@@ -97,9 +96,8 @@ def test_neither_pyplot_nor_a_backend_is_needed():
         "balcli.plot(balcli.load_example('i3'), 'polar')._repr_png_()\n"
         "assert 'matplotlib.pyplot' not in sys.modules\n"
     )
-    environment = {"MPLBACKEND": "tkagg", "PYTHONPATH": ":".join(sys.path)}
-    ended = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True)
-    assert ended.returncode == 0, ended.stderr.decode()
+    ended = run_python("-c", code, env={"MPLBACKEND": "tkagg"})
+    assert ended.returncode == 0, ended.stderr
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,14 @@ import numpy as np
 import pytest
 
 import balcli
+from balcli.errors import BalcliError
+from balcli.library.arguments import (
+    check_count,
+    check_inertia,
+    check_speeds,
+    check_torsion_orders,
+    read_share,
+)
 from balcli.limits import MOST_PARAMETER_VALUES, MOST_SPEEDS
 from balcli.studies import swept
 
@@ -19,6 +27,33 @@ V8, FOUR = balcli.load_example("v8_crossplane"), balcli.load_example("i4")
 MOUNTS, DIESEL = balcli.load_example("i4_mounts"), balcli.load_example("i6_diesel")
 GAS = balcli.load_example("i4_wiebe")
 CLOSE = 1e-12
+
+
+# ------------------------------------------------------------------ what is given
+HUGE = 10**5000  # Python does not write numbers of so many digits
+
+
+@pytest.mark.parametrize(
+    ("ask", "told"),
+    [
+        (lambda: check_inertia("damper_inertia", HUGE), "damper_inertia: an integer of about 5001"),
+        (lambda: check_count("seed", -HUGE, 0), "seed: an integer of about 5001 digits is less"),
+        (lambda: check_speeds("torsion", [HUGE]), "speeds_rpm: give crank speeds above 0 in rpm"),
+        (lambda: check_torsion_orders([HUGE]), "not an integer of about 5001 digits"),
+        (lambda: read_share("quantile", HUGE), "quantile an integer of about 5001 digits: give"),
+        (lambda: balcli.analyze(FOUR, [HUGE]), "not an integer of about 5001 digits"),
+        (lambda: balcli.analyze(FOUR, HUGE), "orders: a number of thousands of digits (int): give"),
+        (lambda: FOUR.vary({"rod.length": HUGE}), "rod.length: an integer of about 5001 digits"),
+        (
+            lambda: balcli.sweep(FOUR, {"rod.length": [HUGE]}, ["force.2.major"]),
+            "rod.length: an integer of about 5001 digits is too large a number; a length is wanted",
+        ),
+    ],
+)
+def test_numbers_of_thousands_of_digits_are_refused_in_words(ask, told):
+    with pytest.raises((BalcliError, TypeError)) as caught:
+        ask()
+    assert told in str(caught.value)
 
 
 # ------------------------------------------------------------------ sweep

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cache, cached_property
 
 import mpmath as mp
 
@@ -19,7 +19,7 @@ NODES = 20
 PANEL = mp.mpf("0.3")  # rad
 
 
-@lru_cache
+@cache
 def gauss() -> list[tuple[mp.mpf, mp.mpf]]:
     """Nodes and weights on [-1, 1]."""
     with mp.workdps(DIGITS + 10):
@@ -50,19 +50,19 @@ class Mechanism:
     bore: mp.mpf
     offset: mp.mpf
 
-    @property
+    @cached_property
     def top(self):
         return mp.asin(self.offset / (self.rod + self.radius))
 
-    @property
+    @cached_property
     def bottom(self):
         return mp.pi + mp.asin(self.offset / (self.rod - self.radius)) - self.top
 
-    @property
+    @cached_property
     def area(self):
         return mp.pi / 4 * self.bore**2
 
-    @property
+    @cached_property
     def swept(self):
         return self.area * self.travel(self.bottom)
 
@@ -71,7 +71,11 @@ class Mechanism:
         return self.radius * mp.cos(psi) + mp.sqrt(self.rod**2 - across**2)
 
     def travel(self, c):
-        return self._place(self.top) - self._place(c + self.top)
+        return self._highest - self._place(c + self.top)
+
+    @cached_property
+    def _highest(self):
+        return self._place(self.top)
 
     def rate(self, c):
         psi = c + self.top
@@ -122,9 +126,9 @@ def wiebe_burn(volume: Callable, constant, heat, n, start, duration, shape):
 
     def growth(u):
         """Rate over u of the integral of V^(n-1) dx, xi = u^2."""
-        xi = u * u
-        burning = rate * exponent * u ** (2 * exponent - 1) * 2 * mp.exp(-rate * xi**exponent)
-        return volume(start + duration * xi) ** (n - 1) * burning
+        power = u ** (2 * exponent)
+        burning = rate * exponent * power / u * 2 * mp.exp(-rate * power)
+        return volume(start + duration * u * u) ** (n - 1) * burning
 
     points, done, count = [], mp.mpf(0), 6
     for k in range(count):

@@ -73,8 +73,13 @@ def test_the_lower_bound_is_one_about_any_centre(points, centre):
     assert circle._lower_bound(points[fixing], true) == pytest.approx(radius, rel=1e-6, abs=1e-9)
 
 
-@pytest.mark.parametrize("offset", [0, 4, -15])
-@pytest.mark.parametrize("lam", [0.05, 0.1, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6])
+@pytest.mark.parametrize(
+    ("lam", "offset"),
+    [
+        *((lam, 0) for lam in (0.05, 0.1, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6)),
+        *((lam, offset) for lam in (0.1, 0.3, 0.6) for offset in (4, -15)),
+    ],
+)
 def test_single_cylinder_at_high_precision(lam, offset):
     """mpmath finds where the curve is farthest from the centre; three such points, solved to 30
     digits, are the true optimum.
@@ -111,7 +116,7 @@ def test_single_cylinder_at_high_precision(lam, offset):
             assert float(mpmath.sqrt(reach(x, y, angles[0]))) == pytest.approx(
                 found.radius, rel=TRUE
             )
-        grid = max(abs(curve(t) - mpmath.mpc(x, y)) for t in mpmath.linspace(0, 2 * mpmath.pi, 400))
+        grid = max(abs(curve(t) - mpmath.mpc(x, y)) for t in mpmath.linspace(0, 2 * mpmath.pi, 200))
         assert grid <= found.radius * (1 + TRUE)
     assert found.excess <= 1e-13 * found.radius
 

@@ -8,7 +8,8 @@ function. At 0.3 the two are compared.
 
 from __future__ import annotations
 
-from functools import lru_cache
+from collections.abc import Sequence
+from functools import cache
 from math import comb
 
 import mpmath as mp
@@ -42,26 +43,21 @@ def _digits():
 
 
 # ------------------------------------------------------------------ power series in lambda
-@lru_cache
+@cache
 def of_power_series(lam: float) -> dict[str, list[mp.mpf]]:
     """Coefficients for the orders 0, 1, 2, ... by their own series."""
     highest, terms = 64 + 44, 64 + 60
-    square = mp.mpf(lam) ** 2
+    powers = [(mp.mpf(lam) / 2) ** (2 * j) for j in range(terms)]
     cosine = [mp.mpf(0)] * (highest + 1)  # of cos beta, by cos n psi
     angle = [mp.mpf(0)] * (highest + 1)  # of beta, by sin k psi
     for n in range(2, highest + 1, 2):
         cosine[n] = mp.fsum(
-            _half(j) * (-1) ** (j + n // 2) * 2 * comb(2 * j, j - n // 2) * square**j / 4**j
+            _half(j) * (-1) ** (j + n // 2) * 2 * comb(2 * j, j - n // 2) * powers[j]
             for j in range(n // 2, terms)
         )
     for k in range(1, highest + 1, 2):
         angle[k] = lam * mp.fsum(
-            mp.mpf(comb(2 * j, j))
-            / (4**j * (2 * j + 1))
-            * square**j
-            * (-1) ** (k // 2)
-            * comb(2 * j + 1, j - k // 2)
-            / mp.mpf(4) ** j
+            _arcsine(j) * (-1) ** (k // 2) * comb(2 * j + 1, j - k // 2) * powers[j]
             for j in range(k // 2, terms)
         )
     speed = [n * c / lam for n, c in enumerate(cosine)]  # -s'/r, by sin n psi
@@ -76,9 +72,15 @@ def of_power_series(lam: float) -> dict[str, list[mp.mpf]]:
     }
 
 
-@lru_cache(maxsize=256)
+@cache
 def _half(j: int) -> mp.mpf:
     return mp.binomial(mp.mpf(1) / 2, j)
+
+
+@cache
+def _arcsine(j: int) -> mp.mpf:
+    """Coefficient of x^(2j+1)."""
+    return mp.mpf(comb(2 * j, j)) / (4**j * (2 * j + 1))
 
 
 def squared(a: list[mp.mpf], sign: int) -> list[mp.mpf]:
@@ -96,7 +98,7 @@ def squared(a: list[mp.mpf], sign: int) -> list[mp.mpf]:
 
 
 # ------------------------------------------------------------------ trapezoidal rule
-@lru_cache
+@cache
 def of_revolution(
     lam: float, eps: float = 0.0, highest: int = 64, digits: int = 25
 ) -> dict[str, list[mp.mpc]]:
@@ -105,25 +107,31 @@ def of_revolution(
     """
     steep = mp.mpf(lam) / (1 - abs(mp.mpf(eps)))
     decay = mp.log10((1 + mp.sqrt(1 - steep**2)) / steep)
-    count = 4 * (
-        int((2 * highest + digits / decay) / 4) + 8
-    )  # aliases are below 10^-digits of order `highest`
+    least = int(2 * highest + digits / decay)  # aliases are below 10^-digits of order `highest`
+    count = 1 << least.bit_length()
     turn = [mp.expjpi(mp.mpf(-2 * k) / count) for k in range(count)]
-    samples: dict[str, list[mp.mpf]] = {name: [] for name in SERIES}
-    for e in turn:
-        for name, value in zip(
-            SERIES, motion(-e.imag, e.real, mp.mpf(lam), mp.mpf(eps)), strict=True
-        ):
-            samples[name].append(value)
+    motions = zip(*(motion(-e.imag, e.real, mp.mpf(lam), mp.mpf(eps)) for e in turn), strict=True)
     return {
         name: [
-            (1 if n == 0 else 2)
-            * mp.fsum(v * turn[n * k % count] for k, v in enumerate(values))
-            / count
-            for n in range(highest + 1)
+            (1 if n == 0 else 2) * value / count
+            for n, value in enumerate(transform(samples, turn)[: highest + 1])
         ]
-        for name, values in samples.items()
+        for name, samples in zip(SERIES, motions, strict=True)
     }
+
+
+def transform(values: Sequence[mp.mpf], turn: list[mp.mpc]) -> list[mp.mpc]:
+    """`sum values_k turn_1^(n k)` for every n, `turn` the powers of a root of unity as many as the
+    values, a power of two: those of even and of odd places, each transformed (Cooley and Tukey).
+    """
+    if len(values) == 1:
+        return [mp.mpc(values[0])]
+    even, odd = (transform(values[first::2], turn[::2]) for first in (0, 1))
+    odd = [e * value for e, value in zip(turn, odd, strict=False)]
+    return [
+        *(a + b for a, b in zip(even, odd, strict=True)),
+        *(a - b for a, b in zip(even, odd, strict=True)),
+    ]
 
 
 def motion(sine: mp.mpf, cosine: mp.mpf, lam: mp.mpf, eps: mp.mpf) -> tuple[mp.mpf, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from balcli.results.marine import find_marine_sheet
 
 RADIUS, ROD, MASS, SPACING = 0.9, 2.4, 3000.0, 0.8
 THROWS = (0.0, 240.0, 120.0, 30.0)
+MARINE = Path(__file__).parents[2] / "engines/marine6.toml"
 TEXT = f"""
 [crank]
 stroke = {2e3 * RADIUS}
@@ -176,3 +178,16 @@ def test_where_vertical_is_told_by_the_banks(balcli, tmp_path, banks, told) -> N
     file.write_text(f"{TEXT}[layout]\n{banks}\n")
     _, out, _ = balcli("analyze", file, "--format", "marine")
     assert told in out
+
+
+def test_a_misfire_takes_the_gas_of_a_cylinder_from_the_sheet(balcli, tmp_path):
+    """As `gas = 0` in the file does."""
+    text = MARINE.read_text(encoding="utf-8")
+    silent = tmp_path / "silent.toml"
+    silent.write_text(f"{text}\n[cylinder.3]\ngas = 0\n", encoding="utf-8")
+    sheet = ("--format", "marine", "--format", "csv")
+    found = balcli("analyze", MARINE, *sheet, "--misfire", "3").out
+    assert found == balcli("analyze", silent, *sheet).out
+    assert found != balcli("analyze", MARINE, *sheet).out
+    told = balcli("analyze", MARINE, "--format", "marine", "--misfire", "3").out
+    assert "\nno gas in  3\n" in told

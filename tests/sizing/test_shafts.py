@@ -74,7 +74,7 @@ def test_one_eccentric_promises_the_force_alone_where_a_moment_stays():
     assert remedy.reasons[-1] == (
         "Order 1 force turning against the crank: nothing on the crankshaft can cancel it; one "
         "eccentric on a shaft at -1 times crank speed can; a moment stays, which eccentrics in two "
-        "planes take, too: --planes"
+        "planes take, too"
     )
     assert not left(TWIN, "single-shaft", SchemeOptions(), 1).moment.balanced.all()
 
@@ -189,7 +189,7 @@ def test_a_force_has_no_free_place():
     """The shafts of a four at +2 and -2 add a roll wherever they stand but on the crank axis."""
     table = run_here("analyze", I4, "--only", "sizing").out
     assert "free: " not in table
-    assert "At 0, 0, where the crank is, a shaft adds no roll: elsewhere it does." in table
+    assert "At 0, 0, the crank's centre line, a shaft adds no roll; elsewhere" in table
 
 
 def test_the_file_says_which_are_free(tmp_path):
@@ -238,8 +238,8 @@ def test_lower_orders_that_stay_as_they_are_are_named():
     assert remedy.order == 2
     assert remedy.note == (
         "Order 2 is the lowest with a free force turning against the crank. Order 1 stays as it is "
-        "(its force and moment turning with the crank: --scheme counterweights; its moment turning "
-        "against the crank: --order 1 --planes)."
+        "(its force and moment turning with the crank: the scheme counterweights; its moment turning "
+        "against the crank: eccentrics in two planes)."
     )
     assert not size(twin, "single-shaft", SchemeOptions(order=2)).note
     assert not size(twin, "single-shaft", SchemeOptions(planes=(-0.01, 0.01))).note
@@ -251,8 +251,8 @@ def test_what_turns_with_the_crank_is_said_with_its_size():
     remedy = size(twin, "single-shaft", SchemeOptions(order=1))
     assert remedy.note == (
         "order 1 has no free force turning against the crank: nothing to balance; its force and "
-        "moment turning with the crank: --scheme counterweights; its moment turning against the "
-        "crank: --order 1 --planes"
+        "moment turning with the crank: the scheme counterweights; its moment turning against the "
+        "crank: eccentrics in two planes"
     )
     force = analyze(twin, [1], ["force"]).spectra.force
     (detail,) = remedy.details
@@ -265,7 +265,7 @@ def test_a_shaft_that_turns_as_the_crank_does_names_counterweights():
     reasons = [*size(twin, "couple-shaft").reasons, *size(twin, "two-shaft").reasons]
     told = [reason for reason in reasons if "+1 times crank speed" in reason]
     assert len(told) == 3
-    assert all("--scheme counterweights" in reason for reason in told)
+    assert all("the scheme counterweights" in reason for reason in told)
     assert not any("nothing on the crankshaft" in reason for reason in told)
 
 

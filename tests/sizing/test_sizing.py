@@ -422,7 +422,7 @@ def test_couple_shafts_say_what_they_do_and_what_is_left():
         f"{ratio} times crank speed make the opposite "
         f"moment and no force, wherever the shaft stands{weights}"
         for turning, ratio, weights in (
-            ("with", "+1", "; counterweights would do so without a shaft: --scheme counterweights"),
+            ("with", "+1", "; the scheme counterweights would do so without a shaft"),
             ("against", "-1", ""),
         )
     ]

@@ -28,6 +28,21 @@ def values(text: str, engine: str = GOOD) -> list[float]:
     return parse(text, load(engine)).values.tolist()
 
 
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        ("rod.length=" + "1" * 5000, "is not a number followed by a unit; a length is wanted: "),
+        ("rod.length=1:" + "1" * 5000 + ":1", "is not a number followed by a unit; a length"),
+        ("rod.length=1e999", '"rod.length=1e999": has too large a number'),
+    ],
+)
+def test_numbers_beyond_number_are_refused_in_words(asked, told):
+    with pytest.raises(BalcliError) as caught:
+        parse(asked, load(GOOD))
+    assert told in str(caught.value)
+    assert len(str(caught.value)) < 300
+
+
 def test_range_includes_its_end_and_has_no_accumulated_error() -> None:
     found = values("rod.ratio=0.1:0.4:0.1")
     assert found == [0.1, 0.2, 0.3, 0.4]  # repeated addition gives 0.30000000000000004

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from functools import lru_cache
+from functools import cache
 from pathlib import Path
 
 from .paths import PACKAGE
@@ -25,6 +25,12 @@ WEIGHTY = frozenset(
 )
 
 
+@cache
+def tree(file: Path) -> ast.Module:
+    """What a file says, parsed once."""
+    return ast.parse(file.read_text(encoding="utf-8"))
+
+
 def module_name(file: Path) -> str:
     """`balcli.core.phasors`; of an `__init__.py` the package."""
     parts = file.relative_to(PACKAGE.parent).with_suffix("").parts
@@ -34,19 +40,19 @@ def module_name(file: Path) -> str:
 FILES = {module_name(file): file for file in sorted(PACKAGE.rglob("*.py"))}
 
 
-@lru_cache
+@cache
 def at_once(module: str) -> frozenset[str]:
     """The modules that are imported together with this one, by its own lines."""
     return frozenset(name for name, later in _imports(module) if not later)
 
 
-@lru_cache
+@cache
 def later(module: str) -> frozenset[str]:
     """The modules that its functions import when they are called."""
     return frozenset(name for name, later in _imports(module) if later)
 
 
-@lru_cache
+@cache
 def weight(module: str) -> frozenset[str]:
     """The weighty packages of others that come with a module, by way of others, too."""
     found: set[str] = set()
@@ -66,7 +72,7 @@ def _imports(module: str) -> Iterator[tuple[str, bool]]:
         return
     file = FILES[module]
     package = module.split(".") if file.name == "__init__.py" else module.split(".")[:-1]
-    for node, later in _statements(ast.parse(file.read_text(encoding="utf-8")), False):
+    for node, later in _statements(tree(file), False):
         if isinstance(node, ast.Import):
             yield from ((alias.name, later) for alias in node.names)
             continue
@@ -81,5 +87,7 @@ def _statements(node: ast.AST, inside: bool) -> Iterator[tuple[ast.Import | ast.
     for child in ast.iter_child_nodes(node):
         if isinstance(child, (ast.Import, ast.ImportFrom)):
             yield child, inside
-        elif not (isinstance(child, ast.If) and ast.unparse(child.test) == "TYPE_CHECKING"):
+        elif not isinstance(child, ast.expr) and not (
+            isinstance(child, ast.If) and ast.unparse(child.test) == "TYPE_CHECKING"
+        ):
             yield from _statements(child, inside or isinstance(child, ast.FunctionDef))

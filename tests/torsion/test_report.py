@@ -58,13 +58,6 @@ def test_large_torques_are_in_kilonewton_metres():
     assert float(row[1]) == pytest.approx(largest / 1e3, rel=1e-4)
 
 
-def test_pages_of_other_engines_have_no_such_section(tmp_path):
-    engine, page = tmp_path / "six.toml", tmp_path / "six.html"
-    engine.write_text(write_diesel().partition("[torsion]")[0], encoding="utf-8")
-    assert run_here("report", engine, "-o", page).status == 0
-    assert 'id="torsion"' not in page.read_text(encoding="utf-8")
-
-
 def test_what_cannot_be_told_is_a_warning(tmp_path):
     """Nothing damps it, and the range runs through order 3 of the first mode."""
     engine, page = tmp_path / "six.toml", tmp_path / "six.html"

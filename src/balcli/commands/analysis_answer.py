@@ -14,7 +14,7 @@ from ..render import analyses
 from ..render.formats import Format, Units
 from ..render.view import View
 from ..results.analysis import Analysis, analyze, list_quantities
-from .inputs import distinct_names, exit_on_errors, read_engine, try_each
+from .inputs import distinct_names, exit_on_errors, read_engine, silence_cylinders, try_each
 from .output import draws_sketch, show
 
 if TYPE_CHECKING:
@@ -128,7 +128,7 @@ def _analyze_files(
 
     def find_one(path: str) -> tuple[str, str, Found]:
         engine = read_engine(path, rpm, asked.words).engine
-        return engine.name, path, find(engine)
+        return engine.name, path, find(silence_cylinders(engine, asked.misfires))
 
     found, errors = try_each(paths, find_one)
     if found and not (errors and target.output):  # a file gets all of them or is left as it was

@@ -74,6 +74,7 @@ class Request(NamedTuple):
         whole: every table and every order.
         by_cylinder, why, plot: whether these were asked for.
         height_m: from the crankshaft to the middle of the guides; None: the rods' lengths.
+        misfires: numbers of the cylinders without gas.
         marine: whether it is the sheet of marine builders.
     """
 
@@ -86,6 +87,7 @@ class Request(NamedTuple):
     why: bool
     plot: bool
     height_m: float | None
+    misfires: tuple[int, ...]
     marine: bool
 
     @property
@@ -117,6 +119,7 @@ def parse_request(
     why: bool,
     plot: bool,
     guide_height: str | None,
+    misfire: Sequence[int] | None,
     units: Units,
     marine: bool,
 ) -> Request:
@@ -136,6 +139,7 @@ def parse_request(
         why,
         plot,
         parse_guide_height(guide_height, units),
+        tuple(misfire or ()),
         marine,
     )
     _refuse_what_does_not_go_together(asked)

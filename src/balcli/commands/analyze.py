@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from ..render.formats import Units
 from . import analysis_options
-from .options import EnginePaths, GuideHeight, OnlyParts, Orders, Output, UnitsOption, Whole
+from .options import (
+    EnginePaths,
+    GuideHeight,
+    Misfire,
+    OnlyParts,
+    Orders,
+    Output,
+    UnitsOption,
+    Whole,
+)
 from .overwrite_guard import refuse_overwriting
 
 
@@ -18,6 +27,7 @@ def analyze(
     by: analysis_options.By = "",
     why: analysis_options.Why = False,
     guide_height: GuideHeight = None,
+    misfire: Misfire = None,
     units: UnitsOption = Units.SI,
     plot: analysis_options.Plot = False,
     output: Output = None,
@@ -33,7 +43,7 @@ def analyze(
     refuse_overwriting(reads=paths, writes={"--output": output})
     chosen, marine = analysis_options.choose_format(output, form)
     asked = analysis_options.parse_request(
-        speed, orders, only, whole, by, why, plot, guide_height, units, marine
+        speed, orders, only, whole, by, why, plot, guide_height, misfire, units, marine
     )
     from .analysis_answer import Target, answer
 

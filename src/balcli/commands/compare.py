@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from ..errors import BalcliError
 from ..render import comparison as renderer
 from ..render.formats import Units
 from .file_names import text_format
 from .options import (
+    PARTS,
     EnginePaths,
     FormatOption,
     Only,
@@ -45,7 +49,19 @@ def compare(
     from .inputs import name_columns, read_engine
 
     rpm, asked, chosen = parse_speed(speed), parse_orders(orders), parse_quantities(only)
+    _refuse_parts(chosen or (), paths)
     engines = [read_engine(path, rpm, chosen).engine for path in paths]
     names = name_columns([engine.name for engine in engines], paths)
     found = compare_engines(engines, names, asked, chosen, whole)
     show([found], renderer, form, output, units)
+
+
+def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
+    """Parts of `analyze` that say something of one engine, and cannot stand side by side.
+
+    Raises:
+        BalcliError: with the command that shows them.
+    """
+    if of_one := [word for word in words if word in PARTS]:
+        command = f"balcli analyze {' '.join(paths)} --only {of_one[0]}"
+        raise BalcliError(f"--only {of_one[0]}: is of one engine; {command} shows each")

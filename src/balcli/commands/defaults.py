@@ -115,7 +115,12 @@ def _open(path: Path) -> tuple[Path, str, Mapping[str, Any]] | None:
         return path, "", content
     tools = content.get("tool")
     table = tools.get("balcli") if isinstance(tools, dict) else None
-    return (path, "tool.balcli.", table) if isinstance(table, dict) else None
+    if table is None:
+        return None
+    if not isinstance(table, dict):
+        told = f"{_shown(table)} stands where a table belongs; write [tool.balcli] and its keys"
+        raise InputError([Problem("tool.balcli", f"{told} below it")], str(path))
+    return path, "tool.balcli.", table
 
 
 def _read_value(key: str, value: object) -> Units | Format | int:

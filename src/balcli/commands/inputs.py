@@ -145,6 +145,21 @@ def _is_engine(path: Path) -> bool:
     return path.suffix == ".toml" and path.name not in SETTINGS
 
 
+def silence_cylinders(engine: Engine, numbers: Collection[int]) -> Engine:
+    """The engine with the gas of some cylinders doing nothing.
+
+    Raises:
+        BalcliError: it has no gas, or no such cylinder.
+    """
+    if not numbers:
+        return engine
+    from ..torque.course import silence  # for those who ask
+
+    for number in numbers:
+        engine = silence(engine, number)
+    return engine
+
+
 def named_by_file(engine: Engine, path: str) -> Engine:
     """The engine, called by its file where it has no name."""
     return engine if engine.name else replace(engine, name=legible(Path(name_file(path)).stem))

@@ -111,6 +111,10 @@ OnlyParts = Annotated[
 Whole = Annotated[
     bool, typer.Option("--all", help="Every table and every order that is not rounding.")
 ]
+Misfire = Annotated[
+    list[int] | None,
+    optional("N", "A cylinder without gas; may be given again."),
+]
 GuideHeight = Annotated[
     str | None,
     optional(

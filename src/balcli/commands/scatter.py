@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import StrEnum
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
@@ -20,7 +21,11 @@ from .progress import exit_if_cut_short, reporting_until_stopped
 
 if TYPE_CHECKING:
     from ..engine.build import Engine
+    from ..enginefile.model import EngineFile
     from ..forces.quantity import Quantity
+    from ..studies.deviations import Tolerances
+    from ..studies.quantities import Scattered
+    from ..studies.tolerances import Scatter
 
 
 class Distribution(StrEnum):
@@ -63,7 +68,8 @@ def scatter(
         int | None,
         typer.Option(
             "--samples",
-            help="Number of random engines, 100000; of random mounts or crankshafts, 500.",
+            help="Number of random engines, 100000; of those computed one by one (torque over the "
+            "cycle, guides, mounts, torsion), 500.",
             show_default=False,
         ),
     ] = None,
@@ -91,8 +97,9 @@ def scatter(
             metavar="WHAT,...",
             show_default=DEFAULT_QUANTITIES,
             autocompletion=complete_quantities,
-            help="As force.1.major, couple.4.amplitude; of mounts, as mode.roll.Hz, "
-            "mount.left.force; or of torsion, as torsion.1.Hz, shaft.flywheel.torque.",
+            help="As force.1.major, couple.4.amplitude; of the cycle, as torque.max, fluctuation, "
+            "guide.6.H; of mounts, as mode.roll.Hz, mount.left.force; or of torsion, as "
+            "torsion.1.Hz, shaft.flywheel.torque.",
         ),
     ] = None,
     form: FormatOption = None,
@@ -107,29 +114,43 @@ def scatter(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = text_format(output, form)
-    from ..studies import part_scatter, tolerances
-    from ..studies.quantities import parse_quantities, part_quantities
+    from ..studies.quantities import Scattered, parse_quantities, sort_scattered
+    from ..studies.tolerances import parse_percentage, parse_tolerances
     from .inputs import read_engine
 
-    within = tolerances.parse_tolerances(mass, length, angle)
-    share = None
-    if stiffness is not None:
-        share = tolerances.parse_percentage(stiffness, "--stiffness-scatter")
+    within = parse_tolerances(mass, length, angle)
+    share = None if stiffness is None else parse_percentage(stiffness, "--stiffness-scatter")
     _, model, engine = read_engine(path, asked=())
     names = DEFAULT_QUANTITIES if quantity is None else quantity
-    asked, of_parts = part_quantities(parse_quantities(names, with_gas=model.gas is not None))
+    asked, of_cycle, of_parts = sort_scattered(
+        parse_quantities(names, with_gas=model.gas is not None)
+    )
     if quantity is None:
         asked = _leave_out_unknown(engine, asked, name_file(path))
-    draw = partial(tolerances.scatter_engine, model, within, asked)
-    usual = tolerances.RANDOM_ENGINES
-    if of_parts:
-        draw = partial(part_scatter.scatter_parts, model, share, within.mass, of_parts)
-        usual = part_scatter.RANDOM_SETS
+    draw, usual = _choose_way(model, within, share, Scattered(asked, of_cycle, of_parts))
     count = usual if samples is None else samples
     with reporting_until_stopped("samples", count) as progress:
         found = draw(count, seed, distribution.value, progress)
     show([found], renderer, form, output)
     exit_if_cut_short(progress, "the figures are of these")
+
+
+def _choose_way(
+    model: EngineFile, within: Tolerances, stiffness: float | None, asked: Scattered
+) -> tuple[Callable[..., Scatter], int]:
+    """What draws the samples, by their number, seed, distribution and who is told of them; and
+    their usual number.
+    """
+    from ..studies import cycle_scatter, part_scatter, tolerances
+    from ..studies.spread_one_by_one import RANDOM_SINGLES
+
+    if asked.of_cycle:
+        return partial(cycle_scatter.scatter_cycles, model, within, asked.of_cycle), RANDOM_SINGLES
+    if asked.of_parts:
+        draw = partial(part_scatter.scatter_parts, model, stiffness, within.mass, asked.of_parts)
+        return draw, RANDOM_SINGLES
+    draw = partial(tolerances.scatter_engine, model, within, asked.by_order)
+    return draw, tolerances.RANDOM_ENGINES
 
 
 def _leave_out_unknown(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..render.formats import Units
 from . import torque_options as own
 from .file_names import require_ending, text_format
-from .options import FormatOption, Orders, Output, Speed, UnitsOption
+from .options import FormatOption, Misfire, Orders, Output, Speed, UnitsOption
 from .output import draws_sketch, show
 from .overwrite_guard import refuse_overwriting
 
@@ -14,7 +14,7 @@ def torque(
     path: own.Engine = None,
     fluctuation: own.Fluctuation = None,
     cylinder: own.Cylinder = 1,
-    misfire: own.Misfire = None,
+    misfire: Misfire = None,
     loads: own.LoadsOption = None,
     curve: own.Curve = None,
     load: own.Load = None,

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..enginefile.edit import set_keys
 from ..errors import BalcliError
 from .amounts import read_inertia
 from .declare import optional
@@ -39,10 +38,6 @@ Fluctuation = Annotated[
 ]
 Cylinder = Annotated[
     int, typer.Option(metavar="N", help="Whose torque is shown beside the engine's.")
-]
-Misfire = Annotated[
-    list[int] | None,
-    optional("N", "A cylinder without gas; may be given again."),
 ]
 LoadsOption = Annotated[
     str | None,
@@ -119,13 +114,10 @@ def analyze_file(
 ) -> tuple[bytes, TorqueAnalysis]:
     """Text of an engine file, and the torque of its engine."""
     from ..torque.analysis import analyze_torque
-    from ..torque.course import silence
-    from .inputs import named_by_file, read_engine
+    from .inputs import named_by_file, read_engine, silence_cylinders
 
     source = read_engine(path, parse_speed(speed))
-    engine = named_by_file(source.engine, path)
-    for number in misfire or ():
-        engine = silence(engine, number)
+    engine = silence_cylinders(named_by_file(source.engine, path), misfire or ())
     asked, allowed = parse_orders(orders), parse_fluctuation(fluctuation)
     found = analyze_torque(
         engine, asked, cylinder=cylinder, fluctuation=allowed, loads=parse_loads(loads)
@@ -186,6 +178,8 @@ def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path)
     Raises:
         BalcliError: the inertia is not known; the target cannot be written.
     """
+    from ..enginefile.edit import set_keys
+
     refuse_leaving_files(source, path, target)
     if result.flywheel is None or result.flywheel.speed is None:
         raise BalcliError(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, warn
-from ..render.plot.torsion import draw_torsion
+from ..render.plot.torsion import draw_torsion, make_torsion
 from ..torsion.analysis import Question, TorsionAnalysis, answer_question
 from ..torsion.load import ChainSource, Source, load_source
 from ..torsion.quantity import choose_speeds
@@ -18,6 +18,8 @@ from .speed_range import parse_speeds
 from .torsion_options import parse_half_orders
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from ..render.plot.style import Form
 
 
@@ -71,19 +73,25 @@ def write_damper(source: Source, result: TorsionAnalysis) -> str:
     return insert_damper(source.text, result.damper.node, result.damper.damper)
 
 
-def draw_file(path: str, what: str, speeds: str | None, orders: str | None, form: Form) -> bytes:
-    """The content of a file with one of the pictures of the chain or engine at a path.
+def make_figures_of_torsion(
+    path: str, pages: Sequence[str], speeds: str | None, orders: str | None, form: Form
+) -> list[Figure]:
+    """Figures of the chain or engine at a path, one a page.
 
     Args:
         speeds: range, as typed; None: that of an engine's own speed.
     """
     asked = Question(parse_speeds(speeds), parse_half_orders(orders))
     source = load_source(path, asked.orders)
-    if _lacks_range(asked, what):
+    without = [page for page in pages if _lacks_range(asked, page)]
+    if without:
         if isinstance(source, ChainSource):
-            raise _range_missing(what)
+            raise _range_missing(without[0])
         asked = asked._replace(speeds_rpm=choose_speeds(source.engine))
-    return draw(answer_question(source, asked), what, form)
+    found = answer_question(source, asked)
+    for page in pages:
+        _refuse_without_shafts(found, page)
+    return [make_torsion(found, page, form) for page in pages]
 
 
 def draw(result: TorsionAnalysis, what: str, form: Form) -> bytes:
@@ -92,6 +100,10 @@ def draw(result: TorsionAnalysis, what: str, form: Form) -> bytes:
     Raises:
         BalcliError: there is no shaft whose torque could be drawn.
     """
+    _refuse_without_shafts(result, what)
+    return draw_torsion(result, what, form)
+
+
+def _refuse_without_shafts(result: TorsionAnalysis, what: str) -> None:
     if what == "waterfall" and not result.system.shafts:
         raise BalcliError("--what waterfall: there is no shaft whose torque could be drawn")
-    return draw_torsion(result, what, form)

@@ -88,7 +88,8 @@ def find_candidates(curve: Phasors, most: int = MOST_CANDIDATES) -> Array:
     spectrum[curve.orders.astype(int)] += curve.forward
     spectrum[-curve.orders.astype(int)] += curve.backward
     power = np.abs(np.fft.ifft(spectrum, norm="forward")) ** 2
-    top = (power >= np.roll(power, 1)) & (power >= np.roll(power, -1))
+    around = np.concatenate([power[-1:], power, power[:1]])
+    top = (power >= around[:-2]) & (power >= around[2:])
     top &= power >= NEAR_TOP * power.max()
     found = np.flatnonzero(top)
     height = power[found]

@@ -95,7 +95,7 @@ class Phases:
         forward, mirrored, error = vectors
         noise = self.add_figures(error, sizes)
         if self._of_variants and len(forward[0]) == len(mirrored[0]) == 1:
-            ahead, astern = self._add_turned(self._planar, self._weigh_equal(arms))
+            ahead, astern = self._add_turned(self._planar, _as_factors(arms))
             ahead_side = Product(forward[:, 0], ahead)
             astern_side = Product(mirrored[:, 0].conj(), astern.conj())
             return FactoredPhasors(self.orders, (ahead_side, astern_side), noise)
@@ -107,7 +107,7 @@ class Phases:
         """Sum of what the cylinders do about z."""
         noise = self.add_figures(self.rounding * np.abs(series.c) + series.noise)
         if self._of_variants and len(series.c[0]) == 1 and np.all(self.orders):
-            (turned,) = self._add_turned(self._scalar, self._weigh_equal(None))
+            (turned,) = self._add_turned(self._scalar, None)
             half = series.c[:, 0] / 2
             sides = Product(half, turned), Product(half.conj(), turned.conj())
             return FactoredPhasors(self.orders, sides, noise)
@@ -153,16 +153,17 @@ class Phases:
                 found += self._add_turned(turns[k : k + 1], factors)
             else:
                 if equal is None:
-                    equal = self._add_turned(turns, self._weigh_equal(arms))
+                    equal = self._add_turned(turns, _as_factors(arms))
                 found.append(vectors[:, 0] * equal[k])
         return found
 
-    def _add_turned(self, turns: Complex, factors: Array | Complex) -> list[Complex]:
-        """The same for factors of shape (1 or orders, cylinders, *trailing)."""
-        of_banks = np.add.reduceat(factors * self._still, self._starts, axis=1)
+    def _add_turned(self, turns: Complex, factors: Array | Complex | None) -> list[Complex]:
+        """The same for factors of shape (1 or orders, cylinders, *trailing); None: all are 1."""
+        of_banks = self._of_banks if factors is None else self._sum_banks(factors * self._still)
         totals: list[Complex] = list(np.add.reduce(turns * of_banks, axis=2))
         for bank, rows in groupby(self._moving, self._bank):
-            moving = sum(factors[:, k] * self._moving[k] for k in rows)
+            phases = ((k, self._moving[k]) for k in rows)
+            moving = sum(phase if factors is None else factors[:, k] * phase for k, phase in phases)
             for k, turn in enumerate(turns):
                 totals[k] = totals[k] + turn[:, bank] * moving
         return totals
@@ -171,14 +172,16 @@ class Phases:
     def _of_variants(self) -> bool:
         return self.n.ndim > 2
 
-    def _weigh_equal(self, arms: Array | None) -> Array:
-        """Factors of equal vectors, shape (1, cylinders, *trailing)."""
-        return (self._ones if arms is None else arms)[None]
-
     @cached_property
-    def _ones(self) -> Array:
-        """A 1 for each cylinder, shape (cylinders, *1)."""
-        return np.ones((self.count, *(1,) * (self.n.ndim - 2)))
+    def _of_banks(self) -> Complex:
+        """Sums over each bank's cylinders of the phases that do not vary."""
+        return self._sum_banks(self._still)
+
+    def _sum_banks(self, each: Complex) -> Complex:
+        """Sums over each bank's cylinders, shape (orders, cylinders, *trailing) -> (orders, banks,
+        *trailing).
+        """
+        return np.add.reduceat(each, self._starts, axis=1)
 
     def _bank(self, cylinder: int) -> int:
         return int(np.searchsorted(self._starts, cylinder, "right")) - 1
@@ -220,6 +223,16 @@ class SeparatePhases(Phases):
         arms = self._ones if arms is None else arms
         each = zip(np.repeat(turns, counts, axis=2), sides, strict=True)
         return [turn * (arms * vectors * self._still) for turn, vectors in each]
+
+    @cached_property
+    def _ones(self) -> Array:
+        """A 1 for each cylinder, shape (cylinders,)."""
+        return np.ones(self.count)
+
+
+def _as_factors(arms: Array | None) -> Array | None:
+    """Factors of equal vectors, shape (1, cylinders, *trailing)."""
+    return None if arms is None else arms[None]
 
 
 def _narrow(values: Array) -> Array:

@@ -22,7 +22,10 @@ Complex: TypeAlias = NDArray[np.complex128]
 Figure: TypeAlias = float | Array  # a number, or an array of variants
 
 EPS = float(np.finfo(float).eps)
-_STEP = 15.0  # degrees
+# As arrays without axes, which numpy takes up quicker than Python's numbers.
+_STEP = np.array(15.0)  # degrees
+_STEPS_A_TURN = np.array(24.0)
+_RADIANS_A_DEGREE = np.array(np.pi / 180)
 _COSINES = (1, (6**0.5 + 2**0.5) / 4, 0.75**0.5, 0.5**0.5, 0.5, (6**0.5 - 2**0.5) / 4, 0)
 
 
@@ -45,8 +48,9 @@ def unit(degrees: ArrayLike) -> Complex:
     x = np.asarray(degrees, float)
     steps = np.rint(x / _STEP)
     rest = x - _STEP * steps
-    turned: Complex = _UNITS.take((steps - 24.0 * np.floor(steps / 24.0)).astype(np.intp))
-    return turned * _turn(rest * (np.pi / 180)) if np.count_nonzero(rest) else turned
+    within = steps - _STEPS_A_TURN * np.floor(steps / _STEPS_A_TURN)
+    turned: Complex = _UNITS.take(within.astype(np.intp))
+    return turned * _turn(rest * _RADIANS_A_DEGREE) if np.count_nonzero(rest) else turned
 
 
 def _turn(radians: Array) -> Complex:

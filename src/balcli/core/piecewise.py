@@ -302,6 +302,15 @@ def piece_of(angle: Array, breaks: Array, *, before: bool = False) -> NDArray[np
     return np.clip(np.searchsorted(breaks, angle + shift, side="right") - 1, 0, len(breaks) - 2)
 
 
+def with_break(breaks: Array, angle: float) -> Array:
+    """Breakpoints with one more, unless it is among them; without numpy's `unique`, which imports
+    masked arrays: that takes longer than all of this.
+    """
+    at = int(np.searchsorted(breaks, angle))
+    there = at < len(breaks) and breaks[at] == angle
+    return breaks if there else np.concatenate([breaks[:at], [angle], breaks[at:]])
+
+
 def merged_breaks(parts: list[tuple[Array, float]], period: float) -> Array:
     """Breakpoints in [0, period] of a sum of functions, each given by its breakpoints and the angle
     (rad) by which it is shifted to the right.

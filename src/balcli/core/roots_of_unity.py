@@ -16,12 +16,15 @@ import math
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
+from functools import lru_cache
 
 TURN = 360
 LARGEST_DENOMINATOR = 5040  # of a fraction of a turn: 7!, so that all common divisions are in it
 _ULPS = 2  # by which an angle may differ from its fraction
+_KEPT = 1 << 12  # fractions: the angles and masses of an engine are few, and asked for every order
 
 
+@lru_cache(_KEPT)
 def turns(degrees: float, largest: float = TURN) -> Fraction | None:
     """The fraction of a turn that an angle is, modulo a turn; None if no denominator to 5040 gives
     it to within 2 ulp of `largest`, the size of the angles that it comes from (360 at least).
@@ -31,6 +34,7 @@ def turns(degrees: float, largest: float = TURN) -> Fraction | None:
     return None if found is None else found % 1
 
 
+@lru_cache(_KEPT)
 def rational(value: float, largest: int, tolerance: float) -> Fraction | None:
     """The fraction with the smallest such error and a denominator up to `largest`, if it is within
     the tolerance.

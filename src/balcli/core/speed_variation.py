@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .phasors import Array
-from .piecewise import Extreme, Function, PiecewiseCurve, quadrature, resolved
+from .piecewise import Extreme, Function, PiecewiseCurve, quadrature, resolved, with_break
 
 _ROUNDS, _REFINEMENTS = 100, 8
 _ENOUGH = 1e-14  # relative, where a secant has arrived
@@ -171,7 +171,7 @@ class _Shaft:
 
     def running(self, mean_speed: float) -> tuple[float, PiecewiseCurve]:
         """C and the speed over the angle, on panels that are halved until they show it."""
-        panels = np.unique(np.append(self.energy.breaks, self.slowest.angle))
+        panels = with_break(self.energy.breaks, self.slowest.angle)
         constant = math.inf
         for _ in range(_REFINEMENTS):
             last, constant = constant, self.constant_for(mean_speed, panels)

@@ -20,6 +20,7 @@ from .assembly import Assembly, Ripple
 from .devices import build_devices
 from .positions import MOMENTS_UNKNOWN, are_places_known
 from .rules import find_contradictions
+from .split_pins import find_fitting_splay
 
 if TYPE_CHECKING:
     from ..enginefile.gas_tables import Bearing, Flywheel
@@ -240,6 +241,15 @@ class Engine:
     def pins_deg(self) -> dict[int, Figure]:
         """Crank pin of each cylinder after cylinder 1's, by number."""
         return dict(zip(self.numbers, self.cylinders.pin_deg, strict=True))
+
+    @property
+    def splay_for_even_firing(self) -> float | None:
+        """`crank.splay` (deg) with which several throws would make the cylinders fire evenly in the
+        file's order; None where none would, or the file says at which intervals they fire.
+        """
+        if self.model is None or self.model.layout.firing_intervals or len(self.throws_m) == 1:
+            return None
+        return find_fitting_splay(self.model)
 
 
 def build(

@@ -26,6 +26,7 @@ from .rods import (
     check_turning,
     weigh_rod,
 )
+from .split_pins import find_fitting_splay
 
 STANDSTILL = 1e-12  # of the mean speed: rounding
 
@@ -177,10 +178,10 @@ def _describe_standstill(least: float, theta: float) -> str:
 
 def check_dead_centres(parts: Assembly) -> Iterator[Problem]:
     """Cylinders fire when they are at top dead centre; where they would with the banks the other
-    way round, the mistake says so.
+    way round, or with pins that are split, the mistake says so.
     """
     for problem in _find_dead_centres_missed(parts):
-        hint = _suggest_swapped_banks(parts)
+        hint = _suggest_swapped_banks(parts) or _suggest_splay(parts)
         yield problem._replace(message=problem.message + hint)
 
 
@@ -215,6 +216,12 @@ def _suggest_swapped_banks(parts: Assembly) -> str:
         f"{hint}, where the first bank is the left one seen from the free end (front), the "
         "driver's right"
     )
+
+
+def _suggest_splay(parts: Assembly) -> str:
+    """The splay with which all would fire at top dead centre; empty if there is none."""
+    splay = None if parts.rank else find_fitting_splay(parts.model)
+    return "" if splay is None else f". They fit with split pins: crank.splay = {splay:g}"
 
 
 def check_knuckle_pins(parts: Assembly) -> Iterator[Problem]:

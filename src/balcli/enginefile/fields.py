@@ -201,7 +201,7 @@ class Halves(_Field):
         self.most = most
 
     def read(self, value: object) -> float:
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or value % 0.5 != 0:
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or 2 * value % 1:
             raise ValueError(f"{shorten(value)} is not a multiple of 1/2; {self._wanted()}")
         if not 0.5 <= value <= self.most:
             raise ValueError(f"{shorten(value)} is out of range; {self._wanted()}")

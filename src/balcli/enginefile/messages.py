@@ -1,17 +1,15 @@
-"""Mistakes of an engine file in plain words: pydantic's findings translated, and the key that was
-probably meant.
-"""
+"""Mistakes of an engine file in plain words: pydantic's findings translated."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from importlib import import_module
-from typing import TYPE_CHECKING, NamedTuple, get_args
+from typing import TYPE_CHECKING, get_args
 
 from ..errors import Problem
 from ..limits import MOST_LIST_VALUES
 from . import model
-from .fields import counted, nearest, printable, shorten
+from .fields import counted, printable, shorten
 
 if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
@@ -51,40 +49,6 @@ WORDS = {
 OTHER = "{value} does not fit here"
 
 
-OF_COMMANDS = dict.fromkeys(
-    ("overbalance", "balance_factor", "factor"),
-    "did you mean --factor? The balance factor is no figure of the engine: "
-    "balcli balance FILE --factor 51%",
-)
-
-
-# What people call a key, and keys that mean it; the first that the table has
-SYNONYMS = {
-    "conrod": ("rod",),
-    "con_rod": ("rod",),
-    "connecting_rod": ("rod",),
-    "engine": ("layout",),
-    "rpm": ("speed",),
-    "pin_offset": ("splay", "offset"),
-    "offset": ("splay",),
-    "pins": ("throws",),
-    "pin_angles": ("throws",),
-    "crank_angles": ("throws",),
-    "bore_spacing": ("spacing",),
-    "vee_angle": ("bank_angle",),
-    "v_angle": ("bank_angle",),
-    "angle": ("bank_angle",),
-    "diameter": ("bore",),
-    "weight": ("mass", "piston_mass"),
-    "mass": ("piston_mass",),
-    "piston": ("piston_mass",),
-    "order": ("firing_order",),
-    "lambda": ("ratio",),
-    "wrist_pin": ("pin",),
-    "clips": ("locks",),
-}
-
-
 def import_table(key: str) -> type[model.Table]:
     """The table of a key; its module is imported, if it is of a chapter."""
     if key in TABLES or key in DEVICES:
@@ -101,20 +65,6 @@ def import_tables() -> dict[str, type[model.Table]]:
 def import_lists() -> dict[str, type[model.Table]]:
     """All tables that may stand several times in a file, those of chapters too."""
     return DEVICES | {key: import_table(key) for key in CHAPTER_LISTS}
-
-
-class UnknownKey(NamedTuple):
-    """A key that there is not.
-
-    Attributes:
-        path: of the table in which it stands; empty for the file itself.
-        key: as it is written.
-        table: what may stand in that table; None for the file itself.
-    """
-
-    path: str
-    key: str
-    table: type[model.Table] | None
 
 
 def join_path(start: str, parts: Iterable[int | str]) -> str:
@@ -199,36 +149,3 @@ def _ordinal(number: int) -> str:
         return f"{number}th"
     suffix = {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
     return f"{number}{suffix}"
-
-
-def describe_unknown_key(unknown: UnknownKey) -> tuple[Problem, str]:
-    """An unknown key in words, and the path of the key that was probably meant, or ""."""
-    path, key, table = unknown
-    own = list(table.model_fields) if table else KNOWN
-    place = f"in [{path.partition('.')[0]}]" if path else "in an engine file"
-    start = f"{path}." if path else ""
-    full = start + printable(key)
-    if key in OF_COMMANDS:
-        return Problem(full, f"unknown key {place}; {OF_COMMANDS[key]}"), ""
-    if near := _find_synonym(key, own) or nearest(key, own):
-        return Problem(full, f"unknown key {place}; did you mean {near}?"), start + near
-    hint = next(_tables_with(key), f"it has {', '.join(own)}")
-    return Problem(full, f"unknown key {place}; {hint}"), ""
-
-
-def _find_synonym(key: str, own: Iterable[str]) -> str:
-    """The key of this table that means what others call so; empty if there is none."""
-    meant = SYNONYMS.get(key.lower().replace("-", "_"), ())
-    return next(filter(set(own).__contains__, meant), "")
-
-
-def _tables_with(key: str) -> Iterator[str]:
-    """The tables of the file to which a key may belong, in words: exactly first, then nearly."""
-    tables = {f"[{name}]": table for name, table in import_tables().items()}
-    tables |= {f"[[{name}]]": table for name, table in import_lists().items()}
-    for name, table in tables.items():
-        if key in table.model_fields:
-            yield f"{key} belongs to {name}"
-    for name, table in tables.items():
-        if near := nearest(key, table.model_fields):
-            yield f"did you mean {near} of {name}?"

@@ -27,9 +27,7 @@ from .messages import (
     KNOWN,
     TABLES,
     TEXTS,
-    UnknownKey,
     describe_finding,
-    describe_unknown_key,
     find_inner_table,
     import_table,
     is_miscounted,
@@ -37,6 +35,13 @@ from .messages import (
 )
 from .model import EngineFile, Override, Table, mistakes_of_choice
 from .toml_text import parse_toml
+from .unknown_keys import (
+    INSTEAD,
+    UnknownKey,
+    describe_unknown_key,
+    find_unknown_keys,
+    suggest_place,
+)
 
 REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5"}
 CONTROL_CHARACTERS = {  # compiled when a text is met that is not all printable
@@ -107,7 +112,7 @@ def check_tables(data: Mapping[str, Any], folder: Path, *, bare: bool = False) -
         bare: as of `read_tables`.
     """
     reader = _Reader()
-    reader.unknown += [UnknownKey("", key, None) for key in data if key not in KNOWN]
+    reader.unknown += find_unknown_keys(data)
     bodiless = not bare or "body" not in data or any(key in data for key in REQUIRED)
     for key, example in REQUIRED.items():
         if key not in data and bodiless:
@@ -212,10 +217,10 @@ class _Reader:
             if re.fullmatch(r"[1-9][0-9]{0,4}", key):
                 cylinders[int(key)] = self.read_table(f"cylinder.{key}", part, Override)
             else:
-                self.add(
-                    f"cylinder.{printable(key)}".rstrip("."),
-                    "does not name a cylinder; write [cylinder.3] for what differs in cylinder 3",
-                )
+                instead = INSTEAD.get(key or "count") or suggest_place(key)
+                hint = instead or "write [cylinder.3] for what differs in cylinder 3"
+                path = f"cylinder.{printable(key)}".rstrip(".")
+                self.add(path, f"does not name a cylinder; {hint}")
         return cylinders
 
     def _refuse_huge(self, path: str, known: Mapping[str, object]) -> bool:

@@ -16,6 +16,8 @@ from ..limits import DEEPEST_KEY, LARGEST_FILE_BYTES, MOST_TOML_MARKS
 
 _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
 _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
+_MOST_DIGITS = 4300  # of a whole number that Python reads
+_TOO_MANY_DIGITS = re.compile(rf"[0-9][0-9_]{{{_MOST_DIGITS},}}")
 
 
 def read_bytes(source: str | Path) -> bytes:
@@ -75,8 +77,6 @@ def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
         message = f"is not UTF-8 text (line {line}); save it as UTF-8"
-    except ValueError as error:  # int() of very many digits
-        message = f"a number cannot be read: {str(error).split(';')[0][:300]}"
     raise InputError([Problem("", message)], file)
 
 
@@ -119,4 +119,10 @@ def _load_toml(text: str) -> dict[str, Any]:
         raise OverflowError(
             f"has more than {MOST_TOML_MARKS} keys, lists and values; no engine file needs that"
         )
-    return tomllib.loads(text)
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError:
+        raise
+    except ValueError:  # too many digits: as many as can be are refused by the path of their key
+        cut = _TOO_MANY_DIGITS.sub(lambda found: found[0][:_MOST_DIGITS].rstrip("_"), text)
+        return tomllib.loads(cut)

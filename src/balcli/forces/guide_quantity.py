@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ..engine.build import build
+from ..engine.build import Engine, build
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..engine.variants import EngineVariants
 from ..enginefile.model import EngineFile
@@ -67,7 +67,6 @@ class Variants:
 
     def __init__(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
         self._engines, self._quantities = EngineVariants(model), quantities
-        self._orders = np.array(sorted({float(q.target) for q in quantities}))
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
         """The amplitude of each quantity for one variant, by the figures that vary.
@@ -75,9 +74,13 @@ class Variants:
         Raises:
             InputError, BalcliError: it cannot be.
         """
-        guide = compute_guide_moments(self._engines.build(values), self._orders)
-        found = {"H": guide.h, "X": guide.x or guide.h}
-        rows = [int(np.searchsorted(self._orders, float(q.target))) for q in self._quantities]
-        return [
-            float(found[q.part].major[row]) for q, row in zip(self._quantities, rows, strict=True)
-        ]
+        return evaluate_engine(self._engines.build(values), self._quantities)
+
+
+def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
+    """The amplitude of each quantity of one engine, which has what they are of."""
+    orders = np.array(sorted({float(q.target) for q in quantities}))
+    guide = compute_guide_moments(engine, orders)
+    found = {"H": guide.h, "X": guide.x or guide.h}
+    rows = [int(np.searchsorted(orders, float(q.target))) for q in quantities]
+    return [float(found[q.part].major[row]) for q, row in zip(quantities, rows, strict=True)]

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ..core.mechanisms import harmonics
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
+from ..enginefile.fields import shorten
 from ..errors import BalcliError, wrong_type
 from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER, HIGHEST_ORDER_UNASKED
 from .kinds import GAS_KINDS
@@ -45,7 +46,7 @@ def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> A
     """
     asked = sorted(set(_list_numbers(orders)))
     if not asked or not all(map(is_order, asked)):
-        named = ", ".join(f"{n:g}" for n in asked[:8]) or "none"
+        named = ", ".join(shorten(n) for n in asked[:8]) or "none"
         raise BalcliError(f"orders must be multiples of 1/2 from 0 to {HIGHEST_ORDER}, not {named}")
     halves = ", ".join(f"{n:g}" for n in asked if n % 1)
     if halves and engines and all(engine.cycle_revolutions == 1 for engine in engines):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.phasors import Array
+from ..enginefile.fields import shorten
 from ..errors import BalcliError, wrong_type
 from ..forces.orders import check_orders
 from ..limits import HIGHEST_TORSION_ORDER, LARGEST_INERTIA, MOST_SPEEDS
@@ -56,6 +58,8 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
         found = np.unique(np.asarray(speeds_rpm, dtype=float))
     except (TypeError, ValueError):
         raise wrong_type(function, speeds_rpm, "give speeds in rpm, such as [1500, 2000]") from None
+    except OverflowError:  # a whole number of hundreds of digits
+        found = np.array([math.inf])
     if not found.size or not np.all((found > 0) & (found < 1e9)):
         raise BalcliError("speeds_rpm: give crank speeds above 0 in rpm, such as [1500, 2000]")
     if found.size > MOST_SPEEDS:
@@ -93,7 +97,7 @@ def check_inertia(name: str, value: object) -> float | None:
     if isinstance(value, bool) or not isinstance(value, _REAL):
         raise wrong_type(name, value, "give a moment of inertia in kg m2, such as 0.1")
     if not 0 < value < LARGEST_INERTIA:
-        raise BalcliError(f"{name}: {value}; give a moment of inertia in kg m2, above 0")
+        raise BalcliError(f"{name}: {shorten(value)}; give a moment of inertia in kg m2, above 0")
     return float(value)
 
 
@@ -107,7 +111,7 @@ def check_count(name: str, value: object, least: int = 1, most: int | None = Non
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
         raise wrong_type(name, value, f"give a whole number from {least}")
     if value < least:
-        raise BalcliError(f"{name}: {value} is less than {least}")
+        raise BalcliError(f"{name}: {shorten(value)} is less than {least}")
     if most is not None and value > most:
         raise BalcliError(f"{name}: give {most} at most")
     return int(value)
@@ -124,5 +128,7 @@ def read_share(name: str, value: float | str) -> float:
 
         return parse_percentage(value, name)
     if isinstance(value, bool) or not isinstance(value, _REAL) or not 0 <= value < 1:
-        raise BalcliError(f'{name} {value}: give a share from 0 to 1, such as 0.005 or "0.5%"')
+        raise BalcliError(
+            f'{name} {shorten(value)}: give a share from 0 to 1, such as 0.005 or "0.5%"'
+        )
     return float(value)

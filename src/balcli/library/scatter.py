@@ -10,9 +10,11 @@ from ..enginefile.units import ANGLE
 from ..errors import BalcliError
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..forces.quantity import leave_out_unknown
+from ..studies.cycle_scatter import scatter_cycles
 from ..studies.deviations import Tolerances
-from ..studies.part_scatter import RANDOM_SETS, scatter_parts
-from ..studies.quantities import parse_quantities, part_quantities
+from ..studies.part_scatter import scatter_parts
+from ..studies.quantities import parse_quantities, sort_scattered
+from ..studies.spread_one_by_one import RANDOM_SINGLES
 from ..studies.tolerances import RANDOM_ENGINES, Scatter, scatter_engine
 from .arguments import Words, check_count, join_words, read_share
 
@@ -34,14 +36,16 @@ def scatter(
 
     Args:
         engine: as `load` makes it.
-        quantities: sizes of vectors (`force.1.major`, `couple.4.amplitude`), or quantities of
-            mounts (`mode.roll.Hz`, `mount.left.force`) or torsion (`torsion.1.Hz`). Default: force
-            and moment of orders 1 and 2, as far as they are known.
+        quantities: sizes of vectors (`force.1.major`, `couple.4.amplitude`), quantities of the
+            cycle (`torque.max`, `fluctuation`, `guide.6.H`), of mounts (`mode.roll.Hz`,
+            `mount.left.force`) or of torsion (`torsion.1.Hz`). Default: force and moment of orders
+            1 and 2, as far as they are known.
         mass: tolerance of every piston, rod and throw mass, as a share (0.005) or a text ("0.5%").
         length: of every rod length, likewise.
         angle_deg: of every throw angle, a number or a text with its unit.
         stiffness: of every mount (default: 15 %) or shaft (5 %), a share or a text.
-        samples: random engines; default: 100000, of mounts and torsion 500.
+        samples: random engines; default: 100000, 500 of those computed one by one (of the
+            cycle, mounts and torsion).
         seed: of the random numbers, to repeat them.
         distribution: within the tolerances, or with a third of them as standard deviation.
 
@@ -60,8 +64,8 @@ def scatter(
     asked = join_words("scatter", quantities)
     names = DEFAULT_QUANTITIES if asked is None else asked
     wanted = parse_quantities(names, with_gas=model.gas is not None)
-    of_engine, of_parts = part_quantities(wanted)
-    usual = RANDOM_SETS if of_parts else RANDOM_ENGINES
+    of_engine, of_cycle, of_parts = sort_scattered(wanted)
+    usual = RANDOM_ENGINES if of_engine else RANDOM_SINGLES
     count = usual if samples is None else check_count("samples", samples)
     seed = None if seed is None else check_count("seed", seed, 0)
     if distribution not in ("uniform", "normal"):
@@ -75,6 +79,8 @@ def scatter(
     tolerances = Tolerances(
         read_share("mass", mass), read_share("length", length), _read_angle(angle_deg)
     )
+    if of_cycle:
+        return scatter_cycles(model, tolerances, of_cycle, count, seed, distribution)
     return scatter_engine(model, tolerances, of_engine, count, seed, distribution)
 
 

@@ -14,18 +14,19 @@ from ..forces.kinds import FORCE, MOMENT, ROLL, Kind
 from ..results.balance import Balance
 from ..sizing.device_tables import name_kind
 from .analysis_data import brief_document
-from .csv import Rows
+from .csv import Columns, Rows
 from .devices import (
     device_entries,
     device_grid,
     device_rows,
     holes_grid,
+    practical_columns,
     practical_entry,
     practical_grid,
 )
 from .figures import assumptions, figure_rows
 from .overview import find_orders_that_matter, tell_others
-from .scheme_details import details_document, details_parts
+from .scheme_details import details_document, details_parts, tell_growing_rolls
 from .sheet import (
     NAMELESS,
     NOTHING,
@@ -39,7 +40,7 @@ from .sheet import (
     number,
     order_name,
 )
-from .units import System, Unit
+from .units import SI, System, Unit
 
 
 def sheet(result: Balance, system: System) -> Sheet:
@@ -57,8 +58,8 @@ def sheet(result: Balance, system: System) -> Sheet:
     else:
         why = () if remedy.note or not known else ("Orders 1 and 2 are balanced.",)
         parts.append(Text("Nothing is fitted", why))
-    if remedy.note:
-        parts.append(Text("Note", (remedy.note,)))
+    if notes := tuple(filter(None, (remedy.note, *tell_growing_rolls(remedy, system)))):
+        parts.append(Text("Note", notes))
     if not known:
         parts.append(Text("Forces alone", (capitalized(f"{MOMENTS_UNKNOWN}."),)))
     parts += _permitted(result, system)
@@ -202,6 +203,21 @@ def document(result: Balance) -> dict[str, Any]:
             "each_g_mm": 1e6 * permitted.each,
         }
     return document
+
+
+def columns(result: Balance) -> Columns:
+    """A new device a row: as an engine file says it, and the workshop's figures. What is left with
+    them is `after`, an analysis with columns of its own.
+    """
+    units: dict[str, str] = {"device": ""}
+    lines: list[dict[str, Any]] = []
+    for device, practical in zip(result.remedy.devices, result.practical, strict=True):
+        line: dict[str, Any] = {"device": name_kind(device)}
+        for name, value, unit in (*device_rows(device, SI), *practical_columns(practical)):
+            line[name], units[name] = value, unit
+        lines.append(line)
+    values = {name: [line.get(name) for line in lines] for name in units}
+    return Columns(values, {name: unit for name, unit in units.items() if unit})
 
 
 def rows(result: Balance, system: System) -> Rows:

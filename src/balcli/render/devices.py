@@ -57,7 +57,10 @@ def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Ite
         yield "free: the shaft may stand anywhere, for it makes a moment alone."
     shafts = zip(devices, free, strict=True)
     if any(isinstance(d, Shaft) and not any(d.at) and not anywhere for d, anywhere in shafts):
-        yield "At 0, 0, where the crank is, a shaft adds no roll: elsewhere it does."
+        yield (
+            "At 0, 0, the crank's centre line, a shaft adds no roll; elsewhere, where a real one "
+            "stands, it does."
+        )
 
 
 def _grid_row(device: DeviceTable, free: bool, system: System) -> tuple[str, ...]:
@@ -216,6 +219,16 @@ def practical_entry(p: Practical) -> dict[str, float | None]:
         entry["holes"] = p.holes.number
         entry["hole_angle_deg"] = clean(p.holes.angle_deg)
     return entry
+
+
+def practical_columns(p: Practical) -> Iterator[tuple[str, float | None, str]]:
+    """Name, value and unit of every workshop's figure but the unbalance, which the device has."""
+    for key, value in practical_entry(p).items():
+        name, _, unit = key.rpartition("_")
+        if unit in ("kg", "mm", "N", "rpm", "deg"):
+            yield name, value, unit
+        elif key == "holes":
+            yield key, value, ""
 
 
 def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, Any, str]]:

@@ -44,7 +44,8 @@ def engine_facts(
         ("cylinders", cylinders),
         ("crank", _crank(engine, system)),
         ("throws", _throws(engine)),
-        ("firing", _firing(engine)),
+        ("firing" if engine.fires_deg else "cycle", _firing(engine)),
+        ("no gas in", list_silent(engine)),
         ("speed", _speeds(engine, speeds_rpm) if len(speeds_rpm) > 1 else _speed(engine)),
         ("masses", _masses(engine, system, whole=whole)),
         ("devices", devices),
@@ -153,13 +154,37 @@ def _unequal(engine: Engine) -> str:
 
 
 def _firing(engine: Engine) -> str:
-    """Firing order, and the intervals between firings."""
+    """Firing order, the intervals between firings, and the strokes of a cycle, as far as the file
+    says or implies them.
+    """
     if not engine.fires_deg:
-        return ""
+        return tell_strokes(engine) if _knows_strokes(engine) else ""
     instants = [*engine.fires_deg.values(), 180.0 * engine.strokes]
     gaps = [b - a for a, b in pairwise(instants)]
     if max(gaps) - min(gaps) < EVEN_DEG:
-        intervals = f"every {gaps[0]:.4g}"
+        intervals, even = f"every {gaps[0]:.4g}", ""
     else:
         intervals = f"after {', '.join(f'{gap:.4g}' for gap in gaps)}"
-    return f"{'-'.join(map(str, engine.fires_deg))}, {intervals} deg"
+        splay = engine.splay_for_even_firing
+        even = "" if splay is None else f" (evenly with crank.splay = {splay:g})"
+    order = "-".join(map(str, engine.fires_deg))
+    return f"{order}, {intervals} deg{even}, {tell_strokes(engine)}"
+
+
+def tell_strokes(engine: Engine) -> str:
+    """`four-stroke` or `two-stroke`."""
+    return "two-stroke" if engine.strokes == 2 else "four-stroke"
+
+
+def list_silent(engine: Engine) -> str:
+    """Numbers of the cylinders without gas, where there is gas in others."""
+    if engine.gas is None:
+        return ""
+    shares = zip(engine.numbers, engine.gas.cylinders, strict=True)
+    return ", ".join(str(n) for n, c in sorted(shares, key=lambda pair: pair[0]) if not c.share)
+
+
+def _knows_strokes(engine: Engine) -> bool:
+    """Whether the file says the strokes, or what depends on them; four are otherwise assumed."""
+    said = engine.model is not None and "strokes" in engine.model.layout.model_fields_set
+    return said or engine.gas is not None

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from ..core.peaks import Peak
-from ..core.phasors import Phasors
+from ..core.phasors import Array, Complex, Phasors
 from ..forces.kinds import EVERY_KIND, MOMENT, Kind
 from ..forces.spectrum import Spectra
 from .sheet import order_number
@@ -69,8 +69,10 @@ def vector_entries(phasors: Phasors) -> list[Entry]:
     """Forces or moments as JSON has them, an entry an order."""
     columns = (
         *(phasors.forward, phasors.backward, phasors.major, phasors.minor, phasors.axis_deg),
-        *(phasors.x, phasors.y, phasors.orders, phasors.balanced),
+        *(phasors.x, phase_deg(phasors.x), phasors.y, phase_deg(phasors.y)),
+        *(phasors.orders, phasors.balanced),
     )
+    rows = zip(*(column.tolist() for column in columns), strict=True)
     return [
         {
             "forward": [clean(forward.real), clean(forward.imag)],
@@ -78,27 +80,27 @@ def vector_entries(phasors: Phasors) -> list[Entry]:
             "major": clean(major),
             "minor": clean(minor),
             "axis_deg": clean(axis_deg),
-            "x": _component_entry(x, order),
-            "y": _component_entry(y, order),
-            "balanced": bool(balanced),
+            "x": _component_entry(x, x_deg, order),
+            "y": _component_entry(y, y_deg, order),
+            "balanced": balanced,
         }
-        for forward, backward, major, minor, axis_deg, x, y, order, balanced in zip(
-            *columns, strict=True
-        )
+        for forward, backward, major, minor, axis_deg, x, x_deg, y, y_deg, order, balanced in rows
     ]
 
 
 def scalar_entries(phasors: Phasors) -> list[Entry]:
     """Couples, torques or rolls as JSON has them, an entry an order."""
+    columns = phasors.x, phasors.orders, phasors.balanced
+    rows = zip(*(column.tolist() for column in columns), strict=True)
     return [
         {
             "cos": clean(c.real),
             "sin": clean(-c.imag),
             "amplitude": clean(abs(c)),
             "peak_deg": peak_deg(c, order),
-            "balanced": bool(balanced),
+            "balanced": balanced,
         }
-        for c, order, balanced in zip(phasors.x, phasors.orders, phasors.balanced, strict=True)
+        for c, order, balanced in rows
     ]
 
 
@@ -112,15 +114,15 @@ def peak_deg(c: complex, order: float) -> float | None:
     return clean(angle if angle < 360 / order else 0.0)
 
 
-def _component_entry(c: complex, order: float) -> dict[str, float | None]:
+def _component_entry(c: complex, angle: float, order: float) -> dict[str, float | None]:
     """`amplitude cos(n theta - phase)`."""
-    return {"amplitude": clean(abs(c)), "phase_deg": phase_deg(c) if c and order else None}
+    return {"amplitude": clean(abs(c)), "phase_deg": angle if c and order else None}
 
 
-def phase_deg(c: complex) -> float:
-    """Angle in (-180, 180] of the amplitude in `amplitude cos(n theta - angle)`."""
-    angle = -float(np.degrees(np.angle(c)))
-    return angle + 360 if angle <= -180 else angle + 0.0
+def phase_deg(c: complex | Complex) -> Array:
+    """Angle in (-180, 180] of the amplitude in `amplitude cos(n theta - angle)`, shape of c."""
+    angle = 0.0 - np.degrees(np.angle(c))
+    return np.where(angle <= -180, angle + 360, angle)
 
 
 def order_entries(spectra: Spectra) -> list[Entry]:

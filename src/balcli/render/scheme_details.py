@@ -19,9 +19,10 @@ from ..sizing.details import (
     Range,
 )
 from ..sizing.device_tables import measure_direction
+from ..sizing.remedy import Remedy
 from .bobweights import group_equal_pins, multiply, name_pins, percent
 from .figures import clean
-from .sheet import Facts, Grid, degrees, number
+from .sheet import NEGLIGIBLE, Facts, Grid, degrees, number, size_text
 from .units import System, Unit
 
 # of each dimension: the end of its JSON keys, and how many of their units are one SI unit
@@ -36,6 +37,9 @@ _JSON_UNITS: dict[Dimension, tuple[str, float]] = {
     "grams": ("_g", 1e3),
 }
 
+
+# labels of the roll without and with shafts
+ROLLS = ("roll before", "roll left")
 
 # how well a system was solved, and the like: in JSON and CSV only
 _FOR_PROGRAMS = {"condition number", "relative error bound", "axial distance", "improvement"}
@@ -145,6 +149,21 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
         yield _sweep_grid(peaks, system)
     if remedy.optima:
         yield _optima_grid(remedy.optima)
+
+
+def tell_growing_rolls(remedy: Remedy, system: System) -> Iterator[str]:
+    """A sentence for every order whose roll is larger with the shafts than without them."""
+    rolls = {(d.group, d.label): d.value for d in remedy.details if d.label in ROLLS}
+    for group in dict.fromkeys(group for group, _ in rolls):
+        before, left = (rolls.get((group, label)) for label in ROLLS)
+        if not isinstance(before, float) or not isinstance(left, float):
+            continue
+        if left > before + NEGLIGIBLE * left:
+            order = group or f"order {remedy.order}"
+            yield (
+                f"The roll of {order} grows by {size_text(left - before, system.moment)}: where it "
+                "stands, the shaft's force has a lever about the crankshaft."
+            )
 
 
 def _name_order(detail: Detail, order: int | None) -> Detail:

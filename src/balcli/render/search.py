@@ -88,6 +88,11 @@ def _notes(result: Search) -> Iterator[str]:
             f"{round(low, 1):g} to {round(high, 1):g}" for low, high in result.locked
         )
         yield f"No candidates: at {spans} deg the articulated rods cannot follow the crank."
+    if result.best_at_end:
+        yield (
+            f"The best {result.over} is an end of the range that was searched: beyond it may be "
+            "better."
+        )
     if _textbook(result, result.results[0]):
         yield _AS_BUILT
     added = list(dict.fromkeys(q.unit for q in result.objective.weights))

@@ -13,9 +13,16 @@ if TYPE_CHECKING:
     from ..forces.symmetry import Symmetry
 
 
+UNITS = (
+    "Fn: largest force of order n of one cylinder's reciprocating masses; a: distance of "
+    "neighbouring throws; as built: with rotating masses and stagger."
+)
+
+
 def sheet_parts(why: Symmetry) -> Iterator[Text]:
-    """One paragraph a reason and the orders that have it."""
-    yield Text("Why", why.sentences)
+    """One paragraph a reason and the orders that have it; then what its units mean."""
+    units = (UNITS,) if any(reason.unit for reason in why.reasons) else ()
+    yield Text("Why", (*why.sentences, *units))
 
 
 def document(why: Symmetry) -> dict[str, Any]:

@@ -19,8 +19,8 @@ _BOUND: dict[Shape, str] = {
     "go beyond a tolerance, three times their standard deviation, in 1 of 370",
 }
 
-_BOUND_OF_PARTS = (
-    "bound: nominal and all changes added up, to first order: a set may go a little beyond"
+_BOUND_ONE_BY_ONE = (
+    "bound: nominal and all changes added up, to first order: {one} may go a little beyond"
 )
 
 
@@ -62,21 +62,27 @@ def sheet(result: Scatter, _system: System) -> Sheet:
     spread = Grid(
         f"Spread of {result.samples} {result.varied}",
         ("quantity", *_statistics(result.spreads[0])),
-        tuple(
-            (f"{s.quantity.name}, {s.quantity.unit}", *map(number, _statistics(s).values()))
-            for s in result.spreads
-        ),
-        note=_BOUND[result.shape] if result.varied == "engines" else _BOUND_OF_PARTS,
+        tuple((_name(s), *map(number, _statistics(s).values())) for s in result.spreads),
+        note=_tell_bound(result),
     )
     shares = Grid(
         "What each tolerance alone changes, most first",
         ("quantity", *(f"{k}." for k in range(1, SHOWN + 1))),
-        tuple(
-            (f"{s.quantity.name}, {s.quantity.unit}", *_largest_shares(s)) for s in result.spreads
-        ),
+        tuple((_name(s), *_largest_shares(s)) for s in result.spreads),
         words=tuple(range(SHOWN + 1)),
     )
     return Sheet(result.model.name or NAMELESS, (spread, shares))
+
+
+def _tell_bound(result: Scatter) -> str:
+    if result.varied == "engines":
+        return _BOUND[result.shape]
+    one = "an engine" if result.varied.startswith("engines") else "a set"
+    return _BOUND_ONE_BY_ONE.format(one=one)
+
+
+def _name(s: Spread) -> str:
+    return ", ".join(filter(None, (s.quantity.name, s.quantity.unit)))
 
 
 def _largest_shares(s: Spread) -> list[str]:

@@ -15,6 +15,7 @@ from ..torque.flywheel import Flywheel, Speed
 from ..torque.given_curve import CurveAnalysis
 from ..torque.loads import Load
 from .csv import Rows
+from .engine_facts import list_silent, tell_strokes
 from .figures import FigureRow, clean, order_entries, order_rows, peak_deg
 from .sheet import NAMELESS, Facts, Grid, Sheet, degrees, number, order_name, order_number
 from .units import ENERGY, System, Unit
@@ -278,26 +279,17 @@ def _load_table(
 
 def _work_facts(result: TorqueAnalysis, system: System) -> Facts:
     gas = result.max_pressure
-    pairs = [("speed", f"{number(float(result.engine.speed_rpm), 6)} rpm")]
+    pairs = [("cycle", f"{tell_strokes(result.engine)}, {_whole(result.cycle_deg)} deg")]
+    pairs.append(("speed", f"{number(float(result.engine.speed_rpm), 6)} rpm"))
     pairs.append(("mean pressure", f"{number(result.imep / 1e5)} bar indicated"))
     if result.bmep is not None:
         pairs[-1] = (pairs[-1][0], f"{pairs[-1][1]}, {number(result.bmep / 1e5)} bar brake")
     if gas is not None:
         at = degrees(float(np.degrees(gas.angle)))
         pairs.append(("largest pressure", f"{number(gas.value / 1e5)} bar, {at} deg after firing"))
-    silent = _silent(result)
-    if silent:
+    if silent := list_silent(result.engine):
         pairs.append(("no gas in", silent))
     return Facts((*pairs, *_mean_pairs(result.mean_torque, result.power, system)))
-
-
-def _silent(result: TorqueAnalysis) -> str:
-    """Numbers of the cylinders without gas."""
-    gas = result.engine.gas
-    if gas is None:
-        return ""
-    shares = zip(result.engine.numbers, gas.cylinders, strict=True)
-    return ", ".join(str(n) for n, c in sorted(shares, key=lambda pair: pair[0]) if not c.share)
 
 
 def _mean_pairs(mean: float, power: float | None, system: System) -> Iterator[tuple[str, str]]:

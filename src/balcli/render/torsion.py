@@ -11,9 +11,9 @@ import numpy as np
 from ..torsion.analysis import BEYOND, HolzerTable, TorsionAnalysis
 from ..torsion.damper_sizing import SizedDamper
 from ..torsion.response import Response
-from .sheet import Facts, Grid, Sheet, Text, number, order_number
+from .sheet import Facts, Grid, Sheet, Text, number, order_number, size_text
 from .torsion_document import document, rows
-from .units import SI, System, Unit
+from .units import POWER, SI, STRESS, System, Unit
 
 __all__ = ["document", "rows", "sheet"]
 
@@ -51,10 +51,9 @@ _DAMPER_KEYS = {
 
 def _damper(sized: SizedDamper) -> Facts:
     """What to make, and what it does."""
-    size, unit = (1e6, "N/mm²") if sized.measure == "stress" else (1, "N·m")
-    before = (
-        "without bound" if math.isinf(sized.before) else f"±{number(sized.before / size)} {unit}"
-    )
+    finite = [value for value in (sized.before, sized.after) if not math.isinf(value)]
+    unit = STRESS if sized.measure == "stress" else SI.moment.fit(max(finite))
+    before = "without bound" if math.isinf(sized.before) else _tell_swings(sized.before, unit)
     pairs = [("on", sized.node)]
     for key, value in sized.damper.model_dump(exclude={"kind"}, exclude_none=True).items():
         name, measured = _DAMPER_KEYS[key]
@@ -63,10 +62,16 @@ def _damper(sized: SizedDamper) -> Facts:
             told += f" (of mode {sized.mode} by itself: {number(sized.start)})"
         pairs.append((name, told))
     pairs.append((f"largest {sized.measure} before", before))
-    pairs.append((f"largest {sized.measure} with it", f"±{number(sized.after / size)} {unit}"))
+    pairs.append((f"largest {sized.measure} with it", _tell_swings(sized.after, unit)))
     if sized.heat:
-        pairs.append(("heat", f"up to {number(sized.heat, 4)} W, at {number(sized.heat_rpm)} rpm"))
+        pairs.append(
+            ("heat", f"up to {size_text(sized.heat, POWER)}, at {number(sized.heat_rpm)} rpm")
+        )
     return Facts(tuple(pairs), f"Sized: a {sized.damper.kind} damper")
+
+
+def _tell_swings(amplitude: float, unit: Unit) -> str:
+    return f"±{number(unit.of(amplitude))} {unit.name}"
 
 
 def _modes(result: TorsionAnalysis) -> Grid | Text:
@@ -141,22 +146,23 @@ def _criticals(result: TorsionAnalysis) -> Grid:
 
 def _holzer(result: TorsionAnalysis, asked: HolzerTable) -> Grid:
     table, chain = asked.table, result.system.chain
+    unit = SI.moment.fit(float(np.abs([table.torque, table.total]).max()))
     rows = tuple(
         (
             name,
             number(float(chain.inertia[k])),
             number(float(table.angle[k]), 6),
-            number(float(table.torque[k])),
-            number(_settle(asked, float(table.total[k]))),
+            number(unit.of(float(table.torque[k]))),
+            number(unit.of(_settle(asked, float(table.total[k])))),
             _stiffness(float(table.stiffness[k])),
             number(float(table.twist[k]), 4) if table.stiffness[k] else "–",
         )
         for k, name in enumerate(result.system.nodes)
     )
     what = f"mode {asked.mode}" if asked.mode else "trial"
-    title = f"Holzer's table, {what}: {number(asked.omega, 7)} rad/s"
-    left = f"Left over at the end: {number(_settle(asked, table.residual))} N·m."
-    heads = ("node", "J, kg·m²", "angle", "J ω² angle", "sum, N·m", "k, N·m/rad", "twist")
+    title = f"Holzer's table, {what}: {number(asked.omega, 7)} rad/s; torques in {unit.name}"
+    left = f"Left over at the end: {size_text(_settle(asked, table.residual), SI.moment, 5)}."
+    heads = ("node", "J, kg·m²", "angle", "J ω² angle", "sum", "k, N·m/rad", "twist")
     return Grid(title, heads, rows, left)
 
 

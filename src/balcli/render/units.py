@@ -70,6 +70,8 @@ IMPERIAL = System(
     Unit("in³", INCH**3),
 )
 ENERGY = Unit("J", 1, Unit("kJ", 1e3, Unit("MJ", 1e6), 5000), 5000)
+POWER = Unit("W", 1, Unit("kW", 1e3, Unit("MW", 1e6), 5000), 5000)
+STRESS = Unit("N/mm²", 1e6)
 SYSTEMS = {"si": SI, "imperial": IMPERIAL}
 
 

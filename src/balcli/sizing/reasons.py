@@ -36,7 +36,7 @@ def explain_one_eccentric(
         more: what would take the moment that stays otherwise.
     """
     what = _name(residual, sense) if whole else f"Order {residual.order} force"
-    by_weights = "--scheme counterweights would cancel it without a shaft"
+    by_weights = "the scheme counterweights would cancel it without a shaft"
     on_crank = "nothing on the crankshaft can cancel it"
     reason = (
         f"{what} turning {_turning(sense)} the crank: "
@@ -50,7 +50,7 @@ def explain_one_eccentric(
 
 def explain_couple(residual: Residual, sense: int) -> str:
     """Of two opposite eccentrics for the moment that turns in this sense."""
-    needless = "; counterweights would do so without a shaft: --scheme counterweights"
+    needless = "; the scheme counterweights would do so without a shaft"
     return (
         f"Order {residual.order} moment turning {_turning(sense)} the crank: two opposite "
         f"eccentrics on a shaft at {sense * residual.order:+d} times crank speed make the opposite "

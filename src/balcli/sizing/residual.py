@@ -187,10 +187,10 @@ def _tell_rest(
     order, rest = residual.order, []
     forward = [part.quantity for part in FORWARD if residual.parts[part]]
     if forward:
-        cure = "--scheme counterweights" if order == 1 else f"a shaft at +{order}"
+        cure = "the scheme counterweights" if order == 1 else f"a shaft at +{order}"
         rest.append(f"its {' and '.join(forward)} turning with the crank: {cure}")
     if "moment" not in quantities and residual.has("moment", senses):
-        rest.append(f"its moment turning against the crank: --order {order} --planes")
+        rest.append("its moment turning against the crank: eccentrics in two planes")
     return rest
 
 

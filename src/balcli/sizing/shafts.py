@@ -73,7 +73,7 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
 def _add_one_eccentric(fitting: Fitting, residual: Residual, options: SchemeOptions) -> Fitting:
     z = choose_plane(fitting.engine, options, residual, -1)
     slot = Slot("shaft", residual.order, -1, z, options.read_place())
-    more = "eccentrics in two planes take, too: --planes"
+    more = "eccentrics in two planes take, too"
     reason = explain_one_eccentric(residual, -1, takes_moment(residual, -1, z), more)
     fitting = fitting.cancel([slot], [BACKWARD_FORCE], reason)
     left = fitting.find_residual(residual.order)

@@ -12,9 +12,12 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from ..core.cached_property import cached_property
+from ..core.cylinders import Cylinders
 from ..core.phasors import Array, Phasors
 from ..engine.assembly import PISTON_PARTS
-from ..engine.build import Engine, build
+from ..engine.build import Engine, Weighed, assemble, build
+from ..engine.gas import EngineGas, build_gas
 from ..engine.layout import plan_cylinders
 from ..enginefile.model import Bobweight, EngineFile
 from ..forces.quantity import Quantity
@@ -50,6 +53,11 @@ class Source(NamedTuple):
         """As tables have it: `piston mass 3`."""
         return f"{self.what} {self.number}"
 
+    @property
+    def relative(self) -> bool:
+        """Whether it deviates by a share of itself; else by degrees."""
+        return self.what != "throw angle"
+
 
 class DeviatingEngine:
     """An engine file and what may deviate from it.
@@ -59,7 +67,7 @@ class DeviatingEngine:
     """
 
     def __init__(self, model: EngineFile, tolerances: Tolerances) -> None:
-        self._engine = build(model, rank=1)
+        self._model, self._engine = model, build(model, rank=1)
         self._gas = None if model.gas is None else DeviatingGas(model, tolerances.length)
         cells = {cell.number: cell for cell in plan_cylinders(model.crank, model.layout).cells}
         self._throws = [cells[number].throw + 1 for number in self._engine.numbers]
@@ -121,6 +129,70 @@ class DeviatingEngine:
         return replace(
             engine, gas_of_variants=lambda orders: gas.find_torque(orders, longer, ahead_deg)
         )
+
+    def deviate_one(self, deviations: Array) -> Engine:
+        """One engine without trailing axes, its gas and all, with deviations (sources,) as of
+        `deviate`.
+        """
+        column = deviations[:, None]
+        several, single = self.deviate(column).cylinders, self._single
+        linkage = single.cylinders.linkage
+        if linkage is not None and several.linkage is not None:
+            linkage = replace(linkage, mass=several.linkage.mass[:, 0])
+        cylinders = replace(
+            single.cylinders,
+            reciprocating=several.reciprocating[:, 0],
+            rotating=several.rotating[:, 0],
+            couple=several.couple[:, 0],
+            lam=several.lam[:, 0],
+            eps=several.eps[:, 0],
+            pin_deg=several.pin_deg[:, 0],
+            linkage=linkage,
+        )
+        engine = replace(single, cylinders=cylinders, weighed=self._weigh(column), model=None)
+        if single.gas is None:
+            return engine
+        return replace(engine, gas=self._move_gas(single.gas, cylinders, column))
+
+    def _weigh(self, column: Array) -> tuple[Weighed, ...]:
+        """Masses of every cylinder with deviations (sources, 1)."""
+        count = len(self._throws)
+        whats: tuple[What, ...] = ("piston mass", "rod mass", "throw mass")
+        pistons, rods, throws = (
+            np.broadcast_to(1 + self._of_cylinders(what, column)[:, 0], count).tolist()
+            for what in whats
+        )
+        return tuple(
+            w._replace(
+                piston=w.piston * pistons[row],
+                piston_parts=tuple((key, mass * pistons[row]) for key, mass in w.piston_parts),
+                small_end=w.small_end * rods[row],
+                big_end=w.big_end * rods[row],
+                share=w.share * throws[row],
+            )
+            for row, w in enumerate(self._single.weighed)
+        )
+
+    def _move_gas(self, gas: EngineGas, cylinders: Cylinders, column: Array) -> EngineGas:
+        """With deviations (sources, 1): other rods have other torques, a throw that stands ahead
+        has its cylinders fire ahead.
+        """
+        if self._of_cylinders("rod length", column).any():
+            return build_gas(assemble(self._model), cylinders)
+        ahead = np.broadcast_to(self._of_cylinders("throw angle", column), (len(self._throws), 1))
+        moved = zip(gas.cylinders, ahead[:, 0].tolist(), strict=True)
+        return replace(
+            gas,
+            cylinders=tuple(
+                cylinder._replace(nominal_deg=(cylinder.nominal_deg - angle) % gas.cycle_deg)
+                for cylinder, angle in moved
+            ),
+        )
+
+    @cached_property
+    def _single(self) -> Engine:
+        """As the file has it, without trailing axes."""
+        return build(self._model)
 
     def _of_cylinders(self, what: What, deviations: Array) -> Array:
         """Deviations as the cylinders have them, shape (cylinders, samples); a single 0 where this

@@ -16,11 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..engine.layout import plan_cylinders
-from ..enginefile.fields import Number, nearest
+from ..enginefile.fields import Number, nearest, shorten
 from ..enginefile.model import EngineFile, Override, Table
 from ..enginefile.units import convert
+from ..enginefile.unknown_keys import SYNONYMS
 from ..errors import BalcliError, wrong_type
-from ..limits import MOST_PARAMETER_VALUES
+from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES
 
 _EXACT = 2**53  # whole numbers below it are exact as floating-point numbers
 _FIGURE = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?")
@@ -106,6 +107,7 @@ def parse(text: str, model: EngineFile) -> Parameter:
     """
     path, equals, wanted = (part.strip() for part in text.partition("="))
     known = find_numbers(model)
+    path = resolve_name(path, known)
     if not equals or not path:
         raise BalcliError(
             f'"{text}": give a number of the engine file and its values, such as '
@@ -115,8 +117,10 @@ def parse(text: str, model: EngineFile) -> Parameter:
         raise BalcliError(_describe_unknown(path, known))
     try:
         values = _read_values(wanted, known[path])
-    except (ValueError, OverflowError) as error:
-        raise BalcliError(f'"{text}": {error}') from None
+    except ValueError as error:
+        raise BalcliError(f"{shorten(text)}: {error}") from None
+    except OverflowError:
+        raise BalcliError(f"{shorten(text)}: has too large a number") from None
     _check_bounds(path, known[path], values)
     return Parameter(path, values, known[path].dimension.unit)
 
@@ -132,12 +136,13 @@ def choose_values(path: str, values: Any, model: EngineFile) -> Parameter:
     if isinstance(values, str):
         return parse(f"{path}={values}", model)
     known = find_numbers(model)
+    path = resolve_name(path, known)
     if path not in known:
         raise BalcliError(_describe_unknown(path, known))
     number = known[path]
     try:
         array = np.atleast_1d(np.asarray(values, dtype=float))
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         array = np.array([_read_one(path, value, number) for value in _as_list(path, values)])
     if array.ndim != 1 or not 0 < array.size <= MOST_PARAMETER_VALUES:
         raise BalcliError(
@@ -146,6 +151,15 @@ def choose_values(path: str, values: Any, model: EngineFile) -> Parameter:
         )
     _check_bounds(path, number, array)
     return Parameter(path, array, number.dimension.unit)
+
+
+def resolve_name(name: str, known: Mapping[str, Number]) -> str:
+    """The dotted name of the one number that is called so: `stroke` is `crank.stroke`, `rpm` and
+    `speed` are `operation.speed`. A name that several numbers have, or none, stays as it is.
+    """
+    called = {name, *SYNONYMS.get(name.lower(), ())}
+    meant = [path for path in known if path.rpartition(".")[2] in called]
+    return meant[0] if name not in known and len(meant) == 1 else name
 
 
 def _as_list(path: str, values: Any) -> list[Any]:
@@ -164,7 +178,7 @@ def _read_one(path: str, value: Any, number: Number) -> float:
 def _describe_unknown(path: str, known: Mapping[str, Number]) -> str:
     """With the nearest name, or some that begin alike."""
     inside = [name for name in known if name.rpartition(".")[2] == path]
-    if near := (inside[0] if inside else nearest(path, known)):
+    if near := (" or ".join(inside[:6]) or nearest(path, known)):
         hint = f"did you mean {near}?"
     else:
         first = path.partition(".")[0]
@@ -214,9 +228,10 @@ def ladder(first: Fraction, step: Fraction, count: int) -> NDArray[np.float64]:
 
 def _read_exactly(text: str, number: Number) -> Fraction:
     """The figure in the bare unit of its field."""
-    if _FIGURE.fullmatch(text.strip()):
-        return Fraction(text.strip())
+    figure = text.strip()
+    if _FIGURE.fullmatch(figure) and len(figure) <= LONGEST_FIGURE:
+        return Fraction(figure)
     try:
-        return Fraction(convert(text, number.dimension))
+        return Fraction(convert(figure, number.dimension))
     except ValueError as error:
-        raise ValueError(f'"{text.strip()}" {error}') from None
+        raise ValueError(f"{shorten(figure)} {error}") from None

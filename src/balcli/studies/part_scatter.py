@@ -21,10 +21,10 @@ from ..forces.target_quantity import TargetQuantity
 from ..limits import MOST_MOUNT_SAMPLES
 from .quantities import group_by_chapter, load_chapter
 from .quantity_names import MOUNTS
-from .tolerances import PERCENTILES, TOLD, Scatter, Shape, Spread
+from .spread_one_by_one import Drawing, spread_one_by_one
+from .tolerances import Scatter, Shape
 
 OF_MOUNTS, OF_SHAFTS = 0.15, 0.05  # tolerance of stiffness, unless another is given
-RANDOM_SETS = 500  # samples, unless their number is given: each takes milliseconds
 
 
 class PartSource(NamedTuple):
@@ -34,11 +34,13 @@ class PartSource(NamedTuple):
         name: as tables have it: `stiffness left`.
         tolerance: relative.
         figures: of the file, by dotted name, as they are.
+        relative: to themselves, as all of these deviate.
     """
 
     name: str
     tolerance: float
     figures: Mapping[str, float]
+    relative: bool = True
 
 
 def scatter_parts(
@@ -93,21 +95,10 @@ def scatter_parts(
         }
         return np.array(variants.evaluate(values))
 
-    tolerances = np.array([source.tolerance for source in sources])
-    nominal = evaluate(np.zeros(len(sources)))
-    changes = np.array([(evaluate(row) - evaluate(-row)) / 2 for row in np.diag(tolerances)])
-    rows = []
-    for row in _draw(tolerances, samples, seed, shape):
-        rows.append(evaluate(row))
-        if tell(len(rows)):
-            break
-    values = np.array(rows)
-    spreads = tuple(
-        _spread(q, float(nominal[k]), values[:, k], sources, changes[:, k])
-        for k, q in enumerate(quantities)
-    )
+    drawing = Drawing(samples, seed, shape, tell)
+    count, spreads = spread_one_by_one(sources, quantities, evaluate, drawing)
     varied = "sets of mounts" if of_mounts else "crankshafts"
-    return Scatter(model, len(rows), shape, spreads, varied)
+    return Scatter(model, count, shape, spreads, varied)
 
 
 # ------------------------------------------------------------------ what deviates
@@ -168,36 +159,3 @@ def _list_shafting(model: EngineFile, stiffness: float, mass: float) -> Iterator
     for number, weighed in sorted(zip(engine.numbers, engine.weighed, strict=True)):
         figures = {f"cylinder.{number}.piston_mass": float(weighed.piston)}
         yield PartSource(f"piston mass {number}", mass, figures)
-
-
-def _draw(tolerances: Array, samples: int, seed: int | None, shape: Shape) -> Array:
-    """(samples, sources) deviations; of normal ones none makes a spring negative."""
-    random = np.random.default_rng(seed)
-    size = samples, len(tolerances)
-    if shape == "uniform":
-        return tolerances * (2 * random.random(size) - 1)
-    return np.maximum(tolerances / 3 * random.standard_normal(size), -0.99)
-
-
-def _spread(
-    quantity: TargetQuantity,
-    nominal: float,
-    values: Array,
-    sources: Sequence[PartSource],
-    changes: Array,
-) -> Spread:
-    unit = np.abs(changes).max() * TOLD or 1.0
-    shares = sorted(
-        zip(sources, map(float, changes), strict=True),
-        key=lambda share: -round(abs(share[1]) / unit),
-    )
-    percentiles = np.percentile(values, list(PERCENTILES.values())).tolist()
-    return Spread(
-        quantity,
-        nominal,
-        mean=float(values.mean()),
-        percentiles=dict(zip(PERCENTILES, percentiles, strict=True)),
-        largest=float(values.max()),
-        bound=nominal + float(np.abs(changes).sum()),
-        shares=tuple(shares),
-    )

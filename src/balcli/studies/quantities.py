@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from importlib import import_module
-from typing import Protocol, cast
+from typing import NamedTuple, Protocol, cast
 
 from ..enginefile.fields import nearest
 from ..enginefile.model import EngineFile
@@ -17,7 +17,9 @@ from ..forces.target_quantity import TargetQuantity
 from .quantity_names import (
     BEGINNINGS,
     CHAPTERS,
+    CYCLE,
     ENGINE,
+    GUIDE,
     MOUNTS,
     TORSION,
     Chapter,
@@ -142,23 +144,40 @@ def _list_of_chapter(chapter: Chapter, model: EngineFile) -> Iterator[Form]:
         yield form._replace(pattern=name)
 
 
-def part_quantities(
-    wanted: Sequence[AnyQuantity],
-) -> tuple[tuple[Quantity, ...], tuple[TargetQuantity, ...]]:
-    """Those of the engine, or those of its mounts or of torsion: what scatters.
+class Scattered(NamedTuple):
+    """Quantities that are to scatter: those of one kind, with the tolerances that it has.
+
+    Attributes:
+        by_order: forces and moments, which are evaluated as arrays.
+        of_cycle: of the whole cycle, or of guide-force moments.
+        of_parts: of mounts, or of torsion.
+    """
+
+    by_order: tuple[Quantity, ...] = ()
+    of_cycle: tuple[ChapterQuantity, ...] = ()
+    of_parts: tuple[TargetQuantity, ...] = ()
+
+
+def sort_scattered(wanted: Sequence[AnyQuantity]) -> Scattered:
+    """What scatters, by its kind.
 
     Raises:
-        BalcliError: there are several kinds, or others.
+        BalcliError: there are several kinds.
     """
-    of_engine, groups = choose_of_engine(wanted), group_by_chapter(wanted)
-    for chapter, members in groups.items():
-        if chapter not in (MOUNTS, TORSION):
-            raise BalcliError(f"{members[0].name} has no scatter; vary single figures with sweep")
-    kinds = [*([of_engine] if of_engine else []), *groups.values()]
+    by_order, groups = choose_of_engine(wanted), group_by_chapter(wanted)
+    of_cycle = tuple(q for q in wanted if find_chapter(q.name) in (CYCLE, GUIDE))
+    of_parts = [groups[chapter] for chapter in (MOUNTS, TORSION) if chapter in groups]
+    kinds = [kind for kind in (by_order, of_cycle, *of_parts) if kind]
     if len(kinds) > 1:
+        first, second = kinds[0][0].name, kinds[1][0].name
+        if by_order and of_cycle:
+            raise BalcliError(
+                f"{first} and {second} are not drawn together: of the cycle and of guides, engines "
+                "are computed one by one; ask for one after the other"
+            )
         raise BalcliError(
-            f"{kinds[0][0].name} and {kinds[1][0].name} have tolerances of their own; ask for "
+            f"{first} and {second} have tolerances of their own; ask for "
             "quantities of the engine, of its mounts and of torsion one after the other"
         )
-    of_parts = () if of_engine or not kinds else tuple(kinds[0])
-    return of_engine, cast("tuple[TargetQuantity, ...]", of_parts)
+    parts = tuple(q for kind in of_parts for q in kind)
+    return Scattered(by_order, of_cycle, cast("tuple[TargetQuantity, ...]", parts))

@@ -25,8 +25,8 @@ from .deviations import DeviatingEngine, Source, Tolerances
 from .percentiles import Sample
 
 if TYPE_CHECKING:
-    from ..forces.target_quantity import TargetQuantity
     from .part_scatter import PartSource
+    from .quantities import ChapterQuantity
 
 RANDOM_ENGINES = 100_000  # samples, unless their number is given
 CHUNK = 8_192  # samples at a time
@@ -76,7 +76,7 @@ class Spread:
         shares: by source, the change that its tolerance alone makes, to first order; largest first.
     """
 
-    quantity: Quantity | TargetQuantity
+    quantity: Quantity | ChapterQuantity
     nominal: float
     mean: float
     percentiles: dict[str, float]
@@ -132,11 +132,7 @@ def scatter_engine(
         )
     if not 1 <= samples <= MOST_TOLERANCE_SAMPLES:
         raise BalcliError(f"{samples} samples: from 1 to {MOST_TOLERANCE_SAMPLES} are allowed")
-    if model.layout.rotary:
-        raise BalcliError(
-            "there is no scatter of rotary engines, whose masses move on curves: vary single "
-            "masses with sweep"
-        )
+    refuse_rotary(model)
     refuse_unknown(build(model), quantities)
     engines = DeviatingEngine(model, tolerances)
     if not engines.sources:
@@ -151,6 +147,19 @@ def scatter_engine(
             break
     spreads = [_spread(engines, q, sample) for q, sample in zip(quantities, drawn, strict=True)]
     return Scatter(model, count, shape, tuple(spreads))
+
+
+def refuse_rotary(model: EngineFile) -> None:
+    """Nothing, unless the cylinders turn.
+
+    Raises:
+        BalcliError: they do.
+    """
+    if model.layout.rotary:
+        raise BalcliError(
+            "there is no scatter of rotary engines, whose masses move on curves: vary single "
+            "masses with sweep"
+        )
 
 
 def _draw(

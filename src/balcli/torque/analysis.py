@@ -25,7 +25,7 @@ from .course import (
     find_torque_curves,
 )
 from .flywheel import Flywheel, Question, find_flywheel
-from .loads import KINDS_OF_LOAD, Loads, analyze_loads
+from .loads import KINDS_OF_LOAD, Loads
 
 KINDS_OF_TORQUE = ("gas", "torque", "torque_total")
 
@@ -145,8 +145,16 @@ def analyze_torque(
         _find_highest(engine),
         above,
         find_flywheel(asked),
-        analyze_loads(engine, loads),
+        _find_loads(engine, loads),
     )
+
+
+def _find_loads(engine: Engine, asked: tuple[str, ...]) -> Loads:
+    if not asked:
+        return Loads()
+    from .find_loads import analyze_loads
+
+    return analyze_loads(engine, asked)
 
 
 def _find_highest(engine: Engine) -> Extreme | None:

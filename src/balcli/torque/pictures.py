@@ -15,7 +15,7 @@ from ..errors import BalcliError
 from ..forces.gas import take_gas
 from ..forces.rod_forces import compute_rod_forces, list_hung_rows
 from .course import find_torque_curves
-from .loads import find_bearing_loads
+from .find_loads import find_bearing_loads
 
 PAGES = ("pressure", "p-v", "torque", "pin", "main")
 _STEP = 0.5  # deg

@@ -15,7 +15,7 @@ from .analysis import analyze_torque
 from .course import find_constant_inertia, find_torque_curves
 
 _UNITS = {"torque.mean": "N·m", "torque.max": "N·m", "torque.min": "N·m", "fluctuation": ""}
-_NO_INERTIA = "fluctuation: the file gives no inertia; give inertia in [crank] or [flywheel]"
+NO_INERTIA = "fluctuation: the file gives no inertia; give inertia in [crank] or [flywheel]"
 
 
 @dataclass(frozen=True)
@@ -73,19 +73,28 @@ class Variants:
         Raises:
             InputError, BalcliError: it cannot be; a fluctuation without inertia.
         """
-        engine, found = self._engines.build(values), dict[str, float]()
-        if any(q.name != "fluctuation" for q in self._quantities):
-            curves = find_torque_curves(engine)
-            lowest, highest = curves.total.extremes()
-            found |= {"torque.mean": curves.gas.mean, "torque.max": highest.value}
-            found["torque.min"] = lowest.value
-        if any(q.name == "fluctuation" for q in self._quantities):
-            found["fluctuation"] = _find_fluctuation(engine)
-        return [found[q.name] for q in self._quantities]
+        return evaluate_engine(self._engines.build(values), self._quantities)
+
+
+def evaluate_engine(engine: Engine, quantities: Sequence[CycleQuantity]) -> list[float]:
+    """The value of each quantity of one engine with gas.
+
+    Raises:
+        BalcliError: a fluctuation without inertia; the crank stalls.
+    """
+    found = dict[str, float]()
+    if any(q.name != "fluctuation" for q in quantities):
+        curves = find_torque_curves(engine)
+        lowest, highest = curves.total.extremes()
+        found |= {"torque.mean": curves.gas.mean, "torque.max": highest.value}
+        found["torque.min"] = lowest.value
+    if any(q.name == "fluctuation" for q in quantities):
+        found["fluctuation"] = _find_fluctuation(engine)
+    return [found[q.name] for q in quantities]
 
 
 def _find_fluctuation(engine: Engine) -> float:
     flywheel = analyze_torque(engine, [1]).flywheel
     if flywheel is None or flywheel.speed is None:
-        raise BalcliError(_NO_INERTIA)
+        raise BalcliError(NO_INERTIA)
     return flywheel.speed.fluctuation

@@ -178,16 +178,18 @@ def _gauss(m: Array, z: Figure) -> Array:
     largest = max(z if isinstance(z, float) else float(z.max(initial=0.0)), 1e-300)
     terms = 1 + int(math.log(EPS / 64) / math.log(largest))
     step = max(_AT_ONCE // len(m), 1)
-    total = np.ones(1)
+    total: Figure = 1.0
     for last in range(terms, 0, -step):
         for factor in _times(z, _ratios(last, max(last - step, 0), m.shape)):
-            total = 1.0 + factor * total
-    return total
+            factor *= total
+            factor += 1.0
+            total = factor
+    return np.asarray(total)
 
 
 def _times(z: Figure, ratios: Array) -> Iterable[Array]:
-    """Each ratio times z: a number at once, variants one after the other, which takes less
-    memory.
+    """Each ratio times z, in arrays of their own: a number at once, variants one after the other,
+    which takes less memory.
     """
     return ratios * z if isinstance(z, float) else (ratio * z for ratio in ratios)
 

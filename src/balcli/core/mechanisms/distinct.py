@@ -33,11 +33,12 @@ def find_distinct(*figures: NDArray[Any]) -> Distinct:
     Args:
         figures: each of shape (cylinders or 1, *trailing); trailing axes broadcast.
     """
+    if all(values.size == 1 for values in figures):  # most engines
+        axes = max(values.ndim for values in figures)
+        return Distinct(tuple(values.ravel() for values in figures), np.zeros((1,) * axes, np.intp))
     if figures[0].ndim == 1:
         return _find_distinct_of_one(figures)
     shape = np.broadcast_shapes(*(values.shape for values in figures))
-    if math.prod(shape) == 1:
-        return Distinct(tuple(values.ravel() for values in figures), np.zeros(shape, np.intp))
     starts: dict[tuple[tuple[tuple[int, ...], bytes], ...], int] = {}
     different: list[list[NDArray[Any]]] = []
     which = np.empty(shape, np.intp)

@@ -44,7 +44,8 @@ def find_distinct_harmonics(
     few = find_distinct(lam, eps)
     ratios, offsets = few.figures
     centred = offsets == 0
-    if np.max(orders, initial=0) > CLOSED_FORM:
+    last = float(np.asarray(orders, float).max(initial=0))
+    if last > CLOSED_FORM:
         centred[:] = False
     elif few.which.shape == (1,) and centred[0]:  # most engines: one mechanism for all cylinders
         return closed_form.find_harmonics(orders, ratios, wanted), few.which
@@ -55,7 +56,7 @@ def find_distinct_harmonics(
         each = own[:, None] if one_engine else own[None]
         found += [closed_form.find_harmonics(orders, few_ratios, wanted) for few_ratios in each]
     if not np.all(centred):
-        highest = np.inf if one_engine else float(np.max(orders, initial=0))
+        highest = np.inf if one_engine else last
         off = ratios[~centred], offsets[~centred]
         found.append(sample_harmonics(orders, *off, wanted, highest))
     if len(found) == 1:

@@ -95,7 +95,8 @@ def sample_mechanisms(
     n = np.asarray(orders)
     found: dict[str, _Room] = {}
     taken = counts.copy()
-    waiting = {int(count): np.flatnonzero(counts == count) for count in np.unique(counts)}
+    # np.unique would import masked arrays, which takes longer than sampling most engines
+    waiting = {count: np.flatnonzero(counts == count) for count in set(counts.tolist())}
     while waiting:
         count = min(waiting)
         circle, again = unit_circle(count), []

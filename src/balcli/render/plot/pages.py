@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from ...forces.in_bearings import LoadsWithGas
 
 _VECTORS = tuple(kind.name for kind in VECTORS)
+BELOW_TITLE = 0.1  # inches between the title of a page and those of its panels
 ABOUT = "about"  # the crank: couple, torque and roll in one picture
 PICTURED = (*_VECTORS, ABOUT)
 _TITLES = {"force": "Free force", "moment": "Free moment", ABOUT: "About the crank"}
@@ -87,6 +88,7 @@ def make_page(subject: Subject, what: str, form: Form) -> Figure:
     """The same as a figure."""
     width, height, layout = PAGES[what]
     with open_figure(width, height, form) as fig:
+        fig.set_layout_engine("constrained", h_pad=BELOW_TITLE)
         layout(fig, subject)
         engine = subject.now.engine
         fig.suptitle(

@@ -7,7 +7,7 @@ from __future__ import annotations
 import logging
 import re
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from io import BytesIO
@@ -148,15 +148,33 @@ def save_figure(figure: Figure, form: Form) -> bytes:
         return _save(figure, form)
 
 
+def save_pages(figures: Iterable[Figure]) -> bytes:
+    """Pictures as the pages of one PDF; else as of `save_figure`."""
+    with in_our_style("pdf"):
+        from matplotlib.backends.backend_pdf import PdfPages
+
+        buffer = BytesIO()
+        with PdfPages(buffer, metadata=_UNDATED["pdf"]) as pages:
+            for figure in figures:
+                _place(figure)
+                figure.savefig(pages, format="pdf")
+        return buffer.getvalue()
+
+
 def _save(figure: Figure, form: Form) -> bytes:
+    _place(figure)
+    buffer = BytesIO()
+    figure.savefig(buffer, format=form, metadata=_UNDATED[form])
+    return buffer.getvalue()
+
+
+def _place(figure: Figure) -> None:
+    """Find the same places for everything on every machine."""
     lay_out_figure(figure)
     figure.set_layout_engine(None)  # matplotlib would lay it out again, and draw it twice
     for ax in figure.axes:  # the solver of the layout is exact to the last bits only
         left, bottom, width, height = (round(edge, 5) for edge in ax.get_position().bounds)
         ax.set_position((left, bottom, width, height))
-    buffer = BytesIO()
-    figure.savefig(buffer, format=form, metadata=_UNDATED[form])
-    return buffer.getvalue()
 
 
 def inline_svg(svg: bytes, name: str) -> str:

@@ -47,6 +47,7 @@ Angle = Literal["bank_angle", "splay"]
 What = Literal["throws", "firing_order", "bank_angle", "splay"]
 SPANS: dict[str, Span] = {"bank_angle": Span(0.0, 180.0), "splay": Span(-180.0, 180.0)}
 _LOCK_STEP = 5.0  # deg: bank angles at which it is first tried whether the mechanism locks
+NEAR_AN_END = 1e-4  # of a range: as close as a minimum is found
 IMAGES = 8  # candidates kept for each that is asked for, as many are mirror images
 
 
@@ -59,6 +60,7 @@ class Search(Result):
         scale: what textbooks measure its forces and moments by.
         locked: from where to where (deg, to STEP) the mechanism locks, so that no angle there was a
             candidate.
+        ends: of the range in which a number of the file was searched for; None for anything else.
     """
 
     model: EngineFile
@@ -67,6 +69,17 @@ class Search(Result):
     results: tuple[Found, ...]
     scale: TextbookUnits
     locked: tuple[tuple[float, float], ...] = ()
+    ends: tuple[float, float] | None = None
+
+    @property
+    def best_at_end(self) -> bool:
+        """Whether the best value is an end of the range, beyond which there may be a better one."""
+        design = self.results[0].design
+        if self.ends is None or design.number is None:
+            return False
+        low, high = self.ends
+        value, near = design.number[1], NEAR_AN_END * (high - low)
+        return bool(min(abs(value - low), abs(value - high)) <= near)
 
     @property
     def summary(self) -> str:
@@ -133,8 +146,10 @@ def search_arrangements(
     what = None if is_number else _parse_over(over)
     sums = choose_sums(objective)
     locked: tuple[tuple[float, float], ...] = ()
+    ends = None
     if what is None:
-        designs = _list_numbers(model, over, objective, tell)
+        key, ends = _read_range(model, over)
+        designs = list_numbers(model, partial(_design_number, key), *ends, objective, tell)
         candidates = rank_one_by_one(model, designs, objective, tell_nobody)
     elif sums is None:
         designs = _list_designs(model, what, objective, even_firing, tell)
@@ -148,13 +163,12 @@ def search_arrangements(
         also = " and fires evenly" if even_firing else ""
         raise BalcliError(f"no {key.replace('_', ' ')} keeps these limits{also}")
     orders = np.unique([float(q.order) for q in choose_of_engine(objective.quantities)])
-    return Search(model, key, objective, found, find_textbook_units(engine, orders), locked)
+    scale = find_textbook_units(engine, orders)
+    return Search(model, key, objective, found, scale, locked, ends)
 
 
-def _list_numbers(
-    model: EngineFile, over: str, objective: Objective[AnyQuantity], tell: Tell
-) -> Iterator[Design]:
-    """The best values of a number of the file in a range, `mount.left.loss=0.1:0.4`.
+def _read_range(model: EngineFile, over: str) -> tuple[str, tuple[float, float]]:
+    """Dotted name of a number of the file and the ends of its range: `mount.left.loss=0.1:0.4`.
 
     Raises:
         BalcliError: what is no number and range.
@@ -165,11 +179,8 @@ def _list_numbers(
             f'--over "{over}": give the ends of a range, such as {path}=from:to; balcli sweep '
             "takes steps and lists"
         )
-    values = parse_parameter(f"{path}={ends.replace(':', ',')}", model).values
-    low, high = float(values.min()), float(values.max())
-    return list_numbers(
-        model, lambda value: Design(number=(path.strip(), value)), low, high, objective, tell
-    )
+    number = parse_parameter(f"{path}={ends.replace(':', ',')}", model)
+    return number.path, (float(number.values.min()), float(number.values.max()))
 
 
 def _list_designs(
@@ -196,6 +207,10 @@ def _list_designs(
         return (_design_angle(what, angle) for angle in even.tolist())
     low, high = SPANS[what].low, SPANS[what].high
     return list_numbers(model, partial(_design_angle, what), low, high, objective, tell)
+
+
+def _design_number(path: str, value: float) -> Design:
+    return Design(number=(path, value))
 
 
 def _design_angle(key: Angle, angle: float) -> Design:

@@ -14,7 +14,7 @@ from balcli.errors import BalcliError
 from balcli.forces.curves import compute_engine_curves
 from balcli.forces.rod_forces import compute_rod_forces, list_hung_rows
 from balcli.torque.course import find_torque_curves
-from balcli.torque.loads import analyze_loads, find_bearing_loads, find_pin_loads
+from balcli.torque.find_loads import analyze_loads, find_bearing_loads, find_pin_loads
 
 ANGLES = np.arange(0.0, 720.0, 7.0)
 

@@ -1,0 +1,182 @@
+"""Keys that no engine file has: what was probably meant, or what says it instead."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, NamedTuple
+
+from ..errors import Problem
+from . import model
+from .fields import nearest, printable
+from .messages import (
+    CHAPTER_LISTS,
+    CHAPTERS,
+    DEVICES,
+    KNOWN,
+    TABLES,
+    TEXTS,
+    import_lists,
+    import_tables,
+)
+
+# What people call a key, and keys that mean it; the first that a table has
+SYNONYMS = {
+    "conrod": ("rod",),
+    "con_rod": ("rod",),
+    "connecting_rod": ("rod",),
+    "rpm": ("speed",),
+    "n": ("speed",),
+    "pin_offset": ("splay", "offset"),
+    "offset": ("splay",),
+    "pins": ("throws",),
+    "pin_angles": ("throws",),
+    "crank_angles": ("throws",),
+    "angles": ("throws", "banks"),
+    "phase": ("throws",),
+    "phases": ("throws",),
+    "bore_spacing": ("spacing",),
+    "vee_angle": ("bank_angle",),
+    "v_angle": ("bank_angle",),
+    "angle": ("bank_angle", "throws"),
+    "diameter": ("bore",),
+    "weight": ("mass", "piston_mass"),
+    "m": ("mass",),
+    "l": ("length",),
+    "mass": ("piston_mass",),
+    "piston": ("piston_mass",),
+    "order": ("firing_order",),
+    "cycle": ("strokes",),
+    "lambda": ("ratio",),
+    "wrist_pin": ("pin",),
+    "clips": ("locks",),
+}
+_COUNT = (
+    "the number of cylinders follows from throws and banks; give every throw its angle, such as "
+    "crank.throws = [0, 180, 180, 0]"
+)
+_KIND = (
+    "the kind of engine follows from its banks: layout.bank_angle = 90 makes a vee, layout.banks = "
+    "[-90, 90] a flat engine, layout.radial = 7 a radial; without them it is in line"
+)
+_RADIUS = "give crank.stroke, which is twice the crank radius"
+_VOLUME = "the displacement follows from piston.bore, crank.stroke and the number of cylinders"
+_UNITS = (
+    "bare numbers are mm, kg, degrees and rpm; another unit stands with its figure, such as "
+    '"3.5 in" or "650 g"'
+)
+_FACTOR = (
+    "did you mean --factor? The balance factor is no figure of the engine: "
+    "balcli balance FILE --factor 51%"
+)
+# What is no figure of an engine file by any name, and what says it instead
+INSTEAD = {
+    **dict.fromkeys(("cylinders", "cylinder_count", "number_of_cylinders", "count"), _COUNT),
+    **dict.fromkeys(("type", "kind", "configuration", "v", "vee"), _KIND),
+    **dict.fromkeys(("radius", "crank_radius", "r"), _RADIUS),
+    **dict.fromkeys(("displacement", "capacity", "volume"), _VOLUME),
+    **dict.fromkeys(("unit", "units"), _UNITS),
+    **dict.fromkeys(("overbalance", "balance_factor", "factor"), _FACTOR),
+}
+
+
+class UnknownKey(NamedTuple):
+    """A key that there is not.
+
+    Attributes:
+        path: of the table in which it stands; empty for the file itself.
+        key: as it is written.
+        table: what may stand in that table; None for the file itself, and for a table that no
+            engine file has.
+    """
+
+    path: str
+    key: str
+    table: type[model.Table] | None
+
+
+def find_unknown_keys(data: Mapping[str, Any]) -> Iterator[UnknownKey]:
+    """Keys of the file itself that no engine file has.
+
+    Of a table such as `[engine]`, which is like none that there is, each of its keys: they have
+    their places elsewhere.
+    """
+    for key, value in data.items():
+        if key in KNOWN:
+            continue
+        if isinstance(value, Mapping) and value and not _find_own(key, KNOWN):
+            yield from (UnknownKey(key, inner, None) for inner in value)
+        else:
+            yield UnknownKey("", key, None)
+
+
+def describe_unknown_key(unknown: UnknownKey) -> tuple[Problem, str]:
+    """An unknown key in words, and the path of the key that was probably meant, or ""."""
+    path, key, table = unknown
+    first = path.partition(".")[0]
+    start = f"{path}." if path else ""
+    own = list(table.model_fields) if table else [] if path else list(KNOWN)
+    hint, meant = _suggest(first, key, own)
+    if not path:
+        told = f"unknown key in an engine file; {hint}"
+    elif table:
+        told = f"unknown key in [{first}]; {hint}"
+    else:
+        told = f"there is no table [{printable(first)}]{'; ' if hint else ''}{hint}"
+    return Problem(start + printable(key), told), start + meant if meant else ""
+
+
+def suggest_place(key: str) -> str:
+    """The tables of an engine file that have this key, in words: `bore belongs to [piston]`; empty
+    if none has.
+    """
+    if key in TEXTS:
+        return f"{key} stands at the head of the file, above all tables"
+    tables = import_tables()
+    having = [name for name, table in tables.items() if key in table.model_fields]
+    # The parts of an engine first: a chapter may use the same word for something of its own
+    of_engine = [name for name in having if name in TABLES]
+    names = [f"[{name}]" for name in of_engine or having]
+    if not names:
+        lists = import_lists().items()
+        names = [f"[[{name}]]" for name, table in lists if key in table.model_fields]
+    return f"{key} belongs to {' or '.join(names)}" if names else ""
+
+
+def _suggest(first: str, key: str, own: list[str]) -> tuple[str, str]:
+    """What to write instead of a key in a table (its name, its keys), in words; and the key of the
+    same table that was probably meant, or "".
+    """
+    of_engine = first not in {*DEVICES, *CHAPTERS, *CHAPTER_LISTS}
+    if of_engine and (instead := INSTEAD.get(key.lower())):
+        return instead, ""
+    if meant := _find_own(key, own):
+        return f"did you mean {meant}?", meant
+    listed = f"it has {', '.join(own)}" if own else ""
+    return suggest_place(key) or _suggest_elsewhere(key) or listed, ""
+
+
+def _find_own(key: str, own: Iterable[str]) -> str:
+    """The key of this table that was probably meant; empty if there is none, or if it is spelt as a
+    key of another table.
+    """
+    if synonym := _find_synonym(key, own):
+        return synonym
+    belongs = suggest_place(key)
+    return "" if belongs and "[[" not in belongs else nearest(key, own)
+
+
+def _find_synonym(key: str, own: Iterable[str]) -> str:
+    """The key of this table that means what others call so; empty if there is none."""
+    meant = SYNONYMS.get(key.lower().replace("-", "_"), ())
+    return next(filter(set(own).__contains__, meant), "")
+
+
+def _suggest_elsewhere(key: str) -> str:
+    """A key of any table that is called so by others, or is spelt nearly so; in words."""
+    tables = {f"[{name}]": table for name, table in import_tables().items()}
+    tables |= {f"[[{name}]]": table for name, table in import_lists().items()}
+    for find in (_find_synonym, nearest):
+        for name, table in tables.items():
+            if near := find(key, table.model_fields):
+                return f"did you mean {near} of {name}?"
+    return ""

@@ -1,0 +1,80 @@
+"""How torque over the cycle, uneven speed and guide-force moments spread when masses, rod lengths
+and throw angles vary within tolerances.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import cast
+
+import numpy as np
+
+from ..core.phasors import Array
+from ..core.telling import Tell, tell_nobody
+from ..engine.build import build
+from ..enginefile.model import EngineFile
+from ..errors import BalcliError
+from ..forces import guide_quantity
+from ..forces.target_quantity import TargetQuantity
+from ..limits import MOST_CYCLE_SAMPLES
+from ..torque import quantity as cycle_quantity
+from ..torque.course import find_constant_inertia
+from ..torque.quantity import NO_INERTIA, CycleQuantity
+from .deviations import DeviatingEngine, Tolerances
+from .quantities import ChapterQuantity, group_by_chapter, refuse_unknown_of_chapters
+from .quantity_names import CYCLE, GUIDE
+from .spread_one_by_one import Drawing, spread_one_by_one
+from .tolerances import Scatter, Shape, refuse_rotary
+
+
+def scatter_cycles(
+    model: EngineFile,
+    tolerances: Tolerances,
+    quantities: Sequence[ChapterQuantity],
+    samples: int,
+    seed: int | None = None,
+    shape: Shape = "uniform",
+    tell: Tell = tell_nobody,
+) -> Scatter:
+    """Spread of quantities over random engines, each computed by itself.
+
+    Args:
+        quantities: of the cycle (`torque.max`), or of guide-force moments (`guide.6.H`).
+        seed: of the random numbers, to repeat them.
+        shape: uniform within the tolerances, or normal with a third of them as standard deviation.
+        tell: is told how many samples have been computed, and says whether these are enough.
+
+    Raises:
+        BalcliError: quantities of what the file does not have; too many samples, no tolerance.
+    """
+    if not 1 <= samples <= MOST_CYCLE_SAMPLES:
+        raise BalcliError(
+            f"{samples} samples: of {quantities[0].name}, where each engine is computed by itself, "
+            f"from 1 to {MOST_CYCLE_SAMPLES} are allowed"
+        )
+    refuse_rotary(model)
+    refuse_unknown_of_chapters(model, quantities)
+    of_speed = any(q.name == "fluctuation" for q in quantities)
+    if of_speed and find_constant_inertia(build(model)) is None:
+        raise BalcliError(NO_INERTIA)
+    engines = DeviatingEngine(model, tolerances)
+    if not engines.sources:
+        raise BalcliError("nothing deviates; give a tolerance, such as --mass-scatter 0.5%")
+    groups = group_by_chapter(quantities)
+    of_cycle = cast("Sequence[CycleQuantity]", groups.get(CYCLE, ()))
+    of_guides = cast("Sequence[TargetQuantity]", groups.get(GUIDE, ()))
+
+    def evaluate(deviations: Array) -> Array:
+        engine = engines.deviate_one(deviations)
+        found: Mapping[str, float] = {}
+        if of_cycle:
+            values = cycle_quantity.evaluate_engine(engine, of_cycle)
+            found = dict(zip((q.name for q in of_cycle), values, strict=True))
+        if of_guides:
+            values = guide_quantity.evaluate_engine(engine, of_guides)
+            found = {**found, **dict(zip((q.name for q in of_guides), values, strict=True))}
+        return np.array([found[q.name] for q in quantities])
+
+    drawing = Drawing(samples, seed, shape, tell)
+    count, spreads = spread_one_by_one(engines.sources, quantities, evaluate, drawing)
+    return Scatter(model, count, shape, spreads, "engines, one by one")
