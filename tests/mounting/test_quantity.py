@@ -125,6 +125,7 @@ def scatter(path, *args):
     return json.loads(done.out)
 
 
+@pytest.mark.stress
 def test_stiffness_scatters(tmp_path):
     """Up and down of the block is sqrt(sum k / m): by hand, with the same random numbers."""
     path = tmp_path / "four.toml"
