@@ -36,6 +36,7 @@ def test_the_help_of_every_command_has_an_example(command: str) -> None:
 
 # `bench` takes seconds; what else is left out has tests of its own
 @pytest.mark.parametrize("command", [name for name in COMMANDS if name not in ("bench", "balance")])
+@pytest.mark.stress
 def test_the_examples_run(command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     for name, source in FILES.items():

@@ -75,6 +75,7 @@ def test_against_division_by_the_cyclotomic_polynomial():
     assert outcomes == {True, False}
 
 
+@pytest.mark.stress
 def test_ten_thousand_layouts_against_floating_point():
     """Sums of so few and small terms, if they do not vanish, are far from 0."""
     rng = random.Random(2)

@@ -66,6 +66,7 @@ def test_running_energy_returns_after_a_period():
 
 # ---------------------------------------------------------------- speed
 @pytest.mark.parametrize("inertia", [50.0, 4.0, 0.95, 0.7])
+@pytest.mark.stress
 def test_exact_fluctuation_of_a_constant_inertia(inertia):
     """From 0.015 to 1.3; the extremes are where 300 sin x + 200 cos 2x = 0."""
     with mp.workdps(30):

@@ -205,6 +205,7 @@ def near_the_lock(throws, more=""):
     return engine.build(enginefile.parse(text + more))
 
 
+@pytest.mark.stress
 def test_near_the_lock_only_orders_to_512_are_told_unasked_but_the_largest_values_are_of_all():
     subject = near_the_lock([0, 10, 20, 45])
     found = compute_inner_loads(subject)

@@ -174,6 +174,23 @@ def test_the_worst_speed_lies_between_those_computed(report):
         pytest.fail("no peak inside the range")
 
 
+@pytest.mark.parametrize("loss", [0.1, 0.01, 0.001])
+def test_no_resonance_is_too_narrow_to_be_found(report, loss):
+    """Between speeds a hundred rpm apart, a range that is fine about every speed at which an order
+    meets a mode finds no more.
+    """
+    text = ENGINE + block(f"loss = {loss}")
+    coarse = report(text, speeds=np.arange(200.0, 1501, 100))
+    met = np.array([one.omega for one in coarse.meetings]) * 30 / np.pi
+    near = met[:, None] * (1 + loss * np.linspace(-1, 1, 101))
+    speeds = np.unique(np.concatenate([near.ravel(), np.arange(200.0, 1501, 5)]))
+    fine = report(text, speeds=speeds[(speeds >= 200) & (speeds <= 1500)]).response
+    found = np.array([worst.value for worst in coarse.response.worst_force])
+    highest = fine.force_peak.max(axis=0)
+    assert np.all(found >= highest * (1 - 1e-7))
+    assert found == pytest.approx(highest, rel=1e-3)
+
+
 def test_a_scheme_takes_away_what_it_is_for(report):
     """Shafts cancel the second-order force; the roll stays, and the mounts feel that."""
     text = ENGINE.replace("[cylinder.2]\npiston_mass = 0.55\n", "") + RandomBody(9, 4).text

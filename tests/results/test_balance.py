@@ -47,6 +47,7 @@ def document(*arguments: object, text: str | None = None) -> dict:
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.stress
 def test_every_scheme_and_format(scheme):
     for form in ("table", "csv", "markdown", "json"):
         result = run("-", "--scheme", scheme, "--format", form, text=SINGLE)

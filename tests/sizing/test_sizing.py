@@ -568,3 +568,23 @@ def test_dust_of_an_unbalance_is_no_device(scheme):
         assert not remedy.counterweights
         if scheme == "counterweights":
             assert remedy.note.startswith("there is no free force or moment of order 1 turning")
+
+
+@pytest.mark.parametrize(
+    ("scheme", "options", "told"),
+    [
+        ("factor", {"factor": 0.5}, "factor: 0.5 (float): give shares, such as (0.5,)"),
+        ("factor", {"factor": ("50%",)}, "factor: ('50%',) (tuple): give shares, such as (0.5,)"),
+        ("factor", {"measured": "812 g"}, "measured: '812 g' (str): give a mass in kg"),
+        ("two-shaft", {"order": 2.5}, "order: 2.5 (float): give a whole number, such as 2"),
+        ("two-shaft", {"at": 1j}, "at: 1j (complex): give places x + iy in m"),
+        ("two-shaft", {"at": (complex("nan"),)}, "at: ((nan+0j),) (tuple): give places x + iy"),
+        ("two-shaft", {"position": math.inf}, "position: inf (float): give a place z in m"),
+        ("counterweights", {"planes": (0.1, math.nan)}, "planes: (0.1, nan) (tuple): give"),
+    ],
+)
+def test_what_is_no_option_is_told_in_words(scheme, options, told):
+    """In Python; nan once went through to the figures."""
+    with pytest.raises(TypeError) as error:
+        size(build(parse(SMALL["four"])), scheme, SchemeOptions(**options))
+    assert str(error.value).startswith(f"SchemeOptions: {told}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import tomllib
 
 import numpy as np
@@ -165,6 +166,21 @@ def test_dampers_of_unlikely_size(options, told):
     assert status == 0
     assert err == (f"warning: --damper: {told}\n" if told else "")
     assert json.loads(out)["damper"].get("doubts", []) == ([told] if told else [])
+
+
+def test_a_damper_that_cannot_be_is_told_in_words():
+    """A shaft as thin as a few atoms asks for next to no damping."""
+    thin = read_starting_file().replace("diameter = 55", "diameter = 5.5e-8")
+    told = run_here(
+        "torsion", "-", *RANGE, "--damper", "viscous", "--damper-at", "pump", stdin=thin
+    )
+    assert (told.status, told.out) == (2, "")
+    assert re.sub(r"(6\.1046)\d+", r"\1", told.err) == (
+        "balcli: --damper viscous: the best there cannot be: damper.damping: 6.1046e-17 is "
+        'too small; a torsional damping is wanted: a bare number in N m s/rad, or "2 N m s/rad" or '
+        '"18 lbf in s/rad", at least 1e-12; are inertias and stiffnesses of the system in the right '
+        "units?\n"
+    )
 
 
 @pytest.mark.parametrize("line_end", ["\n", "\r\n"])

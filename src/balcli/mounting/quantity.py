@@ -8,10 +8,6 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ..core.cycle_peaks import find_longest
-from ..core.rigid_body import move_points, respond_body
-from ..core.singular_values import Real
-from ..core.vibration import frequencies
 from ..engine.variants import EngineVariants
 from ..enginefile.model import EngineFile, Table, label_table
 from ..enginefile.mounting_tables import Body, find_tensor_faults
@@ -22,11 +18,11 @@ from ..forces.target_quantity import (
     parse_target_quantity,
     refuse_stranger,
 )
-from .build import MountedBody, build_mounted_body
+from .build import build_mounted_body
 from .modes import BodyModes, find_mounted_modes
 from .motions import AXES, ROLL
 from .report import choose_speeds
-from .response import Loads, find_loads, refuse_resonance
+from .response import find_loads, find_worst
 
 _SUBJECTS = {
     "mode": Subject("3", {"Hz": "Hz", "share": "%", "damping": "%"}),
@@ -132,6 +128,8 @@ class Variants:
     def __init__(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
         self._model, self._quantities = model, quantities
         self._runs = any(q.part in _RUNS for q in quantities)
+        # The mean torque of the gas leans on the mounts at rest.
+        self._leans = model.gas is not None and any(q.part == "static" for q in quantities)
         self._engines, self._targets = EngineVariants(model), _name_targets(model)
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
@@ -143,14 +141,18 @@ class Variants:
         model = vary_mounting(self._model, values)
         mounted = build_mounted_body(model)
         modes = find_mounted_modes(mounted)
-        forces: Real = np.zeros(0)
-        motions: Real = np.zeros(0)
-        if self._runs:
+        forces: list[float] = []
+        motions: list[float] = []
+        if self._runs or self._leans:
             own = {path: value for path, value in values.items() if _begin(path) not in _TABLES}
             engine = self._engines.build(own)
             loads = find_loads(engine, mounted.body.centre)
             modes = find_mounted_modes(mounted, loads.mean)
-            forces, motions = _find_peaks(mounted, modes, loads, choose_speeds(engine))
+            if self._runs:
+                omega = choose_speeds(engine) * (np.pi / 30)
+                largest = [worst.value for worst in find_worst(mounted, modes, loads, omega)]
+                count = len(mounted.names)
+                forces, motions = largest[:count], largest[count:]
         found = []
         for q in self._quantities:
             if q.kind == "mode":
@@ -160,7 +162,7 @@ class Variants:
             if q.part == "static":
                 found.append(float(np.linalg.norm(modes.settled.forces[k])))
             else:
-                found.append(float((forces if q.kind == "mount" else motions)[k]))
+                found.append((forces if q.kind == "mount" else motions)[k])
         return found
 
 
@@ -174,17 +176,3 @@ def _read_mode(modes: BodyModes, q: TargetQuantity) -> float:
     if q.part == "Hz":
         return mode.hertz
     return float(100 * mode.shares[motion] if q.part == "share" else 50 * mode.loss)
-
-
-def _find_peaks(
-    mounted: MountedBody, modes: BodyModes, loads: Loads, speeds_rpm: Real
-) -> tuple[Real, Real]:
-    """Largest force of each mount and motion of each point over a range of speeds."""
-    omega = speeds_rpm * (np.pi / 30)
-    refuse_resonance(modes, loads, omega)
-    w = frequencies(loads.orders, omega)
-    found = respond_body(mounted.body, mounted.dynamic, w, loads.at(omega))
-    moved = move_points(mounted.points, mounted.body.centre, found.motion)
-    forces = find_longest(loads.orders, found.forces).value.max(axis=0)
-    motions = find_longest(loads.orders, moved).value.max(axis=0, initial=0.0)
-    return forces, motions

@@ -21,18 +21,10 @@ from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
 from .build import MountedBody, build_mounted_body
 from .modes import BodyModes, find_mounted_modes
-from .response import Loads, Response, find_loads, respond
+from .response import Loads, Meeting, Response, find_loads, find_meetings, respond
 
 _SLOWEST = 1 / 8  # of the file's speed, where nobody says which speeds
 _SPEEDS = 141
-
-
-class Meeting(NamedTuple):
-    """An order that meets a mode: which mode (from 0), order, and crank speed (rad/s)."""
-
-    mode: int
-    order: float
-    omega: float
 
 
 class Fitted(NamedTuple):
@@ -87,14 +79,7 @@ class MountReport(Result):
         """Orders that meet modes within the range of speeds, by mode and order."""
         if self.response is None:
             return ()
-        loads = self.response.loads
-        slowest, fastest = self.response.omega[0], self.response.omega[-1]
-        met = [
-            Meeting(k, float(order), mode.omega / float(order))
-            for k, mode in enumerate(self.modes.six)
-            for order in loads.orders[loads.there]
-        ]
-        return tuple(one for one in met if slowest <= one.omega <= fastest)
+        return find_meetings(self.modes, self.response.loads, self.response.omega)
 
 
 def choose_speeds(engine: Engine) -> Real:

@@ -4,7 +4,7 @@ up in time, at every speed.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -22,7 +22,7 @@ from ..core.rigid_body import (
 )
 from ..core.singular_values import Complex, Real
 from ..core.telling import Tell, tell_nobody
-from ..core.vibration import find_resonances, frequencies
+from ..core.vibration import UNDAMPED, find_resonances, frequencies
 from ..engine.build import Engine
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..errors import BalcliError
@@ -74,6 +74,14 @@ class Loads:
         """(orders,): which orders have any load."""
         parts = [self.inertia] if self.gas is None else [self.inertia, self.gas]
         return np.any(np.concatenate(parts, axis=1), axis=1)
+
+
+class Meeting(NamedTuple):
+    """An order that meets a mode: which mode (from 0), order, and crank speed (rad/s)."""
+
+    mode: int
+    order: float
+    omega: float
 
 
 class Worst(NamedTuple):
@@ -197,9 +205,7 @@ def respond(
     arms = carry_points(mounted.dynamic.at, mounted.body.centre)
     passed = np.einsum("pij,nspi->nsj", arms, curves[:, :, :count])
     by_order = largest_of_ellipse(curves)
-    worst = _find_worst(
-        loads, omega, peak, lambda at: _list_curves(mounted, _move(mounted, loads, at))
-    )
+    worst = _find_worst(mounted, modes, loads, omega, peak)
     return Response(
         loads,
         omega,
@@ -264,24 +270,57 @@ def refuse_resonance(modes: BodyModes, loads: Loads, omega: Real) -> None:
     )
 
 
-def _find_worst(
-    loads: Loads, omega: Real, peaks: Real, press: Callable[[Real], Complex]
+def find_worst(
+    mounted: MountedBody, modes: BodyModes, loads: Loads, omega: Real
 ) -> tuple[Worst, ...]:
-    """Of each curve (speeds, curves) of peaks its highest value, closer than the speeds are.
+    """The largest force of each mount, then the largest motion of each point, over a range of
+    speeds (rad/s, rising); as `respond` has them.
 
-    Args:
-        press: speeds -> vectors (orders, speeds, curves, 3).
+    Raises:
+        BalcliError: an undamped mode that is driven within the range.
     """
+    refuse_resonance(modes, loads, omega)
+    curves = _list_curves(mounted, _move(mounted, loads, omega))
+    peaks = _find_peaks(loads.orders, curves, tell_nobody)
+    return _find_worst(mounted, modes, loads, omega, peaks)
+
+
+def find_meetings(modes: BodyModes, loads: Loads, omega: Real) -> tuple[Meeting, ...]:
+    """Orders that meet modes within a range of speeds (rad/s, rising), by mode and order."""
+    met = [
+        Meeting(k, float(order), mode.omega / float(order))
+        for k, mode in enumerate(modes.six)
+        for order in loads.orders[loads.there]
+    ]
+    return tuple(one for one in met if omega[0] <= one.omega <= omega[-1])
+
+
+def _find_worst(
+    mounted: MountedBody, modes: BodyModes, loads: Loads, omega: Real, peaks: Real
+) -> tuple[Worst, ...]:
+    """Of each curve (speeds, curves) of peaks its highest value, closer than the speeds are. Where
+    damping is little, a resonance is narrower than their step: the speeds at which an order meets
+    a mode are looked at as well, and about them no farther than the resonance is wide.
+    """
+    met = [one for one in find_meetings(modes, loads, omega) if modes.loss[one.mode] > UNDAMPED]
+    at_modes = np.array([one.omega for one in met])
+    widths = at_modes * [modes.loss[one.mode] for one in met]
+    reach = np.concatenate([np.full(len(omega), np.inf), widths])
+    speeds = np.concatenate([omega, at_modes])
+    heights = np.concatenate([peaks, *_press_some(mounted, loads, at_modes)])
+    top = heights.argmax(axis=0)
+    start, reach = speeds[top], reach[top]
+    below = omega[np.maximum(np.searchsorted(omega, start) - 1, 0)]
+    above = omega[np.minimum(np.searchsorted(omega, start, "right"), len(omega) - 1)]
+    low, high = np.maximum(below, start - reach), np.minimum(above, start + reach)
     each = np.arange(peaks.shape[1])
-    top = peaks.argmax(axis=0)
-    low, high = omega[np.maximum(top - 1, 0)], omega[np.minimum(top + 1, len(omega) - 1)]
 
     def evaluate(at: Real) -> tuple[Complex, Real]:
-        own = press(at)[:, each, each]
+        own = _list_curves(mounted, _move(mounted, loads, at))[:, each, each]
         return own, find_longest(loads.orders, own).value
 
     place, highest = find_highest(lambda at: evaluate(at)[1], low, high)
-    best = np.where(highest > peaks[top, each], place, omega[top])
+    best = np.where(highest > heights[top, each], place, start)
     own, value = evaluate(best)
     alone = largest_of_ellipse(own)
     leading = alone.argmax(axis=0)
@@ -294,3 +333,11 @@ def _find_worst(
         )
         for k in each
     )
+
+
+def _press_some(mounted: MountedBody, loads: Loads, omega: Real) -> Iterator[Real]:
+    """Peaks (speeds, mounts + points) at any speeds, some speeds at a time."""
+    for start in range(0, len(omega), _SPEEDS_AT_A_TIME):
+        some = omega[start : start + _SPEEDS_AT_A_TIME]
+        curves = _list_curves(mounted, _move(mounted, loads, some))
+        yield find_longest(loads.orders, curves).value

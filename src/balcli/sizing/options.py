@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
+import cmath
 from collections.abc import Collection
-from typing import NamedTuple
+from numbers import Complex, Integral, Real
+from typing import Any, NamedTuple
 
 from ..enginefile.fields import nearest
-from ..errors import BalcliError
+from ..errors import BalcliError, wrong_type
 from ..limits import HIGHEST_SHAFT_ORDER
 from .schemes import KNUCKLES, NAMES, SCHEMES
+
+_EXAMPLES = {
+    "order": "a whole number, such as 2",
+    "at": "places x + iy in m, such as (-0.04 + 0.06j,)",
+    "position": "a place z in m, such as 0.1",
+    "planes": '"ends", "throws", or places z in m, such as (-0.1, 0.1)',
+    "factor": "shares, such as (0.5,)",
+    "measured": "a mass in kg, such as 0.812",
+}
 
 
 class SchemeOptions(NamedTuple):
@@ -39,6 +50,7 @@ class SchemeOptions(NamedTuple):
         Raises BalcliError for an unknown scheme, an option that the scheme does not take, and an
         order or a roll that no scheme takes.
         """
+        self._check_types()
         taken = find_taken(scheme)
         given = [name for name, value in self._asdict().items() if value is not None]
         if strangers := [name for name in given if name not in taken]:
@@ -57,12 +69,34 @@ class SchemeOptions(NamedTuple):
         if self.roll not in (None, "zero"):
             raise BalcliError(f'--roll "{self.roll}": only "zero" can be asked for')
 
+    def _check_types(self) -> None:
+        sound = {
+            "order": isinstance(self.order, Integral),
+            "at": _are_finite(self.at, Complex),
+            "position": _are_finite((self.position,), Real),
+            "planes": isinstance(self.planes, str) or _are_finite(self.planes, Real),
+            "factor": _are(self.factor, Real),
+            "measured": isinstance(self.measured, Real),
+        }
+        for name, right in sound.items():
+            value = getattr(self, name)
+            if value is not None and not right:
+                raise wrong_type(f"SchemeOptions: {name}", value, f"give {_EXAMPLES[name]}")
+
     def read_place(self) -> complex:
         """The one place asked for, or else 0, the crank axis; BalcliError if there are more."""
         at = self.at or (0j,)
         if len(at) > 1:
             raise BalcliError("--at: this scheme has one place; give it once")
         return at[0]
+
+
+def _are(values: object, kind: type) -> bool:
+    return isinstance(values, tuple) and all(isinstance(value, kind) for value in values)
+
+
+def _are_finite(values: Any, kind: type) -> bool:
+    return _are(values, kind) and all(map(cmath.isfinite, values))
 
 
 def _find_schemes_taking(given: Collection[str]) -> str:

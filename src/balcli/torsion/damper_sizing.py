@@ -10,12 +10,14 @@ from itertools import count
 from typing import NamedTuple
 
 import numpy as np
+from pydantic import ValidationError
 
 from ..core.golden_section import ROUNDS, find_least
 from ..core.singular_values import Real
 from ..core.telling import Tell, tell_nobody
 from ..core.torsional_dampers import best_viscous_damping
 from ..enginefile.fields import printable
+from ..enginefile.messages import describe_finding
 from ..enginefile.shafting import Damper
 from ..errors import BalcliError
 from .load import Source
@@ -274,7 +276,19 @@ def _propose(
 
 
 def _make(kind: str, **figures: float | None) -> Damper:
-    return Damper.model_validate({"kind": kind} | figures)
+    """A damper with these figures.
+
+    Raises:
+        BalcliError: one that no damper has.
+    """
+    try:
+        return Damper.model_validate({"kind": kind} | figures)
+    except ValidationError as error:
+        wrong = describe_finding("damper", error.errors(include_url=False)[0], Damper)
+        raise BalcliError(
+            f"--damper {kind}: the best there cannot be: {wrong.path}: {wrong.message}; are "
+            "inertias and stiffnesses of the system in the right units?"
+        ) from None
 
 
 def _with(damper: Damper, figure: str, value: float) -> Damper:

@@ -379,6 +379,7 @@ def test_bank_angles_at_which_articulated_rods_lock_are_no_candidates() -> None:
     assert low_to < best.design.bank_angle < high_from
 
 
+@pytest.mark.stress
 def test_even_firing_is_looked_for_where_nothing_locks() -> None:
     twelve = load(LOCKING.replace("[0, 120, 240]", "[0, 120, 240, 240, 120, 0]"))
     found = search_arrangements(
