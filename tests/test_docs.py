@@ -16,7 +16,13 @@ from balcli.cli import COMMANDS
 README = guide.ROOT / "README.md"
 
 
-@pytest.mark.parametrize("document", guide.DOCUMENTS, ids=lambda path: path.name)
+@pytest.mark.parametrize(
+    "document",
+    [
+        pytest.param(path, marks=[] if path == README else pytest.mark.stress, id=path.name)
+        for path in guide.DOCUMENTS
+    ],
+)
 def test_everything_shown_is_what_is_printed(document: Path, tmp_path: Path) -> None:
     text, folder = document.read_text(encoding="utf-8"), guide.project(tmp_path)
     for name, content in guide.files(text).items():

@@ -91,6 +91,7 @@ def shown() -> dict[tuple[str, str], str]:
     return rows
 
 
+@pytest.mark.stress
 def test_the_page_shows_every_row_and_its_true_error() -> None:
     page, found = shown(), errors()
     assert page.keys() == found.keys()

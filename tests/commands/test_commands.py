@@ -195,6 +195,7 @@ def test_bench_in_every_format(balcli, tmp_path):
     assert "exp alone" not in (tmp_path / "x.svg").read_text()  # has no error to be drawn over
 
 
+@pytest.mark.stress
 def test_bench_times_each_case_by_the_variant_and_its_own_pairs(monkeypatch):
     case = Case("task", "way", lambda: sum(range(1000)), 0.5, times=1000)
     monkeypatch.setattr(bench, "cases", lambda: [case])

@@ -25,6 +25,7 @@ def test_each_page_goes_into_a_file_of_its_name_and_is_that_page(tmp_path, form)
         assert alone.read_bytes() == (tmp_path / f"two-{page}.{form}").read_bytes()
 
 
+@pytest.mark.stress
 def test_a_pdf_has_them_one_after_the_other(tmp_path):
     """Each of its own size; the same every time."""
 

@@ -121,6 +121,7 @@ def until(happened: Callable[[], bool]) -> None:
         time.sleep(0.02)
 
 
+@pytest.mark.stress
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_ctrl_c_leaves_a_valid_part_beside_the_older_file(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "x.json"

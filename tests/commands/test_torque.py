@@ -296,6 +296,7 @@ def test_sweeps_of_engines_without_gas_have_the_inertia_torque(tmp_path):
     assert run_here(*refused).err == ("balcli: gas.2.amplitude: the engine file has no [gas]\n")
 
 
+@pytest.mark.stress
 @pytest.mark.parametrize("what", ["pressure", "p-v", "torque", "pin", "main"])
 def test_pictures_of_gas(four, tmp_path, what):
     target = tmp_path / "x.svg"

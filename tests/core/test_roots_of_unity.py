@@ -64,6 +64,7 @@ def polygons(rng: random.Random, divisors: list[int]) -> tuple[list[int], list[F
     return weights, angles
 
 
+@pytest.mark.stress
 def test_against_division_by_the_cyclotomic_polynomial():
     rng = random.Random(1)
     outcomes = set()

@@ -28,6 +28,7 @@ def test_every_engine_is_listed_with_its_lesson():
     assert max(map(len, lines)) <= 80
 
 
+@pytest.mark.stress
 def test_classes_are_listed_one_after_the_other_layouts_first():
     lines = run_command("engines").stdout.splitlines()
     headings = [line for line, below in pairwise(lines) if below and set(below) == {"─"}]

@@ -54,6 +54,7 @@ def test_a_figure_is_written_as_the_command_writes_it(tmp_path):
     assert [len(each) for each in words] == [len(words[0])] * 2
 
 
+@pytest.mark.stress
 def test_what_is_changed_in_a_figure_is_seen():
     figure = balcli.plot(THREE, "curves")
     before = figure._repr_png_()
@@ -90,6 +91,7 @@ def test_what_matplotlib_tells_is_left_to_the_host(tmp_path):
         logger.setLevel(level)
 
 
+@pytest.mark.stress
 def test_neither_pyplot_nor_a_backend_is_needed():
     code = (
         "import sys, balcli\n"

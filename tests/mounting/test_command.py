@@ -182,6 +182,7 @@ def test_the_page_rocks_the_body(four):
     assert largest == pytest.approx(said["points"][0]["peak_mm"][place], rel=1e-3)
 
 
+@pytest.mark.stress
 def test_a_page_that_cannot_show_the_mounts_says_so(tmp_path):
     path = tmp_path / "undamped.toml"
     path.write_text(ENGINE.replace("speed = 3000", "speed = 1200") + block(), encoding="utf-8")

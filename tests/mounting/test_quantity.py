@@ -159,6 +159,7 @@ def test_what_scatters_is_of_the_engine_or_of_its_mounts(four):
     assert told.startswith('mount.lef.force: the file has no mount "lef"')
 
 
+@pytest.mark.stress
 def test_normal_deviations_of_mounts(four):
     args = ("-q", "mode.1.Hz,mount.left.force", "--samples", "20", "--seed", "1")
     out = run_here("scatter", four, *args, "--distribution", "normal").out

@@ -52,6 +52,7 @@ def test_every_page_is_drawn(what, drawn):
     assert drawn(what, "svg").startswith(MAGIC["svg"])
 
 
+@pytest.mark.stress
 @pytest.mark.parametrize("what", ANALYSES)
 def test_before_and_after(what, four):
     compared = ET.fromstring(draw_page(Subject(four.sizing.after, four), what, "svg"))
@@ -63,6 +64,7 @@ def test_every_form_says_what_it_is(form, drawn):
     assert drawn("all", form).startswith(MAGIC[form])
 
 
+@pytest.mark.stress
 @pytest.mark.parametrize("form", get_args(style.Form))
 def test_the_same_picture_is_the_same_bytes(form, drawn, four):
     assert drawn("all", form) == draw_page(Subject(four), "all", form)

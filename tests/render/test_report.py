@@ -75,6 +75,7 @@ class Outline(HTMLParser):
         ]
 
 
+@pytest.mark.stress
 def test_it_loads_nothing():
     outline = Outline(text := report(GOOD))
     assert outline.loads == []
@@ -105,7 +106,16 @@ def printed_report(name: str) -> str:
     return out
 
 
-@pytest.mark.parametrize("name", ["i5", "i4_wiebe", "i6_diesel", "i4_mounts"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "i5",
+        *(
+            pytest.param(x, marks=pytest.mark.stress)
+            for x in ("i4_wiebe", "i6_diesel", "i4_mounts")
+        ),
+    ],
+)
 def test_a_page_names_no_command(name):
     """Whoever reads it has no command line beside it."""
     text = printed_report(name)
@@ -140,6 +150,7 @@ def test_imperial_units_reach_everything():
     assert second[1] == pytest.approx(float(force.forward[0].real) / 4.4482216152605, rel=1e-12)
 
 
+@pytest.mark.stress
 @pytest.mark.parametrize(
     "text",
     [

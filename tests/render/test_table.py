@@ -67,6 +67,7 @@ def grid_for_rich(grid: Grid) -> Table:
     return table
 
 
+@pytest.mark.stress
 def test_analyses_are_as_rich_prints_them():
     si = SYSTEMS["si"]
     for file in ENGINE_FILES[::6]:  # some of every kind

@@ -318,6 +318,7 @@ def test_pictures_without_a_range_show_modes_and_criticals(tmp_path):
     assert "Vibratory" not in text
 
 
+@pytest.mark.stress
 def test_plot_draws_torsion_too(tmp_path):
     """Over half to one and a half times the file's speed; the same picture as of `torsion`."""
     engine = tmp_path / "six.toml"

@@ -11,6 +11,7 @@ from support.diesel import write_diesel
 from support.paths import ENGINES
 
 
+@pytest.mark.stress
 def test_the_page_shows_torsion(tmp_path):
     engine, page = tmp_path / "six.toml", tmp_path / "six.html"
     engine.write_text(write_diesel("limit = 20"), encoding="utf-8")

@@ -169,6 +169,7 @@ def test_eccentric_slider_leaves_its_residual():
     assert np.abs(force - two_terms).max() == pytest.approx(0.017595, abs=1e-6)
 
 
+@pytest.mark.stress
 def test_eccentric_slider_of_any_mass_in_any_direction():
     """What is left is that of 1 kg times the mass, along the cylinder axis; no moment arises and no
     mean is left.
