@@ -15,13 +15,19 @@ from support.chains import (
 )
 
 from balcli.core.torsional_chain import (
+    Damping,
     Shaft,
     follow_gears,
     incidence,
     join_chain,
     rigid_motions,
 )
-from balcli.core.torsional_modes import chain_loss, count_nodes, find_chain_modes
+from balcli.core.torsional_modes import (
+    chain_loss,
+    count_nodes,
+    find_chain_modes,
+    find_chain_poles,
+)
 from balcli.core.vibration import (
     modal_loss,
     scale_shapes,
@@ -154,3 +160,17 @@ def test_loss_of_modes(kind):
     ring[0] = 0.3 - 0.2j
     added = chain_loss(chain, damping, modes, ring) - chain_loss(chain, damping, modes)
     assert added[modes.rigid :] == pytest.approx(0.2 * modes.shapes[modes.rigid :, 0] ** 2)
+
+
+def test_poles_of_two_inertias_and_a_massless_node():
+    """Loss, dashpot and massless node, by hand: `s^2 + (k (1 + i loss) + s c)(1/J1 + 1/J2) = 0`,
+    springs of 2 k in series; a loss factor is meant for `Im s > 0` alone.
+    """
+    chain = join_chain([2.0, 0.0, 3.0], [Shaft(0, 1, 2e5), Shaft(1, 2, 2e5), Shaft(0, 2, 0.0)])
+    loss, oil = np.array([0.02, 0.02, 0.0]), np.array([0.0, 0.0, 5.0])
+    poles = find_chain_poles(chain, Damping(loss, oil, np.zeros(3)))
+    per_inertia = 1 / 2 + 1 / 3
+    exact = np.roots([1, 5 * per_inertia, 1e5 * (1 + 0.02j) * per_inertia])
+    elastic = poles[np.abs(poles) > 1]
+    assert np.sort_complex(elastic) == pytest.approx(np.sort_complex(exact), rel=1e-10)
+    assert len(poles) == 4, "two more, of the rigid motion"

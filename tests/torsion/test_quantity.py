@@ -34,12 +34,14 @@ def test_each_variant_is_what_the_command_says(diesel):
     )
     for stiffness, hertz, torque, stress, _ in rows:
         text = diesel.read_text().replace("stiffness = 1976000.0", f"stiffness = {stiffness}")
-        options = ("--speeds", "1000:3000:20", "--format", "json")
+        options = ("--speeds", "1000:3000:2", "--format", "json")
         said = json.loads(run_here("torsion", "-", *options, stdin=text).out)
         assert said["modes"][0]["frequency_Hz"] == hertz
         flywheel = said["response"]["shafts"][-1]
-        assert max(flywheel["half_peak_to_peak_Nm"]) == pytest.approx(torque, rel=1e-12)
-        assert max(flywheel["stress_Pa"]) == pytest.approx(stress, rel=1e-12)
+        highest = max(flywheel["half_peak_to_peak_Nm"])
+        assert highest <= torque * (1 + 1e-12)
+        assert highest == pytest.approx(torque, rel=1e-4), "between those speeds"
+        assert max(flywheel["stress_Pa"]) / highest == pytest.approx(stress / torque, rel=1e-12)
 
 
 def test_figures_of_lists_and_dampers_vary(tmp_path):

@@ -17,6 +17,8 @@ from .torsional_chain import (
 from .vibration import Modes, find_modes
 
 _AT_REST = 1e-9  # a node that moves less than this share of the largest counts as at rest
+_SIGMA = np.exp(0.25j * np.pi)  # where no pole can be: off both axes, and it would grow
+_INFINITE = 1e-6  # share of the largest: eigenvalues below are a double 0, but for rounding
 
 
 def find_chain_modes(chain: Chain) -> Modes:
@@ -94,3 +96,30 @@ def count_nodes(chain: Chain, shape: Real) -> int:
             sign[branch.child] = -sign[branch.parent] * np.sign(branch.far * branch.near)
     opposite = sign[chain.end] * sign[chain.start] * np.sign(chain.ratio) < 0
     return int(np.count_nonzero(opposite & np.isfinite(chain.stiffness) & (chain.stiffness > 0)))
+
+
+def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
+    """Poles (poles,) of the damped chain, rad/s: where its vibration `x e^{s t}` needs no load. One
+    at `s` is a resonance about the frequency `Im s`, `-2 Re s` wide between half powers. Only those
+    with `Im s > 0` mean anything where shafts have loss factors.
+
+    They are `s = sigma + 1/mu` of the eigenvalues mu of `(A - sigma B)^-1 B`, with the equations of
+    motion `A z = s B z` of angles and speeds z: massless nodes have mu = 0, and no pole.
+    """
+    follow, _ = follow_gears(chain)
+    bends = np.isfinite(chain.stiffness)
+    twist = (incidence(chain) @ follow)[bends]
+    stiffness = chain.stiffness[bends] * (1 + 1j * damping.loss[bends])
+    k = (twist.T * stiffness) @ twist
+    c = (twist.T * damping.dashpots[bends]) @ twist + (follow.T * damping.nodes) @ follow
+    m = (follow.T * chain.inertia) @ follow
+    scale = np.abs(k).max(initial=0.0)
+    if not scale:
+        return np.zeros(0, complex)
+    unit = np.sqrt(scale / np.median(np.abs(np.diag(m)[np.diag(m) != 0])))  # rad/s
+    k, c, m = k / scale, c * (unit / scale), m * (unit**2 / scale)
+    one, none = np.eye(len(m)), np.zeros_like(m)
+    shifted = np.block([[-_SIGMA * one, one], [-k, -c - _SIGMA * m]])
+    mu = np.linalg.eigvals(np.linalg.solve(shifted, np.block([[one, none], [none, m]])))
+    finite = np.abs(mu) > _INFINITE * np.abs(mu).max()
+    return np.asarray(unit * (_SIGMA + 1 / mu[finite]), complex)

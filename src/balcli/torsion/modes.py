@@ -8,10 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.singular_values import Real
-from ..core.torsional_modes import chain_loss, count_nodes, find_chain_modes
+from ..core.singular_values import Complex, Real
+from ..core.torsional_chain import Chain, Damping
+from ..core.torsional_modes import chain_loss, count_nodes, find_chain_modes, find_chain_poles
 from ..core.vibration import scale_shapes
-from .system import Excitation, TorsionalSystem
+from .system import Excitation, TorsionalSystem, ViscousRing
 
 _UNDRIVEN = 1e-10  # work up to this share of what all torques could do together is rounding
 
@@ -79,6 +80,35 @@ def find_natural_modes(system: TorsionalSystem) -> tuple[NaturalMode, ...]:
         )
         for k in elastic
     )
+
+
+def find_poles(system: TorsionalSystem, order: float | None = None) -> Complex:
+    """Poles (poles,) of the damped system, rad/s, as of `find_chain_poles`: rings in oil are nodes
+    of their own, and pendulums have the inertia of an order; without it they are left out.
+    """
+    chain, damping = system.chain, system.damping
+    if order is not None:
+        hanging = system.attached_pendulums(np.array(order)).real
+        chain = chain._replace(inertia=chain.inertia + hanging)
+    return find_chain_poles(*_hang_rings(chain, damping, system.rings))
+
+
+def _hang_rings(
+    chain: Chain, damping: Damping, rings: tuple[ViscousRing, ...]
+) -> tuple[Chain, Damping]:
+    """A chain with rings in oil as nodes, each on a shaft that is a dashpot alone."""
+    count, none = len(chain.inertia), np.zeros(len(rings))
+    on = np.array([ring.node for ring in rings], np.intp)
+    hung = Chain(
+        np.append(chain.inertia, [ring.inertia for ring in rings]),
+        np.append(chain.start, on),
+        np.append(chain.end, count + np.arange(len(rings))),
+        np.append(chain.ratio, np.ones(len(rings))),
+        np.append(chain.stiffness, none),
+        np.append(chain.clamped, none.astype(bool)),
+    )
+    oil = np.append(damping.dashpots, [ring.damping for ring in rings])
+    return hung, Damping(np.append(damping.loss, none), oil, np.append(damping.nodes, none))
 
 
 def find_still_shafts(system: TorsionalSystem, shape: Real) -> tuple[str, ...]:

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..core.close_peaks import find_peaks_between
 from ..core.cycle_peaks import find_swing, sum_amplitudes
 from ..core.singular_values import Complex, Real
 from ..core.telling import Tell, tell_nobody
@@ -17,10 +18,14 @@ from ..core.torsional_response import respond_chain
 from ..core.vibration import UndampedResonanceError, find_resonances, frequencies
 from ..errors import BalcliError
 from ..limits import MOST_TORSION_TORQUES
+from .modes import find_poles
 from .system import Excitation, TorsionalSystem
 
 _AT_A_TIME = 1 << 20  # samples of a cycle, of all shafts and speeds, that are computed together
 _ROUNDS = 12  # in which the speeds are looked at, those with the largest amplitudes first
+_NEAR = 0.9  # of the largest at the speeds looked at: what a peak beside them may exceed
+_BESIDE = np.array([-1, 0, 1])  # speeds looked at about a resonance, in widths
+_UNDAMPED = 1e-9  # a pole with a smaller share of damping is rounding
 _HALVINGS = 24  # of an interval of speeds in which a limit is passed
 
 
@@ -106,30 +111,82 @@ def find_response(
 def find_largest_torques(
     system: TorsionalSystem, excitation: Excitation, speeds_rpm: Real, shafts: Sequence[int]
 ) -> Real:
-    """Largest half of peak to peak of the vibratory torque of some shafts (shafts,), N m, over
-    speeds (speeds,), rising: as of `find_response`.
+    """Largest half of peak to peak of the vibratory torque of some shafts (shafts,), N m, between
+    the first and last of speeds (speeds,), rising; at each speed as of `find_response`.
 
-    No curve swings further than the sum of its amplitudes, so that most need not be added up.
+    Between the speeds, those about resonances are looked at, and every peak that may be the highest
+    is approached.
 
     Raises:
         BalcliError: an undamped mode is driven at its own frequency.
     """
     _refuse_too_many(len(excitation.orders), len(speeds_rpm), len(system.shafts))
     _refuse_resonance(system, excitation, speeds_rpm)
-    parts = [
-        move(system, excitation, speeds_rpm[some]).torque[:, :, shafts]
-        for some in _split(system, excitation, speeds_rpm)
-    ]
-    torque = np.concatenate(parts, axis=1)
+    speeds = np.union1d(speeds_rpm, _find_resonant_speeds(system, excitation, speeds_rpm))
+    swings = _find_large_swings(system, excitation, speeds, shafts)
+    largest = swings.max(axis=0)
+    ends = np.zeros((1, len(shafts)))
+    around = np.concatenate([ends, swings, ends])
+    peak = (swings >= around[:-2]) & (swings >= around[2:]) & (swings > _NEAR * largest)
+    at, shaft = np.nonzero(peak)
+    if not len(at):  # nothing twists these shafts
+        return largest
+    each, column = np.arange(len(at)), np.array(shafts)[shaft]
+
+    def evaluate(rpm: Real) -> Real:
+        torque = _find_torques(system, excitation, rpm.ravel())
+        torque = torque.reshape(-1, *rpm.shape, len(system.shafts))[..., each, column]
+        return find_swing(excitation.orders, torque).half
+
+    last = len(speeds) - 1
+    low, high = speeds[np.maximum(at - 1, 0)], speeds[np.minimum(at + 1, last)]
+    np.maximum.at(largest, shaft, find_peaks_between(evaluate, low, high))
+    return largest
+
+
+def _find_large_swings(
+    system: TorsionalSystem, excitation: Excitation, rpm: Real, shafts: Sequence[int]
+) -> Real:
+    """Half of peak to peak of the torque of some shafts at these speeds (speeds, shafts), N m,
+    wherever it is near the largest; elsewhere 0.
+
+    No curve swings further than the sum of its amplitudes, so that most need not be added up.
+    """
+    torque = _find_torques(system, excitation, rpm)[:, :, shafts]
     most = sum_amplitudes(torque)
-    largest = np.zeros(len(shafts))
+    swings = np.zeros_like(most)
     for some in np.array_split(np.argsort(-most, axis=0), _ROUNDS):
-        speed, shaft = np.nonzero(np.take_along_axis(most, some, axis=0) >= largest)
+        near = np.take_along_axis(most, some, axis=0) >= _NEAR * swings.max(axis=0)
+        speed, shaft = np.nonzero(near)
         if not len(speed):
             break
-        swings = find_swing(excitation.orders, torque[:, some[speed, shaft], shaft]).half
-        np.maximum.at(largest, shaft, swings)
-    return largest
+        at = some[speed, shaft]
+        swings[at, shaft] = find_swing(excitation.orders, torque[:, at, shaft]).half
+    return swings
+
+
+def _find_torques(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> Complex:
+    """Torques (orders, speeds, shafts) by order, some speeds at a time."""
+    pieces = _split(system, excitation, rpm)
+    return np.concatenate([move(system, excitation, rpm[some]).torque for some in pieces], axis=1)
+
+
+def _find_resonant_speeds(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> Real:
+    """Speeds (rpm) within a range at which an order meets a damped resonance, and beside it, as
+    near as it is wide.
+    """
+    orders = excitation.orders
+    if system.pendulums:  # their inertia differs from order to order
+        poles = [find_poles(system, float(order)) for order in orders]
+    else:
+        poles = [find_poles(system)] * len(orders)
+    found = [np.zeros(0)]
+    for order, each in zip(orders, poles, strict=True):
+        damped = each[(each.imag > 0) & (-each.real > _UNDAMPED * np.abs(each))]
+        about = damped.imag - 2 * damped.real * _BESIDE[:, None]
+        found.append(about.ravel() * (30 / np.pi / order))
+    speeds = np.concatenate(found)
+    return speeds[(speeds > rpm[0]) & (speeds < rpm[-1])]
 
 
 def _refuse_too_many(orders: int, speeds: int, shafts: int) -> None:

@@ -123,10 +123,14 @@ class TorsionalSystem:
         found = np.zeros((*frequency.shape, len(self.nodes)), complex)
         for ring in self.rings:
             found[..., ring.node] += viscous_inertia(ring.inertia, ring.damping, frequency)
+        if order is not None:
+            found += self.attached_pendulums(order)
+        return found
+
+    def attached_pendulums(self, order: Real) -> Complex:
+        """Inertias (*order, nodes) of pendulums at orders of the reference, any shape, kg m2."""
+        found = np.zeros((*order.shape, len(self.nodes)), complex)
         for swung in self.pendulums:
-            if order is None:
-                break
             own = order / self.gears[swung.node]
-            inertia = pendulum_inertia(swung.mass, swung.radius, swung.length, own)
-            found[..., swung.node] += np.broadcast_to(inertia, frequency.shape)
+            found[..., swung.node] += pendulum_inertia(swung.mass, swung.radius, swung.length, own)
         return found

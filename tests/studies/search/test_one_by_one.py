@@ -30,10 +30,18 @@ def search(path, *args):
 
 
 def find_torque(text: str) -> float:
-    """Largest torque of the flywheel's shaft, by the command itself."""
-    options = ("--speeds", "1000:3000:20", "--format", "json")
-    said = json.loads(run_here("torsion", "-", *options, stdin=text).out)
-    return max(said["response"]["shafts"][-1]["half_peak_to_peak_Nm"])
+    """Largest torque of the flywheel's shaft, by the command itself: at coarse speeds, then at fine
+    ones beside the worst of them.
+    """
+    speeds, swings = list_torques(text, "1000:3000:20")
+    worst = speeds[swings.index(max(swings))]
+    return max(list_torques(text, f"{max(worst - 20, 1000)}:{min(worst + 20, 3000)}:0.25")[1])
+
+
+def list_torques(text: str, speeds: str) -> tuple[list[float], list[float]]:
+    options = ("--speeds", speeds, "--format", "json")
+    said = json.loads(run_here("torsion", "-", *options, stdin=text).out)["response"]
+    return said["speeds_rpm"], said["shafts"][-1]["half_peak_to_peak_Nm"]
 
 
 def test_firing_orders_by_shaft_torque(tmp_path):
@@ -55,16 +63,16 @@ def test_firing_orders_by_shaft_torque(tmp_path):
     torques = [one["quantities"]["shaft.flywheel.torque"] for one in found]
     assert torques == sorted(torques)
     assert torques[0] == pytest.approx(
-        find_torque(text.replace(ORDER, f"firing_order = {list(orders[0])}")), rel=1e-12
+        find_torque(text.replace(ORDER, f"firing_order = {list(orders[0])}")), rel=2e-5
     )
     every = {
         order: find_torque(text.replace(ORDER, f"firing_order = {list(order)}"))
         for order in possible
     }
-    assert min(every.values()) == pytest.approx(torques[0], rel=1e-9)
+    assert min(every.values()) == pytest.approx(torques[0], rel=2e-5)
     assert {*orders} == {*every}
     for order, torque in zip(orders, torques, strict=True):
-        assert torque == pytest.approx(every[order], rel=1e-12)
+        assert torque == pytest.approx(every[order], rel=2e-5)
 
 
 def test_throws_by_shaft_torque_without_gas(tmp_path):
@@ -79,7 +87,7 @@ def test_throws_by_shaft_torque_without_gas(tmp_path):
     for one in (found[0], found[-1]):
         own = text.replace("[0, 120, 240, 240, 120, 0]", str(one["throws"]))
         torque = one["quantities"]["shaft.flywheel.torque"]
-        assert torque == pytest.approx(find_torque(own), rel=1e-12)
+        assert torque == pytest.approx(find_torque(own), rel=2e-5)
     assert len(found) > 15
     assert found[0]["objective"] < found[-1]["objective"]
 

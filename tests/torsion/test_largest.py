@@ -1,0 +1,67 @@
+"""Largest torques over a range of speeds, of resonances far narrower than the step of the speeds."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from support.diesel import write_diesel
+
+from balcli.core.cycle_peaks import find_swing
+from balcli.engine.build import build
+from balcli.engine.load import parse
+from balcli.torsion.build_engine import build_engine_system, excite_engine
+from balcli.torsion.quantity import Variants, parse_quantity
+from balcli.torsion.response import move
+
+GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 16\nimep = 15\n'
+
+
+def write_engine(loss: float, damper: str = "") -> str:
+    text = write_diesel(extra=GAS).replace("damping = 2\n", "")
+    text = text.replace("loss = 0.035", f"loss = {loss}")
+    return text.replace('name = "pulley"\n', f'name = "pulley"\n{damper}\n')
+
+
+def look(text, speeds, shaft):
+    """Half of peak to peak at each speed, of one shaft."""
+    model = parse(text)
+    engine = build(model)
+    excitation = excite_engine(model, engine, None)
+    system = build_engine_system(model, engine, excitation)
+    torque = move(system, excitation, speeds).torque[:, :, shaft]
+    return find_swing(excitation.orders, torque).half
+
+
+def search_finely(text, shaft):
+    """The largest every 0.5 rpm, then ever finer about the five highest of these peaks."""
+    speeds = np.linspace(1000, 3000, 4001)
+    swings = look(text, speeds, shaft)
+    inside = swings[1:-1]
+    peaks = 1 + np.flatnonzero((inside >= swings[:-2]) & (inside >= swings[2:]))
+    largest = swings.max()
+    for peak in peaks[np.argsort(-swings[peaks])][:5]:
+        middle, reach = speeds[peak], 0.5
+        for _ in range(3):
+            near = np.clip(np.linspace(middle - reach, middle + reach, 101), 1000, 3000)
+            there = look(text, near, shaft)
+            middle, reach = near[np.argmax(there)], reach / 25
+            largest = max(largest, there.max())
+    return largest
+
+
+@pytest.mark.parametrize(
+    ("loss", "damper"),
+    [
+        (0.035, ""),
+        (0.005, ""),
+        (0.005, 'damper = { kind = "viscous", inertia = 60000, damping = 50000 }'),
+        (0.005, 'damper = { kind = "pendulum", mass = 2, radius = 80, length = 2.3 }'),
+    ],
+    ids=["usual", "hardly damped", "a ring that hardly slips", "pendulums"],
+)
+def test_no_resonance_is_too_narrow_to_be_found(loss, damper):
+    """A ring in thick oil and pendulums shift resonances, away from the modes without them."""
+    text = write_engine(loss, damper)
+    variants = Variants(parse(text), [parse_quantity("shaft.flywheel.torque")])
+    (found,) = variants.evaluate({})
+    assert found == pytest.approx(search_finely(text, -1), rel=1e-6)
