@@ -123,7 +123,7 @@ class TorsionalSystem:
         found = np.zeros((*frequency.shape, len(self.nodes)), complex)
         for ring in self.rings:
             found[..., ring.node] += viscous_inertia(ring.inertia, ring.damping, frequency)
-        if order is not None:
+        if self.pendulums and order is not None:
             found += self.attached_pendulums(order)
         return found
 
