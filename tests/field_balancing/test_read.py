@@ -78,6 +78,10 @@ CASES = [
     ),
     (three_runs("rotation = 'left'"), 'rotation: "left" is not "lag" or "lead"'),
     (
+        three_runs("weight_unit = 'Åg'"),  # a gram with something before it
+        'weight_unit: "Åg" is no unit of weights; write g, kg, oz or lb, or of unbalances g mm or oz in',
+    ),
+    (
         three_runs("weight_unit = 'mm'"),
         'weight_unit: "mm" is no unit of weights; write g, kg, oz or lb, or of unbalances g mm or oz in',
     ),

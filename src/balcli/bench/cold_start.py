@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -35,4 +36,7 @@ def start_smallest() -> None:
 
 
 def _start(argv: Sequence[str], text: str = "") -> None:
-    subprocess.run([sys.executable, *argv], input=text.encode(), capture_output=True, check=True)
+    usual = {**os.environ, "BALCLI_CONFIG": ""}  # no defaults of the folder that one is in
+    subprocess.run(
+        [sys.executable, *argv], input=text.encode(), capture_output=True, check=True, env=usual
+    )

@@ -177,6 +177,8 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
     """The product of a unit's parts; ValueError for an unknown one, with examples of
     `dimension`.
     """
+    if re.sub(_PART, "", names, flags=re.ASCII).strip(" .-"):
+        raise ValueError(f'has the unknown unit "{names}"; {wanted(dimension)}')
     scale, powers = Fraction(1), Powers()
     for joint, name, power, raised in re.findall(_PART, names, re.ASCII):
         if question := AMBIGUOUS.get(name) or AMBIGUOUS.get(name.removesuffix("s")):
