@@ -134,6 +134,36 @@ def test_a_jump_has_its_extremes_at_both_sides():
     assert lowest == (1.0, -3.0)
 
 
+@pytest.mark.parametrize(
+    "curve",
+    [
+        resolved(lambda x: np.sin(x) + 0.3 * np.cos(2 * x), [0, TURN]),
+        resolved(lambda x: np.cos(4 * (x - 2.0)), [0, TURN]),
+        resolved(lambda x: np.exp(-2000 * (x - 1.2) ** 2) - 3.0, [0, TURN]),
+        resolved(lambda x: -3.0 + 0 * x, [0, TURN]),
+        resolved(lambda x: np.cos(x) - 1 - 1e-16, [0, TURN]),
+        polyline([0, 1, 1, 2, 3], [0, 4, -3, 1, 0]),
+        PiecewiseCurve(np.array([0.0, 2.0]), np.array([[0.0], [0.0], [-1.0]])),
+    ],
+    ids=["smooth", "equal", "narrow", "constant", "rounding", "jump", "middle"],
+)
+def test_the_highest_value_needs_no_lowest(curve):
+    found, (_, expected) = curve.highest(), curve.extremes()
+    assert found == pytest.approx(expected, rel=1e-14, abs=1e-14)
+
+
+def test_the_highest_value_is_sought_only_where_it_can_be(monkeypatch):
+    """The panel of the peak, and perhaps a neighbour, of more than a dozen."""
+    curve = resolved(lambda x: np.exp(-20 * (x - 1.2) ** 2), [0, TURN])
+    searched = []
+    roots = piecewise._roots
+    monkeypatch.setattr(
+        piecewise, "_roots", lambda series: searched.append(series.shape[1]) or roots(series)
+    )
+    assert curve.highest() == pytest.approx((1.2, 1.0), abs=1e-8)
+    assert searched[0] <= 3 < 12 < curve.series.shape[1]
+
+
 def test_reversals_are_changes_of_sign_jumps_included_and_rounding_errors_not():
     assert resolved(lambda x: np.cos(3 * x), [0, TURN]).reversals() == 6
     assert resolved(lambda x: np.cos(3 * x) + 1.01, [0, TURN]).reversals() == 0

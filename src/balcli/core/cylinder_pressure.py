@@ -234,7 +234,11 @@ class PressureOnPiston(GasTorque):
 
     def force(self, angle: ArrayLike, *, before: bool = False) -> Array:
         """Gas force on the piston, N, towards the crankshaft, at any cycle angles (rad)."""
-        return self.piston.area * (self.pressure.at(angle, before=before) - self.crankcase)
+        return self.force_under(self.pressure.at(angle, before=before))
+
+    def force_under(self, pressure: Array) -> Array:
+        """The same under pressures in the cylinder (Pa)."""
+        return self.piston.area * (pressure - self.crankcase)
 
     def at(self, angle: ArrayLike, *, before: bool = False) -> Array:
         angles = np.asarray(angle, float)

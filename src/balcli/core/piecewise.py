@@ -187,7 +187,7 @@ class PiecewiseCurve:
         """Lowest and highest value, each at the first of its angles; at a jump both sides count.
         What is rounding error beside the larger is 0.
         """
-        angle, value = self._candidates()
+        angle, value = self._candidates(np.arange(self.series.shape[1]))
         value = np.where(np.abs(value) <= _ROUNDING * np.abs(value).max(), 0.0, value)
         tie = _TIE * float(np.ptp(value))
         lowest = int(np.argmax(value <= value.min() + tie))
@@ -196,6 +196,19 @@ class PiecewiseCurve:
             Extreme(float(angle[lowest]), float(value.min())),
             Extreme(float(angle[highest]), float(value.max())),
         )
+
+    def highest(self) -> Extreme:
+        """Highest value, at the first of its angles, as of `extremes`, but sought only on panels
+        that can reach it: no series exceeds the sum of the sizes of its coefficients.
+        """
+        terms = len(self.series)
+        samples = legendre(_points(terms), terms).T @ self.series
+        size, tie = float(np.abs(samples).max()), _TIE * float(np.ptp(samples))
+        able = np.abs(self.series).sum(axis=0) >= samples.max() - 2 * _TIE * size
+        angle, value = self._candidates(np.flatnonzero(able))
+        value = np.where(np.abs(value) <= _ROUNDING * size, 0.0, value)
+        first = int(np.argmax(value >= value.max() - tie))
+        return Extreme(float(angle[first]), float(value.max()))
 
     def reversals(self) -> int:
         """How often the sign changes in a period; what is within 1e-9 of the largest value has
@@ -206,15 +219,13 @@ class PiecewiseCurve:
         signs = np.sign(value[np.abs(value) > _NOTHING * np.abs(value).max()])
         return int(np.count_nonzero(signs != np.roll(signs, 1)))
 
-    def _candidates(self) -> tuple[Array, Array]:
-        """Angles of both ends of every panel and of its stationary points, rising, with the values
-        there.
+    def _candidates(self, panels: NDArray[np.intp]) -> tuple[Array, Array]:
+        """Angles of both ends of each of these panels and of its stationary points, rising, with
+        the values there.
         """
-        terms = len(self.series)
-        panel, x = _roots(_derivative(terms) @ self.series)
-        count = self.series.shape[1]
-        every = np.arange(count)
-        panel = np.concatenate([every, every, panel])
+        terms, count = len(self.series), len(panels)
+        owner, x = _roots(_derivative(terms) @ self.series[:, panels])
+        panel = np.concatenate([panels, panels, panels[owner]])
         x = np.concatenate([np.full(count, -1.0), np.full(count, 1.0), x])
         middle, half = _panels(self.breaks)
         angle = middle[panel] + half[panel] * x

@@ -78,7 +78,7 @@ class Panels:
         finer = 2 * _TERMS - 1  # terms of the square
         values = legendre(gauss(finer)[0], _TERMS).T @ series
         squares = values_to_series(finer) @ (values.real**2 + values.imag**2)
-        highest = PiecewiseCurve(self.breaks, squares).extremes()[1]
+        highest = PiecewiseCurve(self.breaks, squares).highest()
         return Peak(float(np.sqrt(max(highest.value, 0.0))), highest.angle)
 
     def find_mean_size(self, samples: Complex) -> float:

@@ -25,7 +25,7 @@ from ..core.cylinder_pressure import (
 )
 from ..core.gas_cycle import Goal, Process, gas_cycle
 from ..core.gas_cycle import mistakes as cycle_mistakes
-from ..core.phasors import Figure
+from ..core.phasors import Array, Figure
 from ..core.tangential_force import tangential_torque
 from ..enginefile.csv_columns import Columns, locate_beside, read_columns
 from ..enginefile.gas_tables import DIAGRAM_KEYS, GOALS, Gas
@@ -97,6 +97,23 @@ class EngineGas:
     def cycle(self) -> float:
         """Rad."""
         return math.radians(self.cycle_deg)
+
+    @property
+    def fires(self) -> Array:
+        """`CylinderGas.fires` of each, rad, shape (cylinders,)."""
+        return np.array([cylinder.fires for cylinder in self.cylinders])
+
+    @property
+    def shares(self) -> Array:
+        """`CylinderGas.share` of each, shape (cylinders,)."""
+        return np.array([cylinder.share for cylinder in self.cylinders])
+
+    def group_equal(self) -> list[tuple[GasTorque, list[int]]]:
+        """Each torque, with the rows of the equal cylinders that have it."""
+        found: dict[int, tuple[GasTorque, list[int]]] = {}
+        for row, cylinder in enumerate(self.cylinders):
+            found.setdefault(id(cylinder.torque), (cylinder.torque, []))[1].append(row)
+        return list(found.values())
 
     def with_share(self, row: int, share: float) -> EngineGas:
         """The same with another share of the cylinder in one row."""

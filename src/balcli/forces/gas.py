@@ -80,16 +80,14 @@ def find_courses(gas: EngineGas, orders: Array) -> tuple[Complex, Array]:
     `Re sum c_n e^{i n theta}`; and its error, likewise.
     """
     halves = np.rint(2 * orders).astype(np.intp)
-    known: dict[int, _Course] = {}  # of equal cylinders once
-    columns, errors = [], []
-    for cylinder in gas.cylinders:
-        which = id(cylinder.torque)
-        if which not in known:
-            known[which] = _find_course(cylinder.torque, halves)
-        course = known[which]
-        columns.append(cylinder.share * course.c)
-        errors.append(np.full(len(orders), cylinder.share * course.error))
-    return np.stack(columns, axis=1), np.stack(errors, axis=1)
+    courses = np.empty((len(orders), len(gas.cylinders)), complex)
+    errors = np.empty(courses.shape)
+    for torque, rows in gas.group_equal():
+        course = _find_course(torque, halves)
+        courses[:, rows] = course.c[:, None]
+        errors[:, rows] = course.error
+    courses *= gas.shares
+    return courses, gas.shares * errors
 
 
 def _find_course(torque: GasTorque, halves: NDArray[np.intp]) -> _Course:

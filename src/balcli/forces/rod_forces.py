@@ -160,16 +160,15 @@ def _follow_ends(engine: Engine, motion: Motion, throw: Complex) -> tuple[_Cours
 
 def _find_gas_forces(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
     """Pressure (Pa) and gas force (N) of each cylinder, shape (cylinders, angles)."""
-    theta = np.radians(crank_deg)
-    pressures, forces = [], []
-    for cylinder in take_gas(engine).cylinders:
-        torque = cylinder.torque
+    gas = take_gas(engine)
+    angles = np.radians(crank_deg) - _column(gas.fires)
+    pressures, forces = np.empty_like(angles), np.empty_like(angles)
+    for torque, rows in gas.group_equal():
         if not isinstance(torque, PressureOnPiston):
             raise BalcliError("loads of pins need pressures; harmonics of the torque have none")
-        at = theta - cylinder.fires
-        pressures.append(torque.pressure.at(at))
-        forces.append(cylinder.share * torque.force(at))
-    return np.stack(pressures), np.stack(forces)
+        pressures[rows] = torque.pressure.at(angles[rows])
+        forces[rows] = torque.force_under(pressures[rows])
+    return pressures, _column(gas.shares) * forces
 
 
 def _column(values: Array) -> Array:

@@ -1,0 +1,36 @@
+"""Gas on each piston of an engine whose cylinders are in part equal."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from support.gas_engines import WIEBE, engine
+
+from balcli.forces.rod_forces import compute_rod_forces
+
+ENGINES = Path(__file__).parents[2] / "engines"
+DEGREES = np.linspace(0.0, 720.0, 97)
+
+
+def test_each_cylinder_has_its_own_pressure_at_its_own_time():
+    """With a master rod the mechanisms differ; in cylinder 4 the gas presses by half."""
+    text = (ENGINES / "radial7_articulated.toml").read_text(encoding="utf-8")
+    found = engine(f"{text}\n{WIEBE}\n[cylinder.4]\ngas = 0.5\n")
+    forces = compute_rod_forces(found, DEGREES)
+    assert len(found.gas.group_equal()) > 1
+    for row, cylinder in enumerate(found.gas.cylinders):
+        at = np.radians(DEGREES) - cylinder.fires
+        np.testing.assert_allclose(
+            forces.pressure[row], cylinder.torque.pressure.at(at), rtol=1e-14
+        )
+        gas = cylinder.share * cylinder.torque.force(at)
+        np.testing.assert_allclose(forces.gas[row], gas, rtol=1e-13, atol=1e-9)
+
+
+def test_equal_cylinders_are_grouped_by_their_torque():
+    text = (ENGINES / "v8_wiebe.toml").read_text(encoding="utf-8")
+    gas = engine(text).gas
+    ((torque, rows),) = gas.group_equal()
+    assert rows == list(range(8))
+    assert torque is gas.cylinders[0].torque
