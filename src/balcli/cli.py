@@ -285,7 +285,7 @@ def _usage(error: Any) -> str:
     text = StringIO()
     error.show(text)
     told = text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's words
-    if "No such option: --scheme" in told:
+    if "No such option: --scheme" in told and "{FILE}" in told.partition("\n")[0]:
         told += (
             ". Fit the devices first, balcli balance FILE --scheme NAME --write FITTED.toml, and "
             "give this command FITTED.toml."

@@ -68,6 +68,14 @@ def test_what_the_file_does_not_allow_is_left_out(four, tmp_path):
     assert set(json.loads(torque(str(bare), "--format", "json"))) == WHOLE
 
 
+def test_a_misfire_is_told_wherever_its_figures_are(four):
+    for command in ("torque", "analyze"):
+        asked = (command, four, "--misfire", "3")
+        assert json.loads(run_here(*asked, "--format", "json").out)["no_gas_in"] == [3]
+        assert "no_gas_in" not in json.loads(run_here(command, four, "--format", "json").out)
+    assert "no gas in" in run_here("analyze", four, "--misfire", "3", "--only", "gas").out
+
+
 def test_text_fits_a_terminal_of_80_columns(four):
     text = torque(four, "--fluctuation", "0.5%", "--misfire", "3")
     assert max(map(len, text.splitlines())) <= 80

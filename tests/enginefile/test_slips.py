@@ -183,6 +183,7 @@ def test_short_names_of_numbers_are_understood_where_one_number_has_them(tmp_pat
     ):
         assert swept(name).out == swept(path).out
         assert swept(path).out.startswith(f"{path},force.2.major\n")
+    assert run_here("sweep", file, "--vary", "offset=0,3").out.startswith("piston.offset,")
     assert swept("mass").err.endswith("did you mean rod.mass or piston.mass?\n")
 
 
@@ -198,6 +199,7 @@ def test_what_a_command_cannot_do_names_the_one_that_does(tmp_path, monkeypatch)
     assert told == "balcli: 'kvasnikov' is the source of kvasnikov-1 and kvasnikov-2: name one\n"
     told = run_here("sweep", "i4.toml", "--vary", "rpm=1,2", "--scheme", "auto").err
     assert "balcli balance FILE --scheme NAME --write FITTED.toml" in told
+    assert "FITTED.toml" not in run_here("engines", "--scheme", "auto").err
 
 
 def test_a_search_says_that_the_best_is_an_end_of_the_range(tmp_path):
@@ -208,7 +210,9 @@ def test_a_search_says_that_the_best_is_an_end_of_the_range(tmp_path):
         "The best rod.length is an end of the range" in run_here(*search, "rod.length=140:180").out
     )
     search = ("search", file, "--minimise", "force.1.major", "--over")
-    assert "an end of the range" not in run_here(*search, "crank.throws.2=90:270").out
+    inside = run_here(*search, "crank.throws.2=90:270").out
+    assert "180" in inside
+    assert "an end of the range" not in inside
 
 
 def test_a_place_that_makes_the_roll_grow_is_told_so(tmp_path):
@@ -223,6 +227,7 @@ def test_a_place_that_makes_the_roll_grow_is_told_so(tmp_path):
         for at in ("0,0", "-200,90")
     )
     assert "The roll of order 1 grows by " in far
+    assert "single-shaft" in near
     assert "grows by" not in near
 
 

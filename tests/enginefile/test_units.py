@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from fractions import Fraction
 
 import pytest
@@ -10,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from balcli.enginefile import unit_table
+from balcli.enginefile.fields import STRING_PATTERN
 from balcli.enginefile.units import (
     ANGLE,
     DAMPING,
@@ -381,6 +383,9 @@ def test_no_name_has_two_meanings():
         ("2 KN m", TORQUE, 'has the unknown unit "KN"; did you mean kN? a torque is wanted: '),
         ("2 inchs", LENGTH, None),
         ("2 tons", MASS, 'has the unit "tons": t (1000 kg), or 2000 lb, or 2240 lb? a mass is '),
+        ("150 NM", TORQUE, 'has the unit "NM": N m, or nanometre? a torque is wanted: '),
+        ("1 MG", MASS, 'has the unit "MG": mg, or Mg (1000 kg)? a mass is wanted: '),
+        ("3 kgm", TORQUE, 'has the unknown unit "kgm"; a torque is wanted: '),
         ("2 Mm", LENGTH, 'has the unit "Mm": mm, or megametre? a length is wanted: '),
         ("50 kW", ENERGY, "is a power, but an energy is wanted: "),
         ("50 hp", TORQUE, "is a power, but a torque is wanted: "),
@@ -404,3 +409,10 @@ def test_refusals_say_what_is_near(text, dimension, begin):
     with pytest.raises(ValueError) as caught:  # noqa: PT011 - its beginning is compared
         convert(text, dimension)
     assert str(caught.value).startswith(begin)
+
+
+@pytest.mark.parametrize(
+    "text", ["pi", "-π", "pi/2", "2π", '3.5"', "5500 min⁻¹", "3 1/2 in", "9 kgf/cm2"]
+)
+def test_editors_take_what_is_read(text):
+    assert re.search(STRING_PATTERN, text)

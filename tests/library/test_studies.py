@@ -225,6 +225,11 @@ def test_stiffness_of_mounts_scatters():
     assert spread.nominal == pytest.approx(balcli.analyze_mounts(MOUNTS).modes.six[0].hertz)
 
 
+def test_a_tolerance_that_concerns_no_quantity_is_refused():
+    with pytest.raises(balcli.BalcliError, match=r"^stiffness: is of mounts and shafts, and none "):
+        balcli.scatter(FOUR, "force.1.major", mass="1%", stiffness="10%", samples=20)
+
+
 def test_engines_side_by_side_have_names():
     assert balcli.compare(V8, FOUR).names == (V8.name, FOUR.name)
     assert balcli.compare(V8, V8.vary({"layout.bank_angle": 60})).names == ("engine 1", "engine 2")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Sequence
 
 from ..errors import BalcliError
@@ -63,5 +64,5 @@ def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
         BalcliError: with the command that shows them.
     """
     if of_one := [word for word in words if word in PARTS]:
-        command = f"balcli analyze {' '.join(paths)} --only {of_one[0]}"
+        command = shlex.join(["balcli", "analyze", *paths, "--only", of_one[0]])
         raise BalcliError(f"--only {of_one[0]}: is of one engine; {command} shows each")

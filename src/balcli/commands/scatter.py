@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..enginefile.toml_text import name_file
+from ..errors import BalcliError
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..render import tolerances as renderer
 from .completion import complete_quantities
@@ -125,6 +126,10 @@ def scatter(
     asked, of_cycle, of_parts = sort_scattered(
         parse_quantities(names, with_gas=model.gas is not None)
     )
+    if share is not None and not of_parts:
+        raise BalcliError(
+            "--stiffness-scatter: is of mounts and shafts, and none of these quantities asks"
+        )
     if quantity is None:
         asked = _leave_out_unknown(engine, asked, name_file(path))
     draw, usual = _choose_way(model, within, share, Scattered(asked, of_cycle, of_parts))

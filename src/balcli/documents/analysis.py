@@ -138,6 +138,7 @@ class AnalysisFigures(TypedDict):
     format: Literal["balcli.analysis/1"]
     engine: EngineSize
     speed_rpm: float
+    no_gas_in: NotRequired[list[int]]
     reference_mm: Place
     orders: list[OrderFigures]
     assumed: NotRequired[Assumed]

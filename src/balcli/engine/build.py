@@ -243,6 +243,14 @@ class Engine:
         return dict(zip(self.numbers, self.cylinders.pin_deg, strict=True))
 
     @property
+    def without_gas(self) -> tuple[int, ...]:
+        """Numbers of the cylinders without gas, where there is gas in others."""
+        if self.gas is None:
+            return ()
+        shares = zip(self.numbers, self.gas.cylinders, strict=True)
+        return tuple(sorted(number for number, own in shares if not own.share))
+
+    @property
     def splay_for_even_firing(self) -> float | None:
         """`crank.splay` (deg) with which several throws would make the cylinders fire evenly in the
         file's order; None where none would, or the file says at which intervals they fire.

@@ -221,7 +221,9 @@ def _suggest_swapped_banks(parts: Assembly) -> str:
 def _suggest_splay(parts: Assembly) -> str:
     """The splay with which all would fire at top dead centre; empty if there is none."""
     splay = None if parts.rank else find_fitting_splay(parts.model)
-    return "" if splay is None else f". They fit with split pins: crank.splay = {splay:g}"
+    if splay is None:
+        return ""
+    return f". They fit with {'split' if splay else 'common'} pins: crank.splay = {splay:g}"
 
 
 def check_knuckle_pins(parts: Assembly) -> Iterator[Problem]:

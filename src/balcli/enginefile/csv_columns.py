@@ -78,7 +78,7 @@ def _parse(text: str, wanted: Sequence[Sequence[str]]) -> Columns:
     ]
     if len(lines) > MOST_ROWS:
         raise ValueError(f"has {len(lines)} lines; at most {MOST_ROWS} are read")
-    if lines and ";" in lines[0][1] and "," not in lines[0][1]:
+    if lines and lines[0][1].count(";") > lines[0][1].count(","):
         lines = [(n, line.replace(",", ".").replace(";", ",")) for n, line in lines]
     cells = csv.reader(line for _, line in lines)
     heading = [cell.strip() for cell in next(cells, [])]

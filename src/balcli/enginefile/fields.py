@@ -15,7 +15,7 @@ from .units import PLAIN, Dimension, convert, wanted
 if TYPE_CHECKING:
     from pydantic_core import CoreSchema
 
-STRING_PATTERN = r"^\s*[+-]?(?:[0-9.]|pi|π).*[A-Za-z°µμ²³0-9]\s*$"
+STRING_PATTERN = r"^\s*[+-]?(?:pi|π|(?:[0-9.]|pi|π).*[A-Za-z°µμ²³¹π\"”″0-9])\s*$"
 
 
 def printable(text: str) -> str:

@@ -89,6 +89,8 @@ AMBIGUOUS = {
     "gr": "g, or grain (65 mg)?",
     "gm": "g, or gigametre?",
     "Mm": "mm, or megametre?",
+    "MG": "mg, or Mg (1000 kg)?",
+    "NM": "N m, or nanometre?",
     "ton": "t (1000 kg), or 2000 lb, or 2240 lb?",
     "cwt": "100 lb, or 112 lb?",
     "grad": "deg, or gon (0.9 deg)?",

@@ -186,6 +186,9 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
         part = _find(name) or _find(_in_small(name))
         if part is None:
             near = find_near_name(name)
+            alone = _find(near) if name == names.strip() else None
+            if alone and alone.powers != dimension.powers:
+                near = ""
             hint = f" did you mean {near}?" if near else ""
             raise ValueError(f'has the unknown unit "{name}";{hint} {wanted(dimension)}')
         exponent = int(power or _RAISED.get(raised, 1)) * (-1 if joint == "/" else 1)

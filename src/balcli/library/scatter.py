@@ -74,6 +74,8 @@ def scatter(
         share = None if stiffness is None else read_share("stiffness", stiffness)
         heavier = read_share("mass", mass)
         return scatter_parts(model, share, heavier, of_parts, count, seed, distribution)
+    if stiffness is not None:
+        raise BalcliError("stiffness: is of mounts and shafts, and none of these quantities asks")
     if asked is None:
         of_engine = leave_out_unknown(engine, of_engine)
     tolerances = Tolerances(

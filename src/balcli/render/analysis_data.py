@@ -27,6 +27,7 @@ def document(result: Analysis) -> dict[str, Any]:
             "displacement_m3": clean(engine.displacement_m3),
         },
         "speed_rpm": clean(engine.speed_rpm),
+        **({"no_gas_in": list(engine.without_gas)} if engine.without_gas else {}),
         "reference_mm": [clean(v * 1e3) for v in engine.reference_m],
         "orders": order_entries(result.spectra),
         **assumptions(result),

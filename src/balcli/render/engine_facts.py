@@ -19,8 +19,9 @@ EVEN_DEG = 0.05  # intervals of firing that differ by less are shown as one
 
 
 def speed_facts(engine: Engine) -> Facts:
-    """The crank speed alone."""
-    return Facts((("speed", _speed(engine)),))
+    """The crank speed, and which cylinders have no gas."""
+    silent = list_silent(engine)
+    return Facts((("speed", _speed(engine)), *([("no gas in", silent)] if silent else [])))
 
 
 def engine_facts(
@@ -178,10 +179,7 @@ def tell_strokes(engine: Engine) -> str:
 
 def list_silent(engine: Engine) -> str:
     """Numbers of the cylinders without gas, where there is gas in others."""
-    if engine.gas is None:
-        return ""
-    shares = zip(engine.numbers, engine.gas.cylinders, strict=True)
-    return ", ".join(str(n) for n, c in sorted(shares, key=lambda pair: pair[0]) if not c.share)
+    return ", ".join(map(str, engine.without_gas))
 
 
 def _knows_strokes(engine: Engine) -> bool:

@@ -33,6 +33,7 @@ def document(result: Result) -> dict[str, Any]:
     gas = result.max_pressure
     head = {
         "speed_rpm": clean(result.engine.speed_rpm),
+        "no_gas_in": list(result.engine.without_gas) or None,
         "cycle_deg": result.cycle_deg,
         "imep_Pa": clean(result.imep),
         "bmep_Pa": None if result.bmep is None else clean(result.bmep),

@@ -71,12 +71,12 @@ class SchemeOptions(NamedTuple):
 
     def _check_types(self) -> None:
         sound = {
-            "order": isinstance(self.order, Integral),
+            "order": _are((self.order,), Integral),
             "at": _are_finite(self.at, Complex),
             "position": _are_finite((self.position,), Real),
             "planes": isinstance(self.planes, str) or _are_finite(self.planes, Real),
             "factor": _are(self.factor, Real),
-            "measured": isinstance(self.measured, Real),
+            "measured": _are((self.measured,), Real),
         }
         for name, right in sound.items():
             value = getattr(self, name)
@@ -92,7 +92,14 @@ class SchemeOptions(NamedTuple):
 
 
 def _are(values: object, kind: type) -> bool:
-    return isinstance(values, tuple) and all(isinstance(value, kind) for value in values)
+    """Whether they are numbers of a kind, none with hundreds of digits."""
+    if not isinstance(values, tuple) or not all(isinstance(value, kind) for value in values):
+        return False
+    try:
+        [complex(value) for value in values]
+    except OverflowError:
+        return False
+    return True
 
 
 def _are_finite(values: Any, kind: type) -> bool:

@@ -157,9 +157,13 @@ def resolve_name(name: str, known: Mapping[str, Number]) -> str:
     """The dotted name of the one number that is called so: `stroke` is `crank.stroke`, `rpm` and
     `speed` are `operation.speed`. A name that several numbers have, or none, stays as it is.
     """
-    called = {name, *SYNONYMS.get(name.lower(), ())}
-    meant = [path for path in known if path.rpartition(".")[2] in called]
-    return meant[0] if name not in known and len(meant) == 1 else name
+    if name in known:
+        return name
+    for called in ((name,), SYNONYMS.get(name.lower(), ())):
+        meant = [path for path in known if path.rpartition(".")[2] in called]
+        if meant:
+            return meant[0] if len(meant) == 1 else name
+    return name
 
 
 def _as_list(path: str, values: Any) -> list[Any]:
