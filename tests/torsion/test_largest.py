@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
+from support.commands import run_here
 from support.diesel import write_diesel
 
 from balcli.core.cycle_peaks import find_swing
@@ -65,3 +68,15 @@ def test_no_resonance_is_too_narrow_to_be_found(loss, damper):
     variants = Variants(parse(text), [parse_quantity("shaft.flywheel.torque")])
     (found,) = variants.evaluate({})
     assert found == pytest.approx(search_finely(text, -1), rel=1e-6)
+
+
+def test_no_barred_range_is_too_narrow_to_be_found():
+    """Neither criticals nor speeds 100 rpm apart are near it: the ring shifts the resonance."""
+    damper = 'damper = { kind = "viscous", inertia = 60000, damping = 50000 }'
+    text = write_engine(0.005, damper).replace("[torsion]\n", "[torsion]\nlimit = 300\n")
+    coarse, fine = (
+        json.loads(run_here("torsion", "-", "--speeds", speeds, "-f", "json", stdin=text).out)
+        for speeds in ("1000:3000:100", "1780:1800:1")
+    )
+    (span,) = fine["barred_rpm"]
+    assert coarse["barred_rpm"] == [pytest.approx(span, rel=1e-8)]

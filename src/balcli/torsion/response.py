@@ -296,14 +296,15 @@ def find_barred(
 ) -> tuple[tuple[float, float], ...] | None:
     """Ranges of speed (rpm) in which a limit of the file is passed; None where it has none.
 
-    Between the speeds of the response those of criticals are looked at, too; the ends of a range
-    are found by halving.
+    Between the speeds of the response those of criticals and damped resonances are looked at, too;
+    the ends of a range are found by halving.
     """
     if system.limit_pa is None and system.angle_limit is None:
         return None
     known = response.speeds_rpm
+    resonant = _find_resonant_speeds(system, excitation, known)
     inner = criticals_rpm[(criticals_rpm > known[0]) & (criticals_rpm < known[-1])]
-    between = np.setdiff1d(inner, known)
+    between = np.setdiff1d(np.concatenate([inner, resonant]), known)
     speeds = np.concatenate([known, between])
     excess = np.concatenate(
         [
