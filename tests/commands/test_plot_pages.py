@@ -14,6 +14,7 @@ FOUR = ENGINES / "i4_wiebe.toml"
 DIESEL = ENGINES / "i6_diesel.toml"
 
 
+@pytest.mark.stress
 @pytest.mark.parametrize("form", ["svg", "png"])
 def test_each_page_goes_into_a_file_of_its_name_and_is_that_page(tmp_path, form):
     told = run_here("plot", DIESEL, "--what", "modes,polar", "-o", tmp_path / f"two.{form}")

@@ -31,6 +31,7 @@ SHOWN = {
 }
 
 
+@pytest.mark.stress
 @pytest.mark.parametrize("name", SHOWN)
 def test_an_answer_has_a_figure(name):
     before = dict(matplotlib.rcParams)

@@ -127,6 +127,7 @@ def test_it_is_readable_in_a_terminal(four):
     assert "17.43" in plain
 
 
+@pytest.mark.stress
 @pytest.mark.parametrize("form", ["svg", "png"])
 def test_picture(four, tmp_path, form):
     picture = tmp_path / f"mounts.{form}"
@@ -160,6 +161,7 @@ def rocking_of(page):
     return json.loads(text)
 
 
+@pytest.mark.stress
 def test_the_page_rocks_the_body(four):
     """Its motion at one speed is that of the point in the answer, to the figures of the page."""
     status, page, err = run_here("report", four, "-o", "-")

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from ..errors import Problem
+from ..limits import MOST_MISTAKES_SHOWN
 from . import model
 from .fields import nearest, printable
 from .messages import (
@@ -100,11 +101,12 @@ def find_unknown_keys(data: Mapping[str, Any]) -> Iterator[UnknownKey]:
     Of a table such as `[engine]`, which is like none that there is, each of its keys: they have
     their places elsewhere.
     """
-    for key, value in data.items():
-        if key in KNOWN:
-            continue
-        if isinstance(value, Mapping) and value and not _find_own(key, KNOWN):
-            yield from (UnknownKey(key, inner, None) for inner in value)
+    strangers = [key for key in data if key not in KNOWN]
+    for count, key in enumerate(strangers):
+        inside = data[key] if isinstance(data[key], Mapping) else {}
+        shown = count < MOST_MISTAKES_SHOWN  # of the others only how many there are is told
+        if inside and not (shown and _find_own(key, KNOWN)):
+            yield from (UnknownKey(key, inner, None) for inner in inside)
         else:
             yield UnknownKey("", key, None)
 
