@@ -164,24 +164,25 @@ def _layout(model: EngineFile) -> Iterator[str]:
 def _throw(model: EngineFile) -> Iterator[str]:
     throws, rods = _throws_and_rods(model)
     given, moving = model.crank.throw_mass, rods / throws * _rod_and_piston(model)
-    if moving and given > THROW_HEAVY * moving:
-        yield (
-            f"crank.throw_mass is {given:.4g} kg, more than {THROW_HEAVY:g} times the rods and "
-            f"pistons of a throw ({moving:.3g} kg); is it in kg? Grams are said as in "
-            f'"{given:.4g} g"'
-        )
+    beside = "the rods and pistons of a throw"
+    yield from _too_heavy("crank.throw_mass", given, THROW_HEAVY, beside, moving)
 
 
 def _bobweight(model: EngineFile) -> Iterator[str]:
     moving = _rod_and_piston(model)
     for key in ("rod_bearing", "oil"):
         given = getattr(model.bobweight, key)
-        if moving and given > BEARING_HEAVY * moving:
-            yield (
-                f"bobweight.{key} is {given:.4g} kg, more than {BEARING_HEAVY:g} times a rod with "
-                f"its piston ({moving:.3g} kg); is it in kg? Grams are said as in "
-                f'"{given:.4g} g"'
-            )
+        beside = "a rod with its piston"
+        yield from _too_heavy(f"bobweight.{key}", given, BEARING_HEAVY, beside, moving)
+
+
+def _too_heavy(key: str, given: float, times: float, beside: str, kg: float) -> Iterator[str]:
+    """A mass that is more than so many times what it goes with: probably grams."""
+    if kg and given > times * kg:
+        yield (
+            f"{key} is {given:.4g} kg, more than {times:g} times {beside} ({kg:.3g} kg); is it in "
+            f'kg? Grams are said as in "{given:.4g} g"'
+        )
 
 
 def _counterweights(model: EngineFile) -> Iterator[str]:
