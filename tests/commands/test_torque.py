@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tomllib
 
 import numpy as np
 import pytest
@@ -101,6 +102,35 @@ def test_what_is_written_turns_as_unevenly(four, tmp_path):
     assert json.loads(text)["orders"][0]["order"] == 0, "an uneven speed has a mean force"
     again = json.loads(torque(str(out), "--format", "json"))
     assert again == json.loads(torque(four, "--format", "json")), "torque is that of the mean speed"
+
+
+def test_what_is_written_misfires_as_it_did(four, tmp_path):
+    """Else gas of all cylinders would stand beside the speed of three."""
+    out = tmp_path / "misfire.toml"
+    told = torque(four, "--misfire", "3", "--write", str(out), "--format", "json")
+    assert "[cylinder.3]\ngas = 0    # by balcli torque\n" in out.read_text()
+    assert torque(str(out), "--format", "json") == told
+
+
+def test_lines_that_no_engine_file_may_have_are_not_written(tmp_path):
+    """Twenty-four cylinders fire every 15 degrees: orders 24, 48, ..., and the corners of an Otto
+    cycle reach beyond order 256.
+    """
+    count = 24
+    path, out = tmp_path / "many.toml", tmp_path / "uneven.toml"
+    throws = [360 / count * k for k in range(count)]
+    path.write_text(
+        FOUR.replace("[0, 180, 180, 0]", str(throws)).replace(
+            "firing_order = [1, 3, 4, 2]",
+            f"strokes = 2\nfiring_order = {[1, *range(count, 1, -1)]}",
+        )
+        + WIEBE.replace("wiebe", "otto")
+        + "[flywheel]\ninertia = 900000\n"
+    )
+    torque(str(path), "--write", str(out))
+    lines = tomllib.loads(out.read_text())["operation"]["speed_ripple"]
+    assert [line["order"] for line in lines] == [24 * k for k in range(1, 11)]
+    assert run_here("analyze", str(out), "--only", "force")[0] == 0
 
 
 def test_a_curve_needs_no_engine(curve):

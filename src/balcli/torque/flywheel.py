@@ -15,7 +15,7 @@ from ..core.speed_variation import (
     speed_variation,
 )
 from ..errors import BalcliError
-from ..limits import MOST_RIPPLES
+from ..limits import HIGHEST_RIPPLE_ORDER, MOST_RIPPLES
 
 _WORTH = 1e-4  # share of the largest line of the speed below which one is left out
 
@@ -127,9 +127,12 @@ def _inertia(constant: float, moving: Function | None) -> float | Function:
 
 
 def _find_lines(speed: PiecewiseCurve, mean_speed: float) -> tuple[Ripple, ...]:
-    """Lines whose sum is the speed, in shares of its mean: multiples of 1/2, or of 1."""
+    """Lines whose sum is the speed, in shares of its mean: multiples of 1/2, or of 1, as far as an
+    engine file may have them.
+    """
     turns = speed.period / (2 * np.pi)
-    c: Complex = speed.harmonics(MOST_RIPPLES)[1:] / mean_speed
+    count = min(MOST_RIPPLES, int(HIGHEST_RIPPLE_ORDER * turns + 0.1))
+    c: Complex = speed.harmonics(count)[1:] / mean_speed
     size = np.abs(c)
     worth = np.flatnonzero(size > _WORTH * size.max(initial=0))
     return tuple(
