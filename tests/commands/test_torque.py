@@ -166,6 +166,7 @@ def test_the_load_takes_its_share(curve, tmp_path):
     """A load that is the torque itself leaves nothing over."""
     found = json.loads(torque("--curve", curve, "--load", curve, "-f", "json"))
     assert found["energy"]["surplus_J"] == pytest.approx(0, abs=1e-9)
+    assert found["energy"]["work_J"] == pytest.approx(250 * 2 * np.pi), "that of the torque"
     other = tmp_path / "l.csv"
     other.write_text("angle_deg,torque_Nm\n0,250\n720,250\n")
     status, _, err = run_here("torque", "--curve", curve, "--load", str(other))

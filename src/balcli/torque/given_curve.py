@@ -39,7 +39,7 @@ class CurveAnalysis(Result):
         load: likewise; None: it takes the mean evenly.
         orders: cycles in 360 degrees, shape (orders,).
         harmonics: c_n of `Re sum c_n e^{i n theta}`, N m, shape (orders,).
-        surplus: of the torque above the load.
+        surplus: of the torque above the load; the work is the torque's own.
         shaft, flywheel: what turns, and how evenly.
     """
 
@@ -111,7 +111,7 @@ def analyze_curve(
                 f"order {wanted[odd[0]] / turns:g}: a period of {turns * 360:g} deg has multiples "
                 f"of {1 / turns:g}"
             )
-    above = surplus(net)
+    above = surplus(net)._replace(work=torque.integral)
     asked = Question(net, above.energy, shaft.mean_speed, shaft.inertia, None, fluctuation)
     found = torque.harmonics(int(every.max(initial=1)))[every]
     found = np.where(np.abs(found) > _NOISE * np.abs(torque.series).max(), found, 0)
