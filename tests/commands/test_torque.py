@@ -133,6 +133,16 @@ def test_lines_that_no_engine_file_may_have_are_not_written(tmp_path):
     assert run_here("analyze", str(out), "--only", "force")[0] == 0
 
 
+def test_what_a_crank_needs_that_stalls(four, tmp_path):
+    arguments = (four, "--speed", "100", "--fluctuation", "1/50")
+    assert "speed    the shaft stalls at" in torque(*arguments)
+    found = json.loads(torque(*arguments, "-f", "json"))["flywheel"]
+    assert set(found) == {"inertia_kg_m2", "moving_parts_kg_m2", "needed_kg_m2"}
+    status, _, err = run_here("torque", *arguments, "--write", str(tmp_path / "out.toml"))
+    assert status == 2
+    assert "balcli: --write: the shaft stalls at" in err
+
+
 def test_a_curve_needs_no_engine(curve):
     found = json.loads(torque("--curve", curve, "--format", "json"))
     assert set(found) == {

@@ -206,6 +206,16 @@ def test_a_crank_that_would_stand_still_is_refused():
         analyze_torque(slow)
 
 
+def test_a_crank_that_would_stand_still_is_told_what_it_needs():
+    slow = replace(engine(FOUR + WIEBE + FLYWHEEL.format(1000)), speed_rpm=300.0)
+    heavy = replace(engine(FOUR + WIEBE + FLYWHEEL.format(1e9)), speed_rpm=300.0)
+    found, want = (analyze_torque(one, fluctuation=0.02).flywheel for one in (slow, heavy))
+    assert found.needed == want.needed
+    assert found.speed is None
+    assert found.stall.startswith("the shaft stalls at")
+    assert not want.stall
+
+
 def test_without_inertia_nothing_is_said_of_the_speed():
     assert analyze_torque(engine(FOUR + WIEBE)).flywheel is None
     asked = analyze_torque(engine(FOUR + WIEBE), fluctuation=0.01).flywheel

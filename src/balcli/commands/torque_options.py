@@ -180,11 +180,13 @@ def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path)
     cylinders that misfire.
 
     Raises:
-        BalcliError: the inertia is not known; the target cannot be written.
+        BalcliError: the inertia is not known, or too small; the target cannot be written.
     """
     from ..enginefile.edit import set_keys
 
     refuse_leaving_files(source, path, target)
+    if result.flywheel is not None and result.flywheel.stall:
+        raise BalcliError(f"--write: {result.flywheel.stall}")
     if result.flywheel is None or result.flywheel.speed is None:
         raise BalcliError(
             "--write: the speed is not known; give inertia in [crank] or [flywheel], such as "
