@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from math import nan
 from typing import TYPE_CHECKING
@@ -207,8 +207,16 @@ def _compare_inner(analyses: Sequence[Analysis]) -> Iterator[Line]:
 
 
 def _compare_guide(analyses: Sequence[Analysis]) -> Iterator[Line]:
+    """With gas where all engines have some, else of inertia alone."""
     found = [one.guide for one in analyses if one.guide is not None]
-    for kind, several in ((GUIDE_H, [g.h for g in found]), (GUIDE_X, [g.x for g in found])):
+    if len({guide.with_gas for guide in found}) > 1:
+        from ..forces.guide_moments import compute_guide_moments
+
+        without = [replace(one.engine, gas=None) for one in analyses]
+        found = [compute_guide_moments(engine, found[0].h.orders) for engine in without]
+    alone = "" if all(guide.with_gas for guide in found) else " of inertia alone"
+    for known, several in ((GUIDE_H, [g.h for g in found]), (GUIDE_X, [g.x for g in found])):
+        kind = known._replace(label=f"{known.label}{alone}")
         there = [moment for moment in several if moment is not None]
         if there and len(there) == len(analyses):
             sizes = [moment.major for moment in there]
