@@ -172,6 +172,12 @@ def test_a_curve_of_several_turns_has_orders_below_1(tmp_path):
     assert [entry["order"] for entry in orders[:3]] == pytest.approx([1 / 3, 2 / 3, 1])
 
 
+def test_a_short_period_has_two_orders_at_least(tmp_path):
+    (tmp_path / "t.csv").write_text("angle_deg,torque_Nm\n0,1\n5,5\n20,1\n")
+    orders = json.loads(torque("--curve", str(tmp_path / "t.csv"), "-f", "json"))["orders"]
+    assert [entry["order"] for entry in orders] == [18, 36]
+
+
 def test_the_load_takes_its_share(curve, tmp_path):
     """A load that is the torque itself leaves nothing over."""
     found = json.loads(torque("--curve", curve, "--load", curve, "-f", "json"))

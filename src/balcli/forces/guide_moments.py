@@ -10,6 +10,7 @@ import numpy as np
 
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
+from ..limits import HIGHEST_GAS_ORDER_UNASKED
 from .orders import (
     find_relevant_orders,
     list_gas_orders,
@@ -77,8 +78,8 @@ def _find_orders(engine: Engine) -> Array:
     relevant = find_relevant_orders(engine)
     if engine.gas is None:
         return relevant
-    of_gas = list_gas_orders(engine.strokes)
-    return merge_orders(relevant[relevant <= of_gas[-1]], of_gas)
+    few = relevant[relevant <= HIGHEST_GAS_ORDER_UNASKED]
+    return merge_orders(few, list_gas_orders(engine))
 
 
 def _rod_lengths(engine: Engine) -> Array:

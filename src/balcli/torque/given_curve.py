@@ -94,7 +94,7 @@ def analyze_curve(
         torque, load: N m, over one and the same period.
         shaft: what turns.
         fluctuation: (highest - lowest)/mean speed, for which the inertia is wanted.
-        orders: default: all that the period has, up to HIGHEST_GAS_ORDER_UNASKED.
+        orders: default: all that the period has, up to HIGHEST_GAS_ORDER_UNASKED, at least two.
 
     Raises:
         BalcliError: other periods, orders that the period has not, a shaft that stalls.
@@ -102,7 +102,7 @@ def analyze_curve(
     shaft = shaft or Shaft()
     net = torque if load is None else _subtract(torque, load)
     turns = torque.period / (2 * np.pi)
-    every = np.arange(1, int(HIGHEST_GAS_ORDER_UNASKED * turns + _SAME) + 1)
+    every = np.arange(1, max(int(HIGHEST_GAS_ORDER_UNASKED * turns + _SAME), 2) + 1)
     if orders is not None:
         wanted = check_orders(orders) * turns
         every = np.rint(wanted).astype(int)
