@@ -5,6 +5,7 @@ more than one for a few.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,9 +15,16 @@ _PARTS = 8  # of an interval, before the two beside the highest place are the ne
 _ROUNDS = 3
 
 
-def find_peaks_between(judge: Callable[[Real], Real], low: Real, high: Real) -> Real:
-    """The height (functions,) of several functions at a peak between two places each. It is good to
-    1e-8 where the interval is no wider than the peak.
+class Peaks(NamedTuple):
+    """Where functions peak, and how high: (functions,) each."""
+
+    place: Real
+    height: Real
+
+
+def find_peaks_between(judge: Callable[[Real], Real], low: Real, high: Real) -> Peaks:
+    """The peaks of several functions between two places each. The heights are good to 1e-8 where
+    the interval is no wider than the peak.
 
     The peak is enclosed ever closer; the last place is the vertex of a parabola.
 
@@ -26,16 +34,19 @@ def find_peaks_between(judge: Callable[[Real], Real], low: Real, high: Real) -> 
     """
     shares = np.arange(1, _PARTS)[:, None] / _PARTS
     each = np.arange(len(low))
-    highest = np.full(len(low), -np.inf)
+    best, highest = low, np.full(len(low), -np.inf)
     for _ in range(_ROUNDS):
         step = (high - low) / _PARTS
         heights = judge(low + (high - low) * shares)
-        highest = np.maximum(highest, heights.max(axis=0))
         top = low + step * (1 + heights.argmax(axis=0))
+        best = np.where(heights.max(axis=0) > highest, top, best)
+        highest = np.maximum(highest, heights.max(axis=0))
         low, high = top - step, top + step
     middle = np.clip(heights.argmax(axis=0), 1, _PARTS - 3)
     before, here, after = (heights[middle + k, each] for k in (-1, 0, 1))
     bend = before - 2 * here + after
     beside = (before - after) / (2 * np.where(bend < 0, bend, -np.inf))
     vertex = top + step * (middle - heights.argmax(axis=0) + beside)
-    return np.maximum(highest, judge(np.clip(vertex, low, high)[None])[0])
+    vertex = np.clip(vertex, low, high)
+    height = judge(vertex[None])[0]
+    return Peaks(np.where(height > highest, vertex, best), np.maximum(height, highest))
