@@ -494,3 +494,37 @@ def test_the_torque_is_drawn_in_a_table(four, curve):
         found = run_here("torque", *arguments, "--plot", "--format", "csv")
         assert found.out == plain.out
         assert "no pictures in csv" in found.err
+
+
+def test_power_and_torque_say_whether_they_are_indicated(four, curve, tmp_path):
+    """A shaft gives away less than the gas does: 2 litres at 9 bar are 143.2 N m, 80 % of it 114.6."""
+    volume = 4 * np.pi / 4 * 0.086**2 * 0.09
+    mean = 9e5 * volume / (4 * np.pi)
+    told = " ".join(torque(four).split())
+    speed = json.loads(torque(four, "--format", "json"))["speed_rpm"] * np.pi / 30
+    assert f"mean torque {mean:.5g} N·m indicated, {0.8 * mean:.5g} N·m brake" in told
+    kilowatts = mean * speed / 1e3
+    assert f"power {kilowatts:.5g} kW indicated, {0.8 * kilowatts:.5g} kW brake" in told
+    bare = tmp_path / "bare.toml"
+    bare.write_text(FOUR + WIEBE)
+    assert f"power {kilowatts:.5g} kW indicated Torque" in " ".join(torque(str(bare)).split())
+    assert "indicated" not in torque("--curve", curve, "--speed", "300")
+
+
+def test_what_a_flywheel_needs_is_told_without_the_crankshaft(tmp_path):
+    """What is in all, less what moves and, where it is known, less the crankshaft."""
+    asked = ("--fluctuation", "1/300")
+
+    def told(text: str) -> tuple[dict, str]:
+        path = tmp_path / "x.toml"
+        path.write_text(text)
+        found = json.loads(torque(str(path), *asked, "--format", "json"))["flywheel"]
+        return found, " ".join(torque(str(path), *asked).split())
+
+    found, words = told(FOUR + WIEBE)
+    both = found["needed_kg_m2"] - found["moving_parts_kg_m2"]
+    assert f"in all, {both:.5g} of it in crankshaft and flywheel" in words
+    found, words = told(FOUR.replace("[crank]", "[crank]\ninertia = 40000") + WIEBE)
+    assert f"in all, {both - 0.04:.5g} of it in the flywheel" in words
+    found, words = told(FOUR.replace("[crank]", "[crank]\ninertia = 4e6") + WIEBE)
+    assert "in all, which is there without a flywheel" in words
