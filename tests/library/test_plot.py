@@ -124,3 +124,18 @@ def test_what_has_no_picture_is_told(call, kind, message):
     with pytest.raises(kind) as caught:
         call()
     assert str(caught.value).startswith(message)
+
+
+def test_the_title_says_which_devices_are_fitted():
+    """A page with them was titled as the engine without."""
+
+    def title(figure):
+        return figure.get_suptitle()
+
+    alone = title(balcli.plot(THREE, "polar"))
+    assert alone == "in-line three, 6000 rpm"
+    fitted = balcli.plot(THREE, "orders", scheme="couple-shaft")
+    assert title(fitted) == f"{alone}\nwith scheme couple-shaft, order 1"
+    shares = balcli.SchemeOptions(factor=(0.4,))
+    factor = balcli.balance(balcli.load_example("vtwin45"), "factor", shares)
+    assert title(balcli.plot(factor, "polar")).endswith("\nwith scheme factor 40 %, order 1")
