@@ -363,7 +363,9 @@ def _flywheel_facts(
         pairs.append(("needed", f"{number(flywheel.needed)} kg·m² in all"))
         own = flywheel.needed - flywheel.moving - (crank or 0.0)
         place = "crankshaft and flywheel" if crank is None else "the flywheel"
-        share = f"{number(own)} of it in {place}" if own > 0 else "which is there without a flywheel"
+        share = (
+            f"{number(own)} of it in {place}" if own > 0 else "which is there without a flywheel"
+        )
         if moving:
             pairs[-1] = ("needed", f"{pairs[-1][1]}, {share}")
     yield Facts(tuple(pairs), "Flywheel")

@@ -132,7 +132,8 @@ def _lay_out_all(fig: Figure, subject: Subject) -> None:
     for k, quantity in enumerate(_VECTORS):
         _locus_panel(fig.add_subplot(grid[0, k]), subject, quantity)
     for k, quantity in enumerate(PICTURED):
-        _bars_panel(fig.add_subplot(bars[k]), subject, quantity)
+        _bars_panel(ax := fig.add_subplot(bars[k]), subject, quantity)
+        ax.set_xlabel("order" if quantity == PICTURED[-1] else "")  # leaves room for the bars
         _curves_panel(fig.add_subplot(grid[1, k]), subject, quantity)
 
 
