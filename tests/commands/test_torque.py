@@ -423,10 +423,11 @@ def test_guide_moments_include_the_gas(four, tmp_path):
         ("angle_deg,torque\n0,1\n", 'the heading "angle_deg,torque" has no torque_Nm; head the'),
         ("angle_deg,torque_Nm\n0,inf\n", 'line 2: "inf" is not a number'),
         ("angle_deg;torque_Nm\n0;1.000,5\n", 'line 2: "1.000.5" is not a number'),
+        ("angle_deg,torque_Nm\n0,1,000.5 Nm\n", "line 2: has 3 columns, the heading 2; name"),
         (
             "angle_deg,torque_Nm\n0,5,1,3\n",
-            "line 2: has 4 columns, the heading 2; where decimals have commas, part columns by "
-            "semicolons, in the heading too",
+            "line 2: has 4 columns, the heading 2; name every column in the heading, or, where "
+            "decimals have commas, part columns by semicolons there and below",
         ),
     ],
 )
@@ -444,6 +445,17 @@ def test_semicolons_part_columns_and_commas_decimals(tmp_path):
     english = torque("--curve", path)
     path.write_text("angle_deg;torque_Nm\n0;1,5\n90,5;-2,25\n360;1.5\n")
     assert torque("--curve", path) == english
+
+
+def test_columns_without_a_heading_count_for_nothing(tmp_path):
+    """Words after the last headed column, and where semicolons part columns, numbers, too."""
+    path = tmp_path / "t.csv"
+    path.write_text("angle_deg,torque_Nm\n0,1.5\n90,-2.25\n360,1.5\n")
+    plain = torque("--curve", path)
+    path.write_text("angle_deg,torque_Nm\n0,1.5,first\n90,-2.25,,idle\n360,1.5,\n")
+    assert torque("--curve", path) == plain
+    path.write_text("angle_deg;torque_Nm\n0;1,5;7\n90;-2,25;8,5\n360;1,5;ok\n")
+    assert torque("--curve", path) == plain
 
 
 def test_curves_that_are_no_text(tmp_path):
