@@ -182,7 +182,9 @@ def check_dead_centres(parts: Assembly) -> Iterator[Problem]:
     """
     for problem in _find_dead_centres_missed(parts):
         hint = (
-            _suggest_swapped_banks(parts) or _suggest_mirrored_throws(parts) or _suggest_splay(parts)
+            _suggest_swapped_banks(parts)
+            or _suggest_mirrored_throws(parts)
+            or _suggest_splay(parts)
         )
         yield problem._replace(message=problem.message + hint)
 

@@ -103,9 +103,7 @@ def _find_head(names: Sequence[str], heading: list[str], wanted: Sequence[Sequen
     raise ValueError(f"the heading {found} has no {names[0]}; head the file {usual}{also}")
 
 
-def _read_row(
-    row: list[str], places: list[int], width: int | None, line: int
-) -> tuple[float, ...]:
+def _read_row(row: list[str], places: list[int], width: int | None, line: int) -> tuple[float, ...]:
     """`width`: of the heading, beyond which no number may stand; None: one may."""
     if len(row) <= max(places):
         raise ValueError(f"line {line}: has {len(row)} of {max(places) + 1} columns")
