@@ -39,6 +39,15 @@ CHAIN = {
             "what bank shows the engine as it is: leave scheme and its options out",
         ),
         (
+            lambda: balcli.combine(V8, V8, load="both"),
+            "load both: cranks that turn alike roll the frame alike, whichever drives the load; it "
+            "matters with reverse",
+        ),
+        (
+            lambda: balcli.combine(V8, V8, at_m=(0, float("nan"), 0)),
+            "at_m: the place of the second engine may be up to 1e+06 m off",
+        ),
+        (
             lambda: balcli.analyze_torsion(CHAIN, [1000, 1100], orders=[2], damper="viscous"),
             "damper: nothing excites the system at the orders asked for",
         ),
@@ -46,6 +55,25 @@ CHAIN = {
 )
 def test_errors_name_arguments(ask, told):
     with pytest.raises(balcli.BalcliError) as refusal:
+        ask()
+    assert str(refusal.value) == told
+
+
+@pytest.mark.parametrize(
+    ("ask", "told"),
+    [
+        (
+            lambda: balcli.combine(V8, V8, at_m=0.3),
+            "at_m: 0.3 (float): give x, y and z in m, such as (0.3, 0, 0)",
+        ),
+        (
+            lambda: balcli.combine(V8, V8, phase_deg="90"),
+            "phase_deg: '90' (str): give an angle in degrees",
+        ),
+    ],
+)
+def test_what_is_of_another_type(ask, told):
+    with pytest.raises(TypeError) as refusal:
         ask()
     assert str(refusal.value) == told
 

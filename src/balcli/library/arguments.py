@@ -166,3 +166,16 @@ def read_share(name: str, value: float | str) -> float:
             f'{name} {shorten(value)}: give a share from 0 to 1, such as 0.005 or "0.5%"'
         )
     return float(value)
+
+
+def read_place(name: str, value: object) -> tuple[float, float, float]:
+    """A place that a function was given, m: x, y and z.
+
+    Raises:
+        TypeError: it is not three numbers.
+    """
+    try:
+        x, y, z = map(float, value)  # type: ignore[call-overload]
+    except (TypeError, ValueError, OverflowError):
+        raise wrong_type(name, value, "give x, y and z in m, such as (0.3, 0, 0)") from None
+    return x, y, z
