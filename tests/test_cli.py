@@ -176,8 +176,14 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         (["check", str(ROOT / "docs")], f"{ROOT / 'docs'}: has no engine files (*.toml)"),
         (
             ["new", "inlin"],
-            '"inlin" is no kind of engine; there are single, inline, vee, boxer, radial, w, mounts. '
-            "Did you mean inline?",
+            '"inlin" is no kind of file to start from; there are single, inline, vee, boxer, radial, '
+            "w, mounts, field, torsion. Did you mean inline?",
+        ),
+        (
+            ["new", "chain"],
+            '"chain" is no kind of file to start from; there are single, inline, vee, boxer, radial, '
+            "w, mounts, field, torsion. That is torsion: balcli new torsion. A finished one may be "
+            "among the examples: balcli engines.",
         ),
         (
             ["analyze", V8, "--only", "guide", "--guide-height", "0"],

@@ -1,5 +1,5 @@
-"""How high functions of one number are at their peaks, where one call for many places costs little
-more than one for a few.
+"""Where functions of one number have their peaks, where one call for many places costs little more
+than one for a few.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ _PARTS = 8  # of an interval, before the two beside the highest place are the ne
 _ROUNDS = 3
 
 
-def find_peaks_between(judge: Callable[[Real], Real], low: Real, high: Real) -> Real:
-    """The height (functions,) of several functions at a peak between two places each. It is good to
-    1e-8 where the interval is no wider than the peak.
+def find_peaks_between(judge: Callable[[Real], Real], low: Real, high: Real) -> tuple[Real, Real]:
+    """Places and heights (functions,) of a peak of several functions between two places each. The
+    height is good to 1e-8 where the interval is no wider than the peak.
 
     The peak is enclosed ever closer; the last place is the vertex of a parabola.
 
@@ -38,4 +38,6 @@ def find_peaks_between(judge: Callable[[Real], Real], low: Real, high: Real) -> 
     bend = before - 2 * here + after
     beside = (before - after) / (2 * np.where(bend < 0, bend, -np.inf))
     vertex = top + step * (middle - heights.argmax(axis=0) + beside)
-    return np.maximum(highest, judge(np.clip(vertex, low, high)[None])[0])
+    vertex = np.clip(vertex, low, high)
+    there = judge(vertex[None])[0]
+    return np.where(there > highest, vertex, top), np.maximum(highest, there)

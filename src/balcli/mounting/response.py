@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.close_peaks import find_peaks_between
 from ..core.cycle_peaks import find_longest, largest_of_ellipse
-from ..core.golden_section import find_highest
 from ..core.rigid_body import (
     BodyResponse,
     carry_points,
@@ -315,13 +315,16 @@ def _find_worst(
     low, high = np.maximum(below, start - reach), np.minimum(above, start + reach)
     each = np.arange(peaks.shape[1])
 
-    def evaluate(at: Real) -> tuple[Complex, Real]:
-        own = _list_curves(mounted, _move(mounted, loads, at))[:, each, each]
-        return own, find_longest(loads.orders, own).value
+    def list_own(speeds: Real) -> Complex:
+        return _list_curves(mounted, _move(mounted, loads, speeds))[:, each, each]
 
-    place, highest = find_highest(lambda at: evaluate(at)[1], low, high)
+    def evaluate(at: Real) -> Real:
+        return np.array([find_longest(loads.orders, list_own(speeds)).value for speeds in at])
+
+    place, highest = find_peaks_between(evaluate, low, high)
     best = np.where(highest > heights[top, each], place, start)
-    own, value = evaluate(best)
+    own = list_own(best)
+    value = find_longest(loads.orders, own).value
     alone = largest_of_ellipse(own)
     leading = alone.argmax(axis=0)
     return tuple(

@@ -23,6 +23,7 @@ from .units import SI
 RENDERERS = {
     "Analysis": "analysis_data",
     "Balance": "balance",
+    "Combined": "two_engines",
     "Comparison": "comparison",
     "CurveAnalysis": "torque",
     "Curves": "curves",

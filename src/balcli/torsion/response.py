@@ -140,7 +140,7 @@ def find_largest_torques(
 
     last = len(speeds) - 1
     low, high = speeds[np.maximum(at - 1, 0)], speeds[np.minimum(at + 1, last)]
-    np.maximum.at(largest, shaft, find_peaks_between(evaluate, low, high))
+    np.maximum.at(largest, shaft, find_peaks_between(evaluate, low, high)[1])
     return largest
 
 
