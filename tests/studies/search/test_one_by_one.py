@@ -198,3 +198,11 @@ def test_a_search_over_a_number_tells_how_far_it_is_and_may_be_ended():
     one_by_one.find_best_numbers(lambda x: (x - 1.1) ** 2, 0.0, 32.0, lambda s: told.append(s))
     assert told[-1] > 0.9
     assert max(told) <= 1
+
+
+def test_a_number_stays_as_it_is_typed():
+    path = ENGINES / "vtwin45.toml"
+    asked = ("--minimise", "force.1.backward")
+    out = run_here("search", path, "--over", "layout.bank_angle=80:100", *asked).out
+    assert "Best layout.bank_angle\n" in out
+    assert "Best bank angle\n" in run_here("search", path, "--over", "bank_angle", *asked).out
