@@ -553,6 +553,22 @@ def test_a_terminal_gets_lines_of_its_width(balcli, monkeypatch, name, columns):
     assert figures - set(plain.split()) == set()
 
 
+def test_names_in_headings_keep_their_underscores(balcli, monkeypatch, tmp_path):
+    """Where a heading is broken, it is broken after them."""
+    paths = [tmp_path / name for name in ("a_first_try.toml", "a_second_try.toml")]
+    for path in paths:
+        path.write_text((ENGINES / "i3.toml").read_text())
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "44")
+    out = balcli("compare", *(path.name for path in paths), terminal=True).out
+    plain = ESCAPE.sub("", out)
+    heading = re.search(r"(?s)^( +a_.*?)─", plain, re.MULTILINE)
+    assert heading, plain
+    words = [line.split() for line in heading[1].splitlines()]
+    assert ["a_first_", "a_second_"] in words, plain
+    assert "a first" not in plain
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a pseudo-terminal")
 def test_a_real_terminal_gets_colours_and_lines_of_its_width(monkeypatch):
     monkeypatch.delenv("COLUMNS", raising=False)

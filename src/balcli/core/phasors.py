@@ -251,9 +251,7 @@ def _settle(vectors: Complex, sizes: Array, noise: Array) -> tuple[Complex, Arra
     nothing = sizes <= noise
     if not np.count_nonzero(nothing):
         return vectors, sizes
-    vectors, sizes = vectors.copy(), sizes.copy()
-    vectors[nothing] = sizes[nothing] = 0
-    return vectors, sizes
+    return np.where(nothing, 0, vectors), np.where(nothing, 0, sizes)
 
 
 def _column(orders: Array, like: NDArray[np.generic]) -> Array:

@@ -39,12 +39,15 @@ if TYPE_CHECKING:
     from .assembly import Assembly
 
 BAR = 1e5  # Pa
+_PSI = float(POUND) * STANDARD_GRAVITY / float(INCH) ** 2  # Pa
+_GAUGE_HEADS = {"pressure_barg": BAR, "pressure_psig": _PSI}  # over the atmosphere
 PRESSURE_HEADS = {
     "pressure_bar": BAR,
     "pressure_MPa": 1e6,
     "pressure_kPa": 1e3,
     "pressure_Pa": 1.0,
-    "pressure_psi": float(POUND) * STANDARD_GRAVITY / float(INCH) ** 2,
+    "pressure_psi": _PSI,
+    **_GAUGE_HEADS,
 }
 LOW_PRESSURE = 0.1  # bar; a throttled engine draws in at 0.3
 ASK_GAUGE = '; is it over the atmosphere? Then give pressure = "gauge"'
@@ -262,8 +265,10 @@ class _Builder:
     def _diagram(self, source: _Source) -> diagrams.PressureDiagram:
         gas, name = self.gas, source.indicator or ""
         columns = self._columns(name, (("angle_deg",), tuple(PRESSURE_HEADS)))
-        unit = PRESSURE_HEADS[columns.heads[1]]
-        gauge = diagrams.ATMOSPHERE if gas.pressure == "gauge" else 0.0
+        head = columns.heads[1]
+        unit = PRESSURE_HEADS[head]
+        is_gauge = gas.pressure == "gauge" or head in _GAUGE_HEADS
+        gauge = diagrams.ATMOSPHERE if is_gauge else 0.0
         pressure = np.array(columns.column(1)) * unit + gauge
         angle = np.array(columns.column(0))
         wrong = list(diagrams.mistakes(angle, pressure, strokes=self.strokes))

@@ -88,7 +88,7 @@ def plot(
             return _plot_engine(shown.engine, what or "all", asked, scheme, speeds_rpm)
         case Balance():
             page = _choose(what or "all", ("all", "polar", "orders", "spectrum", "curves"))
-            return make_page(Subject(shown.after, shown.before), page, "png")
+            return make_page(Subject(shown.after, shown.before, shown.remedy), page, "png")
         case TorqueAnalysis():
             page = _choose(what or "torque", ("torque", "pressure", "p-v", "pin", "main"))
             return _plot_engine(shown.engine, page, None, None, None)

@@ -52,7 +52,12 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
 
 
 def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Iterator[str]:
-    """What to know of shafts of which nobody has said where they stand."""
+    """What to know of shafts: how they stand, and where, if nobody has said so."""
+    if any(isinstance(device, Shaft) for device in devices):
+        yield (
+            "Shafts stand so at crank angle 0; angles of those that turn against the crank count "
+            "in its sense, too."
+        )
     if any(free):
         yield "free: the shaft may stand anywhere, for it makes a moment alone."
     shafts = zip(devices, free, strict=True)

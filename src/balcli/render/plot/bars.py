@@ -90,7 +90,7 @@ def _label_bars(ax: Axes, orders: Array, tops: Array | None, label: str) -> None
             fontsize=7,
         )
     highest = ax.dataLim.y1
-    ax.set_ylim(0, 1.18 * highest or 1)
+    ax.set_ylim(0, 1.35 * highest or 1)
     if not highest:
         ax.set_yticks([0])
     put_legend_above(ax)
