@@ -146,7 +146,8 @@ class Number(_Field):
             ) from None
 
     def json(self) -> dict[str, Any]:
-        least = -self.most if self.above is self.least is None else self.least
+        unbounded = self.above is None and self.least is None
+        least = -self.most if unbounded else self.least
         bounds = {
             "exclusiveMinimum": self.above,
             "minimum": least,

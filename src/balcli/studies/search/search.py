@@ -245,7 +245,7 @@ def _search_throws(task: _Task) -> Iterator[Found]:
             "such as force.1.major"
         )
 
-    def can_fire(throws: Array) -> np.ndarray:
+    def can_fire(throws: Array) -> NDArray[np.bool_]:
         return fires_evenly(build_candidates(model, {"throws": throws}), model)
 
     allowed = can_fire if task.even_firing else None
@@ -345,7 +345,6 @@ def _search_angle(key: Angle, task: _Task) -> Iterator[Found]:
     span = SPANS[key]
     model, objective = task.model, task.objective
     _check_angle(model, key)
-
     even = find_even_angles(model, key, span) if task.even_firing else None
     angles = _find_best_angles(key, task) if even is None else even
     return rank_candidates(model, {key: angles}, objective)
