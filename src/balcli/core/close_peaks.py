@@ -1,11 +1,10 @@
-"""How high functions of one number are at their peaks, where one call for many places costs little
-more than one for a few.
+"""Where functions of one number have their peaks, where one call for many places costs little more
+than one for a few.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 
@@ -15,16 +14,9 @@ _PARTS = 8  # of an interval, before the two beside the highest place are the ne
 _ROUNDS = 3
 
 
-class Peaks(NamedTuple):
-    """Where functions peak, and how high: (functions,) each."""
-
-    place: Real
-    height: Real
-
-
-def find_peaks_between(judge: Callable[[Real], Real], low: Real, high: Real) -> Peaks:
-    """The peaks of several functions between two places each. The heights are good to 1e-8 where
-    the interval is no wider than the peak.
+def find_peaks_between(judge: Callable[[Real], Real], low: Real, high: Real) -> tuple[Real, Real]:
+    """Places and heights (functions,) of a peak of several functions between two places each. The
+    height is good to 1e-8 where the interval is no wider than the peak.
 
     The peak is enclosed ever closer; the last place is the vertex of a parabola.
 
@@ -48,5 +40,5 @@ def find_peaks_between(judge: Callable[[Real], Real], low: Real, high: Real) -> 
     beside = (before - after) / (2 * np.where(bend < 0, bend, -np.inf))
     vertex = top + step * (middle - heights.argmax(axis=0) + beside)
     vertex = np.clip(vertex, low, high)
-    height = judge(vertex[None])[0]
-    return Peaks(np.where(height > highest, vertex, best), np.maximum(height, highest))
+    there = judge(vertex[None])[0]
+    return np.where(there > highest, vertex, best), np.maximum(highest, there)

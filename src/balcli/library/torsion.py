@@ -18,11 +18,12 @@ from ..torsion.analysis import Question, TorsionAnalysis, answer_question
 from ..torsion.damper_sizing import DamperAsked
 from ..torsion.load import ChainSource, Source, make_source
 from ..torsion.read_chain import describes_chain, read_chain_tables
-from .arguments import check_inertia, check_speeds, check_torsion_orders
+from .arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
 
 KINDS_OF_DAMPERS = ("viscous", "rubber", "pendulum")
 
 
+@tell_arguments(speeds="speeds_rpm")
 def analyze_torsion(
     source: Engine | str | Path | Mapping[str, Any],
     speeds_rpm: ArrayLike | None = None,

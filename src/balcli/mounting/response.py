@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.close_peaks import find_peaks_between
 from ..core.cycle_peaks import find_longest, largest_of_ellipse
-from ..core.golden_section import find_highest
 from ..core.rigid_body import (
     BodyResponse,
     carry_points,
@@ -39,6 +39,7 @@ from .modes import BodyModes
 from .motions import ROLL
 
 _KINDS = ("force", "moment", "roll")
+_RPM = 30 / np.pi  # of 1 rad/s
 _SPEEDS_AT_A_TIME = 512  # whose curves are sampled together
 _BESIDE = np.array([-0.5, 0, 0.5])  # speeds looked at about a resonance, in widths
 _NEAR = 0.8  # of the highest at the speeds looked at: what a peak beside them may exceed
@@ -85,6 +86,10 @@ class Meeting(NamedTuple):
     order: float
     omega: float
 
+    @property
+    def speed_rpm(self) -> float:
+        return self.omega * _RPM
+
 
 class Worst(NamedTuple):
     """The largest value over all speeds.
@@ -100,6 +105,10 @@ class Worst(NamedTuple):
     omega: float
     order: float
     alone: float
+
+    @property
+    def speed_rpm(self) -> float:
+        return self.omega * _RPM
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +141,7 @@ class Response:
     @property
     def speeds_rpm(self) -> Real:
         """(speeds,)."""
-        return self.omega * (30 / np.pi)
+        return self.omega * _RPM
 
 
 def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Loads:
@@ -315,18 +324,21 @@ def _find_worst(
     at, curve = np.nonzero(_find_high_peaks(heights))
     low, high = speeds[np.maximum(at - 1, 0)], speeds[np.minimum(at + 1, len(speeds) - 1)]
 
-    def evaluate(places: Real, curve: NDArray[np.intp]) -> tuple[Complex, Real]:
+    def list_own(speeds: Real, curve: NDArray[np.intp]) -> Complex:
         each = np.arange(len(curve))
-        own = _list_curves(mounted, _move(mounted, loads, places))[:, each, curve]
-        return own, find_longest(loads.orders, own).value
+        return _list_curves(mounted, _move(mounted, loads, speeds))[:, each, curve]
 
-    place, highest = find_highest(lambda places: evaluate(places, curve)[1], low, high)
+    def evaluate(at: Real) -> Real:
+        return np.array([find_longest(loads.orders, list_own(one, curve)).value for one in at])
+
+    place, highest = find_peaks_between(evaluate, low, high)
     place = np.where(highest > heights[at, curve], place, speeds[at])
     highest = np.maximum(highest, heights[at, curve])
     falling = np.lexsort((-highest, curve))
     each, first = np.unique(curve[falling], return_index=True)
     best = place[falling[first]]
-    own, value = evaluate(best, each)
+    own = list_own(best, each)
+    value = find_longest(loads.orders, own).value
     alone = largest_of_ellipse(own)
     leading = alone.argmax(axis=0)
     return tuple(

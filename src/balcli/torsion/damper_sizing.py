@@ -112,7 +112,7 @@ def size_damper(
         """
         system = source.with_damper(node, damper).system()
         shafts = [system.shafts.index(name) for name in bare.shafts]
-        worth = find_largest(system, _excite(system, orders), speeds, shafts).height
+        _, worth = find_largest(system, _excite(system, orders), speeds, shafts)
         tell(next(tried) / _RESPONSES)
         return float(np.nanmax(worth * stress_by_torque(bare) if any(bare.sections) else worth))
 

@@ -140,7 +140,7 @@ def _find_largest(
 ) -> dict[TargetQuantity, float]:
     """Torque and stress of shafts."""
     shafts = sorted({system.shafts.index(q.target) for q in quantities})
-    torques = find_largest(system, excitation, speeds, shafts).height
+    _, torques = find_largest(system, excitation, speeds, shafts)
     largest = dict(zip(shafts, map(float, torques), strict=True))
     by_torque = {"torque": np.ones(len(system.shafts)), "stress": stress_by_torque(system)}
     return {

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.close_peaks import Peaks, find_peaks_between
+from ..core.close_peaks import find_peaks_between
 from ..core.cycle_peaks import find_swing, sum_amplitudes
 from ..core.singular_values import Complex, Real
 from ..core.telling import Tell, tell_nobody
@@ -150,10 +150,11 @@ def _find_worst(system: TorsionalSystem, excitation: Excitation, speeds_rpm: Rea
 
 def find_largest(
     system: TorsionalSystem, excitation: Excitation, speeds_rpm: Real, curves: Sequence[int]
-) -> Peaks:
-    """Largest half of peak to peak of the vibratory torque of some shafts, N m, and at which speed,
-    rpm, (curves,) each, between the first and last of speeds (speeds,), rising; at each speed as of
-    `find_response`. Behind the last shaft, a curve more is the angle of the first node, rad.
+) -> tuple[Real, Real]:
+    """At which speed, rpm, the vibratory torque of some shafts is largest, and half of peak to peak
+    there, N m, (curves,) each, between the first and last of speeds (speeds,), rising; at each
+    speed as of `find_response`. Behind the last shaft, a curve more is the angle of the first node,
+    rad.
 
     Between the speeds, those about resonances are looked at, and every peak that may be the highest
     is approached.
@@ -171,7 +172,7 @@ def find_largest(
     peak = (swings >= around[:-2]) & (swings >= around[2:]) & (swings > _NEAR * largest)
     at, curve = np.nonzero(peak)
     if not len(at):  # nothing twists these shafts
-        return Peaks(rpm, largest)
+        return rpm, largest
     each, column = np.arange(len(at)), np.array(curves)[curve]
 
     def evaluate(rpm: Real) -> Real:
@@ -181,11 +182,11 @@ def find_largest(
 
     last = len(speeds) - 1
     low, high = speeds[np.maximum(at - 1, 0)], speeds[np.minimum(at + 1, last)]
-    between = find_peaks_between(evaluate, low, high)
-    for k in np.argsort(between.height):  # the highest last
-        if between.height[k] > largest[curve[k]]:
-            rpm[curve[k]], largest[curve[k]] = between.place[k], between.height[k]
-    return Peaks(rpm, largest)
+    place, height = find_peaks_between(evaluate, low, high)
+    for k in np.argsort(height):  # the highest last
+        if height[k] > largest[curve[k]]:
+            rpm[curve[k]], largest[curve[k]] = place[k], height[k]
+    return rpm, largest
 
 
 def _find_large_swings(
