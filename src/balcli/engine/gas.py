@@ -30,6 +30,7 @@ from ..core.tangential_force import tangential_torque
 from ..enginefile.csv_columns import Columns, locate_beside, read_columns
 from ..enginefile.gas_tables import DIAGRAM_KEYS, GOALS, Gas
 from ..enginefile.suspicious import MAX_PRESSURE
+from ..enginefile.units import INCH, POUND, STANDARD_GRAVITY
 from ..errors import BalcliError, InputError, Problem
 from ..limits import HIGHEST_TABLE_ORDER
 
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
     from .assembly import Assembly
 
 BAR = 1e5  # Pa
-_PSI = 0.45359237 * 9.80665 / 0.0254**2  # Pa
+_PSI = float(POUND) * STANDARD_GRAVITY / float(INCH) ** 2  # Pa
 _GAUGE_HEADS = {"pressure_barg": BAR, "pressure_psig": _PSI}  # over the atmosphere
 PRESSURE_HEADS = {
     "pressure_bar": BAR,
@@ -165,7 +166,7 @@ class _Builder:
         self._refuse()
         c, bore = self.cylinders, self._bore or 0.0
         found = pistons(c, math.pi / 4 * (bore / 1e3) ** 2)
-        mechanisms = self._name_mechanisms()
+        mechanisms = c.mechanisms
         torques = [
             self._torque(number, found[row], mechanisms[row])
             for row, number in enumerate(self.parts.numbers)
@@ -227,16 +228,6 @@ class _Builder:
         if own is not None and own.indicator is not None:
             return _Source(f"cylinder.{number}.indicator", own.indicator)
         return _Source("gas.indicator", self.gas.indicator)
-
-    def _name_mechanisms(self) -> list[tuple[object, ...]]:
-        """Figures of each row's mechanism; equal ones move their pistons alike."""
-        c = self.cylinders
-        columns = (c.lam, c.eps) if c.linkage is None else c.linkage.figures(c.lam, c.eps)
-        rows = range(c.count)
-        return [
-            tuple(column[row if len(column) > 1 else 0].item() for column in columns)
-            for row in rows
-        ]
 
     def _torque(
         self, number: int, piston: Piston, mechanism: tuple[object, ...]

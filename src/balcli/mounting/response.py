@@ -39,6 +39,7 @@ from .modes import BodyModes
 from .motions import ROLL
 
 _KINDS = ("force", "moment", "roll")
+_RPM = 30 / np.pi  # of 1 rad/s
 _SPEEDS_AT_A_TIME = 512  # whose curves are sampled together
 
 
@@ -83,6 +84,10 @@ class Meeting(NamedTuple):
     order: float
     omega: float
 
+    @property
+    def speed_rpm(self) -> float:
+        return self.omega * _RPM
+
 
 class Worst(NamedTuple):
     """The largest value over all speeds.
@@ -98,6 +103,10 @@ class Worst(NamedTuple):
     omega: float
     order: float
     alone: float
+
+    @property
+    def speed_rpm(self) -> float:
+        return self.omega * _RPM
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +139,7 @@ class Response:
     @property
     def speeds_rpm(self) -> Real:
         """(speeds,)."""
-        return self.omega * (30 / np.pi)
+        return self.omega * _RPM
 
 
 def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Loads:

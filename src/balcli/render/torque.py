@@ -20,7 +20,7 @@ from .figures import FigureRow, clean, order_entries, order_rows, peak_deg
 from .sheet import NAMELESS, Facts, Grid, Sheet, degrees, number, order_name, order_number
 from .units import ENERGY, System, Unit
 
-RPM = 30 / np.pi  # in rad/s
+RPM = 30 / np.pi  # of 1 rad/s
 Result = TorqueAnalysis | CurveAnalysis
 
 
