@@ -176,8 +176,14 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         (["check", str(ROOT / "docs")], f"{ROOT / 'docs'}: has no engine files (*.toml)"),
         (
             ["new", "inlin"],
-            '"inlin" is no kind of engine; there are single, inline, vee, boxer, radial, w, mounts. '
-            "Did you mean inline?",
+            '"inlin" is no kind of file to start from; there are single, inline, vee, boxer, radial, '
+            "w, mounts, field, torsion. Did you mean inline?",
+        ),
+        (
+            ["new", "chain"],
+            '"chain" is no kind of file to start from; there are single, inline, vee, boxer, radial, '
+            "w, mounts, field, torsion. That is torsion: balcli new torsion. A finished one may be "
+            "among the examples: balcli engines.",
         ),
         (
             ["analyze", V8, "--only", "guide", "--guide-height", "0"],
@@ -545,6 +551,22 @@ def test_a_terminal_gets_lines_of_its_width(balcli, monkeypatch, name, columns):
     plain = ESCAPE.sub("", out)
     assert max(map(cell_len, plain.splitlines())) <= columns
     assert figures - set(plain.split()) == set()
+
+
+def test_names_in_headings_keep_their_underscores(balcli, monkeypatch, tmp_path):
+    """Where a heading is broken, it is broken after them."""
+    paths = [tmp_path / name for name in ("a_first_try.toml", "a_second_try.toml")]
+    for path in paths:
+        path.write_text((ENGINES / "i3.toml").read_text())
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "44")
+    out = balcli("compare", *(path.name for path in paths), terminal=True).out
+    plain = ESCAPE.sub("", out)
+    heading = re.search(r"(?s)^( +a_.*?)─", plain, re.MULTILINE)
+    assert heading, plain
+    words = [line.split() for line in heading[1].splitlines()]
+    assert ["a_first_", "a_second_"] in words, plain
+    assert "a first" not in plain
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a pseudo-terminal")

@@ -43,6 +43,10 @@ ANSWERS: dict[str, tuple[Callable[[], Result], tuple[str, ...]]] = {
         lambda: balcli.balance(load("i3"), "counterweights"),
         ("balance", FILES["i3"], "--scheme", "counterweights"),
     ),
+    "Combined": (
+        lambda: balcli.combine(load("i3"), load("i4"), phase_deg=90, at_m=(0.3, 0, 0)),
+        ("sum", FILES["i3"], FILES["i4"], "--phase", "90", "--at", "300,0,0"),
+    ),
     "Comparison": (
         lambda: balcli.compare(load("i3"), load("i4")),
         ("compare", FILES["i3"], FILES["i4"]),

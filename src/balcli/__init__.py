@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from .errors import BalcliError, InputError
     from .field_balancing.balance import FieldBalance
     from .forces.curves import Curves
+    from .library.combine import combine
     from .library.compare import compare
     from .library.curves import curves
     from .library.examples import load_example
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from .results.analysis import Analysis, analyze
     from .results.balance import Balance, balance
     from .results.comparison import Comparison
+    from .results.two_engines import Combined
     from .sizing.options import SchemeOptions
     from .studies.search.search import Search
     from .studies.swept import Swept
@@ -47,6 +49,7 @@ __all__ = [
     "Analysis",
     "Balance",
     "BalcliError",
+    "Combined",
     "Comparison",
     "Curves",
     "Engine",
@@ -68,6 +71,7 @@ __all__ = [
     "analyze_torsion",
     "balance",
     "balance_rotor",
+    "combine",
     "compare",
     "curves",
     "load",
@@ -86,6 +90,8 @@ _ROOMS = {
     "balance": "results.balance",
     "BalcliError": "errors",
     "InputError": "errors",
+    "Combined": "results.two_engines",
+    "combine": "library.combine",
     "Comparison": "results.comparison",
     "compare": "library.compare",
     "Curves": "forces.curves",

@@ -135,6 +135,12 @@ def test_speeds_angles_and_nothing_need_no_unit_there():
         ),
         (
             FACTOR,
+            ["--measured", "812 gramms of"],
+            '--measured "812 gramms of": has the unknown unit "gramms"; did you mean gramme? a '
+            'mass is wanted: a bare number in g, or "812 g" or "1.8 lb"',
+        ),
+        (
+            FACTOR,
             ["--factor", "51%%"],
             '--factor "51%%": give a share of the reciprocating mass such as 51% or 0.51, or a '
             "range such as 50%:54%:1%",

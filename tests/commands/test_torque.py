@@ -470,10 +470,11 @@ def test_guide_moments_include_the_gas(four, tmp_path):
         ("angle_deg,torque\n0,1\n", 'the heading "angle_deg,torque" has no torque_Nm; head the'),
         ("angle_deg,torque_Nm\n0,inf\n", 'line 2: "inf" is not a number'),
         ("angle_deg;torque_Nm\n0;1.000,5\n", 'line 2: "1.000.5" is not a number'),
+        ("angle_deg,torque_Nm\n0,1,000.5 Nm\n", "line 2: has 3 columns, the heading 2; name"),
         (
             "angle_deg,torque_Nm\n0,5,1,3\n",
-            "line 2: has 4 columns, the heading 2; where decimals have commas, part columns by "
-            "semicolons, in the heading too",
+            "line 2: has 4 columns, the heading 2; name every column in the heading, or, where "
+            "decimals have commas, part columns by semicolons there and below",
         ),
     ],
 )
@@ -491,6 +492,17 @@ def test_semicolons_part_columns_and_commas_decimals(tmp_path):
     english = torque("--curve", path)
     path.write_text("angle_deg;torque_Nm\n0;1,5\n90,5;-2,25\n360;1.5\n")
     assert torque("--curve", path) == english
+
+
+def test_columns_without_a_heading_count_for_nothing(tmp_path):
+    """Words after the last headed column, and where semicolons part columns, numbers, too."""
+    path = tmp_path / "t.csv"
+    path.write_text("angle_deg,torque_Nm\n0,1.5\n90,-2.25\n360,1.5\n")
+    plain = torque("--curve", path)
+    path.write_text("angle_deg,torque_Nm\n0,1.5,first\n90,-2.25,,idle\n360,1.5,\n")
+    assert torque("--curve", path) == plain
+    path.write_text("angle_deg;torque_Nm\n0;1,5;7\n90;-2,25;8,5\n360;1,5;ok\n")
+    assert torque("--curve", path) == plain
 
 
 def test_curves_that_are_no_text(tmp_path):
@@ -541,3 +553,37 @@ def test_the_torque_is_drawn_in_a_table(four, curve):
         found = run_here("torque", *arguments, "--plot", "--format", "csv")
         assert found.out == plain.out
         assert "no pictures in csv" in found.err
+
+
+def test_power_and_torque_say_whether_they_are_indicated(four, curve, tmp_path):
+    """A shaft gives away less than the gas does: 2 litres at 9 bar are 143.2 N m, 80 % of it 114.6."""
+    volume = 4 * np.pi / 4 * 0.086**2 * 0.09
+    mean = 9e5 * volume / (4 * np.pi)
+    told = " ".join(torque(four).split())
+    speed = json.loads(torque(four, "--format", "json"))["speed_rpm"] * np.pi / 30
+    assert f"mean torque {mean:.5g} N·m indicated, {0.8 * mean:.5g} N·m brake" in told
+    kilowatts = mean * speed / 1e3
+    assert f"power {kilowatts:.5g} kW indicated, {0.8 * kilowatts:.5g} kW brake" in told
+    bare = tmp_path / "bare.toml"
+    bare.write_text(FOUR + WIEBE)
+    assert f"power {kilowatts:.5g} kW indicated Torque" in " ".join(torque(str(bare)).split())
+    assert "indicated" not in torque("--curve", curve, "--speed", "300")
+
+
+def test_what_a_flywheel_needs_is_told_without_the_crankshaft(tmp_path):
+    """What is in all, less what moves and, where it is known, less the crankshaft."""
+    asked = ("--fluctuation", "1/300")
+
+    def told(text: str) -> tuple[dict, str]:
+        path = tmp_path / "x.toml"
+        path.write_text(text)
+        found = json.loads(torque(str(path), *asked, "--format", "json"))["flywheel"]
+        return found, " ".join(torque(str(path), *asked).split())
+
+    found, words = told(FOUR + WIEBE)
+    both = found["needed_kg_m2"] - found["moving_parts_kg_m2"]
+    assert f"in all, {both:.5g} of it in crankshaft and flywheel" in words
+    found, words = told(FOUR.replace("[crank]", "[crank]\ninertia = 40000") + WIEBE)
+    assert f"in all, {both - 0.04:.5g} of it in the flywheel" in words
+    found, words = told(FOUR.replace("[crank]", "[crank]\ninertia = 4e6") + WIEBE)
+    assert "in all, which is there without a flywheel" in words

@@ -1,13 +1,12 @@
-"""Where a function of one number is least, or several are largest."""
+"""Where a function of one number is least."""
 
 from __future__ import annotations
 
 import math
 
-import numpy as np
 import pytest
 
-from balcli.core.golden_section import find_highest, find_least
+from balcli.core.golden_section import find_least
 
 
 @pytest.mark.parametrize("place", [0.0, 0.1, math.pi / 10, 0.5, 0.9, 1.0])
@@ -26,11 +25,3 @@ def test_it_judges_few_places():
     judged = []
     find_least(lambda x: judged.append(x) or abs(x - 0.4), 0, 1)
     assert len(judged) == len(set(judged)) <= 22
-
-
-def test_peaks_of_functions_side_by_side():
-    """Each within its own bounds; one of them falls all the way."""
-    places, low, high = np.array([0.1, 7.0, -3.0]), np.array([0.0, 5, -3]), np.array([1.0, 8, -2])
-    at, values = find_highest(lambda x: 4 - (x - places) ** 2, low, high)
-    assert at == pytest.approx(places, abs=4e-4)
-    assert values.tolist() == (4 - (at - places) ** 2).tolist()

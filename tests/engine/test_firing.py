@@ -211,6 +211,20 @@ def test_banks_that_are_the_other_way_round_are_told():
     assert "exchanged" not in refused(crank=crank, layout=layout | wrong)
 
 
+def test_throws_that_count_the_other_way_are_told():
+    """1-5-3-6-2-4 as 1-4-2-6-3-5: throws counted as the cylinders fire."""
+    order = {"firing_order": [1, 5, 3, 6, 2, 4]}
+    found = refused(crank={"throws": [0, 120, 240, 240, 120, 0]}, layout=order)
+    assert found.endswith(
+        "leave crank.throws out. They fit with throws that count in the sense of rotation: "
+        "crank.throws = [0, 240, 120, 120, 240, 0]"
+    )
+    crank = {"throws": [0, 240, 120, 120, 240, 0]}
+    assert list(fires(crank=crank, layout=order).values()) == [0, 120, 240, 360, 480, 600]
+    wrong = {"firing_order": [1, 2, 3, 4, 5, 6]}
+    assert "sense" not in refused(crank=crank, layout=wrong)
+
+
 def test_shared_pins_that_an_order_cannot_have():
     """Throws from the first bank, and then the second bank must agree with them."""
     assert refused(layout={"firing_order": [1, 2, 3, 4], "bank_angle": 60}) == (

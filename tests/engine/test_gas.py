@@ -93,6 +93,14 @@ def test_a_diagram_may_count_from_the_other_dead_centre_and_be_shifted(beside):
     assert value == pytest.approx(6e6 + 101325)
 
 
+@pytest.mark.parametrize(("head", "unit"), [("barg", 0.1), ("psig", 0.006894757293168361)])
+def test_a_heading_may_say_that_pressures_are_over_the_atmosphere(beside, head, unit):
+    rows = "\n".join(f"{a},{(6 if a == 10 else 0.1) / unit}" for a in range(0, 721, 10))
+    gas = load(beside('indicator = "p.csv"', content=f"angle_deg,pressure_{head}\n{rows}"))
+    highest = gas.gas.cylinders[0].torque.pressure.highest()
+    assert highest.value == pytest.approx(6e6 + 101325)
+
+
 def test_one_cylinder_may_have_a_diagram_of_its_own(beside, tmp_path):
     path = beside('indicator = "p.csv"\nzero = "gas-exchange"\n[cylinder.3]\nindicator = "q.csv"\n')
     (tmp_path / "q.csv").write_text(DIAGRAM.replace(",6", ",3"), encoding="utf-8")
@@ -124,7 +132,7 @@ def test_harmonics_are_of_the_mean_tangential_pressure(beside):
             "angle,pressure_bar\n0,1\n",
             'gas.indicator: {folder}/p.csv: the heading "angle,pressure_bar" has no angle_deg; '
             "head the file angle_deg,pressure_bar (or pressure_MPa, pressure_kPa, pressure_Pa, "
-            "pressure_psi)",
+            "pressure_psi, pressure_barg, pressure_psig)",
         ),
         (
             'indicator = "p.csv"',

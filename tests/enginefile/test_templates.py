@@ -107,8 +107,8 @@ def test_unknown_kinds():
     with pytest.raises(BalcliError) as caught:
         template("boxxer")
     assert str(caught.value) == (
-        '"boxxer" is no kind of engine; there are single, inline, vee, boxer, radial, w, mounts. '
-        "Did you mean boxer?"
+        '"boxxer" is no kind of file to start from; there are single, inline, vee, boxer, radial, '
+        "w, mounts. Did you mean boxer?"
     )
     with pytest.raises(BalcliError, match=r"vee, boxer, radial, w, mounts\.$"):
         template("q" * 10_000)

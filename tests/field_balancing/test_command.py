@@ -49,6 +49,27 @@ def test_the_sheet_says_how_angles_count_and_what_to_do(runs):
     assert re.search(r"^sensor 1 +170 +112\.0 +0 +–$", out, re.MULTILINE)
 
 
+def test_where_one_hole_is_not_enough_it_says_how_there_are_more(tmp_path):
+    path = tmp_path / "runs.toml"
+    shop = "radius = [200, 200]\ndrill = [4, 4]\ndeepest = [10, 10]\n"
+    path.write_text(three_runs(shop), encoding="utf-8")
+    hint = "For more than one hole in a plane give places, such as places = [24, 24]."
+    assert hint in run_here("field", path).out
+    path.write_text(three_runs(shop + "places = [24, 24]\n"), encoding="utf-8")
+    out = run_here("field", path).out
+    assert hint not in out
+    assert "All readings are cancelled." in out
+
+
+def test_a_grade_may_be_written_with_its_letter(runs):
+    plain = run_here("field", runs).out
+    for grade in ('"G6.3"', '"G 6.3"', '"g6.3"'):
+        runs.write_text(three_runs(SHOP.replace("grade = 6.3", f"grade = {grade}")))
+        assert run_here("field", runs).out == plain
+    runs.write_text(three_runs(SHOP.replace("grade = 6.3", 'grade = "G0"')))
+    assert "grade: 0 is not above 0" in refusal("field", runs)
+
+
 @pytest.mark.parametrize("minimise", ["squares", "max"])
 def test_what_does_not_fit_is_said_in_every_form(tmp_path, minimise):
     """No form says that readings are cancelled; all have what is left, and what would be best."""

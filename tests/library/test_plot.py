@@ -5,6 +5,7 @@ in matplotlib's settings.
 from __future__ import annotations
 
 import logging
+from io import BytesIO
 
 import matplotlib
 import pytest
@@ -124,3 +125,38 @@ def test_what_has_no_picture_is_told(call, kind, message):
     with pytest.raises(kind) as caught:
         call()
     assert str(caught.value).startswith(message)
+
+
+def test_the_title_says_which_devices_are_fitted():
+    """A page with them was titled as the engine without."""
+
+    def title(figure):
+        return figure.get_suptitle()
+
+    alone = title(balcli.plot(THREE, "polar"))
+    assert alone == "in-line three, 6000 rpm"
+    fitted = balcli.plot(THREE, "orders", scheme="couple-shaft")
+    assert title(fitted) == f"{alone}\nwith scheme couple-shaft, order 1"
+    shares = balcli.SchemeOptions(factor=(0.4,))
+    factor = balcli.balance(balcli.load_example("vtwin45"), "factor", shares)
+    assert title(balcli.plot(factor, "polar")).endswith("\nwith scheme factor 40 %, order 1")
+
+
+def test_figures_on_bars_stay_below_the_legend():
+    """Within their panel, on top of which the legend stands."""
+    figure = balcli.plot(balcli.load_example("vtwin90"), scheme="counterweights")
+    figure.savefig(BytesIO(), format="png")
+    above = [
+        text.get_text()
+        for ax in figure.axes
+        if ax.get_xlim()[0] == -0.6  # bars
+        for text in ax.texts
+        if text.get_window_extent().y1 > ax.bbox.y1 + 1
+    ]
+    assert above == []
+
+
+def test_contours_name_the_engine_too():
+    """As curves over one number do."""
+    ranges = {"layout.bank_angle": "30:90:30", "rod.length": "140:160:10"}
+    assert balcli.plot(balcli.sweep(VEE, ranges)).get_suptitle() == VEE.name

@@ -12,7 +12,7 @@ from support.commands import run_in_terminal
 from support.engines import GOOD, changed
 
 from balcli.core.phasors import Phasors
-from balcli.render.terminal_plot import BAR, SIDE, bars, locus
+from balcli.render.terminal_plot import BAR_COLUMNS, LOCUS_ROWS, bars, locus
 from balcli.render.units import SI
 
 
@@ -28,7 +28,7 @@ def test_a_bar_is_made_of_both_vectors():
         bars(phasors((1, 30, 10), (2, 4, 4j), (3, 0, 0), (4, 0.001, 0), (6, 0.1, 0)), SI.force)
     )
     assert lines == [
-        f"   1 {'█' * (BAR * 3 // 4)}{'▒' * (BAR // 4)} 40",
+        f"   1 {'█' * (BAR_COLUMNS * 3 // 4)}{'▒' * (BAR_COLUMNS // 4)} 40",
         f"   2 {'█' * 5}{'▒' * 5} 8",
         "   6 ▏ 0.1",
     ]
@@ -44,9 +44,11 @@ def test_a_circle_is_all_round_and_a_diagonal_is_not(backward, left, start):
     the right.
     """
     lines = locus(phasors((1, 1, backward)))
-    assert (len(lines), {len(line) for line in lines}) == (SIDE, {2 * SIDE})
-    assert bool("".join(line[: SIDE - 1] for line in lines[: SIDE // 2]).strip()) == left
-    assert "".join(line[SIDE + 1 :] for line in lines[: SIDE // 2]).strip()
+    assert (len(lines), {len(line) for line in lines}) == (LOCUS_ROWS, {2 * LOCUS_ROWS})
+    assert (
+        bool("".join(line[: LOCUS_ROWS - 1] for line in lines[: LOCUS_ROWS // 2]).strip()) == left
+    )
+    assert "".join(line[LOCUS_ROWS + 1 :] for line in lines[: LOCUS_ROWS // 2]).strip()
     assert ["+" in line for line in lines].index(True) == start
 
 
@@ -69,7 +71,7 @@ def test_drawn_wherever_a_table_goes(balcli, four, tmp_path):
     """In a pipe and in a file as in a terminal: they were asked for."""
     status, out, err = balcli("analyze", four, "--plot")
     assert (status, err) == (0, "")
-    assert len(list(filter(is_drawn, out.splitlines()))) > SIDE
+    assert len(list(filter(is_drawn, out.splitlines()))) > LOCUS_ROWS
     file = tmp_path / "four.txt"
     balcli("analyze", four, "--plot", "-o", file)
     assert file.read_text(encoding="utf-8") == out
@@ -103,5 +105,5 @@ def test_in_a_terminal_of_80_columns(four):
     plain = {"COLUMNS": "80", "TERM": "xterm", "NO_COLOR": "1"}
     lines = run_in_terminal("analyze", four, "--plot", columns=80, env=plain).out.splitlines()
     drawn = list(filter(is_drawn, lines))
-    assert len(drawn) > SIDE
+    assert len(drawn) > LOCUS_ROWS
     assert max(map(len, drawn)) <= 80

@@ -350,7 +350,7 @@ def test_engines_without_a_name_go_by_their_files(file, tmp_path):
     [
         (["--at", "0,1"], '--at "0,1": give three numbers, X,Y,Z in mm, such as 0,300,0'),
         (["--at", "0,nan,1"], '--at "0,nan,1": give three numbers, X,Y,Z in mm, such as 0,300,0'),
-        (["--at", "0,2e9,1"], '--at "0,2e9,1": the places may be up to 1e+06 m'),
+        (["--at", "0,2e9,1"], "--at: the place of the second engine may be up to 1e+06 m off"),
         (["--phase", "inf"], "--phase inf: give an angle in degrees, up to 1e+06"),
         (["--load", "third"], '--load "third": choose from first, second, both'),
         (

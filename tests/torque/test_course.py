@@ -262,6 +262,6 @@ def test_large_figures_have_large_units(tmp_path):
         told[factor] = found[2]
         size = {"kJ": 1e3, "MJ": 1e6}[found[2]]
         assert float(found[1]) * size == pytest.approx(figures["energy"]["work_J"], rel=1e-3)
-        mean = re.search(r"mean torque +([\d.]+) kN·m\n", out)
+        mean = re.search(r"mean torque +([\d.]+) kN·m indicated", out)
         assert float(mean[1]) * 1e3 == pytest.approx(figures["mean_torque_Nm"], rel=1e-3)
     assert told == {6: "kJ", 60: "MJ"}

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ..core.phasors import Array, Complex
 from ..engine.build import Engine, build
 from ..engine.load import parse
+from ..enginefile import examples
 from ..enginefile.model import EngineFile
 from ..forces.kinds import DEFAULT_QUANTITIES, KINDS
 from ..forces.quantity import parse_quantity_list
@@ -262,10 +263,18 @@ def _engine_ratios() -> Iterator[Ratio]:
 
 def _start_ratios() -> Iterator[Ratio]:  # pragma: no cover: cold starts for minutes
     """Cold starts of the whole program, which the tests leave out."""
-    for argv in ("analyze - --format json", "analyze -", "--help"):
+    for argv, engine_file in (
+        ("analyze - --format json", V8),
+        ("analyze -", V8),
+        ("torque -", examples.text("v8_wiebe")),
+        ("--help", ""),
+    ):
         what = f"imports: cold balcli {argv} to importing numpy, typer and pydantic"
-        start = partial(start_balcli, argv.split(), V8)
+        start = partial(start_balcli, argv.split(), engine_file)
         yield Ratio(what, compare_times(start, start_libraries))
+    what = f"imports: cold balcli check of {len(examples.names())} engines to the same"
+    start = partial(start_balcli, ["check", str(examples.folder())])
+    yield Ratio(what, compare_times(start, start_libraries))
     argv = "analyze - --format json"
     what = f"imports: cold balcli {argv} to a program of these that reads one option"
     start = partial(start_balcli, argv.split(), V8)

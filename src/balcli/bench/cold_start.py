@@ -20,7 +20,7 @@ typer.run(main)
 """
 
 
-def start_balcli(argv: Sequence[str], engine_file: str) -> None:
+def start_balcli(argv: Sequence[str], engine_file: str = "") -> None:
     """The whole program with these arguments and an engine file as its input."""
     _start(["-m", "balcli", *argv], engine_file)
 

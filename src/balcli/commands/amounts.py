@@ -15,7 +15,8 @@ from ..errors import BalcliError
 from ..limits import LARGEST_INERTIA, LONGEST_SHOWN
 from ..render.formats import Units
 
-_IMPERIAL_AND_SI = {LENGTH: ("in", "mm"), MASS: ("lb", "kg")}
+_SCALES = MASS._replace(unit="g", examples=("812 g", "1.8 lb"))
+_IMPERIAL_AND_SI = {LENGTH: ("in", "mm"), MASS: ("lb", "kg"), _SCALES: ("oz", "g")}
 
 
 def read_length(option: str, text: str, units: Units = Units.SI) -> float:
@@ -52,6 +53,11 @@ def read_mass(option: str, text: str, units: Units = Units.SI) -> float:
     return _read(option, text, MASS, units)
 
 
+def read_mass_on_scales(option: str, text: str, units: Units = Units.SI) -> float:
+    """As `read_mass`, but a bare number is in g, as on the scales of a shop."""
+    return _read(option, text, _SCALES, units) / 1e3
+
+
 def read_inertia(option: str, text: str) -> float:
     """A moment of inertia in kg m2; BalcliError with the option and its text, or for one that is
     not above 0.
@@ -60,11 +66,6 @@ def read_inertia(option: str, text: str) -> float:
     if not 0 < found < LARGEST_INERTIA:
         raise BalcliError(f"{_shown(option, text)}: {wanted(INERTIA)}, above 0")
     return found
-
-
-def is_bare(text: str) -> bool:
-    """Whether a number has no unit."""
-    return _as_bare(text) is not None
 
 
 def read_angle(option: str, text: str) -> float:

@@ -45,7 +45,7 @@ def new(
       balcli new vee v6.toml
     """
     chapters = {chapter.KIND: chapter.read_starting_file for chapter in (field, torsion)}
-    text = chapters[kind]() if kind in chapters else template(kind)
+    text = chapters[kind]() if kind in chapters else template(kind, chapters)
     require_ending(path, ".toml", "FILE")
     refuse_existing(path, force)
     emit(text, path)

@@ -11,7 +11,7 @@ from ..errors import BalcliError
 from ..limits import MOST_FACTORS
 from ..render.formats import Units
 from ..sizing.options import SchemeOptions
-from .amounts import is_bare, read_lengths, read_mass, read_share
+from .amounts import read_lengths, read_mass_on_scales, read_share
 from .completion import complete_schemes
 from .declare import optional
 
@@ -131,11 +131,11 @@ def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
 
 
 def _parse_measured(text: str, units: Units) -> float:
-    """A mass in kg; a bare number is in g, as on the scales of a shop."""
-    mass = read_mass("--measured", text, units)
+    """A mass in kg."""
+    mass = read_mass_on_scales("--measured", text, units)
     if mass < 0:
         raise BalcliError(f'--measured "{text[:60]}": a mass on the pin is not negative')
-    return mass / 1e3 if is_bare(text) else mass
+    return mass
 
 
 def _parse_factors(text: str) -> tuple[float, ...]:

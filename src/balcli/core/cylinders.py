@@ -68,6 +68,16 @@ class Cylinders:
         """Offset of the piston-pin path, m."""
         return self.eps * self.radius / self.lam
 
+    @property
+    def mechanisms(self) -> list[tuple[complex, ...]]:
+        """Figures of each cylinder's mechanism, by which equal ones are known, of an engine without
+        trailing axes.
+        """
+        lam, eps, linkage = self.lam, self.eps, self.linkage
+        columns = (lam, eps) if linkage is None else linkage.figures(lam, eps)
+        each = [np.broadcast_to(column, self.count).tolist() for column in columns]
+        return list(zip(*each, strict=True))
+
 
 SHAFT_RANK = 1  # see `Device.rank`
 

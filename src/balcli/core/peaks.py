@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .phasors import Array, Complex, Phasors
 
-TURN = 2 * math.pi
+_TURN = 2 * math.pi  # rad
 
 
 class Peak(NamedTuple):
@@ -27,7 +27,7 @@ class Peak(NamedTuple):
 
     value: float
     theta: float
-    every: float = TURN
+    every: float = _TURN
 
 
 MOST_CANDIDATES = 64  # for the highest peak of a curve
@@ -35,6 +35,7 @@ NEAR_TOP = 0.92  # share of the largest |F|^2 of samples that those beside the p
 _EQUAL = 1e-12  # peaks that differ by a smaller share are equal
 _TERMS = 7  # of the series by which many peaks are told apart
 _ROUNDS = 4  # of Newton's method on it
+_CLIMBS = 12  # rounds of Newton's method on the curve, at most
 _DIGITS = 8  # to which they are
 
 
@@ -56,14 +57,12 @@ def find_peak(curve: Phasors) -> Peak:
         return Peak(half.value, 2 * half.theta, 2 * half.every)
     theta = find_candidates(curve)
     step = np.pi / (8 * max(curve.orders[-1], 1))
-    theta = np.concatenate(
-        [[0.0], climb_peaks(curve, theta, step)]
-    )  # 0 is the first place of a peak beside it, and of a level curve
-    values, turned = np.abs(curve.values(theta)), theta % (2 * np.pi)
-    equal = np.flatnonzero(
-        values >= values.max() * (1 - _EQUAL)
-    )  # of equal peaks the first, whatever the rounding
-    best = equal[np.argmin(np.round(turned[equal], 9) % np.round(2 * np.pi, 9))]
+    # 0 is the first place of a peak beside it, and of a level curve.
+    theta = np.concatenate([[0.0], climb_peaks(curve, theta, step)])
+    values, turned = np.abs(curve.values(theta)), theta % _TURN
+    equal = np.flatnonzero(values >= values.max() * (1 - _EQUAL))
+    # Of equal peaks the first, whatever the rounding.
+    best = equal[np.argmin(np.round(turned[equal], 9) % np.round(_TURN, 9))]
     return Peak(float(values.max()), float(turned[best]), _find_repetition(curve))
 
 
@@ -75,13 +74,13 @@ def _find_repetition(curve: Phasors) -> float:
     ahead, against = curve.orders[curve.forward != 0], curve.orders[curve.backward != 0]
     turns = np.concatenate([ahead, -against]).astype(int)
     times = int(np.gcd.reduce(turns - turns[0]))
-    return TURN / times if times else 0.0
+    return _TURN / times if times else 0.0
 
 
-def find_candidates(curve: Phasors, most: int = MOST_CANDIDATES) -> Array:
+def find_candidates(curve: Phasors) -> Array:
     """Angles of the samples that may lie beside the highest peak of a curve of whole orders, at
-    most so many: where there are more, those of the highest peaks but for 1e-8, of equal ones the
-    first.
+    most MOST_CANDIDATES: where there are more, those of the highest peaks but for 1e-8, of equal
+    ones the first.
     """
     count = 16 * max(int(curve.orders[-1]), 1)
     spectrum = np.zeros(count, complex)
@@ -93,11 +92,11 @@ def find_candidates(curve: Phasors, most: int = MOST_CANDIDATES) -> Array:
     top &= power >= NEAR_TOP * power.max()
     found = np.flatnonzero(top)
     height = power[found]
-    if len(found) > most:
+    if len(found) > MOST_CANDIDATES:
         height = _estimate_peaks(spectrum, found)
         height = np.round(height / height.max(), _DIGITS)
     highest_first = found[np.argsort(-height, kind="stable")]
-    return highest_first[:most].astype(float) * (2 * np.pi / count)
+    return highest_first[:MOST_CANDIDATES].astype(float) * (2 * np.pi / count)
 
 
 def _estimate_peaks(spectrum: Complex, at: NDArray[np.intp]) -> Array:
@@ -134,13 +133,13 @@ def _differentiate(series: Complex) -> Complex:
     return series[1:] * powers[:, None]
 
 
-def climb_peaks(curve: Phasors, theta: Array, step: float, rounds: int = 12) -> Array:
+def climb_peaks(curve: Phasors, theta: Array, step: float) -> Array:
     """Newton's method for the maxima of |F|^2 beside the given angles, in steps of at most
     `step`.
     """
     first = _derivative(curve)
     curves = (curve, first, _derivative(first))
-    for _ in range(rounds):
+    for _ in range(_CLIMBS):
         ahead: Complex = np.exp(1j * np.multiply.outer(theta, curve.orders))
         against = np.conj(ahead)
         f, f1, f2 = (ahead @ each.forward + against @ each.backward for each in curves)

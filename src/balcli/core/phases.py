@@ -27,7 +27,7 @@ from .mechanisms.fourier import Series
 from .phasors import EPS, Array, Complex, Phasors, unit
 
 SUM = 8 * EPS  # rounding error of a sum, per term and size of the terms
-_TURN = np.pi * EPS  # of an angle in the file (half an ulp of 360 deg), which order n multiplies
+ANGLE = np.pi * EPS  # of an angle in the file (half an ulp of 360 deg), which order n multiplies
 _ALL = slice(None)
 
 
@@ -60,7 +60,7 @@ class Phases:
         self.orders = orders
         self.n = orders.reshape(-1, *(1,) * pin.ndim)
         self.count = cylinders.count
-        self.rounding = self.count * SUM + _TURN * self.n
+        self.rounding = self.count * SUM + ANGLE * self.n
         self._axis, self._turn = axis, self.n * (axis - axis[cylinders.first])
         self._starts = cylinders.starts
         self._moving: dict[int, Complex] = {}  # e^{i n pin} by cylinder, (orders, *trailing)

@@ -73,9 +73,8 @@ def wrap_degrees(degrees: ArrayLike, turn: float) -> Array:
     vectors.
     """
     found = turn / 2 - np.remainder(turn / 2 - np.asarray(degrees, float), turn)
-    return np.where(
-        found > -turn / 2, found, turn / 2
-    )  # the remainder of what is barely negative rounds to a whole turn
+    # The remainder of what is barely negative rounds to a whole turn.
+    return np.where(found > -turn / 2, found, turn / 2)
 
 
 @dataclass(frozen=True, eq=False)
@@ -206,9 +205,8 @@ class Phasors:
         """
         angle = np.degrees((np.angle(self.forward) + np.angle(self.backward)) / 2)
         turned = wrap_degrees(angle, 180)
-        turned = np.where(
-            turned < 1e-9 - 90, 90.0, turned
-        )  # rounding shall not turn an axis end for end
+        # Rounding shall not turn an axis end for end.
+        turned = np.where(turned < 1e-9 - 90, 90.0, turned)
         there = (self.forward != 0) & (self.backward != 0)
         return np.where(there, turned, np.nan)
 

@@ -21,8 +21,8 @@ from .piecewise import PiecewiseCurve, cut, gauss, legendre, resolved, values_to
 
 Vectors: TypeAlias = Callable[[Array], Complex]  # at angles, shape (vectors, angles)
 
-_TERMS = 16  # of a series; a panel on which e^{in angle} turns by no more than _TURN adds none
-_TURN = 4.0  # rad
+_TERMS = 16  # of a series; a panel on which e^{in angle} turns no farther adds none
+_TURN_ON_PANEL = 4.0  # rad, so far
 _AT_ONCE = 1 << 20  # orders x angles, which bounds the memory
 
 
@@ -105,4 +105,4 @@ def find_panels(forces: Vectors, breaks: Array, highest_order: float) -> Panels:
         return np.asarray((np.abs(found) ** 2).sum(axis=0)).reshape(angle.shape)
 
     found = resolved(add_squares, breaks).breaks
-    return Panels(cut(found, _TURN / max(highest_order, 1.0)))
+    return Panels(cut(found, _TURN_ON_PANEL / max(highest_order, 1.0)))

@@ -30,15 +30,15 @@ def column(values: Sequence[Figure], rank: int) -> Array:
     return rows.reshape(len(values), *rows.shape[1:] or (1,) * rank)
 
 
+def shared_column(values: Sequence[Figure], rank: int) -> Array:
+    """The same, or a single row, shape (1, *trailing), where all values are equal."""
+    rows = column(values, rank)
+    return rows[:1] if len(rows) > 1 and (rows == rows[:1]).all() else rows
+
+
 def ranked(values: ArrayLike) -> Array:
     """The values to ten digits, any shape, to put them in order by: those that differ by rounding
     alone are equal.
     """
     mantissa, exponent = np.frexp(np.asarray(values, float))
     return np.ldexp(np.round(mantissa, 10), exponent)
-
-
-def shared_column(values: Sequence[Figure], rank: int) -> Array:
-    """The same, or a single row, shape (1, *trailing), where all values are equal."""
-    rows = column(values, rank)
-    return rows[:1] if len(rows) > 1 and (rows == rows[:1]).all() else rows

@@ -193,7 +193,7 @@ def _sample_leans(hung: Articulated, lam: Array, eps: Array) -> Array:
 
 def _lock(model: EngineFile, number: int, lean: float, crank_deg: float) -> Problem:
     own = model.cylinder.get(number)
-    general = own is None or own.rod_length is None is own.rod_ratio
+    general = own is None or (own.rod_length is None and own.rod_ratio is None)
     return Problem(
         "articulation.rod.length" if general else f"cylinder.{number}.rod_length",
         f"the crank cannot turn: at crank angle {crank_deg:.4g} deg the knuckle pin of cylinder "

@@ -29,9 +29,8 @@ from .figures import (
 from .layout import Plan, bank_angles, cycle_deg, plan_cylinders
 from .rods import RodPlace, RunningGear, weigh_rod
 
-if (
-    TYPE_CHECKING
-):  # few engines have rods on rods, turn, or say of gas; those that do import what it takes
+# Few engines have rods on rods, turn, or say of gas: those that do import what it takes.
+if TYPE_CHECKING:
     from ..core.mechanisms.articulated import Articulated
     from ..core.mechanisms.rotary import Rotary
     from .gas import EngineGas

@@ -30,6 +30,7 @@ from ..core.tangential_force import tangential_torque
 from ..enginefile.csv_columns import Columns, locate_beside, read_columns
 from ..enginefile.gas_tables import DIAGRAM_KEYS, GOALS, Gas
 from ..enginefile.suspicious import MAX_PRESSURE
+from ..enginefile.units import INCH, POUND, STANDARD_GRAVITY
 from ..errors import BalcliError, InputError, Problem
 from ..limits import HIGHEST_TABLE_ORDER
 
@@ -38,12 +39,15 @@ if TYPE_CHECKING:
     from .assembly import Assembly
 
 BAR = 1e5  # Pa
+_PSI = float(POUND) * STANDARD_GRAVITY / float(INCH) ** 2  # Pa
+_GAUGE_HEADS = {"pressure_barg": BAR, "pressure_psig": _PSI}  # over the atmosphere
 PRESSURE_HEADS = {
     "pressure_bar": BAR,
     "pressure_MPa": 1e6,
     "pressure_kPa": 1e3,
     "pressure_Pa": 1.0,
-    "pressure_psi": 0.45359237 * 9.80665 / 0.0254**2,
+    "pressure_psi": _PSI,
+    **_GAUGE_HEADS,
 }
 LOW_PRESSURE = 0.1  # bar; a throttled engine draws in at 0.3
 ASK_GAUGE = '; is it over the atmosphere? Then give pressure = "gauge"'
@@ -162,7 +166,7 @@ class _Builder:
         self._refuse()
         c, bore = self.cylinders, self._bore or 0.0
         found = pistons(c, math.pi / 4 * (bore / 1e3) ** 2)
-        mechanisms = self._name_mechanisms()
+        mechanisms = c.mechanisms
         torques = [
             self._torque(number, found[row], mechanisms[row])
             for row, number in enumerate(self.parts.numbers)
@@ -225,16 +229,6 @@ class _Builder:
             return _Source(f"cylinder.{number}.indicator", own.indicator)
         return _Source("gas.indicator", self.gas.indicator)
 
-    def _name_mechanisms(self) -> list[tuple[object, ...]]:
-        """Figures of each row's mechanism; equal ones move their pistons alike."""
-        c = self.cylinders
-        columns = (c.lam, c.eps) if c.linkage is None else c.linkage.figures(c.lam, c.eps)
-        rows = range(c.count)
-        return [
-            tuple(column[row if len(column) > 1 else 0].item() for column in columns)
-            for row in rows
-        ]
-
     def _torque(
         self, number: int, piston: Piston, mechanism: tuple[object, ...]
     ) -> GasTorque | None:
@@ -271,8 +265,10 @@ class _Builder:
     def _diagram(self, source: _Source) -> diagrams.PressureDiagram:
         gas, name = self.gas, source.indicator or ""
         columns = self._columns(name, (("angle_deg",), tuple(PRESSURE_HEADS)))
-        unit = PRESSURE_HEADS[columns.heads[1]]
-        gauge = diagrams.ATMOSPHERE if gas.pressure == "gauge" else 0.0
+        head = columns.heads[1]
+        unit = PRESSURE_HEADS[head]
+        is_gauge = gas.pressure == "gauge" or head in _GAUGE_HEADS
+        gauge = diagrams.ATMOSPHERE if is_gauge else 0.0
         pressure = np.array(columns.column(1)) * unit + gauge
         angle = np.array(columns.column(0))
         wrong = list(diagrams.mistakes(angle, pressure, strokes=self.strokes))

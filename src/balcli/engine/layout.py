@@ -7,13 +7,12 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from ..core.phasors import Figure
+from ..core.roots_of_unity import TURN
 from ..enginefile.fields import counted
 from ..enginefile.model import Crank, Layout
 from ..errors import InputError, Problem
 from ..limits import MOST_PARTS
 from .figures import Figures
-
-TURN = 360.0
 
 
 class Cell(NamedTuple):

@@ -177,11 +177,15 @@ def _describe_standstill(least: float, theta: float) -> str:
 
 
 def check_dead_centres(parts: Assembly) -> Iterator[Problem]:
-    """Cylinders fire when they are at top dead centre; where they would with the banks the other
-    way round, or with pins that are split, the mistake says so.
+    """Cylinders fire when they are at top dead centre; where they would with the banks or throws
+    the other way round, or with pins that are split, the mistake says so.
     """
     for problem in _find_dead_centres_missed(parts):
-        hint = _suggest_swapped_banks(parts) or _suggest_splay(parts)
+        hint = (
+            _suggest_swapped_banks(parts)
+            or _suggest_mirrored_throws(parts)
+            or _suggest_splay(parts)
+        )
         yield problem._replace(message=problem.message + hint)
 
 
@@ -216,6 +220,21 @@ def _suggest_swapped_banks(parts: Assembly) -> str:
         f"{hint}, where the first bank is the left one seen from the free end (front), the "
         "driver's right"
     )
+
+
+def _suggest_mirrored_throws(parts: Assembly) -> str:
+    """The throws counted against the sense of rotation, if all would fire at top dead centre by
+    them; else empty.
+    """
+    crank = parts.model.crank
+    if crank.throws is None:
+        return ""
+    mirrored = [-throw % 360 for throw in crank.throws]
+    turned = crank.model_copy(update={"throws": tuple(mirrored)})
+    if _find_dead_centres_missed(Assembly(parts.model.model_copy(update={"crank": turned}))):
+        return ""
+    throws = ", ".join(f"{throw:g}" for throw in mirrored)
+    return f". They fit with throws that count in the sense of rotation: crank.throws = [{throws}]"
 
 
 def _suggest_splay(parts: Assembly) -> str:

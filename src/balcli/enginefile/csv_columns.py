@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -49,7 +50,8 @@ def locate_beside(folder: Path, name: str) -> Path:
 
 def read_columns(path: Path, wanted: Sequence[Sequence[str]]) -> Columns:
     """Some columns of a CSV file; other columns, empty lines and lines that begin with # count for
-    nothing. Where semicolons part the heading, they part the lines, and decimals may have commas.
+    nothing. Where semicolons part the heading, they part the lines, and decimals may have commas;
+    elsewhere a number to the right of the heading is refused: "0,5,1,3" might be two.
 
     Args:
         wanted: the names that each column may have.
@@ -78,15 +80,15 @@ def _parse(text: str, wanted: Sequence[Sequence[str]]) -> Columns:
     ]
     if len(lines) > MOST_ROWS:
         raise ValueError(f"has {len(lines)} lines; at most {MOST_ROWS} are read")
-    if lines and lines[0][1].count(";") > lines[0][1].count(","):
+    semicolons = bool(lines) and lines[0][1].count(";") > lines[0][1].count(",")
+    if semicolons:
         lines = [(n, line.replace(",", ".").replace(";", ",")) for n, line in lines]
     cells = csv.reader(line for _, line in lines)
     heading = [cell.strip() for cell in next(cells, [])]
     places = [_find_head(names, heading, wanted) for names in wanted]
     numbers = [number for number, _ in lines[1:]]
-    rows = tuple(
-        _read_row(row, places, len(heading), n) for row, n in zip(cells, numbers, strict=False)
-    )
+    width = None if semicolons else len(heading)
+    rows = tuple(_read_row(row, places, width, n) for row, n in zip(cells, numbers, strict=False))
     return Columns(tuple(heading[place] for place in places), rows, tuple(numbers))
 
 
@@ -101,13 +103,14 @@ def _find_head(names: Sequence[str], heading: list[str], wanted: Sequence[Sequen
     raise ValueError(f"the heading {found} has no {names[0]}; head the file {usual}{also}")
 
 
-def _read_row(row: list[str], places: list[int], width: int, line: int) -> tuple[float, ...]:
+def _read_row(row: list[str], places: list[int], width: int | None, line: int) -> tuple[float, ...]:
+    """`width`: of the heading, beyond which no number may stand; None: one may."""
     if len(row) <= max(places):
         raise ValueError(f"line {line}: has {len(row)} of {max(places) + 1} columns")
-    if any(cell.strip() for cell in row[width:]):
+    if width is not None and any(re.match(r"\s*[+-]?\.?\d", cell) for cell in row[width:]):
         raise ValueError(
-            f"line {line}: has {len(row)} columns, the heading {width}; where decimals have "
-            "commas, part columns by semicolons, in the heading too"
+            f"line {line}: has {len(row)} columns, the heading {width}; name every column in the "
+            "heading, or, where decimals have commas, part columns by semicolons there and below"
         )
     return tuple(_read_number(row[place], line) for place in places)
 

@@ -43,7 +43,7 @@ class Gas(Table):
     indicator: Annotated[str, FileName()] | None = Field(
         None,
         description="a measured diagram: CSV beside the engine file, headed angle_deg,pressure_bar "
-        "(or _MPa, _kPa, _Pa, _psi)",
+        "(or _MPa, _kPa, _Pa, _psi; over the atmosphere _barg, _psig)",
         examples=["p_2000rpm.csv"],
     )
     zero: Annotated[Literal["firing", "gas-exchange"], OneOf("firing", "gas-exchange")] = Field(

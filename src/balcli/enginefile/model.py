@@ -187,7 +187,7 @@ class Rod(Table):
 
     def contradictions(self) -> Iterator[str]:
         ends = (self.small_end, self.big_end)
-        if None in ends and ends != (None, None) and self.mass is self.cg is None:
+        if None in ends and ends != (None, None) and self.mass is None and self.cg is None:
             there, missing = "small_end", "big_end"
             if self.small_end is None:
                 there, missing = missing, there

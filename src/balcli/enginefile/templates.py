@@ -5,6 +5,7 @@ the keys.
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from difflib import get_close_matches
 from pathlib import Path
 
@@ -26,6 +27,8 @@ _CALLED = {
     r"w-?\d+": "w",
     r"one|thumper|mono|1": "single",
     r"star|radial-?\w+": "radial",
+    r"chain|shafts?|holzer": "torsion",
+    r"rotor|fan|runs": "field",
 }
 
 
@@ -40,16 +43,17 @@ def _known_as(kind: str) -> str:
     return ""
 
 
-def template(kind: str) -> str:
+def template(kind: str, others: Collection[str] = ()) -> str:
     """The engine file of a kind as TOML text. BalcliError for an unknown kind, with the nearest one
-    and all of them.
+    and all of them, also of `others`: kinds of files that are of no engine.
     """
     if kind not in KINDS:
-        near = get_close_matches(kind.lower()[:100], KINDS, 1)
+        known = (*KINDS, *others)
+        near = get_close_matches(kind.lower()[:100], known, 1)
         hint = f" Did you mean {near[0]}?" if near else ""
         hint = _known_as(kind.lower()) or hint
         raise BalcliError(
-            f'"{kind[:60]}" is no kind of engine; there are {", ".join(KINDS)}.{hint}'
+            f'"{kind[:60]}" is no kind of file to start from; there are {", ".join(known)}.{hint}'
         )
     parts = (_FOLDER / f"{name}.toml" for name in (kind, "optional"))
     return SCHEMA + "".join(part.read_text(encoding="utf-8") for part in parts)

@@ -119,12 +119,12 @@ _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
 _FACTOR = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[²³23])?"
 _JOINT = r"\s*[*·⋅/]\s*|[.-]|\s+"
 _UNIT = rf"{_FACTOR}(?:(?:{_JOINT}){_FACTOR})*"
-_WHOLE = r"(\d+)\s+(?=[1-9]\d*\s*/)"  # of "3 1/2"
+_WHOLE = r"(\d+)(?:\s+|-)(?=[1-9]\d*\s*/)"  # of "3 1/2" and "3-1/2"
 FIGURE = rf"\s*([+-]?)(?:{_WHOLE})?({_NUMBER})(?:\s*/\s*({_NUMBER}))?\s*({_UNIT})?\s*"
 _INCH_MARK = r'^([^"”″]*\d)\s*["”″]\s*$'  # 3.5"
 # A crank speed counts turns, said or not. 1/s stays out: it is as often meant as rad/s.
 _PER_MINUTE = r"(\d\.?)(?:(?:\s+1)?\s*/\s*min|\s*min(?:\^|\*\*)?-1|\s*min⁻¹)\s*$"
-_HERTZ = r"(\d\.?)\s*Hz\s*$"
+_HERTZ = r"(\d\.?)\s*(k?)(?:Hz|hertz)\s*$"
 # pi/2, -3*pi/4 rad
 _PI = rf"\s*([+-]?)(?:({_NUMBER})\s*[*·⋅]?)?\s*(?:pi|π)(?:\s*/\s*({_NUMBER}))?(?:\s+rad)?\s*"
 _PART = r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([²³23]))?"
@@ -216,7 +216,8 @@ def _find(name: str) -> Unit | None:
 
 def _count_turns(speed: str) -> str:
     """A speed of rotation with its turns said: "150 Hz" -> "150 turn/s", "5500 1/min" -> rpm."""
-    return re.sub(_PER_MINUTE, r"\1 rpm", re.sub(_HERTZ, r"\1 turn/s", speed))
+    counted = re.sub(_HERTZ, lambda hz: f"{hz[1]} turn/{hz[2] and 'm'}s", speed)
+    return re.sub(_PER_MINUTE, r"\1 rpm", counted)
 
 
 def _name_pi(angle: str) -> str:

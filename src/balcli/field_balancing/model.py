@@ -23,11 +23,27 @@ from ..limits import (
 )
 
 _FIGURE = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
+_GRADE = re.compile(rf"\s*[Gg]\s*({_FIGURE})\s*", re.ASCII)
 _POLAR = re.compile(rf"\s*({_FIGURE})\s*@\s*({_FIGURE})\s*(?:deg|°)?\s*", re.ASCII)
 _LARGEST, _SMALLEST = 1e12, 1e-12
 _FARTHEST_DEG = 1e6
 FREE = "free"  # places of a plane that takes weights at any angle
 _AMOUNTS = Dimension("g", "a unit of mass or of unbalance", MASS.powers, ("g", "oz", "g mm"))
+
+
+class Grade(Number):
+    """A balance quality grade of ISO 21940-11: `6.3` or `"G6.3"`."""
+
+    def __init__(self) -> None:
+        super().__init__(PLAIN, above=0, most=1e5)
+
+    def read(self, value: object) -> float:
+        short = isinstance(value, str) and len(value) <= LONGEST_FIGURE
+        match = _GRADE.fullmatch(value) if isinstance(value, str) and short else None
+        return super().read(float(match[1]) if match else value)
+
+    def json(self) -> dict[str, Any]:
+        return super().json() | {"type": ["number", "string"], "pattern": rf"^{_GRADE.pattern}$"}
 
 
 class Polar(Number):
@@ -227,7 +243,7 @@ class RunsFile(Table):
     deepest: Annotated[tuple[Size, ...], _PLANES] | None = Field(
         None, examples=[[25, 25]], description="deepest hole, by plane"
     )
-    grade: Annotated[float, Number(PLAIN, above=0, most=1e5)] | None = Field(
+    grade: Annotated[float, Grade()] | None = Field(
         None, examples=[6.3], description="balance quality grade G of ISO 21940-11, mm/s"
     )
     mass: Annotated[float, Number(MASS, above=0, most=1e9)] | None = Field(

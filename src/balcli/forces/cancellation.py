@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 ANGLES_SHOWN = 6  # of phasors; where there are more, only how many
 PAIRS_SHOWN = 6
+WEIGHT_DENOMINATOR = 1_000_000  # to which the ratio of two weights counts as a fraction
 _HALF = Fraction(1, 2)
 _POLYGONS = {2: "opposite pairs", 3: "triangles", 5: "pentagons", 7: "heptagons"}
 

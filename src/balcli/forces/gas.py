@@ -13,13 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.cylinder_pressure import GasTorque
-from ..core.phases import SUM
+from ..core.phases import ANGLE, SUM
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..engine.build import Engine
 from ..engine.gas import CylinderGas, EngineGas
 from ..errors import BalcliError
 
-_TURN = np.pi * EPS  # of an angle in the file (half an ulp of 360 deg), which the order multiplies
 _LEAST = 24  # harmonics that are computed at least, so that the largest is among them
 _QUADRATURE = 8 * EPS  # error of a coefficient, of the largest
 
@@ -60,8 +59,8 @@ def compute_gas_torque(engine: Engine, orders: Array) -> Phasors:
         return engine.gas_of_variants(orders)
     each = compute_gas_torque_of_each(engine, orders)
     count = len(take_gas(engine).cylinders)
-    turning = SUM * count + _TURN * orders
-    noise = each.noise.sum(axis=1) + turning * np.abs(each.forward).sum(axis=1)
+    rounding = SUM * count + ANGLE * orders
+    noise = each.noise.sum(axis=1) + rounding * np.abs(each.forward).sum(axis=1)
     return Phasors(orders, each.forward.sum(axis=1), each.backward.sum(axis=1), noise)
 
 

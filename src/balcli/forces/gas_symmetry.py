@@ -7,7 +7,6 @@ fraction of two revolutions, n a multiple of 1/2.
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
@@ -17,11 +16,10 @@ from ..core.phasors import Array
 from ..core.roots_of_unity import rational, turns, vanishes
 from ..engine.build import Engine
 from ..engine.gas import CylinderGas, EngineGas
-from .cancellation import Term, are_in_phase, tell_cancellation
+from .cancellation import WEIGHT_DENOMINATOR, Term, are_in_phase, tell_cancellation
 from .gas import take_gas
 from .spectrum import compute_each_cylinder, compute_spectra
 
-_LARGEST_DENOMINATOR = 1_000_000  # of the ratio of two shares
 _ROUNDING = 16 * float(np.finfo(float).eps)  # by which such a ratio may be off
 
 
@@ -51,11 +49,9 @@ Numbered = tuple[int, CylinderGas]
 
 def _list_families(gas: EngineGas, engine: Engine) -> list[list[Numbered]]:
     """Cylinders that fire, those of one torque together."""
-    families: dict[int, list[Numbered]] = defaultdict(list)
-    for number, cylinder in zip(engine.numbers, gas.cylinders, strict=True):
-        if cylinder.share:
-            families[id(cylinder.torque)].append((number, cylinder))
-    return list(families.values())
+    each = list(zip(engine.numbers, gas.cylinders, strict=True))
+    families = [[each[row] for row in rows if each[row][1].share] for _, rows in gas.group_equal()]
+    return [family for family in families if family]
 
 
 def _list_terms(family: Iterable[Numbered], half: int) -> list[Term]:
@@ -65,7 +61,7 @@ def _list_terms(family: Iterable[Numbered], half: int) -> list[Term]:
     first = fired[0][1].nominal_deg
     terms = []
     for number, cylinder in fired:
-        share = rational(cylinder.share / most, _LARGEST_DENOMINATOR, _ROUNDING)
+        share = rational(cylinder.share / most, WEIGHT_DENOMINATOR, _ROUNDING)
         angle = turns((cylinder.nominal_deg - first) / 2)
         if share is None or angle is None:
             return []

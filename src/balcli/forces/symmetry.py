@@ -11,11 +11,12 @@ sets may still cancel each other by their figures; that is no symmetry.
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
+from itertools import pairwise, product
 from operator import attrgetter
 from typing import Literal, NamedTuple
 
@@ -25,7 +26,7 @@ from numpy.typing import NDArray
 from ..core.phasors import Array
 from ..core.roots_of_unity import even, rational, turns, vanishes
 from ..engine.build import Engine
-from .cancellation import Term, are_in_phase, tell_cancellation
+from .cancellation import WEIGHT_DENOMINATOR, Term, are_in_phase, tell_cancellation
 from .kinds import KINDS
 from .spectrum import compute_each_cylinder
 from .textbook import find_textbook, without_devices
@@ -45,7 +46,6 @@ _PARTS: dict[Quantity, tuple[str, ...]] = {
     "turning": ("couple", "torque"),
 }
 NEARLY = 1e-2  # of one cylinder
-_LARGEST_DENOMINATOR = 1_000_000  # of the ratio of two weights
 _ULPS = 16  # of the largest weight, by which such a ratio may be off
 
 
@@ -154,7 +154,7 @@ def _explain_gas(engine: Engine, orders: Array) -> Iterator[Reason]:
     from .gas_symmetry import measure_gas  # engines without gas do not pay for it
 
     for n, (exact, size, because) in zip(orders.tolist(), measure_gas(engine, orders), strict=True):
-        order = int(n) if n == int(n) else n
+        order = _as_number(n)
         if size is None:
             yield Reason(order, "gas", "none", 0.0)
         else:
@@ -206,6 +206,7 @@ class _Layout:
         self._orders = orders
         self._axis_deg = self._c.axis_of_each_deg
         self._largest_deg = float(max(np.abs(self._axis_deg).max(), np.abs(self._c.pin_deg).max()))
+        self._mechanisms = self._c.mechanisms
         self._arms = self._c.z - engine.reference_m[2]
         kinds = [name for parts in _PARTS.values() for name in parts]
         self._book = find_textbook(engine, orders, kinds)
@@ -214,7 +215,7 @@ class _Layout:
     def explain(self, row: int, quantity: Quantity) -> Reason:
         """Why the order in this row is balanced, or is not."""
         n, parts = float(self._orders[row]), _PARTS[quantity]
-        order = int(n) if n == int(n) else n
+        order = _as_number(n)
         whole = {name: self._book.built[name].major[row] for name in parts}
         single = {name: self._single[name].major[row] for name in parts}
         sizes = [whole[name] / single[name].max() for name in parts if single[name].any()]
@@ -235,7 +236,7 @@ class _Layout:
         if quantity == "turning":
             return None, None, ""
         unit = self._book.units.size(KINDS[quantity], order)
-        if unit != unit:
+        if math.isnan(unit):
             return None, None, ""
         alone, built = self._book.reciprocating[quantity], self._book.built[quantity]
         name = self._book.units.name(KINDS[quantity], order)
@@ -250,10 +251,9 @@ class _Layout:
             masses.append(self._c.linkage.mass)
         if turning:
             masses.append(self._c.couple)
-        for mass in masses:
-            for rows in self._families(there):
-                for side in (0,) if turning else (1, -1):
-                    yield _Sum(rows, mass * arms, order, side)
+        sides = (0,) if turning else (1, -1)
+        for mass, rows, side in product(masses, self._families(there), sides):
+            yield _Sum(rows, mass * arms, order, side)
         if order == 1 and not turning:
             yield _Sum(list(range(self._c.count)), self._c.rotating * arms, 1, 1)
 
@@ -271,7 +271,7 @@ class _Layout:
                 continue
             for first, terms in sets.items():
                 most = float(s.weights[first])
-                share = rational(weight / most, _LARGEST_DENOMINATOR, rounding / abs(most))
+                share = rational(weight / most, WEIGHT_DENOMINATOR, rounding / abs(most))
                 angle = None if share is None else self._angle_between(first, row, s)
                 if share is not None and angle is not None:
                     terms.append(Term(self._numbers[row], share, angle))
@@ -294,12 +294,9 @@ class _Layout:
 
     def _families(self, there: NDArray[np.bool_]) -> list[list[int]]:
         """Rows of the cylinders that are there, those with equal mechanisms together."""
-        lam, eps, linkage = self._c.lam, self._c.eps, self._c.linkage
-        columns = (lam, eps) if linkage is None else linkage.figures(lam, eps)
         found: dict[tuple[complex, ...], list[int]] = defaultdict(list)
-        for row in map(int, np.flatnonzero(there)):
-            figures = tuple(column[row if len(column) > 1 else 0].item() for column in columns)
-            found[figures].append(row)
+        for row in np.flatnonzero(there).tolist():
+            found[self._mechanisms[row]].append(row)
         return list(found.values())
 
 
@@ -338,6 +335,11 @@ def _tell_why(sums: list[tuple[int, list[list[Term]]]]) -> str:
     every = [one for _, sets in sums for one in sets]
     together = all(len(sets) <= 1 for _, sets in sums) and all(map(are_in_phase, every))
     return "all in phase" if together else ""
+
+
+def _as_number(order: float) -> float:
+    """An order as people write it: 2, not 2.0."""
+    return int(order) if order == int(order) else order
 
 
 def _judge(size: float) -> Verdict:

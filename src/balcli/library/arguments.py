@@ -3,20 +3,54 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from typing import Any
+import re
+from collections.abc import Callable, Iterable, Mapping
+from functools import wraps
+from inspect import signature
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.phasors import Array
 from ..enginefile.fields import shorten
-from ..errors import BalcliError, wrong_type
+from ..errors import BalcliError, InputError, wrong_type
 from ..forces.orders import check_orders
 from ..limits import HIGHEST_TORSION_ORDER, LARGEST_INERTIA, MOST_SPEEDS
 
 Words = str | Iterable[str]  # names, or a text of them with commas between
 _REAL = (int, float, np.integer, np.floating)
+_OPTION = re.compile(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
+P = ParamSpec("P")
+Answer = TypeVar("Answer")
+
+
+def tell_arguments(**others: str) -> Callable[[Callable[P, Answer]], Callable[P, Answer]]:
+    """Decorator of a function whose errors come from rooms that name options of the command line:
+    they name its arguments instead, `damper_inertia` for `--damper-inertia`.
+
+    Args:
+        others: arguments whose option is called otherwise, by that (`speeds="speeds_rpm"`).
+    """
+
+    def decorate(function: Callable[P, Answer]) -> Callable[P, Answer]:
+        names = {**{name: name for name in signature(function).parameters}, **others}
+
+        def name_argument(option: re.Match[str]) -> str:
+            return names.get(option[1].replace("-", "_"), option[0])
+
+        @wraps(function)
+        def call(*args: P.args, **kwargs: P.kwargs) -> Answer:
+            try:
+                return function(*args, **kwargs)
+            except InputError:  # of a file, which has no arguments
+                raise
+            except BalcliError as error:
+                raise BalcliError(_OPTION.sub(name_argument, str(error))) from None
+
+        return call
+
+    return decorate
 
 
 def join_words(function: str, words: Words | None) -> str | None:
@@ -132,3 +166,16 @@ def read_share(name: str, value: float | str) -> float:
             f'{name} {shorten(value)}: give a share from 0 to 1, such as 0.005 or "0.5%"'
         )
     return float(value)
+
+
+def read_place(name: str, value: object) -> tuple[float, float, float]:
+    """A place that a function was given, m: x, y and z.
+
+    Raises:
+        TypeError: it is not three numbers.
+    """
+    try:
+        x, y, z = map(float, value)  # type: ignore[call-overload]
+    except (TypeError, ValueError, OverflowError):
+        raise wrong_type(name, value, "give x, y and z in m, such as (0.3, 0, 0)") from None
+    return x, y, z

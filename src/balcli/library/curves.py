@@ -8,9 +8,10 @@ from ..engine.build import Engine, check_engine
 from ..errors import check_type
 from ..forces.curves import Curves, divide_revolution
 from ..studies.curves import compute_curves
-from .arguments import check_count
+from .arguments import check_count, tell_arguments
 
 
+@tell_arguments(step="step_deg")
 def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None) -> Curves:
     """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston.
 

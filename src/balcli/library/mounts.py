@@ -17,9 +17,10 @@ from ..enginefile.toml_text import name_file, read_bytes
 from ..errors import check_type, wrong_type
 from ..mounting.read import check_mounted
 from ..mounting.report import MountReport, report_mounts
-from .arguments import check_speeds
+from .arguments import check_speeds, tell_arguments
 
 
+@tell_arguments(speeds="speeds_rpm")
 def analyze_mounts(
     source: Engine | str | Path | Mapping[str, Any],
     speeds_rpm: ArrayLike | None = None,

@@ -29,7 +29,7 @@ from ..torque.analysis import TorqueAnalysis
 from ..torsion.analysis import Question, TorsionAnalysis, answer_question
 from ..torsion.load import make_source
 from ..torsion.quantity import choose_speeds
-from .arguments import check_speeds, check_torsion_orders
+from .arguments import check_speeds, check_torsion_orders, tell_arguments
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -41,6 +41,7 @@ _DRAWN = (
 )
 
 
+@tell_arguments(speeds="speeds_rpm")
 def plot(
     shown: Engine
     | Analysis
@@ -87,7 +88,7 @@ def plot(
             return _plot_engine(shown.engine, what or "all", asked, scheme, speeds_rpm)
         case Balance():
             page = _choose(what or "all", ("all", "polar", "orders", "spectrum", "curves"))
-            return make_page(Subject(shown.after, shown.before), page, "png")
+            return make_page(Subject(shown.after, shown.before, shown.remedy), page, "png")
         case TorqueAnalysis():
             page = _choose(what or "torque", ("torque", "pressure", "p-v", "pin", "main"))
             return _plot_engine(shown.engine, page, None, None, None)

@@ -11,8 +11,10 @@ from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, wrong_type
 from ..field_balancing.balance import FieldBalance, find_corrections
 from ..field_balancing.read import check_runs, parse_runs, read_runs
+from .arguments import tell_arguments
 
 
+@tell_arguments()
 def balance_rotor(
     runs: str | Path | Mapping[str, Any],
     minimise: Literal["squares", "max"] = "squares",

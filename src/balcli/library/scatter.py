@@ -16,9 +16,15 @@ from ..studies.part_scatter import scatter_parts
 from ..studies.quantities import parse_quantities, sort_scattered
 from ..studies.spread_one_by_one import RANDOM_SINGLES
 from ..studies.tolerances import RANDOM_ENGINES, Scatter, scatter_engine
-from .arguments import Words, check_count, join_words, read_share
+from .arguments import Words, check_count, join_words, read_share, tell_arguments
 
 
+@tell_arguments(
+    mass_scatter="mass",
+    length_scatter="length",
+    angle_scatter="angle_deg",
+    stiffness_scatter="stiffness",
+)
 def scatter(
     engine: Engine,
     quantities: Words | None = None,

@@ -9,9 +9,10 @@ from ..errors import wrong_type
 from ..limits import MOST_FOUND
 from ..studies.search.objective import parse_objective
 from ..studies.search.search import Search, search_arrangements
-from .arguments import Words, check_count, check_mapping, join_words
+from .arguments import Words, check_count, check_mapping, join_words, tell_arguments
 
 
+@tell_arguments()
 def search(
     engine: Engine,
     over: str,

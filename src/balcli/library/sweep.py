@@ -12,9 +12,10 @@ from ..process import count_cores
 from ..studies.parameters import choose_values
 from ..studies.sweep import plan_sweep
 from ..studies.swept import Swept, compute_sweep
-from .arguments import Words, check_count, check_mapping, join_words
+from .arguments import Words, check_count, check_mapping, join_words, tell_arguments
 
 
+@tell_arguments(quantity="quantities", jobs="threads")
 def sweep(
     engine: Engine,
     vary: Mapping[str, Any],

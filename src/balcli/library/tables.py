@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from types import NoneType
 
-from ..errors import BalcliError, wrong_type
+from ..errors import wrong_type
 from ..limits import HIGHEST_POWER
 from ..printed_tables.ranges import Ranges, parse_crank_ratios, parse_range
 from ..printed_tables.recomputed import Table
 from ..printed_tables.registry import NAMES, recompute
-from .arguments import check_count
-
-_ARGUMENTS = {"--lambda": "ratios", "--angle": "angles", "--power": "power"}  # by option
+from .arguments import check_count, tell_arguments
 
 
+@tell_arguments(**{"lambda": "ratios", "angle": "angles"})
 def tables(
     name: str, *, ratios: str | None = None, angles: str | None = None, power: int | None = None
 ) -> Table:
@@ -46,15 +45,9 @@ def tables(
     ):
         if not isinstance(text, (str, NoneType)):
             raise wrong_type(option, text, f'give a text, such as "{example}"')
-    try:
-        ranges = Ranges(
-            None if ratios is None else parse_crank_ratios(ratios),
-            None if angles is None else parse_range(angles, "--angle"),
-            None if power is None else check_count("power", power, 0, HIGHEST_POWER),
-        )
-        return recompute(name, ranges)
-    except BalcliError as error:
-        text = str(error)
-        for option, argument in _ARGUMENTS.items():
-            text = text.replace(option, argument)
-        raise BalcliError(text) from None
+    ranges = Ranges(
+        None if ratios is None else parse_crank_ratios(ratios),
+        None if angles is None else parse_range(angles, "--angle"),
+        None if power is None else check_count("power", power, 0, HIGHEST_POWER),
+    )
+    return recompute(name, ranges)

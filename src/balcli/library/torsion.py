@@ -18,11 +18,12 @@ from ..torsion.analysis import Question, TorsionAnalysis, answer_question
 from ..torsion.damper_sizing import DamperAsked
 from ..torsion.load import ChainSource, Source, make_source
 from ..torsion.read_chain import describes_chain, read_chain_tables
-from .arguments import check_inertia, check_speeds, check_torsion_orders
+from .arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
 
 KINDS_OF_DAMPERS = ("viscous", "rubber", "pendulum")
 
 
+@tell_arguments(speeds="speeds_rpm")
 def analyze_torsion(
     source: Engine | str | Path | Mapping[str, Any],
     speeds_rpm: ArrayLike | None = None,
@@ -49,7 +50,8 @@ def analyze_torsion(
 
     Returns:
         `modes` (`frequency_hz`, shapes), `criticals` (speed, order, mode), `response` (`torque`,
-        N m, and `stress`, Pa, shape (speeds, shafts)), `barred_rpm`.
+        N m, and `stress`, Pa, shape (speeds, shafts); `worst`, the largest of the range), and
+        `barred_rpm`.
 
     Raises:
         BalcliError: no [torsion]; orders or an inertia that cannot be; a response without

@@ -52,7 +52,12 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
 
 
 def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Iterator[str]:
-    """What to know of shafts of which nobody has said where they stand."""
+    """What to know of shafts: how they stand, and where, if nobody has said so."""
+    if any(isinstance(device, Shaft) for device in devices):
+        yield (
+            "Shafts stand so at crank angle 0; angles of those that turn against the crank count "
+            "in its sense, too."
+        )
     if any(free):
         yield "free: the shaft may stand anywhere, for it makes a moment alone."
     shafts = zip(devices, free, strict=True)
@@ -94,7 +99,7 @@ def _length(millimetres: float, unit: Unit) -> str:
     return number(unit.of(millimetres / 1e3))
 
 
-def practical_grid(practical: tuple[Practical, ...], system: System) -> Grid:
+def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: System) -> Grid:
     """The workshop's figures, one row a device; there must be one."""
     first = practical[0]
     names = [
@@ -109,7 +114,10 @@ def practical_grid(practical: tuple[Practical, ...], system: System) -> Grid:
         f"Mass at a radius of {number(system.length.of(first.radius), 4)} {system.length.name}; "
         "disc: a semicircular one of steel"
     )
-    rows = tuple((str(k), *_practical_row(p, system)) for k, p in enumerate(practical, 1))
+    rows = tuple(
+        (f"{k} {name_kind(device)}", *_practical_row(figures, system))
+        for k, (device, figures) in enumerate(zip(remedy.devices, practical, strict=True), 1)
+    )
     return Grid("Sizes of the weights", tuple(names), rows, note=f"{note}.")
 
 

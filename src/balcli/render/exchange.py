@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
@@ -23,6 +24,7 @@ from .units import SI
 RENDERERS = {
     "Analysis": "analysis_data",
     "Balance": "balance",
+    "Combined": "two_engines",
     "Comparison": "comparison",
     "CurveAnalysis": "torque",
     "Curves": "curves",
@@ -60,7 +62,7 @@ def list_rows(result: Result) -> list[dict[str, Any]]:
 
 
 def _none_for_nan(value: Any) -> Any:
-    return None if value != value else value
+    return None if isinstance(value, float) and math.isnan(value) else value
 
 
 def list_columns(result: Result) -> Columns:

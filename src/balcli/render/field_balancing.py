@@ -119,6 +119,9 @@ def _work(result: FieldBalance) -> Grid:
     )
     if result.limited:
         note += " Places and limits allow no better: see the readings below."
+        if drilled and file.places is None:
+            some = [24] * len(file.planes)
+            note += f" For more than one hole in a plane give places, such as places = {some}."
     return Grid(f"{what}{when}", tuple(heads), tuple(rows), note)
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -54,7 +55,12 @@ def assumptions(result: Located) -> dict[str, list[str]]:
 def clean(value: Any) -> float | None:
     """A plain float; None for nan, and no negative zero."""
     number = float(value)
-    return None if number != number else number + 0.0
+    return None if math.isnan(number) else number + 0.0
+
+
+def clean_each(values: Iterable[Any]) -> list[float | None]:
+    """The same of each."""
+    return [clean(value) for value in values]
 
 
 Entry = dict[str, Any]  # the figures of one order of one kind, as JSON nests them

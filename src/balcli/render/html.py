@@ -82,7 +82,8 @@ def page(
     told = ("force", "about", *(["moment"] if result.moments_known else []))
     fitted = bool(balanced.remedy.reasons)
     compared = _COMPARED if fitted else ()
-    now, after = Subject(result, None, system), Subject(balanced.after, balanced.before, system)
+    now = Subject(result, system=system)
+    after = Subject(balanced.after, balanced.before, balanced.remedy, system)
     alone = _choose_panels(now, _PICTURES, told)
     beside = _choose_panels(after, compared, told)
     pictures = []

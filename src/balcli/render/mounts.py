@@ -1,21 +1,20 @@
-"""What a person and a program read of an engine on its mounts."""
+"""What a person reads of an engine on its mounts: what the frame feels, modes, rest, speeds."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any
 
 from ..core.singular_values import Real
 from ..mounting.motions import AXES
 from ..mounting.report import MountReport
 from ..mounting.response import Response, Worst
-from .csv import Rows, name_cell
-from .figures import clean
+from .mounts_document import document, rows
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number, order_number
 from .units import System
 
-_RPM = 30 / math.pi
+__all__ = ["document", "rows", "sheet"]
+
 _COLUMNS = 6  # of orders and speeds in a table of a page's width
 _ROWS = 9  # speeds of a table
 _NEAR = 0.05  # distance of a speed from that at which an order meets a mode
@@ -24,7 +23,6 @@ _SHARE = 1e-3  # of the largest free load: less is not worth a line
 _FORCES, _MOMENTS = ("force x", "force y", "force z"), ("moment x", "moment y", "roll z")
 
 
-# ------------------------------------------------------------------ for people
 def sheet(result: MountReport, system: System) -> Sheet:
     """What matters first: what the frame feels, then modes, rest and the range of speeds."""
     parts: list[Grid | Facts | Text] = []
@@ -47,7 +45,7 @@ def _answer(result: MountReport, response: Response, system: System) -> Iterator
     if worst.value == 0:
         yield "The mounts feel nothing of the orders that count."
         return
-    force, rpm = system.force, worst.omega * _RPM
+    force, rpm = system.force, worst.speed_rpm
     why = f" {_explain(result, response, worst)}".rstrip()
     yield (
         f"The mount {name} feels most: {number(force.of(worst.value), 4)} {force.name} at "
@@ -65,7 +63,7 @@ def _answer(result: MountReport, response: Response, system: System) -> Iterator
         less = "as much" if abs(change) < _SAME else less
         yield (
             f"With {other.name} the largest force of any mount is "
-            f"{number(force.of(after.value), 4)} {force.name} at {number(after.omega * _RPM, 4)} "
+            f"{number(force.of(after.value), 4)} {force.name} at {number(after.speed_rpm, 4)} "
             f"rpm: {less}."
         )
 
@@ -141,19 +139,15 @@ def _worst(
     rows = []
     for k, name in enumerate(names):
         first = several[0][k]
-        cells = [name, number(convert(first.value), 4), _rpm(first.omega)]
+        cells = [name, number(convert(first.value), 4), number(first.speed_rpm, 4)]
         cells += [str(order_number(first.order)), number(convert(first.alone), 4)]
         for beside in several[1:]:
-            cells += [number(convert(beside[k].value), 4), _rpm(beside[k].omega)]
+            cells += [number(convert(beside[k].value), 4), number(beside[k].speed_rpm, 4)]
         rows.append(tuple(cells))
     note = (
         "The largest value over the cycle, orders added up in time; over all speeds of the range."
     )
     return Grid(title, tuple(heads), tuple(rows), note)
-
-
-def _rpm(omega: float) -> str:
-    return number(omega * _RPM, 4)
 
 
 def _modes(result: MountReport) -> Grid:
@@ -224,14 +218,14 @@ def _wipe(values: Real) -> Real:
 
 
 def _meetings(result: MountReport) -> Grid:
-    met = {(one.mode, one.order): one.omega for one in result.meetings}
+    met = {(one.mode, one.order): one.speed_rpm for one in result.meetings}
     orders = sorted({order for _, order in met})[:_COLUMNS]
     heads = ("mode", "Hz", *(f"order {order_number(order)}" for order in orders))
     rows = [
         (
             str(k + 1),
             number(mode.hertz, 4),
-            *(_rpm(met[k, order]) if (k, order) in met else "–" for order in orders),
+            *(number(met[k, order], 4) if (k, order) in met else "–" for order in orders),
         )
         for k, mode in enumerate(result.modes.six)
     ]
@@ -287,164 +281,3 @@ def _passed(response: Response, system: System) -> Grid:
 
 def _ratio(response: Response, n: int, s: int, k: int) -> float:
     return float(response.passed[n, s, k] / response.free[n, s, k])
-
-
-# ------------------------------------------------------------------ for programs
-def document(result: MountReport) -> dict[str, Any]:
-    """`balcli.mounts/1`, SI but for what a name says otherwise."""
-    modes, mounted = result.modes, result.mounted
-    settled = zip(mounted.names, modes.settled.forces, modes.settled.travel, strict=True)
-    found: dict[str, Any] = {
-        "format": "balcli.mounts/1",
-        "name": result.name,
-        "modes": [
-            {
-                "frequency_Hz": clean(mode.hertz),
-                "energy_percent": {
-                    axis: clean(100 * share) for axis, share in zip(AXES, mode.shares, strict=True)
-                },
-                "shape": [clean(value) for value in mode.shape],
-                "motion": mode.motion,
-                "loss_factor": clean(mode.loss),
-                "meets": [
-                    {"order": order_number(one.order), "speed_rpm": clean(one.omega * _RPM)}
-                    for one in result.meetings
-                    if one.mode == k
-                ],
-            }
-            for k, mode in enumerate(modes.six)
-        ],
-        "roll_axis": _list(modes.roll_axis),
-        "elastic_centre_mm": _list(1e3 * modes.centre.point),
-        "static": {
-            "mounts": [
-                {"name": name, "force_N": _list(force), "travel_mm": _list(1e3 * travel)}
-                for name, force, travel in settled
-            ]
-        },
-        "stiffness_N_per_m": [_list(row) for row in modes.stiffness],
-    }
-    if result.response is not None:
-        found["response"] = _response(result, result.response)
-    if result.fitted is not None:
-        found["fitted"] = {
-            "scheme": result.fitted.remedy.scheme,
-            "response": _response(result, result.fitted.response),
-        }
-    if result.others:
-        found["others"] = [
-            {"name": other.name, "response": _response(result, other.response)}
-            for other in result.others
-        ]
-    return found
-
-
-def _list(values: Real) -> list[float | None]:
-    return [clean(value) for value in values]
-
-
-def _response(result: MountReport, response: Response) -> dict[str, Any]:
-    orders = [order_number(order) for order in response.loads.orders]
-
-    def curves(names: Sequence[str], key: str, values: Real, scale: float) -> list[dict[str, Any]]:
-        return [
-            {
-                "name": name,
-                "orders": [
-                    {"order": order, key: _list(scale * values[n, :, k])}
-                    for n, order in enumerate(orders)
-                ],
-            }
-            for k, name in enumerate(names)
-        ]
-
-    mounts = curves(result.mounted.names, "force_N", response.force, 1.0)
-    points = curves(result.mounted.point_names, "motion_mm", response.motion, 1e3)
-    for k, mount in enumerate(mounts):
-        mount["peak_N"] = _list(response.force_peak[:, k])
-        mount["worst"] = _worst_entry(response.worst_force[k], "force_N", 1.0)
-    for k, point in enumerate(points):
-        point["peak_mm"] = _list(1e3 * response.motion_peak[:, k])
-        point["worst"] = _worst_entry(response.worst_motion[k], "motion_mm", 1e3)
-    return {
-        "speeds_rpm": _list(response.speeds_rpm),
-        "mounts": mounts,
-        "points": points,
-        "passed": [
-            {
-                "order": order,
-                "rigid": _components(response.free[n]),
-                "on_mounts": _components(response.passed[n]),
-            }
-            for n, order in enumerate(orders)
-        ],
-    }
-
-
-def _worst_entry(worst: Worst, key: str, scale: float) -> dict[str, Any]:
-    return {
-        key: clean(scale * worst.value),
-        "speed_rpm": clean(worst.omega * _RPM),
-        "order": order_number(worst.order),
-        f"order_{key}": clean(scale * worst.alone),
-    }
-
-
-def _components(load: Real) -> dict[str, list[float | None]]:
-    """Amplitudes by speed of a load (speeds, 6), as far as there is any."""
-    keys = [*(f"force_{axis}_N" for axis in "xyz"), *(f"moment_{axis}_Nm" for axis in "xyz")]
-    return {key: _list(load[:, k]) for k, key in enumerate(keys) if load[:, k].any()}
-
-
-_HEADER = ("part", "name", "order", "speed_rpm", "figure", "value", "unit")
-
-
-def rows(result: MountReport, system: System) -> Rows:
-    """A figure a line."""
-    return Rows(_HEADER, _lines(result, system))
-
-
-def _lines(result: MountReport, system: System) -> Iterator[tuple[Any, ...]]:
-    force, length = system.force, system.length
-    for k, mode in enumerate(result.modes.six, 1):
-        name = f"mode {k}"
-        yield "mode", name, None, None, "frequency", clean(mode.hertz), "Hz"
-        yield "mode", name, None, None, "motion", mode.motion, ""
-        for axis, share in zip(AXES, mode.shares, strict=True):
-            yield "mode", name, None, None, f"energy {axis}", clean(100 * share), "%"
-    for one in result.meetings:
-        cells = ("meeting", f"mode {one.mode + 1}", order_number(one.order))
-        yield *cells, clean(one.omega * _RPM), "speed", clean(one.omega * _RPM), "rpm"
-    settled = result.modes.settled
-    for k, name in enumerate(result.mounted.names):
-        for j, axis in enumerate("xyz"):
-            own = clean(force.of(settled.forces[k, j]))
-            yield "static", name_cell(name), None, None, f"force {axis}", own, force.name
-            own = clean(length.of(settled.travel[k, j]))
-            yield "static", name_cell(name), None, None, f"travel {axis}", own, length.name
-    if result.response is not None:
-        yield from _curves(result, result.response, "", system)
-    if result.fitted is not None:
-        yield from _curves(result, result.fitted.response, "with scheme ", system)
-    for other in result.others:
-        yield from _curves(result, other.response, f"{name_cell(other.name)}: ", system)
-
-
-def _curves(
-    result: MountReport, response: Response, part: str, system: System
-) -> Iterator[tuple[Any, ...]]:
-    force, length = system.force, system.length
-    groups = (
-        ("mount", result.mounted.names, response.force, response.force_peak, force),
-        ("point", result.mounted.point_names, response.motion, response.motion_peak, length),
-    )
-    for kind, names, by_order, peak, unit in groups:
-        figure = "force" if kind == "mount" else "motion"
-        for k, name in enumerate(names):
-            for s, rpm in enumerate(response.speeds_rpm):
-                head = (f"{part}{kind}", name_cell(name))
-                for n, order in enumerate(response.loads.orders):
-                    value = clean(unit.of(by_order[n, s, k]))
-                    yield *head, order_number(order), clean(rpm), figure, value, unit.name
-                value = clean(unit.of(peak[s, k]))
-                yield *head, None, clean(rpm), f"peak {figure}", value, unit.name

@@ -10,9 +10,8 @@ import numpy as np
 
 from ..core.phasors import Array
 from ..torque.pictures import Running
-from .units import System
+from .units import BAR, System
 
-BAR = 1e5
 _STEP = 2.0  # deg
 
 

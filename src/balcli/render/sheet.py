@@ -4,6 +4,7 @@ it.
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, NamedTuple
 
 from .formats import get_digits
@@ -73,7 +74,7 @@ def number(value: float, digits: int | None = None) -> str:
     exponent between 0.0001 and a million, a plain 0.
     """
     digits = digits or get_digits()
-    if value != value:
+    if math.isnan(value):
         return UNKNOWN
     if value == 0:
         return "0"
@@ -100,7 +101,9 @@ def degrees(value: float, turn: float = 360) -> str:
     Half a turn backwards is half a turn, and a whole turn none: which of both an angle is, and to
     which side a half is rounded, would else be for its last digits to say.
     """
-    if value != value:
+    if math.isnan(value):
         return UNKNOWN
     tenths = round(round(value, 6), 1) + 0.0
-    return f"{abs(tenths) if tenths == -turn / 2 else 0.0 if tenths == 360 else tenths:.1f}"
+    if tenths == -turn / 2:
+        tenths = turn / 2
+    return "0.0" if tenths == 360 else f"{tenths:.1f}"

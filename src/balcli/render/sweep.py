@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from .json import stamp
 
 if TYPE_CHECKING:
+    from ..core.phasors import Array
     from ..studies.sweep import Chunk, Sweep
 
 
@@ -44,19 +45,13 @@ def _lines(sweep: Sweep, chunk: Chunk, nothing: str) -> Iterator[str]:
     axes = [
         _texts(p.values[cut], nothing) for p, cut in zip(sweep.parameters, chunk.box, strict=True)
     ]
-    return map(
-        ",".join,
-        zip(
-            map(",".join, product(*axes)), *(_texts(v, nothing) for v in chunk.values), strict=True
-        ),
-    )
+    columns = (_texts(values, nothing) for values in chunk.values)
+    return map(",".join, zip(map(",".join, product(*axes)), *columns, strict=True))
 
 
-def _texts(values: Any, nothing: str) -> list[str]:
+def _texts(values: Array, nothing: str) -> list[str]:
     """Shortest texts that read back to the same numbers."""
     texts = list(map(repr, values.tolist()))
-    return (
-        [nothing if text == "nan" else text for text in texts]
-        if (values != values).any()
-        else texts
-    )
+    if "nan" not in texts:
+        return texts
+    return [nothing if text == "nan" else text for text in texts]

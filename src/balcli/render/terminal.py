@@ -61,15 +61,8 @@ def _fitting(grid: Grid, width: int) -> Iterator[Table]:
         if sum(natural) + gap * (len(natural) - 1) <= width:
             yield _grid_table(grid, dict(enumerate(natural)), gap)
             return
-    breakable = tuple(name.replace("_", " ") for name in grid.columns)
-    grid = grid._replace(columns=breakable)
-    least = [
-        max(
-            (count_places(word) for text in column_texts(grid, k) for word in text.split()),
-            default=1,
-        )
-        for k in range(len(grid.columns))
-    ]
+    broken = grid._replace(columns=tuple(name.replace("_", "_ ") for name in grid.columns))
+    least = [_longest_word(column_texts(broken, k)) for k in range(len(grid.columns))]
     least[0] = max(least[0], min(natural[0], LABEL))
     piece = [0]
     for k in range(1, len(least)):
@@ -101,7 +94,7 @@ def _grid_table(grid: Grid, widths: dict[int, int], gap: int) -> Table:
     table = Table(box=box.SIMPLE_HEAD, padding=(0, gap - 2, 0, 1), pad_edge=False, show_edge=False)
     for k, width in widths.items():
         table.add_column(
-            grid.columns[k],
+            _fold(grid.columns[k], width),
             justify="left" if k in grid.words else "right",
             overflow="fold",
             style="bold" if k == 0 else "",
@@ -112,6 +105,20 @@ def _grid_table(grid: Grid, widths: dict[int, int], gap: int) -> Table:
             *(Line(row[k], style="bold red" if (i, k) in grid.marked else "") for k in widths)
         )
     return table
+
+
+def _fold(heading: str, width: int) -> str:
+    """A heading on lines of a width, broken between words or after an underscore of a name."""
+    lines = [""]
+    for word in heading.split():
+        gap = " " if lines[-1] else ""
+        for part in word.replace("_", "_ ").split():
+            if lines[-1] and count_places(lines[-1] + gap + part) > width:
+                lines.append(part)
+            else:
+                lines[-1] += gap + part
+            gap = ""
+    return "\n".join(lines)
 
 
 def _facts_table(facts: Facts) -> Table:

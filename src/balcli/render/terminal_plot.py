@@ -11,9 +11,10 @@ from ..core.phasors import Complex, Phasors
 from ..results.analysis import Analysis
 from .sheet import NEGLIGIBLE, NOTHING, Text, capitalized, number, order_name, size_text
 from .units import System, Unit
+from .view import VISIBLE
 
-BAR, SIDE = 52, 17  # columns of the longest bar; rows of a locus, which has twice as many columns
-SHARE = 1e-3  # orders below this share of the largest are left out, but for 1 and 2
+BAR_COLUMNS = 52  # of the longest bar
+LOCUS_ROWS = 17  # and twice as many columns
 # Bits of the dots in a Braille character, by row and column (Unicode 17.0, chapter 21.1).
 _DOTS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
 
@@ -38,7 +39,10 @@ def sketches(result: Analysis, system: System) -> Iterator[Text]:
         )
     if shown:
         blocks = [
-            [f"{kind.name}, up to {size_text(_find_largest(p), unit)}".ljust(2 * SIDE), *locus(p)]
+            [
+                f"{kind.name}, up to {size_text(_find_largest(p), unit)}".ljust(2 * LOCUS_ROWS),
+                *locus(p),
+            ]
             for kind, p, unit in shown
         ]
         yield Text(
@@ -53,9 +57,9 @@ def bars(phasors: Phasors, unit: Unit) -> Iterator[str]:
     """
     largest = phasors.major.max(initial=0)
     for k, order in enumerate(phasors.orders):
-        if order <= 2 or phasors.major[k] > SHARE * largest:
+        if order <= 2 or phasors.major[k] > VISIBLE * largest:
             ahead, whole = (
-                round(BAR * float(v) / largest) if largest else 0
+                round(BAR_COLUMNS * float(v) / largest) if largest else 0
                 for v in (abs(phasors.forward[k]), phasors.major[k])
             )
             bar = "█" * ahead + "▒" * (whole - ahead) or ("▏" if phasors.major[k] else "")
@@ -68,12 +72,12 @@ def bars(phasors: Phasors, unit: Unit) -> Iterator[str]:
 
 
 def locus(phasors: Phasors) -> list[str]:
-    """The way of the vector's tip in a square of SIDE rows with its axes; all dots are equally far
-    apart.
+    """The way of the vector's tip in a square of LOCUS_ROWS rows with its axes; all dots are
+    equally far apart.
     """
     curve = phasors.values(np.radians(np.arange(0, 360, 0.25)))
     largest = np.abs(curve).max()
-    dots, grid = 4 * SIDE, np.zeros((SIDE, 2 * SIDE), int)
+    dots, grid = 4 * LOCUS_ROWS, np.zeros((LOCUS_ROWS, 2 * LOCUS_ROWS), int)
     middle = dots // 2
     for k in range(0, dots, 4):
         set_dot(grid, k, middle)

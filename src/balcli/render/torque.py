@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,7 @@ from .figures import FigureRow, clean, order_entries, order_rows, peak_deg
 from .sheet import NAMELESS, Facts, Grid, Sheet, degrees, number, order_name, order_number
 from .units import ENERGY, System, Unit
 
-RPM = 30 / np.pi  # in rad/s
+RPM = 30 / np.pi  # of 1 rad/s
 Result = TorqueAnalysis | CurveAnalysis
 
 
@@ -240,7 +240,10 @@ def sheet(result: Result, system: System) -> Sheet:
     name = result.engine.name or NAMELESS
     parts = [_work_facts(result, system)]
     parts.append(_course_facts(result.curves.total, result.surplus, result.cycle_deg, system))
-    parts += _flywheel_facts(result.flywheel, result.cycle_deg)
+    crank = result.engine.crank_inertia
+    parts += _flywheel_facts(
+        result.flywheel, result.cycle_deg, None if crank is None else float(crank)
+    )
     parts += _load_tables(result, system)
     parts.append(_order_table(result, system))
     return Sheet(f"{name}: torque on the crank", tuple(parts))
@@ -290,14 +293,24 @@ def _work_facts(result: TorqueAnalysis, system: System) -> Facts:
         pairs.append(("largest pressure", f"{number(gas.value / 1e5)} bar, {at} deg after firing"))
     if silent := list_silent(result.engine):
         pairs.append(("no gas in", silent))
-    return Facts((*pairs, *_mean_pairs(result.mean_torque, result.power, system)))
+    kinds = {" indicated": 1.0}
+    if result.mechanical_efficiency is not None:
+        kinds[" brake"] = result.mechanical_efficiency
+    return Facts((*pairs, *_mean_pairs(result.mean_torque, result.power, system, kinds)))
 
 
-def _mean_pairs(mean: float, power: float | None, system: System) -> Iterator[tuple[str, str]]:
+def _mean_pairs(
+    mean: float, power: float | None, system: System, kinds: Mapping[str, float]
+) -> Iterator[tuple[str, str]]:
+    """Mean torque and power, with the share of them that each kind is, such as " brake"."""
+
+    def told(value: float, unit: str) -> str:
+        return ", ".join(f"{number(value * share)} {unit}{kind}" for kind, share in kinds.items())
+
     unit = system.moment.fit(mean)
-    yield "mean torque", f"{number(unit.of(mean))} {unit.name}"
+    yield "mean torque", told(unit.of(mean), unit.name)
     if power is not None:
-        yield "power", f"{number(power / 1e3)} kW"
+        yield "power", told(power / 1e3, "kW")
 
 
 def _curve_facts(result: CurveAnalysis, system: System) -> Facts:
@@ -306,7 +319,7 @@ def _curve_facts(result: CurveAnalysis, system: System) -> Facts:
     if speed is not None:
         pairs.append(("speed", f"{number(speed * RPM, 6)} rpm"))
     power = None if speed is None else result.torque.mean * speed
-    return Facts((*pairs, *_mean_pairs(result.torque.mean, power, system)))
+    return Facts((*pairs, *_mean_pairs(result.torque.mean, power, system, {"": 1.0})))
 
 
 def _course_facts(
@@ -334,7 +347,10 @@ def _course_facts(
     return Facts(pairs, "Torque over the cycle")
 
 
-def _flywheel_facts(flywheel: Flywheel | None, cycle_deg: float) -> Iterator[Facts]:
+def _flywheel_facts(
+    flywheel: Flywheel | None, cycle_deg: float, crank: float | None = None
+) -> Iterator[Facts]:
+    """`crank`: inertia of the crankshaft by itself, kg m2, if it is known."""
     if flywheel is None:
         return
     pairs = []
@@ -347,9 +363,13 @@ def _flywheel_facts(flywheel: Flywheel | None, cycle_deg: float) -> Iterator[Fac
         pairs.append(("speed", flywheel.stall))
     if flywheel.needed is not None:
         pairs.append(("needed", f"{number(flywheel.needed)} kg·m² in all"))
-        own = flywheel.needed - flywheel.moving
+        own = flywheel.needed - flywheel.moving - (crank or 0.0)
+        place = "crankshaft and flywheel" if crank is None else "the flywheel"
+        share = (
+            f"{number(own)} of it in {place}" if own > 0 else "which is there without a flywheel"
+        )
         if moving:
-            pairs[-1] = ("needed", f"{pairs[-1][1]}, {number(own)} beyond the moving parts")
+            pairs[-1] = ("needed", f"{pairs[-1][1]}, {share}")
     yield Facts(tuple(pairs), "Flywheel")
 
 

@@ -7,12 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from ..core.singular_values import Real
 from ..torsion.analysis import HolzerTable, TorsionAnalysis
 from ..torsion.damper_sizing import SizedDamper
 from ..torsion.response import Response
 from .csv import Rows, name_cell
-from .figures import clean
+from .figures import clean, clean_each
 from .sheet import order_number
 from .units import System
 
@@ -38,7 +37,7 @@ def document(result: TorsionAnalysis) -> dict[str, Any]:
         "modes": [
             {
                 "frequency_Hz": clean(mode.frequency_hz),
-                "shape": _list(mode.shape),
+                "shape": clean_each(mode.shape),
                 "nodes": mode.nodes,
                 "node_in": list(mode.still),
                 "loss": clean(mode.loss),
@@ -85,34 +84,39 @@ def _holzer_document(result: TorsionAnalysis, asked: HolzerTable) -> dict[str, A
 
 
 def _response_document(result: TorsionAnalysis, response: Response) -> dict[str, Any]:
-    shafts = []
+    shafts, worst = [], response.worst
     for k, name in enumerate(result.system.shafts):
-        worst = int(np.argmax(response.torque[:, k]))
-        amplitudes = response.amplitudes[:, worst, k]
         entry: dict[str, Any] = {
             "name": name,
-            "half_peak_to_peak_Nm": _list(response.torque[:, k]),
-            "sum_of_amplitudes_Nm": _list(response.sums[:, k]),
+            "half_peak_to_peak_Nm": clean_each(response.torque[:, k]),
+            "sum_of_amplitudes_Nm": clean_each(response.sums[:, k]),
         }
+        stress = {}
         if result.system.sections[k] is not None:
-            entry["stress_Pa"] = _list(response.stress[:, k])
+            entry["stress_Pa"] = clean_each(response.stress[:, k])
+            stress = {"stress_Pa": clean(worst.stress[k])}
         entry["worst"] = {
-            "speed_rpm": clean(response.speeds_rpm[worst]),
-            "half_peak_to_peak_Nm": clean(response.torque[worst, k]),
+            "speed_rpm": clean(worst.speeds_rpm[k]),
+            "half_peak_to_peak_Nm": clean(worst.torque[k]),
+            **stress,
             "orders": [
                 {"order": order_number(float(order)), "amplitude_Nm": clean(amplitude)}
-                for order, amplitude in zip(response.orders, amplitudes, strict=True)
+                for order, amplitude in zip(response.orders, worst.amplitudes[:, k], strict=True)
             ],
         }
         shafts.append(entry)
     found: dict[str, Any] = {
-        "speeds_rpm": _list(response.speeds_rpm),
+        "speeds_rpm": clean_each(response.speeds_rpm),
         "shafts": shafts,
-        "free_end_deg": _list(np.degrees(response.free_end)),
+        "free_end_deg": clean_each(np.degrees(response.free_end)),
+        "free_end_worst": {
+            "speed_rpm": clean(worst.swing_rpm),
+            "half_swing_deg": clean(np.degrees(worst.free_end)),
+        },
     }
     if response.dampers:
         found["dampers"] = [
-            {"node": name.removesuffix(" ring"), "heat_W": _list(response.heat[:, k])}
+            {"node": name.removesuffix(" ring"), "heat_W": clean_each(response.heat[:, k])}
             for k, name in enumerate(response.dampers)
         ]
     return found
@@ -144,10 +148,6 @@ def _damper_document(sized: SizedDamper) -> dict[str, Any]:
         "heat_rpm": clean(sized.heat_rpm),
         **doubts,
     }
-
-
-def _list(values: Real) -> list[float | None]:
-    return [clean(value) for value in values]
 
 
 def _finite(value: float) -> float | None:
@@ -250,3 +250,11 @@ def _response_lines(said: dict[str, Any]) -> Iterator[Line]:
         yield *where, "", "free_end", said["free_end_deg"][k], "deg"
         for damper in said.get("dampers", ()):
             yield *where, name_cell(damper["node"]), "heat", damper["heat_W"][k], "W"
+    for shaft in said["shafts"]:
+        worst, name = shaft["worst"], name_cell(shaft["name"])
+        where = ("worst", None, worst["speed_rpm"], None)
+        yield *where, name, "half_peak_to_peak", worst["half_peak_to_peak_Nm"], "N m"
+        if "stress_Pa" in worst:
+            yield *where, name, "stress", worst["stress_Pa"], "Pa"
+    swing = said["free_end_worst"]
+    yield "worst", None, swing["speed_rpm"], None, "", "free_end", swing["half_swing_deg"], "deg"

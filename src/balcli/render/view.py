@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+VISIBLE = 1e-3  # share of the largest, below which an order is too small for a picture
+
 
 class View(NamedTuple):
     """What of an analysis a sheet shows.

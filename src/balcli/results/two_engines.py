@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from ..core.peaks import Peak, find_peak
 from ..core.phasors import Complex, Figure, Phasors, unit
 from ..engine.assembly import Ripple
 from ..engine.build import Engine
+from ..errors import BalcliError
 from ..forces.kinds import EVERY_KIND, GAS, KINDS, VECTORS, Kind
 from ..forces.orders import (
     check_orders,
@@ -23,6 +24,8 @@ from ..forces.orders import (
     merge_orders,
 )
 from ..forces.spectrum import Spectra, add_parts, compute_spectra
+from ..limits import FARTHEST_DEG, FARTHEST_M
+from ..result import Result
 from .analysis import DEFAULT_ORDERS
 
 Load = Literal["first", "second", "both"]
@@ -51,8 +54,31 @@ class Arrangement:
     load: Load = "first"
 
 
-@dataclass(frozen=True)
-class Combined:
+def check_arrangement(how: Arrangement) -> None:
+    """For the doors: nothing, unless this cannot be, or says what makes no difference.
+
+    Raises:
+        BalcliError: something infinite or too far, an unknown load, or one that makes no
+            difference.
+    """
+    for option, value in (("phase", how.phase_deg), ("turn", how.turn_deg)):
+        if not abs(value) <= FARTHEST_DEG:
+            raise BalcliError(
+                f"--{option} {value:g}: give an angle in degrees, up to {FARTHEST_DEG:g}"
+            )
+    if not all(abs(value) <= FARTHEST_M for value in how.at_m):
+        raise BalcliError(f"--at: the place of the second engine may be up to {FARTHEST_M:g} m off")
+    if how.load not in get_args(Load):
+        raise BalcliError(f'--load "{how.load[:60]}": choose from {", ".join(get_args(Load))}')
+    if how.load != "first" and not how.reverse:
+        raise BalcliError(
+            f"--load {how.load}: cranks that turn alike roll the frame alike, whichever drives the "
+            "load; it matters with --reverse"
+        )
+
+
+@dataclass(frozen=True, repr=False)
+class Combined(Result):
     """What two engines do to their common frame, about the first one's point of reference.
 
     Geared one to one the kinetic energies add, so that the inertia torque, as the first crank feels
@@ -74,6 +100,11 @@ class Combined:
     force: Peak
     moment: Peak
     cylinders: tuple[tuple[int, Spectra], ...] = ()
+
+    @property
+    def summary(self) -> str:
+        """Of which engines."""
+        return f"of {' and '.join(engine.name or 'an engine' for engine in self.engines)}"
 
     @property
     def has_gas(self) -> tuple[bool, bool]:

@@ -93,10 +93,14 @@ class SchemeOptions(NamedTuple):
 
 def _are(values: object, kind: type) -> bool:
     """Whether they are numbers of a kind, none with hundreds of digits."""
-    if not isinstance(values, tuple) or not all(isinstance(value, kind) for value in values):
-        return False
+    return isinstance(values, tuple) and all(
+        isinstance(value, kind) and _fits_float(value) for value in values
+    )
+
+
+def _fits_float(value: Any) -> bool:
     try:
-        [complex(value) for value in values]
+        complex(value)
     except OverflowError:
         return False
     return True

@@ -88,7 +88,8 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
         raise BalcliError(
             "radius, thickness, disc, drill and max-depth must be positive lengths, such as 40 (mm)"
         )
-    if tools.drill is None and not tools.max_depth is tools.slug is None:
+    of_holes = tools.max_depth is not None or tools.slug is not None
+    if of_holes and tools.drill is None:
         raise BalcliError(
             "--max-depth and --slug are for holes: give the diameter of the drill, such as "
             "--drill 25.4"

@@ -24,7 +24,7 @@ from .deviations import DeviatingEngine, Tolerances
 from .quantities import ChapterQuantity, group_by_chapter, refuse_unknown_of_chapters
 from .quantity_names import CYCLE, GUIDE
 from .spread_one_by_one import Drawing, spread_one_by_one
-from .tolerances import Scatter, Shape, refuse_rotary
+from .tolerances import Scatter, Shape
 
 
 def scatter_cycles(
@@ -40,9 +40,7 @@ def scatter_cycles(
 
     Args:
         quantities: of the cycle (`torque.max`), or of guide-force moments (`guide.6.H`).
-        seed: of the random numbers, to repeat them.
-        shape: uniform within the tolerances, or normal with a third of them as standard deviation.
-        tell: is told how many samples have been computed, and says whether these are enough.
+        seed, shape, tell: as in `tolerances.scatter_engine`.
 
     Raises:
         BalcliError: quantities of what the file does not have; too many samples, no tolerance.
@@ -52,14 +50,11 @@ def scatter_cycles(
             f"{samples} samples: of {quantities[0].name}, where each engine is computed by itself, "
             f"from 1 to {MOST_CYCLE_SAMPLES} are allowed"
         )
-    refuse_rotary(model)
+    engines = DeviatingEngine(model, tolerances)
     refuse_unknown_of_chapters(model, quantities)
     of_speed = any(q.name == "fluctuation" for q in quantities)
     if of_speed and find_constant_inertia(build(model)) is None:
         raise BalcliError(NO_INERTIA)
-    engines = DeviatingEngine(model, tolerances)
-    if not engines.sources:
-        raise BalcliError("nothing deviates; give a tolerance, such as --mass-scatter 0.5%")
     groups = group_by_chapter(quantities)
     of_cycle = cast("Sequence[CycleQuantity]", groups.get(CYCLE, ()))
     of_guides = cast("Sequence[TargetQuantity]", groups.get(GUIDE, ()))

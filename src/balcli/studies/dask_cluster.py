@@ -41,9 +41,10 @@ def connect_cluster(address: str) -> Iterator[Any]:
     with ExitStack() as ends:
         try:
             if address == "local":
+                # Its workers, when it ends, complain of the scheduler's absence.
                 own = dask.LocalCluster(
                     threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL
-                )  # its workers, when it ends, complain of the scheduler's absence
+                )
                 client = ends.enter_context(dask.Client(ends.enter_context(own)))
             else:
                 client = ends.enter_context(dask.Client(address, timeout=10))

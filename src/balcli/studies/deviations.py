@@ -20,6 +20,7 @@ from ..engine.build import Engine, Weighed, assemble, build
 from ..engine.gas import EngineGas, build_gas
 from ..engine.layout import plan_cylinders
 from ..enginefile.model import Bobweight, EngineFile
+from ..errors import BalcliError
 from ..forces.quantity import Quantity
 from ..forces.spectrum import compute_spectra
 from .deviating_gas import DeviatingGas
@@ -64,9 +65,17 @@ class DeviatingEngine:
 
     Attributes:
         sources: what deviates; tolerances of 0 and parts without mass are left out.
+
+    Raises:
+        BalcliError: the cylinders turn, or nothing deviates.
     """
 
     def __init__(self, model: EngineFile, tolerances: Tolerances) -> None:
+        if model.layout.rotary:
+            raise BalcliError(
+                "there is no scatter of rotary engines, whose masses move on curves: vary single "
+                "masses with sweep"
+            )
         self._model, self._engine = model, build(model, rank=1)
         self._gas = None if model.gas is None else DeviatingGas(model, tolerances.length)
         cells = {cell.number: cell for cell in plan_cylinders(model.crank, model.layout).cells}
@@ -81,6 +90,8 @@ class DeviatingEngine:
         self._small_ends = self._of_each(c.reciprocating) - self._pistons
         self._big_ends = self._of_each(c.rotating) - self._webs - self._shells
         self.sources = tuple(self._find_sources(tolerances))
+        if not self.sources:
+            raise BalcliError("nothing deviates; give a tolerance, such as --mass-scatter 0.5%")
 
     def _of_each(self, rows: Array) -> Array:
         """One row a cylinder, shape (cylinders, 1)."""

@@ -20,6 +20,7 @@ from ..results.analysis import Analysis, analyze, load_crankshaft
 from ..results.balance import balance
 from ..sizing.balance_factor import find_best_factor
 from ..sizing.options import SchemeOptions
+from ..sizing.remedy import Remedy
 from ..sizing.scheme_figures import FactorPeaks
 from ..sizing.sizing import size
 from ..torque.pictures import PAGES, GasPictures, compute_pictures
@@ -48,6 +49,7 @@ class Study(NamedTuple):
 
     Attributes:
         now, before: the engine, and without the devices that were fitted, if any were.
+        remedy: those devices.
         factors: rows of peaks over the balance factor, ascending; the best of all among them.
         banks: an order over the bank angle.
         bent: what bends the crankshaft now, and before.
@@ -56,6 +58,7 @@ class Study(NamedTuple):
 
     now: Analysis
     before: Analysis | None = None
+    remedy: Remedy | None = None
     factors: Sequence[FactorPeaks] = ()
     banks: Banks | None = None
     bent: tuple[InnerLoads, ...] = ()
@@ -94,7 +97,7 @@ def compute_study(
             if what == "inner"
             else ()
         )
-        return Study(found.after, found.before, bent=bent)
+        return Study(found.after, found.before, found.remedy, bent=bent)
     now = analyze(engine, orders, KINDS)
     if what in PAGES:
         return Study(now, gas=compute_pictures(engine, what))

@@ -132,11 +132,8 @@ def scatter_engine(
         )
     if not 1 <= samples <= MOST_TOLERANCE_SAMPLES:
         raise BalcliError(f"{samples} samples: from 1 to {MOST_TOLERANCE_SAMPLES} are allowed")
-    refuse_rotary(model)
-    refuse_unknown(build(model), quantities)
     engines = DeviatingEngine(model, tolerances)
-    if not engines.sources:
-        raise BalcliError("nothing deviates; give a tolerance, such as --mass-scatter 0.5%")
+    refuse_unknown(build(model), quantities)
     drawn, count = [Sample() for _ in quantities], 0
     for deviations in _draw(engines.sources, samples, seed, shape):
         found = evaluate_quantities(engines.deviate(deviations), quantities)
@@ -147,19 +144,6 @@ def scatter_engine(
             break
     spreads = [_spread(engines, q, sample) for q, sample in zip(quantities, drawn, strict=True)]
     return Scatter(model, count, shape, tuple(spreads))
-
-
-def refuse_rotary(model: EngineFile) -> None:
-    """Nothing, unless the cylinders turn.
-
-    Raises:
-        BalcliError: they do.
-    """
-    if model.layout.rotary:
-        raise BalcliError(
-            "there is no scatter of rotary engines, whose masses move on curves: vary single "
-            "masses with sweep"
-        )
 
 
 def _draw(

@@ -70,9 +70,14 @@ class TorqueAnalysis(Result):
         return self.spectra.orders
 
     @property
+    def mechanical_efficiency(self) -> float | None:
+        """Brake over indicated work; None: the file does not say."""
+        return take_gas(self.engine).mechanical_efficiency
+
+    @property
     def bmep(self) -> float | None:
         """Brake mean effective pressure, Pa; None without mechanical_efficiency."""
-        efficiency = take_gas(self.engine).mechanical_efficiency
+        efficiency = self.mechanical_efficiency
         return None if efficiency is None else self.imep * efficiency
 
     @property

@@ -17,7 +17,6 @@ from .style import BLUE, GREEN, RED, SOFT
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-SHARE = 1e-3  # orders below this share of the largest are too small to be seen
 FINE = np.radians(np.arange(0, 360.5, 1))  # crank angles at which one order is drawn
 LOOKS = ((BLUE, "-", ""), (RED, (0, (5, 1.5)), "////"), (GREEN, (0, (1.5, 1)), "...."))
 

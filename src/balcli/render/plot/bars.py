@@ -10,7 +10,8 @@ import numpy as np
 from ...core.phasors import Array, Phasors
 from ..sheet import number, order_name
 from ..units import Unit
-from .axes import LOOKS, SHARE
+from ..view import VISIBLE
+from .axes import LOOKS
 from .legends import put_legend_above
 from .style import BLUE, RED, SOFT
 
@@ -62,7 +63,7 @@ def visible_rows(curve: Phasors, before: Phasors | None = None) -> list[int]:
         else np.maximum(curve.major, _largest_values(before, curve.orders))
     )
     always = (curve.orders >= 1) & (curve.orders <= 2)
-    due = np.flatnonzero(always | (major > SHARE * major.max(initial=0)))
+    due = np.flatnonzero(always | (major > VISIBLE * major.max(initial=0)))
     keep = due[np.argsort(-major[due], kind="stable")[:10]]
     return sorted(keep.tolist())
 
@@ -89,7 +90,7 @@ def _label_bars(ax: Axes, orders: Array, tops: Array | None, label: str) -> None
             fontsize=7,
         )
     highest = ax.dataLim.y1
-    ax.set_ylim(0, 1.18 * highest or 1)
+    ax.set_ylim(0, 1.35 * highest or 1)
     if not highest:
         ax.set_yticks([0])
     put_legend_above(ax)

@@ -9,7 +9,7 @@ import numpy as np
 from ...core.phasors import Array, Complex
 from ...core.speed_variation import Surplus
 from ...torque.pictures import MainLoads, PinLoads, Pressures, Torques
-from ..units import Unit
+from ..units import BAR, Unit
 from .legends import put_legend_above
 from .style import BLUE, FAINT, GREEN, INK, RED, SOFT
 
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-BAR = 1e5
 _MARKS = 8  # crank angles that are told along a locus, in a revolution
 _COLUMNS = 7  # of polar diagrams side by side
 

@@ -9,7 +9,8 @@ import numpy as np
 from ...core.phasors import Complex, Phasors
 from ..sheet import NOTHING, size_text
 from ..units import Unit
-from .axes import SHARE, set_up_plane
+from ..view import VISIBLE
+from .axes import set_up_plane
 from .legends import put_legend_above
 from .style import BLUE, INK, PAPER, SOFT
 
@@ -97,7 +98,7 @@ def _draw_arrow(ax: Axes, step: Complex, limit: float) -> None:
 
 def find_period_deg(curve: Phasors) -> int:
     """The crank angle after which the curve repeats itself, as far as can be seen."""
-    seen = curve.orders[curve.major > SHARE * curve.major.max(initial=0)]
+    seen = curve.orders[curve.major > VISIBLE * curve.major.max(initial=0)]
     repeats = int(np.gcd.reduce((2 * seen).astype(int), initial=0))  # in two revolutions
     return 720 // min(repeats, 24) if repeats else 360
 

@@ -12,9 +12,11 @@ from ...core.phasors import Phasors
 from ...forces.crankshaft import InnerLoads
 from ...forces.kinds import KINDS, ROLL, SCALARS, VECTORS
 from ...results.analysis import Analysis
+from ...sizing.remedy import Remedy
 from ...sizing.scheme_figures import FactorPeaks
 from ...studies.pictures import Banks
 from ...torque.pictures import GasPictures
+from ..bobweights import percent
 from ..sheet import NAMELESS, NEGLIGIBLE, NOTHING, size_text
 from ..units import SI, System, Unit
 from .along_crankshaft import draw_along
@@ -44,11 +46,12 @@ _TITLES = {"force": "Free force", "moment": "Free moment", ABOUT: "About the cra
 @dataclass(frozen=True)
 class Subject:
     """What a page shows: an analysis of all spectra, one of the engine before devices were fitted,
-    to compare with, and studies.
+    to compare with, these devices, and studies.
     """
 
     now: Analysis
     before: Analysis | None = None
+    remedy: Remedy | None = None
     system: System = SI
     factors: Sequence[FactorPeaks] = ()
     banks: Banks | None = None
@@ -92,11 +95,21 @@ def make_page(subject: Subject, what: str, form: Form) -> Figure:
         layout(fig, subject)
         engine = subject.now.engine
         fig.suptitle(
-            f"{fit_name(engine.name) or NAMELESS}, {engine.speed_rpm:g} rpm",
+            f"{fit_name(engine.name) or NAMELESS}, {engine.speed_rpm:g} rpm"
+            + _tell_fitted(subject.remedy),
             x=0.01,
             ha="left",
         )
         return fig
+
+
+def _tell_fitted(remedy: Remedy | None) -> str:
+    """A line with the scheme of the devices that are fitted."""
+    if remedy is None:
+        return ""
+    share = f" {percent(remedy.card[0].factor)}" if remedy.card else ""
+    order = "" if remedy.order is None else f", order {remedy.order}"
+    return f"\nwith scheme {remedy.scheme}{share}{order}"
 
 
 def draw_panel(subject: Subject, what: str, quantity: str) -> str:
@@ -119,7 +132,8 @@ def _lay_out_all(fig: Figure, subject: Subject) -> None:
     for k, quantity in enumerate(_VECTORS):
         _locus_panel(fig.add_subplot(grid[0, k]), subject, quantity)
     for k, quantity in enumerate(PICTURED):
-        _bars_panel(fig.add_subplot(bars[k]), subject, quantity)
+        _bars_panel(ax := fig.add_subplot(bars[k]), subject, quantity)
+        ax.set_xlabel("order" if quantity == PICTURED[-1] else "")  # leaves room for the bars
         _curves_panel(fig.add_subplot(grid[1, k]), subject, quantity)
 
 

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.phasors import Array
+from ...core.roots_of_unity import TURN
 from ...engine.build import Engine
 from ...engine.firing import TOLERANCE_DEG
-from ...engine.layout import TURN, cycle_deg
+from ...engine.layout import cycle_deg
 from ...enginefile.model import EngineFile
 from .angles import STEP, Span, neaten
 from .designs import build_candidates, find_buildable

@@ -16,9 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.phasors import Array, Complex
+from ...core.roots_of_unity import TURN
 from ...core.telling import Tell, tell_nobody
 from ...engine.arrays import ranked
-from ...engine.layout import TURN, plan_cylinders
+from ...engine.layout import plan_cylinders
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
 from ...forces.quantity import Quantity
@@ -73,8 +74,7 @@ def find_best_throws(
 
 def _count_arrangements(given: Array) -> int:
     """In how many ways throws at these angles can follow each other."""
-    times = np.unique(given, return_counts=True)[1].tolist()
-    return math.factorial(len(given)) // math.prod(map(math.factorial, times))
+    return _count_sequences(tuple(np.unique(given, return_counts=True)[1].tolist()))
 
 
 def _count_arrangements_of_others(angles: Array) -> int:

@@ -1,0 +1,82 @@
+"""What is wrong names the function's own arguments, not the options of the command line."""
+
+import pickle
+
+import pytest
+
+import balcli
+
+V8 = balcli.load_example("v8_crossplane")
+CHAIN = {
+    "fixed": ["wall"],
+    "node": [{"name": "disc", "inertia": 1e6}, {"name": "wall"}],
+    "shaft": [{"from": "disc", "to": "wall", "stiffness": 1e4}],
+    "excitation": [{"node": "disc", "order": 1, "cos": 100}],
+}
+
+
+@pytest.mark.parametrize(
+    ("ask", "told"),
+    [
+        (
+            lambda: balcli.tables("kvasnikov-1", angles="0:90:5"),
+            "angles: table kvasnikov-1 takes ratios",
+        ),
+        (
+            lambda: balcli.tables("kvasnikov-1", ratios="0.9:1.1:0.1"),
+            "ratios '0.9:1.1:0.1': lambda = 1, but a crank turns only with 0 < lambda < 1",
+        ),
+        (
+            lambda: balcli.scatter(V8, mass=0),
+            "nothing deviates; give a tolerance, such as mass 0.5%",
+        ),
+        (
+            lambda: balcli.curves(V8, 1000),
+            "step_deg 1000: give a step of the crank angle from 0.001 to 360 degrees",
+        ),
+        (
+            lambda: balcli.plot(V8, "bank", scheme="crank"),
+            "what bank shows the engine as it is: leave scheme and its options out",
+        ),
+        (
+            lambda: balcli.combine(V8, V8, load="both"),
+            "load both: cranks that turn alike roll the frame alike, whichever drives the load; it "
+            "matters with reverse",
+        ),
+        (
+            lambda: balcli.combine(V8, V8, at_m=(0, float("nan"), 0)),
+            "at_m: the place of the second engine may be up to 1e+06 m off",
+        ),
+        (
+            lambda: balcli.analyze_torsion(CHAIN, [1000, 1100], orders=[2], damper="viscous"),
+            "damper: nothing excites the system at the orders asked for",
+        ),
+    ],
+)
+def test_errors_name_arguments(ask, told):
+    with pytest.raises(balcli.BalcliError) as refusal:
+        ask()
+    assert str(refusal.value) == told
+
+
+@pytest.mark.parametrize(
+    ("ask", "told"),
+    [
+        (
+            lambda: balcli.combine(V8, V8, at_m=0.3),
+            "at_m: 0.3 (float): give x, y and z in m, such as (0.3, 0, 0)",
+        ),
+        (
+            lambda: balcli.combine(V8, V8, phase_deg="90"),
+            "phase_deg: '90' (str): give an angle in degrees",
+        ),
+    ],
+)
+def test_what_is_of_another_type(ask, told):
+    with pytest.raises(TypeError) as refusal:
+        ask()
+    assert str(refusal.value) == told
+
+
+def test_a_function_is_still_found_by_its_name():
+    assert pickle.loads(pickle.dumps(balcli.scatter)) is balcli.scatter
