@@ -91,6 +91,9 @@ def test_csv_lists_every_figure(four):
     assert any(line.startswith("0,flywheel,,fluctuation,0.0") for line in lines)
     assert any(line.startswith("1,gas,0.5,amplitude,") for line in lines)
     assert any(line.startswith("0,torque_total,2,peak_deg,") for line in lines)
+    assert any(line.startswith("0,torque_total,,max,") for line in lines)
+    silent = torque(four, "--misfire", "3", "--misfire", "1", "--format", "csv").splitlines()
+    assert "0,engine,,no_gas_in,1 3," in silent
 
 
 def test_what_is_written_turns_as_unevenly(four, tmp_path):

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..core.piecewise import PiecewiseCurve
 from ..core.speed_variation import Surplus
+from ..forces.kinds import TORQUE_TOTAL
 from ..forces.spectrum import Spectra
 from ..torque.analysis import KINDS_OF_TORQUE, TorqueAnalysis, degrees_in_cycle
 from ..torque.flywheel import Flywheel, Speed
@@ -174,12 +175,16 @@ def rows(result: Result, system: System) -> Rows:
 def _all_rows(result: Result, system: System) -> Iterator[FigureRow]:
     found = document(result)
     units = {"Nm": system.moment, "J": system.moment}
+    # An engine's torque by order is that of inertia here, as in `analyze`.
+    names = {} if isinstance(result, CurveAnalysis) else {"torque": TORQUE_TOTAL.name}
     for key, value in found.items():
         if key == "loads":
             yield from _load_rows(value, system)
+        elif key == "no_gas_in":
+            yield FigureRow(0, "engine", None, key, " ".join(map(str, value)), "")
         elif isinstance(value, dict):
             for figure, inner in value.items():
-                yield _figure_row(key, figure, inner, units)
+                yield _figure_row(names.get(key, key), figure, inner, units)
         elif key not in ("format", "orders"):
             yield _figure_row("engine", key, value, units)
     if isinstance(result, CurveAnalysis):
