@@ -158,6 +158,24 @@ def test_exact_and_numeric_decisions_agree(path):
         assert all(numeric) == (reason.verdict in ("exact", "none", "rounding")), reason
 
 
+@pytest.mark.parametrize(
+    ("more", "left_out"),
+    [
+        ("[[counterweight]]\nunbalance = 9000", "without counterweights, shafts and sliders"),
+        ("[operation]\nspeed_ripple = [{ order = 1, amplitude = 0.02 }]", "at steady speed"),
+        ("[frame]\nreference = [0, 40, 0]", "couple and roll about the crank's axis"),
+    ],
+)
+def test_what_the_reasons_leave_out_is_said(more, left_out):
+    """Else "balanced exactly" stands below a force that is not."""
+    told = sentences([0, 180], more=more, orders=[1])
+    assert told[0] == f"of the cylinders alone: {left_out}"
+    assert told[1:] == sentences([0, 180], orders=[1])
+    text = BASE.format(throws=[0, 180], spacing=100) + more
+    result = analysis.analyze(engine.build(enginefile.parse(text)), [1], ["force"], reasons=True)
+    assert analysis_document(result)["why"]["scope"] == told[0]
+
+
 def test_only_what_is_asked_and_as_json():
     built = engine.build(enginefile.parse(BASE.format(throws=[0, 180], spacing=100)))
     result = analysis.analyze(built, [1, 2], ["force"], reasons=True)

@@ -117,10 +117,11 @@ class Reason(TypedDict):
 
 
 class Why(TypedDict):
-    """What symmetry balances, and how the engine fires."""
+    """What symmetry balances, how the engine fires, and what the reasons leave out, if anything."""
 
     reasons: list[Reason]
     firing: str
+    scope: NotRequired[str]
 
 
 class Travel(TypedDict):

@@ -105,12 +105,13 @@ class Reason:
 
 @dataclass(frozen=True)
 class Symmetry:
-    """Why each order of each quantity is balanced or is not, and how the engine fires (empty: the
-    file does not say).
+    """Why each order of each quantity is balanced or is not, how the engine fires (empty: the file
+    does not say), and of what these are the reasons (empty: of the engine as it is).
     """
 
     reasons: tuple[Reason, ...]
     firing: str
+    scope: str = ""
 
     @property
     def sentences(self) -> tuple[str, ...]:
@@ -123,7 +124,7 @@ class Symmetry:
             f"order{'s' * (len(names) > 1)} {', '.join(names)} {subject}: {finding}"
             for (subject, finding), names in orders.items()
         )
-        return (*told, self.firing) if self.firing else tuple(told)
+        return tuple(filter(None, (self.scope, *told, self.firing)))
 
 
 def explain_symmetry(
@@ -146,7 +147,18 @@ def explain_symmetry(
     reasons = [layout.explain(row, q) for row in range(len(asked)) for q in quantities]
     if engine.gas is not None and "gas" in kinds:
         reasons = sorted([*reasons, *_explain_gas(engine, asked)], key=attrgetter("order"))
-    return Symmetry(tuple(reasons), describe_firing(engine))
+    return Symmetry(tuple(reasons), describe_firing(engine), _tell_scope(engine))
+
+
+def _tell_scope(engine: Engine) -> str:
+    """What of an engine the reasons leave out, beside whose figures they stand."""
+    left_out = {
+        "without counterweights, shafts and sliders": bool(engine.devices),
+        "at steady speed": bool(engine.ripple),
+        "couple and roll about the crank's axis": any(engine.reference_m[:2]),
+    }
+    told = [words for words, there in left_out.items() if there]
+    return f"of the cylinders alone: {', '.join(told)}" if told else ""
 
 
 def _explain_gas(engine: Engine, orders: Array) -> Iterator[Reason]:

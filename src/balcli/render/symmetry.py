@@ -27,7 +27,8 @@ def sheet_parts(why: Symmetry) -> Iterator[Text]:
 
 def document(why: Symmetry) -> dict[str, Any]:
     """`why` in `balcli.analysis/1`."""
-    return {"reasons": [asdict(reason) for reason in why.reasons], "firing": why.firing}
+    scope = {"scope": why.scope} if why.scope else {}
+    return {"reasons": [asdict(reason) for reason in why.reasons], "firing": why.firing, **scope}
 
 
 def rows(why: Symmetry) -> Iterator[FigureRow]:
@@ -41,5 +42,7 @@ def rows(why: Symmetry) -> Iterator[FigureRow]:
         if reason.reciprocating is not None:
             yield FigureRow(*about, "why_reciprocating", clean(reason.reciprocating), reason.unit)
             yield FigureRow(*about, "why_built", clean(reason.built), reason.unit)
+    if why.scope:
+        yield FigureRow(0, "scope", None, "why", why.scope, "")
     if why.firing:
         yield FigureRow(0, "firing", None, "why", why.firing, "")
