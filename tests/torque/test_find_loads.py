@@ -85,6 +85,18 @@ def test_bearings_carry_what_the_throws_carry():
     assert places @ bearings == pytest.approx(moment, abs=1e-9 * size)
 
 
+def test_a_bearing_whose_loads_cancel_bears_nothing():
+    """The one between two pistons of a boxer that fire together."""
+    text = FOUR.replace("[0, 180, 180, 0]", "[0, 180]\nthrow_mass = 0.3").replace(
+        "firing_order = [1, 3, 4, 2]",
+        'banks = [-90, 90]\nrods = "alternating"\nstrokes = 2\nfiring_order = [1, 2]\n'
+        "firing_intervals = [0, 360]",
+    )
+    outer, middle, _ = analyze_loads(engine(text + WIEBE), ("main",)).main
+    assert (middle.largest.value, middle.largest.angle, middle.mean) == (0, 0, 0)
+    assert outer.largest.value > outer.mean > 1000
+
+
 BASE = """\
 [crank]
 stroke = 120

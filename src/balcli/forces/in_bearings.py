@@ -29,7 +29,7 @@ from .gas import take_gas
 from .orders import list_gas_orders, mark_considerable
 from .rod_forces import compute_rod_forces, list_hung_rows
 
-_NOTHING = 1e-13  # share of what is added up below which a sum is rounding errors
+NOTHING = 1e-13  # share of what is added up below which a sum is rounding errors
 
 
 class LoadsWithGas(NamedTuple):
@@ -261,7 +261,7 @@ def _find_reach(z: Array, sections: Array) -> Array:
 def _follow(sums: _Sums, samples: Complex, panels: Panels, orders: Array) -> AlongCrank:
     """Orders and largest values of sums of forces; what is rounding error is 0."""
     values = sums.factor * (sums.weights @ samples)
-    noise = _NOTHING * (sums.sizes @ np.abs(samples).max(axis=1))
+    noise = NOTHING * (sums.sizes @ np.abs(samples).max(axis=1))
     forward, backward = panels.find_orders(values, orders)
     phasors = Phasors(orders, forward, backward, np.broadcast_to(noise, forward.shape))
     peaks = (

@@ -12,6 +12,7 @@ from ..core.piecewise import Extreme
 from ..core.vectors_over_cycle import Vectors, find_panels
 from ..engine.build import Engine
 from ..forces.in_bearings import (
+    NOTHING,
     compute_bearing_loads,
     compute_in_pieces,
     find_breaks,
@@ -66,14 +67,17 @@ def find_bearing_loads(engine: Engine) -> tuple[Array, Vectors]:
 def _measure(
     engine: Engine, vectors: Vectors, names: Iterable[int], places: Array, area: float | None
 ) -> Iterator[Load]:
-    """Largest and mean size of each vector over the cycle."""
+    """Largest and mean size of each vector over the cycle; 0 where it is rounding error beside the
+    others.
+    """
 
     def compute(angles: Array) -> Complex:
         return compute_in_pieces(engine, vectors, angles)
 
     panels = find_panels(compute, find_breaks(engine), 1.0)
-    rows = zip(names, places.tolist(), compute(panels.angles), strict=True)
-    for name, z, samples in rows:
+    every = compute(panels.angles)
+    every[np.abs(every).max(axis=1) <= NOTHING * np.abs(every).max()] = 0.0
+    for name, z, samples in zip(names, places.tolist(), every, strict=True):
         size, angle, _ = panels.find_largest(samples)
         mean = panels.find_mean_size(samples)
         yield Load(name, z, Extreme(angle, size), mean, None if area is None else size / area)
