@@ -29,6 +29,9 @@ _RESOLVED = 2e-14  # last terms of a series, relative to the largest value of th
 _NOISE = 1e-5  # last terms below this share that halving hardly lowers are rounding errors
 _HARDLY = 0.75
 _HALVINGS = 48
+_EVERYWHERE = (
+    256  # times as many panels: what halving everywhere does not show is nothing but noise
+)
 _SAME = 1e-11  # rad; an angle so near to a breakpoint is the breakpoint
 _SAME_X = 1e-15  # of a panel's half width, where Newton's method has arrived
 _NOTHING = 1e-9  # values below this share of the largest have no sign
@@ -243,7 +246,8 @@ def resolved(function: Function, breaks: ArrayLike) -> PiecewiseCurve:
         breaks: rising, rad; the last a period after the first.
 
     A panel is halved until its last two coefficients are below 2e-14 of the function's largest
-    value, or until halving no longer helps because they are the function's own rounding errors.
+    value, or until halving no longer helps because they are the function's own rounding errors, of
+    which it may have nothing else.
     """
     edges = cut(np.asarray(breaks, float), _WIDEST)
     terms = _TERMS if len(edges) <= _MANY else _FEW_TERMS
@@ -258,6 +262,7 @@ def resolved(function: Function, breaks: ArrayLike) -> PiecewiseCurve:
         tail = np.abs(series[-2:]).max(axis=0)
         noise = (tail < _NOISE * size) & (tail > _HARDLY * above)
         halve = (tail > _RESOLVED * size) & ~noise & (halvings < _HALVINGS)
+        halve &= len(low) < _EVERYWHERE * len(edges)
         starts.append(low[~halve])
         found.append(series[:, ~halve])
         if not halve.any():
