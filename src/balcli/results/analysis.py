@@ -227,9 +227,8 @@ def _analyze_cylinders(
     count = len(orders) * len(engine.numbers)
     if count > MOST_RESULTS_BY_CYLINDER:
         raise BalcliError(
-            f"by cylinder, {len(orders)} orders of {len(engine.numbers)} cylinders are "
-            f"{count} results, and at most "
-            f"{MOST_RESULTS_BY_CYLINDER} are told: ask for fewer orders"
+            f"by cylinder, {len(orders)} orders of {len(engine.numbers)} cylinders are {count} "
+            f"results, and at most {MOST_RESULTS_BY_CYLINDER} are told: ask for fewer orders"
         )
     own = compute_each_cylinder(engine, orders, kinds)
     return tuple((n, own.select_place(engine.numbers.index(n))) for n in sorted(engine.numbers))
