@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import signal
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
 
 import pytest
@@ -84,6 +84,14 @@ def test_nothing_is_shown_where_nobody_looks(
     assert capsys.readouterr() == ("", "")
 
 
+@pytest.fixture
+def interruptible() -> Iterator[None]:
+    """The tests themselves may run where Ctrl-C is ignored, in the background of a script."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 def stop_in_the_middle(done: float) -> None:
     with progress.reporting_until_stopped("engines", 8) as tell:
         assert not tell(2)
@@ -94,6 +102,7 @@ def stop_in_the_middle(done: float) -> None:
 
 
 @unix
+@pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_ends_what_can_be_whole_with_what_there_is(
     capsys: pytest.CaptureFixture[str],
 ) -> None:

@@ -80,6 +80,7 @@ def test_other_words_for_a_key_lead_to_it(tmp_path, old, new, meant):
 
 
 COUNT = "the number of cylinders follows from throws and banks; give every throw its angle, such as"
+WIEBE = {"cycle": "wiebe", "compression_ratio": 10, "imep": 9}
 KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes a vee"
 
 
@@ -108,6 +109,9 @@ KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes 
         ({"layout": {"angle": 60}}, "layout.angle: unknown key in [layout]; did you mean bank_angle?"),
         ({"layout": {"type": "V"}}, f"layout.type: unknown key in [layout]; {KIND}"),
         ({"layout": {"stroke": 90}}, "layout.stroke: unknown key in [layout]; stroke belongs to [crank]"),
+        ({"operation": {"power": 80}}, "operation.power: unknown key in [operation]; power and torque follow from gas.imep"),
+        ({"gas": WIEBE | {"Power": "80 kW"}}, "gas.Power: unknown key in [gas]; power and torque follow from gas.imep, or"),
+        ({"gas": WIEBE | {"powder": 3}}, "gas.powder: unknown key in [gas]; it has indicator, zero,"),
         ({"units": "in"}, "units: unknown key in an engine file; bare numbers are mm, kg, degrees and rpm;"),
         ({"displacement": 2}, "displacement: unknown key in an engine file; the displacement follows from"),
     ],

@@ -58,6 +58,27 @@ def test_two_speeds_are_solved_together():
     assert agree(totals(text), -excess, alpha)
 
 
+@pytest.mark.parametrize("trims", [[(1500, "a")], [(3000, "a")], [(3000, "a"), (1500, "b")]])
+def test_corrections_go_on_from_the_last_run_at_whatever_speed(trims):
+    """After runs at two speeds, corrections are tried at one of them, or at one after the other."""
+    alpha, excess = random_rotor(1, 2, 2)
+    put_on = {"a": np.array([0.7 - 0.2j, 0.1j]), "b": np.array([-0.3, 0.4 + 0.1j])}
+    text, row = head(2), {1500: 0, 3000: 1}
+    for states in ([], [("p1", 0.5)], [("p2", 0.5j)]):
+        on = np.array([dict(states).get(name, 0) for name in names(2)])
+        for speed in row:
+            text += run([alpha[row[speed]] @ (excess + on)], states, f"speed = {speed}")
+    for speed, name in trims:
+        states = list(zip(names(2), put_on[name], strict=True))
+        reading = alpha[row[speed]] @ (excess + put_on[name])
+        text += run([reading], states, f'speed = {speed}\nname = "{name}"')
+    found = find_corrections(parse_runs(text))
+    last = trims[-1][1]
+    assert found.influence.trimmed == last
+    assert agree(np.array([p.total for p in found.planes]), -excess, alpha)
+    assert agree(np.array([p.step for p in found.planes]), -excess - put_on[last], alpha)
+
+
 @pytest.mark.parametrize("rotation", ["lag", "lead"])
 @pytest.mark.parametrize("sense", ["with", "against"])
 def test_senses_of_angles(rotation, sense):

@@ -154,3 +154,9 @@ def test_figures_on_bars_stay_below_the_legend():
         if text.get_window_extent().y1 > ax.bbox.y1 + 1
     ]
     assert above == []
+
+
+def test_contours_name_the_engine_too():
+    """As curves over one number do."""
+    ranges = {"layout.bank_angle": "30:90:30", "rod.length": "140:160:10"}
+    assert balcli.plot(balcli.sweep(VEE, ranges)).get_suptitle() == VEE.name

@@ -191,6 +191,20 @@ def test_no_resonance_is_too_narrow_to_be_found(report, loss):
     assert found == pytest.approx(highest, rel=1e-3)
 
 
+@pytest.mark.parametrize(("seed", "loss"), [(7, 0.3), (15, 0.3), (23, 0.1), (42, 0.1)])
+def test_of_several_peaks_the_highest_is_found(report, seed, loss):
+    """Among four speeds, where peaks are of nearly one height."""
+    text = ENGINE + RandomBody(seed, 4, loss).text
+    coarse = report(text, speeds=np.array([250.0, 650, 1100, 1500])).response
+    fine = report(text, speeds=np.arange(250.0, 1501, 1)).response
+    for worst, curves in (
+        (coarse.worst_force, fine.force_peak),
+        (coarse.worst_motion, fine.motion_peak),
+    ):
+        found = [each.value for each in worst]
+        assert found == pytest.approx(curves.max(axis=0), rel=1e-3)
+
+
 def test_a_scheme_takes_away_what_it_is_for(report):
     """Shafts cancel the second-order force; the roll stays, and the mounts feel that."""
     text = ENGINE.replace("[cylinder.2]\npiston_mass = 0.55\n", "") + RandomBody(9, 4).text

@@ -193,6 +193,14 @@ def test_a_force_has_no_free_place():
     assert "At 0, 0, the crank's centre line, a shaft adds no roll; elsewhere" in table
 
 
+def test_sizes_name_the_device_they_are_of():
+    lines = run_here("balance", I3).out.splitlines()
+    start = next(k for k, line in enumerate(lines) if "centrifugal force" in line)
+    kinds = ["counterweight"] * 2 + ["shaft"] * 6
+    found = [line.split()[:2] for line in lines[start + 2 : start + 10]]
+    assert found == [[str(k), kind] for k, kind in enumerate(kinds, 1)]
+
+
 def test_how_a_shaft_stands_is_told():
     """Against the crank, an angle might count either way; of counterweights alone it cannot."""
     told = "angles of those that turn against the crank count in its sense, too."

@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import pytest
 from support.engines import GOOD, changed
+from support.paths import ENGINES
 
 from balcli.engine.load import parse as load
 from balcli.errors import BalcliError
@@ -146,4 +147,14 @@ def test_more_values_than_are_kept_are_refused_before_there_are_any() -> None:
     assert str(found.value) == (
         '"rod.ratio=0.2:0.3:1e-10": has 1000000001 values; give a step that leads from the first to '
         "the last in at most 1e+07 steps"
+    )
+
+
+def test_names_that_begin_as_an_unknown_one_are_told():
+    """A vee's `bank` is its bank angle rather than that of one cylinder."""
+    with pytest.raises(BalcliError) as caught:
+        parse("bank=30,60", load((ENGINES / "vtwin45.toml").read_text()))
+    assert str(caught.value) == (
+        "bank: unknown parameter; did you mean layout.bank_angle or cylinder.1.bank or "
+        "cylinder.2.bank?"
     )

@@ -411,3 +411,53 @@ def test_a_rotary_has_no_crankshaft_that_twists():
     assert refusal("torsion", "-", stdin=text) == (
         "standard input: torsion: is for crankshafts that turn; that of a rotary stands still"
     )
+
+
+# ------------------------------------------------------------------ gears
+PUMP_AND_PENDULUM = """
+[crank]
+stroke = 90
+[rod]
+length = 145
+mass = 0.7
+cg = 50
+[piston]
+mass = 0.5
+bore = 86
+[torsion]
+throw_inertia = 20000
+loss = 0.02
+{pump}
+[[torsion.rear]]
+name = "flywheel"
+inertia = 2e5
+stiffness = 3e5
+of = "throw 1"
+damper = {{ kind = "pendulum", mass = 2, radius = 80, length = 20 }}
+"""
+PUMP = """
+name = "pump"
+inertia = 4000
+gear = -2.5
+stiffness = 1e5
+of = "throw 1"
+"""
+
+
+def test_speeds_and_pendulums_count_from_the_crankshaft_with_a_geared_part_foremost():
+    """A part on throw 1 does the same whichever list names it, foremost or not: pendulums stay
+    tuned to orders of the crankshaft.
+    """
+    found = {}
+    for key in ("front", "rear"):
+        text = PUMP_AND_PENDULUM.format(pump=f"[[torsion.{key}]]{PUMP}")
+        said = ask(text, "--speeds", "900,2100,4000")
+        assert {node["name"]: node["gear"] for node in said["nodes"]} == {
+            "throw 1": 1,
+            "pump": -2.5,
+            "flywheel": 1,
+        }
+        found[key] = {each["name"]: each for each in said["response"]["shafts"]}
+    for name in ("pump", "flywheel"):
+        one, other = (found[key][name]["half_peak_to_peak_Nm"] for key in ("front", "rear"))
+        assert one == pytest.approx(other, rel=1e-12)

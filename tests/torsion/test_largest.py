@@ -70,6 +70,34 @@ def test_no_resonance_is_too_narrow_to_be_found(loss, damper):
     assert found == pytest.approx(search_finely(text, -1), rel=1e-6)
 
 
+def test_the_largest_of_an_answer_lies_between_its_speeds():
+    """Torque, stress and swing of hardly damped shafts, 50 rpm apart and next to each other."""
+    text = write_engine(0.005)
+
+    def ask(speeds):
+        out = run_here("torsion", "-", "--speeds", speeds, "-f", "json", stdin=text).out
+        return json.loads(out)["response"]
+
+    coarse = ask("1000:3000:50")
+    by_name = {shaft["name"]: shaft["worst"] for shaft in coarse["shafts"]}
+    worst = by_name["flywheel"]
+    assert worst["half_peak_to_peak_Nm"] == pytest.approx(search_finely(text, -1), rel=1e-6)
+    low, high = worst["speed_rpm"] - 1, worst["speed_rpm"] + 1
+    fine = ask(f"{low}:{high}:0.01")
+    for shaft in fine["shafts"]:
+        told, highest = by_name[shaft["name"]], max(shaft["half_peak_to_peak_Nm"])
+        if low + 0.1 < told["speed_rpm"] < high - 0.1:
+            assert told["half_peak_to_peak_Nm"] == pytest.approx(highest, rel=1e-5)
+        if "stress_Pa" in told:
+            each = shaft["stress_Pa"][0] / shaft["half_peak_to_peak_Nm"][0]
+            assert told["stress_Pa"] == pytest.approx(told["half_peak_to_peak_Nm"] * each)
+    low, high = (coarse["free_end_worst"]["speed_rpm"] + reach for reach in (-1, 1))
+    fine = ask(f"{low}:{high}:0.01")
+    told = coarse["free_end_worst"]["half_swing_deg"]
+    assert told == pytest.approx(max(fine["free_end_deg"]), rel=1e-5)
+    assert told > 1.5 * max(coarse["free_end_deg"])
+
+
 def test_no_barred_range_is_too_narrow_to_be_found():
     """Neither criticals nor speeds 100 rpm apart are near it: the ring shifts the resonance."""
     damper = 'damper = { kind = "viscous", inertia = 60000, damping = 50000 }'

@@ -49,13 +49,13 @@ def test_large_torques_are_in_kilonewton_metres():
     asked = ("torsion", ENGINES / "i6_diesel.toml", "--speeds", "2000:2200:25")
     out = run_here(*asked).out
     assert re.search(r"shaft +± kN·m +at rpm +sum, kN·m", out)
-    row = re.search(r"(?m)^flywheel +([\d.]+) +\d+ +([\d.]+) ", out[out.index("Vibratory") :])
+    row = re.search(r"(?m)^flywheel +([\d.]+) +[\d.]+ +([\d.]+) ", out[out.index("Vibratory") :])
     assert row is not None
     shafts = {
         each["name"]: each
         for each in json.loads(run_here(*asked, "-f", "json").out)["response"]["shafts"]
     }
-    largest = max(shafts["flywheel"]["half_peak_to_peak_Nm"])
+    largest = shafts["flywheel"]["worst"]["half_peak_to_peak_Nm"]
     assert float(row[1]) == pytest.approx(largest / 1e3, rel=1e-4)
 
 

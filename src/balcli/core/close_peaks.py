@@ -26,12 +26,13 @@ def find_peaks_between(judge: Callable[[Real], Real], low: Real, high: Real) -> 
     """
     shares = np.arange(1, _PARTS)[:, None] / _PARTS
     each = np.arange(len(low))
-    highest = np.full(len(low), -np.inf)
+    best, highest = low, np.full(len(low), -np.inf)
     for _ in range(_ROUNDS):
         step = (high - low) / _PARTS
         heights = judge(low + (high - low) * shares)
-        highest = np.maximum(highest, heights.max(axis=0))
         top = low + step * (1 + heights.argmax(axis=0))
+        best = np.where(heights.max(axis=0) > highest, top, best)
+        highest = np.maximum(highest, heights.max(axis=0))
         low, high = top - step, top + step
     middle = np.clip(heights.argmax(axis=0), 1, _PARTS - 3)
     before, here, after = (heights[middle + k, each] for k in (-1, 0, 1))
@@ -40,4 +41,4 @@ def find_peaks_between(judge: Callable[[Real], Real], low: Real, high: Real) -> 
     vertex = top + step * (middle - heights.argmax(axis=0) + beside)
     vertex = np.clip(vertex, low, high)
     there = judge(vertex[None])[0]
-    return np.where(there > highest, vertex, top), np.maximum(highest, there)
+    return np.where(there > highest, vertex, best), np.maximum(highest, there)

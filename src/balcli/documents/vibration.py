@@ -225,10 +225,11 @@ class TorqueOfOrder(TypedDict):
 
 
 class WorstTorque(TypedDict):
-    """Of all speeds."""
+    """Of all speeds, and between them."""
 
     speed_rpm: float
     half_peak_to_peak_Nm: float
+    stress_Pa: NotRequired[float]
     orders: list[TorqueOfOrder]
 
 
@@ -244,6 +245,13 @@ class ShaftResponse(TypedDict):
     worst: WorstTorque
 
 
+class WorstSwing(TypedDict):
+    """Of all speeds, and between them."""
+
+    speed_rpm: float
+    half_swing_deg: float
+
+
 class Heat(TypedDict):
     """Power that a damper turns to heat, by speed."""
 
@@ -257,6 +265,7 @@ class TorsionResponse(TypedDict):
     speeds_rpm: Row
     shafts: list[ShaftResponse]
     free_end_deg: Row
+    free_end_worst: WorstSwing
     dampers: NotRequired[list[Heat]]
 
 

@@ -57,11 +57,11 @@ def split_hyphens(value: object) -> object:
     return value
 
 
-def nearest(word: str, known: Iterable[str]) -> str:
-    """The known word that was probably meant; empty if none is near."""
+def nearest(word: str, known: Iterable[str], cutoff: float = 0.6) -> str:
+    """The known word that was probably meant; empty if none is near. `cutoff`: 1 for equal ones."""
     from difflib import get_close_matches
 
-    near = get_close_matches(word.lower(), list(known), 1) if len(word) < 100 else []
+    near = get_close_matches(word.lower(), list(known), 1, cutoff) if len(word) < 100 else []
     return near[0] if near else ""
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
 from typing import Any, NamedTuple
 
 from ..errors import Problem
@@ -61,6 +62,10 @@ _KIND = (
 )
 _RADIUS = "give crank.stroke, which is twice the crank radius"
 _VOLUME = "the displacement follows from piston.bore, crank.stroke and the number of cylinders"
+_POWER = (
+    "power and torque follow from gas.imep, or gas.bmep with gas.mechanical_efficiency, and "
+    "operation.speed: balcli torque tells them"
+)
 _UNITS = (
     "bare numbers are mm, kg, degrees and rpm; another unit stands with its figure, such as "
     '"3.5 in" or "650 g"'
@@ -75,6 +80,7 @@ INSTEAD = {
     **dict.fromkeys(("type", "kind", "configuration", "v", "vee"), _KIND),
     **dict.fromkeys(("radius", "crank_radius", "r"), _RADIUS),
     **dict.fromkeys(("displacement", "capacity", "volume"), _VOLUME),
+    **dict.fromkeys(("power", "torque", "kw", "hp", "ps"), _POWER),
     **dict.fromkeys(("unit", "units"), _UNITS),
     **dict.fromkeys(("overbalance", "balance_factor", "factor"), _FACTOR),
 }
@@ -148,8 +154,9 @@ def _suggest(first: str, key: str, own: list[str]) -> tuple[str, str]:
     """What to write instead of a key in a table (its name, its keys), in words; and the key of the
     same table that was probably meant, or "".
     """
+    instead = INSTEAD.get(key.lower(), "")
     of_engine = first not in {*DEVICES, *CHAPTERS, *CHAPTER_LISTS}
-    if of_engine and (instead := INSTEAD.get(key.lower())):
+    if instead and (of_engine or (first == "gas" and instead is _POWER)):
         return instead, ""
     if meant := _find_own(key, own):
         return f"did you mean {meant}?", meant
@@ -177,7 +184,7 @@ def _suggest_elsewhere(key: str) -> str:
     """A key of any table that is called so by others, or is spelt nearly so; in words."""
     tables = {f"[{name}]": table for name, table in import_tables().items()}
     tables |= {f"[[{name}]]": table for name, table in import_lists().items()}
-    for find in (_find_synonym, nearest):
+    for find in (_find_synonym, partial(nearest, cutoff=0.75)):
         for name, table in tables.items():
             if near := find(key, table.model_fields):
                 return f"did you mean {near} of {name}?"

@@ -133,7 +133,7 @@ def find_corrections(
     influence = find_influence(file, frozenset(without), name)
     matrix = influence.coefficients[:, used]
     _refuse_dependent(file, matrix, used, name)
-    on = influence.now_on[-1]
+    on = influence.on
     now = influence.now + np.sum(influence.coefficients * (on - influence.now_on), axis=1)
     weights = np.ones(len(now))
     if file.reading_weights:

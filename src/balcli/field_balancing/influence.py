@@ -29,7 +29,9 @@ class Influence(NamedTuple):
         found: readings of the rotor without weights.
         now: readings of the last run with a correction in; as found where there is none.
         now_on: weights that were on at each of these readings, shape (readings, planes).
-        trimmed: name of the last run with a correction in; empty if there is none.
+        trimmed: name of the last run with a correction in, at whatever speed; empty if there is
+            none.
+        on: weights that were on in that run, shape (planes,); else 0.
     """
 
     speeds_rpm: tuple[float | None, ...]
@@ -39,6 +41,7 @@ class Influence(NamedTuple):
     now: Complex
     now_on: Complex
     trimmed: str
+    on: Complex
 
 
 class _Series(NamedTuple):
@@ -65,7 +68,8 @@ def find_influence(file: RunsFile, left_out: frozenset[str], name: str = "") -> 
     speeds = list(dict.fromkeys(run.speed for run in file.run))
     series = [_collect_runs(file, speed) for speed in speeds]
     sensors = series[0].readings.shape[1]
-    blocks, trimmed = [], ""
+    blocks = []
+    trims: dict[int, Complex] = {}  # weights on in the last run with a correction in, by its number
     for k, (speed, runs) in enumerate(zip(speeds, series, strict=True)):
         if file.influence is None:
             trial_count = _count_trials(file, runs, used, speed, name)
@@ -76,14 +80,16 @@ def find_influence(file: RunsFile, left_out: frozenset[str], name: str = "") -> 
             states = _take_given(np.array(rows, dtype=complex), runs)
         coefficients, found = states
         last = len(runs.numbers) - 1
-        now, on = (runs.readings[last], runs.on[last]) if last >= trial_count else (found, 0.0)
+        now, on = found, np.zeros(len(file.planes), dtype=complex)
         if last >= trial_count:
-            trimmed = file.run[runs.numbers[last] - 1].name or f"run {runs.numbers[last]}"
+            now, on = runs.readings[last], runs.on[last]
+            trims[runs.numbers[last]] = on
         blocks.append((coefficients, found, now, np.zeros_like(coefficients) + on))
     coefficients, found, now, now_on = (
         np.concatenate(parts) for parts in zip(*blocks, strict=True)
     )
     keep = np.isin(np.arange(len(file.planes)), used)
+    trim = max(trims, default=0)
     return Influence(
         tuple(speed for speed in speeds for _ in range(sensors)),
         tuple(range(sensors)) * len(speeds),
@@ -91,7 +97,8 @@ def find_influence(file: RunsFile, left_out: frozenset[str], name: str = "") -> 
         found,
         now,
         now_on,
-        trimmed,
+        (file.run[trim - 1].name or f"run {trim}") if trims else "",
+        trims.get(trim, np.zeros(len(file.planes), dtype=complex)),
     )
 
 

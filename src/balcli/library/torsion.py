@@ -50,7 +50,8 @@ def analyze_torsion(
 
     Returns:
         `modes` (`frequency_hz`, shapes), `criticals` (speed, order, mode), `response` (`torque`,
-        N m, and `stress`, Pa, shape (speeds, shafts)), `barred_rpm`.
+        N m, and `stress`, Pa, shape (speeds, shafts); `worst`, the largest of the range), and
+        `barred_rpm`.
 
     Raises:
         BalcliError: no [torsion]; orders or an inertia that cannot be; a response without

@@ -41,6 +41,8 @@ from .motions import ROLL
 _KINDS = ("force", "moment", "roll")
 _RPM = 30 / np.pi  # of 1 rad/s
 _SPEEDS_AT_A_TIME = 512  # whose curves are sampled together
+_BESIDE = np.array([-0.5, 0, 0.5])  # speeds looked at about a resonance, in widths
+_NEAR = 0.8  # of the highest at the speeds looked at: what a peak beside them may exceed
 
 
 @dataclass(frozen=True, eq=False)
@@ -307,32 +309,35 @@ def find_meetings(modes: BodyModes, loads: Loads, omega: Real) -> tuple[Meeting,
 def _find_worst(
     mounted: MountedBody, modes: BodyModes, loads: Loads, omega: Real, peaks: Real
 ) -> tuple[Worst, ...]:
-    """Of each curve (speeds, curves) of peaks its highest value, closer than the speeds are. Where
-    damping is little, a resonance is narrower than their step: the speeds at which an order meets
-    a mode are looked at as well, and about them no farther than the resonance is wide.
+    """Of each curve (speeds, curves) of peaks its highest value, closer than the speeds are: every
+    peak that may be the highest is approached. Where damping is little, a resonance is narrower
+    than their step: the speeds at which an order meets a mode are looked at as well, and beside
+    them as far as the resonance is wide.
     """
     met = [one for one in find_meetings(modes, loads, omega) if modes.loss[one.mode] > UNDAMPED]
-    at_modes = np.array([one.omega for one in met])
-    widths = at_modes * [modes.loss[one.mode] for one in met]
-    reach = np.concatenate([np.full(len(omega), np.inf), widths])
-    speeds = np.concatenate([omega, at_modes])
-    heights = np.concatenate([peaks, *_press_some(mounted, loads, at_modes)])
-    top = heights.argmax(axis=0)
-    start, reach = speeds[top], reach[top]
-    below = omega[np.maximum(np.searchsorted(omega, start) - 1, 0)]
-    above = omega[np.minimum(np.searchsorted(omega, start, "right"), len(omega) - 1)]
-    low, high = np.maximum(below, start - reach), np.minimum(above, start + reach)
-    each = np.arange(peaks.shape[1])
+    at_modes, loss = np.array([(one.omega, modes.loss[one.mode]) for one in met]).reshape(-1, 2).T
+    about = (at_modes * (1 + loss * _BESIDE[:, None])).ravel()
+    about = np.setdiff1d(about[(about > omega[0]) & (about < omega[-1])], omega)
+    heights = np.concatenate([peaks, *_press_some(mounted, loads, about)])
+    rising = np.argsort(np.concatenate([omega, about]))
+    speeds, heights = np.concatenate([omega, about])[rising], heights[rising]
+    at, curve = np.nonzero(_find_high_peaks(heights))
+    low, high = speeds[np.maximum(at - 1, 0)], speeds[np.minimum(at + 1, len(speeds) - 1)]
 
-    def list_own(speeds: Real) -> Complex:
-        return _list_curves(mounted, _move(mounted, loads, speeds))[:, each, each]
+    def list_own(speeds: Real, curve: NDArray[np.intp]) -> Complex:
+        each = np.arange(len(curve))
+        return _list_curves(mounted, _move(mounted, loads, speeds))[:, each, curve]
 
     def evaluate(at: Real) -> Real:
-        return np.array([find_longest(loads.orders, list_own(speeds)).value for speeds in at])
+        return np.array([find_longest(loads.orders, list_own(one, curve)).value for one in at])
 
     place, highest = find_peaks_between(evaluate, low, high)
-    best = np.where(highest > heights[top, each], place, start)
-    own = list_own(best)
+    place = np.where(highest > heights[at, curve], place, speeds[at])
+    highest = np.maximum(highest, heights[at, curve])
+    falling = np.lexsort((-highest, curve))
+    each, first = np.unique(curve[falling], return_index=True)
+    best = place[falling[first]]
+    own = list_own(best, each)
     value = find_longest(loads.orders, own).value
     alone = largest_of_ellipse(own)
     leading = alone.argmax(axis=0)
@@ -345,6 +350,18 @@ def _find_worst(
         )
         for k in each
     )
+
+
+def _find_high_peaks(heights: Real) -> NDArray[np.bool_]:
+    """Which of the heights (speeds, curves) are peaks near which a curve may be highest; at least
+    one of each.
+    """
+    ends = np.zeros((1, heights.shape[1]))
+    around = np.concatenate([ends, heights, ends])
+    high = (heights >= around[:-2]) & (heights >= around[2:])
+    high &= heights > _NEAR * heights.max(axis=0)
+    high[heights.argmax(axis=0), np.arange(heights.shape[1])] = True
+    return high
 
 
 def _press_some(mounted: MountedBody, loads: Loads, omega: Real) -> Iterator[Real]:

@@ -52,7 +52,7 @@ def sheet(result: Balance, system: System) -> Sheet:
         parts.append(Text("What is changed, and why", remedy.reasons))
     elif remedy.reasons:
         parts.append(Text("What is fitted, and why", tuple(dict.fromkeys(remedy.reasons))))
-        parts += [device_grid(remedy, system), practical_grid(result.practical, system)]
+        parts += [device_grid(remedy, system), practical_grid(remedy, result.practical, system)]
         if any(figures.holes for figures in result.practical):
             parts.append(holes_grid(remedy, result.practical, result.tools, system))
     else:

@@ -99,7 +99,7 @@ def _length(millimetres: float, unit: Unit) -> str:
     return number(unit.of(millimetres / 1e3))
 
 
-def practical_grid(practical: tuple[Practical, ...], system: System) -> Grid:
+def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: System) -> Grid:
     """The workshop's figures, one row a device; there must be one."""
     first = practical[0]
     names = [
@@ -114,7 +114,10 @@ def practical_grid(practical: tuple[Practical, ...], system: System) -> Grid:
         f"Mass at a radius of {number(system.length.of(first.radius), 4)} {system.length.name}; "
         "disc: a semicircular one of steel"
     )
-    rows = tuple((str(k), *_practical_row(p, system)) for k, p in enumerate(practical, 1))
+    rows = tuple(
+        (f"{k} {name_kind(device)}", *_practical_row(figures, system))
+        for k, (device, figures) in enumerate(zip(remedy.devices, practical, strict=True), 1)
+    )
     return Grid("Sizes of the weights", tuple(names), rows, note=f"{note}.")
 
 

@@ -68,18 +68,23 @@ def sheet(result: Search, _system: System) -> Sheet:
     first = result.results[0]
     units = {q.name: q.unit for q in result.objective.quantities}
     heads = [
-        *(name.replace("_", " ") for name in first.design.given()),
+        *map(_in_words, first.design.given()),
         *(["objective"] if _is_sum(result) else []),
         *(f"{name}, {units[name]}" for name in first.figures),
     ]
     grid = Grid(
-        f"Best {result.over.replace('_', ' ')}",
+        f"Best {_in_words(result.over)}",
         tuple(heads),
         tuple(_cells(result, one) for one in result.results),
         note=" ".join(_notes(result)),
         words=tuple(range(len(first.design.given()))),
     )
     return Sheet(result.model.name or NAMELESS, (grid,))
+
+
+def _in_words(over: str) -> str:
+    """`bank_angle` is a bank angle; the dotted name of a number stays as one types it."""
+    return over if "." in over else over.replace("_", " ")
 
 
 def _notes(result: Search) -> Iterator[str]:

@@ -181,20 +181,19 @@ def _response(result: TorsionAnalysis, response: Response) -> Grid | Text:
     span = f"{first} to {last} rpm"
     if not result.system.shafts:
         return Text(f"Vibration, {span}", (_tell_swing(result, response),))
-    rows = []
-    unit = SI.moment.fit(float(response.sums.max()))
+    rows, worst = [], response.worst
+    unit = SI.moment.fit(float(worst.sums.max()))
     stressed = bool(np.any(np.isfinite(response.stress)))
     for k, name in enumerate(result.system.shafts):
-        worst = int(np.argmax(response.torque[:, k]))
         cells = [
             name,
-            number(unit.of(float(response.torque[worst, k]))),
-            number(float(response.speeds_rpm[worst])),
-            number(unit.of(float(response.sums[worst, k]))),
+            number(unit.of(float(worst.torque[k]))),
+            number(float(worst.speeds_rpm[k])),
+            number(unit.of(float(worst.sums[k]))),
         ]
         if stressed:
-            cells.append(number(float(response.stress[worst, k]) / 1e6, 4))
-        rows.append((*cells, _name_orders(response, worst, k, unit)))
+            cells.append(number(float(worst.stress[k]) / 1e6, 4))
+        rows.append((*cells, _name_orders(response, k, unit)))
     note = (
         "Largest half of peak to peak, orders added up in time; sum: of their amplitudes, which "
         f"do not peak together. {_tell_swing(result, response)}"
@@ -230,15 +229,14 @@ def _has_gas(result: TorsionAnalysis) -> bool:
 
 def _tell_swing(result: TorsionAnalysis, response: Response) -> str:
     """The largest swing of the first node, and where."""
-    worst = int(np.argmax(response.free_end))
-    swing = number(float(np.degrees(response.free_end[worst])), 4)
-    speed = number(float(response.speeds_rpm[worst]))
+    swing = number(float(np.degrees(response.worst.free_end)), 4)
+    speed = number(response.worst.swing_rpm)
     return f"{result.system.nodes[0]} swings by ±{swing} deg at {speed} rpm."
 
 
-def _name_orders(response: Response, speed: int, shaft: int, unit: Unit) -> str:
+def _name_orders(response: Response, shaft: int, unit: Unit) -> str:
     """The largest orders of a shaft's torque with their amplitudes in this unit."""
-    sizes = response.amplitudes[:, speed, shaft]
+    sizes = response.worst.amplitudes[:, shaft]
     largest = np.argsort(-sizes, kind="stable")[:_MOST_ORDERS]
     return ", ".join(
         f"{order_number(float(response.orders[k]))}: {number(unit.of(float(sizes[k])), 3)}"

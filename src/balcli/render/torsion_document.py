@@ -84,23 +84,24 @@ def _holzer_document(result: TorsionAnalysis, asked: HolzerTable) -> dict[str, A
 
 
 def _response_document(result: TorsionAnalysis, response: Response) -> dict[str, Any]:
-    shafts = []
+    shafts, worst = [], response.worst
     for k, name in enumerate(result.system.shafts):
-        worst = int(np.argmax(response.torque[:, k]))
-        amplitudes = response.amplitudes[:, worst, k]
         entry: dict[str, Any] = {
             "name": name,
             "half_peak_to_peak_Nm": clean_each(response.torque[:, k]),
             "sum_of_amplitudes_Nm": clean_each(response.sums[:, k]),
         }
+        stress = {}
         if result.system.sections[k] is not None:
             entry["stress_Pa"] = clean_each(response.stress[:, k])
+            stress = {"stress_Pa": clean(worst.stress[k])}
         entry["worst"] = {
-            "speed_rpm": clean(response.speeds_rpm[worst]),
-            "half_peak_to_peak_Nm": clean(response.torque[worst, k]),
+            "speed_rpm": clean(worst.speeds_rpm[k]),
+            "half_peak_to_peak_Nm": clean(worst.torque[k]),
+            **stress,
             "orders": [
                 {"order": order_number(float(order)), "amplitude_Nm": clean(amplitude)}
-                for order, amplitude in zip(response.orders, amplitudes, strict=True)
+                for order, amplitude in zip(response.orders, worst.amplitudes[:, k], strict=True)
             ],
         }
         shafts.append(entry)
@@ -108,6 +109,10 @@ def _response_document(result: TorsionAnalysis, response: Response) -> dict[str,
         "speeds_rpm": clean_each(response.speeds_rpm),
         "shafts": shafts,
         "free_end_deg": clean_each(np.degrees(response.free_end)),
+        "free_end_worst": {
+            "speed_rpm": clean(worst.swing_rpm),
+            "half_swing_deg": clean(np.degrees(worst.free_end)),
+        },
     }
     if response.dampers:
         found["dampers"] = [
@@ -245,3 +250,11 @@ def _response_lines(said: dict[str, Any]) -> Iterator[Line]:
         yield *where, "", "free_end", said["free_end_deg"][k], "deg"
         for damper in said.get("dampers", ()):
             yield *where, name_cell(damper["node"]), "heat", damper["heat_W"][k], "W"
+    for shaft in said["shafts"]:
+        worst, name = shaft["worst"], name_cell(shaft["name"])
+        where = ("worst", None, worst["speed_rpm"], None)
+        yield *where, name, "half_peak_to_peak", worst["half_peak_to_peak_Nm"], "N m"
+        if "stress_Pa" in worst:
+            yield *where, name, "stress", worst["stress_Pa"], "Pa"
+    swing = said["free_end_worst"]
+    yield "worst", None, swing["speed_rpm"], None, "", "free_end", swing["half_swing_deg"], "deg"

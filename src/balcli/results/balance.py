@@ -80,7 +80,7 @@ def balance(
     Args:
         engine: without trailing axes.
         scheme: one of `sizing.schemes.SCHEMES`.
-        options: of the scheme.
+        options: of the scheme, such as SchemeOptions(factor=(0.51,), planes="ends").
         orders: which to show; default: 1 and 2 and all that are not negligible before or after.
         tools: for the workshop's figures.
 

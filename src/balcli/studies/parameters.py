@@ -185,8 +185,8 @@ def _read_one(path: str, value: Any, number: Number) -> float:
 
 
 def _describe_unknown(path: str, known: Mapping[str, Number]) -> str:
-    """With the nearest name, or some that begin alike."""
-    inside = [name for name in known if name.rpartition(".")[2] == path]
+    """With those called so, or beginning so; or with the nearest name, or some of the table."""
+    inside = [name for name in known if f"{name}_".rpartition(".")[2].startswith(f"{path}_")]
     if near := (" or ".join(inside[:6]) or nearest(path, known)):
         hint = f"did you mean {near}?"
     else:

@@ -48,6 +48,7 @@ def assemble_system(
     limits: Limits,
     clamped: Sequence[int] = (),
     rated_rpm: float | None = None,
+    reference: int = 0,
 ) -> TorsionalSystem:
     """The system; its rubber rings are nodes and shafts after all others."""
     rings, ring_shafts = _hang_rubber(nodes)
@@ -76,6 +77,7 @@ def assemble_system(
         None if limits.angle is None else float(np.radians(limits.angle)),
         len(nodes) - 1,
         rated_rpm,
+        reference,
     )
 
 

@@ -71,7 +71,9 @@ def build_engine_system(
     limits = Limits(torsion.limit, torsion.angle_limit)
     own_speed = "speed" in model.operation.model_fields_set
     rated = model.operation.speed if own_speed else None
-    return assemble_system(engine.name, nodes, shafts, excitation, limits, rated_rpm=rated)
+    return assemble_system(
+        engine.name, nodes, shafts, excitation, limits, rated_rpm=rated, reference=front
+    )
 
 
 def _plan_part(part: Part) -> PlannedNode:

@@ -22,7 +22,7 @@ from ..enginefile.shafting import Damper
 from ..errors import BalcliError
 from .load import Source
 from .modes import NaturalMode, find_criticals, find_natural_modes
-from .response import Response, find_response, stress_by_torque
+from .response import find_largest, find_response, stress_by_torque
 from .system import Excitation, TorsionalSystem
 
 RUBBER_LOSS = 0.15  # usual for damper rubber
@@ -31,6 +31,7 @@ _SHARE = {"viscous": 0.3, "rubber": 0.15, "pendulum": 0.05}
 _FIGURE = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  # that is sized
 _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # range of the search, times and over
 _PLACES = 13  # looked at over this range before the best is approached
+_END = 0.99  # of this range: a best one farther out is at its end
 _HARDLY = 0.99  # of the largest stress without it: one that leaves more is no use
 _HEAVY = 10.0  # times the inertia of what carries it: for more there is no room
 _RESPONSES = _PLACES + 2 + ROUNDS + 2  # the last of the best damper, and without any
@@ -105,26 +106,25 @@ def size_damper(
     start = float(getattr(first, figure))
     tried = count(1)
 
-    def respond(damper: Damper | None) -> tuple[float, Response]:
-        """Largest stress or torque of the shafts that are there without it, and the response."""
+    def judge(damper: Damper | None) -> float:
+        """Largest stress or torque of the shafts that are there without it, between the speeds,
+        too.
+        """
         system = source.with_damper(node, damper).system()
-        response = find_response(system, _excite(system, orders), speeds)
+        shafts = [system.shafts.index(name) for name in bare.shafts]
+        _, worth = find_largest(system, _excite(system, orders), speeds, shafts)
         tell(next(tried) / _RESPONSES)
-        worth = response.torque[:, : len(bare.shafts)]
-        if any(bare.sections):
-            worth = worth * stress_by_torque(bare)
-        return float(np.nanmax(worth)), response
-
-    def judge(logarithm: float) -> float:
-        return respond(_with(first, figure, start * math.exp(logarithm)))[0]
+        return float(np.nanmax(worth * stress_by_torque(bare) if any(bare.sections) else worth))
 
     width = math.log(_WIDTH[asked.kind])
-    best = float(f"{start * math.exp(_minimise(judge, -width, width)):.6g}")
+    farther = _minimise(
+        lambda logarithm: _bound(judge, _with(first, figure, start * math.exp(logarithm))),
+        -width,
+        width,
+    )
+    best = float(f"{start * math.exp(farther):.6g}")
     damper = _with(first, figure, best)
-    after, response = respond(damper)
-    mine = [k for k, name in enumerate(response.dampers) if name.removesuffix(" ring") == node]
-    heat = response.heat[:, mine].sum(axis=1)
-    hottest = int(np.argmax(heat))
+    heat, heat_rpm = _find_heat(source.with_damper(node, damper).system(), node, speeds, orders)
     found = SizedDamper(
         node,
         damper,
@@ -133,10 +133,10 @@ def size_damper(
         figure,
         mode.number,
         "stress" if any(bare.sections) else "torque",
-        _judge_bare(respond),
-        after,
-        float(heat[hottest]),
-        float(speeds[hottest]),
+        _bound(judge, None),
+        judge(damper),
+        heat,
+        heat_rpm,
         (),
     )
     of_file = own is not None and own.kind == asked.kind
@@ -150,10 +150,13 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, given: bool) -> Iterator[s
     carrier = float(bare.chain.inertia[bare.nodes.index(found.node)])
     whole = float(np.sum(bare.chain.inertia))
     if found.after > _HARDLY * found.before:
+        does = "raises", ""
+        if found.after <= found.before:
+            does = "lowers", f" by less than {1 - _HARDLY:.0%}"
         yield (
-            f"a {found.damper.kind} damper of {inertia:.4g} kg m2 at {node} lowers the largest "
-            f"{found.measure} by less than {1 - _HARDLY:.0%}; the whole system has {whole:.4g} "
-            "kg m2. Bare numbers of --damper-inertia are kg mm2; --damper-at says where it sits"
+            f"a {found.damper.kind} damper of {inertia:.4g} kg m2 at {node} {does[0]} the largest "
+            f"{found.measure}{does[1]}; the whole system has {whole:.4g} kg m2. Bare numbers of "
+            "--damper-inertia are kg mm2; --damper-at says where it sits"
         )
     elif given and inertia > whole:
         yield (
@@ -166,6 +169,19 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, given: bool) -> Iterator[s
             f"as much as {node}, which carries it ({carrier:.4g} kg m2): say what there is room "
             'for, such as --damper-inertia "'
             f'{float(f"{carrier:.2g}"):.12g} kg m^2"{_ask_radius(found.damper)}'
+        )
+    else:
+        yield from _doubt_end(found)
+
+
+def _doubt_end(found: SizedDamper) -> Iterator[str]:
+    """That the best lies where the search ends."""
+    width = _WIDTH[found.damper.kind]
+    if abs(math.log(found.sized / found.start)) > _END * math.log(width):
+        more = "more" if found.sized > found.start else "less"
+        yield (
+            f"the best {found.figure} is at the end of what is looked at, {1 / width:.2g} to "
+            f"{width:g} times that of mode {found.mode} by itself; {more} may be better still"
         )
 
 
@@ -183,10 +199,21 @@ def _find_inertia(damper: Damper) -> float:
     return (damper.mass or 0.0) * out**2
 
 
-def _judge_bare(respond: Callable[[None], tuple[float, Response]]) -> float:
-    """Largest without a damper; inf where nothing else damps a resonance."""
+def _find_heat(
+    system: TorsionalSystem, node: str, speeds: Real, orders: Real | None
+) -> tuple[float, float]:
+    """Largest power that the damper of a node turns to heat, W, and at which of the speeds, rpm."""
+    response = find_response(system, _excite(system, orders), speeds)
+    mine = [k for k, name in enumerate(response.dampers) if name.removesuffix(" ring") == node]
+    heat = response.heat[:, mine].sum(axis=1)
+    hottest = int(np.argmax(heat))
+    return float(heat[hottest]), float(speeds[hottest])
+
+
+def _bound(judge: Callable[[Damper | None], float], damper: Damper | None) -> float:
+    """Largest with a damper or none; inf where nothing damps a resonance."""
     try:
-        return respond(None)[0]
+        return judge(damper)
     except BalcliError:
         return math.inf
 

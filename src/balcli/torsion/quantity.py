@@ -22,7 +22,7 @@ from ..forces.target_quantity import (
 )
 from .build_engine import build_engine_system, excite_engine
 from .modes import find_natural_modes
-from .response import find_largest_torques, stress_by_torque
+from .response import find_largest, stress_by_torque
 from .system import Excitation, TorsionalSystem
 
 SLOWEST, FASTEST, SPEEDS = 0.5, 1.5, 101  # range of speeds, over the file's own, and how many
@@ -140,7 +140,7 @@ def _find_largest(
 ) -> dict[TargetQuantity, float]:
     """Torque and stress of shafts."""
     shafts = sorted({system.shafts.index(q.target) for q in quantities})
-    torques = find_largest_torques(system, excitation, speeds, shafts)
+    _, torques = find_largest(system, excitation, speeds, shafts)
     largest = dict(zip(shafts, map(float, torques), strict=True))
     by_torque = {"torque": np.ones(len(system.shafts)), "stress": stress_by_torque(system)}
     return {

@@ -29,6 +29,27 @@ _UNDAMPED = 1e-9  # a pole with a smaller share of damping is rounding
 _HALVINGS = 24  # of an interval of speeds in which a limit is passed
 
 
+class Worst(NamedTuple):
+    """The largest between the first and last of the speeds, however narrow its resonance.
+
+    Attributes:
+        speeds_rpm: (shafts,), at which the torque of each shaft is largest.
+        torque: (shafts,) half peak to peak there, N m.
+        sums: (shafts,) sum of the amplitudes of all orders there, N m.
+        stress: (shafts,) Pa, nan where a shaft has no diameter.
+        amplitudes: (orders, shafts) torque by order there, N m.
+        swing_rpm, free_end: where the first node swings most, and half of that swing, rad.
+    """
+
+    speeds_rpm: Real
+    torque: Real
+    sums: Real
+    stress: Real
+    amplitudes: Real
+    swing_rpm: float
+    free_end: float
+
+
 class Response(NamedTuple):
     """Forced vibration.
 
@@ -43,6 +64,7 @@ class Response(NamedTuple):
         swings: (orders, speeds) amplitude of the first node by order, rad.
         heat: (speeds, dampers) W, rings of oil first, then of rubber.
         dampers: names of their nodes.
+        worst: also between the speeds.
     """
 
     speeds_rpm: Real
@@ -55,6 +77,7 @@ class Response(NamedTuple):
     swings: Real
     heat: Real
     dampers: tuple[str, ...]
+    worst: Worst
 
 
 class Motion(NamedTuple):
@@ -105,14 +128,33 @@ def find_response(
         swings,
         heat,
         names,
+        _find_worst(system, excitation, speeds_rpm),
     )
 
 
-def find_largest_torques(
-    system: TorsionalSystem, excitation: Excitation, speeds_rpm: Real, shafts: Sequence[int]
-) -> Real:
-    """Largest half of peak to peak of the vibratory torque of some shafts (shafts,), N m, between
-    the first and last of speeds (speeds,), rising; at each speed as of `find_response`.
+def _find_worst(system: TorsionalSystem, excitation: Excitation, speeds_rpm: Real) -> Worst:
+    count = len(system.shafts)
+    rpm, height = find_largest(system, excitation, speeds_rpm, range(count + 1))
+    each = np.arange(count)
+    torque = _find_curves(system, excitation, rpm)[:, each, each]
+    return Worst(
+        rpm[:count],
+        height[:count],
+        sum_amplitudes(torque),
+        height[:count] * stress_by_torque(system),
+        np.abs(torque),
+        float(rpm[count]),
+        float(height[count]),
+    )
+
+
+def find_largest(
+    system: TorsionalSystem, excitation: Excitation, speeds_rpm: Real, curves: Sequence[int]
+) -> tuple[Real, Real]:
+    """At which speed, rpm, the vibratory torque of some shafts is largest, and half of peak to peak
+    there, N m, (curves,) each, between the first and last of speeds (speeds,), rising; at each
+    speed as of `find_response`. Behind the last shaft, a curve more is the angle of the first node,
+    rad.
 
     Between the speeds, those about resonances are looked at, and every peak that may be the highest
     is approached.
@@ -123,52 +165,58 @@ def find_largest_torques(
     _refuse_too_many(len(excitation.orders), len(speeds_rpm), len(system.shafts))
     _refuse_resonance(system, excitation, speeds_rpm)
     speeds = np.union1d(speeds_rpm, _find_resonant_speeds(system, excitation, speeds_rpm))
-    swings = _find_large_swings(system, excitation, speeds, shafts)
-    largest = swings.max(axis=0)
-    ends = np.zeros((1, len(shafts)))
+    swings = _find_large_swings(system, excitation, speeds, curves)
+    largest, rpm = swings.max(axis=0), speeds[swings.argmax(axis=0)]
+    ends = np.zeros((1, len(curves)))
     around = np.concatenate([ends, swings, ends])
     peak = (swings >= around[:-2]) & (swings >= around[2:]) & (swings > _NEAR * largest)
-    at, shaft = np.nonzero(peak)
+    at, curve = np.nonzero(peak)
     if not len(at):  # nothing twists these shafts
-        return largest
-    each, column = np.arange(len(at)), np.array(shafts)[shaft]
+        return rpm, largest
+    each, column = np.arange(len(at)), np.array(curves)[curve]
 
     def evaluate(rpm: Real) -> Real:
-        torque = _find_torques(system, excitation, rpm.ravel())
-        torque = torque.reshape(-1, *rpm.shape, len(system.shafts))[..., each, column]
-        return find_swing(excitation.orders, torque).half
+        found = _find_curves(system, excitation, rpm.ravel())
+        found = found.reshape(len(found), *rpm.shape, -1)[..., each, column]
+        return find_swing(excitation.orders, found).half
 
     last = len(speeds) - 1
     low, high = speeds[np.maximum(at - 1, 0)], speeds[np.minimum(at + 1, last)]
-    np.maximum.at(largest, shaft, find_peaks_between(evaluate, low, high)[1])
-    return largest
+    place, height = find_peaks_between(evaluate, low, high)
+    for k in np.argsort(height):  # the highest last
+        if height[k] > largest[curve[k]]:
+            rpm[curve[k]], largest[curve[k]] = place[k], height[k]
+    return rpm, largest
 
 
 def _find_large_swings(
-    system: TorsionalSystem, excitation: Excitation, rpm: Real, shafts: Sequence[int]
+    system: TorsionalSystem, excitation: Excitation, rpm: Real, curves: Sequence[int]
 ) -> Real:
-    """Half of peak to peak of the torque of some shafts at these speeds (speeds, shafts), N m,
+    """Half of peak to peak of some curves, as of `find_largest`, at these speeds (speeds, curves),
     wherever it is near the largest; elsewhere 0.
 
     No curve swings further than the sum of its amplitudes, so that most need not be added up.
     """
-    torque = _find_torques(system, excitation, rpm)[:, :, shafts]
-    most = sum_amplitudes(torque)
+    found = _find_curves(system, excitation, rpm)[:, :, curves]
+    most = sum_amplitudes(found)
     swings = np.zeros_like(most)
     for some in np.array_split(np.argsort(-most, axis=0), _ROUNDS):
         near = np.take_along_axis(most, some, axis=0) >= _NEAR * swings.max(axis=0)
-        speed, shaft = np.nonzero(near)
+        speed, curve = np.nonzero(near)
         if not len(speed):
             break
-        at = some[speed, shaft]
-        swings[at, shaft] = find_swing(excitation.orders, torque[:, at, shaft]).half
+        at = some[speed, curve]
+        swings[at, curve] = find_swing(excitation.orders, found[:, at, curve]).half
     return swings
 
 
-def _find_torques(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> Complex:
-    """Torques (orders, speeds, shafts) by order, some speeds at a time."""
-    pieces = _split(system, excitation, rpm)
-    return np.concatenate([move(system, excitation, rpm[some]).torque for some in pieces], axis=1)
+def _find_curves(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> Complex:
+    """Torques by order, and the angle of the first node: (orders, speeds, shafts + 1); some speeds
+    at a time.
+    """
+    motions = (move(system, excitation, rpm[some]) for some in _split(system, excitation, rpm))
+    pieces = [np.concatenate([each.torque, each.angle[:, :, :1]], axis=2) for each in motions]
+    return np.concatenate(pieces, axis=1)
 
 
 def _find_resonant_speeds(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> Real:
@@ -266,10 +314,11 @@ def stress_by_torque(system: TorsionalSystem) -> Real:
 
 def _refuse_resonance(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> None:
     """Refuse a range in which an undamped mode is driven at its own frequency."""
-    if system.pendulums:  # their inertia differs from order to order, and so do the modes
-        return
     lossy = (system.damping.loss > 0) | (system.damping.dashpots > 0)
     if np.all(lossy | np.isinf(system.chain.stiffness)):  # whatever twists, loses
+        return
+    if system.pendulums:  # their inertia differs from order to order, and so do the modes
+        _drive_undamped(system, excitation, rpm)
         return
     modes = find_chain_modes(system.chain)
     loss = chain_loss(system.chain, system.damping, modes, system.attached(modes.omega))
@@ -281,6 +330,19 @@ def _refuse_resonance(system: TorsionalSystem, excitation: Excitation, rpm: Real
         hertz = modes.omega[worst.mode] / (2 * np.pi)
         speed = f" by order {worst.order:g} at {worst.speed * 30 / np.pi:.6g} rpm"
         raise BalcliError(_tell_resonance(system, float(hertz), speed))
+
+
+def _drive_undamped(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> None:
+    """Vibration at every speed of a range at which an order meets an undamped resonance: there is
+    one only where it drives nothing.
+    """
+    for order in excitation.orders:
+        poles = find_poles(system, float(order))
+        free = poles[(poles.imag > 0) & (-poles.real <= _UNDAMPED * np.abs(poles))]
+        met = free.imag * (30 / np.pi / order)
+        met = met[(met >= rpm[0]) & (met <= rpm[-1])]
+        if len(met):
+            move(system, excitation.only(order), met)
 
 
 def _tell_resonance(system: TorsionalSystem, hertz: float, speed: str = "") -> str:

@@ -91,6 +91,7 @@ class TorsionalSystem:
         limit_pa: stress above which a speed is barred.
         angle_limit: half swing of the first node, rad, above which a speed is barred.
         last: node at which Holzer's table ends.
+        reference: node whose speed and orders are those of the system.
         rated_rpm: speed of the file's own; None: it gives none.
     """
 
@@ -107,11 +108,13 @@ class TorsionalSystem:
     angle_limit: float | None = None
     last: int = -1
     rated_rpm: float | None = None
+    reference: int = 0
 
     @cached_property
     def gears(self) -> Real:
         """(nodes,) speed of each node over that of the reference, where it hangs with it."""
-        return find_pieces(self.chain).pace
+        pace = find_pieces(self.chain).pace
+        return np.asarray(pace / pace[self.reference])
 
     def attached(self, frequency: Real, order: Real | None = None) -> Complex:
         """Complex inertias (*frequency, nodes) of dampers that are no nodes.

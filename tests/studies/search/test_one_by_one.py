@@ -198,3 +198,25 @@ def test_a_search_over_a_number_tells_how_far_it_is_and_may_be_ended():
     one_by_one.find_best_numbers(lambda x: (x - 1.1) ** 2, 0.0, 32.0, lambda s: told.append(s))
     assert told[-1] > 0.9
     assert max(told) <= 1
+
+
+def test_a_number_stays_as_it_is_typed():
+    path = ENGINES / "vtwin45.toml"
+    asked = ("--minimise", "force.1.backward")
+    out = run_here("search", path, "--over", "layout.bank_angle=80:100", *asked).out
+    assert "Best layout.bank_angle\n" in out
+    assert "Best bank angle\n" in run_here("search", path, "--over", "bank_angle", *asked).out
+
+
+def test_a_firing_order_of_no_account_leaves_room_for_a_bank_angle():
+    """As in a sweep: this file's intervals fit 45 degrees alone, and no gas asks for them."""
+    path = ENGINES / "vtwin45.toml"
+    found = search(path, "--over", "layout.bank_angle=80:100", "--minimise", "force.1.backward")
+    assert found[0]["layout.bank_angle"] == pytest.approx(90, abs=1e-4)
+
+
+def test_where_no_value_makes_an_engine_the_reason_is_told():
+    """With gas the order in which it fires has to fit."""
+    asked = ("--over", "layout.bank_angle=80:85", "--minimise", "torque.4.amplitude")
+    told = refusal("search", ENGINES / "v8_wiebe.toml", *asked)
+    assert "layout.firing_order: 1-8-4-3-6-5-7-2 would take" in told

@@ -153,12 +153,22 @@ def list_numbers(
     Args:
         name: the design that has a value of it.
         tell: as of `find_best_numbers`.
+
+    Raises:
+        InputError: no value makes an engine.
     """
+    mistakes: list[InputError | None] = []
 
     def evaluate(value: float) -> float:
         try:
-            return _try(model, name(value), objective).objective
-        except InputError:
+            found = _try(model, name(value), objective).objective
+        except InputError as error:
+            mistakes.append(error)
             return np.inf
+        mistakes.append(None)
+        return found
 
-    return map(name, find_best_numbers(evaluate, low, high, tell))
+    best = find_best_numbers(evaluate, low, high, tell)
+    if mistakes[0] is not None and all(mistakes):
+        raise mistakes[0]
+    return map(name, best)

@@ -147,13 +147,14 @@ def search_arrangements(
     sums = choose_sums(objective)
     locked: tuple[tuple[float, float], ...] = ()
     ends = None
+    fires_at_will = model.gas is None and model.crank.throws is not None and what != "firing_order"
+    base = drop_firing_order(model) if fires_at_will or what == "throws" else model
     if what is None:
         key, ends = _read_range(model, over)
-        designs = list_numbers(model, partial(_design_number, key), *ends, objective, tell)
-        candidates = rank_one_by_one(model, designs, objective, tell_nobody)
+        designs = list_numbers(base, partial(_design_number, key), *ends, objective, tell)
+        candidates = rank_one_by_one(base, designs, objective, tell_nobody)
     elif sums is None:
         designs = _list_designs(model, what, objective, even_firing, tell)
-        base = drop_firing_order(model) if what == "throws" else model
         candidates = rank_one_by_one(base, designs, objective, tell)
     else:
         locked = _find_locked(model, what)
@@ -161,7 +162,8 @@ def search_arrangements(
     found = tuple(islice(drop_mirror_images(candidates, model), count))
     if not found:
         also = " and fires evenly" if even_firing else ""
-        raise BalcliError(f"no {key.replace('_', ' ')} keeps these limits{also}")
+        named = key if is_number else key.replace("_", " ")
+        raise BalcliError(f"no {named} keeps these limits{also}")
     orders = np.unique([float(q.order) for q in choose_of_engine(objective.quantities)])
     scale = find_textbook_units(engine, orders)
     return Search(model, key, objective, found, scale, locked, ends)
