@@ -22,6 +22,7 @@ from balcli.forces.spectrum import compute_spectra
 from balcli.torque.analysis import analyze_torque
 from balcli.torque.course import (
     count_repeats,
+    find_constant_inertia,
     find_inertia_torque,
     find_moving_inertia,
     find_torque_curves,
@@ -175,6 +176,19 @@ def test_throw_masses_are_counted_once():
     )
 
 
+def test_the_crank_of_a_rotary_engine_stands_still():
+    """Neither its throws nor its own inertia turn, whether the file gives it or not."""
+    text = FOUR.replace("throws = [0, 180, 180, 0]", "throw_mass = 0.5").replace(
+        "firing_order = [1, 3, 4, 2]", "radial = 3\nrotary = true\nstrokes = 2"
+    )
+    text += WIEBE + FLYWHEEL.format(1e5)
+    more = text.replace("throw_mass = 0.5", "throw_mass = 0.5\ninertia = 90000")
+    plain, given = engine(text), engine(more)
+    angle = np.linspace(0, 6, 7)
+    assert find_moving_inertia(given)(angle) == pytest.approx(find_moving_inertia(plain)(angle))
+    assert find_constant_inertia(given) == find_constant_inertia(plain) == pytest.approx(0.1)
+
+
 def test_the_inertia_torque_is_half_the_slope_of_the_inertia():
     """-1/2 I' omega^2, by differences."""
     found = draw_engine(3)
@@ -191,6 +205,16 @@ def test_a_crank_that_would_stand_still_is_refused():
         BalcliError, match=r"^the shaft stalls at \d+\.\d°: with this inertia it ne"
     ):
         analyze_torque(slow)
+
+
+def test_a_crank_that_would_stand_still_is_told_what_it_needs():
+    slow = replace(engine(FOUR + WIEBE + FLYWHEEL.format(1000)), speed_rpm=300.0)
+    heavy = replace(engine(FOUR + WIEBE + FLYWHEEL.format(1e9)), speed_rpm=300.0)
+    found, want = (analyze_torque(one, fluctuation=0.02).flywheel for one in (slow, heavy))
+    assert found.needed == want.needed
+    assert found.speed is None
+    assert found.stall.startswith("the shaft stalls at")
+    assert not want.stall
 
 
 def test_without_inertia_nothing_is_said_of_the_speed():

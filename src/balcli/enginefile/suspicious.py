@@ -42,7 +42,7 @@ def find_suspicious(model: EngineFile) -> list[str]:
     """Warnings for what is allowed and yet unlikely; empty for an ordinary engine."""
     parts = (
         *(_piston, _proportions, _rod, _inertia, _motion, _neighbours, _layout),
-        *(_throw, _bobweight, _counterweights, _gas),
+        *(_throw, _bobweight, _counterweights, _rotary, _gas),
     )
     return [warning for part in parts for warning in part(model)]
 
@@ -190,6 +190,14 @@ def _counterweights(model: EngineFile) -> Iterator[str]:
                 f"more than {UNBALANCE_SHARE:g} times all moving masses at the crank radius "
                 f"({limit:.3g}); is it in g mm?"
             )
+
+
+def _rotary(model: EngineFile) -> Iterator[str]:
+    if model.layout.rotary and model.crank.inertia is not None:
+        yield (
+            "crank.inertia counts for nothing: the crank of a rotary engine stands still; give "
+            "what turns with its cylinders as flywheel.inertia"
+        )
 
 
 def _gas(model: EngineFile) -> Iterator[str]:

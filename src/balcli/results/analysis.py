@@ -174,7 +174,7 @@ def analyze(
     computed = _choose_computed(engine, asked, whole=bool(peaked))
     everything = compute_spectra(engine, computed, shown | peaked)
     visible = everything.only(shown)
-    visible = visible.select_orders(choose_orders(visible) if asked is None else asked)
+    visible = visible.select_orders(choose_orders(visible, engine) if asked is None else asked)
     cylinders = _analyze_cylinders(engine, visible.orders, shown) if by_cylinder else ()
     return Analysis(
         engine,
@@ -217,7 +217,7 @@ def _choose_computed(engine: Engine, asked: Array | None, *, whole: bool) -> Arr
     if asked is not None and not whole:
         return asked
     due = DEFAULT_ORDERS if asked is None else asked
-    of_gas = () if engine.gas is None else list_gas_orders(engine.strokes)
+    of_gas = () if engine.gas is None else list_gas_orders(engine)
     return merge_orders(find_relevant_orders(engine), of_gas, due)
 
 
