@@ -183,7 +183,7 @@ def test_the_crank_of_a_rotary_engine_stands_still():
     )
     text += WIEBE + FLYWHEEL.format(1e5)
     more = text.replace("throw_mass = 0.5", "throw_mass = 0.5\ninertia = 90000")
-    plain, given = engine(text), engine(more)
+    plain, given = build_text(text), build_text(more)
     angle = np.linspace(0, 6, 7)
     assert find_moving_inertia(given)(angle) == pytest.approx(find_moving_inertia(plain)(angle))
     assert find_constant_inertia(given) == find_constant_inertia(plain) == pytest.approx(0.1)
@@ -208,8 +208,8 @@ def test_a_crank_that_would_stand_still_is_refused():
 
 
 def test_a_crank_that_would_stand_still_is_told_what_it_needs():
-    slow = replace(engine(FOUR + WIEBE + FLYWHEEL.format(1000)), speed_rpm=300.0)
-    heavy = replace(engine(FOUR + WIEBE + FLYWHEEL.format(1e9)), speed_rpm=300.0)
+    slow = replace(build_text(FOUR + WIEBE + FLYWHEEL.format(1000)), speed_rpm=300.0)
+    heavy = replace(build_text(FOUR + WIEBE + FLYWHEEL.format(1e9)), speed_rpm=300.0)
     found, want = (analyze_torque(one, fluctuation=0.02).flywheel for one in (slow, heavy))
     assert found.needed == want.needed
     assert found.speed is None
