@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tomllib
 
 import numpy as np
 import pytest
@@ -103,6 +104,45 @@ def test_what_is_written_turns_as_unevenly(four, tmp_path):
     assert again == json.loads(torque(four, "--format", "json")), "torque is that of the mean speed"
 
 
+def test_what_is_written_misfires_as_it_did(four, tmp_path):
+    """Else gas of all cylinders would stand beside the speed of three."""
+    out = tmp_path / "misfire.toml"
+    told = torque(four, "--misfire", "3", "--write", str(out), "--format", "json")
+    assert "[cylinder.3]\ngas = 0    # by balcli torque\n" in out.read_text()
+    assert torque(str(out), "--format", "json") == told
+
+
+def test_lines_that_no_engine_file_may_have_are_not_written(tmp_path):
+    """Twenty-four cylinders fire every 15 degrees: orders 24, 48, ..., and the corners of an Otto
+    cycle reach beyond order 256.
+    """
+    count = 24
+    path, out = tmp_path / "many.toml", tmp_path / "uneven.toml"
+    throws = [360 / count * k for k in range(count)]
+    path.write_text(
+        FOUR.replace("[0, 180, 180, 0]", str(throws)).replace(
+            "firing_order = [1, 3, 4, 2]",
+            f"strokes = 2\nfiring_order = {[1, *range(count, 1, -1)]}",
+        )
+        + WIEBE.replace("wiebe", "otto")
+        + "[flywheel]\ninertia = 900000\n"
+    )
+    torque(str(path), "--write", str(out))
+    lines = tomllib.loads(out.read_text())["operation"]["speed_ripple"]
+    assert [line["order"] for line in lines] == [24 * k for k in range(1, 11)]
+    assert run_here("analyze", str(out), "--only", "force")[0] == 0
+
+
+def test_what_a_crank_needs_that_stalls(four, tmp_path):
+    arguments = (four, "--speed", "100", "--fluctuation", "1/50")
+    assert "speed    the shaft stalls at" in torque(*arguments)
+    found = json.loads(torque(*arguments, "-f", "json"))["flywheel"]
+    assert set(found) == {"inertia_kg_m2", "moving_parts_kg_m2", "needed_kg_m2"}
+    status, _, err = run_here("torque", *arguments, "--write", str(tmp_path / "out.toml"))
+    assert status == 2
+    assert "balcli: --write: the shaft stalls at" in err
+
+
 def test_a_curve_needs_no_engine(curve):
     found = json.loads(torque("--curve", curve, "--format", "json"))
     assert set(found) == {
@@ -132,10 +172,17 @@ def test_a_curve_of_several_turns_has_orders_below_1(tmp_path):
     assert [entry["order"] for entry in orders[:3]] == pytest.approx([1 / 3, 2 / 3, 1])
 
 
+def test_a_short_period_has_two_orders_at_least(tmp_path):
+    (tmp_path / "t.csv").write_text("angle_deg,torque_Nm\n0,1\n5,5\n20,1\n")
+    orders = json.loads(torque("--curve", str(tmp_path / "t.csv"), "-f", "json"))["orders"]
+    assert [entry["order"] for entry in orders] == [18, 36]
+
+
 def test_the_load_takes_its_share(curve, tmp_path):
     """A load that is the torque itself leaves nothing over."""
     found = json.loads(torque("--curve", curve, "--load", curve, "-f", "json"))
     assert found["energy"]["surplus_J"] == pytest.approx(0, abs=1e-9)
+    assert found["energy"]["work_J"] == pytest.approx(250 * 2 * np.pi), "that of the torque"
     other = tmp_path / "l.csv"
     other.write_text("angle_deg,torque_Nm\n0,250\n720,250\n")
     status, _, err = run_here("torque", "--curve", curve, "--load", str(other))

@@ -55,6 +55,12 @@ COMMENTED = changed(
             "# the end\n",
             "# the end\n\n[frame]\nreference = [0.0, 0.0, 5.0]    # a note\n",
         ),
+        (
+            "cylinder.3",
+            {"gas": 0},
+            "# the end\n",
+            "# the end\n\n[cylinder.3]\ngas = 0    # a note\n",
+        ),
     ],
 )
 @pytest.mark.parametrize("ends", ["\n", "\r\n"])
@@ -87,6 +93,23 @@ def test_what_is_written_in_an_unusual_way_is_right_all_the_same(text):
         **tomllib.loads(text),
         "operation": {"speed": 5.0},
     }
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[cylinder.3]  # weak\ngas = 0.5  # measured\n",
+        "[cylinder]\n3 = { piston_mass = 0.5, gas = 0.5 }\n",
+        "[cylinder]\n3.gas = 0.5\n",
+        "cylinder.3.piston_mass = 0.5\n",
+        "cylinder = { 3 = { gas = 0.5 }, 4 = { gas = 0.4 } }\n",
+        "[cylinder.13]\ngas = 0.5\n[cylinder.4]\ngas = 0.4\n",
+    ],
+)
+def test_a_table_within_another(text):
+    wanted = tomllib.loads(text)
+    wanted["cylinder"].setdefault("3", {})["gas"] = 0
+    assert tomllib.loads(set_keys(text, "cylinder.3", {"gas": 0}, "a note")) == wanted
 
 
 DOTTED = "# mine\nlayout.bank_angle = 75   # as built\nlayout.firing_order = [1, 2]\n[rod]\nlength = 1  # l\n"

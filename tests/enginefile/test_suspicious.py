@@ -31,6 +31,14 @@ def test_ordinary_engines_pass(text):
             ),
         ),
         (
+            changed(
+                ("throws = [0, 180, 180, 0]", "inertia = 90000"),
+                ("firing_order = [1, 3, 4, 2]", "radial = 3\nrotary = true"),
+            ),
+            "crank.inertia counts for nothing: the crank of a rotary engine stands still; give "
+            "what turns with its cylinders as flywheel.inertia",
+        ),
+        (
             changed(("mass = 0.5\n", "piston = 0.4\npin = 0.1\nrings = 3.6\nlocks = 0\n")),
             "piston.piston, piston.pin, piston.rings and piston.locks (most of it piston.rings, 3.6 "
             "kg) are together 4.1 kg in a bore of 86 mm, where 0.064 to 3.2 kg is usual; are the "

@@ -4,20 +4,31 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.engines import build_text
+from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINES
 
 from balcli.core.phasors import Phasors
+from balcli.engine.build import take_model
 from balcli.engine.load import load
 from balcli.errors import BalcliError
+from balcli.forces.guide_moments import compute_guide_moments
 from balcli.forces.orders import (
     choose_orders,
     is_order,
+    list_gas_orders,
     mark_considerable,
     merge_orders,
     parse_order,
 )
 from balcli.forces.spectrum import Spectra
+from balcli.mounting.response import find_loads
+from balcli.render.gas_torque import tell_rocking
+from balcli.render.units import SI
 from balcli.results.analysis import analyze
+from balcli.results.two_engines import Arrangement, combine_engines
+from balcli.torque.analysis import analyze_torque
+from balcli.torsion.build_engine import excite_engine
 
 
 @pytest.mark.parametrize(
@@ -74,6 +85,36 @@ def test_orders_to_2_and_all_considerable_ones_are_shown() -> None:
         np.array(orders), force=curve(orders, [0, 0, 1, 0]), couple=curve(orders, [1, 0, 0, 0])
     )
     assert choose_orders(found).tolist() == [1, 2, 3]
+
+
+def test_orders_of_firing_are_shown_however_high():
+    """Fourteen cylinders of two strokes: order 14 is the first in which they do not cancel."""
+    count = 14
+    text = (
+        FOUR.replace("throws = [0, 180, 180, 0]\n", "")
+        .replace("firing_order = [1, 3, 4, 2]", "{}\nstrokes = 2")
+        .replace("mass = 0.5\n", "mass = 0.5\noffset = 2\n")
+    )
+    subject = build_text(text.format(f"firing_order = {[*range(1, count + 1)]}") + WIEBE)
+    one = analyze(build_text(text.format("") + WIEBE), [14, 28], ["gas"]).spectra.gas
+    for found in (
+        analyze(subject).spectra.gas,
+        analyze(subject, only=["gas"]).spectra.gas,
+        analyze_torque(subject).spectra.gas,
+    ):
+        assert found.orders[-2:].tolist() == [14, 28]
+        assert found.major[-2:] == pytest.approx(count * one.major, rel=1e-9)
+    assert compute_guide_moments(subject).h.orders[-2:].tolist() == [14, 28]
+    assert 14 in find_loads(subject, np.zeros(3)).orders
+    twice = combine_engines(subject, subject, Arrangement()).spectra.gas
+    assert twice.major[twice.orders == 14] == pytest.approx(2 * count * one.major[0], rel=1e-9)
+    assert excite_engine(take_model(subject), subject, None).orders[-2:].tolist() == [14, 28]
+    told = tell_rocking(analyze(subject).spectra, SI)
+    assert told.startswith("Order 14 rocks the engine most")
+
+
+def test_few_cylinders_have_the_orders_to_12():
+    assert list_gas_orders(build_text(FOUR + WIEBE)).tolist() == [n / 2 for n in range(1, 25)]
 
 
 def test_half_orders_take_gas_in_four_strokes():

@@ -6,6 +6,7 @@ import math
 
 import pytest
 from support.engines import GOOD, changed
+from support.gas_engines import WIEBE
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
@@ -41,6 +42,20 @@ def test_orders_of_every_engine_are_shown() -> None:
     assert {order for _, order in lines} >= {1, 2, 4, 6}
     assert lines["force", 6].values[1] > 0
     assert {quantity for quantity, _ in lines} == {"force"}
+
+
+def test_guides_with_gas_do_not_stand_beside_guides_without() -> None:
+    """Unless all engines have gas, what is compared is that of inertia."""
+    bare, fired = build(parse(GOOD)), build(parse(GOOD + WIEBE))
+    several = compare_engines([fired, bare], ["fired", "bare"], [0.5, 1, 2], ["guide"])
+    lines = {(line.kind.name, line.order): line for line in several.lines}
+    assert lines["guide_h", 2].ratios == (1, 1)
+    assert lines["guide_x", 0.5].values == (0, 0)
+    assert lines["guide_h", 2].kind.label == "H-type guide moment of inertia alone"
+    both = compare_engines([fired, fired], ["fired", "again"], [0.5, 1, 2], ["guide"])
+    lines = {(line.kind.name, line.order): line for line in both.lines}
+    assert lines["guide_x", 0.5].values[0] > 0
+    assert lines["guide_h", 2].kind.label == "H-type guide moment"
 
 
 def test_one_engine_is_refused() -> None:

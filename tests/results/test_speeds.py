@@ -69,8 +69,8 @@ def test_what_was_named_is_shown_and_why_is_said_once(balcli):
         "Shear force in the crankshaft",
         "Bending moment in the crankshaft",
         "Load of a main bearing",
-        "H-type guide moment",
-        "X-type guide moment",
+        "H-type guide moment of inertia alone",
+        "X-type guide moment of inertia alone",
     ]
     assert out.count("Why") == 1
 

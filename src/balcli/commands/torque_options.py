@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from ..torque.given_curve import CurveAnalysis
 
 LOADS = ("pin", "main")
+_NOTE = "by balcli torque"
 Engine = Annotated[
     str | None,
     typer.Argument(
@@ -64,7 +65,9 @@ Plot = Annotated[
 ]
 Write = Annotated[
     Path | None,
-    optional("OUT.toml", "Write the engine file with this uneven speed (speed_ripple)."),
+    optional(
+        "OUT.toml", "Write the engine file with this uneven speed (speed_ripple) and misfires."
+    ),
 ]
 
 
@@ -173,14 +176,17 @@ def refuse_mixture(
 
 
 def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path) -> None:
-    """The engine file with its speed as uneven as the torque makes it.
+    """The engine file with its speed as uneven as the torque makes it, and without the gas of the
+    cylinders that misfire.
 
     Raises:
-        BalcliError: the inertia is not known; the target cannot be written.
+        BalcliError: the inertia is not known, or too small; the target cannot be written.
     """
     from ..enginefile.edit import set_keys
 
     refuse_leaving_files(source, path, target)
+    if result.flywheel is not None and result.flywheel.stall:
+        raise BalcliError(f"--write: {result.flywheel.stall}")
     if result.flywheel is None or result.flywheel.speed is None:
         raise BalcliError(
             "--write: the speed is not known; give inertia in [crank] or [flywheel], such as "
@@ -191,4 +197,7 @@ def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path)
         for line in result.flywheel.speed.lines
     ]
     keys = {"speed": float(result.engine.speed_rpm), "speed_ripple": lines}
-    write_file(set_keys(source.decode("utf-8-sig"), "operation", keys, "by balcli torque"), target)
+    text = set_keys(source.decode("utf-8-sig"), "operation", keys, _NOTE)
+    for number in result.engine.without_gas:
+        text = set_keys(text, f"cylinder.{number}", {"gas": 0}, _NOTE)
+    write_file(text, target)

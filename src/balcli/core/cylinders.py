@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import IntEnum
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -79,7 +80,13 @@ class Cylinders:
         return list(zip(*each, strict=True))
 
 
-SHAFT_RANK = 1  # see `Device.rank`
+class DeviceKind(IntEnum):
+    """What a device is. Devices are summed in this order, as an engine file has them."""
+
+    COUNTERWEIGHT = 0
+    SHAFT = 1
+    SLIDER = 2
+    OTHER = 3  # which no engine file can describe
 
 
 class Device(NamedTuple):
@@ -92,8 +99,7 @@ class Device(NamedTuple):
         forward, backward: mass x radius that turns with the crank, and against it, kg m.
         place: x + iy of its axis, m.
         z: m.
-        rank: devices are summed in this order: 0 counterweights, 1 shafts, 2 sliders, as an
-            engine file has them.
+        kind: what it is.
     """
 
     order: int
@@ -101,4 +107,4 @@ class Device(NamedTuple):
     backward: complex | Complex
     place: complex | Complex
     z: Figure
-    rank: int = 3
+    kind: DeviceKind = DeviceKind.OTHER

@@ -19,17 +19,20 @@ def set_keys(text: str, table: str, keys: Mapping[str, Any], note: str) -> str:
     """With these keys of a table set (None: left out), comments kept.
 
     A key keeps its place and its comment, to which the note is added; a new one comes first in its
-    table. The table may have its own heading, dotted keys or braces; where it is written in a more
-    unusual way, so that a key cannot be put in, the file is written anew, without comments.
+    table. The table, which may be one within another (`cylinder.3`), may have its own heading,
+    dotted keys or braces; where it is written in a more unusual way, so that a key cannot be put
+    in, the file is written anew, without comments.
     """
     wanted = tomllib.loads(text)
+    changed = _open(wanted, table)
     new: str | None = text.replace("\r\n", "\n")
     for key, value in keys.items():
-        if wanted.get(table, {}).get(key) == value:
+        if changed.get(key) == value:
             continue
-        wanted[table] = {
-            k: v for k, v in {**wanted.get(table, {}), key: value}.items() if v is not None
-        }
+        if value is None:
+            del changed[key]
+        else:
+            changed[key] = value
         if new is not None:
             ways = (edit(new, table, key, value, note) for edit in _EDITS)
             new = next((found for found in ways if _says(found, table, wanted)), None)
@@ -38,12 +41,21 @@ def set_keys(text: str, table: str, keys: Mapping[str, Any], note: str) -> str:
     return new.replace("\n", "\r\n") if "\r\n" in text else new
 
 
+def _open(data: dict[str, Any], table: str) -> dict[str, Any]:
+    """A table in the data of a file, put there if it is missing."""
+    for name in table.split("."):
+        data = data.setdefault(name, {})
+    return data
+
+
 def _says(text: str, table: str, wanted: Mapping[str, Any]) -> bool:
     """Whether a text is TOML that says what is wanted, but for an empty table."""
     try:
-        return {table: {}, **tomllib.loads(text)} == {table: {}, **wanted}
-    except tomllib.TOMLDecodeError:
+        said = tomllib.loads(text)
+        _open(said, table)
+    except (tomllib.TOMLDecodeError, AttributeError):
         return False
+    return said == wanted
 
 
 def rewrite(data: Mapping[str, Any], reason: str) -> str:

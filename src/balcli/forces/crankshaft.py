@@ -111,8 +111,8 @@ def _refuse_too_many_results(orders: int, loads: int) -> None:
     if told > MOST_RESULTS_ALONG_CRANK:
         raise BalcliError(
             f"along the crankshaft, {orders} orders of {loads} cylinders and counterweights "
-            f"are {told} results, and at "
-            f"most {MOST_RESULTS_ALONG_CRANK} are told: ask for fewer orders"
+            f"are {told} results, and at most {MOST_RESULTS_ALONG_CRANK} are told: ask for fewer "
+            "orders"
         )
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
+from ..limits import HIGHEST_GAS_ORDER_UNASKED
 from .orders import (
     find_relevant_orders,
     list_gas_orders,
@@ -27,8 +28,8 @@ class GuideMoments:
         h: H-type, their sum.
         x: X-type, the moment of the guides' side forces: `sum roll_i (z_i - z_ref) / L_i`; None
             where all cylinders stand at one place, or it is not known where they stand.
-        height_m: L of each row of `engine.numbers`, from the crankshaft to the middle of the
-            guide, shape (cylinders,).
+        height_m: L of each cylinder by its number, from the crankshaft to the middle of the guide,
+            shape (cylinders,).
         with_gas: whether the roll of the gas is in it.
     """
 
@@ -68,7 +69,8 @@ def compute_guide_moments(
     if orders is None:
         orders = every[due]
     chosen_x = None if x is None else x.select_orders(orders)
-    return GuideMoments(h.select_orders(orders), chosen_x, height, engine.gas is not None)
+    by_number = height[np.argsort(engine.numbers)]
+    return GuideMoments(h.select_orders(orders), chosen_x, by_number, engine.gas is not None)
 
 
 def _find_orders(engine: Engine) -> Array:
@@ -76,8 +78,8 @@ def _find_orders(engine: Engine) -> Array:
     relevant = find_relevant_orders(engine)
     if engine.gas is None:
         return relevant
-    of_gas = list_gas_orders(engine.strokes)
-    return merge_orders(relevant[relevant <= of_gas[-1]], of_gas)
+    few = relevant[relevant <= HIGHEST_GAS_ORDER_UNASKED]
+    return merge_orders(few, list_gas_orders(engine))
 
 
 def _rod_lengths(engine: Engine) -> Array:

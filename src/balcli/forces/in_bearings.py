@@ -85,15 +85,15 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
 
     Args:
         engine: with gas of known pressure, without trailing axes.
-        orders: shape (orders,), ascending; default: multiples of 1/2 (of 1 in two-stroke engines)
-            in which some bending moment is worth showing.
+        orders: shape (orders,), ascending; default: those of `list_gas_orders` in which some
+            bending moment is worth showing.
 
     Raises:
         BalcliError: no gas, no pressures; bearings that `place_main_bearings` refuses; so many
             cylinders that all forces would fill the memory.
     """
     span = place_main_bearings(engine)
-    shown = list_gas_orders(engine.strokes) if orders is None else orders
+    shown = list_gas_orders(engine) if orders is None else orders
 
     def compute(angles: Array) -> Complex:
         return compute_in_pieces(

@@ -97,30 +97,35 @@ def find_relevant_orders(engine: Engine) -> Array:
     return dense_orders(highest + 2 * max(lines), lines)
 
 
-def list_gas_orders(strokes: int) -> Array:
+def list_gas_orders(engine: Engine) -> Array:
     """Orders of gas torque that are worth showing unless others are asked for: multiples of 1/2 (of
-    1 in two-stroke engines) up to HIGHEST_GAS_ORDER_UNASKED, shape (orders,).
+    1 in two-stroke engines) up to HIGHEST_GAS_ORDER_UNASKED, shape (orders,). Of so many cylinders
+    that all of these may cancel, also the order of their firing, and its double.
     """
-    step = 2 / strokes
-    return np.arange(1.0, round(HIGHEST_GAS_ORDER_UNASKED / step) + 1) * step
+    step = 2 / engine.strokes
+    firing = step * len(engine.numbers)
+    higher = [firing, 2 * firing] if firing > HIGHEST_GAS_ORDER_UNASKED else []
+    return np.array([*np.arange(step, HIGHEST_GAS_ORDER_UNASKED + step, step), *higher])
 
 
-def mark_considerable(phasors: Phasors, highest: float | None = None) -> NDArray[np.bool_]:
+def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:
     """Orders in which something exceeds SHOWN of its own largest order, shape (orders,); none above
-    the highest, or HIGHEST_ORDER_UNASKED.
+    HIGHEST_ORDER_UNASKED.
     """
     sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1, initial=0)
     large = sizes > SHOWN * sizes.max(initial=0)
-    most = HIGHEST_ORDER_UNASKED if highest is None else highest
-    return np.asarray(large & (phasors.orders <= most))
+    return np.asarray(large & (phasors.orders <= HIGHEST_ORDER_UNASKED))
 
 
-def choose_orders(found: Spectra) -> Array:
-    """The orders worth showing: 1 and 2 (and 0), and all in which some kind is considerable."""
+def choose_orders(found: Spectra, *engines: Engine) -> Array:
+    """The orders worth showing: 1 and 2 (and 0), and all in which some kind is considerable, of gas
+    those that are listed for one of the engines.
+    """
     due = (found.orders <= 2) & (found.orders % 1 == 0)
+    listed = merge_orders(*map(list_gas_orders, engines))
     for kind, phasors in found.items():
-        few = kind.name in GAS_KINDS
-        due |= mark_considerable(phasors, HIGHEST_GAS_ORDER_UNASKED if few else None)
+        worth = mark_considerable(phasors)
+        due |= worth & np.isin(found.orders, listed) if kind.name in GAS_KINDS else worth
     return found.orders[due]
 
 

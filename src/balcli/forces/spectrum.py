@@ -142,8 +142,8 @@ def refuse_too_many_loads(engine: Engine, orders: int, loads: int) -> None:
     if orders * loads > most:
         raise BalcliError(
             f"{orders} orders of {loads} cylinders and counterweights one by one are "
-            f"{orders * loads} forces, and at most "
-            f"{most} are kept: an engine farther from its lock has fewer orders"
+            f"{orders * loads} forces, and at most {most} are kept: an engine farther from its "
+            "lock has fewer orders"
         )
 
 

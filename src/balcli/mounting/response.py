@@ -156,12 +156,12 @@ def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Load
     """
     if not engine.places_known:
         raise BalcliError(MOMENTS_UNKNOWN)
-    of_gas = () if engine.gas is None else list_gas_orders(engine.strokes)
+    of_gas = () if engine.gas is None else list_gas_orders(engine)
     wanted = merge_orders(find_relevant_orders(engine), of_gas) if orders is None else orders
     kinds = _KINDS if engine.gas is None else (*_KINDS, "gas")
     found = compute_spectra(engine, wanted[wanted > 0], kinds)
     if orders is None:
-        found = found.select_orders(choose_orders(found))
+        found = found.select_orders(choose_orders(found, engine))
     reference = np.array([float(value) for value in engine.reference_m])
     inertia = _find_load(found, reference, centre)
     loads = Loads(found.orders, inertia, float(engine.omega))

@@ -359,6 +359,8 @@ def _flywheel_facts(
         pairs.append(("inertia", f"{number(flywheel.mean)} kg·m²{moving and f', {moving}'}"))
     if flywheel.speed is not None:
         pairs += _speed_pairs(flywheel.speed, cycle_deg)
+    if flywheel.stall:
+        pairs.append(("speed", flywheel.stall))
     if flywheel.needed is not None:
         pairs.append(("needed", f"{number(flywheel.needed)} kg·m² in all"))
         own = flywheel.needed - flywheel.moving - (crank or 0.0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from math import nan
 from typing import TYPE_CHECKING
@@ -20,6 +20,7 @@ from .analysis import QUANTITIES, Analysis, analyze
 
 if TYPE_CHECKING:
     from ..forces.crankshaft import AlongCrank
+    from ..forces.guide_moments import GuideMoments
 
 SHEAR = Kind("shear", "shear force in the crankshaft", "Q", "shear_N", True, "force")
 BENDING = Kind("bending", "bending moment in the crankshaft", "M_b", "bending_Nm", True, "moment")
@@ -207,13 +208,24 @@ def _compare_inner(analyses: Sequence[Analysis]) -> Iterator[Line]:
 
 
 def _compare_guide(analyses: Sequence[Analysis]) -> Iterator[Line]:
-    found = [one.guide for one in analyses if one.guide is not None]
-    for kind, several in ((GUIDE_H, [g.h for g in found]), (GUIDE_X, [g.x for g in found])):
+    """With gas where all engines have some, else of inertia alone."""
+    found = _list_guides(analyses)
+    if len({guide.with_gas for guide in found}) > 1:
+        engines = [one.engine for one in analyses]
+        of_inertia = partial(analyze, orders=found[0].h.orders, only="guide", beside=engines)
+        found = _list_guides([of_inertia(replace(engine, gas=None)) for engine in engines])
+    alone = "" if all(guide.with_gas for guide in found) else " of inertia alone"
+    for known, several in ((GUIDE_H, [g.h for g in found]), (GUIDE_X, [g.x for g in found])):
+        kind = known._replace(label=f"{known.label}{alone}")
         there = [moment for moment in several if moment is not None]
         if there and len(there) == len(analyses):
             sizes = [moment.major for moment in there]
             for order, *values in zip(there[0].orders, *sizes, strict=True):
                 yield Line(kind, float(order), tuple(map(float, values)))
+
+
+def _list_guides(analyses: Sequence[Analysis]) -> list[GuideMoments]:
+    return [one.guide for one in analyses if one.guide is not None]
 
 
 def _compare_sizing(analyses: Sequence[Analysis]) -> Iterator[Line]:

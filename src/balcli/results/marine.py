@@ -33,7 +33,8 @@ class MarineSheet:
         moment_v, moment_h: external moments of the forces along x and along y, N m.
         guide_h, guide_x: H- and X-type guide-force moments, N m.
         torque: on the crank, of inertia, and of the gas where the engine has some, N m.
-        height_m: from the crankshaft to the middle of each cylinder's guide, shape (cylinders,).
+        height_m: from the crankshaft to the middle of each cylinder's guide, by its number, shape
+            (cylinders,).
         force_of_one, moment_of_one: what one cylinder makes at each speed (N, N m), beside which an
             external force or moment may be negligible, shape (speeds,).
         every_order: whether people are shown orders that are negligible, too.

@@ -142,17 +142,18 @@ def combine_engines(
         find_relevant_orders(first),
         find_relevant_orders(second),
         DEFAULT_ORDERS if asked is None else asked,
-        *(list_gas_orders(engine.strokes) for engine in (first, second) if engine.gas is not None),
+        *(list_gas_orders(engine) for engine in (first, second) if engine.gas is not None),
     )
     about_origin = replace(second, reference_m=(0.0, 0.0, 0.0))
     own = compute_spectra(about_origin, computed, _list_kinds(second))
     moved = place_spectra(own, arrangement, first.reference_m)
     alone = compute_spectra(first, computed, _list_kinds(first))
     everything = _add_spectra(alone, moved, arrangement)
+    shown = choose_orders(everything, first, second) if asked is None else asked
     return Combined(
         (first, second),
         arrangement,
-        everything.select_orders(choose_orders(everything) if asked is None else asked),
+        everything.select_orders(shown),
         find_peak(everything["force"]),
         find_peak(everything["moment"]),
     )

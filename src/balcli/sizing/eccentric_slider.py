@@ -27,7 +27,8 @@ from .scheme_figures import Optimum
 DESIGNS = ("a", "b")  # pin on the shaft, slot in the disc; pin on the disc, slot on the shaft
 CRITERIA = ("largest", "mean")
 FORCES = ("orders 1+2", "all orders")  # cos theta + lambda cos 2 theta; the exact force
-_COUNT = 512  # samples of a revolution: enough for k above 1.2
+_LEAST_K, _MOST_K = 1.2, 1e12  # k is sought between; nearer to 1 its series is too long
+_COUNT = 512  # samples of a revolution: enough for k above _LEAST_K
 _GRID = np.linspace(0, np.pi, 1025)
 _ORDERS = np.arange(_COUNT // 4)
 _ROUNDS = 60
@@ -116,8 +117,8 @@ def _expand_engine_force(engine_force: str, lam: float) -> Array:
 
 def _find_remaining(design: str, engine: Array, x: Array) -> Array:
     """Cosine coefficients of P, what remains of the engine's force."""
-    if not (1.2 < x[0] < 1e12):
-        raise ArithmeticError("k must stay above 1")
+    if not _LEAST_K < x[0] < _MOST_K:
+        raise ArithmeticError(f"k must stay above {_LEAST_K}")
     return engine - 2 * x[1] * _ORDERS**2 * expand_shaft_wave(design, x[0])[0]
 
 

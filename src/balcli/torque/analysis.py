@@ -108,8 +108,7 @@ def analyze_torque(
 
     Args:
         engine: with gas, without trailing axes. An uneven speed in its file does not count here.
-        orders: which to show; default: multiples of 1/2 (of 1 in two-stroke engines) up to
-            HIGHEST_GAS_ORDER_UNASKED.
+        orders: which to show; default: those of `list_gas_orders`.
         cylinder: whose torque is shown beside the engine's.
         fluctuation: (highest - lowest)/mean speed, for which the inertia is wanted.
         loads: any of KINDS_OF_LOAD.
@@ -127,7 +126,7 @@ def analyze_torque(
     if strange := [word for word in loads if word not in KINDS_OF_LOAD]:
         raise BalcliError(f"loads: {strange[0]!r}; choose from {', '.join(KINDS_OF_LOAD)}")
     steady = replace(engine, ripple=())
-    shown = list_gas_orders(engine.strokes) if orders is None else check_orders(orders)
+    shown = list_gas_orders(engine) if orders is None else check_orders(orders)
     row = find_row(engine, cylinder, "--cylinder")
     curves = find_torque_curves(steady)
     above = surplus(curves.total)

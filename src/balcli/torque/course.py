@@ -75,9 +75,9 @@ def find_inertia_torque(engine: Engine) -> Function:
 def find_moving_inertia(engine: Engine) -> Function:
     """Moment of inertia about the crank (kg m2) of pistons, rods and throw masses, at crank angles
     (rad) of any shape. Throw masses are left out where the crankshaft's own inertia is given, which
-    has them.
+    has them; those of a rotary engine stand still.
     """
-    if engine.crank_inertia is not None:
+    if engine.crank_inertia is not None and not engine.rotary:
         c = engine.cylinders
         throws = np.array([[weighed.share] for weighed in engine.weighed]).reshape(-1)
         engine = replace(engine, cylinders=replace(c, rotating=c.rotating - throws))
@@ -85,8 +85,11 @@ def find_moving_inertia(engine: Engine) -> Function:
 
 
 def find_constant_inertia(engine: Engine) -> float | None:
-    """Moment of inertia of crankshaft and flywheel, kg m2; None where the file gives neither."""
-    given = [v for v in (engine.crank_inertia, engine.flywheel_inertia) if v is not None]
+    """Moment of inertia of crankshaft and flywheel, kg m2; None where the file gives neither. The
+    crankshaft of a rotary engine stands still.
+    """
+    crank = None if engine.rotary else engine.crank_inertia
+    given = [v for v in (crank, engine.flywheel_inertia) if v is not None]
     return float(sum(given)) if given else None
 
 

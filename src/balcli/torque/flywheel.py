@@ -15,7 +15,7 @@ from ..core.speed_variation import (
     speed_variation,
 )
 from ..errors import BalcliError
-from ..limits import MOST_RIPPLES
+from ..limits import HIGHEST_RIPPLE_ORDER, MOST_RIPPLES
 
 _WORTH = 1e-4  # share of the largest line of the speed below which one is left out
 
@@ -51,14 +51,16 @@ class Flywheel(NamedTuple):
     Attributes:
         mean: of all that turns and moves, mean over a cycle; None: constant inertia is not known.
         moving: that of the moving parts in it.
-        speed: with this inertia; None: it is not known, or the mean speed is not.
+        speed: with this inertia; None: it is not known, or the mean speed is not, or it stalls.
         needed: mean of all that keeps the fluctuation asked for; None: none was asked for.
+        stall: that it stalls, in words.
     """
 
     mean: float | None
     moving: float
     speed: Speed | None
     needed: float | None
+    stall: str = ""
 
 
 class Question(NamedTuple):
@@ -85,7 +87,8 @@ def find_flywheel(question: Question) -> Flywheel | None:
     """What inertia does for the speed; None where nothing of it is known or asked.
 
     Raises:
-        BalcliError: the shaft stalls; a fluctuation is asked for without a mean speed.
+        BalcliError: a fluctuation is asked for without a mean speed; the shaft stalls, and it is
+            not asked what it needs.
     """
     q = question
     if q.constant is None and q.fluctuation is None:
@@ -103,14 +106,16 @@ def find_flywheel(question: Question) -> Flywheel | None:
         needed = moving + needed_inertia(q.torque, q.mean_speed, q.fluctuation, parts)
     if mean is None or q.mean_speed is None:
         return Flywheel(mean, moving, None, needed)
-    return Flywheel(mean, moving, _find_speed(q, q.mean_speed, mean), needed)
+    try:
+        return Flywheel(mean, moving, _find_speed(q, q.mean_speed, mean), needed)
+    except StallError as error:
+        if needed is None:
+            raise BalcliError(f"{error}") from None
+        return Flywheel(mean, moving, None, needed, f"{error}")
 
 
 def _find_speed(q: Question, mean_speed: float, mean_inertia: float) -> Speed:
-    try:
-        found = speed_variation(q.torque, _inertia(q.constant or 0.0, q.moving), mean_speed)
-    except StallError as error:
-        raise BalcliError(f"{error}") from None
+    found = speed_variation(q.torque, _inertia(q.constant or 0.0, q.moving), mean_speed)
     return Speed(
         found.fluctuation,
         small_fluctuation(q.surplus, mean_inertia, mean_speed),
@@ -127,9 +132,12 @@ def _inertia(constant: float, moving: Function | None) -> float | Function:
 
 
 def _find_lines(speed: PiecewiseCurve, mean_speed: float) -> tuple[Ripple, ...]:
-    """Lines whose sum is the speed, in shares of its mean: multiples of 1/2, or of 1."""
+    """Lines whose sum is the speed, in shares of its mean: multiples of 1/2, or of 1, as far as an
+    engine file may have them.
+    """
     turns = speed.period / (2 * np.pi)
-    c: Complex = speed.harmonics(MOST_RIPPLES)[1:] / mean_speed
+    count = min(MOST_RIPPLES, int(HIGHEST_RIPPLE_ORDER * turns + 0.1))
+    c: Complex = speed.harmonics(count)[1:] / mean_speed
     size = np.abs(c)
     worth = np.flatnonzero(size > _WORTH * size.max(initial=0))
     return tuple(

@@ -39,7 +39,7 @@ class CurveAnalysis(Result):
         load: likewise; None: it takes the mean evenly.
         orders: cycles in 360 degrees, shape (orders,).
         harmonics: c_n of `Re sum c_n e^{i n theta}`, N m, shape (orders,).
-        surplus: of the torque above the load.
+        surplus: of the torque above the load; the work is the torque's own.
         shaft, flywheel: what turns, and how evenly.
     """
 
@@ -94,7 +94,7 @@ def analyze_curve(
         torque, load: N m, over one and the same period.
         shaft: what turns.
         fluctuation: (highest - lowest)/mean speed, for which the inertia is wanted.
-        orders: default: all that the period has, up to HIGHEST_GAS_ORDER_UNASKED.
+        orders: default: all that the period has, up to HIGHEST_GAS_ORDER_UNASKED, at least two.
 
     Raises:
         BalcliError: other periods, orders that the period has not, a shaft that stalls.
@@ -102,7 +102,7 @@ def analyze_curve(
     shaft = shaft or Shaft()
     net = torque if load is None else _subtract(torque, load)
     turns = torque.period / (2 * np.pi)
-    every = np.arange(1, int(HIGHEST_GAS_ORDER_UNASKED * turns + _SAME) + 1)
+    every = np.arange(1, max(int(HIGHEST_GAS_ORDER_UNASKED * turns + _SAME), 2) + 1)
     if orders is not None:
         wanted = check_orders(orders) * turns
         every = np.rint(wanted).astype(int)
@@ -111,7 +111,7 @@ def analyze_curve(
                 f"order {wanted[odd[0]] / turns:g}: a period of {turns * 360:g} deg has multiples "
                 f"of {1 / turns:g}"
             )
-    above = surplus(net)
+    above = surplus(net)._replace(work=torque.integral)
     asked = Question(net, above.energy, shaft.mean_speed, shaft.inertia, None, fluctuation)
     found = torque.harmonics(int(every.max(initial=1)))[every]
     found = np.where(np.abs(found) > _NOISE * np.abs(torque.series).max(), found, 0)

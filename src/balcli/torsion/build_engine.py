@@ -20,8 +20,9 @@ from ..enginefile.model import EngineFile
 from ..enginefile.shafting import find_stiffness
 from ..enginefile.torsion_tables import Part, Torsion
 from ..errors import BalcliError, InputError, Problem
+from ..forces.orders import list_gas_orders
 from ..forces.spectrum import compute_each_cylinder
-from ..limits import HIGHEST_TORSION_ORDER_UNASKED
+from ..limits import HIGHEST_TORSION_ORDER, HIGHEST_TORSION_ORDER_UNASKED
 from .assembly import Limits, PlannedNode, PlannedShaft, assemble_system, find_section
 from .system import Excitation, Section, TorsionalSystem
 
@@ -184,7 +185,8 @@ def excite_engine(
     where the engine has some.
 
     Args:
-        orders: (orders,); None: to 12, with halves where gas has them.
+        orders: (orders,); None: to 12, with halves where gas has them, and as of
+            `list_gas_orders` that of firing.
         misfires: numbers of cylinders without gas force.
 
     Raises:
@@ -194,14 +196,20 @@ def excite_engine(
     nodes = front + np.array([weighed.throw for weighed in engine.weighed])
     engine = _let_misfire(replace(engine, ripple=(), speed_rpm=30 / np.pi), misfires)  # 1 rad/s
     if orders is None:
-        step = 0.5 if engine.gas is not None and engine.gas.cycle_deg == 720 else 1.0
-        orders = np.arange(step, HIGHEST_TORSION_ORDER_UNASKED + step / 2, step)
+        orders = _list_orders(engine)
     growing = compute_each_cylinder(engine, orders, ("torque",))["torque"].x
     steady = np.zeros_like(growing)
     if engine.gas is not None:
         steady = compute_each_cylinder(engine, orders, ("gas",))["gas"].x
     moves = np.any((growing != 0) | (steady != 0), axis=1)
     return Excitation(orders[moves], nodes, steady[moves], growing[moves])
+
+
+def _list_orders(engine: Engine) -> Real:
+    if engine.gas is None:
+        return np.arange(1.0, HIGHEST_TORSION_ORDER_UNASKED + 1)
+    listed = list_gas_orders(engine)
+    return listed[listed <= HIGHEST_TORSION_ORDER]
 
 
 def _let_misfire(engine: Engine, misfires: Sequence[int]) -> Engine:
