@@ -28,7 +28,7 @@ _MOMENTS = (MOMENT.key_along("x"), MOMENT.key_along("y"))
 _EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Curves(Result):
     """Figures over the crank angle.
 
