@@ -195,7 +195,7 @@ def test_a_force_has_no_free_place():
 
 def test_sizes_name_the_device_they_are_of():
     lines = run_here("balance", I3).out.splitlines()
-    start = next(k for k, line in enumerate(lines) if "centrifugal force" in line)
+    start = next(k for k, line in enumerate(lines) if "disc r, mm" in line)
     kinds = ["counterweight"] * 2 + ["shaft"] * 6
     found = [line.split()[:2] for line in lines[start + 2 : start + 10]]
     assert found == [[str(k), kind] for k, kind in enumerate(kinds, 1)]

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from .mechanisms import harmonics
 from .phasors import Array, Complex, Figure
 
 if TYPE_CHECKING:
+    from .mechanisms.fourier import Harmonics, Rows
     from .mechanisms.linkage import Linkage
 
 
@@ -78,6 +81,28 @@ class Cylinders:
         columns = (lam, eps) if linkage is None else linkage.figures(lam, eps)
         each = [np.broadcast_to(column, self.count).tolist() for column in columns]
         return list(zip(*each, strict=True))
+
+    def find_distinct_harmonics(
+        self, orders: ArrayLike, wanted: Collection[str]
+    ) -> tuple[Harmonics, Rows]:
+        """Harmonics of the mechanisms that differ, and which of them each cylinder has.
+
+        Args:
+            orders: whole, shape (orders,).
+            wanted: names of series (`fourier.SERIES`).
+        """
+        kind = self.linkage or harmonics
+        return kind.find_distinct_harmonics(orders, self.lam, self.eps, wanted)
+
+    def find_highest_order(self) -> int:
+        """The order beyond which nothing that moves exceeds rounding errors."""
+        return (self.linkage or harmonics).find_highest_order(self.lam, self.eps)
+
+    def count_all_samples(self) -> tuple[int, int]:
+        """How many mechanisms differ, and about how many samples of a revolution they take together
+        where they are sampled.
+        """
+        return (self.linkage or harmonics).count_all_samples(self.lam, self.eps)
 
 
 class DeviceKind(IntEnum):
