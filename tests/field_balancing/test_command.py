@@ -268,3 +268,29 @@ def test_the_library_offers_it(runs):
     text = runs.read_text(encoding="utf-8")
     for source in (text, str(runs), tomllib.loads(text)):
         assert balcli.balance_rotor(source, "max").planes == result.planes
+
+
+def test_readings_at_several_speeds_are_of_no_one_run():
+    """A correction was tried at 1500 rpm alone: at 3000 rpm the rotor was last read as found."""
+    text = 'planes = ["disc"]\n'
+    for speed, scale in ((1500, 1), (3000, 4)):
+        text += f"""
+            [[run]]
+            speed = {speed}
+            readings = ["{5 * scale} @ 0"]
+            [[run]]
+            speed = {speed}
+            readings = ["{7 * scale} @ 0"]
+            weights = {{ disc = "2 @ 0" }}
+            """
+    text += """
+        [[run]]
+        name = "trim"
+        speed = 1500
+        readings = ["1 @ 0"]
+        weights = { disc = "4 @ 180" }
+        """
+    out = run_here("field", "-", stdin=text).out
+    assert re.search(r"\nreading +as found +at, deg +last read +at, deg +after", out)
+    assert re.search(r"\nsensor 1, 3000 rpm +20 +0\.0 +20 +0\.0 +0 ", out)
+    assert re.search(r"\ndisc +5 +180\.0 +1 +180\.0 ", out), "add now, on top of 4 at 180"

@@ -177,11 +177,11 @@ def find_label(result: FieldBalance, k: int) -> str:
 
 
 def _readings(result: FieldBalance) -> Grid:
-    influence, trimmed = result.influence, result.influence.trimmed
+    influence = result.influence
     unit = f", {result.file.unit}" if result.file.unit else ""
     states = [("as found", influence.found)]
-    if trimmed:
-        states.append((trimmed, influence.now))
+    if influence.trimmed:
+        states.append((influence.state, influence.now))
     states.append(("after", result.after))
     heads = ["reading", *(head for name, _ in states for head in (f"{name}{unit}", "at, deg"))]
     rows = [
