@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 from ..forces.kinds import TORQUE
 from .csv import Rows, name_cell
-from .figures import clean_each
 from .sheet import (
     NEGLIGIBLE,
     NOTHING,
@@ -39,8 +38,8 @@ def document(result: Comparison) -> dict[str, Any]:
             {
                 "quantity": _key(line),
                 "order": None if line.order is None else order_number(line.order),
-                "values": clean_each(line.values),
-                "ratios": clean_each(line.ratios),
+                "values": [None if math.isnan(v) else v for v in line.values],
+                "ratios": [None if math.isnan(r) else r for r in line.ratios],
             }
             for line in result.lines
         ],
