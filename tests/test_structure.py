@@ -168,7 +168,7 @@ ON_REQUEST = {
     "balcli.enginefile.toml_text": ("balcli.enginefile.examples",),
     "balcli.forces.spectrum": ("balcli.forces.gas",),
     "balcli.forces.symmetry": ("balcli.forces.gas_symmetry",),
-    "balcli.library.arguments": ("balcli.studies.tolerances",),
+    "balcli.library.arguments": ("balcli.studies.stated_tolerances",),
     "balcli.render.analyses": ("balcli.render.analysis", "balcli.render.analysis_data"),
     "balcli.render.analysis_data": (
         *("balcli.render.crankshaft", "balcli.render.guide_moments"),

@@ -153,7 +153,7 @@ def test_a_warning_takes_the_line_away_first(
 def test_items_are_counted_until_ctrl_c(capsys: pytest.CaptureFixture[str]) -> None:
     with progress.reporting_until_stopped("engines", 3) as tell:
         seen = []
-        for item in progress.counted("abc", tell):
+        for item in progress.each_until_stopped("abc", tell):
             seen.append((item, tell.done))
             tell.stopped = item == "b"
     assert seen == [("a", 0), ("b", 1)]

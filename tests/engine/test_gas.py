@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 
 import pytest
-from support.gas_engines import FOUR, WIEBE, draw_engine, engine
+from support.engines import build_text
+from support.gas_engines import FOUR, WIEBE, draw_engine
 
 from balcli.core.cylinder_pressure import PressureOnPiston
 from balcli.engine.load import load, parse
@@ -16,26 +17,26 @@ TWO_STROKE = FOUR.replace("firing_order = [1, 3, 4, 2]", "strokes = 2")
 
 def problems(text: str) -> list[str]:
     with pytest.raises(InputError) as caught:
-        engine(text)
+        build_text(text)
     return [str(problem) for problem in caught.value.problems]
 
 
 # ------------------------------------------------------------------ what is built
 def test_cylinders_fire_as_the_firing_order_has_it():
-    gas = engine(FOUR + WIEBE).gas
+    gas = build_text(FOUR + WIEBE).gas
     assert [c.nominal_deg for c in gas.cylinders] == [0, 540, 180, 360]
     assert gas.cycle_deg == 720
     assert len({id(c.torque) for c in gas.cylinders}) == 1, "equal cylinders are computed once"
 
 
 def test_cylinders_of_a_two_stroke_fire_at_their_dead_centres():
-    gas = engine(TWO_STROKE + WIEBE).gas
+    gas = build_text(TWO_STROKE + WIEBE).gas
     assert [c.nominal_deg for c in gas.cylinders] == [0, 180, 180, 0]
     assert gas.cycle_deg == 360
 
 
 def test_dead_centres_are_those_of_the_mechanism():
-    gas = engine(FOUR.replace("mass = 0.5", "mass = 0.5\noffset = 12") + WIEBE).gas
+    gas = build_text(FOUR.replace("mass = 0.5", "mass = 0.5\noffset = 12") + WIEBE).gas
     assert gas.cylinders[0].fires == pytest.approx(math.asin(12 / 195), abs=1e-14)
     assert gas.cylinders[1].fires - gas.cylinders[0].fires == pytest.approx(3 * math.pi, abs=1e-13)
 
@@ -49,7 +50,7 @@ def test_a_cycle_has_the_stated_mean_effective_pressure(seed):
 
 
 def test_bmep_is_imep_times_mechanical_efficiency():
-    gas = engine(FOUR + WIEBE.replace("imep = 9", "bmep = 9\nmechanical_efficiency = 0.9")).gas
+    gas = build_text(FOUR + WIEBE.replace("imep = 9", "bmep = 9\nmechanical_efficiency = 0.9")).gas
     assert gas.cylinders[0].torque.imep == pytest.approx(10e5, rel=1e-12)
 
 
@@ -57,7 +58,7 @@ def test_flywheel_crank_and_bearings():
     text = FOUR.replace("spacing = 100", "spacing = 100\ninertia = 40000")
     text += "[flywheel]\nmass = 10\nradius_of_gyration = 120\n[bearing]\n"
     text += "pin_diameter = 48\npin_width = 20\n"
-    found = engine(text)
+    found = build_text(text)
     assert found.crank_inertia == pytest.approx(0.04)
     assert found.flywheel_inertia == pytest.approx(0.144)
     assert found.bearings.pin_m2 == pytest.approx(960e-6)
@@ -351,7 +352,7 @@ def test_a_misfire_is_told_of_a_cylinder_that_there_is():
 
 def test_a_file_without_gas_makes_no_gas():
     assert parse(FOUR).gas is None
-    assert engine(FOUR).gas is None
+    assert build_text(FOUR).gas is None
 
 
 RADIAL = """\
@@ -372,7 +373,7 @@ rod = { length = 188 }
 
 
 def test_articulated_cylinders_have_cycles_of_their_own():
-    gas = engine(RADIAL + WIEBE).gas
+    gas = build_text(RADIAL + WIEBE).gas
     strokes = {round(c.piston.stroke, 6) for c in gas.cylinders}
     assert len(strokes) == 2
     assert len({id(c.torque) for c in gas.cylinders}) == 3
@@ -390,7 +391,7 @@ def test_cylinders_that_turn_have_gas_too(strokes):
     )
     if strokes == 2:
         text = text.replace("[1, 2, 3]", "[1, 3, 2]")
-    found = engine(text + WIEBE)
+    found = build_text(text + WIEBE)
     fires = [c.nominal_deg for c in found.gas.cylinders]
     assert fires == pytest.approx([found.fires_deg[number] for number in found.numbers])
     assert sorted(fires) == pytest.approx([0, 60 * strokes, 120 * strokes])

@@ -61,6 +61,22 @@ def test_where_one_hole_is_not_enough_it_says_how_there_are_more(tmp_path):
     assert "All readings are cancelled." in out
 
 
+def test_a_shop_that_works_in_inches_reads_inches(runs):
+    """Radius, unbalance, drill, depth and what is permitted; weights and readings stay."""
+    metric, inches = (run_here("field", runs, *more).out for more in ((), ("--units", "imperial")))
+    ounce_inch = 28.349523125 * 25.4  # g mm
+    found = re.search(r"^front +1.979 +123.8 +7.874 +([\d.]+) +86%$", inches, re.MULTILINE)
+    assert float(found[1]) == pytest.approx(395.9 / ounce_inch, rel=2e-4)
+    depth = re.search(r"^front +\d+ of 12 .* 4 +([\d.]+)$", metric, re.MULTILINE)
+    small = re.search(r"^front +\d+ of 12 .* 0.15748 +([\d.]+)$", inches, re.MULTILINE)
+    assert float(small[1]) == pytest.approx(float(depth[1]) / 25.4, rel=6e-3)
+    permitted = 120e3 * 6.3 / (100 * 3.14159265) / 2 / ounce_inch
+    assert re.search(rf"^front +{permitted:.4g} ", inches, re.MULTILINE)
+    assert "264.555 lb at 3000 rpm" in inches
+    said = [run_here("field", runs, "-f", "csv", *more).out for more in ((), ("--units=imperial",))]
+    assert said[0] == said[1]
+
+
 def test_a_grade_may_be_written_with_its_letter(runs):
     plain = run_here("field", runs).out
     for grade in ('"G6.3"', '"G 6.3"', '"g6.3"'):
@@ -252,3 +268,29 @@ def test_the_library_offers_it(runs):
     text = runs.read_text(encoding="utf-8")
     for source in (text, str(runs), tomllib.loads(text)):
         assert balcli.balance_rotor(source, "max").planes == result.planes
+
+
+def test_readings_at_several_speeds_are_of_no_one_run():
+    """A correction was tried at 1500 rpm alone: at 3000 rpm the rotor was last read as found."""
+    text = 'planes = ["disc"]\n'
+    for speed, scale in ((1500, 1), (3000, 4)):
+        text += f"""
+            [[run]]
+            speed = {speed}
+            readings = ["{5 * scale} @ 0"]
+            [[run]]
+            speed = {speed}
+            readings = ["{7 * scale} @ 0"]
+            weights = {{ disc = "2 @ 0" }}
+            """
+    text += """
+        [[run]]
+        name = "trim"
+        speed = 1500
+        readings = ["1 @ 0"]
+        weights = { disc = "4 @ 180" }
+        """
+    out = run_here("field", "-", stdin=text).out
+    assert re.search(r"\nreading +as found +at, deg +last read +at, deg +after", out)
+    assert re.search(r"\nsensor 1, 3000 rpm +20 +0\.0 +20 +0\.0 +0 ", out)
+    assert re.search(r"\ndisc +5 +180\.0 +1 +180\.0 ", out), "add now, on top of 4 at 180"

@@ -6,7 +6,8 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from support.gas_engines import FOUR, WIEBE, draw_engine, engine
+from support.engines import build_text
+from support.gas_engines import FOUR, WIEBE, draw_engine
 
 from balcli.core.mechanisms.closed_form import find_harmonics
 from balcli.engine.load import load
@@ -114,7 +115,7 @@ def find_hung_rate(found, row, crank):
 
 def test_articulated_cylinders_against_a_quadrature():
     """With a misfire, and a piston offset."""
-    found = engine(HUNG + WIEBE)
+    found = build_text(HUNG + WIEBE)
     want = quadrature(found, ORDERS, find_hung_rate)
     error = np.abs(scalar(compute_gas_torque(found, ORDERS)) - want)
     assert error.max() < OF_THE_LARGEST * np.abs(want).max()
@@ -144,7 +145,7 @@ def test_equal_cylinders_that_fire_evenly_leave_multiples_of_their_number_alone(
 ):
     text = FOUR.replace("throws = [0, 180, 180, 0]", f"throws = {throws}" if throws else "")
     text = text.replace("[1, 3, 4, 2]", f"{firing}\nstrokes = {strokes}")
-    found = engine(text + WIEBE)
+    found = build_text(text + WIEBE)
     per_cycle = len(firing) * 2 / strokes
     total = compute_spectra(found, ORDERS, ["gas"])["gas"]
     each = compute_gas_torque_of_each(found, ORDERS)
@@ -160,8 +161,8 @@ def test_equal_cylinders_that_fire_evenly_leave_multiples_of_their_number_alone(
 
 
 def test_a_misfire_leaves_what_the_cylinder_would_have_made():
-    whole = engine(FOUR + WIEBE)
-    missing = engine(FOUR + WIEBE + "[cylinder.3]\ngas = 0\n")
+    whole = build_text(FOUR + WIEBE)
+    missing = build_text(FOUR + WIEBE + "[cylinder.3]\ngas = 0\n")
     row = whole.numbers.index(3)
     gone = compute_gas_torque_of_each(whole, ORDERS).forward[:, row]
     left = compute_gas_torque(missing, ORDERS).forward
@@ -201,17 +202,17 @@ def test_totals_are_sums_of_inertia_and_gas():
 
 # ------------------------------------------------------------------ what is shown
 def test_an_analysis_shows_gas_where_there_is_some():
-    found = analyze(engine(FOUR + WIEBE))
+    found = analyze(build_text(FOUR + WIEBE))
     assert found.spectra.gas is not None
     assert found.orders.tolist() == [1, 2, 4, 6, 8, 10, 12]
-    plain = analyze(engine(FOUR))
+    plain = analyze(build_text(FOUR))
     assert plain.spectra.gas is None
     with pytest.raises(BalcliError, match=r"has no \[gas\]; give a diagram, a cycle or harmonics"):
-        analyze(engine(FOUR), only=["gas"])
+        analyze(build_text(FOUR), only=["gas"])
 
 
 def test_only_gas_is_all_that_gas_does():
-    found = analyze(engine(FOUR + WIEBE), orders=[0.5, 2], only=["gas"])
+    found = analyze(build_text(FOUR + WIEBE), orders=[0.5, 2], only=["gas"])
     assert [kind.key for kind, _ in found.spectra.items()] == [
         "gas_torque_Nm",
         "torque_Nm",
@@ -223,18 +224,18 @@ def test_only_gas_is_all_that_gas_does():
 def test_shares_that_are_fractions_of_each_other_may_cancel():
     """Two weak cylinders opposite each other leave order 1/2 balanced."""
     weak = "[cylinder.2]\ngas = 0.5\n[cylinder.3]\ngas = 0.5\n"
-    found = engine(FOUR + WIEBE + weak)
+    found = build_text(FOUR + WIEBE + weak)
     why = {r.order: r.verdict for r in explain_symmetry(found, [0.5, 1], ["gas"]).reasons}
     assert why == {0.5: "exact", 1: "free"}
-    silent = engine(FOUR + WIEBE + "".join(f"[cylinder.{n}]\ngas = 0\n" for n in (1, 2, 3, 4)))
+    silent = build_text(FOUR + WIEBE + "".join(f"[cylinder.{n}]\ngas = 0\n" for n in (1, 2, 3, 4)))
     reasons = explain_symmetry(silent, [0.5], ["gas"]).reasons
     assert [r.verdict for r in reasons] == ["none"]
 
 
 def test_people_read_which_order_rocks_the_engine():
-    text = plain_text([sheet(analyze(engine(FOUR + WIEBE)), SI)])
+    text = plain_text([sheet(analyze(build_text(FOUR + WIEBE)), SI)])
     assert " rocks the engine most: roll of " in text
     assert "About the crank axis with gas, N·m" in text
     assert "balcli torque" in text
-    inner = plain_text([sheet(analyze(engine(FOUR + WIEBE), only=["inner"]), SI)])
+    inner = plain_text([sheet(analyze(build_text(FOUR + WIEBE), only=["inner"]), SI)])
     assert "Loads of main bearings with gas" in inner

@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.commands import run_here
-from support.gas_engines import FOUR, WIEBE, draw_engine, engine
+from support.engines import build_text
+from support.gas_engines import FOUR, WIEBE, draw_engine
 from support.paths import ENGINES
 
 from balcli.core.phasors import Phasors
@@ -118,7 +119,7 @@ def test_largest_values_are_on_the_curves(seed):
 
 def draw_uneven():
     lines = "[{ order = 1, amplitude = 0.03, angle = 40 }, { order = 0.5, amplitude = 0.02 }]"
-    return engine(FOUR + f"speed_ripple = {lines}\n" + WIEBE + DEVICES)
+    return build_text(FOUR + f"speed_ripple = {lines}\n" + WIEBE + DEVICES)
 
 
 @pytest.mark.parametrize("seed", [1, 4, None])
@@ -240,4 +241,4 @@ def test_engines_with_gas_are_compared_by_it():
 def test_so_many_cylinders_that_they_would_fill_the_memory_are_refused(monkeypatch):
     monkeypatch.setattr(in_bearings, "MOST_FORCES_OVER_CYCLE", 1000)
     with pytest.raises(BalcliError, match="loads with gas of 4 cylinders are"):
-        compute_loads_with_gas(replace(engine(FOUR + WIEBE)))
+        compute_loads_with_gas(replace(build_text(FOUR + WIEBE)))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from support.gas_engines import FOUR, WIEBE, engine
+from support.engines import build_text
+from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINES
 
 from balcli.core.phasors import Phasors
@@ -94,8 +95,8 @@ def test_orders_of_firing_are_shown_however_high():
         .replace("firing_order = [1, 3, 4, 2]", "{}\nstrokes = 2")
         .replace("mass = 0.5\n", "mass = 0.5\noffset = 2\n")
     )
-    subject = engine(text.format(f"firing_order = {[*range(1, count + 1)]}") + WIEBE)
-    one = analyze(engine(text.format("") + WIEBE), [14, 28], ["gas"]).spectra.gas
+    subject = build_text(text.format(f"firing_order = {[*range(1, count + 1)]}") + WIEBE)
+    one = analyze(build_text(text.format("") + WIEBE), [14, 28], ["gas"]).spectra.gas
     for found in (
         analyze(subject).spectra.gas,
         analyze(subject, only=["gas"]).spectra.gas,
@@ -113,7 +114,7 @@ def test_orders_of_firing_are_shown_however_high():
 
 
 def test_few_cylinders_have_the_orders_to_12():
-    assert list_gas_orders(engine(FOUR + WIEBE)).tolist() == [n / 2 for n in range(1, 25)]
+    assert list_gas_orders(build_text(FOUR + WIEBE)).tolist() == [n / 2 for n in range(1, 25)]
 
 
 def test_half_orders_take_gas_in_four_strokes():

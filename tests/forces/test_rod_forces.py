@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from support.gas_engines import WIEBE, engine
+from support.engines import build_text
+from support.gas_engines import WIEBE
 
 from balcli.forces.rod_forces import compute_rod_forces
 
@@ -16,7 +17,7 @@ DEGREES = np.linspace(0.0, 720.0, 97)
 def test_each_cylinder_has_its_own_pressure_at_its_own_time():
     """With a master rod the mechanisms differ; in cylinder 4 the gas presses by half."""
     text = (ENGINES / "radial7_articulated.toml").read_text(encoding="utf-8")
-    found = engine(f"{text}\n{WIEBE}\n[cylinder.4]\ngas = 0.5\n")
+    found = build_text(f"{text}\n{WIEBE}\n[cylinder.4]\ngas = 0.5\n")
     forces = compute_rod_forces(found, DEGREES)
     assert len(found.gas.group_equal()) > 1
     for row, cylinder in enumerate(found.gas.cylinders):
@@ -30,7 +31,7 @@ def test_each_cylinder_has_its_own_pressure_at_its_own_time():
 
 def test_equal_cylinders_are_grouped_by_their_torque():
     text = (ENGINES / "v8_wiebe.toml").read_text(encoding="utf-8")
-    gas = engine(text).gas
+    gas = build_text(text).gas
     ((torque, rows),) = gas.group_equal()
     assert rows == list(range(8))
     assert torque is gas.cylinders[0].torque

@@ -160,3 +160,11 @@ def test_contours_name_the_engine_too():
     """As curves over one number do."""
     ranges = {"layout.bank_angle": "30:90:30", "rod.length": "140:160:10"}
     assert balcli.plot(balcli.sweep(VEE, ranges)).get_suptitle() == VEE.name
+
+
+def test_modes_that_lie_close_are_named_together():
+    """Their numbers lay over one another: 6.0 and 6.4, 8.5 to 9.6, 14.7 Hz."""
+    figure = SHOWN["mounts"]()
+    (meetings,) = (ax for ax in figure.axes if "meet modes" in ax.get_title(loc="left"))
+    names = [text.get_text() for text in meetings.texts if text.get_ha() == "right"]
+    assert names == ["1, 2", "3, 4, 5", "6"]

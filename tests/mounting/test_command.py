@@ -83,6 +83,22 @@ def test_a_scheme_is_shown_beside(four):
     assert refusal("mounts", four, "--scheme", "nonsense").startswith(f"{four}: there is no scheme")
 
 
+def test_the_point_that_moves_most_is_told_with_a_scheme_and_without(four):
+    """A shaft that spares the mounts may shake a handlebar."""
+    asked = ("mounts", four, "--scheme", "two-shaft", "--at=0,300")
+    said = json.loads(run_here(*asked, "-f", "json").out)
+    before = said["response"]["points"][0]["worst"]
+    after = said["fitted"]["response"]["points"][0]["worst"]
+    change = after["motion_mm"] / before["motion_mm"] - 1
+    out = run_here(*asked).out
+    number, rpm = r"([\d.]+) mm", r"at ([\d.]+) rpm"
+    own = re.search(rf"^The point lever moves most: {number} {rpm}\.$", out, re.MULTILINE)
+    assert float(own[1]) == pytest.approx(before["motion_mm"], rel=1e-3)
+    fitted = re.search(rf"; the point lever moves most, {number} {rpm}: (.*)\.\n", out)
+    assert float(fitted[1]) == pytest.approx(after["motion_mm"], rel=1e-3)
+    assert fitted[3] == f"{abs(change):.0%} {'less' if change < 0 else 'more'}"
+
+
 def test_other_engines_on_the_same_mounts(four, tmp_path):
     """Beside each other, each as if it stood there alone; a body without an engine takes any."""
     light = tmp_path / "light.toml"

@@ -11,7 +11,15 @@ import numpy as np
 import pytest
 from support.engines import engine_text
 
-from balcli import analyze, balance, load
+from balcli import (
+    analyze,
+    analyze_mounts,
+    analyze_torque,
+    analyze_torsion,
+    balance,
+    balance_rotor,
+    load,
+)
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.forces.curves import (
@@ -99,3 +107,42 @@ def test_curves_come_back_equal(way):
         compute_cylinder_curves(load(ENGINES / "i3.toml"), 2, angles),
     ):
         assert difference(result, WAYS[way](result)) == ""
+
+
+GAS = '\n[gas]\ncycle = "{burn}"\ncompression_ratio = 9\nimep = 9\n'
+RUNS = """
+planes = ["disc"]
+[[run]]
+readings = ["5 @ 30"]
+[[run]]
+readings = ["7 @ 80"]
+weights = { disc = "2 @ 0" }
+"""
+OF_CHAPTERS = {
+    "torque": lambda: analyze_torque(load(ENGINES / "i4_wiebe.toml")),
+    "torsion": lambda: analyze_torsion(load(ENGINES / "i6_diesel.toml"), [1500, 2000]),
+    "mounts": lambda: analyze_mounts(ENGINES / "i4_mounts.toml", [700, 3000]),
+    "rotor": lambda: balance_rotor(RUNS),
+}
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("burn", ["otto", "diesel", "wiebe"])
+@pytest.mark.parametrize("name", ["i3", "radial7_articulated"])
+def test_engines_with_gas_do_the_same_in_another_process(name, burn, way):
+    text = (ENGINES / f"{name}.toml").read_text(encoding="utf-8") + GAS.format(burn=burn)
+    engine = load(text)
+    again = WAYS[way](engine)
+    assert analyze_torque(again).to_dict() == analyze_torque(engine).to_dict()
+    result = analyze(engine, only=["roll"])
+    assert WAYS[way](result).to_dict() == result.to_dict()
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("chapter", OF_CHAPTERS)
+def test_answers_of_chapters_come_back_and_can_be_compared(chapter, way):
+    result = OF_CHAPTERS[chapter]()
+    again = WAYS[way](result)
+    assert again.to_dict() == result.to_dict()
+    assert result == result
+    assert result != again, "identity, as of all that holds arrays"

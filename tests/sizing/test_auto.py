@@ -85,8 +85,8 @@ def test_devices_are_summed_in_the_order_of_the_file():
     engine = build(
         parse(write_engine(0, 240, 120) + "[[slider]]\norder = 2\nunbalance = 3\ndirection = 10\n")
     )
-    ranks = [d.rank for d in fit_devices(engine, size_auto(engine)).devices]
-    assert ranks == sorted(ranks)
+    kinds = [d.kind for d in fit_devices(engine, size_auto(engine)).devices]
+    assert kinds == sorted(kinds)
     assert compute_spectra(
         fit_devices(engine, size_auto(engine)), [1], ("force",)
     ).force.balanced.all()

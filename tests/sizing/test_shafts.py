@@ -9,6 +9,7 @@ from support.commands import refusal, run_here
 from support.engines import STAGGERED_TWIN, engine
 from support.paths import ENGINES
 
+from balcli.core.cylinders import DeviceKind
 from balcli.engine.build import build
 from balcli.engine.load import load, parse
 from balcli.forces.spectrum import compute_spectra
@@ -194,7 +195,7 @@ def test_a_force_has_no_free_place():
 
 def test_sizes_name_the_device_they_are_of():
     lines = run_here("balance", I3).out.splitlines()
-    start = next(k for k, line in enumerate(lines) if "centrifugal force" in line)
+    start = next(k for k, line in enumerate(lines) if "disc r, mm" in line)
     kinds = ["counterweight"] * 2 + ["shaft"] * 6
     found = [line.split()[:2] for line in lines[start + 2 : start + 10]]
     assert found == [[str(k), kind] for k, kind in enumerate(kinds, 1)]
@@ -219,7 +220,7 @@ def test_shafts_on_the_crank_axis_are_drawn_beside_the_engine():
     fitted = fit_devices(built, size(built))
     radius = float(built.cylinders.radius)
     drawn = place_beside(fitted, 0.08)
-    shafts = {row for row, device in enumerate(fitted.devices) if device.rank == 1}
+    shafts = {row for row, device in enumerate(fitted.devices) if device.kind is DeviceKind.SHAFT}
     assert set(drawn) == shafts
     assert min(abs(place) for place in drawn.values()) > 2 * radius
     turning = {row: 1 if fitted.devices[row].forward else -1 for row in drawn}

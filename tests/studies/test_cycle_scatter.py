@@ -7,6 +7,7 @@ import json
 import numpy as np
 import pytest
 from support.commands import refusal, run_here
+from support.gas_engines import PETROL_FOUR
 from support.paths import ENGINES
 
 import balcli
@@ -16,33 +17,8 @@ from balcli.forces.guide_moments import compute_guide_moments
 from balcli.studies.deviations import DeviatingEngine, Tolerances
 from balcli.torque.analysis import analyze_torque
 
-FOUR = """
-name = "four"
-[crank]
-stroke = 86
-throws = [{throws}]
-spacing = 95
-inertia = 90000
-[rod]
-length = 150
-mass = 0.6
-cg = 45
-[piston]
-bore = 86
-mass = 0.5
-offset = 0.8
-[layout]
-firing_order = [1, 3, 4, 2]
-[operation]
-speed = 4000
-[gas]
-cycle = "wiebe"
-compression_ratio = 10
-imep = 12
-[cylinder]
-{own}
-"""
-PLAIN = FOUR.format(throws="0, 180, 180, 0", own="")
+FOUR = PETROL_FOUR.replace("[rod]", "inertia = 90000\n[rod]")
+PLAIN = f"{FOUR}[cylinder]\n"
 
 
 def deviated(found: dict[str, float]) -> str:
@@ -57,7 +33,8 @@ def deviated(found: dict[str, float]) -> str:
             f"{k} = {{piston_mass = {piston!r}, rod_mass = {rod!r}, rod_length = {length!r}, "
             f"rod_cg = {45 * length / 150!r}}}"
         )
-    return FOUR.format(throws=", ".join(map(repr, throws)), own="\n".join(own))
+    own_throws = FOUR.replace("[0, 180, 180, 0]", repr(throws))
+    return "\n".join([own_throws, "[cylinder]", *own])
 
 
 def draw(engines: DeviatingEngine, seed: int) -> np.ndarray:

@@ -10,6 +10,7 @@ from itertools import product
 import numpy as np
 import pytest
 from support.commands import refusal, run_here
+from support.gas_engines import PETROL_FOUR
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
@@ -17,32 +18,13 @@ from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
 from balcli.forces.spectrum import compute_spectra
 from balcli.studies.deviations import DeviatingEngine, Tolerances
 
-FOUR = """
-name = "four"
-[crank]
-stroke = 86
-throws = [0, 180, 180, 0]
-spacing = 95
-throw_mass = 0.8
-[rod]
-length = 150
-mass = 0.6
-cg = 45
-[piston]
-bore = 86
-mass = 0.5
-offset = 0.8
-[layout]
-firing_order = [1, 3, 4, 2]
+FOUR = (
+    PETROL_FOUR.replace("[rod]", "throw_mass = 0.8\n[rod]")
+    + """\
 [cylinder.2]
 rod_length = 151
-[operation]
-speed = 4000
-[gas]
-cycle = "wiebe"
-compression_ratio = 10
-imep = 12
 """
+)
 NAMES = (
     "torque.2.amplitude,torque.1.5.cos,gas.0.5.sin,roll_total.3.amplitude,torque_total.4.amplitude"
 )

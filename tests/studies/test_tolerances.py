@@ -13,7 +13,8 @@ from balcli.engine.load import parse as load
 from balcli.errors import BalcliError
 from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
 from balcli.studies.deviations import Tolerances
-from balcli.studies.tolerances import parse_tolerances, scatter_engine
+from balcli.studies.stated_tolerances import parse_tolerances
+from balcli.studies.tolerances import scatter_engine
 
 FORCES = parse_quantity_list("force.1.major,force.2.major,moment.1.major")
 TWIN = changed(

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from balcli.engine.build import Engine, build
-from balcli.engine.load import parse
+from balcli.engine.build import Engine
+
+from .engines import build_text
 
 FOUR = """\
 [crank]
@@ -31,11 +32,29 @@ cycle = "wiebe"
 compression_ratio = 10
 imep = 9
 """
-
-
-def engine(text: str) -> Engine:
-    """The engine that a text describes."""
-    return build(parse(text))
+PETROL_FOUR = """\
+name = "four"
+[crank]
+stroke = 86
+throws = [0, 180, 180, 0]
+spacing = 95
+[rod]
+length = 150
+mass = 0.6
+cg = 45
+[piston]
+bore = 86
+mass = 0.5
+offset = 0.8
+[layout]
+firing_order = [1, 3, 4, 2]
+[operation]
+speed = 4000
+[gas]
+cycle = "wiebe"
+compression_ratio = 10
+imep = 12
+"""
 
 
 def draw_engine(seed: int, strokes: int = 4, more: str = "") -> Engine:
@@ -79,4 +98,4 @@ crankcase = {random.uniform(0, 1.2)}
 gas = {random.uniform(0.5, 1.5)}
 {more}
 """
-    return engine(text)
+    return build_text(text)

@@ -12,7 +12,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from support.commands import run_here
-from support.gas_engines import FOUR, WIEBE, draw_engine, engine
+from support.engines import build_text
+from support.gas_engines import FOUR, WIEBE, draw_engine
 from support.paths import ENGINES
 
 from balcli.engine.load import load
@@ -69,10 +70,10 @@ def test_gas_without_work_has_no_mean_torque(tmp_path):
 
 
 def test_a_misfire_takes_a_quarter_of_the_work():
-    four = engine(FOUR + WIEBE)
+    four = build_text(FOUR + WIEBE)
     missing = analyze_torque(silence(four, 3))
     assert missing.imep == pytest.approx(0.75 * analyze_torque(four).imep, rel=1e-13)
-    written = analyze_torque(engine(FOUR + WIEBE + "[cylinder.3]\ngas = 0\n"))
+    written = analyze_torque(build_text(FOUR + WIEBE + "[cylinder.3]\ngas = 0\n"))
     assert written.curves.total.extremes() == missing.curves.total.extremes()
     with pytest.raises(BalcliError, match=r"^--misfire 5: the engine has the cylinders 1, 2, 3, 4"):
         silence(four, 5)
@@ -168,9 +169,9 @@ def test_lines_of_the_speed_add_up_to_it():
 
 def test_throw_masses_are_counted_once():
     text = FOUR.replace("spacing = 100", "spacing = 100\nthrow_mass = 0.5")
-    without = find_moving_inertia(engine(text))(np.array([0.3]))
+    without = find_moving_inertia(build_text(text))(np.array([0.3]))
     given = text.replace("spacing = 100", "spacing = 100\ninertia = 9000")
-    assert without - find_moving_inertia(engine(given))(np.array([0.3])) == pytest.approx(
+    assert without - find_moving_inertia(build_text(given))(np.array([0.3])) == pytest.approx(
         4 * 0.5 * 0.045**2
     )
 
@@ -182,7 +183,7 @@ def test_the_crank_of_a_rotary_engine_stands_still():
     )
     text += WIEBE + FLYWHEEL.format(1e5)
     more = text.replace("throw_mass = 0.5", "throw_mass = 0.5\ninertia = 90000")
-    plain, given = engine(text), engine(more)
+    plain, given = build_text(text), build_text(more)
     angle = np.linspace(0, 6, 7)
     assert find_moving_inertia(given)(angle) == pytest.approx(find_moving_inertia(plain)(angle))
     assert find_constant_inertia(given) == find_constant_inertia(plain) == pytest.approx(0.1)
@@ -199,7 +200,7 @@ def test_the_inertia_torque_is_half_the_slope_of_the_inertia():
 
 
 def test_a_crank_that_would_stand_still_is_refused():
-    slow = replace(engine(FOUR + WIEBE + FLYWHEEL.format(1000)), speed_rpm=300.0)
+    slow = replace(build_text(FOUR + WIEBE + FLYWHEEL.format(1000)), speed_rpm=300.0)
     with pytest.raises(
         BalcliError, match=r"^the shaft stalls at \d+\.\d°: with this inertia it ne"
     ):
@@ -207,8 +208,8 @@ def test_a_crank_that_would_stand_still_is_refused():
 
 
 def test_a_crank_that_would_stand_still_is_told_what_it_needs():
-    slow = replace(engine(FOUR + WIEBE + FLYWHEEL.format(1000)), speed_rpm=300.0)
-    heavy = replace(engine(FOUR + WIEBE + FLYWHEEL.format(1e9)), speed_rpm=300.0)
+    slow = replace(build_text(FOUR + WIEBE + FLYWHEEL.format(1000)), speed_rpm=300.0)
+    heavy = replace(build_text(FOUR + WIEBE + FLYWHEEL.format(1e9)), speed_rpm=300.0)
     found, want = (analyze_torque(one, fluctuation=0.02).flywheel for one in (slow, heavy))
     assert found.needed == want.needed
     assert found.speed is None
@@ -217,8 +218,8 @@ def test_a_crank_that_would_stand_still_is_told_what_it_needs():
 
 
 def test_without_inertia_nothing_is_said_of_the_speed():
-    assert analyze_torque(engine(FOUR + WIEBE)).flywheel is None
-    asked = analyze_torque(engine(FOUR + WIEBE), fluctuation=0.01).flywheel
+    assert analyze_torque(build_text(FOUR + WIEBE)).flywheel is None
+    asked = analyze_torque(build_text(FOUR + WIEBE), fluctuation=0.01).flywheel
     assert asked.mean is None
     assert asked.speed is None
     assert asked.needed > asked.moving > 0

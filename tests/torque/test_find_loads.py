@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from oracle import momentum, newton_euler
-from support.gas_engines import FOUR, WIEBE, draw_engine, engine
+from support.engines import build_text
+from support.gas_engines import FOUR, WIEBE, draw_engine
 
 from balcli.core.phasors import unit
 from balcli.errors import BalcliError
@@ -39,7 +40,7 @@ def test_what_pins_walls_and_heads_feel_is_the_free_force(ripple):
     text = FOUR.replace("mass = 0.5", "mass = 0.5\noffset = 6").replace(
         "speed = 3000", f"speed = 3000\n{lines}"
     )
-    found = engine(text + WIEBE + more)
+    found = build_text(text + WIEBE + more)
     forces = compute_rod_forces(found, ANGLES)
     total = (forces.pin + 1j * forces.thrust + forces.gas).sum(axis=0)
     curves = compute_engine_curves(found, ANGLES).values
@@ -53,7 +54,7 @@ def test_without_mass_the_rod_carries_the_gas_alone():
     light = FOUR.replace("mass = 0.6\ncg = 45\ninertia = 2600", "mass = 0").replace(
         "mass = 0.5", "mass = 0"
     )
-    found = engine(light + WIEBE)
+    found = build_text(light + WIEBE)
     forces = compute_rod_forces(found, ANGLES)
     lean = np.arcsin(0.3 * np.sin(np.radians(ANGLES + found.cylinders.angle_deg[:, None])))
     assert forces.rod == pytest.approx(forces.gas / np.cos(lean), abs=1e-9)
@@ -169,7 +170,7 @@ def write_mechanism(name):
 def test_pins_and_walls_bear_what_newton_and_euler_say(name):
     """The momentum of pistons and rigid rods on a grid, differentiated by Fourier transform."""
     text = write_mechanism(name)
-    found = engine(text)
+    found = build_text(text)
     forces = compute_rod_forces(found, np.degrees(momentum.THETA))
     gas = dict(zip(found.numbers, forces.gas, strict=True))
     wanted = newton_euler.solve(momentum.Engine.read(text), gas)
@@ -185,7 +186,7 @@ def test_pins_and_walls_bear_what_newton_and_euler_say(name):
 def test_articulated_and_turning_pistons_make_the_torque_of_virtual_work(name):
     """Of a crank that turns, what its pins feel; of cylinders that turn, what walls and heads do."""
     text = write_mechanism(name)
-    found, places = engine(text), momentum.Engine.read(text).cylinders
+    found, places = build_text(text), momentum.Engine.read(text).cylinders
     forces = compute_rod_forces(found, np.degrees(momentum.THETA))
     if found.rotary:
         pistons = np.stack([places[number][1].place for number in found.numbers])
@@ -202,10 +203,10 @@ def test_articulated_and_turning_pistons_make_the_torque_of_virtual_work(name):
 
 def test_loads_that_are_not_known():
     with pytest.raises(BalcliError, match="the crank of turning cylinders stands still"):
-        analyze_loads(engine(write_mechanism("rotary, offset")))
+        analyze_loads(build_text(write_mechanism("rotary, offset")))
     with pytest.raises(BalcliError, match="main: a crank with one throw does not say where its"):
-        analyze_loads(engine(write_mechanism("radial with a master rod")), ("main",))
-    bare = engine(FOUR.replace("spacing = 100\n", "") + WIEBE)
+        analyze_loads(build_text(write_mechanism("radial with a master rod")), ("main",))
+    bare = build_text(FOUR.replace("spacing = 100\n", "") + WIEBE)
     with pytest.raises(BalcliError, match=r"crank\.spacing is missing"):
         analyze_loads(bare)
     assert analyze_loads(bare, ("pin",)).main is None

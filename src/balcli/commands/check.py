@@ -9,7 +9,7 @@ import typer
 
 from ..errors import Exit, legible
 from .output import emit, make_folder_of, write_file
-from .progress import counted, exit_if_cut_short, reporting_until_stopped
+from .progress import each_until_stopped, exit_if_cut_short, reporting_until_stopped
 
 
 def check(
@@ -46,7 +46,7 @@ def check(
 
     files = find_engine_files(paths)
     with reporting_until_stopped("engines", len(files)) as progress:
-        results, errors = try_each(counted(files, progress), compare_or_record)
+        results, errors = try_each(each_until_stopped(files, progress), compare_or_record)
     moved = [difference for found in results for difference in found]
     done = " recorded" if update else f", {_counted(len(moved), 'difference')}"
     emit(legible("\n".join([*map(str, moved), _counted(len(results), "engine") + done])))

@@ -10,6 +10,7 @@ import typer
 
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, Exit, warn
+from ..render.formats import Units
 from .declare import optional
 from .file_names import picture_form, text_format
 from .options import FormatOption, Output
@@ -52,6 +53,15 @@ def field(
         ),
     ] = False,
     form: FormatOption = None,
+    units: Annotated[
+        Units,
+        typer.Option(
+            "--units",
+            case_sensitive=False,
+            help="imperial: in, oz·in and lb in tables; weights and readings have the units of the "
+            "file, JSON and CSV stay metric.",
+        ),
+    ] = Units.SI,
     output: Output = None,
 ) -> None:
     """Balance a rotor on the machine or in its bearings: from readings with trial weights to
@@ -82,6 +92,6 @@ def field(
         from ..render.plot.field_balancing import draw_field  # brings matplotlib
 
         write_file(draw_field(result, drawn), plot)
-    show([result], renderer, form, output)
+    show([result], renderer, form, output, units)
     if check and not result.reached:
         raise typer.Exit(Exit.DIFFERENCE)

@@ -175,8 +175,8 @@ def name_columns(names: Sequence[str], paths: Sequence[str]) -> Sequence[str]:
 
 
 def distinct_names(names: Sequence[str], paths: Sequence[str]) -> list[str]:
-    """What to call several engines side by side: by name, or by file where a name is missing or
-    stands for several.
+    """What to call engines one after the other: each by its name, or by its file where it has none
+    or shares it with another.
     """
     return [
         name if name and names.count(name) == 1 else legible(name_file(path))

@@ -157,7 +157,7 @@ def exit_if_cut_short(progress: Progress, what_there_is: str = "") -> None:
         raise typer.Exit(Exit.INTERRUPTED)
 
 
-def counted(items: Sequence[T], progress: Progress) -> Iterator[T]:
+def each_until_stopped(items: Sequence[T], progress: Progress) -> Iterator[T]:
     """The items, until Ctrl-C is noted; each is done when the next one is wanted."""
     for count, item in enumerate(items):
         if progress(count):

@@ -115,24 +115,23 @@ def scatter(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = text_format(output, form)
-    from ..studies.quantities import Scattered, parse_quantities, sort_scattered
-    from ..studies.tolerances import parse_percentage, parse_tolerances
+    from ..studies.quantities import parse_quantities, sort_scattered
+    from ..studies.stated_tolerances import parse_percentage, parse_tolerances
     from .inputs import read_engine
 
     within = parse_tolerances(mass, length, angle)
     share = None if stiffness is None else parse_percentage(stiffness, "--stiffness-scatter")
     _, model, engine = read_engine(path, asked=())
     names = DEFAULT_QUANTITIES if quantity is None else quantity
-    asked, of_cycle, of_parts = sort_scattered(
-        parse_quantities(names, with_gas=model.gas is not None)
-    )
-    if share is not None and not of_parts:
+    asked = sort_scattered(parse_quantities(names, with_gas=model.gas is not None))
+    if share is not None and not asked.of_parts:
         raise BalcliError(
             "--stiffness-scatter: is of mounts and shafts, and none of these quantities asks"
         )
     if quantity is None:
-        asked = _leave_out_unknown(engine, asked, name_file(path))
-    draw, usual = _choose_way(model, within, share, Scattered(asked, of_cycle, of_parts))
+        known = _leave_out_unknown(engine, asked.by_order, name_file(path))
+        asked = asked._replace(by_order=known)
+    draw, usual = _choose_way(model, within, share, asked)
     count = usual if samples is None else samples
     with reporting_until_stopped("samples", count) as progress:
         found = draw(count, seed, distribution.value, progress)

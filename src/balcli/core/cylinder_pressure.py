@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -133,8 +133,8 @@ def _plain_piston(radius: float, lam: float, eps: float, area: float) -> Piston:
         stroke=radius * float(slidercrank.displacement(bottom, lam, eps)),
         top=top,
         bottom=bottom - top,
-        travel=lambda c: radius * slidercrank.displacement(c + top, lam, eps),
-        rate=lambda c: radius * slidercrank.velocity(c + top, lam, eps),
+        travel=_Plain(slidercrank.displacement, radius, lam, eps, top),
+        rate=_Plain(slidercrank.velocity, radius, lam, eps, top),
     )
 
 
@@ -142,13 +142,45 @@ def _slung(
     radius: float, linkage: Articulated, lam: Array, eps: Array, top: float
 ) -> tuple[Function, Function]:
     """Travel and its rate of the piston in the first row of a linkage."""
+    place = _Slung("place", radius, linkage, lam, eps, top)
+    travel = replace(place, highest=-float(place(np.zeros(1))[0]))
+    return travel, replace(place, name="velocity")
 
-    def first(angle: Array, name: str) -> Array:
-        values = getattr(linkage.motion((angle + top).reshape(-1), lam, eps), name)
-        return radius * values[0].reshape(angle.shape)
 
-    highest = float(first(np.zeros(1), "place")[0])
-    return lambda c: highest - first(c, "place"), lambda c: -first(c, "velocity")
+@dataclass(frozen=True)
+class _Plain:
+    """A function of the crank mechanism over the cycle angle, m; a class, so that engines can be
+    pickled.
+    """
+
+    of: Callable[[Array, float, float], Array]
+    radius: float
+    lam: float
+    eps: float
+    top: float
+
+    def __call__(self, angle: Array) -> Array:
+        return self.radius * self.of(angle + self.top, self.lam, self.eps)
+
+
+@dataclass(frozen=True, eq=False)
+class _Slung:
+    """Place or velocity of the piston in the first row of a linkage, downward from the highest, m,
+    over the cycle angle.
+    """
+
+    name: str
+    radius: float
+    linkage: Articulated
+    lam: Array
+    eps: Array
+    top: float
+    highest: float = 0.0
+
+    def __call__(self, angle: Array) -> Array:
+        moved = self.linkage.motion((angle + self.top).reshape(-1), self.lam, self.eps)
+        values = getattr(moved, self.name)
+        return np.asarray(self.highest - self.radius * values[0].reshape(angle.shape))
 
 
 # ---------------------------------------------------------------- pressure and torque

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
+from enum import IntEnum
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from .mechanisms import harmonics
 from .phasors import Array, Complex, Figure
 
 if TYPE_CHECKING:
+    from .mechanisms.fourier import Harmonics, Rows
     from .mechanisms.linkage import Linkage
 
 
@@ -78,8 +82,36 @@ class Cylinders:
         each = [np.broadcast_to(column, self.count).tolist() for column in columns]
         return list(zip(*each, strict=True))
 
+    def find_distinct_harmonics(
+        self, orders: ArrayLike, wanted: Collection[str]
+    ) -> tuple[Harmonics, Rows]:
+        """Harmonics of the mechanisms that differ, and which of them each cylinder has.
 
-SHAFT_RANK = 1  # see `Device.rank`
+        Args:
+            orders: whole, shape (orders,).
+            wanted: names of series (`fourier.SERIES`).
+        """
+        kind = self.linkage or harmonics
+        return kind.find_distinct_harmonics(orders, self.lam, self.eps, wanted)
+
+    def find_highest_order(self) -> int:
+        """The order beyond which nothing that moves exceeds rounding errors."""
+        return (self.linkage or harmonics).find_highest_order(self.lam, self.eps)
+
+    def count_all_samples(self) -> tuple[int, int]:
+        """How many mechanisms differ, and about how many samples of a revolution they take together
+        where they are sampled.
+        """
+        return (self.linkage or harmonics).count_all_samples(self.lam, self.eps)
+
+
+class DeviceKind(IntEnum):
+    """What a device is. Devices are summed in this order, as an engine file has them."""
+
+    COUNTERWEIGHT = 0
+    SHAFT = 1
+    SLIDER = 2
+    OTHER = 3  # which no engine file can describe
 
 
 class Device(NamedTuple):
@@ -92,8 +124,7 @@ class Device(NamedTuple):
         forward, backward: mass x radius that turns with the crank, and against it, kg m.
         place: x + iy of its axis, m.
         z: m.
-        rank: devices are summed in this order: 0 counterweights, 1 shafts, 2 sliders, as an
-            engine file has them.
+        kind: what it is.
     """
 
     order: int
@@ -101,4 +132,4 @@ class Device(NamedTuple):
     backward: complex | Complex
     place: complex | Complex
     z: Figure
-    rank: int = 3
+    kind: DeviceKind = DeviceKind.OTHER

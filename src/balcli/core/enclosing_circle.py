@@ -21,6 +21,9 @@ _SAME = 8 * EPS  # points no farther outside than this, relative, are on the cir
 _TOUCHING = 1e-11  # likewise for the angles that are reported
 _APART = 1e-3  # rad; angles nearer than this are one peak
 _ROUNDS = 60
+_NEWTON_STEPS = 4  # from points that nearly fix the circle, to rounding
+_STEP = 1e-6  # rad, of differences that stand for derivatives
+_FLAT = 1e-9  # singular values of the slopes below this share of the largest: a flat radius
 
 
 class Circle(NamedTuple):
@@ -142,13 +145,13 @@ def _newton(curve: Phasors, theta: Array, centre: complex) -> complex:
         middle = _through(seen, range(len(theta)))[0]
         return (np.conj(seen - middle) * _rate(curve, theta)).real, middle
 
-    small = 1e-6
-    for _ in range(4):
+    for _ in range(_NEWTON_STEPS):
         columns = [
-            (slopes(theta + h)[0] - slopes(theta - h)[0]) / (2 * small)
-            for h in small * np.eye(len(theta))
+            (slopes(theta + h)[0] - slopes(theta - h)[0]) / (2 * _STEP)
+            for h in _STEP * np.eye(len(theta))
         ]
-        theta = theta - np.linalg.pinv(np.stack(columns, axis=1), rcond=1e-9) @ slopes(theta)[0]
+        inverse = np.linalg.pinv(np.stack(columns, axis=1), rcond=_FLAT)
+        theta = theta - inverse @ slopes(theta)[0]
     return slopes(theta)[1]
 
 

@@ -13,7 +13,7 @@ pressures while the valves are open, imep is known in closed form.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
@@ -63,12 +63,17 @@ class GasCycle(CylinderPressure):
         laws: pressure (Pa) at cycle angles within each piece.
         heat: supplied in a cycle, J.
         imep: indicated mean effective pressure, Pa, pumping included.
+        asked: what `gas_cycle` made it of, and makes it of again where it was pickled.
     """
 
     corners: Array
     laws: tuple[Function, ...]
     heat: float
     imep: float
+    asked: tuple[Piston, Process, Burn, Goal]
+
+    def __reduce__(self) -> tuple[Callable[..., GasCycle], tuple[Piston, Process, Burn, Goal]]:
+        return gas_cycle, self.asked
 
     @property
     def breaks(self) -> Array:
@@ -100,7 +105,8 @@ def gas_cycle(piston: Piston, process: Process, burn: Burn, goal: Goal) -> GasCy
         if end > corners[-1]:
             corners.append(end)
             laws.append(law)
-    return GasCycle(np.array(corners), tuple(laws), heat, cycle.imep(burning, heat))
+    imep = cycle.imep(burning, heat)
+    return GasCycle(np.array(corners), tuple(laws), heat, imep, (piston, process, burn, goal))
 
 
 # ---------------------------------------------------------------- what is wrong

@@ -1,5 +1,5 @@
-"""The largest absolute values of many curves at once, found on the curves as `peaks.peak` finds
-that of one, and as exact.
+"""The largest absolute values of many curves at once, found on the curves as `peaks.find_peak`
+finds that of one, and as exact.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def find_largest(curves: Phasors) -> Array:
 
 
 def _count_samples(orders: NDArray[np.intp]) -> int:
-    """16 for each period of the highest order: see `peaks.peak`."""
+    """16 for each period of the highest order: see `peaks.find_peak`."""
     return 16 * max(int(orders[-1]), 1)
 
 

@@ -26,6 +26,7 @@ from .factored_phasors import FactoredPhasors, Product
 from .mechanisms.fourier import Series
 from .phasors import EPS, Array, Complex, Phasors, unit
 
+TURN = 360  # deg
 SUM = 8 * EPS  # rounding error of a sum, per term and size of the terms
 ANGLE = np.pi * EPS  # of an angle in the file (half an ulp of 360 deg), which order n multiplies
 _ALL = slice(None)

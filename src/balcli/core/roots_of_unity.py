@@ -18,7 +18,8 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from functools import lru_cache
 
-TURN = 360  # deg
+from .phases import TURN
+
 LARGEST_DENOMINATOR = 5040  # of a fraction of a turn: 7!, so that all common divisions are in it
 _ULPS = 2  # by which an angle may differ from its fraction
 _KEPT = 1 << 12  # fractions: the angles and masses of an engine are few, and asked for every order

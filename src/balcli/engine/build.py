@@ -170,8 +170,9 @@ class Engine:
     def summary(self) -> str:
         """What it is, in a few words."""
         words = [f"{len(self.numbers)} cylinder{'s' * (len(self.numbers) != 1)}"]
-        if isinstance(self.displacement_m3, float) and self.displacement_m3 == self.displacement_m3:
-            words.append(f"{self.displacement_m3 * 1e3:.4g} L")
+        volume = self.displacement_m3
+        if isinstance(volume, float) and not math.isnan(volume):
+            words.append(f"{volume * 1e3:.4g} L")
         if isinstance(self.speed_rpm, float):
             words.append(f"{self.speed_rpm:g} rpm")
         return f'"{self.name}": {", ".join(words)}' if self.name else ", ".join(words)

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ..core.cylinders import SHAFT_RANK, Device
+from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Complex, Figure, unit
 from ..enginefile.model import Counterweight, EngineFile, Shaft, Slider
 from .arrays import place_in_plane
@@ -50,7 +50,8 @@ def _counterweight(
 ) -> Device:
     angle = figures.take(f"{path}.angle", weight.angle)
     forward = _unbalance(figures, path, weight) * unit(angle + first_axis_deg)
-    return Device(1, forward, 0j, 0j, _position(figures, path, weight), 0)
+    z = _position(figures, path, weight)
+    return Device(1, forward, 0j, 0j, z, DeviceKind.COUNTERWEIGHT)
 
 
 def _shaft(figures: Figures, path: str, shaft: Shaft) -> Device:
@@ -58,7 +59,7 @@ def _shaft(figures: Figures, path: str, shaft: Shaft) -> Device:
     turning = _unbalance(figures, path, shaft) * unit(angle)
     forward, backward = (turning, 0j) if shaft.ratio > 0 else (0j, turning)
     place, z = _place(figures, path, shaft.at), _position(figures, path, shaft)
-    return Device(abs(shaft.ratio), forward, backward, place, z, SHAFT_RANK)
+    return Device(abs(shaft.ratio), forward, backward, place, z, DeviceKind.SHAFT)
 
 
 def _slider(figures: Figures, path: str, slider: Slider) -> Device:
@@ -70,7 +71,7 @@ def _slider(figures: Figures, path: str, slider: Slider) -> Device:
     phase = unit(figures.take(f"{path}.angle", slider.angle))
     forward, backward = half * direction * phase, half * direction * np.conj(phase)
     place, z = _place(figures, path, slider.at), _position(figures, path, slider)
-    return Device(slider.order, forward, backward, place, z, 2)
+    return Device(slider.order, forward, backward, place, z, DeviceKind.SLIDER)
 
 
 def _unbalance(figures: Figures, path: str, device: Counterweight | Shaft | Slider) -> Figure:

@@ -6,8 +6,8 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from ..core.phases import TURN
 from ..core.phasors import Figure
-from ..core.roots_of_unity import TURN
 from ..enginefile.fields import counted
 from ..enginefile.model import Crank, Layout
 from ..errors import InputError, Problem

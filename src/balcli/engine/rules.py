@@ -258,8 +258,7 @@ def check_samples(parts: Assembly) -> Iterator[Problem]:
     c = parts.cylinders
     if parts.rank or c.count * harmonics.HARDEST <= MOST_SAMPLES:
         return
-    count = c.linkage.count_all_samples if c.linkage else harmonics.count_all_samples
-    different, samples = count(c.lam, c.eps)
+    different, samples = c.count_all_samples()
     if samples > MOST_SAMPLES:
         yield Problem(
             "cylinder",

@@ -307,14 +307,14 @@ class Layout(Table):
         elif len(intervals) != len(self.firing_order):
             yield (
                 f"firing_intervals has {counted(len(intervals), 'interval')} for "
-                f"{counted(len(self.firing_order), 'firing')}; "
-                "give one for each, the last one back to the first cylinder"
+                f"{counted(len(self.firing_order), 'firing')}; give one for each, the last one "
+                "back to the first cylinder"
             )
         elif abs(sum(intervals) - 180 * self.strokes) > INTERVAL_TOLERANCE_DEG:
             yield (
                 f"firing_intervals add up to {sum(intervals):g} degrees; the cycle of a "
-                f"{self.strokes}-stroke has "
-                f"{180 * self.strokes} (within {INTERVAL_TOLERANCE_DEG:g})"
+                f"{self.strokes}-stroke has {180 * self.strokes} (within "
+                f"{INTERVAL_TOLERANCE_DEG:g})"
             )
 
 

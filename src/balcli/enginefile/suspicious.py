@@ -13,9 +13,8 @@ from .exclusive import join_words
 from .model import Counterweight, EngineFile
 
 # Pistons of like design weigh as the cube of the bore: in aluminium with pin and rings 300 to 1000
-# kg per m^3 of bore^3
-# (racing to lorry), in cast iron up to 3000. The limits leave room beyond; a slip from g to kg is a
-# factor of 1000.
+# kg per m^3 of bore^3 (racing to lorry), in cast iron up to 3000. The limits leave room beyond; a
+# slip from g to kg is a factor of 1000.
 PISTON_LIGHT, PISTON_HEAVY = 100.0, 5000.0  # kg/m^3
 CROSSHEAD_HEAVY = 40_000.0  # with piston rod and crosshead, where the stroke is LONG_STROKE bores
 LONG_STROKE = 2.5
@@ -24,8 +23,8 @@ LAMBDA_LOW, LAMBDA_HIGH = 0.15, 0.4  # crank radius / rod length: engines have 0
 BORE_SHORT, BORE_LONG = 0.2, 3.0  # bore / stroke: crosshead from 0.25, racing engines to 2.5
 ROD_LIGHT, ROD_HEAVY = 0.1, 8.0  # rod mass / piston mass: engines have 0.7 to 2.5
 # Moment of inertia / (mass x length^2): a bar of even thickness has 1/12, two equal masses at the
-# ends 1/4, and no rod
-# between its two centres can have more; bosses and bolts beyond them add a little.
+# ends 1/4, and no rod between its two centres can have more; bosses and bolts beyond them add a
+# little.
 INERTIA_LOW, INERTIA_HIGH = 0.02, 0.4
 PISTON_SPEED = 40.0  # m/s, mean; racing engines stay below 30
 OFFSET_SHARE = 0.2  # of the stroke; pin offsets have up to 0.05, narrow-angle vees up to 0.15
@@ -63,8 +62,8 @@ def _piston(model: EngineFile) -> Iterator[str]:
     if not low <= mass <= high:
         yield (
             f"{_name_piston_mass(model)} {mass:.4g} kg in a bore of {bore:g} mm, where "
-            f"{_round(low)} to {_round(high)} kg is usual; "
-            "are the units right? Bare numbers are kg and mm"
+            f"{_round(low)} to {_round(high)} kg is usual; are the units right? Bare numbers are "
+            "kg and mm"
         )
 
 
@@ -73,8 +72,7 @@ def _proportions(model: EngineFile) -> Iterator[str]:
     most = CROSSHEAD_LAMBDA if _has_crosshead(model) else LAMBDA_HIGH
     if ratio is not None and not LAMBDA_LOW <= ratio <= most:
         yield (
-            f"crank radius / rod length is {ratio:.4g}, where {LAMBDA_LOW:g} to {most:g} "
-            "is usual; "
+            f"crank radius / rod length is {ratio:.4g}, where {LAMBDA_LOW:g} to {most:g} is usual; "
             "crank.stroke is twice the crank radius, rod.length the distance of its two centres"
         )
     if model.piston.bore is not None:
@@ -82,8 +80,7 @@ def _proportions(model: EngineFile) -> Iterator[str]:
         if not BORE_SHORT <= share <= BORE_LONG:
             yield (
                 f"piston.bore / crank.stroke is {share:.4g}, where {BORE_SHORT:g} to "
-                f"{BORE_LONG:g} is usual; "
-                "are both in the same unit?"
+                f"{BORE_LONG:g} is usual; are both in the same unit?"
             )
 
 
@@ -92,9 +89,8 @@ def _rod(model: EngineFile) -> Iterator[str]:
     piston = _piston_mass(model)
     if mass and piston and not ROD_LIGHT <= mass / piston <= ROD_HEAVY:
         yield (
-            f"the rod weighs {mass:.4g} kg, {mass / piston:.3g} times the piston, "
-            f"where {ROD_LIGHT:g} to "
-            f"{ROD_HEAVY:g} times is usual; are both in the same unit?"
+            f"the rod weighs {mass:.4g} kg, {mass / piston:.3g} times the piston, where "
+            f"{ROD_LIGHT:g} to {ROD_HEAVY:g} times is usual; are both in the same unit?"
         )
     if rod.mass and cg is None:
         yield (
@@ -103,8 +99,8 @@ def _rod(model: EngineFile) -> Iterator[str]:
         )
     if cg is not None and length is not None and not 0 <= cg <= length:
         yield (
-            f"rod.cg is {cg:g} mm, outside the rod (0 to {length:g} mm); "
-            "it is measured from the big-end centre towards the small end"
+            f"rod.cg is {cg:g} mm, outside the rod (0 to {length:g} mm); it is measured from the "
+            "big-end centre towards the small end"
         )
 
 
@@ -117,8 +113,7 @@ def _inertia(model: EngineFile) -> Iterator[str]:
         low, high = INERTIA_LOW * mass * length**2, INERTIA_HIGH * mass * length**2
         yield (
             f"rod.inertia is {inertia:.4g} kg mm^2, where {low:.3g} to {high:.3g} is usual for "
-            f"{mass:.4g} kg and "
-            f"{length:g} mm; it is taken about the centre of mass, in kg mm^2"
+            f"{mass:.4g} kg and {length:g} mm; it is taken about the centre of mass, in kg mm^2"
         )
 
 
@@ -128,14 +123,13 @@ def _motion(model: EngineFile) -> Iterator[str]:
     if piston_speed > PISTON_SPEED:
         yield (
             f"the mean piston speed is {piston_speed:.3g} m/s at {speed:g} rpm and a stroke of "
-            f"{stroke:g} mm, "
-            f"more than {PISTON_SPEED:g}; are operation.speed and crank.stroke right?"
+            f"{stroke:g} mm, more than {PISTON_SPEED:g}; are operation.speed and crank.stroke "
+            "right?"
         )
     if abs(model.piston.offset) > OFFSET_SHARE * stroke:
         yield (
             f"piston.offset is {model.piston.offset:g} mm, more than {OFFSET_SHARE:.0%} of the "
-            "stroke "
-            f"({OFFSET_SHARE * stroke:g} mm); is it in mm?"
+            f"stroke ({OFFSET_SHARE * stroke:g} mm); is it in mm?"
         )
 
 
@@ -156,8 +150,7 @@ def _layout(model: EngineFile) -> Iterator[str]:
     if spacing and abs(model.layout.stagger) > spacing:
         yield (
             f"layout.stagger is {model.layout.stagger:g} mm, more than the distance of "
-            "neighbouring throws "
-            f"({spacing:g} mm); it is the distance of two rods on one throw"
+            f"neighbouring throws ({spacing:g} mm); it is the distance of two rods on one throw"
         )
 
 
@@ -194,9 +187,8 @@ def _counterweights(model: EngineFile) -> Iterator[str]:
         if limit and abs(_unbalance(weight)) > limit:
             yield (
                 f"counterweight.{number}: its unbalance is {abs(_unbalance(weight)):.4g} g mm, "
-                "more than "
-                f"{UNBALANCE_SHARE:g} times all moving masses at the crank radius ({limit:.3g}); "
-                "is it in g mm?"
+                f"more than {UNBALANCE_SHARE:g} times all moving masses at the crank radius "
+                f"({limit:.3g}); is it in g mm?"
             )
 
 
@@ -311,8 +303,6 @@ def _throws_and_rods(model: EngineFile) -> tuple[int, int]:
 
 def _unbalance(weight: Counterweight) -> float:
     """In g mm."""
-    return (
-        (weight.mass or 0.0) * 1e3 * (weight.radius or 0.0)
-        if weight.unbalance is None
-        else weight.unbalance
-    )
+    if weight.unbalance is not None:
+        return weight.unbalance
+    return (weight.mass or 0.0) * 1e3 * (weight.radius or 0.0)

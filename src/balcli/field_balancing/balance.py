@@ -77,7 +77,7 @@ class PlaneCorrection(NamedTuple):
     permitted: Permitted | None
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class FieldBalance(Result):
     """The answer.
 

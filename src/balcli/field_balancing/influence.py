@@ -43,6 +43,14 @@ class Influence(NamedTuple):
     trimmed: str
     on: Complex
 
+    @property
+    def state(self) -> str:
+        """What `now` are the readings of: as found, a run, or at several speeds the last of each
+        with a correction in.
+        """
+        several = len(set(self.speeds_rpm)) > 1
+        return ("last read" if several else self.trimmed) if self.trimmed else "as found"
+
 
 class _Series(NamedTuple):
     """The runs at one speed: their numbers in the file (from 1), readings (runs, sensors) and all

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..core.cylinders import Device
-from ..core.levers import share_by_lever
+from ..core.levers import find_ahead, find_arms, find_reach, share_by_lever
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Phasors
 from ..engine.arrays import ranked
@@ -89,11 +89,9 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
     every = np.union1d(find_relevant_orders(engine), [1, 2] if orders is None else orders)
     loads, z = _compute_loads(engine, every)
     sections = np.unique(z)
-    ahead = (z <= sections[:, None]).astype(float)  # which loads stand on the free-end side
+    ahead = find_ahead(z, sections)
     shear = _sum_weighted(loads, ahead, ahead)
-    arms = ahead * (z - sections[:, None])
-    size = ahead * (np.abs(z) + np.abs(sections[:, None]))
-    bending = 1j * _sum_weighted(loads, arms, size)
+    bending = 1j * _sum_weighted(loads, find_arms(z, sections), find_reach(z, sections))
     if orders is None:
         orders = every[mark_considerable(bending) | (every <= 2)]
     _refuse_too_many_results(len(orders), len(z))
@@ -111,8 +109,8 @@ def _refuse_too_many_results(orders: int, loads: int) -> None:
     if told > MOST_RESULTS_ALONG_CRANK:
         raise BalcliError(
             f"along the crankshaft, {orders} orders of {loads} cylinders and counterweights "
-            f"are {told} results, and at "
-            f"most {MOST_RESULTS_ALONG_CRANK} are told: ask for fewer orders"
+            f"are {told} results, and at most {MOST_RESULTS_ALONG_CRANK} are told: ask for fewer "
+            "orders"
         )
 
 

@@ -2,9 +2,9 @@
 
 From momentum G, moment of momentum h and inertia I of each cylinder at crank speed 1. With crank
 speed omega, crank acceleration xi and a prime for the derivative with respect to the crank angle:
-force -(omega^2 G' + xi G), couple
--(omega^2 h' + xi h), inertia torque -(1/2 I' omega^2 + xi I). As everywhere, what lies within the
-rounding error of the parts that are added up (docs/theory.md) is exactly 0.
+force -(omega^2 G' + xi G), couple -(omega^2 h' + xi h), inertia torque -(1/2 I' omega^2 + xi I). As
+everywhere, what lies within the rounding error of the parts that are added up (docs/theory.md) is
+exactly 0.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _MOMENTS = (MOMENT.key_along("x"), MOMENT.key_along("y"))
 _EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Curves(Result):
     """Figures over the crank angle.
 
@@ -109,21 +109,21 @@ def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Cu
 
 def compute_cylinder_torque(engine: Engine, row: int, crank_deg: Array) -> Array:
     """Inertia torque of the cylinder in a row, N m, shape (angles,)."""
-    return _torque_of_cylinders(Motion(engine, crank_deg))[row]
+    return _torque_of_cylinders(EngineMotion(engine, crank_deg))[row]
 
 
 def compute_inertia_torque(engine: Engine, crank_deg: Array) -> Array:
     """Inertia torque of all cylinders on the crank, N m, shape (angles,), for an engine without
     trailing axes.
     """
-    return _torque_of_cylinders(Motion(engine, crank_deg)).sum(axis=0)
+    return _torque_of_cylinders(EngineMotion(engine, crank_deg)).sum(axis=0)
 
 
 def compute_moving_inertia(engine: Engine, crank_deg: Array) -> Array:
     """Moment of inertia about the crank of pistons, rods and what turns with the pins, kg m2, shape
     (angles,), likewise.
     """
-    return _inertia_of_cylinders(Motion(engine, crank_deg)).sum(axis=0)
+    return _inertia_of_cylinders(EngineMotion(engine, crank_deg)).sum(axis=0)
 
 
 def _sum_parts(
@@ -153,7 +153,7 @@ def _sum_parts(
 
 def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     """What each cylinder and device does, shape (cylinders and devices, angles)."""
-    motion = Motion(engine, crank_deg)
+    motion = EngineMotion(engine, crank_deg)
     of_devices = compute_device_forces(engine, crank_deg)
     force = np.concatenate([_force_of_cylinders(motion), of_devices])
     x, y, z = engine.reference_m
@@ -177,7 +177,7 @@ def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
 
 def _compute_cylinder_parts(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
     """Parts of the motion of the cylinder in this row, shape (parts, angles)."""
-    motion = Motion(engine, crank_deg)
+    motion = EngineMotion(engine, crank_deg)
     r, v, a = motion.radius, motion.v[row], motion.a[row]
     return {
         "travel_m": r * motion.travel()[row : row + 1],
@@ -187,7 +187,7 @@ def _compute_cylinder_parts(engine: Engine, row: int, crank_deg: Array) -> dict[
     }
 
 
-class Motion:
+class EngineMotion:
     """How all cylinders of an engine stand and move at some crank angles.
 
     Attributes:
@@ -209,7 +209,7 @@ class Motion:
         self.cylinders = c = engine.cylinders
         self.radius = float(np.ravel(c.radius)[0])
         self.crank_deg = crank_deg
-        self.omega, self.xi = find_speed(engine, crank_deg)
+        self.omega, self.xi = find_crank_speed(engine, crank_deg)
         self.lam = np.broadcast_to(_column(c.lam), (c.count, 1))
         self.eps = np.broadcast_to(_column(c.eps), (c.count, 1))
         axes = _column(c.axis_of_each_deg)
@@ -243,7 +243,7 @@ class Motion:
         return np.asarray(np.arcsin(self.linked.lean))
 
 
-def find_speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
+def find_crank_speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
     """Crank speed omega (rad/s) and acceleration xi = omega d omega/d theta, shape (angles,)."""
     ratio, slope = np.ones_like(crank_deg), np.zeros_like(crank_deg)
     for line in engine.ripple:
@@ -252,7 +252,7 @@ def find_speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
     return engine.omega * ratio, engine.omega**2 * ratio * slope
 
 
-def _force_of_cylinders(motion: Motion) -> Complex:
+def _force_of_cylinders(motion: EngineMotion) -> Complex:
     """N, shape (cylinders, angles)."""
     c, r, w2, xi = motion.cylinders, motion.radius, motion.omega**2, motion.xi
     piston: Complex = _column(c.reciprocating) * r * (w2 * motion.a + xi * motion.v) * motion.axis
@@ -265,7 +265,7 @@ def _force_of_cylinders(motion: Motion) -> Complex:
 
 def compute_device_forces(engine: Engine, crank_deg: Array) -> Complex:
     """Force of each device, x + iy, N, shape (devices, angles)."""
-    omega, xi = find_speed(engine, crank_deg)
+    omega, xi = find_crank_speed(engine, crank_deg)
     rows = np.empty((len(engine.devices), len(crank_deg)), complex)
     for row, d in enumerate(engine.devices):
         ahead = unit(d.order * crank_deg)
@@ -275,7 +275,7 @@ def compute_device_forces(engine: Engine, crank_deg: Array) -> Complex:
     return rows
 
 
-def _couple_of_cylinders(motion: Motion) -> Array:
+def _couple_of_cylinders(motion: EngineMotion) -> Array:
     """Free couple of each cylinder about the crank's axis, N m, shape (cylinders, angles): h =
     -m_rec e s' + m_rot r^2 - H spin (+ the masses on curves), s' = -r v.
     """
@@ -289,7 +289,7 @@ def _couple_of_cylinders(motion: Motion) -> Array:
     return np.asarray(-(motion.omega**2 * slope + motion.xi * h))
 
 
-def _torque_of_cylinders(motion: Motion) -> Array:
+def _torque_of_cylinders(motion: EngineMotion) -> Array:
     """Inertia torque of each cylinder on the crank, N m, shape (cylinders, angles): I = m_rec s'^2
     + m_rot r^2 - H spin^2 (+ the masses on curves).
     """
@@ -302,7 +302,7 @@ def _torque_of_cylinders(motion: Motion) -> Array:
     return np.asarray(-(half_slope * motion.omega**2 + motion.xi * inertia))
 
 
-def _inertia_of_cylinders(motion: Motion) -> Array:
+def _inertia_of_cylinders(motion: EngineMotion) -> Array:
     """I of each cylinder, kg m2, shape (cylinders, angles)."""
     c, r = motion.cylinders, motion.radius
     mass, couple = _column(c.reciprocating) * r**2, _column(c.couple)

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.levers import share_by_lever
+from ..core.levers import find_ahead, find_arms, find_reach, share_by_lever
 from ..core.peaks import Peak
 from ..core.phasors import Array, Complex, Phasors, unit
 from ..core.piecewise import merged_breaks
@@ -24,7 +24,7 @@ from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import MOST_FORCES_OVER_CYCLE
 from .crankshaft import AlongCrank, InnerLoads, is_counterweight, place_bearings
-from .curves import AT_ONCE, compute_device_forces, find_speed
+from .curves import AT_ONCE, compute_device_forces, find_crank_speed
 from .gas import take_gas
 from .orders import list_gas_orders, mark_considerable
 from .rod_forces import compute_rod_forces, list_hung_rows
@@ -105,18 +105,17 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
     on_shaft, on_block = _place_forces(engine)
     shares = share_by_lever(on_shaft, span)
     sections = np.unique([*on_shaft, *on_block, *span])
-    found = [
-        _follow(sums, samples, panels, shown)
-        for sums in (
-            *_cut_shaft(sections, on_shaft, len(on_block), span, shares),
-            _carry(span, shares, len(on_block)),
-            *_cut_block(sections, on_block, span, shares),
-        )
-    ]
-    if orders is None:
-        due = mark_considerable(found[1].phasors) | mark_considerable(found[4].phasors)
-        found = [_select(along, shown[due]) for along in found]
-    return LoadsWithGas(*found)
+    every = (
+        *_cut_shaft(sections, on_shaft, len(on_block), span, shares),
+        _load_bearings(span, shares, len(on_block)),
+        *_cut_block(sections, on_block, span, shares),
+    )
+    found = LoadsWithGas(*(_follow(sums, samples, panels, shown) for sums in every))
+    if orders is not None:
+        return found
+    bent = found.bending.phasors, found.block_bending.phasors
+    due = np.any([mark_considerable(phasors) for phasors in bent], axis=0)
+    return LoadsWithGas(*(_select(along, shown[due]) for along in found))
 
 
 def place_main_bearings(engine: Engine) -> Array:
@@ -159,7 +158,7 @@ def compute_forces_along(engine: Engine, crank_deg: Array) -> ForcesAlongCrank:
     pressed = found.axis * found.pin
     for master, hung in list_hung_rows(engine).items():
         pressed[master] -= pressed[hung].sum(axis=0)
-    c, (speed, rate) = engine.cylinders, find_speed(engine, crank_deg)
+    c, (speed, rate) = engine.cylinders, find_crank_speed(engine, crank_deg)
     throws = np.array([[float(weighed.share)] for weighed in engine.weighed]) * float(c.radius)
     pins_deg = float(engine.first_axis_deg) + np.ravel(c.pin_deg)[:, None]
     turning = throws * (speed**2 - 1j * rate) * unit(crank_deg + pins_deg)
@@ -207,7 +206,7 @@ def _beside(weights: Array, more: int) -> Array:
     return np.pad(weights, ((0, 0), (0, more)))
 
 
-def _carry(span: Array, shares: Array, more: int) -> _Sums:
+def _load_bearings(span: Array, shares: Array, more: int) -> _Sums:
     """Loads of the bearings."""
     return _Sums(span, _beside(shares, more), _beside(np.abs(shares), more))
 
@@ -217,10 +216,10 @@ def _cut_shaft(
 ) -> tuple[_Sums, _Sums]:
     """Shear behind, and bending moment at, each section."""
     sizes = np.abs(shares)
-    shear = _find_ahead(z, sections) - _find_ahead(span, sections) @ shares
-    size = _find_ahead(z, sections) + _find_ahead(span, sections) @ sizes
-    arms = _find_arms(z, sections) - _find_arms(span, sections) @ shares
-    reach = _find_reach(z, sections) + _find_reach(span, sections) @ sizes
+    shear = find_ahead(z, sections) - find_ahead(span, sections) @ shares
+    size = find_ahead(z, sections) + find_ahead(span, sections) @ sizes
+    arms = find_arms(z, sections) - find_arms(span, sections) @ shares
+    reach = find_reach(z, sections) + find_reach(span, sections) @ sizes
     return (
         _Sums(sections, _beside(shear, more), _beside(size, more)),
         _Sums(sections, _beside(arms, more), _beside(reach, more), 1j),
@@ -234,28 +233,13 @@ def _cut_block(sections: Array, z: Array, span: Array, shares: Array) -> tuple[_
         return np.concatenate([on_span @ sharing, own], axis=1)
 
     sizes = np.abs(shares)
-    ahead = _find_ahead(span, sections), _find_ahead(z, sections)
-    arms = _find_arms(span, sections), _find_arms(z, sections)
-    reach = _find_reach(span, sections), _find_reach(z, sections)
+    ahead = find_ahead(span, sections), find_ahead(z, sections)
+    arms = find_arms(span, sections), find_arms(z, sections)
+    reach = find_reach(span, sections), find_reach(z, sections)
     return (
         _Sums(sections, join(*ahead, shares), join(*ahead, sizes)),
         _Sums(sections, join(*arms, shares), join(*reach, sizes), 1j),
     )
-
-
-def _find_ahead(z: Array, sections: Array) -> Array:
-    """1 for places on the free-end side of each section, shape (sections, places)."""
-    return (z <= sections[:, None]).astype(float)
-
-
-def _find_arms(z: Array, sections: Array) -> Array:
-    """Arms of these about each section, m."""
-    return _find_ahead(z, sections) * (z - sections[:, None])
-
-
-def _find_reach(z: Array, sections: Array) -> Array:
-    """What these arms were computed from, which bounds their rounding."""
-    return _find_ahead(z, sections) * (np.abs(z) + np.abs(sections[:, None]))
 
 
 def _follow(sums: _Sums, samples: Complex, panels: Panels, orders: Array) -> AlongCrank:

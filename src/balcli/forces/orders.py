@@ -14,7 +14,6 @@ from collections.abc import Collection, Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.mechanisms import harmonics
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..enginefile.fields import shorten
@@ -88,9 +87,8 @@ def find_relevant_orders(engine: Engine) -> Array:
     """The orders 1 .. n beyond which nothing exceeds rounding errors, shape (orders,); 0 .. n at
     uneven speed, with halves where its lines have some.
     """
-    c = engine.cylinders
-    find_highest = c.linkage.find_highest_order if c.linkage else harmonics.find_highest_order
-    highest = max([find_highest(c.lam, c.eps), *(device.order for device in engine.devices)])
+    of_devices = [device.order for device in engine.devices]
+    highest = max([engine.cylinders.find_highest_order(), *of_devices])
     if not engine.ripple:
         return np.arange(1.0, highest + 1)
     lines = [line.order for line in engine.ripple]

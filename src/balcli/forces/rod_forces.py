@@ -27,7 +27,7 @@ from ..core.cylinder_pressure import PressureOnPiston
 from ..core.phasors import Array, Complex, unit
 from ..engine.build import Engine
 from ..errors import BalcliError
-from .curves import Motion
+from .curves import EngineMotion
 from .gas import take_gas
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
         BalcliError: no gas, or no pressures.
     """
     pressure, gas = _find_gas_forces(engine, crank_deg)
-    motion = Motion(engine, crank_deg)
+    motion = EngineMotion(engine, crank_deg)
     masses = engine.weighed
     heads = _column(np.array([w.piston for w in masses]))
     small = _column(np.array([w.small_end for w in masses]))
@@ -122,7 +122,7 @@ def list_hung_rows(engine: Engine) -> dict[int, list[int]]:
     return found
 
 
-def _find_directions(engine: Engine, motion: Motion) -> tuple[Complex, Complex]:
+def _find_directions(engine: Engine, motion: EngineMotion) -> tuple[Complex, Complex]:
     """`RodForces.axis` and `throw`. Where the cylinders turn, psi is a cylinder's angle ahead of
     the crank pin (core.mechanisms.rotary).
     """
@@ -132,7 +132,7 @@ def _find_directions(engine: Engine, motion: Motion) -> tuple[Complex, Complex]:
     return np.broadcast_to(motion.axis, turned.shape), turned
 
 
-def _follow_ends(engine: Engine, motion: Motion, throw: Complex) -> tuple[_Course, _Course]:
+def _follow_ends(engine: Engine, motion: EngineMotion, throw: Complex) -> tuple[_Course, _Course]:
     """Piston pins and lower ends of the rods, in each cylinder's frame."""
     r, linked = motion.radius, motion.linked
 

@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike
 from ..core import speed_ripple as ripple
 from ..core.cylinders import Device
 from ..core.loads import Loads, find_device_force, find_needed_series
-from ..core.mechanisms import harmonics
 from ..core.phases import Phases, SeparatePhases
 from ..core.phasors import Array, Complex, Phasors, join_orders
 from ..engine.arrays import place_in_plane
@@ -142,17 +141,16 @@ def refuse_too_many_loads(engine: Engine, orders: int, loads: int) -> None:
     if orders * loads > most:
         raise BalcliError(
             f"{orders} orders of {loads} cylinders and counterweights one by one are "
-            f"{orders * loads} forces, and at most "
-            f"{most} are kept: an engine farther from its lock has fewer orders"
+            f"{orders * loads} forces, and at most {most} are kept: an engine farther from its "
+            "lock has fewer orders"
         )
 
 
 def count_samples(engine: Engine) -> int:
     """About how many samples of revolutions the mechanisms of an engine, or of variants, take."""
     c = engine.cylinders
-    if c.linkage is not None:
-        return c.linkage.count_all_samples(c.lam, c.eps)[1]
-    return harmonics.count_all_samples(c.lam, c.eps)[1] if np.count_nonzero(c.eps) else 0
+    sampled = c.linkage is not None or np.count_nonzero(c.eps)
+    return c.count_all_samples()[1] if sampled else 0
 
 
 def compute_device_force(engine: Engine, device: Device, orders: Array) -> Phasors:
@@ -222,9 +220,8 @@ def _compute_steady(
     """Phasors of some parts by name at a steady speed, and the loads of the lowest orders."""
     c, (x, y, z) = engine.cylinders, engine.reference_m
     names = [name for name in KINDS if name in parts]
-    find = c.linkage.find_distinct_harmonics if c.linkage else harmonics.find_distinct_harmonics
     series = find_needed_series(c, parts, uneven=bool(engine.ripple))
-    few, which = find(orders, c.lam, c.eps, series)
+    few, which = c.find_distinct_harmonics(orders, series)
     most = max(_AT_ONCE // c.count, 1)
 
     def make_loads(block: slice) -> Loads:

@@ -158,7 +158,7 @@ def read_share(name: str, value: float | str) -> float:
         BalcliError: it is neither.
     """
     if isinstance(value, str):
-        from ..studies.tolerances import parse_percentage  # `scatter` alone needs it
+        from ..studies.stated_tolerances import parse_percentage  # `scatter` alone needs it
 
         return parse_percentage(value, name)
     if isinstance(value, bool) or not isinstance(value, _REAL) or not 0 <= value < 1:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from typing import Literal
 
 from ..engine.build import Engine, check_engine, take_model
-from ..enginefile.fields import Number
-from ..enginefile.units import ANGLE
 from ..errors import BalcliError
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..forces.quantity import leave_out_unknown
@@ -15,6 +13,7 @@ from ..studies.deviations import Tolerances
 from ..studies.part_scatter import scatter_parts
 from ..studies.quantities import parse_quantities, sort_scattered
 from ..studies.spread_one_by_one import RANDOM_SINGLES
+from ..studies.stated_tolerances import DEGREES
 from ..studies.tolerances import RANDOM_ENGINES, Scatter, scatter_engine
 from .arguments import Words, check_count, join_words, read_share, tell_arguments
 
@@ -95,6 +94,6 @@ def scatter(
 def _read_angle(value: float | str) -> float:
     """A tolerance of angles, deg."""
     try:
-        return Number(ANGLE, least=0, most=90).read(value)
+        return DEGREES.read(value)
     except ValueError as error:
         raise BalcliError(f"angle_deg: {error}") from None

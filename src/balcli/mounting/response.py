@@ -41,7 +41,7 @@ from .motions import ROLL
 _KINDS = ("force", "moment", "roll")
 _RPM = 30 / np.pi  # of 1 rad/s
 _SPEEDS_AT_A_TIME = 512  # whose curves are sampled together
-_BESIDE = np.array([-0.5, 0, 0.5])  # speeds looked at about a resonance, in widths
+_BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # speeds looked at about a resonance, in widths
 _NEAR = 0.8  # of the highest at the speeds looked at: what a peak beside them may exceed
 
 

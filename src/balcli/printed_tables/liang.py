@@ -12,7 +12,7 @@ from ..enginefile import units
 from ..enginefile.units import STANDARD_GRAVITY
 from .printed import Print
 from .ranges import Ranges
-from .recomputed import Cell, Explanation, Row, Table
+from .recomputed import Explanation, Row, Table
 
 if TYPE_CHECKING:
     from ..engine.build import Engine
@@ -44,30 +44,16 @@ def tabulate_examples(printed: Print, ranges: Ranges) -> Table:
     exact = (*_first(), *_second(), *_third())
     margin = [words[:-1] for words in printed.rows]
     rows = [(*words, answer) for words, answer in zip(margin, exact, strict=True)]
-    return printed.compare(
-        printed.columns,
-        rows,
-        stub=4,
-        explanations=[
-            _instead(
-                "author's approximation: omega taken as 418 rad/s",
-                1,
-                _three_digits(_acceleration(418.0)),
-            ),
-            _instead(
-                "follows from the rounded figures 1.79 and 37400, g = 32.2",
-                2,
-                _three_digits(1.79 * 37400 / 32.2),
-            ),
-            _instead("author's approximation: g taken as 32.2 ft/s^2", 7, _second(32.2 * FOOT)[-1]),
-        ],
+    rounded = _three_digits(1.79 * 37400 / 32.2)
+    quicker = _three_digits(_acceleration(418.0))
+    lighter = _second(32.2 * FOOT)[-1]
+    others = (
+        ("author's approximation: omega taken as 418 rad/s", 1, quicker),
+        ("follows from the rounded figures 1.79 and 37400, g = 32.2", 2, rounded),
+        ("author's approximation: g taken as 32.2 ft/s^2", 7, lighter),
     )
-
-
-def _instead(kind: str, answer: int, value: Cell) -> Explanation:
-    """Another value of one answer."""
-    blank: Row = (None,) * 4
-    return Explanation(kind, tuple((*blank, value if i == answer else None) for i in range(11)))
+    explanations = [Explanation.of_answer(*other, rows) for other in others]
+    return printed.compare(printed.columns, rows, stub=4, explanations=explanations)
 
 
 def _first() -> Row:

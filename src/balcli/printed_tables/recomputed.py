@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal, InvalidOperation
 from fractions import Fraction
@@ -25,6 +25,13 @@ class Explanation:
 
     kind: str
     rows: tuple[Row, ...]
+
+    @classmethod
+    def of_answer(cls, kind: str, number: int, value: Cell, table: Sequence[Row]) -> Explanation:
+        """Another value of one answer (from 0), each of which stands at the end of its row."""
+        blank = tuple((None,) * len(row) for row in table)
+        told = (*blank[number][:-1], value)
+        return cls(kind, (*blank[:number], told, *blank[number + 1 :]))
 
 
 @dataclass(frozen=True)

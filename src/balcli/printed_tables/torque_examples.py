@@ -12,7 +12,7 @@ from ..core.piecewise import PiecewiseCurve, polyline, resolved
 from ..core.speed_variation import surplus
 from .printed import Print
 from .ranges import Ranges
-from .recomputed import Cell, Explanation, Row, Table
+from .recomputed import Explanation, Table
 
 # fmt: off
 _UICKER = [  # N m, every 10 deg of two turns
@@ -32,26 +32,18 @@ def tabulate_examples(printed: Print, ranges: Ranges) -> Table:
     energy = surplus(uicker).energy
     answers = (_bevan(), *_khurmi(), _simpson_mean(), _uicker_inertia(energy))
     rows = [(*words[:-1], answer) for words, answer in zip(printed.rows, answers, strict=True)]
-    return printed.compare(
-        printed.columns,
-        rows,
-        stub=4,
-        explanations=[
-            _instead("author's approximation: two terms of the motion", 0, _bevan(two_terms=True)),
-            _instead("the largest while the torque first exceeds the load", 2, _khurmi_zero_side()),
-            _instead(
-                "the work of a whole cycle is taken for the fluctuation of energy",
-                4,
-                _uicker_inertia(_simpson_mean() * 4 * np.pi),
-            ),
-        ],
+    work = _simpson_mean() * 4 * np.pi
+    others = (
+        ("author's approximation: two terms of the motion", 0, _bevan(two_terms=True)),
+        ("the largest while the torque first exceeds the load", 2, _khurmi_zero_side()),
+        (
+            "the work of a whole cycle is taken for the fluctuation of energy",
+            4,
+            _uicker_inertia(work),
+        ),
     )
-
-
-def _instead(kind: str, answer: int, value: Cell) -> Explanation:
-    """Another value of one answer."""
-    blank: Row = (None,) * 4
-    return Explanation(kind, tuple((*blank, value if i == answer else None) for i in range(5)))
+    explanations = [Explanation.of_answer(*other, rows) for other in others]
+    return printed.compare(printed.columns, rows, stub=4, explanations=explanations)
 
 
 # ------------------------------------------------------------------ Bevan 12.3

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -37,8 +38,8 @@ def document(result: Comparison) -> dict[str, Any]:
             {
                 "quantity": _key(line),
                 "order": None if line.order is None else order_number(line.order),
-                "values": [v if v == v else None for v in line.values],
-                "ratios": [r if r == r else None for r in line.ratios],
+                "values": [None if math.isnan(v) else v for v in line.values],
+                "ratios": [None if math.isnan(r) else r for r in line.ratios],
             }
             for line in result.lines
         ],
@@ -85,19 +86,23 @@ def sheet(result: Comparison, system: System) -> Sheet:
 
 def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> Unit:
     """The unit for the largest of all that is known."""
-    return system.unit(kind).fit(max(v for line in lines for v in line.values if v == v))
+    return system.unit(kind).fit(max(v for line in lines for v in _list_known(line)))
 
 
 def find_lines_that_matter(lines: list[Line]) -> list[Line]:
     """Orders that are not small beside the largest or beside one cylinder's, and the peak; none if
     all are 0. What is not known of one engine is told of low orders.
     """
-    largest = max((v for line in lines for v in line.values if v == v), default=0.0)
+    largest = max((v for line in lines for v in _list_known(line)), default=0.0)
     return [line for line in lines if _matters(line, NEGLIGIBLE * largest)]
 
 
+def _list_known(line: Line) -> list[float]:
+    return [value for value in line.values if not math.isnan(value)]
+
+
 def _matters(line: Line, least: float) -> bool:
-    known = [value for value in line.values if value == value]
+    known = _list_known(line)
     if len(known) < len(line.values) and (line.order is None or line.order <= 2):
         return True
     return max(known, default=0.0) > least and not all(_tell_negligible(line))

@@ -105,14 +105,15 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
     names = [
         "device",
         "rpm",
-        f"centrifugal force, {system.force.name}",
+        f"force, {system.force.name}",
         f"mass, {system.mass.name}",
         f"disc r, {system.length.name}",
         f"thick, {system.length.name}",
     ]
     note = (
-        f"Mass at a radius of {number(system.length.of(first.radius), 4)} {system.length.name}; "
-        "disc: a semicircular one of steel"
+        "Force: centrifugal; mass at a radius of "
+        f"{number(system.length.of(first.radius), 4)} {system.length.name}; disc: a semicircular "
+        "one of steel"
     )
     rows = tuple(
         (f"{k} {name_kind(device)}", *_practical_row(figures, system))

@@ -13,20 +13,20 @@ from ..field_balancing.shop import Piece, find_angle_deg
 from .csv import Rows, name_cell
 from .figures import clean
 from .sheet import Facts, Grid, Sheet, Text, degrees, number
-from .units import System
+from .units import System, Unit
 
 _HEADER = ("part", "speed_rpm", "name", "figure", "value", "unit")
 _WAY = {"with": "the way the rotor turns", "against": "against the way the rotor turns"}
 
 
 def sheet(result: FieldBalance, system: System) -> Sheet:
-    """Everything, the corrections first; units are those of the file, not of a system."""
+    """Everything, the corrections first; weights and readings are in the units of the file."""
     file = result.file
-    parts: list[Grid | Facts | Text] = [_angles(result), _corrections(result)]
+    parts: list[Grid | Facts | Text] = [_angles(result), _corrections(result, system)]
     if file.places or file.drill:
-        parts.append(_work(result))
+        parts.append(_work(result, system.length))
     if file.grade is not None:
-        parts.append(_permitted(result))
+        parts.append(_permitted(result, system))
     parts += [_readings(result), _influence(result)]
     title = f"{file.name or 'rotor without a name'}: field balancing"
     return Sheet(title, tuple(parts))
@@ -49,14 +49,14 @@ def _angles(result: FieldBalance) -> Text:
     return Text("How angles count", (senses, picture))
 
 
-def _corrections(result: FieldBalance) -> Grid:
+def _corrections(result: FieldBalance, system: System) -> Grid:
     file, trimmed = result.file, result.influence.trimmed
     heads = ["plane", f"weight, {file.weight_unit}", "at, deg"]
     if trimmed:
         heads += [f"add now, {file.weight_unit}", "at, deg"]
     moments = all(p.unbalance is not None for p in result.planes) and file.radius is not None
     if moments:
-        heads += ["radius, mm", "unbalance, g·mm"]
+        heads += [f"radius, {system.length.name}", f"unbalance, {system.unbalance.name}"]
     heads += ["own effect"]
 
     def row(p: PlaneCorrection) -> tuple[str, ...]:
@@ -65,7 +65,8 @@ def _corrections(result: FieldBalance) -> Grid:
             cells += _polar(p.step)
         if moments and file.radius is not None and p.unbalance is not None:
             radius = file.radius[file.planes.index(p.plane)]
-            cells += [number(radius, 4), number(p.unbalance, 4)]
+            cells.append(number(system.length.of(radius / 1e3), 4))
+            cells.append(number(system.unbalance.of(p.unbalance / 1e6), 4))
         return (*cells, f"{p.own:.0%}{', at its limit' if p.limited else ''}")
 
     marked = {(k, 1) for k, p in enumerate(result.planes) if p.limited}
@@ -90,22 +91,21 @@ def _polar(value: complex, size: int = 4) -> tuple[str, str]:
     return number(abs(value), size), degrees(find_angle_deg(value)) if value else "–"
 
 
-def _work(result: FieldBalance) -> Grid:
+def _work(result: FieldBalance, length: Unit) -> Grid:
     file = result.file
     drilled = file.drill is not None
     heads = ["plane", "hole" if drilled else "place", "at, deg", f"weight, {file.weight_unit}"]
     if drilled:
-        heads += ["drill, mm", "depth, mm"]
+        heads += [f"drill, {length.name}", f"depth, {length.name}"]
     rows: list[tuple[str, ...]] = []
     for p in result.planes:
         for piece in p.pieces:
             cells = [p.plane, _place(result, p, piece)]
             cells += [degrees(piece.angle_deg), number(piece.weight, 4)]
             if file.drill is not None and piece.depth_mm is not None:
-                cells += [
-                    f"{file.drill[file.planes.index(p.plane)]:g}",
-                    number(piece.depth_mm, 3),
-                ]
+                drill = file.drill[file.planes.index(p.plane)]
+                cells.append(number(length.of(drill / 1e3), 6))
+                cells.append(number(length.of(piece.depth_mm / 1e3), 3))
             rows.append(tuple(cells))
         if not p.pieces:
             rows.append((p.plane, *["–"] * (len(heads) - 1)))
@@ -133,18 +133,22 @@ def _place(result: FieldBalance, p: PlaneCorrection, piece: Piece) -> str:
     return f"{piece.place} of {len(places[result.file.planes.index(p.plane)])}"
 
 
-def _permitted(result: FieldBalance) -> Grid:
-    file = result.file
+def _permitted(result: FieldBalance, system: System) -> Grid:
+    file, unit, mass = result.file, system.unbalance, system.mass
+
+    def told(unbalance: float) -> str:
+        return number(unit.of(unbalance / 1e6), 4)
+
     rows, marked = [], set()
     for k, p in enumerate(result.planes):
         if p.permitted is not None:
             rows.append(
                 (
                     p.plane,
-                    number(p.permitted.permitted, 4),
-                    number(p.permitted.present, 4),
+                    told(p.permitted.permitted),
+                    told(p.permitted.present),
                     "reached" if p.permitted.reached else "not reached",
-                    number(p.permitted.after, 4),
+                    told(p.permitted.after),
                 )
             )
             if not p.permitted.reached:
@@ -154,10 +158,10 @@ def _permitted(result: FieldBalance) -> Grid:
     eccentricity = number(1e3 * (find_eccentricity(file) or 0.0), 4)
     return Grid(
         f"Permitted residual unbalance, ISO 21940-11, G {file.grade:g}",
-        ("plane", "permitted, g·mm", "there now, g·mm", "", "after, g·mm"),
+        ("plane", f"permitted, {unit.name}", f"there now, {unit.name}", "", f"after, {unit.name}"),
         tuple(rows),
-        f"{file.mass:g} kg at {file.speed:g} rpm: {eccentricity} µm. There now: {state}, by its "
-        "readings; after: what the corrections leave of it.",
+        f"{mass.of(file.mass or 0.0):g} {mass.name} at {file.speed:g} rpm: {eccentricity} µm. "
+        f"There now: {state}, by its readings; after: what the corrections leave of it.",
         frozenset(marked),
         words=(0, 3),
     )
@@ -173,11 +177,11 @@ def find_label(result: FieldBalance, k: int) -> str:
 
 
 def _readings(result: FieldBalance) -> Grid:
-    influence, trimmed = result.influence, result.influence.trimmed
+    influence = result.influence
     unit = f", {result.file.unit}" if result.file.unit else ""
     states = [("as found", influence.found)]
-    if trimmed:
-        states.append((trimmed, influence.now))
+    if influence.trimmed:
+        states.append((influence.state, influence.now))
     states.append(("after", result.after))
     heads = ["reading", *(head for name, _ in states for head in (f"{name}{unit}", "at, deg"))]
     rows = [

@@ -21,6 +21,8 @@ from .units import System
 from .view import ON_A_PAGE
 
 if TYPE_CHECKING:
+    from markupsafe import Markup
+
     from ..mounting.report import MountReport
     from ..torque.pictures import Running
     from ..torsion.analysis import TorsionAnalysis
@@ -55,29 +57,6 @@ def page(
     """
     from markupsafe import Markup
 
-    chapters: dict[str, Any] = {"mounts": None, "torsion": None, "running": None}
-    if turning is not None:
-        from . import page_torque  # for files with gas
-
-        chapters |= {
-            "running": page_torque.running(turning, system),
-            "running_script": Markup((FOLDER / "running.js").read_text(encoding="utf-8")),
-        }
-    if mounted is not None:
-        from . import mounts, page_mounts  # for files that have mounts
-
-        chapters |= {
-            "mounts": mounts.sheet(mounted, system),
-            "rocking": page_mounts.rocking(mounted),
-            "rocking_script": Markup((FOLDER / "rocking.js").read_text(encoding="utf-8")),
-        }
-    if twisted is not None:
-        from . import torsion  # for files that have it
-        from .plot.torsion import draw_torsion
-
-        drawn = [(what, draw_torsion(twisted, what, "svg", titled=False)) for what in _OF_TORSION]
-        chapters["torsion"] = torsion.sheet(twisted, system)
-        chapters["twists"] = [Markup(inline_svg(svg, f"torsion-{what}")) for what, svg in drawn]
     own, remedy = analysis.sheet(result, system, ON_A_PAGE), balance.sheet(balanced, system)
     told = ("force", "about", *(["moment"] if result.moments_known else []))
     fitted = bool(balanced.remedy.reasons)
@@ -99,12 +78,54 @@ def page(
         remedy=remedy.parts,
         fitted=fitted,
         scene=scene(result, balanced.after if fitted else None, system),
-        pictures=pictures[: len(pictures) - len(beside)],
-        compared=pictures[len(pictures) - len(beside) :],
-        style=Markup((FOLDER / "report.css").read_text(encoding="utf-8")),
-        script=Markup((FOLDER / "report.js").read_text(encoding="utf-8")),
-        **chapters,
+        pictures=pictures[: len(alone)],
+        compared=pictures[len(alone) :],
+        style=_read("report.css"),
+        script=_read("report.js"),
+        **_gather_chapters(mounted, twisted, turning, system),
     )
+
+
+def _gather_chapters(
+    mounted: MountReport | None,
+    twisted: TorsionAnalysis | None,
+    turning: Running | None,
+    system: System,
+) -> dict[str, Any]:
+    """What the template takes of mounts, torsion and gas; None of a chapter that is not there."""
+    from markupsafe import Markup
+
+    chapters: dict[str, Any] = {"mounts": None, "torsion": None, "running": None}
+    if turning is not None:
+        from . import page_torque  # for files with gas
+
+        chapters |= {
+            "running": page_torque.running(turning, system),
+            "running_script": _read("running.js"),
+        }
+    if mounted is not None:
+        from . import mounts, page_mounts  # for files that have mounts
+
+        chapters |= {
+            "mounts": mounts.sheet(mounted, system),
+            "rocking": page_mounts.rocking(mounted),
+            "rocking_script": _read("rocking.js"),
+        }
+    if twisted is not None:
+        from . import torsion  # for files that have it
+        from .plot.torsion import draw_torsion
+
+        drawn = [(what, draw_torsion(twisted, what, "svg", titled=False)) for what in _OF_TORSION]
+        chapters["torsion"] = torsion.sheet(twisted, system)
+        chapters["twists"] = [Markup(inline_svg(svg, f"torsion-{what}")) for what, svg in drawn]
+    return chapters
+
+
+def _read(name: str) -> Markup:
+    """A script or style of the page, as it is."""
+    from markupsafe import Markup
+
+    return Markup((FOLDER / name).read_text(encoding="utf-8"))
 
 
 def _choose_panels(

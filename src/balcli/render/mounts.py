@@ -11,7 +11,7 @@ from ..mounting.report import MountReport
 from ..mounting.response import Response, Worst
 from .mounts_document import document, rows
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number, order_number
-from .units import System
+from .units import System, Unit
 
 __all__ = ["document", "rows", "sheet"]
 
@@ -45,27 +45,46 @@ def _answer(result: MountReport, response: Response, system: System) -> Iterator
     if worst.value == 0:
         yield "The mounts feel nothing of the orders that count."
         return
-    force, rpm = system.force, worst.speed_rpm
+    force = system.force
     why = f" {_explain(result, response, worst)}".rstrip()
     yield (
-        f"The mount {name} feels most: {number(force.of(worst.value), 4)} {force.name} at "
-        f"{number(rpm, 4)} rpm, of which order {order_number(worst.order)} alone makes "
-        f"{number(force.of(worst.alone), 4)} {force.name}.{why}"
+        f"The mount {name} feels most: {_tell(worst, force)}, of which order "
+        f"{order_number(worst.order)} alone makes {number(force.of(worst.alone), 4)} "
+        f"{force.name}.{why}"
     )
+    moved = _find_farthest(result, response)
+    if moved:
+        yield f"The point {moved[0]} moves most: {_tell(moved[1], system.length)}."
     if response.loads.gas is None:
         yield "Of inertia alone: the torque of the gas, which rolls an engine too, is not in this."
     else:
         yield "Of inertia and the torque of the gas, the same diagram at every speed."
     for other in result.beside:
         after = max(other.response.worst_force, key=lambda one: one.value)
-        change = after.value / worst.value - 1
-        less = f"{abs(change):.0%} {'less' if change < 0 else 'more'}"
-        less = "as much" if abs(change) < _SAME else less
-        yield (
-            f"With {other.name} the largest force of any mount is "
-            f"{number(force.of(after.value), 4)} {force.name} at {number(after.speed_rpm, 4)} "
-            f"rpm: {less}."
-        )
+        told = f"the largest force of any mount is {_tell(after, force)}: {_less(after, worst)}"
+        farthest = _find_farthest(result, other.response)
+        if moved and farthest and moved[1].value:
+            told += (
+                f"; the point {farthest[0]} moves most, {_tell(farthest[1], system.length)}: "
+                f"{_less(farthest[1], moved[1])}"
+            )
+        yield f"With {other.name} {told}."
+
+
+def _tell(worst: Worst, unit: Unit) -> str:
+    return f"{number(unit.of(worst.value), 4)} {unit.name} at {number(worst.speed_rpm, 4)} rpm"
+
+
+def _less(after: Worst, before: Worst) -> str:
+    change = after.value / before.value - 1
+    less = f"{abs(change):.0%} {'less' if change < 0 else 'more'}"
+    return "as much" if abs(change) < _SAME else less
+
+
+def _find_farthest(result: MountReport, response: Response) -> tuple[str, Worst] | None:
+    """The point that moves most; None: none is asked for."""
+    pairs = zip(result.mounted.point_names, response.worst_motion, strict=True)
+    return max(pairs, key=lambda pair: pair[1].value, default=None)
 
 
 def _find_hardest(result: MountReport, response: Response) -> tuple[str, Worst]:

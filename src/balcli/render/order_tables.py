@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING
@@ -81,7 +82,7 @@ def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> I
             f"(reciprocating mass of {cylinder}), Fn = A_n F1 its n-th order. {_AS_BUILT}"
         )
         yield _textbook_table(FORCE, book, note, every)
-    if book.built.moment is not None and units.arm == units.arm:
+    if book.built.moment is not None and not math.isnan(units.arm):
         arm = f"{number(system.length.of(units.arm), 4)} {system.length.name}"
         note = f"a = {arm}, the smallest distance of neighbouring throws."
         note = note if book.built.force else f"{note} {_AS_BUILT}"
@@ -234,7 +235,7 @@ def _ratio(value: float, size: float) -> str:
     """A multiple; a dash where the order is no multiple of anything."""
     if not value:
         return NOTHING
-    return number(value / size, 4) if size == size else "–"
+    return "–" if math.isnan(size) else number(value / size, 4)
 
 
 def _size_and_angle(v: complex, unit: Unit) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.cylinders import SHAFT_RANK, Device
+from ..core.cylinders import Device, DeviceKind
 from ..core.mechanisms.articulated import Articulated
 from ..core.mechanisms.rotary import Rotary
 from ..core.phasors import Phasors
@@ -127,7 +127,7 @@ def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
     found: dict[int, complex] = {}
     rows: dict[tuple[int, bool], int] = {}  # of each shaft on its side of the engine
     for k, device in enumerate(engine.devices):
-        if device.rank != SHAFT_RANK or abs(complex(device.place)) >= r:
+        if device.kind is not DeviceKind.SHAFT or abs(complex(device.place)) >= r:
             continue
         ahead = bool(device.forward)
         side = rows.setdefault((device.order, ahead), sum(way == ahead for _, way in rows))

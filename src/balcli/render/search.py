@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -137,7 +138,7 @@ def _textbook(result: Search, one: Found) -> dict[str, tuple[float, str]]:
         kind = EVERY_KIND[q.kind]
         if kind.vector and q.part != "peak":
             size = result.scale.size(kind, q.order)
-            if size == size:
+            if not math.isnan(size):
                 shown[q.name] = one.figures[q.name] / size, result.scale.name(kind, q.order)
     return shown
 

@@ -25,11 +25,12 @@ def columns(result: Swept) -> Columns:
 def document(result: Swept) -> dict[str, Any]:
     """`balcli.sweep/1`: columns, and one row a variant."""
     found = columns(result).values
-    table = np.column_stack([*found.values()]).astype(object)
-    table[table != table] = None
+    table = np.column_stack([*found.values()])
+    cells = table.astype(object)
+    cells[np.isnan(table)] = None
     return {
         "format": "balcli.sweep/1",
         "engine": {"name": result.sweep.file.name},
         "columns": list(found),
-        "rows": table.tolist(),
+        "rows": cells.tolist(),
     }

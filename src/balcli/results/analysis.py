@@ -184,8 +184,8 @@ def analyze(
         sizing=_size_and_analyze(engine, asked, wanted) if "sizing" in wanted else None,
         cylinders=cylinders,
         why=_explain(engine, visible.orders, shown) if reasons else None,
-        inner=load_crankshaft(engine, asked) if "inner" in wanted else None,
-        guide=_press_guides(engine, asked, guide_height_m) if "guide" in wanted else None,
+        inner=find_inner_loads(engine, asked) if "inner" in wanted else None,
+        guide=_find_guide(engine, asked, guide_height_m) if "guide" in wanted else None,
         travel=None if engine.cylinders.linkage is None else _measure_travel(engine),
     )
 
@@ -227,9 +227,8 @@ def _analyze_cylinders(
     count = len(orders) * len(engine.numbers)
     if count > MOST_RESULTS_BY_CYLINDER:
         raise BalcliError(
-            f"by cylinder, {len(orders)} orders of {len(engine.numbers)} cylinders are "
-            f"{count} results, and at most "
-            f"{MOST_RESULTS_BY_CYLINDER} are told: ask for fewer orders"
+            f"by cylinder, {len(orders)} orders of {len(engine.numbers)} cylinders are {count} "
+            f"results, and at most {MOST_RESULTS_BY_CYLINDER} are told: ask for fewer orders"
         )
     own = compute_each_cylinder(engine, orders, kinds)
     return tuple((n, own.select_place(engine.numbers.index(n))) for n in sorted(engine.numbers))
@@ -253,7 +252,7 @@ def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
     return explain_symmetry(engine, orders[orders > 0], provable)
 
 
-def load_crankshaft(engine: Engine, asked: Array | None = None) -> InnerLoads:
+def find_inner_loads(engine: Engine, asked: Array | None = None) -> InnerLoads:
     """Shear, bending and bearing loads along the crankshaft, with gas as far as there is some."""
     from ..forces.crankshaft import compute_inner_loads
 
@@ -265,7 +264,7 @@ def load_crankshaft(engine: Engine, asked: Array | None = None) -> InnerLoads:
     return add_gas(inner, engine, asked)
 
 
-def _press_guides(engine: Engine, asked: Array | None, height_m: float | None) -> GuideMoments:
+def _find_guide(engine: Engine, asked: Array | None, height_m: float | None) -> GuideMoments:
     from ..forces.guide_moments import compute_guide_moments
 
     return compute_guide_moments(engine, asked, height_m)

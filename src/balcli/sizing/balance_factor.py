@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..core.cylinders import DeviceKind
 from ..core.golden_section import find_least
 from ..core.levers import share_by_lever
 from ..core.peaks import find_peak
@@ -145,9 +146,7 @@ def find_factor_peaks(
 
 def find_curve(engine: Engine, quantity: str) -> Phasors:
     """Free force or moment of all orders."""
-    spectra = compute_spectra(engine, find_relevant_orders(engine), (quantity,))
-    curve: Phasors = getattr(spectra, quantity)
-    return curve
+    return compute_spectra(engine, find_relevant_orders(engine), (quantity,))[quantity]
 
 
 # ------------------------------------------------------------------ which factor, which planes
@@ -278,7 +277,7 @@ def _count_from_pin(engine: Engine, need: PlaneNeed) -> PlaneNeed:
 
 def _find_counterweights(engine: Engine) -> tuple[Array, Complex]:
     """Places (m) and unbalances at crank angle 0 (kg m) of the file's counterweights."""
-    own = [device for device in engine.devices if device.rank == 0]
+    own = [device for device in engine.devices if device.kind is DeviceKind.COUNTERWEIGHT]
     places = np.array([float(device.z) for device in own])
     return places, np.array([complex(device.forward) for device in own], complex)
 

@@ -27,12 +27,16 @@ from .scheme_figures import Optimum
 DESIGNS = ("a", "b")  # pin on the shaft, slot in the disc; pin on the disc, slot on the shaft
 CRITERIA = ("largest", "mean")
 FORCES = ("orders 1+2", "all orders")  # cos theta + lambda cos 2 theta; the exact force
-_COUNT = 512  # samples of a revolution: enough for k above 1.2
+_LEAST_K, _MOST_K = 1.2, 1e12  # k is sought between; nearer to 1 its series is too long
+_COUNT = 512  # samples of a revolution: enough for k above _LEAST_K
 _GRID = np.linspace(0, np.pi, 1025)
 _ORDERS = np.arange(_COUNT // 4)
 _ROUNDS = 60
 _NOISE = 5e-16  # of the transform; squares of the orders would multiply it
 _SETTLED = 1e-10  # relative
+_FARTHEST_TO_PEAK, _FARTHEST_TO_MEAN = 0.25, 0.1  # share of k by which it moves in one step
+_SINGULAR = 1e-14  # determinant of a triple that fixes nothing
+_BELOW_0 = -1e-12  # a weight above this is 0 but for rounding
 _NEWTON_STEPS = 8  # from the middle of a cell of the grid to a root, to rounding
 
 
@@ -116,8 +120,8 @@ def _expand_engine_force(engine_force: str, lam: float) -> Array:
 
 def _find_remaining(design: str, engine: Array, x: Array) -> Array:
     """Cosine coefficients of P, what remains of the engine's force."""
-    if not (1.2 < x[0] < 1e12):
-        raise ArithmeticError("k must stay above 1")
+    if not _LEAST_K < x[0] < _MOST_K:
+        raise ArithmeticError(f"k must stay above {_LEAST_K}")
     return engine - 2 * x[1] * _ORDERS**2 * expand_shaft_wave(design, x[0])[0]
 
 
@@ -182,7 +186,7 @@ def _minimise_peak(design: str, engine: Array, x: Array) -> Array:
         values = _evaluate(remaining, theta)
         slopes = np.sign(values)[:, None] * _evaluate(_find_slopes(design, x), theta)
         move = _exchange(np.abs(values), slopes)
-        x = _move(x, move, 0.25)
+        x = _move(x, move, _FARTHEST_TO_PEAK)
         if np.all(np.abs(move) <= _SETTLED * np.abs(x)):
             return x
     raise ArithmeticError("no convergence")
@@ -198,11 +202,11 @@ def _exchange(values: Array, slopes: Array) -> Array:
     top, best = -np.inf, None
     for triple in map(list, combinations(range(len(values)), 3)):
         system = np.column_stack([slopes[triple], -np.ones(3)])
-        if abs(np.linalg.det(system)) < 1e-14:
+        if abs(np.linalg.det(system)) < _SINGULAR:
             continue
         weights = np.linalg.solve(system.T, [0, 0, -1.0])
         solution = np.linalg.solve(system, -values[triple])
-        if np.all(weights >= -1e-12) and solution[2] > top:
+        if np.all(weights >= _BELOW_0) and solution[2] > top:
             top, best = solution[2], solution[:2]
     if best is None:
         raise ArithmeticError("no three extremes balance")
@@ -227,7 +231,7 @@ def _minimise_mean(design: str, engine: Array, x: Array) -> Array:
             for step in np.diag(1e-6 * x)
         ]
         move = -np.linalg.solve(np.column_stack(columns), find_gradient(x))
-        x = _move(x, move, 0.1)
+        x = _move(x, move, _FARTHEST_TO_MEAN)
         if np.all(np.abs(move) <= _SETTLED * np.abs(x)):
             return x
     raise ArithmeticError("no convergence")

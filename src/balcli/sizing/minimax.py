@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core import enclosing_circle
+from ..core.cylinders import DeviceKind
 from ..engine.build import Engine
 from ..errors import BalcliError
 from .balance_factor import find_curve, find_factor_peaks
@@ -21,6 +22,8 @@ from .options import SchemeOptions
 from .planes import SAME_PLACE, find_middle, read_planes
 from .remedy import Remedy
 from .residual import FORWARD, FORWARD_FORCE, NothingToBalanceError
+
+_LEFT = 1e-9  # of what is to be cancelled: more, and these planes cannot take the moment
 
 
 def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
@@ -77,14 +80,14 @@ def _split(
     residual = fitting.find_residual(1)
     wanted = residual._replace(parts={**residual.parts, FORWARD_FORCE: -unbalance})
     fit = solve(slots, wanted, FORWARD)
-    if fit.left > 1e-9:
+    if fit.left > _LEFT:
         raise BalcliError(f"--planes: {SAME_PLACE}")
     return slots, fit.unbalances
 
 
 def _find_peak_of_half(engine: Engine) -> float:
     """Largest force with the weights of factor 0.5 instead of the engine's own, N."""
-    off_crank = tuple(device for device in engine.devices if device.rank)
+    off_crank = tuple(d for d in engine.devices if d.kind is not DeviceKind.COUNTERWEIGHT)
     return find_factor_peaks(replace(engine, devices=off_crank), 0.5).force
 
 

@@ -88,7 +88,7 @@ def fit_devices(engine: Engine, remedy: Remedy) -> Engine:
     """
     new = (build_device(table, engine.first_axis_deg) for table in remedy.devices)
     everything = (*engine.devices, *new, *remedy.beyond)
-    devices = tuple(sorted(everything, key=lambda device: device.rank))
+    devices = tuple(sorted(everything, key=lambda device: device.kind))
     return replace(engine, devices=devices, model=_fit_model(engine.model, remedy))
 
 

@@ -8,7 +8,6 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from ..core.phasors import Phasors
 from ..engine.build import Engine
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..errors import BalcliError
@@ -112,7 +111,7 @@ def find_residual(engine: Engine, order: int) -> Residual:
     parts: dict[Part, complex] = {}
     noise: dict[Part, float] = {}
     for part in (*FORWARD, *BACKWARD):
-        phasors: Phasors = getattr(found, part.quantity)
+        phasors = found[part.quantity]
         vector = phasors.forward if part.sense > 0 else phasors.backward
         per = 1j if part.quantity == "moment" else 1
         known = part.quantity == "force" or engine.places_known

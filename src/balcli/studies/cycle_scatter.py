@@ -4,7 +4,7 @@ and throw angles vary within tolerances.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import cast
 
 import numpy as np
@@ -61,14 +61,14 @@ def scatter_cycles(
 
     def evaluate(deviations: Array) -> Array:
         engine = engines.deviate_one(deviations)
-        found: Mapping[str, float] = {}
+        found: dict[ChapterQuantity, float] = {}
         if of_cycle:
             values = cycle_quantity.evaluate_engine(engine, of_cycle)
-            found = dict(zip((q.name for q in of_cycle), values, strict=True))
+            found |= dict(zip(of_cycle, values, strict=True))
         if of_guides:
             values = guide_quantity.evaluate_engine(engine, of_guides)
-            found = {**found, **dict(zip((q.name for q in of_guides), values, strict=True))}
-        return np.array([found[q.name] for q in quantities])
+            found |= dict(zip(of_guides, values, strict=True))
+        return np.array([found[q] for q in quantities])
 
     drawing = Drawing(samples, seed, shape, tell)
     count, spreads = spread_one_by_one(engines.sources, quantities, evaluate, drawing)

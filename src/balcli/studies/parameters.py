@@ -39,6 +39,11 @@ class Parameter:
         return len(self.values)
 
 
+def tell_variant(figures: Mapping[str, float]) -> str:
+    """Which variant it is, for messages: `rod.length = 150, piston.mass = 0.5`."""
+    return ", ".join(f"{path} = {value:g}" for path, value in figures.items())
+
+
 # ------------------------------------------------------------------ which numbers there are
 def find_numbers(model: EngineFile) -> dict[str, Number]:
     """How each number is read that an engine file has or might have, by dotted name; members of

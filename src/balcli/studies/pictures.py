@@ -16,7 +16,7 @@ from ..errors import BalcliError
 from ..forces.crankshaft import InnerLoads
 from ..forces.kinds import KINDS
 from ..forces.spectrum import compute_spectra
-from ..results.analysis import Analysis, analyze, load_crankshaft
+from ..results.analysis import Analysis, analyze, find_inner_loads
 from ..results.balance import balance
 from ..sizing.balance_factor import find_best_factor
 from ..sizing.options import SchemeOptions
@@ -92,22 +92,19 @@ def compute_study(
         refuse_scheme(scheme, what)
     if scheme is not None:
         found = balance(engine, scheme, options, orders)
-        bent = (
-            (load_crankshaft(found.after.engine), load_crankshaft(engine))
-            if what == "inner"
-            else ()
+        engines = (found.after.engine, engine) if what == "inner" else ()
+        return Study(
+            found.after, found.before, found.remedy, bent=tuple(map(find_inner_loads, engines))
         )
-        return Study(found.after, found.before, found.remedy, bent=bent)
     now = analyze(engine, orders, KINDS)
     if what in PAGES:
         return Study(now, gas=compute_pictures(engine, what))
     if what == "inner":
-        return Study(now, bent=(load_crankshaft(engine),))
-    return (
-        Study(now, banks=swing_banks(engine, _find_lowest(now) if orders is None else orders[0]))
-        if what == "bank"
-        else Study(now)
-    )
+        return Study(now, bent=(find_inner_loads(engine),))
+    if what == "bank":
+        order = _find_lowest(now) if orders is None else orders[0]
+        return Study(now, banks=swing_banks(engine, order))
+    return Study(now)
 
 
 def refuse_scheme(scheme: str | None, what: str) -> None:

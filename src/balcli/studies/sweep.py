@@ -38,7 +38,7 @@ from ..forces.quantity import (
 from ..forces.spectrum import count_samples
 from ..limits import MOST_PARAMETERS
 from .boxes import Box, BoxSize, divide_grid, divide_into_boxes, divide_into_tiles
-from .parameters import Parameter, parse
+from .parameters import Parameter, parse, tell_variant
 from .quantities import (
     AnyQuantity,
     ChapterQuantity,
@@ -143,11 +143,11 @@ class Sweep:
                     high = middle
             box = (*box[:axis], slice(low, high), *box[axis + 1 :])
         pairs = zip(self.parameters, box, strict=True)
-        where = ", ".join(f"{p.path} = {p.values[cut][0]:g}" for p, cut in pairs)
+        figures = {p.path: float(p.values[cut][0]) for p, cut in pairs}
         try:
             self._build(box)
         except InputError as error:
-            raise InputError(error.problems, f"{self.name}: {where}") from None
+            raise InputError(error.problems, f"{self.name}: {tell_variant(figures)}") from None
 
     def _build(self, box: Box) -> Engine:
         rank = len(self.parameters)
@@ -297,13 +297,12 @@ def _evaluate_one_by_one(sweep: Sweep, box: Box, variants: Variants, count: int)
     rows = []
     for figures in product(*axes):
         own = dict(zip(paths, map(float, figures), strict=True))
-        where = ", ".join(f"{path} = {value:g}" for path, value in own.items())
         try:
             rows.append(variants.evaluate(own))
         except InputError as error:
-            raise InputError(error.problems, f"{sweep.name}: {where}") from None
+            raise InputError(error.problems, f"{sweep.name}: {tell_variant(own)}") from None
         except BalcliError as error:
-            raise BalcliError(f"{sweep.name}: {where}: {error}") from None
+            raise BalcliError(f"{sweep.name}: {tell_variant(own)}: {error}") from None
     table = np.array(rows).reshape(*map(len, axes), count)
     return list(np.moveaxis(table, -1, 0))
 

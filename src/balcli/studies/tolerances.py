@@ -4,7 +4,6 @@ tolerances.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
@@ -14,9 +13,7 @@ import numpy as np
 from ..core.phasors import Array, Complex, Phasors
 from ..core.telling import Tell, tell_nobody
 from ..engine.build import build
-from ..enginefile.fields import Number
 from ..enginefile.model import EngineFile
-from ..enginefile.units import ANGLE
 from ..errors import BalcliError
 from ..forces.quantity import Quantity, evaluate_quantities, refuse_unknown
 from ..limits import MOST_TOLERANCE_SAMPLES
@@ -34,33 +31,7 @@ AT_ONCE = 400_000  # deviations at a time, where there are many sources
 TOLD = 1e-8  # of the largest share: those that differ by less are equal
 PERCENTILES = {"p05": 5.0, "p50": 50.0, "p95": 95.0}
 SPREADS = ("major", "forward", "backward", "amplitude")
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?", re.ASCII)
 Shape = Literal["uniform", "normal"]
-
-
-def parse_tolerances(mass: str, length: str, angle: str) -> Tolerances:
-    """From texts such as `0.5%`, `0.05%` and `0.2 deg`.
-
-    Raises:
-        BalcliError: what is neither, negative or absurdly large.
-    """
-    masses = parse_percentage(mass, "--mass-scatter")
-    lengths = parse_percentage(length, "--length-scatter")
-    degrees = Number(ANGLE, least=0, most=90)
-    try:
-        angles = degrees.read(float(angle) if _NUMBER.fullmatch(angle.strip()) else angle)
-    except ValueError as error:
-        raise BalcliError(f"--angle-scatter {error}") from None
-    return Tolerances(masses, lengths, angles)
-
-
-def parse_percentage(text: str, option: str) -> float:
-    """The share that a percentage is."""
-    number = text.strip().removesuffix("%")
-    percentage = number != text.strip() and _NUMBER.fullmatch(number.strip())
-    if not percentage or not 0 <= float(number) < 100:
-        raise BalcliError(f'{option} "{text}": give a percentage of 0 to 100, such as 0.5%')
-    return float(number) / 100
 
 
 @dataclass(frozen=True)

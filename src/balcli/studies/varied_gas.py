@@ -15,6 +15,7 @@ from ..engine.gas_figures import concerns_gas
 from ..enginefile.model import EngineFile
 from ..errors import InputError
 from ..forces.gas import compute_gas_torque
+from .parameters import tell_variant
 
 
 def add_gas(engine: Engine, model: EngineFile, figures: Mapping[str, Array]) -> Engine:
@@ -61,5 +62,4 @@ class _VariedGas:
             try:
                 yield build(self._model, own)
             except InputError as error:
-                where = ", ".join(f"{path} = {value:g}" for path, value in own.items())
-                raise InputError(error.problems, where) from None
+                raise InputError(error.problems, tell_variant(own)) from None

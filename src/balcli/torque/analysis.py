@@ -71,12 +71,14 @@ class TorqueAnalysis(Result):
 
     @property
     def mechanical_efficiency(self) -> float | None:
-        """Brake over indicated work; None: the file does not say."""
-        return take_gas(self.engine).mechanical_efficiency
+        """Brake over indicated work; None: the file does not say, or a cylinder has no gas, and yet
+        its friction.
+        """
+        return None if self.engine.without_gas else take_gas(self.engine).mechanical_efficiency
 
     @property
     def bmep(self) -> float | None:
-        """Brake mean effective pressure, Pa; None without mechanical_efficiency."""
+        """Brake mean effective pressure, Pa; None where there is no mechanical efficiency."""
         efficiency = self.mechanical_efficiency
         return None if efficiency is None else self.imep * efficiency
 

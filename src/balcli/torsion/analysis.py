@@ -52,7 +52,7 @@ class Question(NamedTuple):
     damper: DamperAsked | None = None
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class TorsionAnalysis(Result):
     """Modes, criticals, and what else was asked.
 

@@ -11,7 +11,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.loads import find_inertia, find_needed_series
-from ..core.mechanisms import harmonics
 from ..core.singular_values import Real
 from ..core.torsional_chain import Shaft
 from ..engine.build import Engine
@@ -162,8 +161,8 @@ def weigh_running_gear(engine: Engine) -> Real:
     """
     c = engine.cylinders
     mean_only = np.zeros(1)
-    find = c.linkage.find_distinct_harmonics if c.linkage else harmonics.find_distinct_harmonics
-    few, which = find(mean_only, c.lam, c.eps, find_needed_series(c, {"torque"}, uneven=False))
+    series = find_needed_series(c, {"torque"}, uneven=False)
+    few, which = c.find_distinct_harmonics(mean_only, series)
     moving = find_inertia(c, few.select_cylinders(which), 1.0).c[0].real
     own = np.array([float(weighed.share) for weighed in engine.weighed])
     turning = (c.rotating - own) * c.radius**2

@@ -80,7 +80,7 @@ class Response(NamedTuple):
     worst: Worst
 
 
-class Motion(NamedTuple):
+class ChainMotion(NamedTuple):
     """Angles (orders, speeds, nodes) and torques (orders, speeds, shafts) by order, complex, and
     power lost in dampers (orders, speeds, dampers).
     """
@@ -271,7 +271,7 @@ def _summarise(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> tu
     )
 
 
-def move(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> Motion:
+def move(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> ChainMotion:
     """Motion order by order at these speeds (rpm)."""
     speeds = rpm * np.pi / 30
     w = frequencies(excitation.orders, speeds)
@@ -283,7 +283,7 @@ def move(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> Motion:
     except UndampedResonanceError as error:
         raise BalcliError(_tell_resonance(system, error.frequency / (2 * np.pi))) from None
     heat = _heat_of_oil(system, w, twist.angle), _heat_of_rubber(system, w, twist.torque)
-    return Motion(twist.angle, twist.torque, np.concatenate(heat, axis=-1))
+    return ChainMotion(twist.angle, twist.torque, np.concatenate(heat, axis=-1))
 
 
 def _heat_of_rubber(system: TorsionalSystem, w: Real, torque: Complex) -> Real:

@@ -86,8 +86,8 @@ def _draw_readings(ax: PolarAxes, result: FieldBalance) -> None:
         if len(before) <= _MOST_LABELLED:
             label = f"{fit_name(find_label(result, k), 30)}: {number(abs(start), 3)}"
             ax.annotate(label, (angles[0], sizes[0]), xytext=(6, 5), textcoords="offset points")
-    state = result.influence.trimmed or "as found"
-    ax.plot([], [], "o", color=SOFT, markerfacecolor=PAPER, label=fit_name(state, 30))
+    state = fit_name(result.influence.state, 30)
+    ax.plot([], [], "o", color=SOFT, markerfacecolor=PAPER, label=state)
     ax.plot([], [], "o", color=BLUE, label="after (predicted)")
     ax.set_ylim(0, 1.25 * (float(np.abs(np.concatenate([before, after])).max()) or 1.0))
 

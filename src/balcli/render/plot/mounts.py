@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 _LOOKS = tuple(product(("-", "--", ":"), (BLUE, RED, GREEN, INK)))
 _MOST_CURVES = 12  # that are told apart
 _WIDEST, _THINNEST = 7.0, 0.6  # lines of orders, points
+_LABEL_HEIGHT = 0.035  # of an axis
 _SWING = 0.22  # of the body's size, by which its farthest corner moves in a picture of a mode
 _SIZE, _SHAPES_ALONE = (11.0, 8.6), (11.0, 3.2)
 
@@ -129,14 +130,29 @@ def _draw_meetings(ax: Axes, result: MountReport, response: Response) -> None:
         if inside.any():
             last = int(np.flatnonzero(inside)[-1])
             ax.text(rpm[last], hertz[last], f" {order_number(order)}", color=INK, va="bottom")
-    for k, mode in enumerate(result.modes.six, 1):
-        ax.axhline(mode.hertz, color=RED, linewidth=0.8)
-        ax.text(rpm[-1], mode.hertz, f"{k}", color=RED, ha="right", va="bottom")
+    six = [mode.hertz for mode in result.modes.six]
+    for frequency in six:
+        ax.axhline(frequency, color=RED, linewidth=0.8)
+    for label, frequency in _name_modes(six, _LABEL_HEIGHT * highest):
+        ax.text(rpm[-1], frequency, label, color=RED, ha="right", va="bottom")
     ax.set_ylim(0, highest)
     ax.set_xlim(rpm[0], rpm[-1] if len(rpm) > 1 else rpm[0] + 1)
     ax.set_title("Orders (blue) meet modes (red)")
     ax.set_xlabel(f"rpm; width: force of {fit_name(result.mounted.names[hardest], 20)}")
     ax.set_ylabel("Hz")
+
+
+def _name_modes(frequencies: Sequence[float], least: float) -> list[tuple[str, float]]:
+    """Numbers of modes, ascending, and where to write them: those nearer than `least` together, at
+    the highest of them.
+    """
+    named: list[tuple[str, float]] = []
+    for k, frequency in enumerate(frequencies, 1):
+        if named and frequency - named[-1][1] < least:
+            named[-1] = f"{named[-1][0]}, {k}", frequency
+        else:
+            named.append((f"{k}", frequency))
+    return named
 
 
 def _draw_mode(ax: Axes, k: int, mode: BodyMode, result: MountReport) -> None:

@@ -15,8 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.phases import TURN
 from ...core.phasors import Array
-from ...core.roots_of_unity import LARGEST_DENOMINATOR, TURN, rational
+from ...core.roots_of_unity import LARGEST_DENOMINATOR, rational
 from ...engine.arrays import ranked
 
 Curve = Callable[[Array], Array]  # a figure at some angles (deg), same shape

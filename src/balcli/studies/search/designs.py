@@ -21,7 +21,7 @@ from .objective import Objective
 # One column by its key of the engine file: `throws`, shape (candidates, throws), or `bank_angle` or
 # `splay`, shape (candidates,); angles in deg.
 Candidates = Mapping[str, Array]
-# of the engine file, that have what is arranged
+# The table of the engine file in which each of these stands.
 TABLES = {"throws": "crank", "splay": "crank", "firing_order": "layout", "bank_angle": "layout"}
 
 

@@ -7,8 +7,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.phases import TURN
 from ...core.phasors import Array
-from ...core.roots_of_unity import TURN
 from ...engine.build import Engine
 from ...engine.firing import TOLERANCE_DEG
 from ...engine.layout import cycle_deg

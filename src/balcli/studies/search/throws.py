@@ -15,8 +15,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.phases import TURN
 from ...core.phasors import Array, Complex
-from ...core.roots_of_unity import TURN
 from ...core.telling import Tell, tell_nobody
 from ...engine.arrays import ranked
 from ...engine.layout import plan_cylinders
