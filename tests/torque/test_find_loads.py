@@ -93,7 +93,7 @@ def test_a_bearing_whose_loads_cancel_bears_nothing():
         'banks = [-90, 90]\nrods = "alternating"\nstrokes = 2\nfiring_order = [1, 2]\n'
         "firing_intervals = [0, 360]",
     )
-    outer, middle, _ = analyze_loads(engine(text + WIEBE), ("main",)).main
+    outer, middle, _ = analyze_loads(build_text(text + WIEBE), ("main",)).main
     assert (middle.largest.value, middle.largest.angle, middle.mean) == (0, 0, 0)
     assert outer.largest.value > outer.mean > 1000
 

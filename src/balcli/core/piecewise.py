@@ -29,9 +29,7 @@ _RESOLVED = 2e-14  # last terms of a series, relative to the largest value of th
 _NOISE = 1e-5  # last terms below this share that halving hardly lowers are rounding errors
 _HARDLY = 0.75
 _HALVINGS = 48
-_EVERYWHERE = (
-    256  # times as many panels: what halving everywhere does not show is nothing but noise
-)
+_EVERYWHERE = 256  # times as many panels: what these do not show is nothing but noise
 _SAME = 1e-11  # rad; an angle so near to a breakpoint is the breakpoint
 _SAME_X = 1e-15  # of a panel's half width, where Newton's method has arrived
 _NOTHING = 1e-9  # values below this share of the largest have no sign
