@@ -100,11 +100,9 @@ def test_the_phase_sum_counts_what_a_misfire_leaves(diesel):
 
 def test_misfires_that_cannot_be(diesel):
     assert refusal("torsion", diesel, "--misfire", "7") == (
-        "--misfire 7: there is no such cylinder; there are 6 cylinders"
+        "--misfire 7: six has the cylinders 1, 2, 3, 4, 5, 6"
     )
-    assert refusal("torsion", "-", "--misfire", "1", stdin=write_diesel()) == (
-        "--misfire: the engine has no [gas], so that nothing fires"
-    )
+    assert "has no [gas]" in refusal("torsion", "-", "--misfire", "1", stdin=write_diesel())
     chain = '[[node]]\nname = "a"\ninertia = 1\n'
     assert refusal("torsion", "-", "--misfire", "1", stdin=chain) == (
         "--misfire: a chain has no cylinders"

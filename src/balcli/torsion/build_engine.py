@@ -18,10 +18,11 @@ from ..enginefile.fields import counted, nearest, printable, shorten
 from ..enginefile.model import EngineFile
 from ..enginefile.shafting import find_stiffness
 from ..enginefile.torsion_tables import Part, Torsion
-from ..errors import BalcliError, InputError, Problem
+from ..errors import InputError, Problem
 from ..forces.orders import list_gas_orders
 from ..forces.spectrum import compute_each_cylinder
 from ..limits import HIGHEST_TORSION_ORDER, HIGHEST_TORSION_ORDER_UNASKED
+from ..torque.course import silence
 from .assembly import Limits, PlannedNode, PlannedShaft, assemble_system, find_section
 from .system import Excitation, Section, TorsionalSystem
 
@@ -193,7 +194,9 @@ def excite_engine(
     """
     front = 0 if model.torsion is None else len(model.torsion.front)
     nodes = front + np.array([weighed.throw for weighed in engine.weighed])
-    engine = _let_misfire(replace(engine, ripple=(), speed_rpm=30 / np.pi), misfires)  # 1 rad/s
+    engine = replace(engine, ripple=(), speed_rpm=30 / np.pi)  # 1 rad/s
+    for number in misfires:
+        engine = silence(engine, number)
     if orders is None:
         orders = _list_orders(engine)
     growing = compute_each_cylinder(engine, orders, ("torque",))["torque"].x
@@ -209,18 +212,6 @@ def _list_orders(engine: Engine) -> Real:
         return np.arange(1.0, HIGHEST_TORSION_ORDER_UNASKED + 1)
     listed = list_gas_orders(engine)
     return listed[listed <= HIGHEST_TORSION_ORDER]
-
-
-def _let_misfire(engine: Engine, misfires: Sequence[int]) -> Engine:
-    gas = engine.gas
-    if misfires and gas is None:
-        raise BalcliError("--misfire: the engine has no [gas], so that nothing fires")
-    for number in misfires:
-        if number not in engine.numbers:
-            count = counted(len(engine.numbers), "cylinder")
-            raise BalcliError(f"--misfire {number}: there is no such cylinder; there are {count}")
-        gas = gas and gas.with_share(engine.numbers.index(number), 0.0)
-    return replace(engine, gas=gas)
 
 
 # ------------------------------------------------------------------ what does not fit together
