@@ -79,6 +79,28 @@ def test_a_misfire_takes_a_quarter_of_the_work():
         silence(four, 5)
 
 
+@pytest.mark.parametrize("strokes", [2, 4])
+def test_inertia_that_cancels_makes_no_torque(strokes):
+    """Twenty-four cylinders: what is left of orders 24 (two strokes) and 12 is nothing or little,
+    and does no work.
+    """
+    throws = [15 * strokes // 2 * k % 360 for k in range(24)]
+    order = ", ".join(map(str, [1, *range(24, 1, -1)]))
+    text = FOUR.replace("throws = [0, 180, 180, 0]", f"throws = {throws}")
+    text = text.replace("firing_order = [1, 3, 4, 2]", f"firing_order = [{order}]")
+    engine = build_text(text.replace("[layout]", f"[layout]\nstrokes = {strokes}") + WIEBE)
+    for number in engine.numbers:
+        engine = silence(engine, number)
+    found = analyze_torque(engine)
+    lowest, highest = found.curves.total.extremes()
+    assert found.surplus.work == 0
+    if strokes == 2:
+        assert (lowest.value, highest.value, found.surplus.energy) == (0, 0, 0)
+    else:
+        want = compute_spectra(engine, np.array([12.0]), ["torque"])["torque"].major[0]
+        assert 0 < want == pytest.approx(highest.value, rel=1e-4)
+
+
 def test_one_cylinder_is_shown_with_its_share():
     found = analyze_torque(draw_engine(1), [0.5, 1], cylinder=1)
     gas = found.engine.gas.cylinders[found.engine.numbers.index(1)]

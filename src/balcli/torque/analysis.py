@@ -131,7 +131,7 @@ def analyze_torque(
     shown = list_gas_orders(engine) if orders is None else check_orders(orders)
     row = find_row(engine, cylinder, "--cylinder")
     curves = find_torque_curves(steady)
-    above = surplus(curves.total)
+    above = surplus(curves.total)._replace(work=curves.gas.integral)  # inertia does none
     swept = sum(c.piston.swept for c in gas.cylinders)
     asked = Question(
         curves.gas_once,

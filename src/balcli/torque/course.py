@@ -20,6 +20,8 @@ from ..engine.gas import EngineGas
 from ..errors import BalcliError
 from ..forces.curves import compute_inertia_torque, compute_moving_inertia
 from ..forces.gas import take_gas
+from ..forces.orders import find_relevant_orders
+from ..forces.spectrum import compute_spectra
 
 
 class TorqueCurves(NamedTuple):
@@ -67,8 +69,13 @@ def count_repeats(engine: Engine) -> int:
 
 
 def find_inertia_torque(engine: Engine) -> Function:
-    """Inertia torque (N m) at crank angles (rad) of any shape, at the mean speed."""
+    """Inertia torque (N m) at crank angles (rad) of any shape, at the mean speed; 0 everywhere
+    where cylinders cancel each other's to rounding errors.
+    """
     steady = replace(engine, ripple=())
+    torque = compute_spectra(steady, find_relevant_orders(steady), ("torque",))["torque"]
+    if torque.major.sum() <= torque.noise.sum():
+        return np.zeros_like
     return _at_radians(lambda degrees: compute_inertia_torque(steady, degrees))
 
 
