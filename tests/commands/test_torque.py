@@ -594,3 +594,13 @@ def test_what_a_flywheel_needs_is_told_without_the_crankshaft(tmp_path):
     assert f"in all, {both - 0.04:.5g} of it in the flywheel" in words
     found, words = told(FOUR.replace("[crank]", "[crank]\ninertia = 4e6") + WIEBE)
     assert "in all, which is there without a flywheel" in words
+    rotary = FOUR.replace("throws = [0, 180, 180, 0]", "inertia = 4e6")
+    rotary = rotary.replace("firing_order = [1, 3, 4, 2]", "radial = 3\nrotary = true\nstrokes = 2")
+    code, words, warning = run_here("torque", "-", *asked, stdin=rotary + WIEBE)
+    assert (code, "stands still" in warning) == (0, True)
+    assert "of it in the flywheel" in words
+
+
+def test_help_tells_the_orders_that_there_are():
+    help_text = " ".join(torque("--help").split())
+    assert "default: all to 12, and of very many cylinders" in help_text

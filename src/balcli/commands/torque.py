@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..render.formats import Units
 from . import torque_options as own
 from .file_names import require_ending, text_format
-from .options import FormatOption, Misfire, Orders, Output, Speed, UnitsOption
+from .options import FormatOption, Misfire, Output, Speed, UnitsOption
 from .output import draws_sketch, show
 from .overwrite_guard import refuse_overwriting
 
@@ -22,7 +22,7 @@ def torque(
     write: own.Write = None,
     plot: own.Plot = False,
     speed: Speed = None,
-    orders: Orders = None,
+    orders: own.Orders = None,
     form: FormatOption = None,
     units: UnitsOption = Units.SI,
     output: Output = None,

@@ -60,6 +60,15 @@ Inertia = Annotated[
     str | None,
     optional("KG_MM2", "With --curve: of all that turns, in kg mm^2 or as '2 kg m^2'."),
 ]
+Orders = Annotated[
+    str | None,
+    optional(
+        "1-8|0.5-8|1,2,4",
+        "Orders to show, halves too where a range begins or ends with one; default: all to 12, "
+        "and of very many cylinders that of firing and its double.",
+        "--orders",
+    ),
+]
 Plot = Annotated[
     bool, typer.Option("--plot", help="Also draw, with characters: the torque over the cycle.")
 ]

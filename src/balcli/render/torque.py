@@ -245,7 +245,7 @@ def sheet(result: Result, system: System) -> Sheet:
     name = result.engine.name or NAMELESS
     parts = [_work_facts(result, system)]
     parts.append(_course_facts(result.curves.total, result.surplus, result.cycle_deg, system))
-    crank = result.engine.crank_inertia
+    crank = 0.0 if result.engine.rotary else result.engine.crank_inertia
     parts += _flywheel_facts(
         result.flywheel, result.cycle_deg, None if crank is None else float(crank)
     )
@@ -355,7 +355,7 @@ def _course_facts(
 def _flywheel_facts(
     flywheel: Flywheel | None, cycle_deg: float, crank: float | None = None
 ) -> Iterator[Facts]:
-    """`crank`: inertia of the crankshaft by itself, kg m2, if it is known."""
+    """`crank`: inertia of the crankshaft by itself, kg m2, if it is known; 0 if it stands still."""
     if flywheel is None:
         return
     pairs = []
