@@ -140,7 +140,8 @@ def test_what_a_crank_needs_that_stalls(four, tmp_path):
     arguments = (four, "--speed", "100", "--fluctuation", "1/50")
     assert "speed    the shaft stalls at" in torque(*arguments)
     found = json.loads(torque(*arguments, "-f", "json"))["flywheel"]
-    assert set(found) == {"inertia_kg_m2", "moving_parts_kg_m2", "needed_kg_m2"}
+    assert set(found) == {"inertia_kg_m2", "moving_parts_kg_m2", "needed_kg_m2", "stall"}
+    assert found["stall"].startswith("the shaft stalls at")
     status, _, err = run_here("torque", *arguments, "--write", str(tmp_path / "out.toml"))
     assert status == 2
     assert "balcli: --write: the shaft stalls at" in err

@@ -162,7 +162,8 @@ def _flywheel_entry(flywheel: Flywheel | None) -> dict[str, Any]:
         "speed_max_rpm": speed and speed.highest.value * RPM,
         "speed_min_rpm": speed and speed.lowest.value * RPM,
     }
-    return {"flywheel": {key: clean(value) for key, value in figures.items() if value is not None}}
+    known = {key: clean(value) for key, value in figures.items() if value is not None}
+    return {"flywheel": {**known, "stall": flywheel.stall} if flywheel.stall else known}
 
 
 # ------------------------------------------------------------------ a list
