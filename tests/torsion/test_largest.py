@@ -108,3 +108,20 @@ def test_no_barred_range_is_too_narrow_to_be_found():
     )
     (span,) = fine["barred_rpm"]
     assert coarse["barred_rpm"] == [pytest.approx(span, rel=1e-8)]
+
+
+def test_between_two_barred_resonances_runs_are_allowed():
+    """Asked at two speeds alone, all from the first resonance to the last was barred."""
+    text = "loss = 0.001\nlimit = 10\n"
+    for name, inertia in (("a", 100000), ("b", 200000), ("c", 50000)):
+        text += f'[[node]]\nname = "{name}"\ninertia = {inertia}\n'
+    for ends in ("ab", "bc"):
+        text += f'[[shaft]]\nfrom = "{ends[0]}"\nto = "{ends[1]}"\n'
+        text += "stiffness = 100000\ndiameter = 30\n"
+    text += '[[excitation]]\nnode = "a"\norder = 1\ncos = 3\n'
+    fine, coarse = (
+        json.loads(run_here("torsion", "-", "--speeds", speeds, "-f", "json", stdin=text).out)
+        for speeds in ("5000:20000:10", "5000,20000")
+    )
+    assert len(fine["barred_rpm"]) == 2
+    assert np.ravel(coarse["barred_rpm"]) == pytest.approx(np.ravel(fine["barred_rpm"]), rel=1e-6)

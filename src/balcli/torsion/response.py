@@ -358,8 +358,8 @@ def find_barred(
 ) -> tuple[tuple[float, float], ...] | None:
     """Ranges of speed (rpm) in which a limit of the file is passed; None where it has none.
 
-    Between the speeds of the response those of criticals and damped resonances are looked at, too;
-    the ends of a range are found by halving.
+    Between the speeds of the response those of criticals and damped resonances are looked at, too,
+    and the middle between two that pass it; the ends of a range are found by halving.
     """
     if system.limit_pa is None and system.angle_limit is None:
         return None
@@ -376,6 +376,10 @@ def find_barred(
     )
     rising = np.argsort(speeds)
     speeds, above = speeds[rising], excess[rising] > 0
+    gaps = np.flatnonzero(above[1:] & above[:-1])  # such as between two resonances
+    middle = (speeds[gaps] + speeds[gaps + 1]) / 2
+    speeds = np.insert(speeds, gaps + 1, middle)
+    above = np.insert(above, gaps + 1, _exceed(system, excitation, middle) > 0)
     changes = np.flatnonzero(above[1:] != above[:-1])
     low, high, upward = speeds[changes], speeds[changes + 1], above[changes + 1]
     for _ in range(_HALVINGS if len(changes) else 0):
