@@ -144,7 +144,7 @@ CASES = [
     ),
     (
         'planes = ["a"]\n[run]\nreadings = ["1 @ 0"]\n',
-        "run: is one of several; write [[run]] in double brackets",
+        "run: is one of several; write [[run]] in double brackets, once for each run",
     ),
     ('planes = ["a"]\nrun = [3]\n', "run.1: 3 is not a table; write [[run]] above it"),
     (

@@ -6,21 +6,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
-from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from ..enginefile.fields import counted, nearest, printable, shorten
-from ..enginefile.messages import describe_finding, is_miscounted, join_path
+from ..enginefile.messages import describe_finding, join_path
 from ..enginefile.model import Table
+from ..enginefile.table_reader import TableReader
 from ..enginefile.toml_text import name_file, parse_toml, read_bytes
 from ..enginefile.units import MASS
-from ..errors import InputError, Problem
-from ..limits import MOST_MISTAKES_SHOWN, MOST_RUNS
+from ..errors import Problem
+from ..limits import MOST_RUNS
 from .model import Run, RunsFile, read_amount_unit
 
-T = TypeVar("T", bound=Table)
 BY_PLANE = ("radius", "most", "places", "drill", "deepest", "shares")
 _NEEDED = {
     "planes": 'is missing; name the planes that take weights, such as planes = ["front", "rear"]',
@@ -45,84 +44,36 @@ def parse_runs(text: str | bytes, file: str = "") -> RunsFile:
 
 def check_runs(data: Mapping[str, Any], file: str = "") -> RunsFile:
     """The runs that tables describe, as TOML is read; otherwise as `parse_runs`."""
-    problems: list[Problem] = []
-    head = {key: value for key, value in data.items() if key != "run"}
-    model = _read_table("", head, RunsFile, problems)
-    runs = _read_list_of_runs(data.get("run"), problems)
-    if not problems and model is not None:
-        model = model.model_copy(update={"run": tuple(run for run in runs if run is not None)})
+    reader = TableReader("a file of runs", _describe)
+    stand_in = {"run": [Run.model_construct(readings=(0j,))]}  # runs are read one by one
+    model = reader.read_table("", {**data, **stand_in}, RunsFile)
+    if "run" in data:
+        runs = reader.read_list("run", data["run"], Run, MOST_RUNS)
+    else:
+        runs = ()
+        reader.problems.append(Problem("run", _NEEDED["run"]))
+    if not reader.problems and model is not None:
+        model = model.model_copy(update={"run": runs})
     if model is not None:
         numbered = [(k, run) for k, run in enumerate(runs, 1) if run is not None]
-        problems += _find_misfits(model, numbered)
-    if problems or model is None:
-        more = max(len(problems) - MOST_MISTAKES_SHOWN, 0)
-        raise InputError(problems[:MOST_MISTAKES_SHOWN], file, more)
+        reader.problems += _find_misfits(model, numbered)
+    if reader.problems or model is None:
+        raise reader.refusal(file)
     return model
 
 
-def _read_list_of_runs(value: object, problems: list[Problem]) -> list[Run | None]:
-    if value is None:
-        problems.append(Problem("run", _NEEDED["run"]))
-        return []
-    if not isinstance(value, list):
-        problems.append(Problem("run", "is one of several; write [[run]] in double brackets"))
-        return []
-    if len(value) > MOST_RUNS:
-        problems.append(Problem("run", f"stands {len(value)} times; at most {MOST_RUNS} are taken"))
-        return []
-    return [_read_table(f"run.{k}", run, Run, problems) for k, run in enumerate(value, 1)]
-
-
-def _read_table(path: str, value: object, table: type[T], problems: list[Problem]) -> T | None:
-    """The table, or None with its mistakes added to the problems."""
-    if not isinstance(value, Mapping):
-        problems.append(Problem(path, f"{shorten(value)} is not a table; write [[run]] above it"))
-        return None
-    known = {key: part for key, part in value.items() if key in table.model_fields}
-    unknown = [key for key in value if key not in known]
-    found = [_refuse_key(path, key, table) for key in unknown]
-    meant = {nearest(key, table.model_fields) for key in unknown}
-    if table is RunsFile:  # its runs are read one by one
-        known["run"] = [Run.model_construct(readings=(0j,))]
-    try:
-        read = table.model_validate(known)
-    except ValidationError as error:
-        read = None
-        found += [
-            _translate(path, finding, table)
-            for finding in error.errors(include_url=False)
-            if not is_miscounted(finding)
-            and not (finding["type"] == "missing" and finding["loc"][-1] in meant)
-        ]
-    problems += found
-    return read
-
-
-def _refuse_key(path: str, key: str, table: type[Table]) -> Problem:
-    place = "in [[run]]" if path else "in a file of runs"
-    near = nearest(key, table.model_fields)
-    hint = f"did you mean {near}?" if near else f"it has {', '.join(table.model_fields)}"
-    return Problem(_join(path, printable(key)), f"unknown key {place}; {hint}")
-
-
-def _translate(path: str, finding: ErrorDetails, table: type[Table]) -> Problem:
-    if finding["type"] == "missing" and str(finding["loc"][-1]) in _NEEDED:
-        return Problem(str(finding["loc"][-1]), _NEEDED[str(finding["loc"][-1])])
-    if finding["type"] == "tuple_type" and finding["loc"][-1] in BY_PLANE:
-        key, value = str(finding["loc"][-1]), shorten(finding["input"])
-        text = f"{value} is one value; give one for each plane, such as {key} = [{value}, {value}]"
-        return Problem(key, text)
+def _describe(path: str, finding: ErrorDetails, table: type[Table]) -> Problem:
+    last = str(finding["loc"][-1])
+    if finding["type"] == "missing" and last in _NEEDED:
+        return Problem(last, _NEEDED[last])
+    if finding["type"] == "tuple_type" and last in BY_PLANE:
+        value = shorten(finding["input"])
+        text = f"{value} is one value; give one for each plane, such as {last} = [{value}, {value}]"
+        return Problem(last, text)
     if finding["type"] == "dict_type":
-        text = '{value} is not a table; write it like {{ front = "1.15 @ 0" }}'
-        return Problem(
-            _join(path, *map(str, finding["loc"])), text.format(value=shorten(finding["input"]))
-        )
-    problem = describe_finding(path, finding, table)
-    return problem._replace(path=problem.path.lstrip("."))
-
-
-def _join(*parts: str) -> str:
-    return join_path("", parts).strip(".") if parts[0] == "" else join_path(parts[0], parts[1:])
+        text = f'{shorten(finding["input"])} is not a table; write it like {{ front = "1.15 @ 0" }}'
+        return Problem(join_path(path, finding["loc"]), text)
+    return describe_finding(path, finding, table)
 
 
 # ------------------------------------------------------------------ what does not fit together

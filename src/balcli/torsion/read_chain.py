@@ -5,19 +5,18 @@ right.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, TypeVar
+from typing import Any
 
-from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from ..enginefile.fields import counted, nearest, printable, shorten
-from ..enginefile.messages import describe_finding, find_inner_table, is_miscounted, join_path
+from ..enginefile.messages import describe_finding, find_inner_table, join_path
 from ..enginefile.model import Table
-from ..errors import InputError, Problem
-from ..limits import MOST_LIST_VALUES, MOST_MISTAKES_SHOWN, MOST_TORSION_NODES
+from ..enginefile.table_reader import TableReader
+from ..errors import Problem
+from ..limits import MOST_LIST_VALUES, MOST_TORSION_NODES
 from .chain_file import ChainFile, ChainShaft, Excitation, Gear, Node
 
-T = TypeVar("T", bound=Table)
 LISTS: tuple[type[Table], ...] = (Node, ChainShaft, Gear, Excitation)
 KEYS = ("node", "shaft", "gear", "excitation")
 
@@ -33,77 +32,24 @@ def read_chain_tables(data: Mapping[str, Any], file: str = "") -> ChainFile:
     Raises:
         InputError: with every mistake.
     """
-    reader = _Reader()
+    reader = TableReader("a chain file", _describe)
     head = {key: value for key, value in data.items() if key not in KEYS}
     model = reader.read_table("", head | {"node": []}, ChainFile)
-    lists = {
-        "node": reader.read_list("node", data.get("node", []), Node),
-        "shaft": reader.read_list("shaft", data.get("shaft", []), ChainShaft),
-        "gear": reader.read_list("gear", data.get("gear", []), Gear),
-        "excitation": reader.read_list("excitation", data.get("excitation", []), Excitation),
-    }
-    problems = [*reader.problems, *_find_misfits(data)]
-    if problems or model is None:
-        more = max(len(problems) - MOST_MISTAKES_SHOWN, 0)
-        raise InputError(problems[:MOST_MISTAKES_SHOWN], file, more)
-    return model.model_copy(update=lists)
-
-
-class _Reader:
-    """Reads tables one by one and collects the mistakes."""
-
-    def __init__(self) -> None:
-        self.problems: list[Problem] = []
-
-    def read_list(self, key: str, value: object, table: type[T]) -> tuple[T | None, ...]:
-        if not isinstance(value, list):
-            wanted = f"write [[{key}]] in double brackets, once for each {key}"
-            self.problems.append(Problem(key, f"is one of several; {wanted}"))
-            return ()
+    lists = {}
+    for key, table in zip(KEYS, LISTS, strict=True):
         most = MOST_TORSION_NODES if key == "node" else MOST_LIST_VALUES
-        if len(value) > most:
-            text = f"stands {len(value)} times; at most {most} are taken"
-            self.problems.append(Problem(key, text))
-            return ()
-        return tuple(self.read_table(f"{key}.{k}", item, table) for k, item in enumerate(value, 1))
-
-    def read_table(self, path: str, value: object, table: type[T]) -> T | None:
-        """The table, or None with its mistakes added to the problems."""
-        if not isinstance(value, Mapping):
-            above = f"[[{path.partition('.')[0]}]]"
-            text = f"{shorten(value)} is not a table; write {above} above it"
-            self.problems.append(Problem(path, text))
-            return None
-        keys = table.keys()
-        known = {key: part for key, part in value.items() if key in keys}
-        unknown = [key for key in value if key not in keys]
-        self.problems += [_refuse_key(path, key, table) for key in unknown]
-        meant = {nearest(key, keys) for key in unknown}
-        try:
-            return table.model_validate(known)
-        except ValidationError as error:
-            self.problems += [
-                _describe(path, finding, table)
-                for finding in error.errors(include_url=False)
-                if not is_miscounted(finding)
-                and not (finding["type"] == "missing" and finding["loc"][-1] in meant)
-            ]
-            return None
-
-
-def _refuse_key(path: str, key: str, table: type[Table]) -> Problem:
-    place = f"in [[{path.partition('.')[0]}]]" if path else "in a chain file"
-    near = nearest(key, table.keys())
-    hint = f"did you mean {near}?" if near else f"it has {', '.join(table.keys())}"
-    return Problem(join_path(path, [key]).lstrip("."), f"unknown key {place}; {hint}")
+        lists[key] = reader.read_list(key, data.get(key, []), table, most)
+    reader.problems += _find_misfits(data)
+    if reader.problems or model is None:
+        raise reader.refusal(file)
+    return model.model_copy(update=lists)
 
 
 def _describe(path: str, finding: ErrorDetails, table: type[Table]) -> Problem:
     if finding["type"] == "extra_forbidden":
         hint = f"it has {', '.join(find_inner_table(table, finding['loc']).keys())}"
         return Problem(join_path(path, finding["loc"]), f"unknown key in a damper; {hint}")
-    problem = describe_finding(path, finding, table)
-    return problem._replace(path=problem.path.lstrip("."))
+    return describe_finding(path, finding, table)
 
 
 # ------------------------------------------------------------------ what does not fit together

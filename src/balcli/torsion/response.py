@@ -25,6 +25,7 @@ _AT_A_TIME = 1 << 20  # samples of a cycle, of all shafts and speeds, that are c
 _ROUNDS = 12  # in which the speeds are looked at, those with the largest amplitudes first
 _NEAR = 0.9  # of the largest at the speeds looked at: what a peak beside them may exceed
 _BESIDE = np.array([-1, 0, 1])  # speeds looked at about a resonance, in widths
+_WIDE = 3.0  # steps of the speeds: of a wider resonance one of them shows 95 %
 _UNDAMPED = 1e-9  # a pole with a smaller share of damping is rounding
 _HALVINGS = 24  # of an interval of speeds in which a limit is passed
 
@@ -128,13 +129,18 @@ def find_response(
         swings,
         heat,
         names,
-        _find_worst(system, excitation, speeds_rpm),
+        _find_worst(system, excitation, speeds_rpm, np.column_stack([torque, free_end])),
     )
 
 
-def _find_worst(system: TorsionalSystem, excitation: Excitation, speeds_rpm: Real) -> Worst:
+def _find_worst(
+    system: TorsionalSystem, excitation: Excitation, speeds_rpm: Real, swings: Real
+) -> Worst:
+    """Of each shaft and the first node, whose swings at these speeds are known, (speeds, shafts +
+    1).
+    """
     count = len(system.shafts)
-    rpm, height = find_largest(system, excitation, speeds_rpm, range(count + 1))
+    rpm, height = _approach_largest(system, excitation, speeds_rpm, range(count + 1), swings)
     each = np.arange(count)
     torque = _find_curves(system, excitation, rpm)[:, each, each]
     return Worst(
@@ -164,8 +170,25 @@ def find_largest(
     """
     _refuse_too_many(len(excitation.orders), len(speeds_rpm), len(system.shafts))
     _refuse_resonance(system, excitation, speeds_rpm)
-    speeds = np.union1d(speeds_rpm, _find_resonant_speeds(system, excitation, speeds_rpm))
-    swings = _find_large_swings(system, excitation, speeds, curves)
+    swings = _find_large_swings(system, excitation, speeds_rpm, curves, np.zeros(len(curves)))
+    return _approach_largest(system, excitation, speeds_rpm, curves, swings)
+
+
+def _approach_largest(
+    system: TorsionalSystem,
+    excitation: Excitation,
+    speeds_rpm: Real,
+    curves: Sequence[int],
+    swings: Real,
+) -> tuple[Real, Real]:
+    """The same, with the swings at these speeds (speeds, curves), of which small ones may be 0."""
+    about = np.setdiff1d(_find_resonant_speeds(system, excitation, speeds_rpm), speeds_rpm)
+    speeds = np.concatenate([speeds_rpm, about])
+    if len(about):
+        beside = _find_large_swings(system, excitation, about, curves, swings.max(axis=0))
+        swings = np.concatenate([swings, beside])
+    rising = np.argsort(speeds)
+    speeds, swings = speeds[rising], swings[rising]
     largest, rpm = swings.max(axis=0), speeds[swings.argmax(axis=0)]
     ends = np.zeros((1, len(curves)))
     around = np.concatenate([ends, swings, ends])
@@ -190,10 +213,14 @@ def find_largest(
 
 
 def _find_large_swings(
-    system: TorsionalSystem, excitation: Excitation, rpm: Real, curves: Sequence[int]
+    system: TorsionalSystem,
+    excitation: Excitation,
+    rpm: Real,
+    curves: Sequence[int],
+    largest: Real,
 ) -> Real:
     """Half of peak to peak of some curves, as of `find_largest`, at these speeds (speeds, curves),
-    wherever it is near the largest; elsewhere 0.
+    wherever it is near the largest, here or known of elsewhere (curves,); elsewhere 0.
 
     No curve swings further than the sum of its amplitudes, so that most need not be added up.
     """
@@ -201,7 +228,8 @@ def _find_large_swings(
     most = sum_amplitudes(found)
     swings = np.zeros_like(most)
     for some in np.array_split(np.argsort(-most, axis=0), _ROUNDS):
-        near = np.take_along_axis(most, some, axis=0) >= _NEAR * swings.max(axis=0)
+        largest = np.maximum(largest, swings.max(axis=0))
+        near = np.take_along_axis(most, some, axis=0) >= _NEAR * largest
         speed, curve = np.nonzero(near)
         if not len(speed):
             break
@@ -221,8 +249,10 @@ def _find_curves(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> 
 
 def _find_resonant_speeds(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> Real:
     """Speeds (rpm) within a range at which an order meets a damped resonance, and beside it, as
-    near as it is wide.
+    near as it is wide; those so wide that these speeds (rpm) show them anyway are left out.
     """
+    if len(rpm) == 1:
+        return np.zeros(0)
     orders = excitation.orders
     if system.pendulums:  # their inertia differs from order to order
         poles = [find_poles(system, float(order)) for order in orders]
@@ -231,8 +261,10 @@ def _find_resonant_speeds(system: TorsionalSystem, excitation: Excitation, rpm: 
     found = [np.zeros(0)]
     for order, each in zip(orders, poles, strict=True):
         damped = each[(each.imag > 0) & (-each.real > _UNDAMPED * np.abs(each))]
-        about = damped.imag - 2 * damped.real * _BESIDE[:, None]
-        found.append(about.ravel() * (30 / np.pi / order))
+        at, width = damped.imag * (30 / np.pi / order), -damped.real * (60 / np.pi / order)
+        steps = np.diff(rpm)[np.clip(np.searchsorted(rpm, at) - 1, 0, len(rpm) - 2)]
+        narrow = width < _WIDE * steps
+        found.append((at + width * _BESIDE[:, None])[:, narrow].ravel())
     speeds = np.concatenate(found)
     return speeds[(speeds > rpm[0]) & (speeds < rpm[-1])]
 

@@ -1,0 +1,85 @@
+"""The tables of a file that is of no engine (runs of a rotor, a chain of inertias), read one by
+one: every mistake by its path, with what would be right.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TypeVar
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from ..errors import InputError, Problem
+from ..limits import MOST_MISTAKES_SHOWN
+from .fields import nearest, shorten
+from .messages import is_miscounted, join_path
+from .model import Table
+
+T = TypeVar("T", bound=Table)
+
+
+class TableReader:
+    """Reads tables and collects the mistakes.
+
+    Args:
+        file_kind: what the file is, in words: "a chain file".
+        describe: one of pydantic's findings in a table with this path, in words.
+
+    Attributes:
+        problems: the mistakes so far.
+    """
+
+    def __init__(
+        self, file_kind: str, describe: Callable[[str, ErrorDetails, type[Table]], Problem]
+    ) -> None:
+        self._file_kind, self._describe = file_kind, describe
+        self.problems: list[Problem] = []
+
+    def read_list(self, key: str, value: object, table: type[T], most: int) -> tuple[T | None, ...]:
+        """The tables under a key, of which there may be so many; None for those with mistakes."""
+        if not isinstance(value, list):
+            wanted = f"write [[{key}]] in double brackets, once for each {key}"
+            self._add(key, f"is one of several; {wanted}")
+            return ()
+        if len(value) > most:
+            self._add(key, f"stands {len(value)} times; at most {most} are taken")
+            return ()
+        return tuple(self.read_table(f"{key}.{k}", item, table) for k, item in enumerate(value, 1))
+
+    def read_table(self, path: str, value: object, table: type[T]) -> T | None:
+        """The table with this path (empty: the file itself); None if it has mistakes."""
+        if not isinstance(value, Mapping):
+            self._add(path, f"{shorten(value)} is not a table; write {_heading(path)} above it")
+            return None
+        keys = table.keys()
+        unknown = [key for key in value if key not in keys]
+        for key in unknown:
+            self._refuse_key(path, key, table)
+        meant = {nearest(key, keys) for key in unknown}
+        try:
+            return table.model_validate({key: value[key] for key in value if key in keys})
+        except ValidationError as error:
+            for finding in error.errors(include_url=False):
+                is_meant = finding["type"] == "missing" and finding["loc"][-1] in meant
+                if not (is_meant or is_miscounted(finding)):
+                    self._add(*self._describe(path, finding, table))
+            return None
+
+    def refusal(self, name: str) -> InputError:
+        """The error that lists the mistakes of the file with this name."""
+        more = max(len(self.problems) - MOST_MISTAKES_SHOWN, 0)
+        return InputError(self.problems[:MOST_MISTAKES_SHOWN], name, more)
+
+    def _refuse_key(self, path: str, key: str, table: type[Table]) -> None:
+        place = f"in {_heading(path)}" if path else f"in {self._file_kind}"
+        near = nearest(key, table.keys())
+        hint = f"did you mean {near}?" if near else f"it has {', '.join(table.keys())}"
+        self._add(join_path(path, [key]), f"unknown key {place}; {hint}")
+
+    def _add(self, path: str, message: str) -> None:
+        self.problems.append(Problem(path.lstrip("."), message))
+
+
+def _heading(path: str) -> str:
+    return f"[[{path.partition('.')[0]}]]"
