@@ -125,3 +125,13 @@ def test_between_two_barred_resonances_runs_are_allowed():
     )
     assert len(fine["barred_rpm"]) == 2
     assert np.ravel(coarse["barred_rpm"]) == pytest.approx(np.ravel(fine["barred_rpm"]), rel=1e-6)
+
+
+def test_beside_a_single_speed_nothing_is_looked_for(monkeypatch):
+    """A chain of two hundred took eight seconds."""
+    monkeypatch.delattr("balcli.torsion.response.find_peaks_between")
+    text = write_engine(0.005)
+    told = json.loads(run_here("torsion", "-", "--speeds", "1790", "-f", "json", stdin=text).out)
+    for shaft in told["response"]["shafts"]:
+        assert shaft["worst"]["speed_rpm"] == 1790
+        assert [shaft["worst"]["half_peak_to_peak_Nm"]] == shaft["half_peak_to_peak_Nm"]

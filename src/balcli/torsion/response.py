@@ -194,7 +194,7 @@ def _approach_largest(
     around = np.concatenate([ends, swings, ends])
     peak = (swings >= around[:-2]) & (swings >= around[2:]) & (swings > _NEAR * largest)
     at, curve = np.nonzero(peak)
-    if not len(at):  # nothing twists these shafts
+    if not len(at) or len(speeds) == 1:  # nothing twists these shafts, or between no speeds
         return rpm, largest
     each, column = np.arange(len(at)), np.array(curves)[curve]
 
