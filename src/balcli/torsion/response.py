@@ -196,11 +196,11 @@ def _approach_largest(
     at, curve = np.nonzero(peak)
     if not len(at) or len(speeds) == 1:  # nothing twists these shafts, or between no speeds
         return rpm, largest
-    each, column = np.arange(len(at)), np.array(curves)[curve]
+    column = np.array(curves)[curve]
 
     def evaluate(rpm: Real) -> Real:
-        found = _find_curves(system, excitation, rpm.ravel())
-        found = found.reshape(len(found), *rpm.shape, -1)[..., each, column]
+        few, which = np.unique(rpm, return_inverse=True)  # many curves peak between the same two
+        found = _find_curves(system, excitation, few)[:, which.reshape(rpm.shape), column]
         return find_swing(excitation.orders, found).half
 
     last = len(speeds) - 1
