@@ -253,6 +253,17 @@ def test_an_engine_that_shakes_nothing(tmp_path):
     assert "The mounts feel nothing of the orders that count." in out
 
 
+def test_an_engine_beside_one_that_shakes_nothing(tmp_path, four):
+    still = tmp_path / "still.toml"
+    text = ENGINE.replace("0.7", "0").replace("0.6", "0").replace("2500", "0").replace("0.55", "0")
+    still.write_text(text.replace("mass = 0.5\n", "mass = 0\n") + block("loss = 0.1"), "utf-8")
+    out = " ".join(run_here("mounts", still, four).out.split())
+    assert "The mounts feel nothing of the orders that count." in out
+    assert re.search(
+        r"the largest force of any mount is [1-9]\S* k?N at [\d.]+ rpm; the point", out
+    )
+
+
 def test_one_speed(four):
     out = run_here("mounts", four, "--speeds", "1000").out
     assert "range" not in out.partition("Largest force")[0]

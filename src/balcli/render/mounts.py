@@ -42,18 +42,18 @@ def sheet(result: MountReport, system: System) -> Sheet:
 def _answer(result: MountReport, response: Response, system: System) -> Iterator[str]:
     """In words: where it is worst, and why; what a scheme is worth there."""
     name, worst = _find_hardest(result, response)
+    force = system.force
     if worst.value == 0:
         yield "The mounts feel nothing of the orders that count."
-        return
-    force = system.force
-    why = f" {_explain(result, response, worst)}".rstrip()
-    yield (
-        f"The mount {name} feels most: {_tell(worst, force)}, of which order "
-        f"{order_number(worst.order)} alone makes {number(force.of(worst.alone), 4)} "
-        f"{force.name}.{why}"
-    )
+    else:
+        why = f" {_explain(result, response, worst)}".rstrip()
+        yield (
+            f"The mount {name} feels most: {_tell(worst, force)}, of which order "
+            f"{order_number(worst.order)} alone makes {number(force.of(worst.alone), 4)} "
+            f"{force.name}.{why}"
+        )
     moved = _find_farthest(result, response)
-    if moved:
+    if moved and moved[1].value:
         yield f"The point {moved[0]} moves most: {_tell(moved[1], system.length)}."
     if response.loads.gas is None:
         yield "Of inertia alone: the torque of the gas, which rolls an engine too, is not in this."
@@ -61,11 +61,11 @@ def _answer(result: MountReport, response: Response, system: System) -> Iterator
         yield "Of inertia and the torque of the gas, the same diagram at every speed."
     for other in result.beside:
         after = max(other.response.worst_force, key=lambda one: one.value)
-        told = f"the largest force of any mount is {_tell(after, force)}: {_less(after, worst)}"
+        told = f"the largest force of any mount is {_tell(after, force)}{_less(after, worst)}"
         farthest = _find_farthest(result, other.response)
-        if moved and farthest and moved[1].value:
+        if moved and farthest and (moved[1].value or farthest[1].value):
             told += (
-                f"; the point {farthest[0]} moves most, {_tell(farthest[1], system.length)}: "
+                f"; the point {farthest[0]} moves most, {_tell(farthest[1], system.length)}"
                 f"{_less(farthest[1], moved[1])}"
             )
         yield f"With {other.name} {told}."
@@ -76,9 +76,12 @@ def _tell(worst: Worst, unit: Unit) -> str:
 
 
 def _less(after: Worst, before: Worst) -> str:
+    """How much less that is, after a colon; nothing where there was nothing before."""
+    if before.value == 0:
+        return ""
     change = after.value / before.value - 1
     less = f"{abs(change):.0%} {'less' if change < 0 else 'more'}"
-    return "as much" if abs(change) < _SAME else less
+    return ": as much" if abs(change) < _SAME else f": {less}"
 
 
 def _find_farthest(result: MountReport, response: Response) -> tuple[str, Worst] | None:
