@@ -259,9 +259,7 @@ def test_an_engine_beside_one_that_shakes_nothing(tmp_path, four):
     still.write_text(text.replace("mass = 0.5\n", "mass = 0\n") + block("loss = 0.1"), "utf-8")
     out = " ".join(run_here("mounts", still, four).out.split())
     assert "The mounts feel nothing of the orders that count." in out
-    assert re.search(
-        r"the largest force of any mount is [1-9]\S* k?N at [\d.]+ rpm; the point", out
-    )
+    assert re.search(r"the largest force of any mount is [1-9]\S* k?N at [\d.]+ rpm\.", out)
 
 
 def test_one_speed(four):
