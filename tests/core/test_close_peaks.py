@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balcli.core.close_peaks import find_peaks_between
+from balcli.core.close_peaks import find_peaks_between, mark_high_peaks
 
 
 def test_a_parabola_is_found_exactly_and_an_end_is_an_end():
@@ -32,3 +32,10 @@ def test_resonances_as_wide_as_the_interval():
 def test_what_is_told_of_a_place_is_the_height_there():
     at, heights = find_peaks_between(np.cos, np.array([-1.0, 5.0]), np.array([0.5, 8.0]))
     assert heights.tolist() == np.cos(at).tolist()
+
+
+def test_peaks_at_the_ends_and_of_equal_height_count_low_ones_do_not():
+    heights = np.array([[5.0, 0], [1, 0], [4.6, 0], [2, 0], [4.4, 0], [3, 0], [5, 0]])
+    marked = mark_high_peaks(heights, 0.9)
+    assert np.flatnonzero(marked[:, 0]).tolist() == [0, 2, 6]
+    assert not marked[:, 1].any()  # 0 is above nothing

@@ -135,3 +135,27 @@ def test_beside_a_single_speed_nothing_is_looked_for(monkeypatch):
     for shaft in told["response"]["shafts"]:
         assert shaft["worst"]["speed_rpm"] == 1790
         assert [shaft["worst"]["half_peak_to_peak_Nm"]] == shaft["half_peak_to_peak_Nm"]
+
+
+def test_the_top_of_a_wide_resonance_between_the_speeds_is_barred():
+    """The ring shifts the resonance from the criticals, and steps of 24 rpm show it anyway, but not
+    its top."""
+    damper = 'damper = { kind = "viscous", inertia = 60000, damping = 50000 }'
+    plain = write_engine(0.05, damper)
+
+    def ask(text, speeds):
+        return json.loads(
+            run_here("torsion", "-", "--speeds", speeds, "-f", "json", stdin=text).out
+        )
+
+    shafts = ask(plain, "1700:1900:200")["response"]["shafts"]
+    top = max((shaft["worst"] for shaft in shafts), key=lambda worst: worst.get("stress_Pa", 0.0))
+    limit, middle = 0.9995 * top["stress_Pa"] / 1e6, top["speed_rpm"]
+    text = plain.replace("[torsion]\n", f"[torsion]\nlimit = {limit!r}\n")
+    around = [
+        ask(text, f"{middle - 12 - 24 * n}:{middle + 12 + 24 * n}:{s}")
+        for n, s in ((3, 24), (0, 1))
+    ]
+    coarse, fine = (said["barred_rpm"] for said in around)
+    assert len(fine) == 1
+    assert np.ravel(coarse) == pytest.approx(np.ravel(fine), rel=1e-8)

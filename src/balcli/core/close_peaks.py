@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .singular_values import Real
 
@@ -42,3 +43,13 @@ def find_peaks_between(judge: Callable[[Real], Real], low: Real, high: Real) -> 
     vertex = np.clip(vertex, low, high)
     there = judge(vertex[None])[0]
     return np.where(there > highest, vertex, best), np.maximum(highest, there)
+
+
+def mark_high_peaks(heights: Real, share: float) -> NDArray[np.bool_]:
+    """Which of the heights (places, functions) are peaks, those at the ends too, and above this
+    share of the highest of their function.
+    """
+    ends = np.zeros((1, heights.shape[1]))
+    around = np.concatenate([ends, heights, ends])
+    peaks = (heights >= around[:-2]) & (heights >= around[2:])
+    return np.asarray(peaks & (heights > share * heights.max(axis=0)))

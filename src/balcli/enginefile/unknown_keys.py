@@ -156,7 +156,7 @@ def _suggest(first: str, key: str, own: list[str]) -> tuple[str, str]:
     """
     instead = INSTEAD.get(key.lower(), "")
     of_engine = first not in {*DEVICES, *CHAPTERS, *CHAPTER_LISTS}
-    if instead and (of_engine or (first == "gas" and instead is _POWER)):
+    if instead and (of_engine or (first == "gas" and instead == _POWER)):
         return instead, ""
     if meant := _find_own(key, own):
         return f"did you mean {meant}?", meant

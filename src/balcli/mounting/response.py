@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.close_peaks import find_peaks_between
+from ..core.close_peaks import find_peaks_between, mark_high_peaks
 from ..core.cycle_peaks import find_longest, largest_of_ellipse
 from ..core.rigid_body import (
     BodyResponse,
@@ -321,7 +321,9 @@ def _find_worst(
     heights = np.concatenate([peaks, *_press_some(mounted, loads, about)])
     rising = np.argsort(np.concatenate([omega, about]))
     speeds, heights = np.concatenate([omega, about])[rising], heights[rising]
-    at, curve = np.nonzero(_find_high_peaks(heights))
+    marked = mark_high_peaks(heights, _NEAR)
+    marked[heights.argmax(axis=0), np.arange(heights.shape[1])] = True  # of what is level, too
+    at, curve = np.nonzero(marked)
     low, high = speeds[np.maximum(at - 1, 0)], speeds[np.minimum(at + 1, len(speeds) - 1)]
 
     def list_own(speeds: Real, curve: NDArray[np.intp]) -> Complex:
@@ -350,18 +352,6 @@ def _find_worst(
         )
         for k in each
     )
-
-
-def _find_high_peaks(heights: Real) -> NDArray[np.bool_]:
-    """Which of the heights (speeds, curves) are peaks near which a curve may be highest; at least
-    one of each.
-    """
-    ends = np.zeros((1, heights.shape[1]))
-    around = np.concatenate([ends, heights, ends])
-    high = (heights >= around[:-2]) & (heights >= around[2:])
-    high &= heights > _NEAR * heights.max(axis=0)
-    high[heights.argmax(axis=0), np.arange(heights.shape[1])] = True
-    return high
 
 
 def _press_some(mounted: MountedBody, loads: Loads, omega: Real) -> Iterator[Real]:

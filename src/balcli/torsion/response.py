@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.close_peaks import find_peaks_between
+from ..core.close_peaks import find_peaks_between, mark_high_peaks
 from ..core.cycle_peaks import find_swing, sum_amplitudes
 from ..core.singular_values import Complex, Real
 from ..core.telling import Tell, tell_nobody
@@ -182,7 +182,8 @@ def _approach_largest(
     swings: Real,
 ) -> tuple[Real, Real]:
     """The same, with the swings at these speeds (speeds, curves), of which small ones may be 0."""
-    about = np.setdiff1d(_find_resonant_speeds(system, excitation, speeds_rpm), speeds_rpm)
+    narrow = _find_resonant_speeds(system, excitation, speeds_rpm, _WIDE)
+    about = np.setdiff1d(narrow, speeds_rpm)
     speeds = np.concatenate([speeds_rpm, about])
     if len(about):
         beside = _find_large_swings(system, excitation, about, curves, swings.max(axis=0))
@@ -190,10 +191,7 @@ def _approach_largest(
     rising = np.argsort(speeds)
     speeds, swings = speeds[rising], swings[rising]
     largest, rpm = swings.max(axis=0), speeds[swings.argmax(axis=0)]
-    ends = np.zeros((1, len(curves)))
-    around = np.concatenate([ends, swings, ends])
-    peak = (swings >= around[:-2]) & (swings >= around[2:]) & (swings > _NEAR * largest)
-    at, curve = np.nonzero(peak)
+    at, curve = np.nonzero(mark_high_peaks(swings, _NEAR))
     if not len(at) or len(speeds) == 1:  # nothing twists these shafts, or between no speeds
         return rpm, largest
     column = np.array(curves)[curve]
@@ -247,9 +245,11 @@ def _find_curves(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> 
     return np.concatenate(pieces, axis=1)
 
 
-def _find_resonant_speeds(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> Real:
+def _find_resonant_speeds(
+    system: TorsionalSystem, excitation: Excitation, rpm: Real, widest: float = np.inf
+) -> Real:
     """Speeds (rpm) within a range at which an order meets a damped resonance, and beside it, as
-    near as it is wide; those so wide that these speeds (rpm) show them anyway are left out.
+    near as it is wide; `widest`: as many steps of these speeds (rpm) as it may be wide.
     """
     if len(rpm) == 1:
         return np.zeros(0)
@@ -263,7 +263,7 @@ def _find_resonant_speeds(system: TorsionalSystem, excitation: Excitation, rpm: 
         damped = each[(each.imag > 0) & (-each.real > _UNDAMPED * np.abs(each))]
         at, width = damped.imag * (30 / np.pi / order), -damped.real * (60 / np.pi / order)
         steps = np.diff(rpm)[np.clip(np.searchsorted(rpm, at) - 1, 0, len(rpm) - 2)]
-        narrow = width < _WIDE * steps
+        narrow = width < widest * steps
         found.append((at + width * _BESIDE[:, None])[:, narrow].ravel())
     speeds = np.concatenate(found)
     return speeds[(speeds > rpm[0]) & (speeds < rpm[-1])]
