@@ -116,7 +116,14 @@ def _response_document(result: TorsionAnalysis, response: Response) -> dict[str,
     }
     if response.dampers:
         found["dampers"] = [
-            {"node": name.removesuffix(" ring"), "heat_W": clean_each(response.heat[:, k])}
+            {
+                "node": name.removesuffix(" ring"),
+                "heat_W": clean_each(response.heat[:, k]),
+                "worst": {
+                    "speed_rpm": clean(worst.hottest_rpm[k]),
+                    "heat_W": clean(worst.heat[k]),
+                },
+            }
             for k, name in enumerate(response.dampers)
         ]
     return found
@@ -250,6 +257,10 @@ def _response_lines(said: dict[str, Any]) -> Iterator[Line]:
         yield *where, "", "free_end", said["free_end_deg"][k], "deg"
         for damper in said.get("dampers", ()):
             yield *where, name_cell(damper["node"]), "heat", damper["heat_W"][k], "W"
+    for damper in said.get("dampers", ()):
+        worst = damper["worst"]
+        where = ("worst", None, worst["speed_rpm"], None)
+        yield *where, name_cell(damper["node"]), "heat", worst["heat_W"], "W"
     for shaft in said["shafts"]:
         worst, name = shaft["worst"], name_cell(shaft["name"])
         where = ("worst", None, worst["speed_rpm"], None)
