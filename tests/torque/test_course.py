@@ -247,7 +247,9 @@ def test_without_inertia_nothing_is_said_of_the_speed():
     assert asked.needed > asked.moving > 0
 
 
-@pytest.mark.parametrize(("name", "times"), [("i4_wiebe", 4), ("v8_wiebe", 8), ("marine/marine6", 6)])
+@pytest.mark.parametrize(
+    ("name", "times"), [("i4_wiebe", 4), ("v8_wiebe", 8), ("marine/marine6", 6)]
+)
 def test_what_repeats_itself_is_computed_once(name, times):
     """And is still what the orders say."""
     found = load(ENGINES / f"{name}.toml")

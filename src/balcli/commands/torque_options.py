@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import BalcliError
+from ..errors import BalcliError, warn
 from .amounts import read_inertia
 from .declare import optional
 from .named_files import refuse_leaving_files
@@ -134,6 +134,8 @@ def analyze_file(
     found = analyze_torque(
         engine, asked, cylinder=cylinder, fluctuation=allowed, loads=parse_loads(loads)
     )
+    if found.loads.obstacle:
+        warn(found.loads.obstacle)
     return source.text, found
 
 
