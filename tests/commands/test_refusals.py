@@ -86,8 +86,8 @@ def test_files(command, message):
     ("options", "message"),
     [
         (
-            "four.toml --radius 0",
-            "radius, thickness, disc, drill and max-depth must be positive lengths, such as 40 (mm)",
+            "four.toml --radius 0 --max-depth=-2",
+            "--radius: 0 mm, --max-depth: -2 mm; give figures above 0",
         ),
         (
             "four.toml --radius 50 --thickness 10 --disc 60",
