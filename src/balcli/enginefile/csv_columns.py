@@ -80,8 +80,9 @@ def _parse(text: str, wanted: Sequence[Sequence[str]]) -> Columns:
     ]
     if len(lines) > MOST_ROWS:
         raise ValueError(f"has {len(lines)} lines; at most {MOST_ROWS} are read")
-    if lines and re.fullmatch(r"[-+\d.,;eE\s]*\d[-+\d.,;eE\s]*", lines[0][1]):
-        usual = (";" if ";" in lines[0][1] else ",").join(some[0] for some in wanted)
+    first = lines[0][1] if lines else ""
+    if re.fullmatch(r"[-+\d.,;eE\s]+", first) and re.search(r"\d", first):
+        usual = (";" if ";" in first else ",").join(some[0] for some in wanted)
         raise ValueError(f"begins with figures, without a heading; put the line {usual} above them")
     semicolons = bool(lines) and lines[0][1].count(";") > lines[0][1].count(",")
     if semicolons:
