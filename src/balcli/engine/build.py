@@ -333,6 +333,20 @@ def take_model(engine: Engine) -> EngineFile:
     return engine.model
 
 
+def find_row(engine: Engine, number: int, option: str) -> int:
+    """Row of the cylinder with this number, which an option names.
+
+    Raises:
+        BalcliError: there is none.
+    """
+    if number not in engine.numbers:
+        some = ", ".join(map(str, sorted(engine.numbers)))
+        raise BalcliError(
+            f"{option} {number}: {engine.name or 'the engine'} has the cylinders {some}"
+        )
+    return engine.numbers.index(number)
+
+
 def assemble(
     model: EngineFile,
     varied: Mapping[str, Figure] | None = None,
