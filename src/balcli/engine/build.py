@@ -15,6 +15,7 @@ from ..core.cylinders import Cylinders, Device
 from ..core.phasors import Array, Figure, Phasors
 from ..enginefile.model import EngineFile
 from ..enginefile.plain_tables import list_tables
+from ..enginefile.units import RPM
 from ..errors import BalcliError, InputError, check_type, wrong_type
 from .assembly import Assembly, Ripple
 from .devices import build_devices
@@ -185,7 +186,7 @@ class Engine:
     @property
     def omega(self) -> Figure:
         """Mean crank speed, rad/s."""
-        return self.speed_rpm * (math.pi / 30)
+        return self.speed_rpm * RPM
 
     @property
     def displacement_m3(self) -> Figure:

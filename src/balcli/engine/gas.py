@@ -30,7 +30,7 @@ from ..core.tangential_force import tangential_torque
 from ..enginefile.csv_columns import Columns, locate_beside, read_columns
 from ..enginefile.gas_tables import DIAGRAM_KEYS, GOALS, Gas
 from ..enginefile.suspicious import MAX_PRESSURE
-from ..enginefile.units import INCH, POUND, STANDARD_GRAVITY
+from ..enginefile.units import INCH, POUND_FORCE
 from ..errors import BalcliError, InputError, Problem
 from ..limits import HIGHEST_TABLE_ORDER
 
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from .assembly import Assembly
 
 BAR = 1e5  # Pa
-_PSI = float(POUND) * STANDARD_GRAVITY / float(INCH) ** 2  # Pa
+_PSI = POUND_FORCE / float(INCH) ** 2  # Pa
 _GAUGE_HEADS = {"pressure_barg": BAR, "pressure_psig": _PSI}  # over the atmosphere
 PRESSURE_HEADS = {
     "pressure_bar": BAR,
