@@ -268,6 +268,15 @@ def test_what_repeats_itself_is_computed_once(name, times):
     assert whole.flywheel.speed.fluctuation == pytest.approx(whole.flywheel.speed.small, rel=1e-6)
 
 
+def test_gas_is_equal_by_value():
+    """Which objects cylinders share says nothing."""
+    found = build_text(FOUR + WIEBE)
+    apart = tuple(c._replace(torque=replace(c.torque)) for c in found.gas.cylinders)
+    found = replace(found, gas=replace(found.gas, cylinders=apart))
+    assert count_repeats(found) == 4
+    assert [rows for _, rows in found.gas.group_equal()] == [[0, 1, 2, 3]]
+
+
 def test_large_figures_have_large_units(tmp_path):
     """Gas does work by the square of the bore."""
     small = (ENGINES / "i4_wiebe.toml").read_text()

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..enginefile.units import RPM
 from ..errors import BalcliError, warn
 from .amounts import read_inertia
 from .declare import optional
@@ -152,7 +153,7 @@ def analyze_given(
 
     rpm = parse_speed(speed)
     shaft = Shaft(
-        None if rpm is None else rpm * math.pi / 30,
+        None if rpm is None else rpm * RPM,
         None if inertia is None else read_inertia("--inertia", inertia),
     )
     return analyze_curve(

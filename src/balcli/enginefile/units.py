@@ -7,6 +7,7 @@ is read as far as a figure needs it.
 
 from __future__ import annotations
 
+import math
 import re
 from fractions import Fraction
 from functools import cache
@@ -54,6 +55,8 @@ INCH = Fraction(254, 10_000)  # m
 POUND = Fraction(45_359_237, 100_000_000)  # kg
 _GRAVITY = Fraction(980_665, 100_000)  # m/s2
 STANDARD_GRAVITY = float(_GRAVITY)
+POUND_FORCE = float(POUND) * STANDARD_GRAVITY  # N
+RPM = math.pi / 30  # rad/s
 
 _BASE = {
     "m": Unit(Fraction(1), _LENGTH),
@@ -115,6 +118,7 @@ _NAMES = {
 }
 
 # Compiled when a string is met
+BARE_FIGURE = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"  # a number without a unit
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
 _FACTOR = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[²³23])?"
 _JOINT = r"\s*[*·⋅/]\s*|[.-]|\s+"

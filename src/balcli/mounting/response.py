@@ -25,6 +25,7 @@ from ..core.telling import Tell, tell_nobody
 from ..core.vibration import UNDAMPED, find_resonances, frequencies
 from ..engine.build import Engine
 from ..engine.positions import MOMENTS_UNKNOWN
+from ..enginefile.units import RPM
 from ..errors import BalcliError
 from ..forces.in_time import compute_spectra_in_time
 from ..forces.orders import (
@@ -40,7 +41,6 @@ from .modes import BodyModes
 from .motions import ROLL
 
 _KINDS = ("force", "moment", "roll")
-_RPM = 30 / np.pi  # of 1 rad/s
 _SPEEDS_AT_A_TIME = 512  # whose curves are sampled together
 _BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # speeds looked at about a resonance, in widths
 _NEAR = 0.8  # of the highest at the speeds looked at: what a peak beside them may exceed
@@ -89,7 +89,7 @@ class Meeting(NamedTuple):
 
     @property
     def speed_rpm(self) -> float:
-        return self.omega * _RPM
+        return self.omega / RPM
 
 
 class Worst(NamedTuple):
@@ -109,7 +109,7 @@ class Worst(NamedTuple):
 
     @property
     def speed_rpm(self) -> float:
-        return self.omega * _RPM
+        return self.omega / RPM
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,7 +142,7 @@ class Response:
     @property
     def speeds_rpm(self) -> Real:
         """(speeds,)."""
-        return self.omega * _RPM
+        return self.omega / RPM
 
 
 def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Loads:
@@ -284,7 +284,7 @@ def refuse_resonance(modes: BodyModes, loads: Loads, omega: Real) -> None:
     mode = modes.six[first.mode]
     raise BalcliError(
         f"mode {first.mode + 1} ({mode.motion}, {mode.hertz:.4g} Hz) is not damped, and order "
-        f"{first.order:g} drives it at {first.speed * 30 / np.pi:.6g} rpm, where its motion has no "
+        f"{first.order:g} drives it at {first.speed / RPM:.6g} rpm, where its motion has no "
         "bound; give the mounts a loss, such as loss = 0.1, or other --speeds"
     )
 

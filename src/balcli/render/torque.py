@@ -9,6 +9,7 @@ import numpy as np
 
 from ..core.piecewise import PiecewiseCurve
 from ..core.speed_variation import Surplus
+from ..enginefile.units import RPM
 from ..forces.kinds import TORQUE_TOTAL
 from ..forces.spectrum import Spectra
 from ..torque.analysis import KINDS_OF_TORQUE, TorqueAnalysis, degrees_in_cycle
@@ -21,7 +22,6 @@ from .figures import FigureRow, clean, order_entries, order_rows, peak_deg
 from .sheet import NAMELESS, Facts, Grid, Sheet, degrees, number, order_name, order_number
 from .units import ENERGY, System, Unit
 
-RPM = 30 / np.pi  # of 1 rad/s
 Result = TorqueAnalysis | CurveAnalysis
 
 
@@ -91,7 +91,7 @@ def _load_entry(word: str, load: Load, cycle_deg: float) -> dict[str, Any]:
 def _curve_document(result: CurveAnalysis) -> dict[str, Any]:
     cycle, speed = float(np.degrees(result.torque.period)), result.shaft.mean_speed
     mean = result.torque.mean
-    told: dict[str, Any] = {} if speed is None else {"speed_rpm": clean(speed * RPM)}
+    told: dict[str, Any] = {} if speed is None else {"speed_rpm": clean(speed / RPM)}
     told |= {"cycle_deg": _whole(cycle), "mean_torque_Nm": clean(mean)}
     if speed is not None:
         told["power_W"] = clean(mean * speed)
@@ -159,8 +159,8 @@ def _flywheel_entry(flywheel: Flywheel | None) -> dict[str, Any]:
         "fluctuation": speed and speed.fluctuation,
         "fluctuation_small": speed and speed.small,
         "needed_kg_m2": flywheel.needed,
-        "speed_max_rpm": speed and speed.highest.value * RPM,
-        "speed_min_rpm": speed and speed.lowest.value * RPM,
+        "speed_max_rpm": speed and speed.highest.value / RPM,
+        "speed_min_rpm": speed and speed.lowest.value / RPM,
     }
     known = {key: clean(value) for key, value in figures.items() if value is not None}
     return {"flywheel": {**known, "stall": flywheel.stall} if flywheel.stall else known}
@@ -323,7 +323,7 @@ def _curve_facts(result: CurveAnalysis, system: System) -> Facts:
     pairs = [("period", f"{_whole(float(np.degrees(result.torque.period)))} deg")]
     speed = result.shaft.mean_speed
     if speed is not None:
-        pairs.append(("speed", f"{number(speed * RPM, 6)} rpm"))
+        pairs.append(("speed", f"{number(speed / RPM, 6)} rpm"))
     power = None if speed is None else result.torque.mean * speed
     return Facts((*pairs, *_mean_pairs(result.torque.mean, power, system, {"": 1.0})))
 
@@ -387,7 +387,7 @@ def _speed_pairs(speed: Speed, cycle_deg: float) -> Iterator[tuple[str, str]]:
         f"{number(100 * speed.fluctuation, 4)} % ({share}); {small} % by the rule for small ones",
     )
     low, high = (
-        f"{number(e.value * RPM, 6)} rpm at {tenths(degrees_in_cycle(e.angle, cycle_deg))} deg"
+        f"{number(e.value / RPM, 6)} rpm at {tenths(degrees_in_cycle(e.angle, cycle_deg))} deg"
         for e in (speed.lowest, speed.highest)
     )
     yield "speed", f"{low} to {high}"
