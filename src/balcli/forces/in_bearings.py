@@ -125,13 +125,15 @@ def place_main_bearings(engine: Engine) -> Array:
         BalcliError: it is not known where the throws stand, there is one alone, or the crank stands
             still.
     """
+    why, span = "", None
     if engine.rotary:
-        raise BalcliError("main: the crank of turning cylinders stands still, clamped at its end")
-    if not engine.places_known:
-        raise BalcliError("main: crank.spacing is missing, so that no bearing is known to stand")
-    span = place_bearings(engine.throws_m)
+        why = "the crank of turning cylinders stands still, clamped at its end"
+    elif not engine.places_known:
+        why = "crank.spacing is missing, so that no bearing is known to stand"
+    elif (span := place_bearings(engine.throws_m)) is None:
+        why = "a crank with one throw does not say where its bearings stand"
     if span is None:
-        raise BalcliError("main: a crank with one throw does not say where its bearings stand")
+        raise BalcliError(f"main bearings: {why}")
     return span
 
 

@@ -20,7 +20,7 @@ from ..limits import HIGHEST_TORSION_ORDER, LARGEST_INERTIA, MOST_SPEEDS
 
 Words = str | Iterable[str]  # names, or a text of them with commas between
 _REAL = (int, float, np.integer, np.floating)
-_OPTION = re.compile(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
+_OPTION = re.compile(r"`[^`]*`|(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 P = ParamSpec("P")
 Answer = TypeVar("Answer")
 
@@ -37,7 +37,8 @@ def tell_arguments(**others: str) -> Callable[[Callable[P, Answer]], Callable[P,
         names = {**{name: name for name in signature(function).parameters}, **others}
 
         def name_argument(option: re.Match[str]) -> str:
-            return names.get(option[1].replace("-", "_"), option[0])
+            name = (option[1] or "").replace("-", "_")  # none within a command: `balcli new`
+            return names.get(name, option[0])
 
         @wraps(function)
         def call(*args: P.args, **kwargs: P.kwargs) -> Answer:

@@ -4,7 +4,7 @@ up in time, at every speed.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -25,7 +25,9 @@ from ..core.telling import Tell, tell_nobody
 from ..core.vibration import UNDAMPED, find_resonances, frequencies
 from ..engine.build import Engine
 from ..engine.positions import MOMENTS_UNKNOWN
+from ..enginefile.units import RPM
 from ..errors import BalcliError
+from ..forces.in_time import compute_spectra_in_time
 from ..forces.orders import (
     choose_orders,
     find_relevant_orders,
@@ -39,7 +41,6 @@ from .modes import BodyModes
 from .motions import ROLL
 
 _KINDS = ("force", "moment", "roll")
-_RPM = 30 / np.pi  # of 1 rad/s
 _SPEEDS_AT_A_TIME = 512  # whose curves are sampled together
 _BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # speeds looked at about a resonance, in widths
 _NEAR = 0.8  # of the highest at the speeds looked at: what a peak beside them may exceed
@@ -53,7 +54,7 @@ class Loads:
         orders: (orders,), all above 0.
         inertia: (orders, 6) force (N) and moment about the centre of gravity (N m) at `omega`; they
             grow with the square of the speed.
-        omega: rad/s.
+        omega: rad/s, mean over the time, as all speeds here are.
         gas: (orders, 6), the same at every speed: what the gas torque leaves as roll; None where
             the file says nothing of gas.
         mean: N m about the crankshaft's axis on the body, steady: the gas torque's reaction.
@@ -88,7 +89,7 @@ class Meeting(NamedTuple):
 
     @property
     def speed_rpm(self) -> float:
-        return self.omega * _RPM
+        return self.omega / RPM
 
 
 class Worst(NamedTuple):
@@ -108,7 +109,7 @@ class Worst(NamedTuple):
 
     @property
     def speed_rpm(self) -> float:
-        return self.omega * _RPM
+        return self.omega / RPM
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +142,7 @@ class Response:
     @property
     def speeds_rpm(self) -> Real:
         """(speeds,)."""
-        return self.omega * _RPM
+        return self.omega / RPM
 
 
 def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Loads:
@@ -159,18 +160,25 @@ def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Load
     of_gas = () if engine.gas is None else list_gas_orders(engine)
     wanted = merge_orders(find_relevant_orders(engine), of_gas) if orders is None else orders
     kinds = _KINDS if engine.gas is None else (*_KINDS, "gas")
-    found = compute_spectra(engine, wanted[wanted > 0], kinds)
+    found, turns = _compute_spectra(engine, wanted[wanted > 0], kinds)
     if orders is None:
         found = found.select_orders(choose_orders(found, engine))
     reference = np.array([float(value) for value in engine.reference_m])
     inertia = _find_load(found, reference, centre)
-    loads = Loads(found.orders, inertia, float(engine.omega))
+    loads = Loads(found.orders, inertia, turns * float(engine.omega))
     if engine.gas is not None:
         gas = np.zeros_like(inertia)
         gas[:, ROLL] = -found["gas"].x
         mean = compute_spectra(engine, [0.0], ["gas"])["gas"].x[0].real
         loads = replace(loads, gas=gas, mean=-float(mean))
     return loads if orders is not None else _leave_out_none(loads)
+
+
+def _compute_spectra(engine: Engine, orders: Real, kinds: Sequence[str]) -> tuple[Spectra, float]:
+    """By orders of the time, and how much faster than over the angle the crank turns over time."""
+    if not engine.ripple:
+        return compute_spectra(engine, orders, kinds), 1.0
+    return compute_spectra_in_time(engine, np.asarray(orders, float), kinds)
 
 
 def _leave_out_none(loads: Loads) -> Loads:
@@ -276,7 +284,7 @@ def refuse_resonance(modes: BodyModes, loads: Loads, omega: Real) -> None:
     mode = modes.six[first.mode]
     raise BalcliError(
         f"mode {first.mode + 1} ({mode.motion}, {mode.hertz:.4g} Hz) is not damped, and order "
-        f"{first.order:g} drives it at {first.speed * 30 / np.pi:.6g} rpm, where its motion has no "
+        f"{first.order:g} drives it at {first.speed / RPM:.6g} rpm, where its motion has no "
         "bound; give the mounts a loss, such as loss = 0.1, or other --speeds"
     )
 

@@ -176,6 +176,8 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
 
     Raises BalcliError where nothing goes to and fro, or for a mass that no crankshaft can have.
     """
+    if measured < 0:
+        raise BalcliError(f"--measured {1e3 * measured:g} g: a mass on the pin is not negative")
     card = fill_card(engine, 0.0)
     reciprocating = sum(one.reciprocating_g for one in card)
     rotating = sum(one.rotating_g for one in card)
