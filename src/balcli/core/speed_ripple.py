@@ -107,7 +107,7 @@ def count_in_time(phasors: Phasors, course: Course, orders: Array) -> Phasors:
     both = np.array([(np.mean(curve * wave.conj()), np.mean(curve * wave)) for wave in waves])
     forward, backward = both[:, 0], np.where(orders, both[:, 1], 0)
     size = np.sum(np.abs(phasors.forward) + np.abs(phasors.backward))
-    return Phasors(orders, forward, backward, np.full(orders.shape, 8 * EPS * size)).drop_noise()
+    return Phasors.of(orders, forward, backward, np.full(orders.shape, 8 * EPS * size)).drop_noise()
 
 
 def apply_to_force(steady: Phasors, w: Complex, mean: Figure = 0.0) -> Phasors:
