@@ -135,7 +135,7 @@ def _compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
     forces = [compute_each_cylinder(engine, orders, ["force"])["force"]]
     forces += [compute_device_force(engine, device, orders) for device in counterweights]
     noises = [np.broadcast_to(force.noise, force.forward.shape) for force in forces]
-    together = Phasors(
+    together = Phasors.of(
         orders,
         np.column_stack([force.forward for force in forces]),
         np.column_stack([force.backward for force in forces]),
@@ -154,12 +154,8 @@ def _sum_weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
     """Sums over the loads, weights of shape (places, loads); `size`, of the same shape: what the
     weights were computed from, which bounds their rounding.
     """
-    return Phasors(
-        loads.orders,
-        loads.forward @ weights.T,
-        loads.backward @ weights.T,
-        loads.noise @ np.abs(size).T,
-    ).drop_noise()
+    noise = loads.noise @ np.abs(size).T
+    return Phasors(loads.orders, loads.vectors @ weights.T, noise).drop_noise()
 
 
 def _with_peaks(places: Array, phasors: Phasors, orders: Array) -> AlongCrank:

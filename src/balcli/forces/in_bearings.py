@@ -250,7 +250,7 @@ def _follow(sums: _Sums, samples: Complex, panels: Panels, orders: Array) -> Alo
     values = sums.factor * (sums.weights @ samples)
     noise = NOTHING * (sums.sizes @ np.abs(samples).max(axis=1))
     forward, backward = panels.find_orders(values, orders)
-    phasors = Phasors(orders, forward, backward, np.broadcast_to(noise, forward.shape))
+    phasors = Phasors.of(orders, forward, backward, np.broadcast_to(noise, forward.shape))
     peaks = (
         peak if peak.value > least else Peak(0.0, 0.0)
         for peak, least in zip(map(panels.find_largest, values), noise, strict=True)
