@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from .errors import BalcliError, InputError
     from .field_balancing.balance import FieldBalance
     from .forces.curves import Curves
+    from .library.balance import balance
     from .library.combine import combine
     from .library.compare import compare
     from .library.curves import curves
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
     from .printed_tables.recomputed import Table
     from .result import Result
     from .results.analysis import Analysis, analyze
-    from .results.balance import Balance, balance
+    from .results.balance import Balance
     from .results.comparison import Comparison
     from .results.two_engines import Combined
     from .sizing.options import SchemeOptions
@@ -87,7 +88,7 @@ _ROOMS = {
     "Analysis": "results.analysis",
     "analyze": "results.analysis",
     "Balance": "results.balance",
-    "balance": "results.balance",
+    "balance": "library.balance",
     "BalcliError": "errors",
     "InputError": "errors",
     "Combined": "results.two_engines",

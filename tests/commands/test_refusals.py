@@ -86,8 +86,8 @@ def test_files(command, message):
     ("options", "message"),
     [
         (
-            "four.toml --radius 0",
-            "radius, thickness, disc, drill and max-depth must be positive lengths, such as 40 (mm)",
+            "four.toml --radius 0 --max-depth=-2",
+            "--radius: 0 mm, --max-depth: -2 mm; give figures above 0",
         ),
         (
             "four.toml --radius 50 --thickness 10 --disc 60",
@@ -154,5 +154,7 @@ def test_bearings_without_places():
     """Beside a warning that moments are not known."""
     status, out, err = run_here("torque", "nowhere.toml", "--loads", "main")
     assert (status, out) == (2, "")
-    wanted = "balcli: main: crank.spacing is missing, so that no bearing is known to stand\n"
+    wanted = (
+        "balcli: main bearings: crank.spacing is missing, so that no bearing is known to stand\n"
+    )
     assert err.endswith(wanted)

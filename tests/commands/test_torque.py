@@ -278,8 +278,12 @@ def test_knuckle_pins_are_told_beside_the_crank_pin(tmp_path):
     rows = torque(str(path), "--loads", "pin", "-f", "csv").splitlines()
     assert any(row.startswith("3,knuckle,,max,") for row in rows)
     status, _, err = run_here("torque", str(path), "--loads", "main")
-    told = "balcli: main: a crank with one throw does not say where its bearings stand\n"
+    told = "balcli: main bearings: a crank with one throw does not say where its bearings stand\n"
     assert (status, err) == (2, told)
+    status, out, err = run_here("torque", str(path), "--loads", "pin,main")
+    assert (status, err) == (0, told.replace("balcli:", "warning:"))
+    assert "Knuckle pins" in out
+    assert "Main bearings" not in out
     curves = run_here("curves", str(path), "--cylinder", "3", "--step", "90").out
     assert curves.splitlines()[0].endswith("side_thrust_N,rod_force_N,pin_x_N,pin_y_N,torque_Nm")
 

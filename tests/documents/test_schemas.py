@@ -74,7 +74,7 @@ RESULTS = {
     "inner with gas": ("analyze", V8, "--only", "inner,guide,gas", "--orders", "1,1.5,2"),
     "offsets": ("analyze", ENGINES / "vr6.toml"),
     "speeds": ("analyze", I4, "--speed", "1000:3000:1000"),
-    "marine": ("analyze", ENGINES / "marine6.toml", "--format", "marine", "-o", "m.json"),
+    "marine": ("analyze", ENGINES / "marine/marine6.toml", "--format", "marine", "-o", "m.json"),
     "no places": ("analyze", "-"),
     "factor": (
         "balance",

@@ -130,6 +130,18 @@ def test_harmonics_are_of_the_mean_tangential_pressure(beside):
         ),
         (
             'indicator = "p.csv"',
+            "# measured\n-3e1,1\n10,2\n",
+            "gas.indicator: {folder}/p.csv: begins with figures, without a heading; put the line "
+            "angle_deg,pressure_bar above them",
+        ),
+        (
+            'indicator = "p.csv"',
+            "0;1,5\n10;2\n",
+            "gas.indicator: {folder}/p.csv: begins with figures, without a heading; put the line "
+            "angle_deg;pressure_bar above them",
+        ),
+        (
+            'indicator = "p.csv"',
             "angle,pressure_bar\n0,1\n",
             'gas.indicator: {folder}/p.csv: the heading "angle,pressure_bar" has no angle_deg; '
             "head the file angle_deg,pressure_bar (or pressure_MPa, pressure_kPa, pressure_Pa, "

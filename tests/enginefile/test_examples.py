@@ -44,6 +44,7 @@ def test_a_class_or_words_pick_engines():
     assert {line.split()[0] for line in marine[2:]} == {
         path.stem for path in (ENGINES / "marine").glob("*.toml")
     }
+    assert "marine6" in [e.name for e in examples.find(group="marine")]
     assert [e.name for e in examples.find("WARTSILA six")] == ["wartsila_6rtflex96c"]
     assert {"v8_crossplane", "hispano_suiza_8"} <= {e.name for e in examples.find("v8")}
     assert [e.name for e in examples.find("v8", "car")] == [

@@ -31,6 +31,8 @@ from balcli.enginefile.units import (
     read_unit,
 )
 
+A_MASS = 'a mass is wanted: a bare number in kg, or "650 g" or "0.8 lb"'
+
 
 @pytest.mark.parametrize(
     ("text", "dimension", "expected"),
@@ -42,6 +44,10 @@ from balcli.enginefile.units import (
         ("+1e3 m", LENGTH, 1e6),
         ("650 g", MASS, 0.65),
         ("1 lb", MASS, 0.45359237),  # the international pound, exactly
+        ("1 lb 4 oz", MASS, 1.25 * 0.45359237),
+        ("2 lbs 3 1/2 oz", MASS, (2 + 3.5 / 16) * 0.45359237),
+        ("3 ft 2 in", LENGTH, 38 * 25.4),
+        ("-3ft 2in", LENGTH, -38 * 25.4),
         ("16 oz", MASS, 0.45359237),
         ("1/7 turn", ANGLE, 360 / 7),
         ("1/3 turn", ANGLE, 120.0),
@@ -159,6 +165,10 @@ def test_rarer_units(text, dimension, expected):
         ),
         ("5 deg", PLAIN, "is an angle, but a plain number is wanted, without quotes"),
         ("0.25", PLAIN, "has no unit; a plain number is wanted, without quotes"),
+        ("1 lb 16 oz", MASS, 'has "16 oz" after "1 lb", which is not less than "1 lb"'),
+        ("1 lb 4 in", MASS, f"is a length, but {A_MASS}"),
+        ("1 lb 4", MASS, f"is not a number followed by a unit; {A_MASS}"),
+        ("1.5 lb 4 oz", MASS, f"is not a number followed by a unit; {A_MASS}"),
         (
             "90",
             LENGTH,

@@ -10,7 +10,7 @@ import pytest
 from support.commands import refusal, run_here
 from support.paths import ENGINES
 
-MARINE = ENGINES / "marine6.toml"
+MARINE = ENGINES / "marine/marine6.toml"
 FOUR = ENGINES / "i4.toml"
 
 

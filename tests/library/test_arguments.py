@@ -31,6 +31,23 @@ CHAIN = {
             "nothing deviates; give a tolerance, such as mass 0.5%",
         ),
         (
+            lambda: balcli.balance(V8, "couple-shaft", balcli.SchemeOptions(position=0.1)),
+            "scheme couple-shaft has no position; it takes order, at, planes",
+        ),
+        (
+            lambda: balcli.balance(V8, "factor", balcli.SchemeOptions(measured=-0.8)),
+            "measured -800 g: a mass on the pin is not negative",
+        ),
+        (
+            lambda: balcli.balance(V8, "counterweights", balcli.SchemeOptions(planes="end")),
+            'planes "end": give ends, throws, or places along z',
+        ),
+        (
+            lambda: balcli.balance(V8, "knuckles"),
+            "scheme knuckles sizes no devices but changes the engine file: `balcli balance "
+            "--scheme knuckles` does so",
+        ),
+        (
             lambda: balcli.curves(V8, 1000),
             "step_deg 1000: give a step of the crank angle from 0.001 to 360 degrees",
         ),

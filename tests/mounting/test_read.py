@@ -116,3 +116,24 @@ def test_moments_that_no_body_has_are_doubted(tmp_path):
         ENGINE.replace("speed = 3000", "speed = 30000") + block("loss = 0.1"), encoding="utf-8"
     )
     assert "piston speed" in read_mounted(path).doubts[0]
+
+
+@pytest.mark.parametrize("one", ["300", '"300 N/mm"'])
+def test_one_stiffness_holds_along_all_three_axes(tmp_path, one):
+    path = tmp_path / "body.toml"
+    path.write_text(block("damping = 0.2").replace("[200, 150, 400]", one, 1), encoding="utf-8")
+    first, second = read_mounted(path).model.mount[:2]
+    assert first.stiffness == (300, 300, 300)
+    assert second.stiffness == (200, 150, 400)
+    assert first.damping == (0.2, 0.2, 0.2)
+
+
+def test_one_stiffness_that_cannot_be_is_told_once(tmp_path):
+    path = tmp_path / "body.toml"
+    path.write_text(block().replace("[200, 150, 400]", "-5", 1), encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        read_mounted(path)
+    told = 'a bare number in N/mm, or "350 N/mm" or "2000 lbf/in", 0 or more'
+    assert [str(problem) for problem in caught.value.problems] == [
+        f"mount.1.stiffness: -5 is less than 0; a stiffness is wanted: {told}"
+    ]

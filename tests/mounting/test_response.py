@@ -364,3 +364,46 @@ def test_where_throws_stand_must_be_known(report):
 )
 def test_motions_are_called_by_where_up_is(up, names):
     assert ", ".join(name_motions(np.array(up))) == names
+
+
+RIPPLE = ENGINE.replace(
+    "speed = 3000",
+    "speed = 3000\nspeed_ripple = [{ order = 2, amplitude = 0.2, angle = 30 }, "
+    "{ order = 1, amplitude = 0.05 }]",
+)
+
+
+def find_phasors_in_time(curve, orders):
+    """Of a curve over the crank angle, at the uneven speed of RIPPLE: over equal steps of time."""
+    fine = np.arange(1 << 16) * (2 * np.pi / (1 << 16))
+    pace = 1 + 0.2 * np.cos(2 * fine - np.radians(30)) + 0.05 * np.cos(fine)
+    done = np.concatenate([[0], np.cumsum((1 / pace + 1 / np.roll(pace, -1)) / 2)])
+    steps = np.arange(1 << 12) / (1 << 12)
+    angle = np.interp(steps, done / done[-1], np.append(fine, 2 * np.pi))
+    waves = np.fft.fft(curve, norm="forward")
+    n = np.fft.fftfreq(len(curve), 1 / len(curve))
+    few = np.abs(n) < 40
+    values = np.exp(1j * np.outer(angle, n[few])) @ waves[few]
+    return 2 * np.fft.fft(values.real, norm="forward")[list(orders)], done[-1] / len(fine)
+
+
+def test_at_uneven_speed_an_order_is_so_often_in_a_turn_of_equal_steps_of_time(report):
+    """What shakes the mounts is a frequency: forces over the crank angle are not yet those over the
+    time, and the speed is revolutions in a minute.
+    """
+    body, orders = RandomBody(8, 4), [1, 2, 3, 4]
+    result = report(RIPPLE + body.text, orders=orders)
+    curves = momentum.Engine.read(RIPPLE).curves()
+    parts = [curves.force.real, curves.force.imag, 0 * curves.roll]
+    parts += [curves.moment.real, curves.moment.imag, curves.roll]
+    found = [find_phasors_in_time(part, orders) for part in parts]
+    loads, longer = np.array([phasors for phasors, _ in found]).T, found[0][1]
+    loads[:, 3:] += np.cross(-body.centre, loads[:, :3])
+    for n, order in enumerate(orders):
+        for s, rpm in enumerate(SPEEDS):
+            load = loads[n] * (rpm * longer / 3000) ** 2
+            motion = find_own_motion(body, load, order * rpm * np.pi / 30)
+            assert result.response.free[n, s] == pytest.approx(np.abs(load), rel=1e-6, abs=1e-3)
+            point = move(motion, body.point - body.centre)
+            largest = np.sqrt((np.sum(np.abs(point) ** 2) + abs(np.sum(point**2))) / 2)
+            assert result.response.motion[n, s, 0] == pytest.approx(largest, rel=1e-6)

@@ -206,7 +206,7 @@ def test_standard_input_can_be_written(tmp_path):
         (("--scheme", "factor", "--factor", "0:1"), "a range is first:last:step"),
         (("--scheme", "factor", "--factor", "0:1:1e-9"), "at most 1000 steps"),
         (("--scheme", "oldham"), "oldham is for a single cylinder; this engine has 4 cylinders"),
-        (("--drill", "-3"), "drill and max-depth must be positive lengths, such as 40 (mm)"),
+        (("--drill", "-3"), "--drill: -3 mm; give figures above 0"),
         (("--thickness", "10", "--disc", "50"), "not both"),
     ],
 )
@@ -298,7 +298,7 @@ def test_a_first_guess_of_a_device_in_steel():
 @pytest.mark.parametrize("name", ["radius", "thickness", "disc", "drill"])
 @pytest.mark.parametrize("length", [0.0, -1e-3, math.inf, math.nan])
 def test_lengths_of_tools_are_positive(name, length):
-    with pytest.raises(BalcliError, match="must be positive lengths, such as 40"):
+    with pytest.raises(BalcliError, match=rf"^--{name}: .* mm; give figures above 0$"):
         find_practical(engine(), Remedy(""), Tools(**{name: length}))
 
 
@@ -396,13 +396,13 @@ def test_more_holes_than_any_counterweight_has_room_for():
         ),
         (
             ("--slug", "tungsten"),
-            "--max-depth and --slug are for holes: give the diameter of the drill, such as "
-            "--drill 25.4",
+            "--max-depth and --slug are for holes: give the diameter of the drill, too, "
+            "with --drill",
         ),
         (
             ("--max-depth", "20"),
-            "--max-depth and --slug are for holes: give the diameter of the drill, such as "
-            "--drill 25.4",
+            "--max-depth and --slug are for holes: give the diameter of the drill, too, "
+            "with --drill",
         ),
     ],
 )

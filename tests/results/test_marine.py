@@ -16,7 +16,7 @@ from balcli.results.marine import find_marine_sheet
 
 RADIUS, ROD, MASS, SPACING = 0.9, 2.4, 3000.0, 0.8
 THROWS = (0.0, 240.0, 120.0, 30.0)
-MARINE = Path(__file__).parents[2] / "engines/marine6.toml"
+MARINE = Path(__file__).parents[2] / "engines/marine/marine6.toml"
 TEXT = f"""
 [crank]
 stroke = {2e3 * RADIUS}

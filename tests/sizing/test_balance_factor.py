@@ -383,7 +383,7 @@ def test_a_range_tells_bobweight_counterweight_and_what_is_left():
         (
             TWIN,
             SchemeOptions(planes="left"),
-            '--planes "left": give ends, throws, or places along z in mm, such as -200,200',
+            '--planes "left": give ends, throws, or places along z',
         ),
     ],
 )

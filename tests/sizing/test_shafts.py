@@ -125,8 +125,7 @@ def test_two_planes_take_a_moment_alone_too():
         ),
         (
             ["--scheme=single-shaft", "--planes=1,2,3"],
-            "--planes: opposite eccentrics stand in two planes; give ends, or two places along z in "
-            "mm, such as -200,200",
+            "--planes: opposite eccentrics stand in two planes; give ends, or two places along z",
         ),
         (
             ["--scheme=couple-shaft", "--at=1,2", "--at=3,4", "--at=5,6"],

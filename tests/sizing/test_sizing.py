@@ -218,14 +218,13 @@ def test_planes_are_named_or_given():
     engine = build(parse(SMALL["vee"]))
     with pytest.raises(
         BalcliError,
-        match=r'--planes "left": give ends, throws, or places along z in mm, such as -200,200$',
+        match=r'--planes "left": give ends, throws, or places along z$',
     ):
         size(engine, "counterweights", SchemeOptions(planes="left"))
     with pytest.raises(
         BalcliError,
         match=r"--planes: opposite eccentrics stand in two planes; give ends, or two places along "
-        r"z in mm, "
-        r"such as -200,200$",
+        r"z$",
     ):
         size(engine, "couple-shaft", SchemeOptions(planes=(-0.1, 0.0, 0.1)))
     ends = [

@@ -13,7 +13,7 @@ from balcli.engine.load import read
 from balcli.studies.quantities import list_quantities, parse_quantities
 from balcli.studies.quantity_names import BEGINNINGS, CHAPTERS, describe_names
 
-FILES = ("i4_mounts", "i6_diesel", "marine6", "i4_wiebe")
+FILES = ("i4_mounts", "i6_diesel", "marine/marine6", "i4_wiebe")
 PARTS = {"force": "major", "moment": "backward"}
 
 

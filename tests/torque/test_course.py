@@ -247,7 +247,9 @@ def test_without_inertia_nothing_is_said_of_the_speed():
     assert asked.needed > asked.moving > 0
 
 
-@pytest.mark.parametrize(("name", "times"), [("i4_wiebe", 4), ("v8_wiebe", 8), ("marine6", 6)])
+@pytest.mark.parametrize(
+    ("name", "times"), [("i4_wiebe", 4), ("v8_wiebe", 8), ("marine/marine6", 6)]
+)
 def test_what_repeats_itself_is_computed_once(name, times):
     """And is still what the orders say."""
     found = load(ENGINES / f"{name}.toml")
@@ -264,6 +266,15 @@ def test_what_repeats_itself_is_computed_once(name, times):
     heavy = replace(found, flywheel_inertia=1e9)
     whole = analyze_torque(heavy)
     assert whole.flywheel.speed.fluctuation == pytest.approx(whole.flywheel.speed.small, rel=1e-6)
+
+
+def test_gas_is_equal_by_value():
+    """Which objects cylinders share says nothing."""
+    found = build_text(FOUR + WIEBE)
+    apart = tuple(c._replace(torque=replace(c.torque)) for c in found.gas.cylinders)
+    found = replace(found, gas=replace(found.gas, cylinders=apart))
+    assert count_repeats(found) == 4
+    assert [rows for _, rows in found.gas.group_equal()] == [[0, 1, 2, 3]]
 
 
 def test_large_figures_have_large_units(tmp_path):

@@ -203,10 +203,14 @@ def test_articulated_and_turning_pistons_make_the_torque_of_virtual_work(name):
 
 def test_loads_that_are_not_known():
     with pytest.raises(BalcliError, match="the crank of turning cylinders stands still"):
-        analyze_loads(build_text(write_mechanism("rotary, offset")))
-    with pytest.raises(BalcliError, match="main: a crank with one throw does not say where its"):
+        analyze_loads(build_text(write_mechanism("rotary, offset")), ("main",))
+    with pytest.raises(BalcliError, match="main bearings: a crank with one throw does not say"):
         analyze_loads(build_text(write_mechanism("radial with a master rod")), ("main",))
     bare = build_text(FOUR.replace("spacing = 100\n", "") + WIEBE)
     with pytest.raises(BalcliError, match=r"crank\.spacing is missing"):
-        analyze_loads(bare)
+        analyze_loads(bare, ("main",))
     assert analyze_loads(bare, ("pin",)).main is None
+    both = analyze_loads(bare)
+    assert both.pin == analyze_loads(bare, ("pin",)).pin
+    assert both.main is None
+    assert both.obstacle.startswith("main bearings: crank.spacing is missing")

@@ -18,7 +18,7 @@ from ..render import analyses
 from ..render.formats import Format, Units
 from ..render.view import View
 from ..results.analysis import Analysis, analyze, list_quantities
-from .inputs import distinct_names, exit_on_errors, read_engine, silence_cylinders, try_each
+from .inputs import exit_on_errors, name_engines, read_engine, silence_cylinders, try_each
 from .output import draws_sketch, show
 
 if TYPE_CHECKING:
@@ -137,5 +137,5 @@ def _analyze_files(
     found, errors = try_each(paths, find_one)
     if found and not (errors and target.output):  # a file gets all of them or is left as it was
         engines, good, results = zip(*found, strict=True)
-        present(distinct_names(engines, good), results)
+        present(name_engines(engines, good), results)
     exit_on_errors(errors)

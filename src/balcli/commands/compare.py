@@ -47,12 +47,12 @@ def compare(
     refuse_overwriting(reads=paths, writes={"--output": output})
     form = text_format(output, form)
     from ..results.comparison import compare_engines
-    from .inputs import name_columns, read_engine
+    from .inputs import name_engines, read_engine
 
     rpm, asked, chosen = parse_speed(speed), parse_orders(orders), parse_quantities(only)
     _refuse_parts(chosen or (), paths)
     engines = [read_engine(path, rpm, chosen).engine for path in paths]
-    names = name_columns([engine.name for engine in engines], paths)
+    names = name_engines([engine.name for engine in engines], paths)
     found = compare_engines(engines, names, asked, chosen, whole)
     show([found], renderer, form, output, units)
 

@@ -165,18 +165,9 @@ def named_by_file(engine: Engine, path: str) -> Engine:
     return engine if engine.name else replace(engine, name=legible(Path(name_file(path)).stem))
 
 
-def name_columns(names: Sequence[str], paths: Sequence[str]) -> Sequence[str]:
-    """What to call engines side by side: all by name, or all by file where a name is missing or
-    stands for several.
-    """
-    if all(names) and len(set(names)) == len(names):
-        return names
-    return [legible(name_file(path)) for path in paths]
-
-
-def distinct_names(names: Sequence[str], paths: Sequence[str]) -> list[str]:
-    """What to call engines one after the other: each by its name, or by its file where it has none
-    or shares it with another.
+def name_engines(names: Sequence[str], paths: Sequence[str]) -> list[str]:
+    """What to call engines beside each other: each by its name, or by its file where it has none or
+    shares it with another.
     """
     return [
         name if name and names.count(name) == 1 else legible(name_file(path))

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import BalcliError
+from ..enginefile.units import RPM
+from ..errors import BalcliError, warn
 from .amounts import read_inertia
 from .declare import optional
 from .named_files import refuse_leaving_files
@@ -134,6 +135,8 @@ def analyze_file(
     found = analyze_torque(
         engine, asked, cylinder=cylinder, fluctuation=allowed, loads=parse_loads(loads)
     )
+    if found.loads.obstacle:
+        warn(found.loads.obstacle)
     return source.text, found
 
 
@@ -150,7 +153,7 @@ def analyze_given(
 
     rpm = parse_speed(speed)
     shaft = Shaft(
-        None if rpm is None else rpm * math.pi / 30,
+        None if rpm is None else rpm * RPM,
         None if inertia is None else read_inertia("--inertia", inertia),
     )
     return analyze_curve(

@@ -11,13 +11,13 @@ speed that repeats itself after two revolutions.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import TypeAlias, TypeVar
+from typing import NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .peaks import Peak, find_peak
-from .phasors import EPS, Complex, Figure, Phasors, unit
+from .phasors import EPS, Array, Complex, Figure, Phasors, unit
 
 Line: TypeAlias = tuple[float, Figure, Figure]  # order, amplitude, angle in degrees
 Number = TypeVar("Number", np.float64, np.complex128)
@@ -54,8 +54,60 @@ def find_slowest(lines: Sequence[tuple[float, float, float]]) -> Peak:
     w, size = find_speed(lines, step), sum(abs(amplitude) for _, amplitude, _ in lines)
     orders = np.arange(len(w) // 2 + 1.0) * step
     rest = np.where(orders, -w[len(w) // 2 :], size)
-    top = find_peak(Phasors(orders, rest, np.where(orders, rest.conj(), 0), np.zeros(1)))
+    top = find_peak(Phasors.of(orders, rest, np.where(orders, rest.conj(), 0), np.zeros(1)))
     return Peak(1 + size - top.value, top.theta)
+
+
+class Course(NamedTuple):
+    """How uneven speed passes equally spaced crank angles of a cycle.
+
+    Attributes:
+        clock: (samples,) what a steady crank of as many turns has reached by then, rad; where it
+            began is nobody's matter.
+        stay: (samples,) time that an angle takes, over its mean.
+        step: 1, or 1/2 for a cycle of two turns.
+        turns: revolutions in a time, over those that the mean over the angle would make of it.
+    """
+
+    clock: Array
+    stay: Array
+    step: float
+    turns: float
+
+
+def find_course(w: Complex, step: float, samples: int) -> Course:
+    """The course of W, of which `find_speed` gave the coefficients with this step."""
+    reach, k = len(w) // 2, np.fft.fftfreq(samples, 1 / samples)
+    speed = np.zeros(samples, complex)
+    speed[np.arange(-reach, reach + 1)] = w
+    slow = 1 / np.fft.ifft(speed, norm="forward").real
+    mean = slow.mean()
+    waves = np.where(k, np.fft.fft(slow / mean, norm="forward"), 0) / (
+        1j * step * np.where(k, k, 1)
+    )
+    angle = np.arange(samples) * (2 * np.pi / (step * samples))
+    clock = angle + np.fft.ifft(waves, norm="forward").real
+    return Course(clock, slow / mean, step, float(1 / mean))
+
+
+def count_in_time(phasors: Phasors, course: Course, orders: Array) -> Phasors:
+    """The curve of phasors over the crank angle by orders of the time: how often something happens
+    while the crank turns once on an average.
+
+    Args:
+        phasors: without trailing axes, of all orders that count.
+        orders: (orders,) wanted, whole steps.
+    """
+    series = np.zeros(len(course.clock), complex)
+    rows = np.rint(phasors.orders / course.step).astype(int)
+    np.add.at(series, rows, phasors.forward)
+    np.add.at(series, -rows, phasors.backward)
+    curve = np.fft.ifft(series, norm="forward") * course.stay
+    waves = (np.exp(1j * order * course.clock) for order in orders)
+    both = np.array([(np.mean(curve * wave.conj()), np.mean(curve * wave)) for wave in waves])
+    forward, backward = both[:, 0], np.where(orders, both[:, 1], 0)
+    size = np.sum(np.abs(phasors.forward) + np.abs(phasors.backward))
+    return Phasors.of(orders, forward, backward, np.full(orders.shape, 8 * EPS * size)).drop_noise()
 
 
 def apply_to_force(steady: Phasors, w: Complex, mean: Figure = 0.0) -> Phasors:
@@ -105,7 +157,8 @@ def _transformed(
     magnitudes = (np.asarray(v, np.complex128) for v in (sizes, np.abs(w), np.abs(order)))
     error = EPS * np.abs(shake(*magnitudes))
     backward = np.where(order[n:] > 0, result[n::-1], 0)
-    return Phasors(steady.orders, result[n:], backward, error[n:])  # the bound of -n is that of n
+    # The bound of -n is that of n.
+    return Phasors.of(steady.orders, result[n:], backward, error[n:])
 
 
 def _convolved(series: Complex, w: Complex) -> Complex:

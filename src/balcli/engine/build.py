@@ -15,6 +15,7 @@ from ..core.cylinders import Cylinders, Device
 from ..core.phasors import Array, Figure, Phasors
 from ..enginefile.model import EngineFile
 from ..enginefile.plain_tables import list_tables
+from ..enginefile.units import RPM
 from ..errors import BalcliError, InputError, check_type, wrong_type
 from .assembly import Assembly, Ripple
 from .devices import build_devices
@@ -185,7 +186,7 @@ class Engine:
     @property
     def omega(self) -> Figure:
         """Mean crank speed, rad/s."""
-        return self.speed_rpm * (math.pi / 30)
+        return self.speed_rpm * RPM
 
     @property
     def displacement_m3(self) -> Figure:
@@ -331,6 +332,20 @@ def take_model(engine: Engine) -> EngineFile:
             "none describes, or is a variant); take the one from which it was made"
         )
     return engine.model
+
+
+def find_row(engine: Engine, number: int, option: str) -> int:
+    """Row of the cylinder with this number, which an option names.
+
+    Raises:
+        BalcliError: there is none.
+    """
+    if number not in engine.numbers:
+        some = ", ".join(map(str, sorted(engine.numbers)))
+        raise BalcliError(
+            f"{option} {number}: {engine.name or 'the engine'} has the cylinders {some}"
+        )
+    return engine.numbers.index(number)
 
 
 def assemble(

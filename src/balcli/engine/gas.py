@@ -30,7 +30,7 @@ from ..core.tangential_force import tangential_torque
 from ..enginefile.csv_columns import Columns, locate_beside, read_columns
 from ..enginefile.gas_tables import DIAGRAM_KEYS, GOALS, Gas
 from ..enginefile.suspicious import MAX_PRESSURE
-from ..enginefile.units import INCH, POUND, STANDARD_GRAVITY
+from ..enginefile.units import INCH, POUND_FORCE
 from ..errors import BalcliError, InputError, Problem
 from ..limits import HIGHEST_TABLE_ORDER
 
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from .assembly import Assembly
 
 BAR = 1e5  # Pa
-_PSI = float(POUND) * STANDARD_GRAVITY / float(INCH) ** 2  # Pa
+_PSI = POUND_FORCE / float(INCH) ** 2  # Pa
 _GAUGE_HEADS = {"pressure_barg": BAR, "pressure_psig": _PSI}  # over the atmosphere
 PRESSURE_HEADS = {
     "pressure_bar": BAR,
@@ -65,12 +65,15 @@ class CylinderGas(NamedTuple):
         nominal_deg: crank angle, in [0, 720) or [0, 360), at which its crank pin stands along its
             axis when it fires.
         share: by which the gas force is multiplied; 0 is a misfire.
+        like: row of the first cylinder with an equal mechanism and the same diagram: what they have
+            but for `nominal_deg` and `share` is equal.
     """
 
     piston: Piston
     torque: GasTorque
     nominal_deg: float
     share: float
+    like: int
 
     @property
     def fires(self) -> float:
@@ -83,8 +86,7 @@ class EngineGas:
     """Gas of an engine.
 
     Attributes:
-        cylinders: one for each row of `Engine.cylinders`. Equal cylinders have one and the same
-            `torque`.
+        cylinders: one for each row of `Engine.cylinders`.
         cycle_deg: 720, or 360 of a two-stroke engine.
         mechanical_efficiency: brake over indicated work; None: not known.
         compression_ratio: None where the file does not say.
@@ -114,10 +116,10 @@ class EngineGas:
 
     def group_equal(self) -> list[tuple[GasTorque, list[int]]]:
         """Each torque, with the rows of the equal cylinders that have it."""
-        found: dict[int, tuple[GasTorque, list[int]]] = {}
+        rows: dict[int, list[int]] = {}
         for row, cylinder in enumerate(self.cylinders):
-            found.setdefault(id(cylinder.torque), (cylinder.torque, []))[1].append(row)
-        return list(found.values())
+            rows.setdefault(cylinder.like, []).append(row)
+        return [(self.cylinders[first].torque, own) for first, own in rows.items()]
 
     def with_share(self, row: int, share: float) -> EngineGas:
         """The same with another share of the cylinder in one row."""
@@ -158,7 +160,6 @@ class _Builder:
         self.strokes = parts.model.layout.strokes
         self.problems: list[Problem] = []
         self.doubts: list[str] = []
-        self._made: dict[tuple[object, ...], GasTorque | None] = {}
         self._read: dict[str, Columns] = {}
 
     def build(self) -> EngineGas:
@@ -166,18 +167,16 @@ class _Builder:
         self._refuse()
         c, bore = self.cylinders, self._bore or 0.0
         found = pistons(c, math.pi / 4 * (bore / 1e3) ** 2)
-        mechanisms = c.mechanisms
-        torques = [
-            self._torque(number, found[row], mechanisms[row])
-            for row, number in enumerate(self.parts.numbers)
-        ]
+        like = self._find_like()
+        numbers = self.parts.numbers
+        torques = {row: self._torque(numbers[row], found[row]) for row in dict.fromkeys(like)}
         self._refuse()
         nominal = self._find_nominal([piston.top for piston in found])
         return EngineGas(
             tuple(
-                CylinderGas(piston, torque, nominal[row], self._share(self.parts.numbers[row]))
-                for row, (piston, torque) in enumerate(zip(found, torques, strict=True))
-                if torque is not None
+                CylinderGas(found[row], torque, nominal[row], self._share(numbers[row]), first)
+                for row, first in enumerate(like)
+                if (torque := torques[first]) is not None
             ),
             180 * self.strokes,
             self.gas.mechanical_efficiency,
@@ -229,20 +228,24 @@ class _Builder:
             return _Source(f"cylinder.{number}.indicator", own.indicator)
         return _Source("gas.indicator", self.gas.indicator)
 
-    def _torque(
-        self, number: int, piston: Piston, mechanism: tuple[object, ...]
-    ) -> GasTorque | None:
-        """That of a cylinder, of equal ones computed once; None after a mistake."""
+    def _find_like(self) -> list[int]:
+        """`CylinderGas.like` of each row."""
+        first: dict[tuple[object, ...], int] = {}
+        each = zip(self.cylinders.mechanisms, self.parts.numbers, strict=True)
+        return [
+            first.setdefault((*mechanism, self._source(number).indicator), row)
+            for row, (mechanism, number) in enumerate(each)
+        ]
+
+    def _torque(self, number: int, piston: Piston) -> GasTorque | None:
+        """That of a cylinder; None after a mistake."""
         source = self._source(number)
-        key = (*mechanism, source.indicator)
-        if key not in self._made:
-            try:
-                self._made[key] = self._make(source, piston)
-            except BalcliError as error:
-                self._made[key] = None
-                path = source.path if source.indicator is not None else "gas.harmonics"
-                self.problems.append(Problem(path, str(error)))
-        return self._made[key]
+        try:
+            return self._make(source, piston)
+        except BalcliError as error:
+            path = source.path if source.indicator is not None else "gas.harmonics"
+            self.problems.append(Problem(path, str(error)))
+            return None
 
     def _make(self, source: _Source, piston: Piston) -> GasTorque | None:
         gas = self.gas

@@ -80,6 +80,10 @@ def _parse(text: str, wanted: Sequence[Sequence[str]]) -> Columns:
     ]
     if len(lines) > MOST_ROWS:
         raise ValueError(f"has {len(lines)} lines; at most {MOST_ROWS} are read")
+    first = lines[0][1] if lines else ""
+    if re.fullmatch(r"[-+\d.,;eE\s]+", first) and re.search(r"\d", first):
+        usual = (";" if ";" in first else ",").join(some[0] for some in wanted)
+        raise ValueError(f"begins with figures, without a heading; put the line {usual} above them")
     semicolons = bool(lines) and lines[0][1].count(";") > lines[0][1].count(",")
     if semicolons:
         lines = [(n, line.replace(",", ".").replace(";", ",")) for n, line in lines]

@@ -1,7 +1,8 @@
 """The engines that are shipped as examples.
 
-Textbook layouts, one of each kind, stand in the folder itself; engines that were built in folders
-by class. The first line of a file is a comment that says what the engine teaches.
+Textbook layouts, one of each kind, stand in the folder itself; engines that were built, or are of
+the size of such, in folders by class. The first line of a file is a comment that says what the
+engine teaches.
 """
 
 from __future__ import annotations

@@ -4,8 +4,8 @@ They are imported for files that have them (`messages.CHAPTERS`).
 """
 
 import math
-from collections.abc import Iterator
-from typing import Annotated
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field
 
@@ -14,6 +14,29 @@ from .fields import Label, Number
 from .model import Angle, Table, Triple
 from .units import DAMPING, INERTIA, MASS, PLAIN, STIFFNESS
 
+if TYPE_CHECKING:
+    from pydantic_core import CoreSchema
+
+
+class _AlikeOrEach:
+    """Figures along the three own axes of a mount, or one that holds along all three."""
+
+    def __init__(self, one: Number) -> None:
+        self._one = one
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> "CoreSchema":
+        from pydantic_core import core_schema
+
+        def read(value: object, each: Callable[[object], Any]) -> Any:
+            return each(value) if isinstance(value, (list, tuple)) else (self._one.read(value),) * 3
+
+        return core_schema.no_info_wrap_validator_function(read, handler(source))
+
+    def __get_pydantic_json_schema__(self, schema: "CoreSchema", handler: Any) -> dict[str, Any]:
+        return {"anyOf": [self._one.json(), handler(schema)], "unit": self._one.dimension.unit}
+
+
+_Stiffness, _Damping = (Number(dimension, least=0, most=1e12) for dimension in (STIFFNESS, DAMPING))
 Name = Annotated[str, Label()]
 Tensor = Annotated[
     tuple[Annotated[float, Number(INERTIA, most=1e24)], ...], Field(min_length=6, max_length=6)
@@ -24,12 +47,14 @@ Direction = Annotated[
 Directions = Annotated[tuple[Direction, ...], Field(min_length=2, max_length=2)]
 Turns = Annotated[tuple[Angle, ...], Field(min_length=3, max_length=3)]
 Stiffnesses = Annotated[
-    tuple[Annotated[float, Number(STIFFNESS, least=0, most=1e12)], ...],
+    tuple[Annotated[float, _Stiffness], ...],
     Field(min_length=3, max_length=3),
+    _AlikeOrEach(_Stiffness),
 ]
 Dampings = Annotated[
-    tuple[Annotated[float, Number(DAMPING, least=0, most=1e12)], ...],
+    tuple[Annotated[float, _Damping], ...],
     Field(min_length=3, max_length=3),
+    _AlikeOrEach(_Damping),
 ]
 
 _PERPENDICULAR = 1e-6  # cosine between two axes that are
@@ -97,7 +122,8 @@ class Mount(Table):
     name: Name = Field(description="what to call it", examples=["left"])
     at: Triple = Field(description="x, y, z, in the engine's axes", examples=[[-66, 463, 156]])
     stiffness: Stiffnesses = Field(
-        description="static, along its three own axes", examples=[[349.5, 370.5, 453]]
+        description="static, along its three own axes; one figure: alike along all three",
+        examples=[[349.5, 370.5, 453]],
     )
     axes: Directions | None = Field(
         None,
@@ -114,7 +140,9 @@ class Mount(Table):
         0.0, description="loss factor of the stiffness", examples=[0.1]
     )
     damping: Dampings = Field(
-        (0.0, 0.0, 0.0), description="viscous, along its own axes", examples=[[0.4, 0.4, 0.4]]
+        (0.0, 0.0, 0.0),
+        description="viscous, along its own axes, or one figure",
+        examples=[[0.4, 0.4, 0.4]],
     )
     dynamic_factor: Annotated[float, Number(PLAIN, above=0, most=100)] = Field(
         1.0, description="dynamic over static stiffness; statics do not use it", examples=[1.3]

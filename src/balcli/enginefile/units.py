@@ -7,6 +7,7 @@ is read as far as a figure needs it.
 
 from __future__ import annotations
 
+import math
 import re
 from fractions import Fraction
 from functools import cache
@@ -54,6 +55,8 @@ INCH = Fraction(254, 10_000)  # m
 POUND = Fraction(45_359_237, 100_000_000)  # kg
 _GRAVITY = Fraction(980_665, 100_000)  # m/s2
 STANDARD_GRAVITY = float(_GRAVITY)
+POUND_FORCE = float(POUND) * STANDARD_GRAVITY  # N
+RPM = math.pi / 30  # rad/s
 
 _BASE = {
     "m": Unit(Fraction(1), _LENGTH),
@@ -115,12 +118,14 @@ _NAMES = {
 }
 
 # Compiled when a string is met
+BARE_FIGURE = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"  # a number without a unit
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
 _FACTOR = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[²³23])?"
 _JOINT = r"\s*[*·⋅/]\s*|[.-]|\s+"
 _UNIT = rf"{_FACTOR}(?:(?:{_JOINT}){_FACTOR})*"
 _WHOLE = r"(\d+)(?:\s+|-)(?=[1-9]\d*\s*/)"  # of "3 1/2" and "3-1/2"
 FIGURE = rf"\s*([+-]?)(?:{_WHOLE})?({_NUMBER})(?:\s*/\s*({_NUMBER}))?\s*({_UNIT})?\s*"
+_LARGE_AND_SMALL = r"\s*([+-]?)(\d+ *[A-Za-z]+) +(\d.*[A-Za-z])\s*"  # 1 lb 4 oz, 3 ft 2 1/2 in
 _INCH_MARK = r'^([^"”″]*\d)\s*["”″]\s*$'  # 3.5"
 # A crank speed counts turns, said or not. 1/s stays out: it is as often meant as rad/s.
 _PER_MINUTE = r"(\d\.?)(?:(?:\s+1)?\s*/\s*min|\s*min(?:\^|\*\*)?-1|\s*min⁻¹)\s*$"
@@ -143,21 +148,34 @@ def convert(text: str, dimension: Dimension) -> float:
     elif dimension is ANGLE:
         figure = _name_pi(figure)
     try:
-        found = _split(figure)
-        if found is None:
-            raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
-        number, names = found
-        if not names:
-            raise ValueError(f"has no unit; {wanted(dimension)}")
-        unit = read_unit(names, dimension)
-        if unit.powers != dimension.powers:
-            name = _NAMES.get(unit.powers, "of another dimension")
-            raise ValueError(f"is {name}, but {wanted(dimension)}")
-        return float(number * unit.scale / read_unit(dimension.unit, dimension).scale)
+        return float(_measure(figure, dimension) / read_unit(dimension.unit, dimension).scale)
     except ZeroDivisionError:
         raise ValueError("divides by zero") from None
     except OverflowError:
         raise ValueError("is too large a number") from None
+
+
+def _measure(figure: str, dimension: Dimension) -> Fraction:
+    """The figure in m, kg, s and turns; a large unit and a small one add up ("1 lb 4 oz")."""
+    found = _split(figure)
+    both = None if found else re.fullmatch(_LARGE_AND_SMALL, figure, re.ASCII)
+    if both:
+        sign, large, small = both.groups()
+        whole, rest = _measure(large, dimension), _measure(small, dimension)
+        one = re.sub(r"\d+", "1", large)
+        if rest >= _measure(one, dimension):
+            raise ValueError(f'has "{small}" after "{large}", which is not less than "{one}"')
+        return -(whole + rest) if sign == "-" else whole + rest
+    if found is None:
+        raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
+    number, names = found
+    if not names:
+        raise ValueError(f"has no unit; {wanted(dimension)}")
+    unit = read_unit(names, dimension)
+    if unit.powers != dimension.powers:
+        name = _NAMES.get(unit.powers, "of another dimension")
+        raise ValueError(f"is {name}, but {wanted(dimension)}")
+    return number * unit.scale
 
 
 def _split(figure: str) -> tuple[Fraction, str] | None:

@@ -13,7 +13,16 @@ from pydantic import Field
 
 from ..enginefile.fields import Flag, Label, Number, OneOf, shorten
 from ..enginefile.model import Size, Speed, Table
-from ..enginefile.units import ANGLE, MASS, PLAIN, UNBALANCE, Dimension, Unit, read_unit
+from ..enginefile.units import (
+    ANGLE,
+    BARE_FIGURE,
+    MASS,
+    PLAIN,
+    UNBALANCE,
+    Dimension,
+    Unit,
+    read_unit,
+)
 from ..limits import (
     LONGEST_FIGURE,
     MOST_BALANCING_PLANES,
@@ -22,9 +31,8 @@ from ..limits import (
     MOST_SENSORS,
 )
 
-_FIGURE = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
-_GRADE = re.compile(rf"\s*[Gg]\s*({_FIGURE})\s*", re.ASCII)
-_POLAR = re.compile(rf"\s*({_FIGURE})\s*@\s*({_FIGURE})\s*(?:deg|°)?\s*", re.ASCII)
+_GRADE = re.compile(rf"\s*[Gg]\s*({BARE_FIGURE})\s*", re.ASCII)
+_POLAR = re.compile(rf"\s*({BARE_FIGURE})\s*@\s*({BARE_FIGURE})\s*(?:deg|°)?\s*", re.ASCII)
 _LARGEST, _SMALLEST = 1e12, 1e-12
 _FARTHEST_DEG = 1e6
 FREE = "free"  # places of a plane that takes weights at any angle

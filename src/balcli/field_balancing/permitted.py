@@ -4,12 +4,12 @@ mass, mm/s, so `e = G / angular speed` and `U = mass * e`.
 
 from __future__ import annotations
 
-import math
+from ..enginefile.units import RPM
 
 
 def find_permitted_eccentricity(grade: float, speed_rpm: float) -> float:
     """Permitted specific unbalance, mm (or g mm per g), of a grade in mm/s at a service speed."""
-    return grade / (speed_rpm * math.pi / 30)
+    return grade / (speed_rpm * RPM)
 
 
 def find_permitted_unbalance(grade: float, mass_kg: float, speed_rpm: float) -> float:

@@ -17,7 +17,7 @@ import numpy as np
 from ..core.mechanisms import slidercrank as sc
 from ..core.phasors import EPS, Array, Complex, unit
 from ..core.strokes import find_travel
-from ..engine.build import Engine
+from ..engine.build import Engine, find_row
 from ..errors import BalcliError
 from ..limits import FINEST_STEP_DEG
 from ..result import Result
@@ -96,12 +96,7 @@ def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Cu
     Raises:
         BalcliError: the engine has no such cylinder.
     """
-    if number not in engine.numbers:
-        some = ", ".join(map(str, sorted(engine.numbers)))
-        raise BalcliError(
-            f"--cylinder {number}: {engine.name or 'the engine'} has the cylinders {some}"
-        )
-    row = engine.numbers.index(number)
+    row = find_row(engine, number, "--cylinder")
     return _sum_parts(
         engine, crank_deg, lambda angles: _compute_cylinder_parts(engine, row, angles)
     )

@@ -28,19 +28,20 @@ from ..core.roots_of_unity import even, rational, turns, vanishes
 from ..engine.build import Engine
 from .cancellation import WEIGHT_DENOMINATOR, Term, are_in_phase, tell_cancellation
 from .kinds import KINDS
+from .orders import merge_orders
 from .spectrum import compute_each_cylinder
 from .textbook import find_textbook, without_devices
 
 Verdict = Literal["none", "exact", "rounding", "nearly", "free"]
-Quantity = Literal["force", "moment", "turning", "gas"]  # turning: couple, torque and roll
-_QUANTITY: dict[str, Quantity] = {  # by the name of the kind
+KindGroup = Literal["force", "moment", "turning", "gas"]  # turning: couple, torque and roll
+_GROUPS: dict[str, KindGroup] = {  # by the name of the kind
     "force": "force",
     "moment": "moment",
     "couple": "turning",
     "torque": "turning",
     "roll": "turning",
 }
-_PARTS: dict[Quantity, tuple[str, ...]] = {
+_SUMMED: dict[KindGroup, tuple[str, ...]] = {
     "force": ("force",),
     "moment": ("moment",),
     "turning": ("couple", "torque"),
@@ -51,7 +52,7 @@ _ULPS = 16  # of the largest weight, by which such a ratio may be off
 
 @dataclass(frozen=True)
 class Reason:
-    """Why one order of one quantity is balanced, or is not.
+    """Why one order of a group of kinds is balanced, or is not.
 
     Attributes:
         verdict: "none": no cylinder has any; "exact": by symmetry; "rounding": balanced, but not by
@@ -64,7 +65,7 @@ class Reason:
     """
 
     order: float
-    quantity: Quantity
+    quantity: KindGroup
     verdict: Verdict
     size: float
     reciprocating: float | None = None
@@ -105,8 +106,8 @@ class Reason:
 
 @dataclass(frozen=True)
 class Symmetry:
-    """Why each order of each quantity is balanced or is not, how the engine fires (empty: the file
-    does not say), and of what these are the reasons (empty: of the engine as it is).
+    """Why each order of each group of kinds is balanced or is not, how the engine fires (empty: the
+    file does not say), and of what these are the reasons (empty: of the engine as it is).
     """
 
     reasons: tuple[Reason, ...]
@@ -128,7 +129,7 @@ class Symmetry:
 
 
 def explain_symmetry(
-    engine: Engine, orders: Iterable[float], kinds: Collection[str] = tuple(_QUANTITY)
+    engine: Engine, orders: Iterable[float], kinds: Collection[str] = tuple(_GROUPS)
 ) -> Symmetry:
     """The conditions of self-balance, at steady speed, of the cylinders alone: no devices.
 
@@ -141,10 +142,10 @@ def explain_symmetry(
         kinds: any of force, moment, couple, torque and roll; the last three have one reason in
             common.
     """
-    asked = np.unique(np.fromiter(orders, float))
-    quantities = dict.fromkeys(q for name, q in _QUANTITY.items() if name in kinds)
+    asked = merge_orders(orders)
+    groups = dict.fromkeys(group for name, group in _GROUPS.items() if name in kinds)
     layout = _Layout(without_devices(engine), asked)
-    reasons = [layout.explain(row, q) for row in range(len(asked)) for q in quantities]
+    reasons = [layout.explain(row, group) for row in range(len(asked)) for group in groups]
     if engine.gas is not None and "gas" in kinds:
         reasons = sorted([*reasons, *_explain_gas(engine, asked)], key=attrgetter("order"))
     return Symmetry(tuple(reasons), describe_firing(engine), _tell_scope(engine))
@@ -220,44 +221,44 @@ class _Layout:
         self._largest_deg = float(max(np.abs(self._axis_deg).max(), np.abs(self._c.pin_deg).max()))
         self._mechanisms = self._c.mechanisms
         self._arms = self._c.z - engine.reference_m[2]
-        kinds = [name for parts in _PARTS.values() for name in parts]
+        kinds = [name for parts in _SUMMED.values() for name in parts]
         self._book = find_textbook(engine, orders, kinds)
         self._single = compute_each_cylinder(engine, orders, kinds)
 
-    def explain(self, row: int, quantity: Quantity) -> Reason:
+    def explain(self, row: int, group: KindGroup) -> Reason:
         """Why the order in this row is balanced, or is not."""
-        n, parts = float(self._orders[row]), _PARTS[quantity]
+        n, parts = float(self._orders[row]), _SUMMED[group]
         order = _as_number(n)
         whole = {name: self._book.built[name].major[row] for name in parts}
         single = {name: self._single[name].major[row] for name in parts}
         sizes = [whole[name] / single[name].max() for name in parts if single[name].any()]
         if not sizes:
-            return Reason(order, quantity, "none", 0.0)
+            return Reason(order, group, "none", 0.0)
         there = np.any([one > 0 for one in single.values()], axis=0)
-        sums = [(s.side, self._commensurable(s)) for s in self._sums(order, quantity, there)]
+        sums = [(s.side, self._commensurable(s)) for s in self._sums(order, group, there)]
         exact = all(map(_vanishes, (sets for _, sets in sums)))
         size = 0.0 if exact else float(max(sizes))
         verdict: Verdict = "exact" if exact else _judge(size)
-        multiples = self._multiples(row, quantity)
+        multiples = self._multiples(row, group)
         because = "" if verdict == "rounding" else _tell_why(sums)
-        return Reason(order, quantity, verdict, size, *multiples, because)
+        return Reason(order, group, verdict, size, *multiples, because)
 
-    def _multiples(self, row: int, quantity: Quantity) -> tuple[float | None, float | None, str]:
+    def _multiples(self, row: int, group: KindGroup) -> tuple[float | None, float | None, str]:
         """What is left of the order in this row in textbook units, and their name."""
         order = int(self._orders[row])
-        if quantity == "turning":
+        if group == "turning":
             return None, None, ""
-        unit = self._book.units.size(KINDS[quantity], order)
+        unit = self._book.units.size(KINDS[group], order)
         if math.isnan(unit):
             return None, None, ""
-        alone, built = self._book.reciprocating[quantity], self._book.built[quantity]
-        name = self._book.units.name(KINDS[quantity], order)
+        alone, built = self._book.reciprocating[group], self._book.built[group]
+        name = self._book.units.name(KINDS[group], order)
         return float(alone.major[row] / unit), float(built.major[row] / unit), name
 
-    def _sums(self, order: float, quantity: Quantity, there: NDArray[np.bool_]) -> Iterator[_Sum]:
+    def _sums(self, order: float, group: KindGroup, there: NDArray[np.bool_]) -> Iterator[_Sum]:
         """All that must vanish; `there`: which cylinders have this order at all."""
-        turning = quantity == "turning"
-        arms = self._arms if quantity == "moment" else np.ones(self._c.count)
+        turning = group == "turning"
+        arms = self._arms if group == "moment" else np.ones(self._c.count)
         masses = [self._c.reciprocating]
         if self._c.linkage is not None:
             masses.append(self._c.linkage.mass)

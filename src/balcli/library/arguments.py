@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.phasors import Array
+from ..core.sorted_sets import sort_distinct
 from ..enginefile.fields import shorten
 from ..errors import BalcliError, InputError, wrong_type
 from ..forces.orders import check_orders
@@ -20,7 +21,7 @@ from ..limits import HIGHEST_TORSION_ORDER, LARGEST_INERTIA, MOST_SPEEDS
 
 Words = str | Iterable[str]  # names, or a text of them with commas between
 _REAL = (int, float, np.integer, np.floating)
-_OPTION = re.compile(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
+_OPTION = re.compile(r"`[^`]*`|(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 P = ParamSpec("P")
 Answer = TypeVar("Answer")
 
@@ -37,7 +38,8 @@ def tell_arguments(**others: str) -> Callable[[Callable[P, Answer]], Callable[P,
         names = {**{name: name for name in signature(function).parameters}, **others}
 
         def name_argument(option: re.Match[str]) -> str:
-            return names.get(option[1].replace("-", "_"), option[0])
+            name = (option[1] or "").replace("-", "_")  # none within a command: `balcli new`
+            return names.get(name, option[0])
 
         @wraps(function)
         def call(*args: P.args, **kwargs: P.kwargs) -> Answer:
@@ -89,7 +91,7 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
     if speeds_rpm is None:
         return None
     try:
-        found = np.unique(np.asarray(speeds_rpm, dtype=float))
+        found = sort_distinct(np.asarray(speeds_rpm, dtype=float))
     except (TypeError, ValueError):
         raise wrong_type(function, speeds_rpm, "give speeds in rpm, such as [1500, 2000]") from None
     except OverflowError:  # a whole number of hundreds of digits

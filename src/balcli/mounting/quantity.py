@@ -11,6 +11,7 @@ import numpy as np
 from ..engine.variants import EngineVariants
 from ..enginefile.model import EngineFile, Table, label_table
 from ..enginefile.mounting_tables import Body, find_tensor_faults
+from ..enginefile.units import RPM
 from ..errors import BalcliError, InputError, Problem
 from ..forces.target_quantity import (
     Subject,
@@ -149,7 +150,7 @@ class Variants:
             loads = find_loads(engine, mounted.body.centre)
             modes = find_mounted_modes(mounted, loads.mean)
             if self._runs:
-                omega = choose_speeds(engine) * (np.pi / 30)
+                omega = choose_speeds(engine) * RPM
                 largest = [worst.value for worst in find_worst(mounted, modes, loads, omega)]
                 count = len(mounted.names)
                 forces, motions = largest[:count], largest[count:]

@@ -13,6 +13,7 @@ from ..core.singular_values import Real
 from ..core.telling import Tell, tell_nobody
 from ..engine.build import Engine
 from ..enginefile.model import EngineFile
+from ..enginefile.units import RPM
 from ..errors import BalcliError
 from ..forces.orders import check_orders
 from ..result import Result
@@ -139,7 +140,7 @@ def _run(
     tell: Tell,
 ) -> MountReport:
     rpm = choose_speeds(engine) if speeds_rpm is None else speeds_rpm
-    omega = rpm * (np.pi / 30)
+    omega = rpm * RPM
     asked = None if orders is None else check_orders(orders)
     if asked is not None and asked[0] == 0:
         raise BalcliError("order 0 does not vibrate: what is steady is told as rest; leave it out")

@@ -4,7 +4,7 @@ up in time, at every speed.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -21,11 +21,14 @@ from ..core.rigid_body import (
     respond_body,
 )
 from ..core.singular_values import Complex, Real
+from ..core.sorted_sets import sort_others
 from ..core.telling import Tell, tell_nobody
 from ..core.vibration import UNDAMPED, find_resonances, frequencies
 from ..engine.build import Engine
 from ..engine.positions import MOMENTS_UNKNOWN
+from ..enginefile.units import RPM
 from ..errors import BalcliError
+from ..forces.in_time import compute_spectra_in_time
 from ..forces.orders import (
     choose_orders,
     find_relevant_orders,
@@ -39,7 +42,6 @@ from .modes import BodyModes
 from .motions import ROLL
 
 _KINDS = ("force", "moment", "roll")
-_RPM = 30 / np.pi  # of 1 rad/s
 _SPEEDS_AT_A_TIME = 512  # whose curves are sampled together
 _BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # speeds looked at about a resonance, in widths
 _NEAR = 0.8  # of the highest at the speeds looked at: what a peak beside them may exceed
@@ -53,7 +55,7 @@ class Loads:
         orders: (orders,), all above 0.
         inertia: (orders, 6) force (N) and moment about the centre of gravity (N m) at `omega`; they
             grow with the square of the speed.
-        omega: rad/s.
+        omega: rad/s, mean over the time, as all speeds here are.
         gas: (orders, 6), the same at every speed: what the gas torque leaves as roll; None where
             the file says nothing of gas.
         mean: N m about the crankshaft's axis on the body, steady: the gas torque's reaction.
@@ -88,7 +90,7 @@ class Meeting(NamedTuple):
 
     @property
     def speed_rpm(self) -> float:
-        return self.omega * _RPM
+        return self.omega / RPM
 
 
 class Worst(NamedTuple):
@@ -108,7 +110,7 @@ class Worst(NamedTuple):
 
     @property
     def speed_rpm(self) -> float:
-        return self.omega * _RPM
+        return self.omega / RPM
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +143,7 @@ class Response:
     @property
     def speeds_rpm(self) -> Real:
         """(speeds,)."""
-        return self.omega * _RPM
+        return self.omega / RPM
 
 
 def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Loads:
@@ -159,18 +161,25 @@ def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Load
     of_gas = () if engine.gas is None else list_gas_orders(engine)
     wanted = merge_orders(find_relevant_orders(engine), of_gas) if orders is None else orders
     kinds = _KINDS if engine.gas is None else (*_KINDS, "gas")
-    found = compute_spectra(engine, wanted[wanted > 0], kinds)
+    found, turns = _compute_spectra(engine, wanted[wanted > 0], kinds)
     if orders is None:
         found = found.select_orders(choose_orders(found, engine))
     reference = np.array([float(value) for value in engine.reference_m])
     inertia = _find_load(found, reference, centre)
-    loads = Loads(found.orders, inertia, float(engine.omega))
+    loads = Loads(found.orders, inertia, turns * float(engine.omega))
     if engine.gas is not None:
         gas = np.zeros_like(inertia)
         gas[:, ROLL] = -found["gas"].x
         mean = compute_spectra(engine, [0.0], ["gas"])["gas"].x[0].real
         loads = replace(loads, gas=gas, mean=-float(mean))
     return loads if orders is not None else _leave_out_none(loads)
+
+
+def _compute_spectra(engine: Engine, orders: Real, kinds: Sequence[str]) -> tuple[Spectra, float]:
+    """By orders of the time, and how much faster than over the angle the crank turns over time."""
+    if not engine.ripple:
+        return compute_spectra(engine, orders, kinds), 1.0
+    return compute_spectra_in_time(engine, np.asarray(orders, float), kinds)
 
 
 def _leave_out_none(loads: Loads) -> Loads:
@@ -276,7 +285,7 @@ def refuse_resonance(modes: BodyModes, loads: Loads, omega: Real) -> None:
     mode = modes.six[first.mode]
     raise BalcliError(
         f"mode {first.mode + 1} ({mode.motion}, {mode.hertz:.4g} Hz) is not damped, and order "
-        f"{first.order:g} drives it at {first.speed * 30 / np.pi:.6g} rpm, where its motion has no "
+        f"{first.order:g} drives it at {first.speed / RPM:.6g} rpm, where its motion has no "
         "bound; give the mounts a loss, such as loss = 0.1, or other --speeds"
     )
 
@@ -317,7 +326,7 @@ def _find_worst(
     met = [one for one in find_meetings(modes, loads, omega) if modes.loss[one.mode] > UNDAMPED]
     at_modes, loss = np.array([(one.omega, modes.loss[one.mode]) for one in met]).reshape(-1, 2).T
     about = (at_modes * (1 + loss * _BESIDE[:, None])).ravel()
-    about = np.setdiff1d(about[(about > omega[0]) & (about < omega[-1])], omega)
+    about = sort_others(about[(about > omega[0]) & (about < omega[-1])], omega)
     heights = np.concatenate([peaks, *_press_some(mounted, loads, about)])
     rising = np.argsort(np.concatenate([omega, about]))
     speeds, heights = np.concatenate([omega, about])[rising], heights[rising]

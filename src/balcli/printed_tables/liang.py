@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.mechanisms.slidercrank import rod_acceleration
 from ..enginefile import units
-from ..enginefile.units import STANDARD_GRAVITY
+from ..enginefile.units import POUND_FORCE, STANDARD_GRAVITY
 from .printed import Print
 from .ranges import Ranges
 from .recomputed import Explanation, Row, Table
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from ..engine.build import Engine
 
 POUND, FOOT = float(units.POUND), float(12 * units.INCH)  # kg, m
-POUND_FORCE = POUND * STANDARD_GRAVITY
 
 FIRST = """
 crank = { stroke = "4 in" }

@@ -10,6 +10,7 @@ from ..core.mechanisms import slidercrank
 from ..core.phasors import Array
 from ..core.piecewise import PiecewiseCurve, polyline, resolved
 from ..core.speed_variation import surplus
+from ..enginefile.units import RPM
 from .printed import Print
 from .ranges import Ranges
 from .recomputed import Explanation, Table
@@ -89,4 +90,4 @@ def _simpson_mean() -> float:
 
 def _uicker_inertia(energy: float) -> float:
     """Kg m2 for a fluctuation of 0.025 at 4600 rpm."""
-    return energy / (0.025 * (4600 * np.pi / 30) ** 2)
+    return energy / (0.025 * (4600 * RPM) ** 2)

@@ -52,9 +52,8 @@ def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Te
         facts.append(("in the block", _largest_bending(found.block_bending, system)))
     yield Facts(tuple(facts))
     if inner.obstacle:
-        yield Text(
-            "", (f"{_TOGETHER} Inside, it is not known: {inner.obstacle.removeprefix('main: ')}.",)
-        )
+        reason = inner.obstacle.removeprefix("main bearings: ")
+        yield Text("", (f"{_TOGETHER} Inside, it is not known: {reason}.",))
 
 
 def _gas_grids(found: LoadsWithGas, system: System) -> Iterator[Grid]:

@@ -1,240 +1,28 @@
-"""Torque on the crank: of an engine, or of a given curve."""
+"""What a person reads of the torque on the crank: of an engine, or of a given curve."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 import numpy as np
 
 from ..core.piecewise import PiecewiseCurve
 from ..core.speed_variation import Surplus
-from ..forces.kinds import TORQUE_TOTAL
+from ..enginefile.units import RPM
 from ..forces.spectrum import Spectra
 from ..torque.analysis import KINDS_OF_TORQUE, TorqueAnalysis, degrees_in_cycle
 from ..torque.flywheel import Flywheel, Speed
 from ..torque.given_curve import CurveAnalysis
 from ..torque.loads import Load
-from .csv import Rows
 from .engine_facts import list_silent, tell_strokes
-from .figures import FigureRow, clean, order_entries, order_rows, peak_deg
-from .sheet import NAMELESS, Facts, Grid, Sheet, degrees, number, order_name, order_number
+from .figures import peak_deg
+from .sheet import NAMELESS, Facts, Grid, Sheet, degrees, number, order_name
+from .torque_document import Result, document, round_angle, rows
 from .units import ENERGY, System, Unit
 
-RPM = 30 / np.pi  # of 1 rad/s
-Result = TorqueAnalysis | CurveAnalysis
+__all__ = ["document", "rows", "sheet"]
 
 
-# ------------------------------------------------------------------ JSON
-def document(result: Result) -> dict[str, Any]:
-    """`balcli.torque/1`."""
-    found = {"format": "balcli.torque/1"}
-    if isinstance(result, CurveAnalysis):
-        return found | _curve_document(result)
-    gas = result.max_pressure
-    head = {
-        "speed_rpm": clean(result.engine.speed_rpm),
-        "no_gas_in": list(result.engine.without_gas) or None,
-        "cycle_deg": result.cycle_deg,
-        "imep_Pa": clean(result.imep),
-        "bmep_Pa": None if result.bmep is None else clean(result.bmep),
-        "max_pressure_Pa": None if gas is None else clean(gas.value),
-        "max_pressure_deg": None if gas is None else clean(np.degrees(gas.angle)),
-        "mean_torque_Nm": clean(result.mean_torque),
-        "power_W": clean(result.power),
-    }
-    known = {key: value for key, value in head.items() if value is not None}
-    single = order_entries(result.single)
-    orders = [
-        entry | {"one_cylinder": {k: v for k, v in one.items() if k != "order"}}
-        for entry, one in zip(order_entries(result.spectra), single, strict=True)
-    ]
-    return {
-        **found,
-        **known,
-        "torque": _extremes_entry(result.curves.total, result.cycle_deg),
-        "orders": orders,
-        "energy": _energy_entry(result.surplus, result.cycle_deg),
-        **_flywheel_entry(result.flywheel),
-        **_load_entries(result),
-    }
-
-
-def _load_entries(result: TorqueAnalysis) -> dict[str, Any]:
-    """What was asked for and is known."""
-    told = result.loads
-    kinds = (
-        ("pin", "cylinder", told.pin),
-        ("knuckle", "cylinder", told.knuckle),
-        ("main", "bearing", told.main),
-    )
-    found = {
-        kind: [_load_entry(word, load, result.cycle_deg) for load in loads]
-        for kind, word, loads in kinds
-        if loads is not None
-    }
-    return {"loads": found} if found else {}
-
-
-def _load_entry(word: str, load: Load, cycle_deg: float) -> dict[str, Any]:
-    entry: dict[str, Any] = {word: load.name}
-    if word == "bearing":
-        entry["position_mm"] = clean(load.z_m * 1e3)
-    entry |= {
-        "max_N": clean(load.largest.value),
-        "max_deg": clean(degrees_in_cycle(load.largest.angle, cycle_deg)),
-        "mean_N": clean(load.mean),
-    }
-    return entry if load.pressure is None else entry | {"pressure_Pa": clean(load.pressure)}
-
-
-def _curve_document(result: CurveAnalysis) -> dict[str, Any]:
-    cycle, speed = float(np.degrees(result.torque.period)), result.shaft.mean_speed
-    mean = result.torque.mean
-    told: dict[str, Any] = {} if speed is None else {"speed_rpm": clean(speed * RPM)}
-    told |= {"cycle_deg": _whole(cycle), "mean_torque_Nm": clean(mean)}
-    if speed is not None:
-        told["power_W"] = clean(mean * speed)
-    orders = [
-        {"order": order_number(round(n, 9)), "torque_Nm": _scalar_entry(c, n)}
-        for n, c in zip(result.orders, result.harmonics, strict=True)
-    ]
-    return {
-        **told,
-        "torque": _extremes_entry(result.torque, cycle),
-        "orders": orders,
-        "energy": _energy_entry(result.surplus, cycle),
-        **_flywheel_entry(result.flywheel),
-    }
-
-
-def _scalar_entry(c: complex, order: float) -> dict[str, Any]:
-    return {
-        "cos": clean(c.real),
-        "sin": clean(-c.imag),
-        "amplitude": clean(abs(c)),
-        "peak_deg": peak_deg(c, order),
-        "balanced": bool(c == 0),
-    }
-
-
-def tenths(angle_deg: float) -> str:
-    """An angle within a cycle, to a tenth of a degree."""
-    return f"{round(angle_deg, 6) + 0.0:.1f}"
-
-
-def _whole(value: float) -> float | int:
-    near = round(value, 9)
-    return int(near) if near == int(near) else near
-
-
-def _extremes_entry(torque: PiecewiseCurve, cycle_deg: float) -> dict[str, Any]:
-    lowest, highest = torque.extremes()
-    return {
-        "max_Nm": clean(highest.value),
-        "max_deg": clean(degrees_in_cycle(highest.angle, cycle_deg)),
-        "min_Nm": clean(lowest.value),
-        "min_deg": clean(degrees_in_cycle(lowest.angle, cycle_deg)),
-        "reversals": torque.reversals(),
-    }
-
-
-def _energy_entry(surplus: Surplus, cycle_deg: float) -> dict[str, Any]:
-    return {
-        "surplus_J": clean(surplus.energy),
-        "from_deg": clean(degrees_in_cycle(surplus.start, cycle_deg)),
-        "to_deg": clean(degrees_in_cycle(surplus.end, cycle_deg)),
-        "work_J": clean(surplus.work),
-    }
-
-
-def _flywheel_entry(flywheel: Flywheel | None) -> dict[str, Any]:
-    """What is known of it."""
-    if flywheel is None:
-        return {}
-    speed = flywheel.speed
-    figures = {
-        "inertia_kg_m2": flywheel.mean,
-        "moving_parts_kg_m2": flywheel.moving,
-        "fluctuation": speed and speed.fluctuation,
-        "fluctuation_small": speed and speed.small,
-        "needed_kg_m2": flywheel.needed,
-        "speed_max_rpm": speed and speed.highest.value * RPM,
-        "speed_min_rpm": speed and speed.lowest.value * RPM,
-    }
-    known = {key: clean(value) for key, value in figures.items() if value is not None}
-    return {"flywheel": {**known, "stall": flywheel.stall} if flywheel.stall else known}
-
-
-# ------------------------------------------------------------------ a list
-def rows(result: Result, system: System) -> Rows:
-    """CSV: a figure a line, as of `analyze`; cylinder 0 is the engine, an empty order the cycle."""
-    header = ("cylinder", "quantity", "order", "figure", "value", "unit")
-    return Rows(header, _all_rows(result, system))
-
-
-def _all_rows(result: Result, system: System) -> Iterator[FigureRow]:
-    found = document(result)
-    units = {"Nm": system.moment, "J": system.moment}
-    # An engine's torque by order is that of inertia here, as in `analyze`.
-    names = {} if isinstance(result, CurveAnalysis) else {"torque": TORQUE_TOTAL.name}
-    for key, value in found.items():
-        if key == "loads":
-            yield from _load_rows(value, system)
-        elif key == "no_gas_in":
-            yield FigureRow(0, "engine", None, key, " ".join(map(str, value)), "")
-        elif isinstance(value, dict):
-            for figure, inner in value.items():
-                yield _figure_row(names.get(key, key), figure, inner, units)
-        elif key not in ("format", "orders"):
-            yield _figure_row("engine", key, value, units)
-    if isinstance(result, CurveAnalysis):
-        for entry in found["orders"]:
-            values = entry["torque_Nm"]
-            yield from order_rows("torque", entry["order"], values, system.moment)
-    else:
-        yield from _order_rows(result, system)
-
-
-def _order_rows(result: TorqueAnalysis, system: System) -> Iterator[FigureRow]:
-    """Of the engine (cylinder 0), and of the one cylinder."""
-    for number_of, spectra in ((0, result.spectra), (result.cylinder, result.single)):
-        entries = order_entries(spectra)
-        for kind, _ in spectra.items():
-            for entry in entries:
-                values = entry[kind.key]
-                unit = system.unit(kind)
-                yield from order_rows(kind.name, entry["order"], values, unit, number_of)
-
-
-def _load_rows(loads: dict[str, Any], system: System) -> Iterator[FigureRow]:
-    """Pins by cylinder; bearings by their number, in place of an order."""
-    unit = system.force
-    for kind, entries in loads.items():
-        for entry in entries:
-            at = (entry.get("cylinder", 0), kind, entry.get("bearing"))
-            yield FigureRow(*at, "max", unit.of(entry["max_N"]), unit.name)
-            yield FigureRow(*at, "max_deg", entry["max_deg"], "deg")
-            yield FigureRow(*at, "mean", unit.of(entry["mean_N"]), unit.name)
-            if "pressure_Pa" in entry:
-                yield FigureRow(*at, "pressure", entry["pressure_Pa"], "Pa")
-
-
-def _figure_row(quantity: str, key: str, value: Any, units: dict[str, Unit]) -> FigureRow:
-    """A figure whose key says its unit."""
-    name, _, ending = key.rpartition("_")
-    if ending in units:
-        unit = units[ending]
-        return FigureRow(0, quantity, None, name, unit.of(value), unit.name)
-    known = {"Pa": "Pa", "W": "W", "m2": "kg·m²"}
-    if ending in ("deg", "rpm"):
-        return FigureRow(0, quantity, None, key, value, ending)
-    if ending in known:
-        return FigureRow(0, quantity, None, name.removesuffix("_kg"), value, known[ending])
-    return FigureRow(0, quantity, None, key, value, "")
-
-
-# ------------------------------------------------------------------ what a person reads
 def sheet(result: Result, system: System) -> Sheet:
     """Work, torque over the cycle, flywheel, and torque by order."""
     if isinstance(result, CurveAnalysis):
@@ -253,6 +41,11 @@ def sheet(result: Result, system: System) -> Sheet:
     parts += _load_tables(result, system)
     parts.append(_order_table(result, system))
     return Sheet(f"{name}: torque on the crank", tuple(parts))
+
+
+def tenths(angle_deg: float) -> str:
+    """An angle within a cycle, to a tenth of a degree."""
+    return f"{round(angle_deg, 6) + 0.0:.1f}"
 
 
 def _load_tables(result: TorqueAnalysis, system: System) -> Iterator[Grid]:
@@ -289,7 +82,7 @@ def _load_table(
 
 def _work_facts(result: TorqueAnalysis, system: System) -> Facts:
     gas = result.max_pressure
-    pairs = [("cycle", f"{tell_strokes(result.engine)}, {_whole(result.cycle_deg)} deg")]
+    pairs = [("cycle", f"{tell_strokes(result.engine)}, {round_angle(result.cycle_deg)} deg")]
     pairs.append(("speed", f"{number(float(result.engine.speed_rpm), 6)} rpm"))
     pairs.append(("mean pressure", f"{number(result.imep / 1e5)} bar indicated"))
     if result.bmep is not None:
@@ -320,10 +113,10 @@ def _mean_pairs(
 
 
 def _curve_facts(result: CurveAnalysis, system: System) -> Facts:
-    pairs = [("period", f"{_whole(float(np.degrees(result.torque.period)))} deg")]
+    pairs = [("period", f"{round_angle(float(np.degrees(result.torque.period)))} deg")]
     speed = result.shaft.mean_speed
     if speed is not None:
-        pairs.append(("speed", f"{number(speed * RPM, 6)} rpm"))
+        pairs.append(("speed", f"{number(speed / RPM, 6)} rpm"))
     power = None if speed is None else result.torque.mean * speed
     return Facts((*pairs, *_mean_pairs(result.torque.mean, power, system, {"": 1.0})))
 
@@ -387,7 +180,7 @@ def _speed_pairs(speed: Speed, cycle_deg: float) -> Iterator[tuple[str, str]]:
         f"{number(100 * speed.fluctuation, 4)} % ({share}); {small} % by the rule for small ones",
     )
     low, high = (
-        f"{number(e.value * RPM, 6)} rpm at {tenths(degrees_in_cycle(e.angle, cycle_deg))} deg"
+        f"{number(e.value / RPM, 6)} rpm at {tenths(degrees_in_cycle(e.angle, cycle_deg))} deg"
         for e in (speed.lowest, speed.highest)
     )
     yield "speed", f"{low} to {high}"

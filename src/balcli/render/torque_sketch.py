@@ -12,7 +12,7 @@ from ..torque.given_curve import CurveAnalysis
 from . import torque
 from .sheet import Sheet, Text, number
 from .terminal_plot import set_dot
-from .torque import Result, document, rows
+from .torque_document import Result, document, rows
 from .units import System, Unit
 
 __all__ = ["document", "rows", "sheet"]

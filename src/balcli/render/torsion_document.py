@@ -7,14 +7,30 @@ from typing import Any
 
 import numpy as np
 
+from ..core.singular_values import Real
 from ..torsion.analysis import HolzerTable, TorsionAnalysis
 from ..torsion.damper_sizing import SizedDamper
+from ..torsion.modes import NaturalMode
 from ..torsion.response import Response
+from ..torsion.system import TorsionalSystem
 from .csv import Rows, name_cell
 from .figures import clean, clean_each
 from .sheet import order_number
 from .units import System
 
+# Endings of keys in JSON, by the units of CSV.
+_ENDINGS = {
+    "": "",
+    "kg m2": "_kg_m2",
+    "N m s/rad": "_Nms_per_rad",
+    "N m/rad": "_Nm_per_rad",
+    "kg": "_kg",
+    "m": "_m",
+    "Pa": "_Pa",
+    "N m": "_Nm",
+    "W": "_W",
+    "rpm": "_rpm",
+}
 _HEADER = ("part", "number", "speed_rpm", "order", "name", "figure", "value", "unit")
 
 
@@ -68,19 +84,28 @@ def document(result: TorsionAnalysis) -> dict[str, Any]:
 
 
 def _holzer_document(result: TorsionAnalysis, asked: HolzerTable) -> dict[str, Any]:
-    table = asked.table
-    columns = (table.angle, table.torque, table.total, table.stiffness, table.twist)
-    keys = ("angle", "torque_Nm", "sum_Nm", "stiffness_Nm_per_rad", "twist")
+    columns = _list_holzer(result, asked)
     rows = [
-        {"node": name, "inertia_kg_m2": clean(inertia)}
-        | {key: _finite(value) for key, value in zip(keys, values, strict=True)}
-        for name, inertia, *values in zip(
-            result.system.nodes, result.system.chain.inertia, *columns, strict=True
-        )
+        {"node": node}
+        | {name + _ENDINGS[unit]: _finite(values[k]) for name, unit, values in columns}
+        for k, node in enumerate(result.system.nodes)
     ]
     mode = {} if asked.mode is None else {"mode": asked.mode}
     frequency = {"frequency_Hz": clean(asked.omega / (2 * np.pi))}
-    return mode | frequency | {"rows": rows, "residual_Nm": clean(table.residual)}
+    return mode | frequency | {"rows": rows, "residual_Nm": clean(asked.table.residual)}
+
+
+def _list_holzer(result: TorsionAnalysis, asked: HolzerTable) -> tuple[tuple[str, str, Real], ...]:
+    """Columns of Holzer's table: name, unit, a value a node."""
+    table = asked.table
+    return (
+        ("inertia", "kg m2", result.system.chain.inertia),
+        ("angle", "", table.angle),
+        ("torque", "N m", table.torque),
+        ("sum", "N m", table.total),
+        ("stiffness", "N m/rad", table.stiffness),
+        ("twist", "", table.twist),
+    )
 
 
 def _response_document(result: TorsionAnalysis, response: Response) -> dict[str, Any]:
@@ -131,30 +156,36 @@ def _response_document(result: TorsionAnalysis, response: Response) -> dict[str,
 
 def _damper_document(sized: SizedDamper) -> dict[str, Any]:
     """The damper as an engine or chain file has it, in SI, and what it does."""
-    damper = sized.damper
-    si = {
-        "inertia_kg_m2": (damper.inertia, 1e6),
-        "damping_Nms_per_rad": (damper.damping, 1),
-        "stiffness_Nm_per_rad": (damper.stiffness, 1),
-        "loss": (damper.loss, 1),
-        "mass_kg": (damper.mass, 1),
-        "radius_m": (damper.radius, 1e3),
-        "length_m": (damper.length, 1e3),
-    }
-    figures = {key: clean(value / per) for key, (value, per) in si.items() if value is not None}
-    unit = "Pa" if sized.measure == "stress" else "Nm"
     doubts = {"doubts": list(sized.doubts)} if sized.doubts else {}
     return {
         "node": sized.node,
-        "kind": damper.kind,
-        **figures,
-        "mode": sized.mode,
-        f"before_{unit}": _finite(sized.before),
-        f"after_{unit}": clean(sized.after),
-        "heat_W": clean(sized.heat),
-        "heat_rpm": clean(sized.heat_rpm),
+        "kind": sized.damper.kind,
+        **{name + _ENDINGS[unit]: value for name, unit, value in _list_damper(sized)},
         **doubts,
     }
+
+
+def _list_damper(sized: SizedDamper) -> Iterator[tuple[str, str, float | None]]:
+    """Figures of a damper, and what it does: name, unit, value."""
+    damper = sized.damper
+    its_own = (
+        ("inertia", "kg m2", damper.inertia, 1e6),
+        ("damping", "N m s/rad", damper.damping, 1),
+        ("stiffness", "N m/rad", damper.stiffness, 1),
+        ("loss", "", damper.loss, 1),
+        ("mass", "kg", damper.mass, 1),
+        ("radius", "m", damper.radius, 1e3),
+        ("length", "m", damper.length, 1e3),
+    )
+    for name, unit, value, per_unit in its_own:
+        if value is not None:
+            yield name, unit, clean(value / per_unit)
+    measured = "Pa" if sized.measure == "stress" else "N m"
+    yield "mode", "", sized.mode
+    yield "before", measured, _finite(sized.before)
+    yield "after", measured, clean(sized.after)
+    yield "heat", "W", clean(sized.heat)
+    yield "heat", "rpm", clean(sized.heat_rpm)
 
 
 def _finite(value: float) -> float | None:
@@ -170,102 +201,76 @@ Line = tuple[Any, ...]
 
 
 def _lines(result: TorsionAnalysis) -> Iterator[Line]:
-    said = document(result)
-    yield from _system_lines(said)
-    for number, mode in enumerate(said["modes"], 1):
-        yield from _mode_lines(number, mode, said["nodes"])
-    for each in said.get("criticals", ()):
-        where = ("critical", each["mode"], each["speed_rpm"], each["order"], "")
-        yield *where, "phase_sum", each["phase_sum"], ""
-        yield *where, "work_share", each["work_share"], ""
-    for number, table in enumerate(said.get("holzer", ()), 1):
-        yield from _holzer_lines(number, table)
-    yield from _damper_lines(said.get("damper", {}))
-    if "response" in said:
-        yield from _response_lines(said["response"])
-    for number, (low, high) in enumerate(said.get("barred_rpm", ()), 1):
-        yield "barred", number, None, None, "", "from", low, "rpm"
-        yield "barred", number, None, None, "", "to", high, "rpm"
+    yield from _system_lines(result.system)
+    for number, mode in enumerate(result.modes, 1):
+        yield from _mode_lines(number, mode, result.system)
+    for each in result.criticals:
+        order = order_number(each.order)
+        where = ("critical", each.mode, clean(each.speed_rpm), order, "")
+        yield *where, "phase_sum", clean(each.phase_sum), ""
+        yield *where, "work_share", clean(each.work_share), ""
+    for number, asked in enumerate(result.holzer, 1):
+        yield from _holzer_lines(number, result, asked)
+    if result.damper is not None:
+        node = name_cell(result.damper.node)
+        for name, unit, value in _list_damper(result.damper):
+            yield "damper", None, None, None, node, name, value, unit
+    if result.response is not None:
+        yield from _response_lines(result.system, result.response)
+    for number, (low, high) in enumerate(result.barred_rpm or (), 1):
+        yield "barred", number, None, None, "", "from", clean(low), "rpm"
+        yield "barred", number, None, None, "", "to", clean(high), "rpm"
 
 
-def _system_lines(said: dict[str, Any]) -> Iterator[Line]:
-    for node in said["nodes"]:
-        name = name_cell(node["name"])
-        yield "node", None, None, None, name, "inertia", node["inertia_kg_m2"], "kg m2"
-        yield "node", None, None, None, name, "gear", node["gear"], ""
-    for shaft in said["shafts"]:
-        stiffness = shaft["stiffness_Nm_per_rad"]
-        yield "shaft", None, None, None, name_cell(shaft["name"]), "stiffness", stiffness, "N m/rad"
+def _system_lines(system: TorsionalSystem) -> Iterator[Line]:
+    for name, inertia, gear in zip(system.nodes, system.chain.inertia, system.gears, strict=True):
+        where = ("node", None, None, None, name_cell(name))
+        yield *where, "inertia", clean(inertia), "kg m2"
+        yield *where, "gear", clean(gear), ""
+    for name, stiffness in zip(system.shafts, system.chain.stiffness, strict=True):
+        where = ("shaft", None, None, None, name_cell(name))
+        yield *where, "stiffness", _finite(stiffness), "N m/rad"
 
 
-def _mode_lines(number: int, mode: dict[str, Any], nodes: list[dict[str, Any]]) -> Iterator[Line]:
+def _mode_lines(number: int, mode: NaturalMode, system: TorsionalSystem) -> Iterator[Line]:
     where = ("mode", number, None, None)
-    yield *where, "", "frequency", mode["frequency_Hz"], "Hz"
-    yield *where, "", "nodes", mode["nodes"], ""
-    yield *where, "", "loss", mode["loss"], ""
-    for node, angle in zip(nodes, mode["shape"], strict=True):
-        yield *where, name_cell(node["name"]), "angle", angle, ""
+    yield *where, "", "frequency", clean(mode.frequency_hz), "Hz"
+    yield *where, "", "nodes", mode.nodes, ""
+    yield *where, "", "loss", clean(mode.loss), ""
+    for name, angle in zip(system.nodes, mode.shape, strict=True):
+        yield *where, name_cell(name), "angle", clean(angle), ""
 
 
-def _damper_lines(damper: dict[str, Any]) -> Iterator[Line]:
-    for key, value in damper.items():
-        if key not in ("node", "kind", "doubts"):
-            figure, _, unit = key.partition("_")
-            node = name_cell(damper["node"])
-            yield "damper", None, None, None, node, figure, value, _DAMPER_UNITS.get(unit, "")
+def _holzer_lines(number: int, result: TorsionAnalysis, asked: HolzerTable) -> Iterator[Line]:
+    where, columns = ("holzer", number, None, None), _list_holzer(result, asked)
+    yield *where, "", "frequency", clean(asked.omega / (2 * np.pi)), "Hz"
+    for k, node in enumerate(map(name_cell, result.system.nodes)):
+        for name, unit, values in columns:
+            yield *where, node, name, _finite(values[k]), unit
+    yield *where, "", "residual", clean(asked.table.residual), "N m"
 
 
-_HOLZER_UNITS = {
-    "inertia_kg_m2": ("inertia", "kg m2"),
-    "angle": ("angle", ""),
-    "torque_Nm": ("torque", "N m"),
-    "sum_Nm": ("sum", "N m"),
-    "stiffness_Nm_per_rad": ("stiffness", "N m/rad"),
-    "twist": ("twist", ""),
-}
-_DAMPER_UNITS = {
-    "kg_m2": "kg m2",
-    "Nms_per_rad": "N m s/rad",
-    "Nm_per_rad": "N m/rad",
-    "kg": "kg",
-    "m": "m",
-    "Pa": "Pa",
-    "Nm": "N m",
-    "W": "W",
-    "rpm": "rpm",
-}
-
-
-def _holzer_lines(number: int, table: dict[str, Any]) -> Iterator[Line]:
-    where = ("holzer", number, None, None)
-    yield *where, "", "frequency", table["frequency_Hz"], "Hz"
-    for row in table["rows"]:
-        for key, (figure, unit) in _HOLZER_UNITS.items():
-            yield *where, name_cell(row["node"]), figure, row[key], unit
-    yield *where, "", "residual", table["residual_Nm"], "N m"
-
-
-def _response_lines(said: dict[str, Any]) -> Iterator[Line]:
-    for k, speed in enumerate(said["speeds_rpm"]):
-        where = ("response", None, speed, None)
-        for shaft in said["shafts"]:
-            name = name_cell(shaft["name"])
-            yield *where, name, "half_peak_to_peak", shaft["half_peak_to_peak_Nm"][k], "N m"
-            yield *where, name, "sum_of_amplitudes", shaft["sum_of_amplitudes_Nm"][k], "N m"
-            if "stress_Pa" in shaft:
-                yield *where, name, "stress", shaft["stress_Pa"][k], "Pa"
-        yield *where, "", "free_end", said["free_end_deg"][k], "deg"
-        for damper in said.get("dampers", ()):
-            yield *where, name_cell(damper["node"]), "heat", damper["heat_W"][k], "W"
-    for damper in said.get("dampers", ()):
-        worst = damper["worst"]
-        where = ("worst", None, worst["speed_rpm"], None)
-        yield *where, name_cell(damper["node"]), "heat", worst["heat_W"], "W"
-    for shaft in said["shafts"]:
-        worst, name = shaft["worst"], name_cell(shaft["name"])
-        where = ("worst", None, worst["speed_rpm"], None)
-        yield *where, name, "half_peak_to_peak", worst["half_peak_to_peak_Nm"], "N m"
-        if "stress_Pa" in worst:
-            yield *where, name, "stress", worst["stress_Pa"], "Pa"
-    swing = said["free_end_worst"]
-    yield "worst", None, swing["speed_rpm"], None, "", "free_end", swing["half_swing_deg"], "deg"
+def _response_lines(system: TorsionalSystem, response: Response) -> Iterator[Line]:
+    stressed = [section is not None for section in system.sections]
+    for s, speed in enumerate(response.speeds_rpm):
+        where = ("response", None, clean(speed), None)
+        for k, name in enumerate(map(name_cell, system.shafts)):
+            yield *where, name, "half_peak_to_peak", clean(response.torque[s, k]), "N m"
+            yield *where, name, "sum_of_amplitudes", clean(response.sums[s, k]), "N m"
+            if stressed[k]:
+                yield *where, name, "stress", clean(response.stress[s, k]), "Pa"
+        yield *where, "", "free_end", clean(np.degrees(response.free_end[s])), "deg"
+        for k, name in enumerate(response.dampers):
+            node = name_cell(name.removesuffix(" ring"))
+            yield *where, node, "heat", clean(response.heat[s, k]), "W"
+    worst = response.worst
+    for k, name in enumerate(map(name_cell, system.shafts)):
+        where = ("worst", None, clean(worst.speeds_rpm[k]), None)
+        yield *where, name, "half_peak_to_peak", clean(worst.torque[k]), "N m"
+        if stressed[k]:
+            yield *where, name, "stress", clean(worst.stress[k]), "Pa"
+    for k, name in enumerate(response.dampers):
+        where = ("worst", None, clean(worst.hottest_rpm[k]), None)
+        yield *where, name_cell(name.removesuffix(" ring")), "heat", clean(worst.heat[k]), "W"
+    where = ("worst", None, clean(worst.swing_rpm), None)
+    yield *where, "", "free_end", clean(np.degrees(worst.free_end)), "deg"

@@ -9,7 +9,6 @@ from ..enginefile import units
 from ..forces.kinds import Kind
 
 POUND, INCH = float(units.POUND), float(units.INCH)  # kg, m
-POUND_FORCE = POUND * units.STANDARD_GRAVITY  # N
 
 
 class Unit(NamedTuple):
@@ -62,8 +61,8 @@ SI = System(
     Unit("cm³", 1e-6, Unit("litres", 1e-3), 10_000),
 )
 IMPERIAL = System(
-    Unit("lbf", POUND_FORCE),
-    Unit("lbf·ft", POUND_FORCE * 12 * INCH),
+    Unit("lbf", units.POUND_FORCE),
+    Unit("lbf·ft", units.POUND_FORCE * 12 * INCH),
     Unit("oz·in", POUND / 16 * INCH),
     Unit("lb", POUND),
     Unit("in", INCH),

@@ -15,6 +15,7 @@ from ..core.golden_section import find_least
 from ..core.levers import share_by_lever
 from ..core.peaks import find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
+from ..core.sorted_sets import sort_distinct
 from ..engine.build import Engine
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..errors import BalcliError
@@ -176,6 +177,8 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
 
     Raises BalcliError where nothing goes to and fro, or for a mass that no crankshaft can have.
     """
+    if measured < 0:
+        raise BalcliError(f"--measured {1e3 * measured:g} g: a mass on the pin is not negative")
     card = fill_card(engine, 0.0)
     reciprocating = sum(one.reciprocating_g for one in card)
     rotating = sum(one.rotating_g for one in card)
@@ -196,7 +199,8 @@ def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] 
     counterweights if they stand in at least two; None: those of the pins.
     """
     if options.planes is None:
-        own = np.unique(np.round(_find_counterweights(engine)[0], 12))  # decimals of one place: one
+        places = np.round(_find_counterweights(engine)[0], 12)  # decimals of one place: one
+        own = sort_distinct(places)
         return tuple(own.tolist()) if len(own) > 1 and engine.places_known else None
     if not engine.places_known:
         raise BalcliError(f"--planes: {MOMENTS_UNKNOWN}")

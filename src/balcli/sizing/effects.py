@@ -86,7 +86,7 @@ def find_effect(device: Device, parts: Sequence[Part], reference: Point) -> NDAr
         -1: device.backward,
         0: -1j * (np.conj(place) * device.forward - place * np.conj(device.backward)),
     }
-    effects = [vectors[part.sense] * (z if part.quantity == "moment" else 1) for part in parts]
+    effects = [vectors[part.sense] * (z if part.kind == "moment" else 1) for part in parts]
     return np.array(effects, complex)
 
 
@@ -97,7 +97,7 @@ def solve(slots: Sequence[Slot], residual: Residual, parts: Sequence[Part]) -> F
     left of parts that can be cancelled is a few ulp of them.
     """
     arm = _find_longest_arm(slots, residual.reference)
-    weights = np.repeat([1.0 if part.quantity == "force" else 1 / arm for part in parts], 2)
+    weights = np.repeat([1.0 if part.kind == "force" else 1 / arm for part in parts], 2)
     columns = [
         find_effect(slot.make_device(u), parts, residual.reference)
         for slot in slots
@@ -149,7 +149,7 @@ def _find_longest_arm(slots: Sequence[Slot], reference: Point) -> float:
 
 def _find_largest(values: Mapping[Part, complex], parts: Sequence[Part], arm: float) -> float:
     """The largest of these parts, moments measured by the force that makes them at this arm."""
-    return max(abs(values[part]) / (1 if part.quantity == "force" else arm) for part in parts)
+    return max(abs(values[part]) / (1 if part.kind == "force" else arm) for part in parts)
 
 
 def _as_real(parts: NDArray[np.complex128]) -> NDArray[np.float64]:

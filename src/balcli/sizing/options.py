@@ -66,6 +66,10 @@ class SchemeOptions(NamedTuple):
                 f"--order {self.order}: the order must be a whole number from 1 to "
                 f"{HIGHEST_SHAFT_ORDER}"
             )
+        if isinstance(self.planes, str) and self.planes not in ("ends", "throws"):
+            raise BalcliError(
+                f'--planes "{self.planes[:60]}": give ends, throws, or places along z'
+            )
         if self.roll not in (None, "zero"):
             raise BalcliError(f'--roll "{self.roll}": only "zero" can be asked for')
 

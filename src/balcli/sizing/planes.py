@@ -105,9 +105,7 @@ def read_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
         return tuple(dict.fromkeys(float(z) for z in engine.throws_m))
     if isinstance(options.planes, tuple):
         return options.planes
-    raise BalcliError(
-        f'--planes "{options.planes}": give ends, throws, or places along z in mm, such as -200,200'
-    )
+    raise BalcliError(f'--planes "{options.planes}": give ends, throws, or places along z')
 
 
 def read_two_planes(engine: Engine, options: SchemeOptions) -> tuple[float, float]:
@@ -118,8 +116,7 @@ def read_two_planes(engine: Engine, options: SchemeOptions) -> tuple[float, floa
         low, high = options.planes
     else:
         raise BalcliError(
-            "--planes: opposite eccentrics stand in two planes; give ends, or two places along z "
-            "in mm, such as -200,200"
+            "--planes: opposite eccentrics stand in two planes; give ends, or two places along z"
         )
     if low == high:
         raise BalcliError(f"--planes: {SAME_PLACE}")

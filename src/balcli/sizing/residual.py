@@ -16,18 +16,18 @@ from ..limits import HIGHEST_ORDER_SOUGHT
 from .details import Detail
 from .options import SchemeOptions
 
-Quantity = Literal["force", "moment", "roll"]
+PartKind = Literal["force", "moment", "roll"]  # names of kinds
 
 
 class Part(NamedTuple):
     """One part of what shakes an engine at an order.
 
     Attributes:
-        quantity: "force", "moment" or "roll".
+        kind: "force", "moment" or "roll".
         sense: 1 turns with the crank, -1 against it; 0 for the roll, which does not turn.
     """
 
-    quantity: Quantity
+    kind: PartKind
     sense: int
 
 
@@ -76,9 +76,9 @@ class Residual(NamedTuple):
         """Amplitude of the roll, kg m^2."""
         return self.parts[ROLL]
 
-    def has(self, quantity: Quantity, senses: Sequence[int]) -> bool:
-        """Whether anything of a quantity turns in one of these senses."""
-        return any(self.parts[Part(quantity, sense)] for sense in senses)
+    def has(self, kind: PartKind, senses: Sequence[int]) -> bool:
+        """Whether anything of a kind turns in one of these senses."""
+        return any(self.parts[Part(kind, sense)] for sense in senses)
 
     def size(self, *parts: Part) -> float:
         """Sum of the amplitudes of these parts at the engine's speed, N or N m."""
@@ -111,10 +111,10 @@ def find_residual(engine: Engine, order: int) -> Residual:
     parts: dict[Part, complex] = {}
     noise: dict[Part, float] = {}
     for part in (*FORWARD, *BACKWARD):
-        phasors = found[part.quantity]
+        phasors = found[part.kind]
         vector = phasors.forward if part.sense > 0 else phasors.backward
-        per = 1j if part.quantity == "moment" else 1
-        known = part.quantity == "force" or engine.places_known
+        per = 1j if part.kind == "moment" else 1
+        known = part.kind == "force" or engine.places_known
         parts[part] = complex(vector[0]) / per / newtons_per_kg_m if known else 0j
         noise[part] = float(np.broadcast_to(phasors.noise, vector.shape)[0]) / newtons_per_kg_m
     parts[ROLL] = 2 * complex(found.roll.forward[0]) / newtons_per_kg_m if found.roll else 0j
@@ -124,10 +124,10 @@ def find_residual(engine: Engine, order: int) -> Residual:
 def choose_residual(
     engine: Engine,
     options: SchemeOptions,
-    quantities: Sequence[Literal["force", "moment"]],
+    kinds: Sequence[Literal["force", "moment"]],
     senses: Sequence[int] = (1, -1),
 ) -> Residual:
-    """What is left at the order asked for, or else at the lowest where one of these quantities is
+    """What is left at the order asked for, or else at the lowest where something of these kinds is
     not balanced.
 
     Args:
@@ -136,38 +136,38 @@ def choose_residual(
     Raises NothingToBalanceError if nothing of them is left, BalcliError for a moment that is not
     known.
     """
-    if "moment" in quantities and not engine.places_known:
+    if "moment" in kinds and not engine.places_known:
         raise BalcliError(MOMENTS_UNKNOWN)
     if options.order is None:
-        return _find_lowest(engine, quantities, senses)
+        return _find_lowest(engine, kinds, senses)
     residual = find_residual(engine, options.order)
-    if _has_any(residual, quantities, senses):
+    if _has_any(residual, kinds, senses):
         return residual
-    rest = _tell_rest(residual, quantities, senses)
+    rest = _tell_rest(residual, kinds, senses)
     with_crank = Detail("force with crank left", "force", residual.size(FORWARD_FORCE))
     raise NothingToBalanceError(
-        f"order {options.order} has no free {' or '.join(quantities)}{_turning(senses)}: "
+        f"order {options.order} has no free {' or '.join(kinds)}{_turning(senses)}: "
         + "; ".join(["nothing to balance", *rest]),
         (with_crank,) if with_crank.value and 1 not in senses else (),
     )
 
 
-def _has_any(residual: Residual, quantities: Sequence[Quantity], senses: Sequence[int]) -> bool:
-    return any(residual.has(quantity, senses) for quantity in quantities)
+def _has_any(residual: Residual, kinds: Sequence[PartKind], senses: Sequence[int]) -> bool:
+    return any(residual.has(kind, senses) for kind in kinds)
 
 
-def _find_lowest(engine: Engine, quantities: Sequence[Quantity], senses: Sequence[int]) -> Residual:
-    """That of the lowest order at which something of these quantities is left; its note says what
+def _find_lowest(engine: Engine, kinds: Sequence[PartKind], senses: Sequence[int]) -> Residual:
+    """That of the lowest order at which something of these kinds is left; its note says what
     shakes at lower ones.
     """
-    what = f"{' or '.join(quantities)}{_turning(senses)}"
+    what = f"{' or '.join(kinds)}{_turning(senses)}"
     left_alone = ""
     for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
         residual = find_residual(engine, order)
-        if _has_any(residual, quantities, senses):
+        if _has_any(residual, kinds, senses):
             lowest = f"Order {order} is the lowest with a free {what}.{left_alone}"
             return residual._replace(note=lowest if left_alone else "")
-        if rest := _tell_rest(residual, quantities, senses):
+        if rest := _tell_rest(residual, kinds, senses):
             left_alone += f" Order {order} stays as it is ({'; '.join(rest)})."
     raise NothingToBalanceError(
         f"there is no free {what} of orders 1 to {HIGHEST_ORDER_SOUGHT}: nothing to balance; "
@@ -175,20 +175,18 @@ def _find_lowest(engine: Engine, quantities: Sequence[Quantity], senses: Sequenc
     )
 
 
-def _tell_rest(
-    residual: Residual, quantities: Sequence[Quantity], senses: Sequence[int]
-) -> list[str]:
+def _tell_rest(residual: Residual, kinds: Sequence[PartKind], senses: Sequence[int]) -> list[str]:
     """What an order has besides what is sought, and what takes it."""
     if 1 in senses:
-        takes: dict[Quantity, str] = {"moment": "couple-shaft", "force": "two-shaft"}
-        others = [what for what in takes if what not in quantities and residual.has(what, senses)]
+        takes: dict[PartKind, str] = {"moment": "couple-shaft", "force": "two-shaft"}
+        others = [what for what in takes if what not in kinds and residual.has(what, senses)]
         return [f"it has a free {what}: {takes[what]}" for what in others]
     order, rest = residual.order, []
-    forward = [part.quantity for part in FORWARD if residual.parts[part]]
+    forward = [part.kind for part in FORWARD if residual.parts[part]]
     if forward:
         cure = "the scheme counterweights" if order == 1 else f"a shaft at +{order}"
         rest.append(f"its {' and '.join(forward)} turning with the crank: {cure}")
-    if "moment" not in quantities and residual.has("moment", senses):
+    if "moment" not in kinds and residual.has("moment", senses):
         rest.append("its moment turning against the crank: eccentrics in two planes")
     return rest
 

@@ -84,15 +84,22 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
     Raises BalcliError unless all lengths are positive and at most one of disc and thickness is
     given.
     """
-    if any(figure is not None and not 0 < figure < math.inf for figure in tools):
-        raise BalcliError(
-            "radius, thickness, disc, drill and max-depth must be positive lengths, such as 40 (mm)"
+    strange = {
+        name.replace("_", "-"): figure
+        for name, figure in tools._asdict().items()
+        if figure is not None and not 0 < figure < math.inf
+    }
+    if strange:
+        told = (
+            f"--{name}: {f'{figure / 1e3:g} g/cm3' if name == 'slug' else f'{1e3 * figure:g} mm'}"
+            for name, figure in strange.items()
         )
+        raise BalcliError(f"{', '.join(told)}; give figures above 0")
     of_holes = tools.max_depth is not None or tools.slug is not None
     if of_holes and tools.drill is None:
         raise BalcliError(
-            "--max-depth and --slug are for holes: give the diameter of the drill, such as "
-            "--drill 25.4"
+            "--max-depth and --slug are for holes: give the diameter of the drill, too, "
+            "with --drill"
         )
     if tools.slug is not None and tools.slug <= STEEL:
         raise BalcliError(

@@ -18,13 +18,12 @@ from numpy.typing import NDArray
 from ..engine.layout import plan_cylinders
 from ..enginefile.fields import Number, nearest, shorten
 from ..enginefile.model import EngineFile, Override, Table
-from ..enginefile.units import convert
+from ..enginefile.units import BARE_FIGURE, convert
 from ..enginefile.unknown_keys import SYNONYMS
 from ..errors import BalcliError, wrong_type
 from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES
 
 _EXACT = 2**53  # whole numbers below it are exact as floating-point numbers
-_FIGURE = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?")
 
 
 @dataclass(frozen=True)
@@ -238,7 +237,7 @@ def ladder(first: Fraction, step: Fraction, count: int) -> NDArray[np.float64]:
 def _read_exactly(text: str, number: Number) -> Fraction:
     """The figure in the bare unit of its field."""
     figure = text.strip()
-    if _FIGURE.fullmatch(figure) and len(figure) <= LONGEST_FIGURE:
+    if len(figure) <= LONGEST_FIGURE and re.fullmatch(BARE_FIGURE, figure, re.ASCII):
         return Fraction(figure)
     try:
         return Fraction(convert(figure, number.dimension))

@@ -11,7 +11,7 @@ from ..core.cylinder_pressure import PressureOnPiston
 from ..core.phasors import Array
 from ..core.piecewise import Extreme
 from ..core.speed_variation import Surplus, surplus
-from ..engine.build import Engine, check_engine
+from ..engine.build import Engine, check_engine, find_row
 from ..errors import BalcliError, check_type
 from ..forces.gas import take_gas
 from ..forces.orders import check_orders, list_gas_orders
@@ -21,7 +21,6 @@ from .course import (
     TorqueCurves,
     find_constant_inertia,
     find_moving_inertia,
-    find_row,
     find_torque_curves,
 )
 from .flywheel import Flywheel, Question, find_flywheel
@@ -165,8 +164,9 @@ def _find_loads(engine: Engine, asked: tuple[str, ...]) -> Loads:
 
 def _find_highest(engine: Engine) -> Extreme | None:
     """The highest pressure of all cylinders whose gas does something, in the first that has it."""
-    torques = {id(c.torque): c.torque for c in take_gas(engine).cylinders if c.share}
-    found = [t.pressure.highest() for t in torques.values() if isinstance(t, PressureOnPiston)]
+    gas = take_gas(engine)
+    torques = [torque for torque, rows in gas.group_equal() if gas.shares[rows].any()]
+    found = [t.pressure.highest() for t in torques if isinstance(t, PressureOnPiston)]
     return max(found, key=lambda extreme: extreme.value, default=None)
 
 

@@ -15,9 +15,8 @@ import numpy as np
 from ..core.cylinder_pressure import crank_torque
 from ..core.phasors import Array
 from ..core.piecewise import Function, PiecewiseCurve, resolved
-from ..engine.build import Engine
+from ..engine.build import Engine, find_row
 from ..engine.gas import EngineGas
-from ..errors import BalcliError
 from ..forces.curves import compute_inertia_torque, compute_moving_inertia
 from ..forces.gas import take_gas
 from ..forces.orders import find_relevant_orders
@@ -58,9 +57,9 @@ def count_repeats(engine: Engine) -> int:
     fire evenly to the last digit.
     """
     gas, c = take_gas(engine), engine.cylinders
-    alike = {(id(cylinder.torque), cylinder.share) for cylinder in gas.cylinders}
     columns = (c.lam, c.eps, c.reciprocating, c.rotating, c.couple)
-    if len(alike) > 1 or c.linkage is not None or any(len(column) > 1 for column in columns):
+    gas_is_equal = len(gas.group_equal()) == len(set(gas.shares.tolist())) == 1
+    if not gas_is_equal or c.linkage is not None or any(len(column) > 1 for column in columns):
         return 1
     count = len(gas.cylinders)
     fires = sorted(cylinder.nominal_deg for cylinder in gas.cylinders)
@@ -109,20 +108,6 @@ def silence(engine: Engine, number: int) -> Engine:
     gas: EngineGas = take_gas(engine)
     share = gas.with_share(find_row(engine, number, "--misfire"), 0.0)
     return replace(engine, gas=share, model=None)
-
-
-def find_row(engine: Engine, number: int, option: str) -> int:
-    """Row of the cylinder with this number.
-
-    Raises:
-        BalcliError: there is none.
-    """
-    if number not in engine.numbers:
-        some = ", ".join(map(str, sorted(engine.numbers)))
-        raise BalcliError(
-            f"{option} {number}: {engine.name or 'the engine'} has the cylinders {some}"
-        )
-    return engine.numbers.index(number)
 
 
 def _at_radians(function: Function) -> Function:

@@ -11,6 +11,7 @@ from ..core.phasors import Array, Complex
 from ..core.piecewise import Extreme
 from ..core.vectors_over_cycle import Vectors, find_panels
 from ..engine.build import Engine
+from ..errors import BalcliError
 from ..forces.in_bearings import (
     NOTHING,
     compute_bearing_loads,
@@ -26,13 +27,15 @@ def analyze_loads(engine: Engine, asked: tuple[str, ...] = KINDS_OF_LOAD) -> Loa
     """Loads of pins and bearings; names of KINDS_OF_LOAD.
 
     The main bearings stand half-way between neighbouring throws and as far outside the end ones,
-    and the shaft counts as cut in each of them.
+    and the shaft counts as cut in each of them. Where `place_main_bearings` refuses them, those of
+    pins are told without.
 
     Raises:
-        BalcliError: no gas of known pressure; main bearings that `place_main_bearings` refuses.
+        BalcliError: no gas of known pressure; refused main bearings that are asked for alone.
     """
     steady, sizes = replace(engine, ripple=()), engine.bearings
     pin = knuckle = main = None
+    obstacle = ""
     if "pin" in asked:
         area = None if sizes is None else sizes.pin_m2
         z = np.ravel(engine.cylinders.z)
@@ -43,9 +46,15 @@ def analyze_loads(engine: Engine, asked: tuple[str, ...] = KINDS_OF_LOAD) -> Loa
         knuckle = others or None
     if "main" in asked:
         area = None if sizes is None else sizes.main_m2
-        places, vectors = find_bearing_loads(steady)
-        main = tuple(_measure(steady, vectors, range(1, len(places) + 1), places, area))
-    return Loads(pin, knuckle, main)
+        try:
+            places, vectors = find_bearing_loads(steady)
+        except BalcliError as error:
+            if pin is None:
+                raise
+            obstacle = str(error)
+        else:
+            main = tuple(_measure(steady, vectors, range(1, len(places) + 1), places, area))
+    return Loads(pin, knuckle, main, obstacle)
 
 
 def find_pin_loads(engine: Engine) -> Vectors:

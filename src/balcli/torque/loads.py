@@ -36,8 +36,10 @@ class Loads(NamedTuple):
         knuckle: of the knuckle pins in master rods, by their articulated cylinders; None where
             there are none.
         main: of main bearings.
+        obstacle: why these are not known, though asked for beside others.
     """
 
     pin: tuple[Load, ...] | None = None
     knuckle: tuple[Load, ...] | None = None
     main: tuple[Load, ...] | None = None
+    obstacle: str = ""

@@ -18,6 +18,7 @@ from ..enginefile.fields import counted, nearest, printable, shorten
 from ..enginefile.model import EngineFile
 from ..enginefile.shafting import find_stiffness
 from ..enginefile.torsion_tables import Part, Torsion
+from ..enginefile.units import RPM
 from ..errors import InputError, Problem
 from ..forces.orders import list_gas_orders
 from ..forces.spectrum import compute_each_cylinder
@@ -194,7 +195,7 @@ def excite_engine(
     """
     front = 0 if model.torsion is None else len(model.torsion.front)
     nodes = front + np.array([weighed.throw for weighed in engine.weighed])
-    engine = replace(engine, ripple=(), speed_rpm=30 / np.pi)  # 1 rad/s
+    engine = replace(engine, ripple=(), speed_rpm=1 / RPM)  # 1 rad/s
     for number in misfires:
         engine = silence(engine, number)
     if orders is None:

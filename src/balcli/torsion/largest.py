@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from ..core.close_peaks import find_highest
 from ..core.cycle_peaks import find_swing, sum_amplitudes
 from ..core.singular_values import Complex, Real
+from ..core.sorted_sets import sort_distinct
+from ..enginefile.units import RPM
 from .modes import find_poles
 from .motion import (
     UNDAMPED,
@@ -82,8 +84,8 @@ class _Curves(NamedTuple):
 
     def pick(self, rpm: Real, curve: NDArray[np.intp]) -> Complex:
         """By order, (orders, *speeds), one curve at each speed; `curve` broadcasts to these."""
-        few, which = np.unique(rpm, return_inverse=True)  # many curves peak between the same two
-        which, curve = which.reshape(rpm.shape), np.broadcast_to(curve, rpm.shape)
+        few = sort_distinct(rpm)  # many curves peak between the same two
+        which, curve = np.searchsorted(few, rpm), np.broadcast_to(curve, rpm.shape)
         found = np.empty((len(self.excitation.orders), *rpm.shape), complex)
         for some in split_speeds(self.system, self.excitation, few):
             here = (which >= some.start) & (which < some.stop)
@@ -181,7 +183,7 @@ def find_resonant_speeds(
     found = [np.zeros((2, 0))]
     for order, each in zip(orders, poles, strict=True):
         damped = each[(each.imag > 0) & (-each.real > UNDAMPED * np.abs(each))]
-        at, width = damped.imag * (30 / np.pi / order), -damped.real * (60 / np.pi / order)
+        at, width = damped.imag / (RPM * order), -2 * damped.real / (RPM * order)
         steps = np.diff(rpm)[np.clip(np.searchsorted(rpm, at) - 1, 0, len(rpm) - 2)]
         there = (width < widest * steps) & (at > rpm[0]) & (at < rpm[-1])
         found.append(np.stack([at, width])[:, there])
@@ -211,8 +213,9 @@ def _approach_largest(curves: _Curves, rpm: Real, swings: Real) -> tuple[Real, R
     sides = (at[high] + width[high] * _SIDES).ravel()
     sides = sides[(sides > rpm[0]) & (sides < rpm[-1])]
     beside = _find_large_swings(curves, sides, largest)
-    speeds, first = np.unique(np.concatenate([rpm, at, sides]), return_index=True)
-    swings = np.concatenate([swings, tops, beside])[first]
+    speeds = np.concatenate([rpm, at, sides])
+    rising = np.argsort(speeds, kind="stable")
+    speeds, swings = speeds[rising], np.concatenate([swings, tops, beside])[rising]
     return find_highest(curves.swing, speeds, swings, curves.level(swings.max(axis=0)), _NEAR)
 
 
@@ -246,12 +249,14 @@ def _approach_hottest(
     if not heat.shape[1]:
         return np.zeros(0), np.zeros(0)
     at, _ = find_resonant_speeds(system, excitation, rpm, _WIDE)
-    speeds, first = np.unique(np.concatenate([rpm, at]), return_index=True)
-    heat = np.concatenate([heat, _find_heat(system, excitation, at)])[first]
+    speeds = np.concatenate([rpm, at])
+    rising = np.argsort(speeds, kind="stable")
+    speeds = speeds[rising]
+    heat = np.concatenate([heat, _find_heat(system, excitation, at)])[rising]
 
     def judge(rpm: Real, damper: NDArray[np.intp]) -> Real:
-        few, which = np.unique(rpm, return_inverse=True)
-        return _find_heat(system, excitation, few)[which.reshape(rpm.shape), damper]
+        few = sort_distinct(rpm)
+        return _find_heat(system, excitation, few)[np.searchsorted(few, rpm), damper]
 
     return find_highest(judge, speeds, heat, heat.max(axis=0), _NEAR)
 

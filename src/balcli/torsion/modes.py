@@ -12,6 +12,7 @@ from ..core.singular_values import Complex, Real
 from ..core.torsional_chain import Chain, Damping
 from ..core.torsional_modes import chain_loss, count_nodes, find_chain_modes, find_chain_poles
 from ..core.vibration import scale_shapes
+from ..enginefile.units import RPM
 from .system import Excitation, TorsionalSystem, ViscousRing
 
 _UNDRIVEN = 1e-10  # work up to this share of what all torques could do together is rounding
@@ -141,7 +142,7 @@ def _meet(
     moved = mode.shape[excitation.nodes]
     largest = np.abs(torque).max(axis=1)
     phasors = np.abs(torque @ moved)
-    rpm = speeds * 30 / np.pi
+    rpm = speeds / RPM
     low, high = range_rpm or (0.0, np.inf)
     inside = (rpm >= low * (1 - 1e-12)) & (rpm <= high * (1 + 1e-12))
     counted = inside & (phasors > _UNDRIVEN * (np.abs(torque) @ np.abs(moved)))

@@ -11,6 +11,7 @@ from ..core.singular_values import Complex, Real
 from ..core.torsional_modes import chain_loss, find_chain_modes
 from ..core.torsional_response import respond_chain
 from ..core.vibration import UndampedResonanceError, find_resonances, frequencies
+from ..enginefile.units import RPM
 from ..errors import BalcliError
 from ..limits import MOST_TORSION_TORQUES
 from .modes import find_poles
@@ -32,7 +33,7 @@ class ChainMotion(NamedTuple):
 
 def move(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> ChainMotion:
     """Motion order by order at these speeds (rpm)."""
-    speeds = rpm * np.pi / 30
+    speeds = rpm * RPM
     w = frequencies(excitation.orders, speeds)
     load = excitation.on_nodes(speeds, len(system.nodes))
     order = np.broadcast_to(excitation.orders[:, None], w.shape)
@@ -81,13 +82,13 @@ def refuse_resonance(system: TorsionalSystem, excitation: Excitation, rpm: Real)
         return
     modes = find_chain_modes(system.chain)
     loss = chain_loss(system.chain, system.damping, modes, system.attached(modes.omega))
-    speeds = rpm * np.pi / 30
+    speeds = rpm * RPM
     load = excitation.on_nodes(speeds, len(system.nodes))
     met = find_resonances(modes, loss, excitation.orders, speeds, load)
     if met:
         worst = met[0]
         hertz = modes.omega[worst.mode] / (2 * np.pi)
-        speed = f" by order {worst.order:g} at {worst.speed * 30 / np.pi:.6g} rpm"
+        speed = f" by order {worst.order:g} at {worst.speed / RPM:.6g} rpm"
         raise BalcliError(_tell_resonance(system, float(hertz), speed))
 
 
@@ -98,7 +99,7 @@ def _drive_undamped(system: TorsionalSystem, excitation: Excitation, rpm: Real) 
     for order in excitation.orders:
         poles = find_poles(system, float(order))
         free = poles[(poles.imag > 0) & (-poles.real <= UNDAMPED * np.abs(poles))]
-        met = free.imag * (30 / np.pi / order)
+        met = free.imag / (RPM * order)
         met = met[(met >= rpm[0]) & (met <= rpm[-1])]
         if len(met):
             move(system, excitation.only(order), met)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..core.cycle_peaks import find_swing, sum_amplitudes
 from ..core.singular_values import Real
+from ..core.sorted_sets import sort_others
 from ..core.telling import Tell, tell_nobody
 from .largest import Worst, find_resonant_speeds, find_worst
 from .motion import move, refuse_resonance, refuse_too_many, split_speeds, stress_by_torque
@@ -119,7 +120,7 @@ def find_barred(
     known = response.speeds_rpm
     resonant, width = find_resonant_speeds(system, excitation, known)
     about = np.concatenate([criticals_rpm, resonant, resonant - width, resonant + width])
-    between = np.setdiff1d(about[(about > known[0]) & (about < known[-1])], known)
+    between = sort_others(about[(about > known[0]) & (about < known[-1])], known)
     speeds = np.concatenate([known, between])
     swings = np.column_stack([response.torque, response.free_end])
     here = np.any(swings * _weigh_limits(system) > 1, axis=1)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 from io import StringIO
 from itertools import permutations
 
@@ -220,3 +221,25 @@ def test_where_no_value_makes_an_engine_the_reason_is_told():
     asked = ("--over", "layout.bank_angle=80:85", "--minimise", "torque.4.amplitude")
     told = refusal("search", ENGINES / "v8_wiebe.toml", *asked)
     assert "layout.firing_order: 1-8-4-3-6-5-7-2 would take" in told
+
+
+@pytest.mark.parametrize(
+    ("function", "place"),
+    [
+        (lambda x: 3000 * (2 - math.sin(math.radians(x))), 90.0),  # smooth, and flat about 90
+        (lambda x: abs(math.cos(math.radians(x))), 90.0),  # a kink
+        (lambda x: 5 + abs(x - 90) ** 0.5, 90.0),
+        (lambda x: 5 + abs(x - 88.125), 88.125),
+    ],
+)
+def test_the_place_of_a_minimum_is_the_round_number_that_it_is(function, place):
+    assert one_by_one.find_best_numbers(function, 13.0, 160.0)[0] == place
+
+
+def test_where_no_round_number_is_as_good_the_place_is_as_exact_as_the_function():
+    (kink,) = one_by_one.find_best_numbers(lambda x: abs(x - math.e), 0.0, 10.0)
+    assert kink == pytest.approx(math.e, abs=1e-9)
+    (smooth,) = one_by_one.find_best_numbers(lambda x: 1 + (x - math.e) ** 2, 0.0, 10.0)
+    assert smooth == pytest.approx(math.e, abs=3e-6)
+    (edge,) = one_by_one.find_best_numbers(lambda x: x if x > math.e else math.inf, 0.0, 10.0)
+    assert 0 < edge - math.e < 1e-9

@@ -4,6 +4,7 @@ sums over throws.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator
 from itertools import islice, permutations
 
@@ -27,6 +28,9 @@ from .throws import count_from
 
 _GRID = 32  # parts of a range, in which minima are looked for
 _MINIMA = 3  # of these, the lowest, are followed
+_ROUNDS = 50  # of golden section: to 1e-10 of a part of the range, where there is a kink
+_AS_GOOD = 1e-13  # of the function's largest value: a smooth minimum is flat to this
+_DECIMALS = 11  # fewer than a part of the range is large, and more
 
 
 def rank_one_by_one(
@@ -98,8 +102,9 @@ def list_throws(model: EngineFile) -> Iterator[Design]:
 def find_best_numbers(
     evaluate: Callable[[float], float], low: float, high: float, tell: Tell = tell_nobody
 ) -> list[float]:
-    """Where a function of a number is least in a range: local minima, found on a grid and followed,
-    lowest first; of a stretch of equal values the first point of the grid.
+    """Where a function of a number is least in a range: local minima, found on a grid and followed
+    as far as the function tells them from their neighbours, lowest first; there the roundest number
+    that is as good, and of a stretch of equal values the first point of the grid.
 
     Args:
         evaluate: infinite where it cannot be or may not be.
@@ -114,18 +119,31 @@ def find_best_numbers(
         if enough:
             break
     followed = _find_bottoms(values)
+    slack = _AS_GOOD * np.abs(values[np.isfinite(values)]).max(initial=0)
     found = [(float(values[k]), float(grid[k])) for k in followed]
     for n, k in enumerate(followed):
         if enough:
             break
-        near = find_least(
-            evaluate, float(grid[max(k - 1, 0)]), float(grid[min(k + 1, len(grid) - 1)])
-        )
+        ends = float(grid[max(k - 1, 0)]), float(grid[min(k + 1, len(grid) - 1)])
+        near = find_least(evaluate, *ends, _ROUNDS)
         value = evaluate(near)
         if value < found[n][0]:
-            found[n] = (value, near)
+            found[n] = _round_off(evaluate, near, value + slack, ends)
         enough = tell((len(grid) + n + 1) * share)
     return [x for _, x in sorted(found)]
+
+
+def _round_off(
+    evaluate: Callable[[float], float], x: float, enough: float, ends: tuple[float, float]
+) -> tuple[float, float]:
+    """The value and the place of the roundest number between the ends that is good enough."""
+    low, high = ends
+    coarsest = -math.floor(math.log10(high - low))
+    for digits in range(coarsest, coarsest + _DECIMALS):
+        rounder = round(x, digits)
+        if low <= rounder <= high and (value := evaluate(rounder)) <= enough:
+            return value, rounder
+    return evaluate(x), x
 
 
 def _find_bottoms(values: Array) -> list[int]:
