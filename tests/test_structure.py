@@ -161,7 +161,7 @@ ON_REQUEST = {
     "balcli.engine.assembly": (
         "balcli.core.mechanisms.rotary",
         "balcli.engine.articulation",
-        "balcli.engine.gas",
+        "balcli.engine.build_gas",
     ),
     "balcli.engine.build": ("balcli.engine.vary", "balcli.enginefile.suspicious"),
     "balcli.engine.rules": ("balcli.engine.articulation",),

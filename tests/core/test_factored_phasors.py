@@ -22,7 +22,7 @@ SIDES = (
 )
 NOISE = np.abs(RNG.normal(size=(3, 1, 5)))  # as large as what it is compared with
 FACTORED = FactoredPhasors(ORDERS, SIDES, NOISE)
-PLAIN = Phasors(ORDERS, *(side.factor * side.vector for side in SIDES), NOISE)
+PLAIN = Phasors.of(ORDERS, *(side.factor * side.vector for side in SIDES), NOISE)
 
 
 def compare(one: Phasors, other: Phasors) -> None:

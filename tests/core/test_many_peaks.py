@@ -16,7 +16,7 @@ DENSE = np.linspace(0, 4 * np.pi, 200_001)
 
 
 def curves(orders, forward, backward) -> Phasors:
-    return Phasors(np.asarray(orders, float), forward, backward, np.zeros(1))
+    return Phasors.of(np.asarray(orders, float), forward, backward, np.zeros(1))
 
 
 def random_curves(orders, count: int, seed: int = 3) -> Phasors:

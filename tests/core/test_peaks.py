@@ -14,7 +14,7 @@ RELATIVE = 1e-14
 def curve(*terms: tuple[float, complex, complex]) -> Phasors:
     """Phasors of (order, forward, backward)."""
     orders, forward, backward = zip(*terms, strict=True)
-    return Phasors(
+    return Phasors.of(
         np.array(orders, float),
         np.array(forward, complex),
         np.array(backward, complex),
@@ -132,7 +132,7 @@ def test_random_curves_against_many_samples(seed):
     orders = np.arange(0 if seed % 2 else 1, 3 + 4 * seed)
     vectors = (random.normal(size=(4, len(orders))) * 0.7**orders).astype(complex)
     backward = np.where(orders > 0, vectors[2] + 1j * vectors[3], 0)
-    phasors = Phasors(orders.astype(float), vectors[0] + 1j * vectors[1], backward, np.zeros(1))
+    phasors = Phasors.of(orders.astype(float), vectors[0] + 1j * vectors[1], backward, np.zeros(1))
     found = find_peak(phasors)
     sampled = np.abs(phasors.values(np.linspace(0, 2 * np.pi, 40_001))).max()
     assert sampled * (1 - RELATIVE) <= found.value <= sampled * (1 + 1e-5)
@@ -156,7 +156,7 @@ def test_of_equal_peaks_the_first_counts():
         (1 + 1e-13j, 0.0),
     ):  # the last a whole turn, nearly
         half = np.array([turned / 2])
-        found = find_peak(Phasors(np.array([3.0]), half, np.conj(half), np.zeros(1)))
+        found = find_peak(Phasors.of(np.array([3.0]), half, np.conj(half), np.zeros(1)))
         assert found.value == pytest.approx(1, rel=1e-14)
         assert (np.degrees(found.theta) + 1e-9) % 360 == pytest.approx(first, abs=1e-7)
 

@@ -25,7 +25,7 @@ VECTORS = [
 
 def one(forward: complex, backward: complex, order: float = 2, noise: float = 0.0) -> Phasors:
     vectors = np.array([[forward], [backward]], complex)
-    return Phasors(np.array([float(order)]), *vectors, np.array([noise]))
+    return Phasors.of(np.array([float(order)]), *vectors, np.array([noise]))
 
 
 # ------------------------------------------------------------------ unit
@@ -177,7 +177,7 @@ def test_settled_clears_each_vector_for_itself():
     """At its bound a vector is rounding, just above it is not."""
     orders = np.array([1.0, 2.0, 3.0])
     vectors = np.array([[1e-3, 1.1e-3j, 5e-4], [7, 5e-4, -1e-3]])
-    phasors = Phasors(orders, *vectors, np.full(3, 1e-3)).drop_noise()
+    phasors = Phasors.of(orders, *vectors, np.full(3, 1e-3)).drop_noise()
     assert list(phasors.forward) == [0, 1.1e-3j, 0]
     assert list(phasors.backward) == [7, 0, 0]
     assert list(phasors.balanced) == [False, False, True]
@@ -185,7 +185,7 @@ def test_settled_clears_each_vector_for_itself():
 
 def test_at_takes_rows_in_any_order():
     orders = np.array([0.0, 1.0, 2.0, 5.0])
-    phasors = Phasors(orders, orders + 1j, -orders + 0j, np.zeros(1))
+    phasors = Phasors.of(orders, orders + 1j, -orders + 0j, np.zeros(1))
     rows = phasors.select_orders([5, 1])
     assert list(rows.orders) == [5, 1]
     assert list(rows.forward) == [5 + 1j, 1 + 1j]
@@ -194,14 +194,14 @@ def test_at_takes_rows_in_any_order():
 
 def test_trailing_axes_are_variants():
     orders = np.array([0.0, 1.0])
-    many = Phasors(
+    many = Phasors.of(
         orders,
         np.arange(6.0).reshape(2, 3) + 1j,
         np.array([[0, 0, 0], [1, 2j, 3]]),
         np.zeros((2, 1)),
     )
     for k in range(3):
-        single = Phasors(orders, many.forward[:, k], many.backward[:, k], np.zeros(2))
+        single = Phasors.of(orders, many.forward[:, k], many.backward[:, k], np.zeros(2))
         for name in ("major", "minor", "axis_deg", "x", "y", "balanced"):
             assert np.array_equal(
                 getattr(many, name)[:, k], getattr(single, name), equal_nan=name == "axis_deg"

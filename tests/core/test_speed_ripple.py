@@ -52,7 +52,7 @@ def rate(function, theta):
 def momentum(theta, backward=BACKWARD):
     """G of a steady force F = -G': every order divided by -i n."""
     n = np.where(ORDERS, ORDERS, 1)
-    return Phasors(ORDERS, FORWARD / (-1j * n), backward / (1j * n), np.zeros(15)).values(theta)
+    return Phasors.of(ORDERS, FORWARD / (-1j * n), backward / (1j * n), np.zeros(15)).values(theta)
 
 
 def integral(theta):
@@ -62,7 +62,7 @@ def integral(theta):
 
 def steady(scalar=False):
     backward = np.conj(FORWARD) if scalar else BACKWARD
-    return Phasors(ORDERS, FORWARD, backward, np.full(15, 1e-15))
+    return Phasors.of(ORDERS, FORWARD, backward, np.full(15, 1e-15))
 
 
 @pytest.mark.parametrize("lines", LINES.values(), ids=LINES.keys())
@@ -190,7 +190,7 @@ def test_a_mean_force_is_a_mean_and_stands_in_forward_alone():
 def test_the_rounding_error_grows_with_the_parts_and_never_vanishes_where_they_do_not():
     w = ripple.find_speed(LINES["one"])
     small, large = (
-        ripple.apply_to_force(Phasors(ORDERS, FORWARD, BACKWARD, np.full(15, size)), w).noise
+        ripple.apply_to_force(Phasors.of(ORDERS, FORWARD, BACKWARD, np.full(15, size)), w).noise
         for size in (1e-16, 1e-14)
     )
     assert np.all(small > 0)
@@ -211,9 +211,11 @@ def test_the_bound_holds_for_errors_of_the_parts(lines, mean):
     for rule in (ripple.apply_to_force, ripple.apply_to_torque):
         backward = np.conj(FORWARD) if rule is ripple.apply_to_torque else BACKWARD
         noise = 1e-9 * random.uniform(1, 2, 15)
-        found = rule(Phasors(ORDERS, FORWARD, backward, noise), w, mean)
+        found = rule(Phasors.of(ORDERS, FORWARD, backward, noise), w, mean)
         assert found.noise == pytest.approx(
-            rule(Phasors(ORDERS, FORWARD, backward, noise), level, mean).noise, rel=1e-12, abs=0
+            rule(Phasors.of(ORDERS, FORWARD, backward, noise), level, mean).noise,
+            rel=1e-12,
+            abs=0,
         )
         for _ in range(20):
             errors = [
@@ -223,7 +225,11 @@ def test_the_bound_holds_for_errors_of_the_parts(lines, mean):
             if rule is ripple.apply_to_torque:
                 errors[1] = np.conj(errors[0])
             moved = (
-                rule(Phasors(ORDERS, FORWARD + errors[0], backward + errors[1], noise), w, mean)
+                rule(
+                    Phasors.of(ORDERS, FORWARD + errors[0], backward + errors[1], noise),
+                    w,
+                    mean,
+                )
                 - found
             )
             assert np.all(np.abs(moved.forward) <= found.noise + 1e-13)
@@ -235,7 +241,7 @@ def test_a_mean_momentum_is_rounded_too(mean):
     """Where nothing else is, the force is `-W W' mean`, and its bound not below its own
     rounding.
     """
-    nothing = Phasors(ORDERS, np.zeros(15, complex), np.zeros(15, complex), np.zeros(15))
+    nothing = Phasors.of(ORDERS, np.zeros(15, complex), np.zeros(15, complex), np.zeros(15))
     for rule in (ripple.apply_to_force, ripple.apply_to_torque):
         found = rule(nothing, ripple.find_speed([(2, 0.3, 40.0)]), mean)
         assert np.abs(found.forward).max() > 10
@@ -248,7 +254,7 @@ def test_at_steady_speed_nothing_changes_not_even_the_bound():
     alike).
     """
     noise = 1e-16 * np.arange(1.0, 16.0)
-    steady = Phasors(ORDERS, FORWARD.astype(complex), BACKWARD.astype(complex), noise)
+    steady = Phasors.of(ORDERS, FORWARD.astype(complex), BACKWARD.astype(complex), noise)
     for rule in (
         ripple.apply_to_force(steady, np.ones(1, complex)),
         ripple.apply_to_torque(steady, np.ones(1, complex), 0.0),
@@ -265,10 +271,10 @@ def test_variants_side_by_side_are_what_each_is_alone():
         np.array([[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]]),
     )
     many = [v[:, None, None] * scales for v in (FORWARD, BACKWARD)]
-    whole = ripple.apply_to_force(Phasors(ORDERS, *many, np.zeros(1)), w, means)
+    whole = ripple.apply_to_force(Phasors.of(ORDERS, *many, np.zeros(1)), w, means)
     for i, j in np.ndindex(scales.shape):
         one = ripple.apply_to_force(
-            Phasors(ORDERS, FORWARD * scales[i, j], BACKWARD * scales[i, j], np.zeros(1)),
+            Phasors.of(ORDERS, FORWARD * scales[i, j], BACKWARD * scales[i, j], np.zeros(1)),
             w[:, 0, 0],
             means[i, j],
         )

@@ -65,7 +65,7 @@ def test_orders_of_several_ascend_each_once() -> None:
 
 def curve(orders: list[float], sizes: list[float]) -> Phasors:
     forward = np.array(sizes, complex)
-    return Phasors(np.array(orders), forward, 0 * forward, np.zeros(len(orders)))
+    return Phasors.of(np.array(orders), forward, 0 * forward, np.zeros(len(orders)))
 
 
 def test_an_order_is_considerable_beside_the_largest_unless_it_is_very_high() -> None:
@@ -75,7 +75,7 @@ def test_an_order_is_considerable_beside_the_largest_unless_it_is_very_high() ->
 
 def test_variants_make_an_order_considerable_together() -> None:
     forward = np.array([[1e7, 1e7], [0, 0], [0, 20]], complex)
-    phasors = Phasors(np.array([1.0, 3.0, 5.0]), forward, 0 * forward, np.zeros((3, 1)))
+    phasors = Phasors.of(np.array([1.0, 3.0, 5.0]), forward, 0 * forward, np.zeros((3, 1)))
     assert mark_considerable(phasors).tolist() == [True, False, True]
 
 

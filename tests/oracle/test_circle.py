@@ -154,11 +154,11 @@ def test_nothing_near_is_better(tables):
 
 
 def test_curves_that_are_points_and_circles():
-    zero = Phasors(np.array([1.0, 2.0]), np.zeros(2, complex), np.zeros(2, complex), np.zeros(1))
+    zero = Phasors.of(np.array([1.0, 2.0]), np.zeros(2, complex), np.zeros(2, complex), np.zeros(1))
     assert circle.enclose_curve(zero)[:2] == (0j, 0.0)
-    still = Phasors(np.array([1.0]), np.array([3 + 4j]), np.zeros(1, complex), np.zeros(1))
+    still = Phasors.of(np.array([1.0]), np.array([3 + 4j]), np.zeros(1, complex), np.zeros(1))
     assert circle.enclose_curve(still)[:2] == (3 + 4j, 0.0)
-    round_ = Phasors(np.array([1.0]), np.array([3 + 4j]), np.array([2j]), np.zeros(1))
+    round_ = Phasors.of(np.array([1.0]), np.array([3 + 4j]), np.array([2j]), np.zeros(1))
     found = circle.enclose_curve(round_)
     assert found.centre == pytest.approx(3 + 4j, abs=1e-14)
     assert found.radius == pytest.approx(2, rel=1e-14)
@@ -173,7 +173,7 @@ def test_angles_are_those_at_which_the_circle_is_touched():
 
 def test_no_force_is_a_circle_without_points():
     nothing = circle.enclose_curve(
-        Phasors(np.array([1.0, 2.0]), np.zeros(2, complex), np.zeros(2, complex), np.zeros(1))
+        Phasors.of(np.array([1.0, 2.0]), np.zeros(2, complex), np.zeros(2, complex), np.zeros(1))
     )
     assert (nothing.centre, nothing.radius, nothing.theta.tolist(), nothing.excess) == (0, 0, [], 0)
 
@@ -195,7 +195,9 @@ def test_cardioids_and_a_deltoid(forward, backward, centre, radius, touching, fi
     """
     orders = np.arange(4.0)
     whole = np.array(forward, complex) + np.where(orders == 1, first, 0)
-    found = circle.enclose_curve(Phasors(orders, whole, np.array(backward, complex), np.zeros(1)))
+    found = circle.enclose_curve(
+        Phasors.of(orders, whole, np.array(backward, complex), np.zeros(1))
+    )
     assert found.centre == pytest.approx(first + centre, abs=1e-14)
     assert found.radius == pytest.approx(radius, rel=1e-14)
     assert sorted((np.degrees(found.theta) + 1) % 360 - 1) == pytest.approx(touching, abs=1e-5)
@@ -216,7 +218,7 @@ def test_a_curve_of_any_size_is_treated_alike(scale):
     small.
     """
     curve = force(layout="radial = 5", **{"cylinder.3": "piston_mass = 1.5"})
-    small = Phasors(
+    small = Phasors.of(
         curve.orders, scale * curve.forward, scale * curve.backward, scale * np.asarray(curve.noise)
     )
     whole, found = circle.enclose_curve(curve), circle.enclose_curve(small)
@@ -233,7 +235,7 @@ def test_a_curve_of_any_size_is_treated_alike(scale):
 def test_a_small_circle_beside_a_large_first_order_is_touched_wherever_it_is_but_for_rounding():
     """Equal peaks 18 times a revolution, of a millionth of what a weight takes away."""
     eight, ten = 1e-6, 2e-8
-    curve = Phasors(
+    curve = Phasors.of(
         np.array([1.0, 8.0, 10.0]),
         np.array([1.0, 0, ten]) + 0j,
         np.array([0, eight, 0]) + 0j,

@@ -267,8 +267,8 @@ def test_locus_has_x_upwards(ax):
 @pytest.mark.parametrize(("share", "marked"), [(0.5, True), (0.1, False), (0.01, False)])
 def test_a_small_locus_says_its_size_instead_of_crank_angles(ax, share, marked):
     """Marks would lie on one another."""
-    before = Phasors(np.array([1.0]), np.array([100 + 0j]), np.zeros(1, complex), np.zeros(1))
-    after = replace(before, forward=share * before.forward)
+    before = Phasors.of(np.array([1.0]), np.array([100 + 0j]), np.zeros(1, complex), np.zeros(1))
+    after = replace(before, vectors=share * before.vectors)
     draw_locus(ax, after, "force", SI.force, before)
     texts = [text.get_text() for text in ax.texts]
     assert ("60°" in texts) == marked

@@ -18,7 +18,7 @@ from balcli.render.units import SI
 
 def phasors(*rows: tuple[float, complex, complex]) -> Phasors:
     orders, forward, backward = (np.array(column) for column in zip(*rows, strict=True))
-    return Phasors(
+    return Phasors.of(
         orders.astype(float), forward.astype(complex), backward.astype(complex), np.zeros(1)
     )
 

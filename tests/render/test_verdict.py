@@ -76,14 +76,15 @@ def test_each_order_in_words(
     order: int, what: str, vectors: tuple[complex, complex], text: str
 ) -> None:
     orders = np.array([float(order)])
-    phasors = Phasors(orders, *np.array(vectors, complex).reshape(2, 1), np.zeros(1))
+    phasors = Phasors.of(orders, *np.array(vectors, complex).reshape(2, 1), np.zeros(1))
     assert verdict(Spectra(orders, **{what: phasors}), SI) == (text,)
 
 
 def test_force_and_moment_of_one_order() -> None:
     orders = np.array([1.0])
     none, some = (
-        Phasors(orders, *np.array(v, complex).reshape(2, 1), np.zeros(1)) for v in ((0, 0), (7, 0))
+        Phasors.of(orders, *np.array(v, complex).reshape(2, 1), np.zeros(1))
+        for v in ((0, 0), (7, 0))
     )
     assert verdict(Spectra(orders, force=none, moment=some), SI) == (
         "First order: moment of 7 N·m, turning with the crank: counterweights on the crankshaft "
@@ -142,7 +143,7 @@ def test_what_is_small_beside_one_cylinder_is_negligible(
 
     def phasors(sizes: dict) -> Phasors:
         v = np.array([sizes.get(int(n), 0) for n in orders], complex)
-        return Phasors(orders, v, v, np.zeros(5))
+        return Phasors.of(orders, v, v, np.zeros(5))
 
     found = Spectra(orders, force=phasors(force), moment=phasors(moment))
     assert verdict(found, SI, {"force": 1000.0, "moment": 2000.0}) == told

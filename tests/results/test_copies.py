@@ -73,7 +73,7 @@ def test_differences_are_found():
     assert difference(one, other) == "result.remedy.[0]: auto is not couple-shaft"
     again = balance(engine)
     again.after.spectra.force.forward[0] += 1e-12
-    assert difference(one, again).startswith("result.after.spectra.force.forward:")
+    assert difference(one, again).startswith("result.after.spectra.force.vectors:")
 
 
 @pytest.mark.parametrize("way", WAYS)

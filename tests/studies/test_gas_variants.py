@@ -78,7 +78,7 @@ def test_what_no_gas_is_asked_of_does_not_build_it(tmp_path, monkeypatch):
     path = tmp_path / "four.toml"
     path.write_text(FOUR, encoding="utf-8")
     counted = []
-    monkeypatch.setattr("balcli.engine.gas.build_gas", counted.append)
+    monkeypatch.setattr("balcli.engine.build_gas.build_gas", counted.append)
     done = run_here("sweep", path, "--vary", "rod.length=140,150", "-q", "force.2.major")
     assert done.status == 0
     assert counted == []

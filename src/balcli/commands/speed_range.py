@@ -50,7 +50,7 @@ def parse_speeds(
     if not all(0 < figure < 1e9 for figure in figures) or (ranged and len(figures) > 3):
         raise BalcliError(start + right)
     if not ranged:
-        return np.unique(figures)
+        return np.array(sorted(set(figures)))
     first, last, step = (*figures, (figures[1] - figures[0]) / 100)[:3]
     if not (first <= last and (step > 0 or first == last)):
         raise BalcliError(f"{start}must rise; {right}")

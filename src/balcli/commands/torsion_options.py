@@ -45,7 +45,7 @@ def parse_half_orders(text: str | None) -> Real | None:
             )
         step = 0.5 if low % 1 or high % 1 else 1.0
         found += np.arange(low, high + step / 2, step).tolist()
-    return np.unique(found)
+    return np.array(sorted(set(found)))
 
 
 def parse_holzer(texts: list[str] | None) -> tuple[HolzerAsked, ...]:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .singular_values import Complex, Real
+from .sorted_sets import sort_distinct
 
 _SAMPLES = 8  # for each period of the highest order
 _ROUNDS = 40  # Newton's method needs 3 or 4 where a peak is round, more where it is flat
@@ -124,7 +125,7 @@ def _common_harmonics(
     """
     halves = 2 * np.asarray(orders, float)
     harmonics = np.rint(halves).astype(np.int64)
-    once = len(np.unique(harmonics)) == len(harmonics)
+    once = len(sort_distinct(harmonics)) == len(harmonics)
     if not once or np.any(harmonics != halves) or np.any(harmonics < 0):
         raise ValueError("orders have to be different multiples of 1/2, none below 0")
     there = np.any(phasors != 0, axis=tuple(range(1, phasors.ndim)))

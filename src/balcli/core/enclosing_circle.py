@@ -49,7 +49,7 @@ def enclose_curve(curve: Phasors) -> Circle:
     there = np.flatnonzero((curve.major != 0) | (curve.orders == 1))
     if not np.any(curve.major):
         return Circle(0j, 0.0, np.zeros(0), 0.0)
-    curve = Phasors(curve.orders[there], curve.forward[there], curve.backward[there], np.zeros(1))
+    curve = Phasors(curve.orders[there], curve.vectors[:, there], np.zeros(1))
     best = _enclose_from(curve, complex(curve.forward[curve.orders == 1].sum()), np.zeros(0))
     theta, lower = best.theta, 0.0
     for _ in range(_ROUNDS):
@@ -126,7 +126,7 @@ def _enclose_from(curve: Phasors, centre: complex, theta: Array) -> Circle:
     beside the angles given.
     """
     forward = np.where(curve.orders == 1, curve.forward - centre, curve.forward)
-    shifted = Phasors(curve.orders, forward, curve.backward, curve.noise)
+    shifted = Phasors.of(curve.orders, forward, curve.backward, curve.noise)
     start = np.concatenate([find_candidates(shifted), theta])
     found = _drop_near(climb_peaks(shifted, start, np.pi / (8 * curve.orders[-1])))
     return Circle(centre, float(np.abs(shifted.values(found)).max()), found, np.inf)
@@ -171,5 +171,6 @@ def _rate(curve: Phasors, theta: Array) -> Complex:
     """Derivative of the curve seen from the crank."""
     n = curve.orders
     return _seen(
-        Phasors(n, 1j * (n - 1) * curve.forward, -1j * (n + 1) * curve.backward, curve.noise), theta
+        Phasors.of(n, 1j * (n - 1) * curve.forward, -1j * (n + 1) * curve.backward, curve.noise),
+        theta,
     )

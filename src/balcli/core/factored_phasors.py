@@ -60,16 +60,24 @@ class FactoredPhasors(Phasors):
     def backward(self) -> Complex:
         return self._multiply(1)
 
+    @cached_property
+    def vectors(self) -> Complex:
+        return np.array(np.broadcast_arrays(self.forward, self.backward))
+
     def _multiply(self, side: int) -> Complex:
         product: Complex = np.multiply(*self._sides[side])
         return np.where(self._sizes[side] == 0, 0, product) if self._settled else product
 
     @cached_property
-    def _sizes(self) -> tuple[Array, Array]:
-        ahead, astern = (np.abs(side.factor) * np.abs(side.vector) for side in self._sides)
+    def _sizes(self) -> Array:
+        shapes = (each.shape for side in self._sides for each in side)
+        sizes = np.empty((2, *np.broadcast_shapes(*shapes)))
+        for size, side in zip(sizes, self._sides, strict=True):
+            np.multiply(np.abs(side.factor), np.abs(side.vector), out=size)
         if not self._settled:
-            return ahead, astern
-        return _settle(ahead, self.noise), _settle(astern, self.noise)
+            return sizes
+        nothing = sizes <= self.noise
+        return np.where(nothing, 0, sizes) if np.count_nonzero(nothing) else sizes
 
     def __rmul__(self, factor: complex | Figure | Complex) -> FactoredPhasors:
         ahead, astern = (Product(side.factor, factor * side.vector) for side in self._sides)
@@ -84,9 +92,3 @@ class FactoredPhasors(Phasors):
         return FactoredPhasors(
             self.orders[only], (ahead, astern), self.noise[only], settled=self._settled
         )
-
-
-def _settle(sizes: Array, noise: Array) -> Array:
-    """Sizes, with those within the noise set to 0."""
-    nothing = sizes <= noise
-    return np.where(nothing, 0, sizes) if np.count_nonzero(nothing) else sizes

@@ -113,7 +113,7 @@ def find_device_force(device: Device, n: Array, square: Figure) -> Phasors:
     """
     size = (n == device.order) * (device.order**2 * square)
     forward, backward = size * device.forward, size * device.backward
-    return Phasors(n.reshape(-1), forward, backward, SUM * (np.abs(forward) + np.abs(backward)))
+    return Phasors.of(n.reshape(-1), forward, backward, SUM * (np.abs(forward) + np.abs(backward)))
 
 
 # ------------------------------------------------------------------ one cylinder in its own frame

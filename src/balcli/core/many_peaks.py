@@ -70,7 +70,9 @@ def _climb_all(curves: _Curves) -> Array:
     largest: Array = np.maximum.reduceat(values, starts)
     for k in np.flatnonzero(np.bincount(curve) > MOST_CANDIDATES):  # level but for little
         orders, noise = curves.orders.astype(float), np.zeros(1)
-        largest[k] = find_peak(Phasors(orders, curves.forward[k], curves.backward[k], noise)).value
+        largest[k] = find_peak(
+            Phasors.of(orders, curves.forward[k], curves.backward[k], noise)
+        ).value
     return largest
 
 

@@ -51,7 +51,7 @@ def find_peak(curve: Phasors) -> Peak:
     there = np.flatnonzero(curve.major)
     if not len(there):
         return Peak(0.0, 0.0)
-    curve = Phasors(curve.orders[there], curve.forward[there], curve.backward[there], np.zeros(1))
+    curve = Phasors(curve.orders[there], curve.vectors[:, there], np.zeros(1))
     if np.count_nonzero(curve.orders % 1):  # of half the crank angle all are whole
         half = find_peak(replace(curve, orders=2 * curve.orders))
         return Peak(half.value, 2 * half.theta, 2 * half.every)
@@ -137,8 +137,7 @@ def climb_peaks(curve: Phasors, theta: Array, step: float) -> Array:
     """Newton's method for the maxima of |F|^2 beside the given angles, in steps of at most
     `step`.
     """
-    first = _derivative(curve)
-    curves = (curve, first, _derivative(first))
+    curves = (curve, curve.derivative, curve.derivative.derivative)
     for _ in range(_CLIMBS):
         ahead: Complex = np.exp(1j * np.multiply.outer(theta, curve.orders))
         against = np.conj(ahead)
@@ -159,8 +158,3 @@ def find_move(f: Complex, f1: Complex, f2: Complex, step: float) -> Array:
     steep = np.where(bend < 0, -slope / np.where(bend < 0, bend, -1), np.sign(slope) * step / 2)
     move: Array = np.clip(steep, -step, step)
     return move
-
-
-def _derivative(curve: Phasors) -> Phasors:
-    rate = 1j * curve.orders
-    return Phasors(curve.orders, rate * curve.forward, -rate * curve.backward, curve.noise)

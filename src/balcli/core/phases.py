@@ -100,9 +100,9 @@ class Phases:
             ahead_side = Product(forward[:, 0], ahead)
             astern_side = Product(mirrored[:, 0].conj(), astern.conj())
             return FactoredPhasors(self.orders, (ahead_side, astern_side), noise)
-        forward, mirrored = self._add(self._planar, (forward, mirrored), arms)
-        np.conjugate(mirrored, out=mirrored)
-        return Phasors(self.orders, forward, mirrored, noise)
+        both = np.array(self._add(self._planar, (forward, mirrored), arms))
+        np.conjugate(both[1], out=both[1])
+        return Phasors(self.orders, both, noise)
 
     def add_scalars(self, series: Series) -> Phasors:
         """Sum of what the cylinders do about z."""
@@ -128,8 +128,8 @@ class Phases:
 
     def nothing(self) -> Phasors:
         """A sum of nothing."""
-        zero: Complex = np.zeros(self._sum_shape, np.complex128)
-        return Phasors(self.orders, zero, zero, zero.real)
+        zero: Complex = np.zeros((2, *self._sum_shape), np.complex128)
+        return Phasors(self.orders, zero, zero[0].real)
 
     @property
     def _sum_shape(self) -> tuple[int, ...]:

@@ -24,7 +24,7 @@ Figure: TypeAlias = float | Array  # a number, or an array of variants
 EPS = float(np.finfo(float).eps)
 # As arrays without axes, which numpy takes up quicker than Python's numbers.
 _STEP = np.array(15.0)  # degrees
-_STEPS_A_TURN = np.array(24.0)
+_STEPS_A_TURN = np.array(24)
 _RADIANS_A_DEGREE = np.array(np.pi / 180)
 _COSINES = (1, (6**0.5 + 2**0.5) / 4, 0.75**0.5, 0.5**0.5, 0.5, (6**0.5 - 2**0.5) / 4, 0)
 
@@ -48,8 +48,7 @@ def unit(degrees: ArrayLike) -> Complex:
     x = np.asarray(degrees, float)
     steps = np.rint(x / _STEP)
     rest = x - _STEP * steps
-    within = steps - _STEPS_A_TURN * np.floor(steps / _STEPS_A_TURN)
-    turned: Complex = _UNITS.take(within.astype(np.intp))
+    turned: Complex = _UNITS.take(steps.astype(np.intp) % _STEPS_A_TURN)
     return turned * _turn(rest * _RADIANS_A_DEGREE) if np.count_nonzero(rest) else turned
 
 
@@ -83,15 +82,22 @@ class Phasors:
 
     Attributes:
         orders: shape (orders,), not negative, any real numbers.
-        forward, backward: shape (orders, *trailing); with the crank, against it.
-        noise: bound of the rounding error of either, same shape (or one that broadcasts to it).
+        vectors: shape (2, orders, *trailing); those with the crank, then those against it.
+        noise: bound of the rounding error of either, shape (orders, *trailing) (or one that
+            broadcasts to it).
     """
 
     orders: Array
-    forward: Complex
-    backward: Complex
+    vectors: Complex
     noise: Array
     __array_ufunc__ = None  # array * phasors is ours to answer
+
+    @classmethod
+    def of(cls, orders: Array, forward: Complex, backward: Complex, noise: Array) -> Phasors:
+        """Those of vectors with the crank and against it, each of shape (orders, *trailing)."""
+        if forward.shape != backward.shape:
+            forward, backward = np.broadcast_arrays(forward, backward)
+        return cls(orders, np.array((forward, backward)), noise)
 
     @classmethod
     def from_scalar(cls, orders: Array, coefficients: Complex, noise: Array) -> Phasors:
@@ -100,32 +106,30 @@ class Phasors:
         """
         half = coefficients / 2
         if np.count_nonzero(orders) == len(orders):
-            return cls(orders, half, half.conj(), noise)
+            return cls.of(orders, half, half.conj(), noise)
         mean = _column(orders, half) == 0
-        return cls(
-            orders, np.where(mean, coefficients.real, half), np.where(mean, 0, half.conj()), noise
-        )
+        forward, backward = np.where(mean, coefficients.real, half), np.where(mean, 0, half.conj())
+        return cls.of(orders, forward, backward, noise)
+
+    @property
+    def forward(self) -> Complex:
+        """Vectors with the crank, shape (orders, *trailing)."""
+        return self.vectors[0]
+
+    @property
+    def backward(self) -> Complex:
+        """Vectors against the crank, shape (orders, *trailing)."""
+        return self.vectors[1]
 
     def __add__(self, other: Phasors) -> Phasors:
-        return Phasors(
-            self.orders,
-            self.forward + other.forward,
-            self.backward + other.backward,
-            self.noise + other.noise,
-        )
+        return Phasors(self.orders, self.vectors + other.vectors, self.noise + other.noise)
 
     def __sub__(self, other: Phasors) -> Phasors:
-        return Phasors(
-            self.orders,
-            self.forward - other.forward,
-            self.backward - other.backward,
-            self.noise + other.noise,
-        )
+        return Phasors(self.orders, self.vectors - other.vectors, self.noise + other.noise)
 
     def __rmul__(self, factor: complex | Figure | Complex) -> Phasors:
         """Scaled, or scaled and turned where the factor is complex."""
-        noise: Array = np.abs(factor) * self.noise
-        return Phasors(self.orders, factor * self.forward, factor * self.backward, noise)
+        return Phasors(self.orders, factor * self.vectors, np.abs(factor) * self.noise)
 
     def about(self, p: complex | Complex) -> Phasors:
         """Moment about z of this force acting at the point p = x + iy: `Im(conj(p) F)`, a
@@ -138,11 +142,10 @@ class Phasors:
         """The same with whatever lies within its rounding error set to exactly 0, each of both
         vectors for itself.
         """
-        ahead, astern = self._sizes
-        forward, ahead = _settle(self.forward, ahead, self.noise)
-        backward, astern = _settle(self.backward, astern, self.noise)
-        found = Phasors(self.orders, forward, backward, self.noise)
-        return found._with_sizes(ahead, astern)
+        nothing = self._sizes <= self.noise
+        if not np.count_nonzero(nothing):
+            return self
+        return Phasors(self.orders, np.where(nothing, 0, self.vectors), self.noise)
 
     def select_orders(self, orders: ArrayLike) -> Phasors:
         """Those of these orders, each of which must be there."""
@@ -150,35 +153,24 @@ class Phasors:
 
     def select_rows(self, rows: NDArray[np.intp]) -> Phasors:
         """Those of the orders in these rows."""
-        noise = self.noise
-        if noise.shape != self.forward.shape:
-            noise = np.broadcast_to(noise, self.forward.shape)
-        return Phasors(self.orders[rows], self.forward[rows], self.backward[rows], noise[rows])
+        noise = np.broadcast_to(self.noise, self.vectors.shape[1:])
+        return Phasors(self.orders[rows], self.vectors[:, rows], noise[rows])
 
     def select_place(self, place: int) -> Phasors:
         """Those at one place along the trailing axis."""
-        noise = np.broadcast_to(self.noise, self.forward.shape)
-        return Phasors(
-            self.orders, self.forward[:, place], self.backward[:, place], noise[:, place]
-        )
+        noise = np.broadcast_to(self.noise, self.vectors.shape[1:])
+        return Phasors(self.orders, self.vectors[:, :, place], noise[:, place])
 
     def select_row(self, row: int) -> Phasors:
         """The order in this row alone."""
         only = slice(row, row + 1)
-        ahead, astern = self._sizes
         noise = self.noise[only] if len(self.noise) == len(self.orders) else self.noise
-        found = Phasors(self.orders[only], self.forward[only], self.backward[only], noise)
-        return found._with_sizes(ahead[only], astern[only])
+        return Phasors(self.orders[only], self.vectors[:, only], noise)
 
     @cached_property
-    def _sizes(self) -> tuple[Array, Array]:
-        """|forward| and |backward|."""
-        return np.abs(self.forward), np.abs(self.backward)
-
-    def _with_sizes(self, ahead: Array, astern: Array) -> Phasors:
-        """The same, its sizes being known."""
-        vars(self)["_sizes"] = ahead, astern
-        return self
+    def _sizes(self) -> Array:
+        """|forward| and |backward|, shape as of the vectors."""
+        return np.abs(self.vectors)
 
     # -------------------------------------------------------------- what a reader asks of an order
     @property
@@ -215,7 +207,7 @@ class Phasors:
         """Components along x as `Re(c_n e^{i n theta})`, exactly 0 within their rounding error."""
         mean = _column(self.orders, self.forward) == 0
         x = np.where(mean, self.forward.real, self.forward + np.conj(self.backward))
-        return _settle(x, np.abs(x), 2 * self.noise)[0]
+        return _settle(x, 2 * self.noise)
 
     @property
     def y(self) -> Complex:
@@ -223,7 +215,14 @@ class Phasors:
         mean = _column(self.orders, self.forward) == 0
         across = -1j * (self.forward - np.conj(self.backward))
         y = np.where(mean, self.forward.imag, across)
-        return _settle(y, np.abs(y), 2 * self.noise)[0]
+        return _settle(y, 2 * self.noise)
+
+    @property
+    def derivative(self) -> Phasors:
+        """That of the curve by the crank angle (rad)."""
+        n = _column(self.orders, self.forward)
+        ahead, astern = 1j * n * self.forward, -1j * n * self.backward
+        return Phasors.of(self.orders, ahead, astern, n * self.noise)
 
     def values(self, theta: ArrayLike) -> Complex:
         """The curve at crank angles (radians): the sum over all orders, shape of theta, for phasors
@@ -237,21 +236,18 @@ class Phasors:
 
 def join_orders(parts: Sequence[Phasors]) -> Phasors:
     """One run of orders from several, in their order."""
-    noises = [np.broadcast_to(p.noise, p.forward.shape) for p in parts]
+    noises = [np.broadcast_to(p.noise, p.vectors.shape[1:]) for p in parts]
     return Phasors(
         np.concatenate([p.orders for p in parts]),
-        np.concatenate([p.forward for p in parts]),
-        np.concatenate([p.backward for p in parts]),
+        np.concatenate([p.vectors for p in parts], axis=1),
         np.concatenate(noises),
     )
 
 
-def _settle(vectors: Complex, sizes: Array, noise: Array) -> tuple[Complex, Array]:
-    """Vectors, of these sizes, and their sizes, with those within the noise set to 0."""
-    nothing = sizes <= noise
-    if not np.count_nonzero(nothing):
-        return vectors, sizes
-    return np.where(nothing, 0, vectors), np.where(nothing, 0, sizes)
+def _settle(vectors: Complex, noise: Array) -> Complex:
+    """Vectors with those within the noise set to 0."""
+    nothing = np.abs(vectors) <= noise
+    return np.where(nothing, 0, vectors) if np.count_nonzero(nothing) else vectors
 
 
 def _column(orders: Array, like: NDArray[np.generic]) -> Array:

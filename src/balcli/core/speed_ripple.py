@@ -54,7 +54,7 @@ def find_slowest(lines: Sequence[tuple[float, float, float]]) -> Peak:
     w, size = find_speed(lines, step), sum(abs(amplitude) for _, amplitude, _ in lines)
     orders = np.arange(len(w) // 2 + 1.0) * step
     rest = np.where(orders, -w[len(w) // 2 :], size)
-    top = find_peak(Phasors(orders, rest, np.where(orders, rest.conj(), 0), np.zeros(1)))
+    top = find_peak(Phasors.of(orders, rest, np.where(orders, rest.conj(), 0), np.zeros(1)))
     return Peak(1 + size - top.value, top.theta)
 
 
@@ -107,7 +107,7 @@ def count_in_time(phasors: Phasors, course: Course, orders: Array) -> Phasors:
     both = np.array([(np.mean(curve * wave.conj()), np.mean(curve * wave)) for wave in waves])
     forward, backward = both[:, 0], np.where(orders, both[:, 1], 0)
     size = np.sum(np.abs(phasors.forward) + np.abs(phasors.backward))
-    return Phasors(orders, forward, backward, np.full(orders.shape, 8 * EPS * size)).drop_noise()
+    return Phasors.of(orders, forward, backward, np.full(orders.shape, 8 * EPS * size)).drop_noise()
 
 
 def apply_to_force(steady: Phasors, w: Complex, mean: Figure = 0.0) -> Phasors:
@@ -157,7 +157,8 @@ def _transformed(
     magnitudes = (np.asarray(v, np.complex128) for v in (sizes, np.abs(w), np.abs(order)))
     error = EPS * np.abs(shake(*magnitudes))
     backward = np.where(order[n:] > 0, result[n::-1], 0)
-    return Phasors(steady.orders, result[n:], backward, error[n:])  # the bound of -n is that of n
+    # The bound of -n is that of n.
+    return Phasors.of(steady.orders, result[n:], backward, error[n:])
 
 
 def _convolved(series: Complex, w: Complex) -> Complex:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .singular_values import Real
+from .sorted_sets import are_among, sort_distinct, sort_others
 
 Indices = NDArray[np.intp]
 
@@ -98,10 +99,10 @@ def join_chain(inertia: ArrayLike, shafts: Iterable[Shaft], clamped: Sequence[in
     table = np.array(list(shafts), float).reshape(-1, len(Shaft._fields))
     start, end = table[:, 0].astype(np.intp), table[:, 1].astype(np.intp)
     j = np.asarray(inertia, float)
-    held = np.isin(np.arange(len(j)), clamped)
+    held = np.array([k in clamped for k in range(len(j))], bool)
     chain = Chain(j, start, end, table[:, 3], table[:, 2], held)
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
-    chain = chain._replace(clamped=np.isin(meshes.first, meshes.first[held]))
+    chain = chain._replace(clamped=are_among(meshes.first, meshes.first[held]))
     if np.any(meshes.locked):
         raise ValueError(f"the gears at node {int(np.argmax(meshes.locked))} lock each other")
     for motion in rigid_motions(chain):
@@ -145,8 +146,8 @@ def rigid_motions(chain: Chain) -> Real:
     first of them; one row for each piece that can.
     """
     pieces = find_pieces(chain, chain.stiffness > 0)
-    stopped = np.unique(pieces.first[chain.clamped | pieces.locked])
-    free = np.setdiff1d(pieces.first, stopped)
+    stopped = sort_distinct(pieces.first[chain.clamped | pieces.locked])
+    free = sort_others(pieces.first, stopped)
     return np.where(pieces.first == free[:, None], pieces.pace, 0)
 
 
@@ -164,7 +165,7 @@ def follow_gears(chain: Chain) -> tuple[Real, Indices]:
     whose angles these are: of nodes joined by meshes the first; none of clamped ones.
     """
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
-    independent = np.unique(meshes.first[~chain.clamped])
+    independent = sort_distinct(meshes.first[~chain.clamped])
     return np.where(meshes.first[:, None] == independent, meshes.pace[:, None], 0), independent
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .singular_values import Complex, Real
+from .sorted_sets import sort_distinct
 from .torsional_chain import Branch, Chain, Damping, find_pieces, grow_branches, incidence
 from .vibration import solve_equations
 
@@ -123,7 +124,7 @@ def _find_roots(chain: Chain, shafts: NDArray[np.bool_]) -> list[int]:
     weight = np.where(chain.clamped, -1, chain.inertia * pieces.pace**2)
     return [
         int(max(np.flatnonzero(pieces.first == first), key=lambda node: weight[node]))
-        for first in np.unique(pieces.first)
+        for first in sort_distinct(pieces.first)
     ]
 
 

@@ -416,7 +416,7 @@ class Assembly:
         """Gas of the cylinders; None without [gas], and for variants, whose figures are arrays."""
         if self._known_gas is not None or self.model.gas is None or self.rank:
             return self._known_gas
-        from .gas import build_gas  # files without [gas] do not pay for it
+        from .build_gas import build_gas  # files without [gas] do not pay for it
 
         return build_gas(self)
 

@@ -18,11 +18,12 @@ from ..core.cylinders import Device
 from ..core.levers import find_ahead, find_arms, find_reach, share_by_lever
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Phasors
+from ..core.sorted_sets import sort_distinct
 from ..engine.arrays import ranked
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import MOST_RESULTS_ALONG_CRANK
-from .orders import find_relevant_orders, mark_considerable
+from .orders import find_relevant_orders, mark_considerable, merge_orders
 from .spectrum import compute_device_force, compute_each_cylinder, refuse_too_many_loads
 
 if TYPE_CHECKING:
@@ -86,9 +87,9 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
     Raises:
         BalcliError: too many orders of too many loads.
     """
-    every = np.union1d(find_relevant_orders(engine), [1, 2] if orders is None else orders)
+    every = merge_orders(find_relevant_orders(engine), [1, 2] if orders is None else orders)
     loads, z = _compute_loads(engine, every)
-    sections = np.unique(z)
+    sections = sort_distinct(z)
     ahead = find_ahead(z, sections)
     shear = _sum_weighted(loads, ahead, ahead)
     bending = 1j * _sum_weighted(loads, find_arms(z, sections), find_reach(z, sections))
@@ -118,7 +119,7 @@ def place_bearings(throws_m: Array) -> Array | None:
     """Places of main bearings half-way between throws and as far outside the end ones, m, shape
     (bearings,); None for throws in one place.
     """
-    places = np.unique(throws_m)
+    places = sort_distinct(throws_m)
     if len(places) < 2:
         return None
     between = (places[1:] + places[:-1]) / 2
@@ -134,7 +135,7 @@ def _compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
     forces = [compute_each_cylinder(engine, orders, ["force"])["force"]]
     forces += [compute_device_force(engine, device, orders) for device in counterweights]
     noises = [np.broadcast_to(force.noise, force.forward.shape) for force in forces]
-    together = Phasors(
+    together = Phasors.of(
         orders,
         np.column_stack([force.forward for force in forces]),
         np.column_stack([force.backward for force in forces]),
@@ -153,12 +154,8 @@ def _sum_weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
     """Sums over the loads, weights of shape (places, loads); `size`, of the same shape: what the
     weights were computed from, which bounds their rounding.
     """
-    return Phasors(
-        loads.orders,
-        loads.forward @ weights.T,
-        loads.backward @ weights.T,
-        loads.noise @ np.abs(size).T,
-    ).drop_noise()
+    noise = loads.noise @ np.abs(size).T
+    return Phasors(loads.orders, loads.vectors @ weights.T, noise).drop_noise()
 
 
 def _with_peaks(places: Array, phasors: Phasors, orders: Array) -> AlongCrank:

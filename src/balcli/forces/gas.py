@@ -61,7 +61,7 @@ def compute_gas_torque(engine: Engine, orders: Array) -> Phasors:
     count = len(take_gas(engine).cylinders)
     rounding = SUM * count + ANGLE * orders
     noise = each.noise.sum(axis=1) + rounding * np.abs(each.forward).sum(axis=1)
-    return Phasors(orders, each.forward.sum(axis=1), each.backward.sum(axis=1), noise)
+    return Phasors(orders, each.vectors.sum(axis=2), noise)
 
 
 def compute_gas_torque_of_each(engine: Engine, orders: Array) -> Phasors:

@@ -19,6 +19,7 @@ from ..core.levers import find_ahead, find_arms, find_reach, share_by_lever
 from ..core.peaks import Peak
 from ..core.phasors import Array, Complex, Phasors, unit
 from ..core.piecewise import merged_breaks
+from ..core.sorted_sets import sort_distinct
 from ..core.vectors_over_cycle import Panels, Vectors, find_panels
 from ..engine.build import Engine
 from ..errors import BalcliError
@@ -104,7 +105,7 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
     samples = compute(panels.angles)
     on_shaft, on_block = _place_forces(engine)
     shares = share_by_lever(on_shaft, span)
-    sections = np.unique([*on_shaft, *on_block, *span])
+    sections = sort_distinct(np.concatenate([on_shaft, on_block, span]))
     every = (
         *_cut_shaft(sections, on_shaft, len(on_block), span, shares),
         _load_bearings(span, shares, len(on_block)),
@@ -249,7 +250,7 @@ def _follow(sums: _Sums, samples: Complex, panels: Panels, orders: Array) -> Alo
     values = sums.factor * (sums.weights @ samples)
     noise = NOTHING * (sums.sizes @ np.abs(samples).max(axis=1))
     forward, backward = panels.find_orders(values, orders)
-    phasors = Phasors(orders, forward, backward, np.broadcast_to(noise, forward.shape))
+    phasors = Phasors.of(orders, forward, backward, np.broadcast_to(noise, forward.shape))
     peaks = (
         peak if peak.value > least else Peak(0.0, 0.0)
         for peak, least in zip(map(panels.find_largest, values), noise, strict=True)

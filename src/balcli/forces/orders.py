@@ -120,10 +120,12 @@ def choose_orders(found: Spectra, *engines: Engine) -> Array:
     those that are listed for one of the engines.
     """
     due = (found.orders <= 2) & (found.orders % 1 == 0)
-    listed = merge_orders(*map(list_gas_orders, engines))
+    listed = set(merge_orders(*map(list_gas_orders, engines)).tolist())
     for kind, phasors in found.items():
         worth = mark_considerable(phasors)
-        due |= worth & np.isin(found.orders, listed) if kind.name in GAS_KINDS else worth
+        if kind.name in GAS_KINDS:
+            worth &= [order in listed for order in found.orders.tolist()]
+        due |= worth
     return found.orders[due]
 
 

@@ -75,9 +75,7 @@ class Spectra:
         if self.moment is None:
             return self
         p = self.moment
-        unknown = Phasors(
-            p.orders, np.full_like(p.forward, np.nan), np.full_like(p.backward, np.nan), p.noise
-        )
+        unknown = Phasors(p.orders, np.full_like(p.vectors, np.nan), p.noise)
         return replace(self, moment=unknown)
 
     def select_orders(self, orders: ArrayLike) -> Spectra:

@@ -28,6 +28,7 @@ from ..core.roots_of_unity import even, rational, turns, vanishes
 from ..engine.build import Engine
 from .cancellation import WEIGHT_DENOMINATOR, Term, are_in_phase, tell_cancellation
 from .kinds import KINDS
+from .orders import merge_orders
 from .spectrum import compute_each_cylinder
 from .textbook import find_textbook, without_devices
 
@@ -141,7 +142,7 @@ def explain_symmetry(
         kinds: any of force, moment, couple, torque and roll; the last three have one reason in
             common.
     """
-    asked = np.unique(np.fromiter(orders, float))
+    asked = merge_orders(orders)
     groups = dict.fromkeys(group for name, group in _GROUPS.items() if name in kinds)
     layout = _Layout(without_devices(engine), asked)
     reasons = [layout.explain(row, group) for row in range(len(asked)) for group in groups]

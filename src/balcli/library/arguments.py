@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.phasors import Array
+from ..core.sorted_sets import sort_distinct
 from ..enginefile.fields import shorten
 from ..errors import BalcliError, InputError, wrong_type
 from ..forces.orders import check_orders
@@ -90,7 +91,7 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
     if speeds_rpm is None:
         return None
     try:
-        found = np.unique(np.asarray(speeds_rpm, dtype=float))
+        found = sort_distinct(np.asarray(speeds_rpm, dtype=float))
     except (TypeError, ValueError):
         raise wrong_type(function, speeds_rpm, "give speeds in rpm, such as [1500, 2000]") from None
     except OverflowError:  # a whole number of hundreds of digits

@@ -26,7 +26,8 @@ from .devices import (
 )
 from .figures import assumptions, figure_rows
 from .overview import find_orders_that_matter, tell_others
-from .scheme_details import details_document, details_parts, tell_growing_rolls
+from .scheme_details import details_parts, tell_growing_rolls
+from .scheme_details_document import details_document
 from .sheet import (
     NAMELESS,
     NOTHING,

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from ..core.phasors import Array
+from ..enginefile.units import BAR
 from ..torque.pictures import Running
-from .units import BAR, System
+from .units import System
 
 _STEP = 2.0  # deg
 

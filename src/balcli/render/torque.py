@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.piecewise import PiecewiseCurve
 from ..core.speed_variation import Surplus
-from ..enginefile.units import RPM
+from ..enginefile.units import BAR, RPM
 from ..forces.spectrum import Spectra
 from ..torque.analysis import KINDS_OF_TORQUE, TorqueAnalysis, degrees_in_cycle
 from ..torque.flywheel import Flywheel, Speed
@@ -84,12 +84,12 @@ def _work_facts(result: TorqueAnalysis, system: System) -> Facts:
     gas = result.max_pressure
     pairs = [("cycle", f"{tell_strokes(result.engine)}, {round_angle(result.cycle_deg)} deg")]
     pairs.append(("speed", f"{number(float(result.engine.speed_rpm), 6)} rpm"))
-    pairs.append(("mean pressure", f"{number(result.imep / 1e5)} bar indicated"))
+    pairs.append(("mean pressure", f"{number(result.imep / BAR)} bar indicated"))
     if result.bmep is not None:
-        pairs[-1] = (pairs[-1][0], f"{pairs[-1][1]}, {number(result.bmep / 1e5)} bar brake")
+        pairs[-1] = (pairs[-1][0], f"{pairs[-1][1]}, {number(result.bmep / BAR)} bar brake")
     if gas is not None:
         at = degrees(float(np.degrees(gas.angle)))
-        pairs.append(("largest pressure", f"{number(gas.value / 1e5)} bar, {at} deg after firing"))
+        pairs.append(("largest pressure", f"{number(gas.value / BAR)} bar, {at} deg after firing"))
     if silent := list_silent(result.engine):
         pairs.append(("no gas in", silent))
     kinds = {" indicated": 1.0}

@@ -71,7 +71,6 @@ IMPERIAL = System(
 ENERGY = Unit("J", 1, Unit("kJ", 1e3, Unit("MJ", 1e6), 5000), 5000)
 POWER = Unit("W", 1, Unit("kW", 1e3, Unit("MW", 1e6), 5000), 5000)
 STRESS = Unit("N/mm²", 1e6)
-BAR = 1e5  # Pa
 SYSTEMS = {"si": SI, "imperial": IMPERIAL}
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..engine.build import Engine, check_engine
 from ..errors import check_type
+from ..forces.orders import merge_orders
 from ..result import Result
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import Remedy, fit_devices
@@ -100,7 +101,7 @@ def balance(
     balanced = fit_devices(engine, remedy)
     before, after = analyze(engine, orders, SHOWN), analyze(balanced, orders, SHOWN)
     if orders is None and not np.array_equal(before.orders, after.orders):
-        both = np.union1d(before.orders, after.orders)
+        both = merge_orders(before.orders, after.orders)
         before, after = analyze(engine, both, SHOWN), analyze(balanced, both, SHOWN)
     note = _UNEVEN if engine.ripple else ""
     every = orders is not None

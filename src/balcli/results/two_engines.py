@@ -202,7 +202,7 @@ def place_spectra(
 
 def _advance(phasors: Phasors, lead: Complex) -> Phasors:
     """The same earlier by the angles e^{i n phase}, shape (orders,)."""
-    return Phasors(
+    return Phasors.of(
         phasors.orders, lead * phasors.forward, np.conj(lead) * phasors.backward, phasors.noise
     )
 
@@ -216,7 +216,7 @@ def _mirror(phasors: Phasors, kind: Kind) -> Phasors:
     ahead, against = phasors.forward.conj(), phasors.backward.conj()
     forward: Complex = np.where(mean, ahead, against)
     backward: Complex = np.where(mean, 0, ahead)
-    return Phasors(phasors.orders, sign * forward, sign * backward, phasors.noise)
+    return Phasors.of(phasors.orders, sign * forward, sign * backward, phasors.noise)
 
 
 def _add_spectra(one: Spectra, other: Spectra, arrangement: Arrangement) -> Spectra:

@@ -14,7 +14,8 @@ import numpy as np
 from ..core.cylinders import Cylinders
 from ..core.phasors import Array, Complex, Phasors, unit
 from ..engine.build import assemble
-from ..engine.gas import EngineGas, build_gas
+from ..engine.build_gas import build_gas
+from ..engine.gas import EngineGas
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
 from ..forces.gas import find_courses

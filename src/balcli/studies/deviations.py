@@ -17,7 +17,8 @@ from ..core.cylinders import Cylinders
 from ..core.phasors import Array, Phasors
 from ..engine.assembly import PISTON_PARTS
 from ..engine.build import Engine, Weighed, assemble, build
-from ..engine.gas import EngineGas, build_gas
+from ..engine.build_gas import build_gas
+from ..engine.gas import EngineGas
 from ..engine.layout import plan_cylinders
 from ..enginefile.model import Bobweight, EngineFile
 from ..errors import BalcliError

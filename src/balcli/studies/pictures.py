@@ -158,12 +158,8 @@ def swing_banks(engine: Engine, order: float) -> Banks:
         )
         for angle in angles
     ]
-    force = Phasors(
-        np.array([float(order)]),
-        np.stack([f.forward for f in columns], axis=1),
-        np.stack([f.backward for f in columns], axis=1),
-        np.zeros(1),
-    )
+    vectors = np.stack([force.vectors for force in columns], axis=2)
+    force = Phasors(np.array([float(order)]), vectors, np.zeros(1))
     return Banks(order, angles, float(np.ptp(axes)), force)
 
 

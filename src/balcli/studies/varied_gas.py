@@ -47,8 +47,7 @@ class _VariedGas:
         shape = (len(orders), *self._shape)
         return Phasors(
             orders,
-            np.stack([one.forward for one in found], axis=1).reshape(shape),
-            np.stack([one.backward for one in found], axis=1).reshape(shape),
+            np.stack([one.vectors for one in found], axis=2).reshape(2, *shape),
             np.stack([one.noise for one in found], axis=1).reshape(shape),
         )
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..core.phasors import Array, Complex
 from ..core.piecewise import PiecewiseCurve, polyline, resolved
+from ..core.sorted_sets import sort_distinct
 from ..core.speed_variation import Surplus, surplus
 from ..enginefile.csv_columns import read_columns
 from ..errors import BalcliError
@@ -124,5 +125,5 @@ def _subtract(torque: PiecewiseCurve, load: PiecewiseCurve) -> PiecewiseCurve:
     if abs(torque.period - load.period) > _SAME:
         periods = f"{np.degrees(load.period):g} deg, the torque {np.degrees(torque.period):g}"
         raise BalcliError(f"--load: has a period of {periods}: give both over the same angle")
-    breaks = np.union1d(torque.breaks, load.breaks[1:-1])
+    breaks = sort_distinct(np.concatenate([torque.breaks, load.breaks[1:-1]]))
     return resolved(lambda angle: torque.at(angle) - load.at(angle), breaks)

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from ..core.sorted_sets import sort_distinct
 from ..core.torsional_chain import Chain, Shaft, find_pieces, rigid_motions
 from ..enginefile.fields import shorten
 from ..enginefile.shafting import find_stiffness
@@ -61,7 +62,7 @@ def _tell_apart(names: Sequence[str]) -> Iterator[str]:
 def _excite(file: ChainFile, index: dict[str, int]) -> Excitation | None:
     if not file.excitation:
         return None
-    orders = np.unique([each.order for each in file.excitation])
+    orders = sort_distinct(np.array([each.order for each in file.excitation]))
     sources = sorted({index[each.node] for each in file.excitation})
     steady = np.zeros((len(orders), len(sources)), complex)
     for each in file.excitation:
@@ -80,9 +81,10 @@ def _find_faults(
     names = [node.name for node in nodes]
     table = np.array([each.shaft for each in shafts], float).reshape(-1, 4)
     ends = table[:, :2].astype(np.intp)
-    inertia, held = np.array([n.inertia for n in nodes]), np.isin(np.arange(len(nodes)), clamped)
+    inertia = np.array([n.inertia for n in nodes])
+    held = np.array([k in clamped for k in range(len(nodes))], bool)
     chain = Chain(inertia, ends[:, 0], ends[:, 1], table[:, 3], table[:, 2], held)
-    apart = np.unique(find_pieces(chain).first)[1:].tolist()
+    apart = sort_distinct(find_pieces(chain).first)[1:].tolist()
     for node in apart:
         text = f"{shorten(names[node])} hangs on nothing that hangs on {shorten(names[0])}"
         yield Problem(f"node.{node + 1}", f"{text}; join them by a [[shaft]] or a [[gear]]")

@@ -12,6 +12,7 @@ import numpy as np
 from ..core.close_peaks import find_peaks_between, mark_high_peaks
 from ..core.cycle_peaks import find_swing, sum_amplitudes
 from ..core.singular_values import Complex, Real
+from ..core.sorted_sets import sort_distinct, sort_others
 from ..core.telling import Tell, tell_nobody
 from ..core.torsional_modes import chain_loss, find_chain_modes
 from ..core.torsional_response import respond_chain
@@ -184,7 +185,7 @@ def _approach_largest(
 ) -> tuple[Real, Real]:
     """The same, with the swings at these speeds (speeds, curves), of which small ones may be 0."""
     narrow = _find_resonant_speeds(system, excitation, speeds_rpm, _WIDE)
-    about = np.setdiff1d(narrow, speeds_rpm)
+    about = sort_others(narrow, speeds_rpm)
     speeds = np.concatenate([speeds_rpm, about])
     if len(about):
         beside = _find_large_swings(system, excitation, about, curves, swings.max(axis=0))
@@ -198,8 +199,8 @@ def _approach_largest(
     column = np.array(curves)[curve]
 
     def evaluate(rpm: Real) -> Real:
-        few, which = np.unique(rpm, return_inverse=True)  # many curves peak between the same two
-        found = _find_curves(system, excitation, few)[:, which.reshape(rpm.shape), column]
+        few = sort_distinct(rpm)  # many curves peak between the same two
+        found = _find_curves(system, excitation, few)[:, np.searchsorted(few, rpm), column]
         return find_swing(excitation.orders, found).half
 
     last = len(speeds) - 1
@@ -399,7 +400,7 @@ def find_barred(
     known = response.speeds_rpm
     resonant = _find_resonant_speeds(system, excitation, known)
     inner = criticals_rpm[(criticals_rpm > known[0]) & (criticals_rpm < known[-1])]
-    between = np.setdiff1d(np.concatenate([inner, resonant]), known)
+    between = sort_others(np.concatenate([inner, resonant]), known)
     speeds = np.concatenate([known, between])
     excess = np.concatenate(
         [

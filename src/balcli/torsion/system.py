@@ -12,6 +12,7 @@ import numpy as np
 
 from ..core.cached_property import cached_property
 from ..core.singular_values import Complex, Real
+from ..core.sorted_sets import are_among
 from ..core.torsional_chain import Chain, Damping, Indices, find_pieces
 from ..core.torsional_dampers import pendulum_inertia, viscous_inertia
 
@@ -71,7 +72,7 @@ class Excitation(NamedTuple):
 
     def only(self, orders: Real) -> Excitation:
         """Some of its orders."""
-        kept = np.isin(self.orders, orders)
+        kept = are_among(self.orders, orders)
         return Excitation(self.orders[kept], self.nodes, self.steady[kept], self.growing[kept])
 
 

@@ -15,7 +15,7 @@ result has the shape (orders, *lam.shape); orders that are not whole have none.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable
+from collections.abc import Collection
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -85,9 +85,9 @@ class _Ladder:
 
     def __init__(self, orders: ArrayLike, lam: ArrayLike) -> None:
         n, ratio = np.asarray(orders, float), np.asarray(lam, float)
-        numbers = n.astype(np.intp)
-        self._rows = np.where(numbers == n, numbers, -1)
-        self._known = _numbers(int(numbers.max(initial=0)) // 2 + 2, ratio.ndim)
+        self._rows = n.astype(np.intp)
+        self._known = _numbers(int(self._rows.max(initial=0)) // 2 + 2, ratio.ndim)
+        self._rows[self._rows != n] = -1
         self._lam: Figure = ratio.item() if ratio.size == 1 else ratio
         self._w: Figure = _root((1 - self._lam) * (1 + self._lam))
         x = self._lam / (1 + self._w)
@@ -180,18 +180,18 @@ def _gauss(m: Array, z: Figure) -> Array:
     step = max(_AT_ONCE // len(m), 1)
     total: Figure = 1.0
     for last in range(terms, 0, -step):
-        for factor in _times(z, _ratios(last, max(last - step, 0), m.shape)):
-            factor *= total
-            factor += 1.0
-            total = factor
+        ratios = _ratios(last, max(last - step, 0), m.shape)
+        if isinstance(z, float):  # its products at once: a few calls instead of two a term
+            products = np.multiply.accumulate(ratios[::-1] * z)
+            products[-1] *= total
+            total = np.add.reduce(products[::-1]) + 1.0  # the smallest first
+        else:  # variants one term after the other, which takes less memory
+            for ratio in ratios:
+                factor = ratio * z
+                factor *= total
+                factor += 1.0
+                total = factor
     return np.asarray(total)
-
-
-def _times(z: Figure, ratios: Array) -> Iterable[Array]:
-    """Each ratio times z, in arrays of their own: a number at once, variants one after the other,
-    which takes less memory.
-    """
-    return ratios * z if isinstance(z, float) else (ratio * z for ratio in ratios)
 
 
 @lru_cache(maxsize=16)

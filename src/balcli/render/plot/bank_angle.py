@@ -24,9 +24,7 @@ def draw_end_curves(ax: Axes, banks: Banks, unit: Unit) -> None:
     shown = [int(np.argmin(np.abs(banks.angles_deg - angle))) for angle in SHOWN_DEG]
     s = unit.fit(float(banks.force.major.max(initial=0)))
     ways = [
-        Phasors(
-            banks.force.orders, banks.force.forward[:, k], banks.force.backward[:, k], np.zeros(1)
-        ).values(FINE)
+        Phasors(banks.force.orders, banks.force.vectors[:, :, k], np.zeros(1)).values(FINE)
         for k in shown
     ]
     limit = set_up_plane(ax, ways, "force", s)

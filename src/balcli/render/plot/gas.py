@@ -8,8 +8,9 @@ import numpy as np
 
 from ...core.phasors import Array, Complex
 from ...core.speed_variation import Surplus
+from ...enginefile.units import BAR
 from ...torque.pictures import MainLoads, PinLoads, Pressures, Torques
-from ..units import BAR, Unit
+from ..units import Unit
 from .legends import put_legend_above
 from .style import BLUE, FAINT, GREEN, INK, RED, SOFT
 

@@ -72,7 +72,7 @@ def _mark_crank_angles(ax: Axes, curve: Phasors, s: Unit, limit: float) -> None:
     """
     period = find_period_deg(curve)
     marks = np.arange(12) * period / 12
-    at, along = curve.values(np.radians(marks)), _derivative(curve).values(np.radians(marks))
+    at, along = curve.values(np.radians(marks)), curve.derivative.values(np.radians(marks))
     ax.plot(at.imag / s.size, at.real / s.size, "o", color=BLUE, markersize=2.6)
     side = -1 if _turning(curve) >= 0 else 1  # left or right of the way, in x up and y right
     written: list[complex] = []
@@ -115,12 +115,3 @@ def find_period_deg(curve: Phasors) -> int:
 def _turning(curve: Phasors) -> float:
     """Twice the area inside the locus, positive if it is run through with the crank."""
     return float((curve.orders * (np.abs(curve.forward) ** 2 - np.abs(curve.backward) ** 2)).sum())
-
-
-def _derivative(curve: Phasors) -> Phasors:
-    return Phasors(
-        curve.orders,
-        1j * curve.orders * curve.forward,
-        -1j * curve.orders * curve.backward,
-        np.zeros(1),
-    )

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from ...core.phases import TURN
 from ...core.phasors import Array
 from ...core.roots_of_unity import LARGEST_DENOMINATOR, rational
+from ...core.sorted_sets import sort_distinct
 from ...engine.arrays import ranked
 
 Curve = Callable[[Array], Array]  # a figure at some angles (deg), same shape
@@ -83,12 +84,12 @@ def find_minima(
     if not lowest:
         return nodes[:0]
     slack = AS_GOOD * y[np.isfinite(y)].max()
-    found = np.unique(span.bring_inside(_round_off(keep_limits, nodes[lowest], step, slack)))
+    found = sort_distinct(span.bring_inside(_round_off(keep_limits, nodes[lowest], step, slack)))
     return found[np.argsort(ranked(keep_limits(found)), kind="stable")]
 
 
 def _join(span: Span, *parts: Array) -> Array:
-    return np.unique(span.bring_inside(np.concatenate(parts)))
+    return sort_distinct(span.bring_inside(np.concatenate(parts)))
 
 
 def _find_bottoms(y: Array, ring: bool) -> list[NDArray[np.intp]]:

@@ -21,6 +21,7 @@ from ...engine.vary import vary_engine
 from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
+from ...forces.orders import merge_orders
 from ...forces.quantity import Quantity, refuse_unknown
 from ...forces.textbook import TextbookUnits, find_textbook_units
 from ...result import Result
@@ -164,7 +165,7 @@ def search_arrangements(
         also = " and fires evenly" if even_firing else ""
         named = key if is_number else key.replace("_", " ")
         raise BalcliError(f"no {named} keeps these limits{also}")
-    orders = np.unique([float(q.order) for q in choose_of_engine(objective.quantities)])
+    orders = merge_orders(q.order for q in choose_of_engine(objective.quantities))
     scale = find_textbook_units(engine, orders)
     return Search(model, key, objective, found, scale, locked, ends)
 

@@ -55,7 +55,9 @@ class Contributions:
         """A quantity by the sums over all throws and the devices, shape (candidates,)."""
         noise = np.full((1, 1), ROUNDING * self.reach.sum())
         order = np.array([float(self.order)])
-        return quantity.read_from(Phasors(order, forward[None], backward[None], noise).drop_noise())
+        return quantity.read_from(
+            Phasors.of(order, forward[None], backward[None], noise).drop_noise()
+        )
 
 
 def tabulate_contributions(
