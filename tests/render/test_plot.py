@@ -171,7 +171,7 @@ def test_about_the_crank_the_gas_is_drawn_by_order_and_curves_are_of_inertia():
 def test_orders_that_are_always_shown_are_1_and_2():
     orders = np.array([0.5, 1, 1.5, 2, 4])
     vectors = np.array([0, 0, 0, 0, 1.0 + 0j])
-    assert visible_rows(Phasors(orders, vectors, vectors, np.zeros(5))) == [1, 3, 4]
+    assert visible_rows(Phasors.of(orders, vectors, vectors, np.zeros(5))) == [1, 3, 4]
 
 
 @pytest.mark.parametrize("name", ["long words " * 8, "长" * 60])
@@ -199,7 +199,7 @@ def test_one_order_does_not_leave_half_a_page_empty():
 def test_crank_angles_do_not_lie_on_one_another(ax):
     """Along a straight line that is run to and fro, two places of the tip are the same."""
     ones = np.array([1.0 + 0j])
-    draw_locus(ax, Phasors(np.array([1.0]), ones, ones, np.zeros(1)), "force", SI.force)
+    draw_locus(ax, Phasors.of(np.array([1.0]), ones, ones, np.zeros(1)), "force", SI.force)
     places = np.array([text.get_position() for text in ax.texts if "°" in text.get_text()])
     assert len(places) > 2
     apart = np.abs(places[:, None] - places[None])
