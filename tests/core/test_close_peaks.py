@@ -5,13 +5,20 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balcli.core.close_peaks import find_peaks_between, mark_high_peaks
+from balcli.core.close_peaks import find_highest, find_peaks_between
+
+
+def find_each(function, low, high):
+    """One function for each interval."""
+    return find_peaks_between(
+        lambda x, which: function(x, which), low, high, np.arange(len(low), dtype=np.intp)
+    )
 
 
 def test_a_parabola_is_found_exactly_and_an_end_is_an_end():
     """The third falls all the way."""
     places, low, high = np.array([0.1, 7.0, -3.0]), np.array([0.0, 5, -3]), np.array([1.0, 8, -2])
-    at, heights = find_peaks_between(lambda x: 4 - (x - places) ** 2, low, high)
+    at, heights = find_each(lambda x, k: 4 - (x - places[k]) ** 2, low, high)
     assert at[:2] == pytest.approx(places[:2], rel=1e-12)
     assert heights[:2] == pytest.approx(4, rel=1e-15)
     assert at[2] == pytest.approx(-3, abs=2e-3)
@@ -21,21 +28,52 @@ def test_resonances_as_wide_as_the_interval():
     """|1 / (w0^2 - w^2 + 2 i d w0 w)| is largest at w0 sqrt(1 - 2 d^2)."""
     own, damping = np.array([1.0, 40.0]), np.array([0.05, 0.3])
 
-    def amplify(w):
-        return 1 / np.abs(own**2 - w**2 + 2j * damping * own * w)
+    def amplify(w, k):
+        return 1 / np.abs(own[k] ** 2 - w**2 + 2j * damping[k] * own[k] * w)
 
-    at, heights = find_peaks_between(amplify, 0.8 * own, 1.1 * own)
+    at, heights = find_each(amplify, 0.8 * own, 1.1 * own)
     assert at == pytest.approx(own * np.sqrt(1 - 2 * damping**2), rel=1e-4)
     assert heights == pytest.approx(1 / (2 * damping * own**2 * np.sqrt(1 - damping**2)), rel=1e-8)
 
 
 def test_what_is_told_of_a_place_is_the_height_there():
-    at, heights = find_peaks_between(np.cos, np.array([-1.0, 5.0]), np.array([0.5, 8.0]))
+    at, heights = find_each(lambda x, _: np.cos(x), np.array([-1.0, 5.0]), np.array([0.5, 8.0]))
     assert heights.tolist() == np.cos(at).tolist()
 
 
-def test_peaks_at_the_ends_and_of_equal_height_count_low_ones_do_not():
-    heights = np.array([[5.0, 0], [1, 0], [4.6, 0], [2, 0], [4.4, 0], [3, 0], [5, 0]])
-    marked = mark_high_peaks(heights, 0.9)
-    assert np.flatnonzero(marked[:, 0]).tolist() == [0, 2, 6]
-    assert not marked[:, 1].any()  # 0 is above nothing
+def test_intervals_that_do_not_have_the_highest_are_given_up():
+    """Of one function with peaks of 3 and 4 the lower is not approached."""
+    seen = []
+
+    def judge(x, which):
+        seen.append(x.shape[1])
+        return np.maximum(3 - (x - 1) ** 2, 4 - (x - 6) ** 2)
+
+    which = np.zeros(2, np.intp)
+    _, heights = find_peaks_between(judge, np.array([0.0, 5]), np.array([1.5, 7.5]), which)
+    assert heights.max() == pytest.approx(4, rel=1e-12)
+    assert seen[0] == 2
+    assert seen[-1] == 1
+
+
+def test_the_highest_may_lie_beside_the_highest_place():
+    """The curve falls from its highest place, 2, to 3, and rises to its top between 3 and 4."""
+    places = np.arange(7.0)
+
+    def judge(x, _=None):
+        return np.maximum(10 - np.abs(x - 2), 10.4 - 6 * (x - 3.3) ** 2)
+
+    heights = judge(places)[:, None]
+    assert heights.argmax() == 2
+    best, highest = find_highest(judge, places, heights, heights.max(axis=0), 0.9)
+    assert best == pytest.approx([3.3])
+    assert highest == pytest.approx([10.4])
+
+
+def test_places_alone_are_where_no_interval_is():
+    one = np.array([[3.0, 0.0]])
+    best, highest = find_highest(None, np.array([7.0]), one, one[0], 0.9)
+    assert (best.tolist(), highest.tolist()) == ([7, 7], [3, 0])
+    level = np.zeros((3, 1))  # 0 is above nothing
+    _, highest = find_highest(None, np.arange(3.0), level, level[0], 0.9)
+    assert highest.tolist() == [0]

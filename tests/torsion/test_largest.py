@@ -13,8 +13,8 @@ from balcli.core.cycle_peaks import find_swing
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.torsion.build_engine import build_engine_system, excite_engine
+from balcli.torsion.motion import move
 from balcli.torsion.quantity import Variants, parse_quantity
-from balcli.torsion.response import move
 
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 16\nimep = 15\n'
 
@@ -129,7 +129,7 @@ def test_between_two_barred_resonances_runs_are_allowed():
 
 def test_beside_a_single_speed_nothing_is_looked_for(monkeypatch):
     """A chain of two hundred took eight seconds."""
-    monkeypatch.delattr("balcli.torsion.response.find_peaks_between")
+    monkeypatch.delattr("balcli.core.close_peaks.find_peaks_between")
     text = write_engine(0.005)
     told = json.loads(run_here("torsion", "-", "--speeds", "1790", "-f", "json", stdin=text).out)
     for shaft in told["response"]["shafts"]:
@@ -159,3 +159,38 @@ def test_the_top_of_a_wide_resonance_between_the_speeds_is_barred():
     coarse, fine = (said["barred_rpm"] for said in around)
     assert len(fine) == 1
     assert np.ravel(coarse) == pytest.approx(np.ravel(fine), rel=1e-8)
+
+
+def test_of_two_peaks_within_one_step_the_higher_is_found():
+    """Order 1 swells as order 6.5 passes: one peak at 1195 rpm, a higher one 2 rpm on, with the
+    speeds 100 rpm apart. Against plain equations of motion.
+    """
+    inertias, stiffnesses = [18e4, 5e4, 15e4], [9e4, 14e4]
+    torques = [(2, 1, 83, 83), (0, 1.5, -64, -98), (2, 6.5, 81, -77), (0, 7.5, 18, -88)]
+    text = "loss = 0.1\n"
+    for name, inertia in zip("abc", inertias, strict=True):
+        text += f'[[node]]\nname = "{name}"\ninertia = {inertia}\n'
+    for ends, stiffness in zip(("ab", "bc"), stiffnesses, strict=True):
+        text += f'[[shaft]]\nfrom = "{ends[0]}"\nto = "{ends[1]}"\nstiffness = {stiffness}\n'
+    for node, order, cos, sin in torques:
+        text += f'[[excitation]]\nnode = "{"abc"[node]}"\norder = {order}\n'
+        text += f"cos = {cos}\nsin = {sin}\n"
+    out = run_here("torsion", "-", "--speeds", "600:3000:100", "-f", "json", stdin=text).out
+    told = json.loads(out)["response"]["shafts"][0]["worst"]
+    twist, angle = np.array([[1, -1, 0], [0, 1, -1]]), np.arange(20000) * 4 * np.pi / 20000
+
+    def swing(rpm):
+        curve = 0
+        for node, order, cos, sin in torques:
+            w = order * rpm * np.pi / 30
+            springs = (twist.T * (np.array(stiffnesses) * (1 + 0.1j))) @ twist
+            dynamic = springs - w**2 * np.diag(inertias) / 1e6
+            turned = np.linalg.solve(dynamic, np.eye(3)[node] * (cos - 1j * sin))
+            curve = curve + np.real(
+                9e4 * (1 + 0.1j) * (twist @ turned)[0] * np.exp(1j * order * angle)
+            )
+        return np.ptp(curve) / 2
+
+    largest = max(map(swing, np.arange(1190, 1200, 0.1)))
+    assert told["half_peak_to_peak_Nm"] == pytest.approx(largest, rel=1e-6)
+    assert told["speed_rpm"] == pytest.approx(1196.82, abs=0.1)

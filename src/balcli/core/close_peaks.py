@@ -11,45 +11,91 @@ from numpy.typing import NDArray
 
 from .singular_values import Real
 
+Indices = NDArray[np.intp]
+
 _PARTS = 8  # of an interval, before the two beside the highest place are the next interval
-_ROUNDS = 3
+_ROUNDS = 4
 
 
-def find_peaks_between(judge: Callable[[Real], Real], low: Real, high: Real) -> tuple[Real, Real]:
-    """Places and heights (functions,) of a peak of several functions between two places each. The
-    height is good to 1e-8 where the interval is no wider than the peak.
+def find_highest(
+    judge: Callable[[Real, Indices], Real], places: Real, heights: Real, level: Real, near: float
+) -> tuple[Real, Real]:
+    """Where each of several functions is highest, between places, too, and how high, (functions,).
+
+    Searched is every interval between neighbouring places that may hold it: whose higher end is
+    near the level, and no farther below it than the function rises or falls thereabouts.
+
+    Args:
+        judge: as of `find_peaks_between`.
+        places: (places,), rising.
+        heights: (places, functions) there.
+        level: (functions,), above which alone a height matters.
+        near: share of the level that a peak may exceed the places beside it by.
+    """
+    best, highest = places[heights.argmax(axis=0)], heights.max(axis=0)
+    ends = np.maximum(heights[1:], heights[:-1])
+    rise = np.abs(np.diff(np.pad(heights, ((1, 1), (0, 0)), mode="edge"), axis=0))
+    beside = np.maximum(np.maximum(rise[:-2], rise[1:-1]), rise[2:])
+    may = (ends >= near * level) & (ends + beside >= level) & (level > 0)
+    at, which = np.nonzero(may)
+    if len(at):
+        place, height = find_peaks_between(judge, places[at], places[at + 1], which)
+        for k in np.argsort(height):  # the highest last
+            if height[k] > highest[which[k]]:
+                best[which[k]], highest[which[k]] = place[k], height[k]
+    return best, highest
+
+
+def find_peaks_between(
+    judge: Callable[[Real, Indices], Real], low: Real, high: Real, which: Indices
+) -> tuple[Real, Real]:
+    """Places and heights (intervals,) of a peak in each of several intervals, in which several
+    functions are looked at. The highest of each function is good to 1e-8 where it is round and its
+    interval no wider than the peak; intervals that do not have it are given up.
 
     The peak is enclosed ever closer; the last place is the vertex of a parabola.
 
     Args:
-        judge: places (places, functions), a column for each function -> the values there.
-        low, high: (functions,) between which the peaks lie.
+        judge: places (places, some), each column in an interval, and the functions these belong to
+            (some,) -> the values there.
+        low, high: (intervals,), their ends.
+        which: (intervals,), the function of each.
     """
     shares = np.arange(1, _PARTS)[:, None] / _PARTS
-    each = np.arange(len(low))
-    best, highest = low, np.full(len(low), -np.inf)
+    best, highest = low.copy(), np.full(len(low), -np.inf)
+    going = np.arange(len(low))
     for _ in range(_ROUNDS):
         step = (high - low) / _PARTS
-        heights = judge(low + (high - low) * shares)
-        top = low + step * (1 + heights.argmax(axis=0))
-        best = np.where(heights.max(axis=0) > highest, top, best)
-        highest = np.maximum(highest, heights.max(axis=0))
-        low, high = top - step, top + step
-    middle = np.clip(heights.argmax(axis=0), 1, _PARTS - 3)
-    before, here, after = (heights[middle + k, each] for k in (-1, 0, 1))
-    bend = before - 2 * here + after
+        heights = judge(low + (high - low) * shares, which[going])
+        top = heights.argmax(axis=0)
+        place = low + step * (1 + top)
+        here, around = heights.max(axis=0), _take_around(heights, top)
+        _raise(best, highest, going, place, here)
+        of_function = np.full(which.max(initial=0) + 1, -np.inf)
+        np.maximum.at(of_function, which, highest)
+        may = 2 * here - around.min(axis=0) >= of_function[which[going]]  # rise as it fell
+        going, place, step, top = (each[may] for each in (going, place, step, top))
+        low, high, around = place - step, place + step, around[:, may]
+    before, middle, after = around
+    bend = before - 2 * middle + after
     beside = (before - after) / (2 * np.where(bend < 0, bend, -np.inf))
-    vertex = top + step * (middle - heights.argmax(axis=0) + beside)
+    vertex = place + step * (np.clip(top, 1, _PARTS - 3) - top + beside)
     vertex = np.clip(vertex, low, high)
-    there = judge(vertex[None])[0]
-    return np.where(there > highest, vertex, best), np.maximum(highest, there)
+    _raise(best, highest, going, vertex, judge(vertex[None], which[going])[0])
+    return best, highest
 
 
-def mark_high_peaks(heights: Real, share: float) -> NDArray[np.bool_]:
-    """Which of the heights (places, functions) are peaks, those at the ends too, and above this
-    share of the highest of their function.
+def _take_around(heights: Real, top: Indices) -> Real:
+    """Three of the heights (places, intervals) of each interval: that at the top and its
+    neighbours, or the three at the end if it is there.
     """
-    ends = np.zeros((1, heights.shape[1]))
-    around = np.concatenate([ends, heights, ends])
-    peaks = (heights >= around[:-2]) & (heights >= around[2:])
-    return np.asarray(peaks & (heights > share * heights.max(axis=0)))
+    middle = np.clip(top, 1, len(heights) - 2)
+    return np.stack([heights[middle + k, np.arange(len(top))] for k in (-1, 0, 1)])
+
+
+def _raise(best: Real, highest: Real, going: Indices, place: Real, height: Real) -> None:
+    """Puts the places and heights of some intervals into best and highest (intervals,) where they
+    are higher.
+    """
+    higher = height > highest[going]
+    best[going[higher]], highest[going[higher]] = place[higher], height[higher]

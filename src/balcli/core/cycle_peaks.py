@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from .singular_values import Complex, Real
 from .sorted_sets import sort_distinct
 
-_SAMPLES = 8  # for each period of the highest order
+_SAMPLES = 12  # for each period of the highest order
 _ROUNDS = 40  # Newton's method needs 3 or 4 where a peak is round, more where it is flat
 _SETTLED = 1e-16  # gain, as a share of the curve, that ends the climb
 _SHORT = 1e-6  # of the distance of two samples: a step within which a curve is a parabola

@@ -39,7 +39,7 @@ class _Equations(NamedTuple):
     Attributes:
         frequency: (*frequency,) rad/s.
         own: (nodes, *frequency) dynamic stiffness of each node by itself.
-        flexible: (shafts, *frequency) 1/stiffness of each shaft.
+        flexible: 1/stiffness of each shaft, that broadcasts to (shafts, *frequency).
         load: (nodes, *frequency).
         carrying: (shafts,) which shafts carry anything.
     """
@@ -52,7 +52,9 @@ class _Equations(NamedTuple):
 
     def at(self, where: NDArray[np.bool_]) -> _Equations:
         """Some of the frequencies."""
-        own, flexible, load = (each[:, where] for each in (self.own, self.flexible, self.load))
+        shape = (len(self.flexible), *self.frequency.shape)
+        flexible = np.broadcast_to(self.flexible, shape)
+        own, flexible, load = (each[:, where] for each in (self.own, flexible, self.load))
         return _Equations(self.frequency[where], own, flexible, load, self.carrying)
 
 
@@ -97,17 +99,21 @@ def _set_up(
     chain: Chain, damping: Damping, w: Real, load: Complex, attached: Complex | float
 ) -> _Equations:
     shape = (*w.shape, len(chain.inertia))
-    inertia = np.moveaxis(np.broadcast_to(chain.inertia + attached, shape), -1, 0)
     forces = np.moveaxis(np.broadcast_to(np.asarray(load, complex), shape), -1, 0)
-    own = 1j * np.multiply.outer(damping.nodes, w) - w * w * inertia
+    own = np.multiply.outer(1j * damping.nodes, w) - np.multiply.outer(chain.inertia, w * w)
+    if np.any(attached):
+        own -= w * w * np.moveaxis(np.broadcast_to(attached, shape), -1, 0)
     carrying = (chain.stiffness > 0) | (damping.dashpots > 0)
     carrying &= ~(chain.clamped[chain.start] & chain.clamped[chain.end])
     return _Equations(w, own, _flexibilities(chain, damping, w, carrying), forces, carrying)
 
 
 def _flexibilities(chain: Chain, damping: Damping, w: Real, carrying: NDArray[np.bool_]) -> Complex:
-    """1/stiffness (shafts, *frequency) of every shaft that carries anything; of others 0."""
+    """1/stiffness of every shaft that carries anything; of others 0. As (shafts, *frequency), or
+    one for all frequencies where nothing depends on them.
+    """
     k, c = np.where(np.isinf(chain.stiffness), 0, chain.stiffness), damping.dashpots
+    w = w if np.any(c) else np.ones((1,) * w.ndim)
     complex_stiffness = np.multiply.outer(k * (1 + 1j * damping.loss), np.ones_like(w))
     complex_stiffness += 1j * np.multiply.outer(c, w)
     bends = carrying & np.isfinite(chain.stiffness)
@@ -133,7 +139,6 @@ class _Folded(NamedTuple):
 
     Attributes:
         own, load: (nodes, *frequency) dynamic stiffness and load.
-        size: (nodes, *frequency) sum of the absolute values that make up `own`.
         pivots: (nodes, *frequency) what was divided by to take the node off its parent.
         felt, pushed: (nodes, *frequency) own and load over that.
         weak: (*frequency,) where a pivot is small against its parts.
@@ -141,7 +146,6 @@ class _Folded(NamedTuple):
 
     own: Complex
     load: Complex
-    size: Real
     pivots: Complex
     felt: Complex
     pushed: Complex
@@ -156,20 +160,24 @@ def _solve_tree(chain: Chain, equations: _Equations) -> _Solution:
     flexible = equations.flexible
     roots = _find_roots(chain, equations.carrying)
     branches = grow_branches(chain, roots, equations.carrying)
-    folded = _fold(chain, equations, branches)
-    weak = folded.weak | (len(branches) < np.count_nonzero(equations.carrying))
-    angle, torque = np.zeros_like(folded.own), np.zeros_like(flexible)
-    singular = np.zeros_like(weak)
-    for root in roots:
-        if not chain.clamped[root]:
-            total, cancels = _guard(folded.own[root], folded.size[root], _RESONANT)
-            singular |= cancels
-            angle[root] = folded.load[root] / total
-    for child, parent, shaft, near, far in branches:
-        torque[shaft] = near * folded.pushed[child] + far * folded.felt[child] * angle[parent]
-        if not chain.clamped[child]:
-            moved = near * far * angle[parent] / folded.pivots[child]
-            angle[child] = flexible[shaft] * folded.pushed[child] - moved
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # there it is weak
+        folded = _fold(chain, equations, branches)
+        weak = folded.weak | (len(branches) < np.count_nonzero(equations.carrying))
+        angle = np.zeros(folded.own.shape, complex)
+        torque = np.zeros((len(flexible), *angle.shape[1:]), complex)
+        singular = np.zeros_like(weak)
+        for root in roots:
+            if not chain.clamped[root]:
+                size = np.abs(equations.own[root])
+                for child, _, _, _, far in (each for each in branches if each.parent == root):
+                    size += far**2 * np.abs(folded.felt[child])
+                singular |= np.abs(folded.own[root]) <= _RESONANT * size
+                angle[root] = folded.load[root] / folded.own[root]
+        for child, parent, shaft, near, far in branches:
+            torque[shaft] = near * folded.pushed[child] + far * folded.felt[child] * angle[parent]
+            if not chain.clamped[child]:
+                moved = near * far * angle[parent] / folded.pivots[child]
+                angle[child] = flexible[shaft] * folded.pushed[child] - moved
     return _Solution(angle, torque, weak | singular, singular)
 
 
@@ -178,27 +186,19 @@ def _fold(chain: Chain, equations: _Equations, branches: list[Branch]) -> _Folde
     s, the parent feels `far^2 d/(near^2 + s d)` and `-near far f/(near^2 + s d)`.
     """
     own, load = equations.own.copy(), equations.load.copy()
-    size, weak = np.abs(own), np.zeros(own.shape[1:], bool)
-    pivots, felt, pushed = np.ones_like(own), np.zeros_like(own), np.zeros_like(own)
+    weak = np.zeros(own.shape[1:], bool)
+    pivots, felt, pushed = (np.zeros(own.shape, complex) for _ in range(3))
     for child, parent, shaft, near, far in reversed(branches):
         if chain.clamped[child]:
             felt[child] = 1 / equations.flexible[shaft]
         else:
             part = equations.flexible[shaft] * own[child]
-            parts = near**2 + np.abs(part)
-            pivots[child], cancels = _guard(near**2 + part, parts, _WEAK_PIVOT)
-            weak |= cancels
+            pivots[child] = near**2 + part
+            weak |= np.abs(pivots[child]) <= _WEAK_PIVOT * (near**2 + np.abs(part))
             felt[child], pushed[child] = own[child] / pivots[child], load[child] / pivots[child]
         own[parent] += far**2 * felt[child]
-        size[parent] += far**2 * np.abs(felt[child])
         load[parent] -= near * far * pushed[child]
-    return _Folded(own, load, size, pivots, felt, pushed, weak)
-
-
-def _guard(total: Complex, size: Real, share: float) -> tuple[Complex, NDArray[np.bool_]]:
-    """A divisor that is 1 where it would be less than a share of its parts, and where that is."""
-    cancels = np.abs(total) <= share * size
-    return np.where(cancels, 1, total), cancels
+    return _Folded(own, load, pivots, felt, pushed, weak)
 
 
 def _solve_dense(

@@ -252,11 +252,19 @@ class WorstSwing(TypedDict):
     half_swing_deg: float
 
 
+class WorstHeat(TypedDict):
+    """Of all speeds, and between them."""
+
+    speed_rpm: float
+    heat_W: float
+
+
 class Heat(TypedDict):
     """Power that a damper turns to heat, by speed."""
 
     node: str
     heat_W: Row
+    worst: WorstHeat
 
 
 class TorsionResponse(TypedDict):

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.close_peaks import find_peaks_between, mark_high_peaks
+from ..core.close_peaks import find_highest
 from ..core.cycle_peaks import find_longest, largest_of_ellipse
 from ..core.rigid_body import (
     BodyResponse,
@@ -330,25 +330,16 @@ def _find_worst(
     heights = np.concatenate([peaks, *_press_some(mounted, loads, about)])
     rising = np.argsort(np.concatenate([omega, about]))
     speeds, heights = np.concatenate([omega, about])[rising], heights[rising]
-    marked = mark_high_peaks(heights, _NEAR)
-    marked[heights.argmax(axis=0), np.arange(heights.shape[1])] = True  # of what is level, too
-    at, curve = np.nonzero(marked)
-    low, high = speeds[np.maximum(at - 1, 0)], speeds[np.minimum(at + 1, len(speeds) - 1)]
 
     def list_own(speeds: Real, curve: NDArray[np.intp]) -> Complex:
         each = np.arange(len(curve))
         return _list_curves(mounted, _move(mounted, loads, speeds))[:, each, curve]
 
-    def evaluate(at: Real) -> Real:
+    def judge(at: Real, curve: NDArray[np.intp]) -> Real:
         return np.array([find_longest(loads.orders, list_own(one, curve)).value for one in at])
 
-    place, highest = find_peaks_between(evaluate, low, high)
-    place = np.where(highest > heights[at, curve], place, speeds[at])
-    highest = np.maximum(highest, heights[at, curve])
-    falling = np.lexsort((-highest, curve))
-    each, first = np.unique(curve[falling], return_index=True)
-    best = place[falling[first]]
-    own = list_own(best, each)
+    best, _ = find_highest(judge, speeds, heights, heights.max(axis=0), _NEAR)
+    own = list_own(best, np.arange(len(best)))
     value = find_longest(loads.orders, own).value
     alone = largest_of_ellipse(own)
     leading = alone.argmax(axis=0)
@@ -359,7 +350,7 @@ def _find_worst(
             float(loads.orders[leading[k]]),
             float(alone[leading[k], k]),
         )
-        for k in each
+        for k in range(len(best))
     )
 
 

@@ -18,6 +18,7 @@ __all__ = ["document", "rows", "sheet"]
 _COLUMNS = 6  # of orders and speeds in a table of a page's width
 _ROWS = 9  # speeds of a table
 _NEAR = 0.05  # distance of a speed from that at which an order meets a mode
+_NEARLY_ALL = 0.99  # less: the rest is no round figure
 _SAME = 0.005  # change of a force that is none
 _SHARE = 1e-3  # of the largest free load: less is not worth a line
 _FORCES, _MOMENTS = ("force x", "force y", "force z"), ("moment x", "moment y", "roll z")
@@ -80,7 +81,11 @@ def _less(after: Worst, before: Worst) -> str:
     if before.value == 0:
         return ""
     change = after.value / before.value - 1
+    if after.value == 0:
+        return ": nothing is left"
     less = f"{abs(change):.0%} {'less' if change < 0 else 'more'}"
+    if change < -_NEARLY_ALL:
+        less = f"over {_NEARLY_ALL:.0%} less"
     return ": as much" if abs(change) < _SAME else f": {less}"
 
 

@@ -177,8 +177,7 @@ def _settle(asked: HolzerTable, value: float) -> float:
 
 
 def _response(result: TorsionAnalysis, response: Response) -> Grid | Text:
-    first, last = (number(float(response.speeds_rpm[k])) for k in (0, -1))
-    span = f"{first} to {last} rpm"
+    span = _tell_range(float(response.speeds_rpm[0]), float(response.speeds_rpm[-1]))
     if not result.system.shafts:
         return Text(f"Vibration, {span}", (_tell_swing(result, response),))
     rows, worst = [], response.worst
@@ -201,11 +200,10 @@ def _response(result: TorsionAnalysis, response: Response) -> Grid | Text:
     if _has_gas(result):
         note += " Gas as in the file at every speed."
     for k, name in enumerate(response.dampers):
-        hottest = int(np.argmax(response.heat[:, k]))
         note += (
             f" The damper of {name.removesuffix(' ring')} turns up to "
-            f"{number(float(response.heat[hottest, k]), 4)} W to heat, at "
-            f"{number(float(response.speeds_rpm[hottest]))} rpm."
+            f"{number(float(worst.heat[k]), 4)} W to heat, at "
+            f"{number(float(worst.hottest_rpm[k]))} rpm."
         )
     heads = [
         "shaft",
@@ -217,6 +215,10 @@ def _response(result: TorsionAnalysis, response: Response) -> Grid | Text:
     ]
     title = f"Vibratory torque, {span}"
     return Grid(title, tuple(heads), tuple(rows), note, words=(0, len(heads) - 1))
+
+
+def _tell_range(low: float, high: float) -> str:
+    return f"{number(low)} rpm" if low == high else f"{number(low)} to {number(high)} rpm"
 
 
 def _has_gas(result: TorsionAnalysis) -> bool:
@@ -251,6 +253,6 @@ def _barred(result: TorsionAnalysis) -> Facts:
         limits.append(f"{number(system.limit_pa / 1e6)} N/mm²")
     if system.angle_limit is not None:
         limits.append(f"±{number(float(np.degrees(system.angle_limit)))} deg at {system.nodes[0]}")
-    ranges = [f"{number(a)} to {number(b)} rpm" for a, b in result.barred_rpm or ()]
+    ranges = [_tell_range(low, high) for low, high in result.barred_rpm or ()]
     barred = ", ".join(ranges) or "none in this range"
     return Facts((("limit", " and ".join(limits)), ("barred speeds", barred)), "Limits")

@@ -141,7 +141,14 @@ def _response_document(result: TorsionAnalysis, response: Response) -> dict[str,
     }
     if response.dampers:
         found["dampers"] = [
-            {"node": name.removesuffix(" ring"), "heat_W": clean_each(response.heat[:, k])}
+            {
+                "node": name.removesuffix(" ring"),
+                "heat_W": clean_each(response.heat[:, k]),
+                "worst": {
+                    "speed_rpm": clean(worst.hottest_rpm[k]),
+                    "heat_W": clean(worst.heat[k]),
+                },
+            }
             for k, name in enumerate(response.dampers)
         ]
     return found
@@ -262,5 +269,8 @@ def _response_lines(system: TorsionalSystem, response: Response) -> Iterator[Lin
         yield *where, name, "half_peak_to_peak", clean(worst.torque[k]), "N m"
         if stressed[k]:
             yield *where, name, "stress", clean(worst.stress[k]), "Pa"
+    for k, name in enumerate(response.dampers):
+        where = ("worst", None, clean(worst.hottest_rpm[k]), None)
+        yield *where, name_cell(name.removesuffix(" ring")), "heat", clean(worst.heat[k]), "W"
     where = ("worst", None, clean(worst.swing_rpm), None)
     yield *where, "", "free_end", clean(np.degrees(worst.free_end)), "deg"

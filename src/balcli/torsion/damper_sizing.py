@@ -20,9 +20,10 @@ from ..enginefile.fields import printable
 from ..enginefile.messages import describe_finding
 from ..enginefile.shafting import Damper
 from ..errors import BalcliError
+from .largest import find_hottest, find_largest_of_all
 from .load import Source
 from .modes import NaturalMode, find_criticals, find_natural_modes
-from .response import find_largest, find_response, stress_by_torque
+from .motion import stress_by_torque
 from .system import Excitation, TorsionalSystem
 
 RUBBER_LOSS = 0.15  # usual for damper rubber
@@ -105,6 +106,9 @@ def size_damper(
     figure = _FIGURE[asked.kind]
     start = float(getattr(first, figure))
     tried = count(1)
+    weights = (
+        np.nan_to_num(stress_by_torque(bare)) if any(bare.sections) else np.ones(len(bare.shafts))
+    )
 
     def judge(damper: Damper | None) -> float:
         """Largest stress or torque of the shafts that are there without it, between the speeds,
@@ -112,9 +116,8 @@ def size_damper(
         """
         system = source.with_damper(node, damper).system()
         shafts = [system.shafts.index(name) for name in bare.shafts]
-        _, worth = find_largest(system, _excite(system, orders), speeds, shafts)
         tell(next(tried) / _RESPONSES)
-        return float(np.nanmax(worth * stress_by_torque(bare) if any(bare.sections) else worth))
+        return find_largest_of_all(system, _excite(system, orders), speeds, shafts, weights)
 
     width = math.log(_WIDTH[asked.kind])
     farther = _minimise(
@@ -202,12 +205,11 @@ def _find_inertia(damper: Damper) -> float:
 def _find_heat(
     system: TorsionalSystem, node: str, speeds: Real, orders: Real | None
 ) -> tuple[float, float]:
-    """Largest power that the damper of a node turns to heat, W, and at which of the speeds, rpm."""
-    response = find_response(system, _excite(system, orders), speeds)
-    mine = [k for k, name in enumerate(response.dampers) if name.removesuffix(" ring") == node]
-    heat = response.heat[:, mine].sum(axis=1)
-    hottest = int(np.argmax(heat))
-    return float(heat[hottest]), float(speeds[hottest])
+    """Largest power that the damper of a node turns to heat, W, and at which speed, rpm."""
+    rpm, heat = find_hottest(system, _excite(system, orders), speeds)
+    mine = (k for k, name in enumerate(system.dampers) if name.removesuffix(" ring") == node)
+    ring = next(mine, None)
+    return (0.0, float(speeds[0])) if ring is None else (float(heat[ring]), float(rpm[ring]))
 
 
 def _bound(judge: Callable[[Damper | None], float], damper: Damper | None) -> float:

@@ -21,8 +21,9 @@ from ..forces.target_quantity import (
     refuse_stranger,
 )
 from .build_engine import build_engine_system, excite_engine
+from .largest import find_largest
 from .modes import find_natural_modes
-from .response import find_largest, stress_by_torque
+from .motion import stress_by_torque
 from .system import Excitation, TorsionalSystem
 
 SLOWEST, FASTEST, SPEEDS = 0.5, 1.5, 101  # range of speeds, over the file's own, and how many

@@ -68,7 +68,11 @@ class Excitation(NamedTuple):
 
     def on_nodes(self, speeds: Real, count: int) -> Complex:
         """The same, added up node by node: (orders, speeds, nodes)."""
-        return np.asarray(self.at(speeds) @ (self.nodes[:, None] == np.arange(count)), complex)
+        torques = self.at(speeds)
+        found = np.zeros((count, *torques.shape[:2]), complex)
+        for source, node in enumerate(self.nodes):
+            found[node] += torques[:, :, source]
+        return np.moveaxis(found, 0, -1)
 
     def only(self, orders: Real) -> Excitation:
         """Some of its orders."""
@@ -116,6 +120,11 @@ class TorsionalSystem:
         """(nodes,) speed of each node over that of the reference, where it hangs with it."""
         pace = find_pieces(self.chain).pace
         return np.asarray(pace / pace[self.reference])
+
+    @property
+    def dampers(self) -> tuple[str, ...]:
+        """Names of the nodes of dampers that turn work to heat: rings in oil, then on rubber."""
+        return (*(self.nodes[ring.node] for ring in self.rings), *self.nodes[self.last + 1 :])
 
     def attached(self, frequency: Real, order: Real | None = None) -> Complex:
         """Complex inertias (*frequency, nodes) of dampers that are no nodes.

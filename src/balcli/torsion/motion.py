@@ -1,0 +1,131 @@
+"""Steady vibration of a torsional system at any speeds, order by order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.singular_values import Complex, Real
+from ..core.torsional_modes import chain_loss, find_chain_modes
+from ..core.torsional_response import respond_chain
+from ..core.vibration import UndampedResonanceError, find_resonances, frequencies
+from ..enginefile.units import RPM
+from ..errors import BalcliError
+from ..limits import MOST_TORSION_TORQUES
+from .modes import find_poles
+from .system import Excitation, TorsionalSystem
+
+UNDAMPED = 1e-9  # a pole with a smaller share of damping is rounding
+_AT_A_TIME = 1 << 20  # samples of a cycle, or torques by order, of all shafts and speeds
+
+
+class ChainMotion(NamedTuple):
+    """Angles (orders, speeds, nodes) and torques (orders, speeds, shafts) by order, complex, and
+    power lost in dampers (orders, speeds, dampers).
+    """
+
+    angle: Complex
+    torque: Complex
+    heat: Real
+
+
+def move(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> ChainMotion:
+    """Motion order by order at these speeds (rpm)."""
+    speeds = rpm * RPM
+    w = frequencies(excitation.orders, speeds)
+    load = excitation.on_nodes(speeds, len(system.nodes))
+    order = np.broadcast_to(excitation.orders[:, None], w.shape)
+    attached = system.attached(w, order) if system.rings or system.pendulums else 0.0
+    try:
+        twist = respond_chain(system.chain, system.damping, w, load, attached)
+    except UndampedResonanceError as error:
+        raise BalcliError(_tell_resonance(system, error.frequency / (2 * np.pi))) from None
+    heat = _heat_of_oil(system, w, twist.angle), _heat_of_rubber(system, w, twist.torque)
+    return ChainMotion(twist.angle, twist.torque, np.concatenate(heat, axis=-1))
+
+
+def _heat_of_rubber(system: TorsionalSystem, w: Real, torque: Complex) -> Real:
+    """Power (orders, speeds, rings) that rubber turns to heat: `w loss |T|^2/(2 k (1 + loss^2))`;
+    its shafts are the last ones.
+    """
+    first = len(system.shafts) - (len(system.nodes) - 1 - system.last)
+    loss, stiffness = system.damping.loss[first:], system.chain.stiffness[first:]
+    softness = loss / (stiffness * (1 + loss**2))
+    return np.asarray(w[..., None] / 2 * softness * np.abs(torque[..., first:]) ** 2)
+
+
+def _heat_of_oil(system: TorsionalSystem, w: Real, angle: Complex) -> Real:
+    """Power (orders, speeds, rings) that rings in oil turn to heat: `-w^3 Im J |x|^2/2`."""
+    found = np.zeros((*w.shape, len(system.rings)))
+    for k, ring in enumerate(system.rings):
+        slip = w * (ring.inertia / ring.damping)
+        lagging = ring.inertia * slip / (1 + slip**2)
+        found[..., k] = w**3 * lagging * np.abs(angle[..., ring.node]) ** 2 / 2
+    return found
+
+
+def stress_by_torque(system: TorsionalSystem) -> Real:
+    """(shafts,) Pa for 1 N m; nan where there is no diameter."""
+    found = [np.nan if s is None else s.stress_by_torque for s in system.sections]
+    return np.array(found)
+
+
+def refuse_resonance(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> None:
+    """Refuse a range in which an undamped mode is driven at its own frequency."""
+    lossy = (system.damping.loss > 0) | (system.damping.dashpots > 0)
+    if np.all(lossy | np.isinf(system.chain.stiffness)):  # whatever twists, loses
+        return
+    if system.pendulums:  # their inertia differs from order to order, and so do the modes
+        _drive_undamped(system, excitation, rpm)
+        return
+    modes = find_chain_modes(system.chain)
+    loss = chain_loss(system.chain, system.damping, modes, system.attached(modes.omega))
+    speeds = rpm * RPM
+    load = excitation.on_nodes(speeds, len(system.nodes))
+    met = find_resonances(modes, loss, excitation.orders, speeds, load)
+    if met:
+        worst = met[0]
+        hertz = modes.omega[worst.mode] / (2 * np.pi)
+        speed = f" by order {worst.order:g} at {worst.speed / RPM:.6g} rpm"
+        raise BalcliError(_tell_resonance(system, float(hertz), speed))
+
+
+def _drive_undamped(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> None:
+    """Vibration at every speed of a range at which an order meets an undamped resonance: there is
+    one only where it drives nothing.
+    """
+    for order in excitation.orders:
+        poles = find_poles(system, float(order))
+        free = poles[(poles.imag > 0) & (-poles.real <= UNDAMPED * np.abs(poles))]
+        met = free.imag / (RPM * order)
+        met = met[(met >= rpm[0]) & (met <= rpm[-1])]
+        if len(met):
+            move(system, excitation.only(order), met)
+
+
+def _tell_resonance(system: TorsionalSystem, hertz: float, speed: str = "") -> str:
+    where = f"{system.name}: " if system.name else ""
+    return (
+        f"{where}the natural frequency of {hertz:.6g} Hz is excited{speed} and nothing damps it: "
+        "its vibration has no bound; give a loss factor (loss = 0.02), or damping"
+    )
+
+
+def refuse_too_many(orders: int, speeds: int, shafts: int) -> None:
+    if orders * speeds * shafts > MOST_TORSION_TORQUES:
+        raise BalcliError(
+            f"{orders} orders at {speeds} speeds in {shafts} shafts are {orders * speeds * shafts} "
+            f"torques, and at most {MOST_TORSION_TORQUES} are kept: take fewer speeds or orders"
+        )
+
+
+def split_speeds(
+    system: TorsionalSystem, excitation: Excitation, speeds: Real, samples: float = 1
+) -> Iterator[slice]:
+    """Pieces of the range that keep memory small; `samples`: of a cycle, taken of every curve."""
+    work = len(excitation.orders) * (len(system.nodes) + len(system.shafts))
+    size = max(int(_AT_A_TIME / max(samples * (len(system.shafts) + 1), work)), 1)
+    for start in range(0, len(speeds), size):
+        yield slice(start, min(start + size, len(speeds)))
