@@ -81,7 +81,7 @@ def torsion(
     ] = None,
     damper_at: Annotated[
         str | None,
-        optional("NAME", "TorsionPicture carries it; default: the foremost part."),
+        optional("NAME", "What carries it; default: the foremost part."),
     ] = None,
     damper_inertia: Annotated[
         str | None,
