@@ -75,12 +75,21 @@ def _mark_crank_angles(ax: Axes, curve: Phasors, s: Unit, limit: float) -> None:
     at, along = curve.values(np.radians(marks)), curve.derivative.values(np.radians(marks))
     ax.plot(at.imag / s.size, at.real / s.size, "o", color=BLUE, markersize=2.6)
     side = -1 if _turning(curve) >= 0 else 1  # left or right of the way, in x up and y right
+    written: list[complex] = []
     for mark, place, way in zip(marks[::2], at[::2], along[::2], strict=True):
         normal = 1j * side * way if abs(way) > 0.05 * np.abs(along).max(initial=0) else place
         out = normal / abs(normal) if abs(normal) else 1
         spot = place / s.size + 0.085 * limit * out
+        if any(_overlap(spot - other, limit) for other in written):
+            continue
         ax.text(spot.imag, spot.real, f"{mark:g}°", ha="center", va="center", fontsize=7, color=INK)
+        written.append(spot)
     _draw_arrow(ax, curve.values(np.radians([0.04 * period, 0.055 * period])) / s.size, limit)
+
+
+def _overlap(apart: complex, limit: float) -> bool:
+    """Whether two crank angles so far apart (x up) would lie on one another."""
+    return abs(apart.real) < 0.07 * limit and abs(apart.imag) < 0.16 * limit
 
 
 def _draw_arrow(ax: Axes, step: Complex, limit: float) -> None:
