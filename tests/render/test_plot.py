@@ -29,6 +29,7 @@ from balcli.render.plot.pages import PAGES, Subject, draw_page, draw_panel, make
 from balcli.render.units import IMPERIAL, SI
 from balcli.results.analysis import QUANTITIES, analyze
 from balcli.torque.pictures import PAGES as PAGES_OF_GAS
+from balcli.torque.pictures import compute_pictures
 
 HOSTILE = '$x_{1}$ </text><script>alert(1)</script> 发动机 №5 & "q" \u0001 _'
 ANALYSES = [what for what in PAGES if what not in ("factor", "bank", "inner", *PAGES_OF_GAS)]
@@ -326,3 +327,19 @@ def test_in_a_page_colours_follow_it_and_ids_are_its_own(drawn):
     assert not any(colour in text for colour in style.NAMES)
     assert 'id="here-' in text
     ET.fromstring(text)
+
+
+@pytest.mark.parametrize("what", PAGES_OF_GAS)
+def test_no_label_is_cut_off_by_the_edge_of_a_page(what):
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    fired = build_text(GAS_FOUR + WIEBE)
+    page = make_page(Subject(analyze(fired), gas=compute_pictures(fired, what)), what, "png")
+    style.save_figure(page, "png")
+    canvas = FigureCanvasAgg(page)
+    canvas.draw()
+    labels = [ax.xaxis.label for ax in page.axes] + [ax.yaxis.label for ax in page.axes]
+    for label in labels:
+        box = label.get_window_extent(canvas.get_renderer())
+        inside = box.x0 >= 0 and box.y0 >= 0 and box.x1 <= page.bbox.x1 and box.y1 <= page.bbox.y1
+        assert inside or not label.get_text(), label.get_text()

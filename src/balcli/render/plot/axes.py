@@ -44,3 +44,10 @@ def set_up_plane(ax: Axes, curves: Sequence[Complex | None], what: str, s: Unit)
     if not largest:
         ax.set(xticks=[0], yticks=[0])
     return limit
+
+
+def overlap(apart: complex, limit: float) -> bool:
+    """Whether two crank angles, written so far apart (x up) in a plane with this half side, would
+    lie on one another.
+    """
+    return abs(apart.real) < 0.07 * limit and abs(apart.imag) < 0.16 * limit

@@ -10,7 +10,7 @@ from ...core.phasors import Complex, Phasors
 from ..sheet import NOTHING, size_text
 from ..units import Unit
 from ..view import VISIBLE
-from .axes import set_up_plane
+from .axes import overlap, set_up_plane
 from .legends import put_legend_above
 from .style import BLUE, INK, PAPER, SOFT
 
@@ -80,16 +80,11 @@ def _mark_crank_angles(ax: Axes, curve: Phasors, s: Unit, limit: float) -> None:
         normal = 1j * side * way if abs(way) > 0.05 * np.abs(along).max(initial=0) else place
         out = normal / abs(normal) if abs(normal) else 1
         spot = place / s.size + 0.085 * limit * out
-        if any(_overlap(spot - other, limit) for other in written):
+        if any(overlap(spot - other, limit) for other in written):
             continue
         ax.text(spot.imag, spot.real, f"{mark:g}°", ha="center", va="center", fontsize=7, color=INK)
         written.append(spot)
     _draw_arrow(ax, curve.values(np.radians([0.04 * period, 0.055 * period])) / s.size, limit)
-
-
-def _overlap(apart: complex, limit: float) -> bool:
-    """Whether two crank angles so far apart (x up) would lie on one another."""
-    return abs(apart.real) < 0.07 * limit and abs(apart.imag) < 0.16 * limit
 
 
 def _draw_arrow(ax: Axes, step: Complex, limit: float) -> None:

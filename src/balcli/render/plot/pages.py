@@ -370,7 +370,7 @@ PAGES: dict[str, tuple[float, float, Layout]] = {
     "pressure": (7.2, 4.4, _lay_out_pressure),
     "p-v": (6.4, 4.8, _lay_out_p_v),
     "torque": (8.4, 4.8, _lay_out_torque),
-    "pin": (9.6, 5.2, _lay_out_pin),
+    "pin": (9.6, 5.9, _lay_out_pin),
     "main": (9.6, 6.4, _lay_out_main),
 }
 _PANELS: dict[str, Callable[[Figure, Subject, str], None]] = {
