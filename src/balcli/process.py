@@ -13,6 +13,7 @@ import sys
 from collections.abc import Callable
 from contextlib import suppress
 
+started_with = dict(os.environ)  # before this program sets what makes its own start quick
 _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3  # as <malloc.h> has them
 # Temporary files, and folders of such, which nobody finds there once the process has ended.
 unfinished: set[str] = set()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 
 import numpy as np
@@ -235,6 +236,10 @@ def test_shares_that_are_fractions_of_each_other_may_cancel():
 def test_people_read_which_order_rocks_the_engine():
     text = plain_text([sheet(analyze(build_text(FOUR + WIEBE)), SI)])
     assert " rocks the engine most: roll of " in text
+    half = plain_text(
+        [sheet(analyze(build_text(FOUR + WIEBE + "[cylinder.2]\ngas = 0.5\n"), [0.5]), SI)]
+    )
+    assert re.search(r"Order ½ rocks the engine most: roll of [0-9.]+ N·m \(gas alone\)\.", half)
     assert "About the crank axis with gas, N·m" in text
     assert "balcli torque" in text
     inner = plain_text([sheet(analyze(build_text(FOUR + WIEBE), only=["inner"]), SI)])

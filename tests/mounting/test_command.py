@@ -10,6 +10,7 @@ from io import StringIO
 import numpy as np
 import pytest
 from support.commands import refusal, run_here, run_in_terminal
+from support.gas_engines import WIEBE
 from support.mounts import ENGINE, block
 
 DAMPED = ENGINE + block("loss = 0.1") + '[[point]]\nname = "lever"\nat = [100, 0, 300]\n'
@@ -106,6 +107,11 @@ def test_other_engines_on_the_same_mounts(four, tmp_path):
     light.write_text(text, encoding="utf-8")
     out = run_here("mounts", four, light).out
     assert re.search(r"^With light four the largest force .* rpm: ", out, re.M)
+    assert "its gas included" not in out
+    light.write_text(f"{text}[layout]\nfiring_order = [1, 3, 4, 2]\n{WIEBE}", encoding="utf-8")
+    fired = run_here("mounts", four, light).out
+    assert re.search(r"^With light four .*, its gas included\.$", fired, re.M)
+    light.write_text(text, encoding="utf-8")
     said = json.loads(run_here("mounts", four, light, "-f", "json").out)
     (other,) = said["others"]
     alone = tmp_path / "alone.toml"

@@ -4,6 +4,7 @@ values where they belong.
 
 from __future__ import annotations
 
+import re
 import warnings
 import xml.etree.ElementTree as ET
 from dataclasses import replace
@@ -13,7 +14,9 @@ from typing import get_args
 import numpy as np
 import pytest
 from support.commands import run_python
-from support.engines import GOOD, changed, inline_engine
+from support.engines import GOOD, build_text, changed, inline_engine
+from support.gas_engines import FOUR as GAS_FOUR
+from support.gas_engines import WIEBE
 
 from balcli.commands.plot_pages import What
 from balcli.core.phasors import Phasors
@@ -22,10 +25,11 @@ from balcli.engine.load import parse
 from balcli.render.plot import style, torsion
 from balcli.render.plot.bars import draw_vector_bars, visible_rows
 from balcli.render.plot.locus import draw_locus, find_period_deg
-from balcli.render.plot.pages import PAGES, Subject, draw_page
+from balcli.render.plot.pages import PAGES, Subject, draw_page, draw_panel, make_page
 from balcli.render.units import IMPERIAL, SI
 from balcli.results.analysis import QUANTITIES, analyze
 from balcli.torque.pictures import PAGES as PAGES_OF_GAS
+from balcli.torque.pictures import compute_pictures
 
 HOSTILE = '$x_{1}$ </text><script>alert(1)</script> 发动机 №5 & "q" \u0001 _'
 ANALYSES = [what for what in PAGES if what not in ("factor", "bank", "inner", *PAGES_OF_GAS)]
@@ -79,9 +83,8 @@ def test_a_hostile_name_stays_text_and_warns_of_nothing(form, four):
     if form == "svg":
         root = ET.fromstring(data)
         assert not [e for e in root.iter() if e.tag.endswith("script")]
-        assert style.fit_name(HOSTILE) + ", 3000 rpm" in [
-            e.text for e in root.iter() if e.tag.endswith("text")
-        ]
+        told = " ".join(e.text or "" for e in root.iter() if e.tag.endswith("text"))
+        assert style.fit_name(HOSTILE) + ", 3000 rpm" in told
 
 
 def test_what_is_negligible_beside_one_cylinder_is_said_and_not_drawn():
@@ -151,6 +154,58 @@ def test_a_picture_is_laid_out_and_drawn_once(four, monkeypatch):
         monkeypatch.setattr(owner, name, count)
     draw_page(Subject(four), "all", "svg")
     assert calls == ["execute", "draw"]
+
+
+def test_about_the_crank_the_gas_is_drawn_by_order_and_curves_are_of_inertia():
+    """Bars of half orders are those of the gas, whose quantities they show; a curve of some of its
+    orders would be no torque.
+    """
+    fired = analyze(build_text(GAS_FOUR + WIEBE + "[cylinder.2]\ngas = 0.5\n"))
+    bars = re.findall(r">([^<>]*)</text>", draw_panel(Subject(fired), "spectrum", "about"))
+    assert {"inertia torque T", "gas torque", "total roll", "½"} <= set(bars)
+    assert "About the crank, with gas" in bars
+    curves = re.findall(r">([^<>]*)</text>", draw_panel(Subject(fired), "curves", "about"))
+    assert {"About the crank, of inertia alone", "couple C", "roll C − T", "360"} <= set(curves)
+    assert "720" not in curves
+
+
+def test_orders_that_are_always_shown_are_1_and_2():
+    orders = np.array([0.5, 1, 1.5, 2, 4])
+    vectors = np.array([0, 0, 0, 0, 1.0 + 0j])
+    assert visible_rows(Phasors.of(orders, vectors, vectors, np.zeros(5))) == [1, 3, 4]
+
+
+@pytest.mark.parametrize("name", ["long words " * 8, "长" * 60])
+def test_a_title_is_as_wide_as_its_picture(name, monkeypatch):
+    drawn: list[str] = []
+    from matplotlib.figure import Figure
+
+    monkeypatch.setattr(Figure, "suptitle", lambda self, text, **_: drawn.append(text))
+    with style.open_figure(4.3, 3, "svg") as fig:
+        style.put_title(fig, f"{name}\nwith scheme x")
+    (text,) = drawn
+    letter = 0.19 if "长" in name else 0.09
+    assert max(map(len, text.splitlines())) * letter <= 4.3
+    assert "".join(text.split()) == "".join(f"{name}withschemex".split())
+
+
+def test_one_order_does_not_leave_half_a_page_empty():
+    """Of a twin with a long rod: a moment of one order, and no force."""
+    text = changed(("throws = [0, 180, 180, 0]", "throws = [0, 180]"), ("firing_order", "# "))
+    twin = analyze(engine(text.replace("length = 160", "length = 100000")))
+    page = make_page(Subject(twin), "orders", "svg")
+    assert page.get_figwidth() < 5
+
+
+def test_crank_angles_do_not_lie_on_one_another(ax):
+    """Along a straight line that is run to and fro, two places of the tip are the same."""
+    ones = np.array([1.0 + 0j])
+    draw_locus(ax, Phasors.of(np.array([1.0]), ones, ones, np.zeros(1)), "force", SI.force)
+    places = np.array([text.get_position() for text in ax.texts if "°" in text.get_text()])
+    assert len(places) > 2
+    apart = np.abs(places[:, None] - places[None])
+    near = (apart[..., 0] < 0.1) & (apart[..., 1] < 0.05)
+    assert near.sum() == len(places)
 
 
 def test_names_are_cut_to_a_title():
@@ -272,3 +327,19 @@ def test_in_a_page_colours_follow_it_and_ids_are_its_own(drawn):
     assert not any(colour in text for colour in style.NAMES)
     assert 'id="here-' in text
     ET.fromstring(text)
+
+
+@pytest.mark.parametrize("what", PAGES_OF_GAS)
+def test_no_label_is_cut_off_by_the_edge_of_a_page(what):
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    fired = build_text(GAS_FOUR + WIEBE)
+    page = make_page(Subject(analyze(fired), gas=compute_pictures(fired, what)), what, "png")
+    style.save_figure(page, "png")
+    canvas = FigureCanvasAgg(page)
+    canvas.draw()
+    labels = [ax.xaxis.label for ax in page.axes] + [ax.yaxis.label for ax in page.axes]
+    for label in labels:
+        box = label.get_window_extent(canvas.get_renderer())
+        inside = box.x0 >= 0 and box.y0 >= 0 and box.x1 <= page.bbox.x1 and box.y1 <= page.bbox.y1
+        assert inside or not label.get_text(), label.get_text()

@@ -24,6 +24,9 @@ def speed_facts(engine: Engine) -> Facts:
     return Facts((("speed", _speed(engine)), *([("no gas in", silent)] if silent else [])))
 
 
+_TURNING = '"with the crank" is with the cylinders here, and counterweights stand on them'
+
+
 def engine_facts(
     engine: Engine, system: System, *, higher: bool, whole: bool, speeds_rpm: Sequence[float] = ()
 ) -> Facts:
@@ -45,6 +48,7 @@ def engine_facts(
         ("cylinders", cylinders),
         ("crank", _crank(engine, system)),
         ("throws", _throws(engine)),
+        ("turning", _TURNING if engine.rotary else ""),
         ("firing" if engine.fires_deg else "cycle", _firing(engine)),
         ("no gas in", list_silent(engine)),
         ("speed", _speeds(engine, speeds_rpm) if len(speeds_rpm) > 1 else _speed(engine)),

@@ -53,17 +53,20 @@ def gas_grid(spectra: Spectra, system: System, *, every_order: bool, hints: bool
 
 def tell_rocking(spectra: Spectra, system: System) -> str:
     """Which order rocks the engine most, in a sentence; empty where that is not known."""
-    roll, gas, inertia = spectra.roll_total, spectra.gas, spectra.torque
+    roll, gas, inertia = spectra.roll_total, spectra.gas, spectra.roll
     if roll is None or gas is None or inertia is None:
         return ""
     size = np.where(roll.orders > 0, roll.major, 0)
     if not size.any():
         return "No order rocks the engine about the crank axis."
     k = int(size.argmax())
-    parts = f"gas {size_text(float(gas.major[k]), system.moment)}, inertia "
-    parts += size_text(float(inertia.major[k]), system.moment)
+    parts = {"gas": float(gas.major[k]), "inertia": float(inertia.major[k])}
+    there = {name: value for name, value in parts.items() if value}
+    told = ", ".join(f"{name} {size_text(value, system.moment)}" for name, value in there.items())
+    if len(there) == 1:
+        told = f"{next(iter(there))} alone"
     most = size_text(float(size[k]), system.moment)
-    return f"Order {order_name(roll.orders[k])} rocks the engine most: roll of {most} ({parts})."
+    return f"Order {order_name(roll.orders[k])} rocks the engine most: roll of {most} ({told})."
 
 
 def _tell_peak(roll: Phasors, k: int) -> str:

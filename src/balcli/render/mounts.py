@@ -69,6 +69,9 @@ def _answer(result: MountReport, response: Response, system: System) -> Iterator
                 f"; the point {farthest[0]} moves most, {_tell(farthest[1], system.length)}"
                 f"{_less(farthest[1], moved[1])}"
             )
+        fired = other.response.loads.gas is not None
+        if fired != (response.loads.gas is not None):
+            told += ", its gas included" if fired else ", of inertia alone"
         yield f"With {other.name} {told}."
 
 

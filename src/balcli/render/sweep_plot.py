@@ -53,7 +53,7 @@ def draw_sweep(sweep: Sweep, values: Sequence[Array], form: style.Form) -> bytes
 
 
 def make_sweep(sweep: Sweep, values: Sequence[Array], form: style.Form) -> Figure:
-    """The same as a figure."""
+    """What `draw_sweep` writes, as a figure of matplotlib."""
     several = _varied_parameters(sweep)
     if len(several) == 1:
         names = list(dict.fromkeys(quantity.unit for quantity in sweep.quantities))
@@ -65,7 +65,7 @@ def make_sweep(sweep: Sweep, values: Sequence[Array], form: style.Form) -> Figur
             places[0].set_title(style.fit_name(sweep.file.name))
         return page
     with style.open_figure(6 * len(values), 5.1, form) as page:
-        page.suptitle(style.fit_name(sweep.file.name), x=0.01, ha="left")
+        style.put_title(page, style.fit_name(sweep.file.name))
         places = page.subplots(1, len(values), squeeze=False)[0]
         for axes, quantity, value in zip(places, sweep.quantities, values, strict=True):
             unit = _fit(quantity.unit, value)

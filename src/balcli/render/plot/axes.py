@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...core.phasors import Array, Complex
+from ...core.phasors import Array, Complex, Phasors
 from ..units import Unit
 from .style import BLUE, GREEN, RED, SOFT
 
@@ -21,14 +21,10 @@ FINE = np.radians(np.arange(0, 360.5, 1))  # crank angles at which one order is 
 LOOKS = ((BLUE, "-", ""), (RED, (0, (5, 1.5)), "////"), (GREEN, (0, (1.5, 1)), "...."))
 
 
-def find_cycle_deg(orders: Array) -> int:
-    """After which crank angle all of these orders repeat themselves: 720 if some are halves."""
-    return 720 if np.count_nonzero(orders % 1) else 360
-
-
-def divide_cycle(orders: Array) -> Array:
-    """Crank angles, rad, at which curves of these orders are drawn."""
-    return np.radians(np.arange(find_cycle_deg(orders) + 1))
+def divide_cycle(*curves: Phasors | None) -> Array:
+    """Crank angles, rad, at which curves are drawn: to 720 deg if one of them has half orders."""
+    halves = any(np.any(c.orders[~c.balanced] % 1) for c in curves if c is not None)
+    return np.radians(np.arange((720 if halves else 360) + 1))
 
 
 def set_up_plane(ax: Axes, curves: Sequence[Complex | None], what: str, s: Unit) -> float:
@@ -48,3 +44,10 @@ def set_up_plane(ax: Axes, curves: Sequence[Complex | None], what: str, s: Unit)
     if not largest:
         ax.set(xticks=[0], yticks=[0])
     return limit
+
+
+def overlap(apart: complex, limit: float) -> bool:
+    """Whether two crank angles, written so far apart (x up) in a plane with this half side, would
+    lie on one another.
+    """
+    return abs(apart.real) < 0.07 * limit and abs(apart.imag) < 0.16 * limit

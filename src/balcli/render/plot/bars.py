@@ -62,7 +62,7 @@ def visible_rows(curve: Phasors, before: Phasors | None = None) -> list[int]:
         if before is None
         else np.maximum(curve.major, _largest_values(before, curve.orders))
     )
-    always = (curve.orders >= 1) & (curve.orders <= 2)
+    always = (curve.orders == 1) | (curve.orders == 2)
     due = np.flatnonzero(always | (major > VISIBLE * major.max(initial=0)))
     keep = due[np.argsort(-major[due], kind="stable")[:10]]
     return sorted(keep.tolist())

@@ -21,7 +21,7 @@ def draw_vector_curves(
     ax: Axes, curve: Phasors, what: str, unit: Unit, before: Phasors | None = None
 ) -> None:
     """Draw components and size of a vector over the crank angle, dashed its size `before`."""
-    crank = divide_cycle(curve.orders)
+    crank = divide_cycle(curve, before)
     values = curve.values(crank)
     _draw_lines(
         ax,
@@ -37,7 +37,7 @@ def draw_scalar_curves(
     ax: Axes, curves: Mapping[str, Phasors], unit: Unit, before: Phasors | None = None
 ) -> None:
     """Draw scalars over the crank angle, dashed the last one `before`."""
-    crank = divide_cycle(np.concatenate([curve.orders for curve in curves.values()]))
+    crank = divide_cycle(*curves.values(), before)
     _draw_lines(
         ax,
         crank,

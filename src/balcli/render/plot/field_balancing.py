@@ -11,7 +11,19 @@ from ...field_balancing.balance import FieldBalance, PlaneCorrection
 from ...field_balancing.shop import find_angle_deg
 from ..field_balancing import find_label, find_senses
 from ..sheet import number
-from .style import BLUE, GREEN, INK, PAPER, RED, SOFT, Form, fit_name, open_figure, save_figure
+from .style import (
+    BLUE,
+    GREEN,
+    INK,
+    PAPER,
+    RED,
+    SOFT,
+    Form,
+    fit_name,
+    open_figure,
+    put_title,
+    save_figure,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -29,7 +41,7 @@ def draw_field(result: FieldBalance, form: Form) -> bytes:
 
 
 def make_field(result: FieldBalance, form: Form) -> Figure:
-    """The same as a figure."""
+    """What `draw_field` writes, as a figure of matplotlib."""
     phases, weights = find_senses(result)
     with open_figure(*_SIZE, form) as fig:
         fig.set_layout_engine("none")
@@ -42,7 +54,7 @@ def make_field(result: FieldBalance, form: Form) -> Figure:
             right, weights, f"Weights, {result.file.weight_unit}; angles count {weights} rotation"
         )
         name = fit_name(result.file.name or "rotor without a name")
-        fig.suptitle(f"{name}: field balancing", x=0.01, ha="left")
+        put_title(fig, f"{name}: field balancing")
         return fig
 
 

@@ -11,6 +11,7 @@ from ...core.speed_variation import Surplus
 from ...enginefile.units import BAR
 from ...torque.pictures import MainLoads, PinLoads, Pressures, Torques
 from ..units import Unit
+from .axes import overlap
 from .legends import put_legend_above
 from .style import BLUE, FAINT, GREEN, INK, RED, SOFT
 
@@ -128,11 +129,13 @@ def _draw_polar(
     side = half / s.size
     ax.set(xlim=(-side, side), ylim=(-side, side), aspect="equal")
     ax.locator_params(nbins=5)
-    step = 360 // _MARKS
+    step, written = 360 // _MARKS, list[complex]()
     for mark in range(0, round(float(crank_deg[-1])), step):
         at = int(np.argmin(np.abs(crank_deg - mark)))
         ax.plot(values.imag[at], values.real[at], "o", color=BLUE, markersize=2.2)
-        if mark % (2 * step) == 0:
+        near = any(overlap(complex(values[at]) - other, side) for other in written)
+        if mark % (2 * step) == 0 and not near:
+            written.append(complex(values[at]))
             ax.annotate(
                 f"{mark}°",
                 (values.imag[at], values.real[at]),

@@ -10,7 +10,7 @@ from ...core.phasors import Complex, Phasors
 from ..sheet import NOTHING, size_text
 from ..units import Unit
 from ..view import VISIBLE
-from .axes import set_up_plane
+from .axes import overlap, set_up_plane
 from .legends import put_legend_above
 from .style import BLUE, INK, PAPER, SOFT
 
@@ -75,11 +75,15 @@ def _mark_crank_angles(ax: Axes, curve: Phasors, s: Unit, limit: float) -> None:
     at, along = curve.values(np.radians(marks)), curve.derivative.values(np.radians(marks))
     ax.plot(at.imag / s.size, at.real / s.size, "o", color=BLUE, markersize=2.6)
     side = -1 if _turning(curve) >= 0 else 1  # left or right of the way, in x up and y right
+    written: list[complex] = []
     for mark, place, way in zip(marks[::2], at[::2], along[::2], strict=True):
         normal = 1j * side * way if abs(way) > 0.05 * np.abs(along).max(initial=0) else place
         out = normal / abs(normal) if abs(normal) else 1
         spot = place / s.size + 0.085 * limit * out
+        if any(overlap(spot - other, limit) for other in written):
+            continue
         ax.text(spot.imag, spot.real, f"{mark:g}°", ha="center", va="center", fontsize=7, color=INK)
+        written.append(spot)
     _draw_arrow(ax, curve.values(np.radians([0.04 * period, 0.055 * period])) / s.size, limit)
 
 

@@ -29,6 +29,7 @@ from .style import (
     Form,
     fit_name,
     open_figure,
+    put_title,
     save_figure,
 )
 
@@ -50,10 +51,10 @@ def draw_mounts(result: MountReport, form: Form, system: System) -> bytes:
 
 
 def make_mounts(result: MountReport, form: Form, system: System) -> Figure:
-    """The same as a figure."""
+    """What `draw_mounts` writes, as a figure of matplotlib."""
     title = f"{fit_name(result.name or NAMELESS)}: on its mounts"
     with open_figure(*(_SHAPES_ALONE if result.response is None else _SIZE), form) as fig:
-        fig.suptitle(title, x=0.01, ha="left")
+        put_title(fig, title)
         if result.response is None:
             shapes = fig.subplots(1, 6)
         else:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...core.phasors import Phasors
 from ...forces.crankshaft import InnerLoads
-from ...forces.kinds import KINDS, ROLL, SCALARS, VECTORS
+from ...forces.kinds import EVERY_KIND, GAS, KINDS, ROLL, ROLL_TOTAL, SCALARS, TORQUE, VECTORS
 from ...results.analysis import Analysis
 from ...sizing.remedy import Remedy
 from ...sizing.scheme_figures import FactorPeaks
@@ -27,7 +27,7 @@ from .bars import draw_scalar_bars, draw_vector_bars, visible_rows
 from .crank_curves import draw_scalar_curves, draw_vector_curves
 from .gas import draw_main, draw_p_v, draw_pin, draw_pressure, draw_torque
 from .locus import draw_locus
-from .style import Form, fit_name, inline_svg, open_figure, save_figure
+from .style import Form, fit_name, inline_svg, open_figure, put_title, save_figure
 from .two_vectors import draw_order
 
 if TYPE_CHECKING:
@@ -39,8 +39,14 @@ if TYPE_CHECKING:
 _VECTORS = tuple(kind.name for kind in VECTORS)
 BELOW_TITLE = 0.1  # inches between the title of a page and those of its panels
 ABOUT = "about"  # the crank: couple, torque and roll in one picture
+ABOUT_WITH_GAS = "about-with-gas"  # by order; over the crank angle gas has a picture of its own
+_ABOUT = {
+    ABOUT: tuple(kind.name for kind in SCALARS),
+    ABOUT_WITH_GAS: (TORQUE.name, GAS.name, ROLL_TOTAL.name),
+}
 PICTURED = (*_VECTORS, ABOUT)
 _TITLES = {"force": "Free force", "moment": "Free moment", ABOUT: "About the crank"}
+_TITLES[ABOUT_WITH_GAS] = "About the crank, with gas"
 
 
 @dataclass(frozen=True)
@@ -66,9 +72,14 @@ class Subject:
         """The largest value over a revolution, with devices and without, SI; quantity is one of
         PICTURED.
         """
-        kinds = [kind.name for kind in SCALARS] if quantity == ABOUT else [quantity]
+        kinds = _ABOUT.get(quantity, (quantity,))
         curves = [p for kind in kinds for p in self.phasors(kind) if p is not None]
-        return float(max(np.abs(p.values(divide_cycle(p.orders))).max(initial=0) for p in curves))
+        return float(max(np.abs(p.values(divide_cycle(p))).max(initial=0) for p in curves))
+
+    def of_bars(self, quantity: str) -> str:
+        """What the bars of a quantity show."""
+        has_gas = self.now.spectra.gas is not None
+        return ABOUT_WITH_GAS if quantity == ABOUT and has_gas else quantity
 
     def unit(self, quantity: str) -> Unit:
         return self.system.unit(KINDS[quantity])
@@ -77,9 +88,14 @@ class Subject:
         """A moment of throws of which nobody has said where they stand."""
         return quantity == "moment" and not self.now.moments_known
 
-    @property
-    def scalars(self) -> dict[str, Phasors]:
-        return {kind.label: phasors for kind, phasors in self.now.spectra.scalars()}
+    def title(self, quantity: str) -> str:
+        """Of a picture."""
+        of_inertia = quantity == ABOUT and self.now.engine.gas is not None
+        return _TITLES[quantity] + (", of inertia alone" if of_inertia else "")
+
+    def list_scalars(self, quantity: str) -> dict[str, Phasors]:
+        """What is drawn about the crank, by label, the roll last."""
+        return {EVERY_KIND[name].label: self.now.spectra[name] for name in _ABOUT[quantity]}
 
 
 def draw_page(subject: Subject, what: str, form: Form) -> bytes:
@@ -88,18 +104,14 @@ def draw_page(subject: Subject, what: str, form: Form) -> bytes:
 
 
 def make_page(subject: Subject, what: str, form: Form) -> Figure:
-    """The same as a figure."""
+    """What `draw_page` writes, as a figure of matplotlib."""
     width, height, layout = PAGES[what]
     with open_figure(width, height, form) as fig:
         fig.set_layout_engine("constrained", h_pad=BELOW_TITLE)
         layout(fig, subject)
         engine = subject.now.engine
-        fig.suptitle(
-            f"{fit_name(engine.name) or NAMELESS}, {engine.speed_rpm:g} rpm"
-            + _tell_fitted(subject.remedy),
-            x=0.01,
-            ha="left",
-        )
+        name = fit_name(engine.name) or NAMELESS
+        put_title(fig, f"{name}, {engine.speed_rpm:g} rpm{_tell_fitted(subject.remedy)}")
         return fig
 
 
@@ -115,6 +127,7 @@ def _tell_fitted(remedy: Remedy | None) -> str:
 def draw_panel(subject: Subject, what: str, quantity: str) -> str:
     """One picture of one quantity, as an SVG to stand in a page of ours."""
     width, height = (4.2, 4.0) if what == "polar" else (5.2, 3.1)
+    quantity = subject.of_bars(quantity) if what == "spectrum" else quantity
     if _find_words(subject, quantity):
         height = 0.6
     with open_figure(width, height, "svg") as fig:
@@ -156,10 +169,15 @@ def _lay_out_curves(fig: Figure, subject: Subject) -> None:
 def _lay_out_orders(fig: Figure, subject: Subject) -> None:
     """The largest orders of force and of moment, a row each; of one that has none, words."""
     shown = {quantity: _find_orders(subject, quantity) for quantity in _VECTORS}
-    columns = max(2, *map(len, shown.values()))
+    columns = max(map(len, shown.values()))
     heights = [3.5 if found else 0.7 for found in shown.values()]
-    fig.set_size_inches(0.6 + 3.3 * columns, 0.4 + sum(heights))
-    grid = fig.subplots(len(shown), columns, squeeze=False, height_ratios=heights)
+    if columns == 1 and all(shown.values()):  # side by side
+        fig.set_size_inches(0.6 + 3.3 * len(shown), 0.4 + max(heights))
+        grid = fig.subplots(1, len(shown), squeeze=False).T
+    else:
+        columns = max(columns, 1)
+        fig.set_size_inches(1.0 + 3.3 * columns, 0.4 + sum(heights))
+        grid = fig.subplots(len(shown), columns, squeeze=False, height_ratios=heights)
     for row, (quantity, found) in zip(grid, shown.items(), strict=True):
         for ax in row[len(found) :]:
             ax.set_axis_off()
@@ -286,7 +304,7 @@ def _find_words(subject: Subject, quantity: str) -> str:
     largest = subject.find_largest(quantity)
     if not largest:
         return NOTHING
-    kind = ROLL.name if quantity == ABOUT else quantity
+    kind = ROLL.name if quantity in _ABOUT else quantity
     if largest < NEGLIGIBLE * subject.now.of_one_cylinder[kind]:
         return f"negligible ({size_text(largest, subject.unit(kind), 2)})"
     return ""
@@ -295,7 +313,7 @@ def _find_words(subject: Subject, quantity: str) -> str:
 def _is_told(ax: Axes, subject: Subject, quantity: str) -> bool:
     """Whether words stand in place of a picture; they are written."""
     if words := _find_words(subject, quantity):
-        _write_words(ax, _TITLES[quantity], words)
+        _write_words(ax, subject.title(quantity), words)
     return bool(words)
 
 
@@ -315,11 +333,12 @@ def _locus_panel(ax: Axes, subject: Subject, quantity: str) -> None:
 
 
 def _bars_panel(ax: Axes, subject: Subject, quantity: str) -> None:
+    quantity = subject.of_bars(quantity)
     if _is_told(ax, subject, quantity):
         return
-    ax.set_title(_TITLES[quantity])
-    if quantity == ABOUT:
-        draw_scalar_bars(ax, subject.scalars, subject.system.moment)
+    ax.set_title(subject.title(quantity))
+    if quantity in _ABOUT:
+        draw_scalar_bars(ax, subject.list_scalars(quantity), subject.system.moment)
         return
     curve, before = subject.phasors(quantity)
     draw_vector_bars(ax, curve, quantity, subject.unit(quantity), before)
@@ -328,9 +347,11 @@ def _bars_panel(ax: Axes, subject: Subject, quantity: str) -> None:
 def _curves_panel(ax: Axes, subject: Subject, quantity: str) -> None:
     if _is_told(ax, subject, quantity):
         return
-    ax.set_title(_TITLES[quantity])
+    ax.set_title(subject.title(quantity))
     if quantity == ABOUT:
-        draw_scalar_curves(ax, subject.scalars, subject.system.moment, subject.phasors("roll")[1])
+        roll_before = subject.phasors(ROLL.name)[1]
+        scalars = subject.list_scalars(quantity)
+        draw_scalar_curves(ax, scalars, subject.system.moment, roll_before)
         return
     curve, before = subject.phasors(quantity)
     draw_vector_curves(ax, curve, quantity, subject.unit(quantity), before)
@@ -349,7 +370,7 @@ PAGES: dict[str, tuple[float, float, Layout]] = {
     "pressure": (7.2, 4.4, _lay_out_pressure),
     "p-v": (6.4, 4.8, _lay_out_p_v),
     "torque": (8.4, 4.8, _lay_out_torque),
-    "pin": (9.6, 5.2, _lay_out_pin),
+    "pin": (9.6, 5.9, _lay_out_pin),
     "main": (9.6, 6.4, _lay_out_main),
 }
 _PANELS: dict[str, Callable[[Figure, Subject, str], None]] = {

@@ -11,7 +11,9 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from io import BytesIO
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any, Literal
+from unicodedata import east_asian_width
 
 from .legends import fold_wide_legends
 
@@ -25,6 +27,7 @@ Form = Literal["svg", "png", "pdf"]
 # Wong, Nature Methods 8 (2011) 441: told apart by colour-blind readers; line styles and hatches do
 # it in black and white.
 INK, SOFT, FAINT, PAPER = "#1a1a1a", "#6b6b6b", "#d4d4d4", "#ffffff"
+_LETTER, _EASTERN_LETTER = 0.1, 0.19  # width in a title, inches
 BLUE, RED, GREEN = "#0072b2", "#d55e00", "#009e73"
 NAMES = {
     INK: "ink",
@@ -199,6 +202,14 @@ def fit_name(name: str, most: int = 90) -> str:
     text = "".join(c if c.isprintable() else " " for c in name)
     text = " ".join(text.split())
     return text if len(text) <= most else text[: most - 1].rstrip() + "…"
+
+
+def put_title(fig: Figure, text: str) -> None:
+    """A title over a figure, on as many lines as its width asks for."""
+    eastern = any(east_asian_width(letter) in "WF" for letter in text)
+    letters = int(fig.get_figwidth() / (_EASTERN_LETTER if eastern else _LETTER))
+    lines = [part for line in text.splitlines() for part in wrap(line, letters)]
+    fig.suptitle("\n".join(lines), x=0.01, ha="left")
 
 
 @lru_cache(1)

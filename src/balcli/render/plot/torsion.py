@@ -13,7 +13,19 @@ import numpy as np
 from ...torsion.analysis import TorsionAnalysis
 from ...torsion.response import Response
 from ..sheet import number, order_number
-from .style import BLUE, FAINT, GREEN, INK, RED, SOFT, Form, fit_name, open_figure, save_figure
+from .style import (
+    BLUE,
+    FAINT,
+    GREEN,
+    INK,
+    RED,
+    SOFT,
+    Form,
+    fit_name,
+    open_figure,
+    put_title,
+    save_figure,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,7 +48,7 @@ def draw_torsion(result: TorsionAnalysis, what: str, form: Form, *, titled: bool
 
 
 def make_torsion(result: TorsionAnalysis, what: str, form: Form, *, titled: bool = True) -> Figure:
-    """The same as a figure."""
+    """What `draw_torsion` writes, as a figure of matplotlib."""
     parts: list[Callable[[Axes], None]] = []
     if what in ("all", "modes"):
         parts.append(lambda ax: _draw_modes(ax, result))
@@ -56,7 +68,7 @@ def make_torsion(result: TorsionAnalysis, what: str, form: Form, *, titled: bool
             draw(ax)
         name = fit_name(result.system.name) or "shafts without a name"
         if titled:
-            fig.suptitle(f"{name}: torsion", x=0.01, ha="left")
+            put_title(fig, f"{name}: torsion")
         return fig
 
 
