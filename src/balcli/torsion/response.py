@@ -152,10 +152,13 @@ def _pass_limits(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> 
         motion = move(system, excitation, rpm[some])
         every = np.concatenate([motion.torque, motion.angle[:, :, :1]], axis=-1)
         curves = np.asarray(every * weights, complex)
-        speed, curve = np.nonzero(sum_amplitudes(curves) > 1)
-        if len(speed):
-            swings = find_swing(excitation.orders, curves[:, speed, curve]).half
-            passed[some.start + speed[swings > 1]] = True
+        most, here = sum_amplitudes(curves), passed[some]
+        first = most.argmax(axis=1)[:, None] == np.arange(most.shape[1])
+        for which in (first, ~first):  # one curve mostly tells
+            speed, curve = np.nonzero(which & (most > 1) & ~here[:, None])
+            if len(speed):
+                swings = find_swing(excitation.orders, curves[:, speed, curve]).half
+                here[speed[swings > 1]] = True
     return passed
 
 
