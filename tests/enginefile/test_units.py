@@ -26,6 +26,8 @@ from balcli.enginefile.units import (
     STRESS,
     TIME,
     TORQUE,
+    TORSIONAL_DAMPING,
+    TORSIONAL_STIFFNESS,
     UNBALANCE,
     convert,
     read_unit,
@@ -384,6 +386,28 @@ def test_no_name_has_two_meanings():
             prefixed, listed = read_unit(unit, PLAIN), read_unit(name, PLAIN)
             assert (10**power * prefixed.scale, prefixed.powers) == listed, name
     assert set(unit_table.DEFINITIONS).isdisjoint(unit_table.AMBIGUOUS)
+
+
+@pytest.mark.parametrize(
+    ("pounds", "force", "dimension"),
+    [
+        ("lb in s2", "lbf in s^2", INERTIA),
+        ("lb-ft-s^2", "lbf ft s^2", INERTIA),
+        ("in-lb/rad", "lbf in/rad", TORSIONAL_STIFFNESS),
+        ("ft lbs/deg", "lbf ft/deg", TORSIONAL_STIFFNESS),
+        ("lb in s/rad", "lbf in s/rad", TORSIONAL_DAMPING),
+        ("ft lb", "lbf ft", TORQUE),
+        ("lb/in", "lbf/in", STIFFNESS),
+        ("lb/in^2", "psi", PRESSURE),
+    ],
+)
+def test_pounds_are_a_force_where_only_that_fits(pounds, force, dimension):
+    """American drawings have lb for both."""
+    assert convert(f"3 {pounds}", dimension) == convert(f"3 {force}", dimension)
+
+
+def test_pounds_stay_a_mass_where_that_fits():
+    assert convert("3 lb ft2", INERTIA) == pytest.approx(3 * 0.45359237 * 304.8**2, rel=1e-15)
 
 
 @pytest.mark.parametrize(

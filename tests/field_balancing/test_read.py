@@ -208,3 +208,20 @@ def test_quarters_are_exact():
         2,
         -2j,
     ]
+
+
+def test_a_run_that_cannot_be_read_makes_up_no_mistake_of_influence():
+    """Its speed is one of two, each with its rows."""
+    text = """
+        planes = ["front"]
+        influence = [["1 @ 0"], ["2 @ 0"]]
+        [[run]]
+        speed = 1000
+        readings = ["3 @ 0"]
+        [[run]]
+        speed = 2000
+        readings = ["4"]
+        """
+    assert mistakes(text) == [
+        'run.2.readings: the 1st value "4" is no amplitude @ angle in degrees; write it like "170 @ 112"'
+    ]

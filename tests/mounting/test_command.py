@@ -13,6 +13,9 @@ from support.commands import refusal, run_here, run_in_terminal
 from support.gas_engines import WIEBE
 from support.mounts import ENGINE, block
 
+from balcli.mounting.response import Worst
+from balcli.render.mounts import _less
+
 DAMPED = ENGINE + block("loss = 0.1") + '[[point]]\nname = "lever"\nat = [100, 0, 300]\n'
 
 
@@ -98,6 +101,21 @@ def test_the_point_that_moves_most_is_told_with_a_scheme_and_without(four):
     fitted = re.search(rf"; the point lever moves most, {number} {rpm}: (.*)\.\n", out)
     assert float(fitted[1]) == pytest.approx(after["motion_mm"], rel=1e-3)
     assert fitted[3] == f"{abs(change):.0%} {'less' if change < 0 else 'more'}"
+
+
+@pytest.mark.parametrize(
+    ("after", "told"),
+    [
+        (0.0, ": nothing is left"),
+        (0.3, ": over 99% less"),
+        (2.0, ": 98% less"),
+        (110.0, ": 10% more"),
+    ],
+)
+def test_what_hardly_anything_is_left_of_is_not_told_as_all(after, told):
+    """It said "100% less" of what was there."""
+    before, worst = (Worst(value, 3000.0, 2.0, value) for value in (100.0, after))
+    assert _less(worst, before) == told
 
 
 def test_other_engines_on_the_same_mounts(four, tmp_path):

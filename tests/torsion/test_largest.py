@@ -194,3 +194,11 @@ def test_of_two_peaks_within_one_step_the_higher_is_found():
     largest = max(map(swing, np.arange(1190, 1200, 0.1)))
     assert told["half_peak_to_peak_Nm"] == pytest.approx(largest, rel=1e-6)
     assert told["speed_rpm"] == pytest.approx(1196.82, abs=0.1)
+
+
+def test_a_single_speed_is_headed_as_one():
+    """It said "1790 to 1790 rpm" twice."""
+    text = write_engine(0.005).replace("[torsion]\n", "[torsion]\nlimit = 1\n")
+    lines = run_here("torsion", "-", "--speeds", "1790", stdin=text).out.splitlines()
+    assert "Vibratory torque, 1790 rpm" in lines
+    assert "barred speeds  1790 rpm" in lines

@@ -17,7 +17,7 @@ from ..engine.build import Engine
 from ..render import analyses
 from ..render.formats import Format, Units
 from ..render.view import View
-from ..results.analysis import Analysis, analyze, list_quantities
+from ..results.analysis import Analysis, analyze, list_usual_quantities
 from .inputs import exit_on_errors, name_engines, read_engine, silence_cylinders, try_each
 from .output import draws_sketch, show
 
@@ -102,7 +102,7 @@ def _ask(
     """What is asked of an engine like this one, at whatever speed and by whatever orders."""
     wanted = asked.quantities
     if wanted is None:
-        wanted = list(list_quantities(engine))
+        wanted = list(list_usual_quantities(engine))
         if not asked.over_speed:  # it is the same at all speeds
             wanted.append("sizing")
         if asked.whole and target.form in (Format.TABLE, Format.MARKDOWN):

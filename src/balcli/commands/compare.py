@@ -19,8 +19,8 @@ from .options import (
     Speed,
     UnitsOption,
     Whole,
+    parse_only,
     parse_orders,
-    parse_quantities,
     parse_speed,
 )
 from .output import show
@@ -49,7 +49,7 @@ def compare(
     from ..results.comparison import compare_engines
     from .inputs import name_engines, read_engine
 
-    rpm, asked, chosen = parse_speed(speed), parse_orders(orders), parse_quantities(only)
+    rpm, asked, chosen = parse_speed(speed), parse_orders(orders), parse_only(only)
     _refuse_parts(chosen or (), paths)
     engines = [read_engine(path, rpm, chosen).engine for path in paths]
     names = name_engines([engine.name for engine in engines], paths)

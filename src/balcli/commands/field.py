@@ -18,7 +18,7 @@ from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
 
 
-class Smallest(StrEnum):
+class Minimised(StrEnum):
     """What is made smallest of the readings."""
 
     SQUARES = "squares"
@@ -35,9 +35,9 @@ def field(
         ),
     ],
     minimise: Annotated[
-        Smallest,
+        Minimised,
         typer.Option(help="squares: least sum of squared readings; max: smallest largest reading."),
-    ] = Smallest.SQUARES,
+    ] = Minimised.SQUARES,
     without: Annotated[
         list[str] | None,
         optional("PLANE", "Leave this plane out; may be given again."),

@@ -162,7 +162,7 @@ def _count_halves(text: str) -> int | None:
     return round(2 * float(text))
 
 
-def parse_quantities(text: str | None) -> list[str] | None:
+def parse_only(text: str | None) -> list[str] | None:
     """The quantities of `--only`, by name; a plural names the same."""
     return None if text is None else [_singular(word.strip().lower()) for word in text.split(",")]
 
@@ -177,7 +177,7 @@ def parse_parts(text: str | None) -> tuple[list[str] | None, frozenset[str]]:
     A word that names a table alone (`PARTS`) is computed from force and moment, unless quantities
     are named beside it.
     """
-    words = parse_quantities(text)
+    words = parse_only(text)
     if words is None:
         return None, frozenset()
     quantities = [word for word in words if word not in PARTS]

@@ -16,7 +16,7 @@ from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
 
 
-class Kind(StrEnum):
+class DamperKind(StrEnum):
     """Kinds of dampers."""
 
     VISCOUS = "viscous"
@@ -24,7 +24,7 @@ class Kind(StrEnum):
     PENDULUM = "pendulum"
 
 
-class What(StrEnum):
+class TorsionPicture(StrEnum):
     """Which pictures are drawn."""
 
     ALL = "all"
@@ -73,7 +73,7 @@ def torsion(
         optional("N", "Cylinder without gas; may be given again."),
     ] = None,
     damper: Annotated[
-        Kind | None,
+        DamperKind | None,
         typer.Option(
             show_default=False,
             help="Size a damper that makes the largest stress over --speeds least.",
@@ -100,8 +100,8 @@ def torsion(
         optional("FILE", "Draw pictures; .svg, .png or .pdf."),
     ] = None,
     what: Annotated[
-        What, typer.Option(help="Which, with --plot; the last two take --speeds.")
-    ] = What.ALL,
+        TorsionPicture, typer.Option(help="Which, with --plot; the last two take --speeds.")
+    ] = TorsionPicture.ALL,
     progress: ProgressAtOnce = False,
     form: FormatOption = None,
     output: Output = None,

@@ -283,22 +283,19 @@ class PressureOnPiston(GasTorque):
 
 
 def crank_torque(
-    cylinders: Sequence[tuple[GasTorque, float, float]],
-    also: Function | None = None,
-    period: float | None = None,
+    cylinders: Sequence[tuple[GasTorque, float, float]], period: float | None = None
 ) -> PiecewiseCurve:
     """Torque of several cylinders over one cycle, N m, at crank angles in [0, period].
 
     Args:
         cylinders: each with the crank angle (rad) of its firing dead centre and its share, by which
             its gas torque is multiplied.
-        also: any further smooth torque at crank angles (rad), such as that of inertia.
         period: after which all of it repeats itself, rad; None: after a cycle.
     """
     span = cylinders[0][0].curve.period if period is None else period
 
     def total(angle: Array) -> Array:
-        rest = np.zeros(angle.shape) if also is None else also(angle)
-        return sum((share * gas.curve.at(angle - fires) for gas, fires, share in cylinders), rest)
+        each = (share * gas.curve.at(angle - fires) for gas, fires, share in cylinders)
+        return sum(each, np.zeros(angle.shape))
 
     return resolved(total, merged_breaks([(g.breaks, fires) for g, fires, _ in cylinders], span))

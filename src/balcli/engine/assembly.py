@@ -153,7 +153,7 @@ class Assembly:
         return {key: mass for key, mass in given.items() if mass is not None}
 
     def piston_parts_of(self, number: int) -> tuple[tuple[str, Figure], ...]:
-        """The same of one cylinder's piston."""
+        """What one cylinder's piston was weighed in, by the keys of [piston]."""
         own = self.own_of(number).piston_mass
         return tuple(self.piston_parts.items()) if own is None else (("mass", own),)
 

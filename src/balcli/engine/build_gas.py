@@ -28,7 +28,7 @@ from ..errors import BalcliError, InputError, Problem
 from ..limits import HIGHEST_TABLE_ORDER
 from . import indicator_diagram as diagrams
 from .gas import CylinderGas, EngineGas
-from .indicator_diagram import Source
+from .indicator_diagram import GasSource
 
 if TYPE_CHECKING:
     from ..core.cylinders import Cylinders
@@ -122,11 +122,11 @@ class _Builder:
         given = 1.0 if own is None or own.gas is None else own.gas
         return float(self.parts.figures.take(f"cylinder.{number}.gas", given))
 
-    def _source(self, number: int) -> Source:
+    def _source(self, number: int) -> GasSource:
         own = self.parts.model.cylinder.get(number)
         if own is not None and own.indicator is not None:
-            return Source(f"cylinder.{number}.indicator", own.indicator)
-        return Source("gas.indicator", self.gas.indicator)
+            return GasSource(f"cylinder.{number}.indicator", own.indicator)
+        return GasSource("gas.indicator", self.gas.indicator)
 
     def _find_like(self) -> list[int]:
         """`CylinderGas.like` of each row."""
@@ -147,7 +147,7 @@ class _Builder:
             self.problems.append(Problem(path, str(error)))
             return None
 
-    def _make(self, source: Source, piston: Piston) -> GasTorque | None:
+    def _make(self, source: GasSource, piston: Piston) -> GasTorque | None:
         gas = self.gas
         if source.indicator is not None:
             columns = self._columns(source.indicator, diagrams.HEADS)

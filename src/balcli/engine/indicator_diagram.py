@@ -34,7 +34,7 @@ NEAR_DEG = 45.0  # from the firing dead centre: there the pressure of every engi
 SAME_IMEP = 0.03  # by which a diagram may miss the stated mean effective pressure
 
 
-class Source(NamedTuple):
+class GasSource(NamedTuple):
     """Where a cylinder's gas comes from: its own diagram (path in the file and name), or [gas]."""
 
     path: str
@@ -69,7 +69,7 @@ def _is_gauge(gas: Gas, columns: Columns) -> bool:
 
 
 def list_doubts(
-    gas: Gas, source: Source, columns: Columns, found: PressureOnPiston
+    gas: Gas, source: GasSource, columns: Columns, found: PressureOnPiston
 ) -> Iterator[str]:
     """What is suspicious of a diagram, each with its path in the engine file."""
     pressure = _read_pressure(gas, columns) / BAR

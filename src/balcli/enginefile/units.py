@@ -133,6 +133,7 @@ _PER_MINUTE = r"(\d\.?)(?:(?:\s+1)?\s*/\s*min|\s*min(?:\^|\*\*)?-1|\s*min⁻¹)\
 _HERTZ = r"(\d\.?)\s*(k?)(?:Hz|hertz)\s*$"
 # pi/2, -3*pi/4 rad
 _PI = rf"\s*([+-]?)(?:({_NUMBER})\s*[*·⋅]?)?\s*(?:pi|π)(?:\s*/\s*({_NUMBER}))?(?:\s+rad)?\s*"
+_POUND = r"\b(?:lbs?|pounds?)\b"  # a force where only that fits: 24 lb in/rad, 0.3 lb in s2
 _PART = r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([²³23]))?"
 _RAISED = {"²": 2, "³": 3, "2": 2, "3": 3}
 
@@ -174,6 +175,9 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
         raise ValueError(f"has no unit; {wanted(dimension)}")
     unit = read_unit(names, dimension)
     if unit.powers != dimension.powers:
+        force = read_unit(re.sub(_POUND, "lbf", names), dimension)
+        if force.powers == dimension.powers:
+            return number * force.scale
         name = _NAMES.get(unit.powers, "of another dimension")
         raise ValueError(f"is {name}, but {wanted(dimension)}")
     return number * unit.scale

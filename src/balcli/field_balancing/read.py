@@ -56,7 +56,7 @@ def check_runs(data: Mapping[str, Any], file: str = "") -> RunsFile:
         model = model.model_copy(update={"run": runs})
     if model is not None:
         numbered = [(k, run) for k, run in enumerate(runs, 1) if run is not None]
-        reader.problems += _find_misfits(model, numbered)
+        reader.problems += _find_misfits(model, numbered, len(numbered) == len(runs))
     if reader.problems or model is None:
         raise reader.refusal(file)
     return model
@@ -77,12 +77,15 @@ def _describe(path: str, finding: ErrorDetails, table: type[Table]) -> Problem:
 
 
 # ------------------------------------------------------------------ what does not fit together
-def _find_misfits(file: RunsFile, runs: list[tuple[int, Run]]) -> Iterator[Problem]:
+def _find_misfits(file: RunsFile, runs: list[tuple[int, Run]], whole: bool) -> Iterator[Problem]:
+    """Args: runs that could be read, by their numbers; whether these are all."""
     yield from _check_names(file)
     yield from _check_lists(file)
     yield from _check_permitted(file)
     yield from _check_shop(file)
     yield from _check_runs(file, runs)
+    if whole and len({run.speed is None for _, run in runs}) == 1:  # else speeds are not known
+        yield from _check_influence_rows(file, [run for _, run in runs])
 
 
 def _check_names(file: RunsFile) -> Iterator[Problem]:
@@ -166,30 +169,32 @@ def _check_runs(file: RunsFile, runs: list[tuple[int, Run]]) -> Iterator[Problem
                 f"run.{k}.speed",
                 f"is missing; run.{spoken[0]} gives its speed, so every run must",
             )
-    yield from _check_factors(file, runs, wanted)
+    yield from _check_factors(file, wanted)
 
 
-def _check_factors(file: RunsFile, runs: list[tuple[int, Run]], sensors: int) -> Iterator[Problem]:
-    speeds = len({run.speed for _, run in runs})
+def _check_factors(file: RunsFile, sensors: int) -> Iterator[Problem]:
     if file.reading_weights and len(file.reading_weights) != sensors:
         yield Problem(
             "reading_weights",
             f"has {counted(len(file.reading_weights), 'value')}, but there are "
             f"{counted(sensors, 'reading')} in a run; give one for each",
         )
-    if file.influence is None:
-        return
-    if len(file.influence) != sensors * speeds:
-        at = f" at {counted(speeds, 'speed')}" if speeds > 1 else ""
-        yield Problem(
-            "influence",
-            f"has {counted(len(file.influence), 'row')}, but there are "
-            f"{counted(sensors, 'reading')}{at}; give one row for each reading",
-        )
-    for k, row in enumerate(file.influence, 1):
+    for k, row in enumerate(file.influence or (), 1):
         if len(row) != len(file.planes):
             yield Problem(
                 f"influence.{k}",
                 f"has {counted(len(row), 'coefficient')}, but there are "
                 f"{counted(len(file.planes), 'plane')}; give one for each, in their order",
             )
+
+
+def _check_influence_rows(file: RunsFile, runs: list[Run]) -> Iterator[Problem]:
+    speeds = len({run.speed for run in runs})
+    sensors = len(file.sensors or runs[0].readings)
+    if file.influence is not None and len(file.influence) != sensors * speeds:
+        at = f" at {counted(speeds, 'speed')}" if speeds > 1 else ""
+        yield Problem(
+            "influence",
+            f"has {counted(len(file.influence), 'row')}, but there are "
+            f"{counted(sensors, 'reading')}{at}; give one row for each reading",
+        )

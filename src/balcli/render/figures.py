@@ -59,7 +59,7 @@ def clean(value: Any) -> float | None:
 
 
 def clean_each(values: Iterable[Any]) -> list[float | None]:
-    """The same of each."""
+    """Plain floats; None for nan, and no negative zero."""
     return [clean(value) for value in values]
 
 

@@ -53,7 +53,7 @@ def draw_sweep(sweep: Sweep, values: Sequence[Array], form: style.Form) -> bytes
 
 
 def make_sweep(sweep: Sweep, values: Sequence[Array], form: style.Form) -> Figure:
-    """The same as a figure."""
+    """What `draw_sweep` writes, as a figure of matplotlib."""
     several = _varied_parameters(sweep)
     if len(several) == 1:
         names = list(dict.fromkeys(quantity.unit for quantity in sweep.quantities))

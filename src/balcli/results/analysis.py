@@ -150,8 +150,8 @@ def analyze(
         engine: without trailing axes.
         orders: which orders to show; default: 1 and 2 (0 too at uneven speed) and all in which a
             quantity that was asked for exceeds 1e-6 of its own largest order, up to 512.
-        only: any of QUANTITIES, EXTRAS and `gas`, or a text of them with commas between; default:
-            `list_quantities`.
+        only: any of force, moment, couple, torque, roll, peak, sizing, inner, guide and gas, or a
+            text of them with commas between; default: all but sizing, inner and guide.
         by_cylinder: also the phasors of every cylinder alone.
         reasons: also why each order is balanced, or is not.
         guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
@@ -190,7 +190,7 @@ def analyze(
     )
 
 
-def list_quantities(engine: Engine) -> tuple[str, ...]:
+def list_usual_quantities(engine: Engine) -> tuple[str, ...]:
     """What is computed of an engine unless something is named: all but sizing; with gas, all that
     it does, too.
     """
@@ -200,7 +200,7 @@ def list_quantities(engine: Engine) -> tuple[str, ...]:
 def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> set[str]:
     """What is computed; `gas` stands for all that gas does."""
     if only is None:
-        return set(list_quantities(engine))
+        return set(list_usual_quantities(engine))
     wanted = {*list_words("only", only)}
     if strangers := sorted(wanted.difference(QUANTITIES, GAS_KINDS, EXTRAS)):
         raise BalcliError(

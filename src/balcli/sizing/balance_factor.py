@@ -274,7 +274,7 @@ def _find_needs(
 
 
 def _count_from_pin(engine: Engine, need: PlaneNeed) -> PlaneNeed:
-    """The same with directions from cylinder 1's crank pin."""
+    """What a plane asks for and has, its directions counted from cylinder 1's crank pin."""
     turned = complex(unit(-float(engine.first_axis_deg)))
     return PlaneNeed(need.z, *(turned * vector for vector in need[1:]))
 

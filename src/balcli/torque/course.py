@@ -46,7 +46,7 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
     """
     gas, times = take_gas(engine), count_repeats(engine)
     cylinders = [(c.torque, c.fires, c.share) for c in gas.cylinders]
-    once = crank_torque(cylinders, period=gas.cycle / times)
+    once = crank_torque(cylinders, gas.cycle / times)
     inertia = find_inertia_torque(engine)
     total = resolved(lambda angle: once.at(angle) + inertia(angle), once.breaks)
     return TorqueCurves(once.repeated(times), total.repeated(times), once)

@@ -41,7 +41,7 @@ def draw_field(result: FieldBalance, form: Form) -> bytes:
 
 
 def make_field(result: FieldBalance, form: Form) -> Figure:
-    """The same as a figure."""
+    """What `draw_field` writes, as a figure of matplotlib."""
     phases, weights = find_senses(result)
     with open_figure(*_SIZE, form) as fig:
         fig.set_layout_engine("none")

@@ -51,7 +51,7 @@ def draw_mounts(result: MountReport, form: Form, system: System) -> bytes:
 
 
 def make_mounts(result: MountReport, form: Form, system: System) -> Figure:
-    """The same as a figure."""
+    """What `draw_mounts` writes, as a figure of matplotlib."""
     title = f"{fit_name(result.name or NAMELESS)}: on its mounts"
     with open_figure(*(_SHAPES_ALONE if result.response is None else _SIZE), form) as fig:
         put_title(fig, title)

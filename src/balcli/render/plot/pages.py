@@ -104,7 +104,7 @@ def draw_page(subject: Subject, what: str, form: Form) -> bytes:
 
 
 def make_page(subject: Subject, what: str, form: Form) -> Figure:
-    """The same as a figure."""
+    """What `draw_page` writes, as a figure of matplotlib."""
     width, height, layout = PAGES[what]
     with open_figure(width, height, form) as fig:
         fig.set_layout_engine("constrained", h_pad=BELOW_TITLE)

@@ -48,7 +48,7 @@ def draw_torsion(result: TorsionAnalysis, what: str, form: Form, *, titled: bool
 
 
 def make_torsion(result: TorsionAnalysis, what: str, form: Form, *, titled: bool = True) -> Figure:
-    """The same as a figure."""
+    """What `draw_torsion` writes, as a figure of matplotlib."""
     parts: list[Callable[[Axes], None]] = []
     if what in ("all", "modes"):
         parts.append(lambda ax: _draw_modes(ax, result))

@@ -78,7 +78,9 @@ def _count_arrangements(given: Array) -> int:
 
 
 def _count_arrangements_of_others(angles: Array) -> int:
-    """The same beside one throw that stands at the first of them, ascending."""
+    """In how many ways throws at these angles can follow each other beside one of them that stays:
+    a throw at the first angle, ascending.
+    """
     times = np.unique(angles, return_counts=True)[1].tolist()
     return _count_sequences((times[0] - 1, *times[1:]))
 
