@@ -703,7 +703,7 @@ FOR_PEOPLE = (
     *("render.analysis", "render.verdict", "render.markdown", "render.terminal", "render.table"),
     *("render.crankshaft", "render.guide_moments", "render.strokes", "render.symmetry"),
 )
-FOR_PROGRAMS = ("render.analysis_data", "render.json", "render.markdown", "render.terminal")
+FOR_PROGRAMS = ("render.analysis_document", "render.json", "render.markdown", "render.terminal")
 
 
 def own_modules(*args: object) -> set[str]:
@@ -734,7 +734,7 @@ IMPORTED = {
     "enginefile": "exclusive fields messages model plain_tables read suspicious toml_text unit_table "
     "units unknown_keys",
     "forces": "kinds orders spectrum",
-    "render": "analyses analysis_data csv devices figures formats json sheet units view",
+    "render": "analyses analysis_document csv devices figures formats json sheet units view",
     "results": "analysis",
     "sizing": "auto details device_tables effects fitting options planes reasons remedy "
     "residual schemes",

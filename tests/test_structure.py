@@ -169,8 +169,8 @@ ON_REQUEST = {
     "balcli.forces.spectrum": ("balcli.forces.gas",),
     "balcli.forces.symmetry": ("balcli.forces.gas_symmetry",),
     "balcli.library.arguments": ("balcli.studies.stated_tolerances",),
-    "balcli.render.analyses": ("balcli.render.analysis", "balcli.render.analysis_data"),
-    "balcli.render.analysis_data": (
+    "balcli.render.analyses": ("balcli.render.analysis", "balcli.render.analysis_document"),
+    "balcli.render.analysis_document": (
         *("balcli.render.crankshaft", "balcli.render.guide_moments"),
         *("balcli.render.strokes", "balcli.render.symmetry"),
     ),

@@ -14,7 +14,7 @@ from .engine.build import Engine
 from .errors import BalcliError
 from .forces.kinds import GAS, GAS_KINDS, KINDS, VECTORS
 from .forces.spectrum import Spectra
-from .render import analysis_data as renderer
+from .render import analysis_document as renderer
 from .results.analysis import analyze
 
 TOLERANCE = 1e-9  # of a quantity's largest order, beyond what rounding may do

@@ -13,7 +13,7 @@ from balcli.engine import build as engine
 from balcli.engine import load as enginefile
 from balcli.forces import spectrum
 from balcli.forces.symmetry import explain_symmetry
-from balcli.render.analysis_data import document as analysis_document
+from balcli.render.analysis_document import document as analysis_document
 from balcli.render.json import json_text
 from balcli.results import analysis
 

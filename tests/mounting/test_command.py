@@ -147,6 +147,14 @@ def test_other_engines_on_the_same_mounts(four, tmp_path):
     assert {"mount", "light four: mount", "light four: point"} <= parts
 
 
+def test_half_orders_are_written_as_elsewhere():
+    weak = "[layout]\nfiring_order = [1, 3, 4, 2]\n[cylinder.3]\ngas = 0\n"
+    out = run_here("mounts", "-", stdin=ENGINE + weak + WIEBE + block("loss = 0.1")).out
+    passed = out.partition("Passed on to the frame")[2]
+    assert re.search(r"(?m)^½ +roll z", passed)
+    assert re.search(r"(?m)^mode .* order ½ +order 1 +order 1½", out)
+
+
 def test_without_an_engine_modes_and_rest_are_told(tmp_path):
     path = tmp_path / "block.toml"
     path.write_text(block(), encoding="utf-8")

@@ -18,7 +18,7 @@ from support.paths import ENGINES
 from balcli.commands.options import parse_parts
 from balcli.core.peaks import Peak
 from balcli.errors import BalcliError
-from balcli.render import analysis, analysis_data
+from balcli.render import analysis, analysis_document
 from balcli.render.formats import Format, render
 from balcli.render.sheet import Facts, Grid
 from balcli.render.units import SYSTEMS
@@ -26,7 +26,7 @@ from balcli.render.view import IN_BRIEF, View
 from balcli.results.analysis import QUANTITIES, analyze
 
 RENDERER = SimpleNamespace(
-    sheet=analysis.sheet, document=analysis_data.document, rows=analysis_data.rows
+    sheet=analysis.sheet, document=analysis_document.document, rows=analysis_document.rows
 )
 
 

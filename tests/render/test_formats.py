@@ -66,14 +66,14 @@ def show(monkeypatch):
 
 
 def test_every_renderer_is_shown_here():
-    """A renderer is a module with these three functions; three have theirs for programs elsewhere."""
+    """A renderer is a module with these three functions; four have theirs for programs elsewhere."""
     found = {
         name.rpartition(".")[2]
         for name, file in imports.FILES.items()
         if name.startswith("balcli.render.")
         and len(re.findall(r"^def (?:sheet|document|rows)\(", file.read_text("utf-8"), re.M)) == 3
     }
-    assert found | {"mounts", "torque", "torsion"} == set(SHOWN)
+    assert found | {"field_balancing", "mounts", "torque", "torsion"} == set(SHOWN)
 
 
 @pytest.mark.parametrize("name", SHOWN)

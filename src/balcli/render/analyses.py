@@ -37,14 +37,14 @@ def sheet(one: NamedAnalysis, system: System) -> Sheet:
 
 def document(one: NamedAnalysis) -> dict[str, Any]:
     """`balcli.analysis/1`."""
-    from . import analysis_data
+    from . import analysis_document
 
-    return analysis_data.document(one.result)
+    return analysis_document.document(one.result)
 
 
 def rows(one: NamedAnalysis, system: System) -> Rows:
     """CSV: the rows of the analysis, each after the engine's name."""
-    from . import analysis_data
+    from . import analysis_document
 
-    header, lines = analysis_data.rows(one.result, system)
+    header, lines = analysis_document.rows(one.result, system)
     return Rows(("engine", *header), ((name_cell(one.name), *line) for line in lines))

@@ -1,4 +1,4 @@
-"""The analysis of one engine for people; for programs it is in `analysis_data`."""
+"""What a person reads of the analysis of one engine."""
 
 from __future__ import annotations
 

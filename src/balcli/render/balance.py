@@ -13,7 +13,7 @@ from ..engine.positions import MOMENTS_UNKNOWN
 from ..forces.kinds import FORCE, MOMENT, ROLL, Kind
 from ..results.balance import Balance
 from ..sizing.device_tables import name_kind
-from .analysis_data import brief_document
+from .analysis_document import brief_document
 from .csv import Columns, Rows
 from .devices import (
     device_entries,

@@ -1,6 +1,4 @@
-"""The bobweight card: pins that are alike together, quantity x each = sum; and as a page for the
-wall of a shop.
-"""
+"""The bobweight card: pins that are alike together, quantity x each = sum."""
 
 from __future__ import annotations
 

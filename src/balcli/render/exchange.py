@@ -22,7 +22,7 @@ from .units import SI
 
 # Which module shows a kind of answer: its document, and its columns or the rows of its CSV.
 RENDERERS = {
-    "Analysis": "analysis_data",
+    "Analysis": "analysis_document",
     "Balance": "balance",
     "Combined": "two_engines",
     "Comparison": "comparison",

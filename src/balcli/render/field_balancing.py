@@ -4,18 +4,14 @@ the readings before and after.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
-from typing import Any
-
 from ..field_balancing.balance import FieldBalance, PlaneCorrection, find_eccentricity
 from ..field_balancing.shop import Piece, find_angle_deg
-from .csv import Rows, name_cell
-from .figures import clean
+from .field_balancing_document import document, find_senses, rows
 from .sheet import Facts, Grid, Sheet, Text, degrees, number
 from .units import System, Unit
 
-_HEADER = ("part", "speed_rpm", "name", "figure", "value", "unit")
+__all__ = ["document", "rows", "sheet"]
+
 _WAY = {"with": "the way the rotor turns", "against": "against the way the rotor turns"}
 
 
@@ -30,12 +26,6 @@ def sheet(result: FieldBalance, system: System) -> Sheet:
     parts += [_readings(result), _influence(result)]
     title = f"{file.name or 'rotor without a name'}: field balancing"
     return Sheet(title, tuple(parts))
-
-
-def find_senses(result: FieldBalance) -> tuple[str, str]:
-    """Whether phases of readings and angles of weights count "with" or "against" rotation."""
-    phases = "against" if result.file.rotation == "lag" else "with"
-    return phases, result.file.weights or phases
 
 
 def _angles(result: FieldBalance) -> Text:
@@ -220,144 +210,3 @@ def _influence(result: FieldBalance) -> Grid:
     if result.influence.trimmed and result.file.influence is None:
         note += " By least squares over all runs."
     return Grid("Influence coefficients", tuple(heads), tuple(rows), note)
-
-
-# ------------------------------------------------------------------ for programs
-def document(result: FieldBalance) -> dict[str, Any]:
-    """`balcli.field/1`: readings and weights in the units of the file."""
-    file, influence = result.file, result.influence
-    found: dict[str, Any] = {
-        "format": "balcli.field/1",
-        "name": file.name,
-        "unit": file.unit,
-        "weight_unit": file.weight_unit,
-        "phases": find_senses(result)[0],
-        "weights": find_senses(result)[1],
-        "minimise": result.minimise,
-        "readings": [_reading(result, k) for k in range(len(result.after))],
-        "influence": [
-            [_figures(complex(value)) for value in row] for row in influence.coefficients
-        ],
-        "corrections": [_correction(p, bool(influence.trimmed)) for p in result.planes],
-        "before": [_figures(complex(value)) for value in influence.now],
-        "residual": [_figures(complex(value)) for value in result.after],
-        "largest": clean(result.largest),
-        "rms": clean(result.rms),
-        "condition": _finite(result.condition),
-    }
-    if result.minimise == "max":
-        found["bound"] = clean(result.bound)
-    if influence.trimmed:
-        found["trimmed"] = influence.trimmed
-    eccentricity = find_eccentricity(file)
-    if eccentricity is not None and file.mass is not None:
-        found["permitted"] = {
-            "specific_mm": clean(eccentricity),
-            "unbalance_g_mm": clean(1e3 * file.mass * eccentricity),
-            "planes": [
-                {
-                    "plane": p.plane,
-                    "permitted_g_mm": clean(p.permitted.permitted),
-                    "present_g_mm": clean(p.permitted.present),
-                    "reached": p.permitted.reached,
-                    "after_g_mm": clean(p.permitted.after),
-                }
-                for p in result.planes
-                if p.permitted is not None
-            ],
-            "reached": result.reached,
-        }
-    return found
-
-
-def _finite(value: float) -> float | None:
-    return clean(value) if math.isfinite(value) else None
-
-
-def _reading(result: FieldBalance, k: int) -> dict[str, Any]:
-    sensor, speed = result.influence.sensors[k], result.influence.speeds_rpm[k]
-    name = result.file.sensors[sensor] if result.file.sensors else f"sensor {sensor + 1}"
-    return {"sensor": name, "speed_rpm": None if speed is None else clean(speed)}
-
-
-def _figures(value: complex) -> dict[str, float | None]:
-    return {
-        "amplitude": clean(abs(value)),
-        "phase_deg": clean(find_angle_deg(value)) if value else None,
-    }
-
-
-def _weight(value: complex) -> dict[str, float | None]:
-    return {
-        "weight": clean(abs(value)),
-        "angle_deg": clean(find_angle_deg(value)) if value else None,
-    }
-
-
-def _correction(p: PlaneCorrection, trimmed: bool) -> dict[str, Any]:
-    found: dict[str, Any] = {"plane": p.plane, **_weight(p.total)}
-    if trimmed:
-        found["add"] = _weight(p.step)
-    if p.unbalance is not None:
-        found["unbalance_g_mm"] = clean(p.unbalance)
-    found |= {"own_effect": clean(p.own), "at_limit": p.limited}
-    if p.limited:
-        found["wanted"] = _weight(p.total - p.step + p.wanted)
-    found["pieces"] = [_piece(piece) for piece in p.pieces]
-    return found
-
-
-def _piece(piece: Piece) -> dict[str, float | None]:
-    found = {"weight": clean(piece.weight), "angle_deg": clean(piece.angle_deg)}
-    if piece.place is not None:
-        found["place"] = piece.place
-    if piece.depth_mm is not None:
-        found["depth_mm"] = clean(piece.depth_mm)
-    return found
-
-
-def rows(result: FieldBalance, system: System) -> Rows:
-    """Every figure of the document a row, in the units of the file."""
-    return Rows(_HEADER, _lines(result))
-
-
-def _lines(result: FieldBalance) -> Iterator[tuple[Any, ...]]:
-    said = document(result)
-    for p in said["corrections"]:
-        plane = p.pop("plane")
-        yield from _list("correction", None, plane, p, result.file.weight_unit)
-    for kind in ("before", "residual"):
-        for reading, figures in zip(said["readings"], said[kind], strict=True):
-            where = (kind, reading["speed_rpm"], reading["sensor"])
-            yield from _list(*where, figures, result.file.unit or "")
-    for reading, row in zip(said["readings"], said["influence"], strict=True):
-        for plane, figures in zip(result.file.planes, row, strict=True):
-            name = f"{reading['sensor']} by {plane}"
-            yield from _list("influence", reading["speed_rpm"], name, figures, "")
-    for p in said.get("permitted", {}).get("planes", ()):
-        plane = p.pop("plane")
-        yield from _list("permitted", None, plane, p, "")
-    for name in ("condition", "largest", "rms", "bound"):
-        if name in said:
-            yield ("details", None, "", name, said[name], "")
-
-
-def _list(
-    part: str, speed: float | None, name: str, figures: dict[str, Any], unit: str, path: str = ""
-) -> Iterator[tuple[Any, ...]]:
-    for key, value in figures.items():
-        if isinstance(value, dict):
-            yield from _list(part, speed, name, value, unit, f"{path}{key}.")
-        elif isinstance(value, list):
-            for k, item in enumerate(value, 1):
-                yield from _list(part, speed, name, item, unit, f"{path}{key}.{k}.")
-        else:
-            own = {"weight": unit, "amplitude": unit}.get(key, _unit_of(key))
-            yield part, speed, name_cell(name), f"{path}{key}", value, name_cell(own)
-
-
-def _unit_of(key: str) -> str:
-    return next((unit for end, unit in _UNITS.items() if key.endswith(end)), "")
-
-
-_UNITS = {"_deg": "deg", "_g_mm": "g mm", "_mm": "mm"}

@@ -10,7 +10,7 @@ from ..mounting.motions import AXES
 from ..mounting.report import MountReport
 from ..mounting.response import Response, Worst
 from .mounts_document import document, rows
-from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number, order_number
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number, order_name
 from .units import System, Unit
 
 __all__ = ["document", "rows", "sheet"]
@@ -50,7 +50,7 @@ def _answer(result: MountReport, response: Response, system: System) -> Iterator
         why = f" {_explain(result, response, worst)}".rstrip()
         yield (
             f"The mount {name} feels most: {_tell(worst, force)}, of which order "
-            f"{order_number(worst.order)} alone makes {number(force.of(worst.alone), 4)} "
+            f"{order_name(worst.order)} alone makes {number(force.of(worst.alone), 4)} "
             f"{force.name}.{why}"
         )
     moved = _find_farthest(result, response)
@@ -170,7 +170,7 @@ def _worst(
     for k, name in enumerate(names):
         first = several[0][k]
         cells = [name, number(convert(first.value), 4), number(first.speed_rpm, 4)]
-        cells += [str(order_number(first.order)), number(convert(first.alone), 4)]
+        cells += [order_name(first.order), number(convert(first.alone), 4)]
         for beside in several[1:]:
             cells += [number(convert(beside[k].value), 4), number(beside[k].speed_rpm, 4)]
         rows.append(tuple(cells))
@@ -250,7 +250,7 @@ def _wipe(values: Real) -> Real:
 def _meetings(result: MountReport) -> Grid:
     met = {(one.mode, one.order): one.speed_rpm for one in result.meetings}
     orders = sorted({order for _, order in met})[:_COLUMNS]
-    heads = ("mode", "Hz", *(f"order {order_number(order)}" for order in orders))
+    heads = ("mode", "Hz", *(f"order {order_name(order)}" for order in orders))
     rows = [
         (
             str(k + 1),
@@ -298,7 +298,7 @@ def _passed(response: Response, system: System) -> Grid:
             size = response.free[n, last, k]
             largest = response.free[:, last, 3 * (k // 3) : 3 * (k // 3) + 3].max()
             if size > _SHARE * largest:
-                cells = [str(order_number(order)), name]
+                cells = [order_name(order), name]
                 cells += [f"{number(units[k].of(size), 4)} {units[k].name}"]
                 cells += [f"{_ratio(response, n, s, k):.1%}" for s in speeds]
                 rows.append(tuple(cells))

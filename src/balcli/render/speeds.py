@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
-from . import analysis_data, symmetry
+from . import analysis_document, symmetry
 from .comparison import TITLES, find_lines_that_matter, fit_unit, show_sizes
 from .csv import Rows, name_cell
 from .engine_facts import engine_facts
@@ -56,14 +56,14 @@ def document(one: NamedSeries) -> dict[str, Any]:
     return {
         "format": "balcli.speeds/1",
         "engine": {"name": one.result.analyses[0].engine.name},
-        "analyses": [analysis_data.document(each) for each in one.result.analyses],
+        "analyses": [analysis_document.document(each) for each in one.result.analyses],
     }
 
 
 def rows(one: NamedSeries, system: System) -> Rows:
     """CSV: the rows of each analysis after the engine's name and the speed."""
     told = [(float(each.engine.speed_rpm), each) for each in one.result.analyses]
-    every = [(speed, *analysis_data.rows(each, system)) for speed, each in told]
+    every = [(speed, *analysis_document.rows(each, system)) for speed, each in told]
     lines = (
         (name_cell(one.name), speed, *line) for speed, _, own_lines in every for line in own_lines
     )

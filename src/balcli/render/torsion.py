@@ -11,7 +11,7 @@ import numpy as np
 from ..torsion.analysis import BEYOND, HolzerTable, TorsionAnalysis
 from ..torsion.damper_sizing import SizedDamper
 from ..torsion.response import Response
-from .sheet import Facts, Grid, Sheet, Text, number, order_number, size_text
+from .sheet import Facts, Grid, Sheet, Text, number, order_name, size_text
 from .torsion_document import document, rows
 from .units import POWER, SI, STRESS, System, Unit
 
@@ -127,7 +127,7 @@ def _criticals(result: TorsionAnalysis) -> Grid:
     rows = tuple(
         (
             str(each.mode),
-            f"{order_number(each.order)}",
+            order_name(each.order),
             number(each.speed_rpm),
             number(each.phase_sum, 4),
             f"{each.work_share:.1%}",
@@ -241,7 +241,7 @@ def _name_orders(response: Response, shaft: int, unit: Unit) -> str:
     sizes = response.worst.amplitudes[:, shaft]
     largest = np.argsort(-sizes, kind="stable")[:_MOST_ORDERS]
     return ", ".join(
-        f"{order_number(float(response.orders[k]))}: {number(unit.of(float(sizes[k])), 3)}"
+        f"{order_name(float(response.orders[k]))}: {number(unit.of(float(sizes[k])), 3)}"
         for k in largest
         if sizes[k] > 1e-3 * sizes.max()
     )

@@ -9,7 +9,8 @@ import numpy as np
 
 from ...field_balancing.balance import FieldBalance, PlaneCorrection
 from ...field_balancing.shop import find_angle_deg
-from ..field_balancing import find_label, find_senses
+from ..field_balancing import find_label
+from ..field_balancing_document import find_senses
 from ..sheet import number
 from .style import (
     BLUE,

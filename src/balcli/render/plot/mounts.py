@@ -16,7 +16,7 @@ from ...mounting.modes import BodyMode
 from ...mounting.report import MountReport
 from ...mounting.response import Response
 from ..body_block import PROJECTION, find_corners
-from ..sheet import NAMELESS, number, order_number
+from ..sheet import NAMELESS, number, order_name
 from ..units import System, Unit
 from .style import (
     BLUE,
@@ -130,7 +130,7 @@ def _draw_meetings(ax: Axes, result: MountReport, response: Response) -> None:
         inside = hertz < 0.97 * highest
         if inside.any():
             last = int(np.flatnonzero(inside)[-1])
-            ax.text(rpm[last], hertz[last], f" {order_number(order)}", color=INK, va="bottom")
+            ax.text(rpm[last], hertz[last], f" {order_name(order)}", color=INK, va="bottom")
     six = [mode.hertz for mode in result.modes.six]
     for frequency in six:
         ax.axhline(frequency, color=RED, linewidth=0.8)

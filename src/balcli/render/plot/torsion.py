@@ -12,7 +12,7 @@ import numpy as np
 
 from ...torsion.analysis import TorsionAnalysis
 from ...torsion.response import Response
-from ..sheet import number, order_number
+from ..sheet import number, order_name
 from .style import (
     BLUE,
     FAINT,
@@ -127,7 +127,7 @@ def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
         end = min(top, 60 * ceiling / order)
         ax.plot([0, end], [0, order * end / 60], color=FAINT, linewidth=0.9, zorder=1)
         if order in named[:_MOST_ORDERS]:
-            ax.text(end, order * end / 60, f"{order_number(order)}", fontsize=7, color=SOFT)
+            ax.text(end, order * end / 60, order_name(order), fontsize=7, color=SOFT)
     most = max((critical.work for critical in drawn), default=1.0)
     for critical in drawn:
         size = 12 + 240 * critical.work / most
@@ -170,7 +170,7 @@ def _draw_swing(ax: Axes, result: TorsionAnalysis, response: Response) -> None:
     ax.plot(response.speeds_rpm, degrees, color=INK, label="added up in time")
     largest = np.argsort(-response.swings.max(axis=1), kind="stable")[:5]
     for k, (line, colour) in zip(sorted(largest), _STYLES, strict=False):
-        label = f"order {order_number(float(response.orders[k]))}"
+        label = f"order {order_name(float(response.orders[k]))}"
         swing = np.degrees(response.swings[k])
         ax.plot(response.speeds_rpm, swing, line, color=colour, linewidth=1, label=label)
     _finish(ax, response, "deg")

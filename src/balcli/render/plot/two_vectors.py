@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...core.phasors import Phasors
-from ..sheet import number, order_number
+from ..sheet import number, order_name
 from ..units import Unit
 from .axes import FINE, set_up_plane
 from .style import BLUE, INK, RED
@@ -21,11 +21,11 @@ _SHOWN_AT = 36  # degrees of the order's own angle: both vectors are then seen a
 def draw_order(ax: Axes, curve: Phasors, k: int, what: str, unit: Unit) -> None:
     """Draw the k-th order: its ellipse, and the two rotating vectors whose sum it is."""
     one = curve.select_orders(curve.orders[[k]])
-    order, phase = order_number(curve.orders[k]), np.exp(1j * np.radians(_SHOWN_AT))
+    order, phase = float(curve.orders[k]), np.exp(1j * np.radians(_SHOWN_AT))
     s = unit.fit(float(one.major[0]))
     values = one.values(FINE)
     set_up_plane(ax, [values], what, s)
-    ax.set_title(f"{what}, order {order}, at crank angle {_SHOWN_AT / order:g}°")
+    ax.set_title(f"{what}, order {order_name(order)}, at crank angle {_SHOWN_AT / order:g}°")
     ax.plot(values.imag / s.size, values.real / s.size, color=INK)
     forward, backward = complex(one.forward[0] * phase), complex(one.backward[0] / phase)
     _draw_vector(ax, 0j, forward, s, (BLUE, "-", "with the crank"))

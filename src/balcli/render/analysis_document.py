@@ -1,4 +1,4 @@
-"""The analysis of one engine for programs: JSON and rows of CSV; for people it is in `analysis`."""
+"""What a program reads of the analysis of one engine: JSON, and the same figures as CSV."""
 
 from __future__ import annotations
 
