@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from balcli.core.sorted_sets import are_among, sort_distinct, sort_others
+from balcli.core.sorted_sets import are_among, find_middle, sort_distinct, sort_others
 
 
 @pytest.mark.parametrize("kind", [float, np.intp])
@@ -18,3 +18,8 @@ def test_as_numpy_has_them(kind, shape, count):
     np.testing.assert_array_equal(found, np.unique(values))
     np.testing.assert_array_equal(sort_others(values, known), np.setdiff1d(values, known))
     np.testing.assert_array_equal(are_among(values, known), np.isin(values, known))
+
+
+def test_the_middle_one():
+    assert find_middle(np.array([3.0, -1.0, 7.0])) == 3
+    assert find_middle(np.array([[4, 1], [2, 3]])) == 3

@@ -1,7 +1,7 @@
 """Sets of numbers as ascending arrays.
 
-`numpy.unique` and its like import masked arrays, which takes longer than most of what balcli
-computes.
+`numpy.unique`, `numpy.median` and their like import masked arrays, which takes longer than most of
+what balcli computes.
 """
 
 from __future__ import annotations
@@ -20,6 +20,13 @@ def sort_distinct(values: NDArray[T]) -> NDArray[T]:
     new = np.ones(len(ascending), bool)
     new[1:] = ascending[1:] != ascending[:-1]
     return ascending[new]
+
+
+def find_middle(values: NDArray[T]) -> T:
+    """The middle one of numbers of any shape, at least one; of two the larger."""
+    ascending: NDArray[T] = np.sort(values, axis=None)
+    middle: T = ascending[len(ascending) // 2]
+    return middle
 
 
 def sort_others(values: NDArray[T], known: NDArray[T]) -> NDArray[T]:

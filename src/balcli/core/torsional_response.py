@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .singular_values import Complex, Real
-from .sorted_sets import sort_distinct
+from .sorted_sets import find_middle, sort_distinct
 from .torsional_chain import Branch, Chain, Damping, find_pieces, grow_branches, incidence
 from .vibration import solve_equations
 
@@ -209,7 +209,7 @@ def _solve_dense(
     """
     w, own, flexible, load, carrying = equations
     elastic = np.isfinite(chain.stiffness) & (chain.stiffness > 0)
-    scale = float(np.median(chain.stiffness[elastic])) if np.any(elastic) else 1.0
+    scale = float(find_middle(chain.stiffness[elastic])) if np.any(elastic) else 1.0
     nodes, shafts = np.arange(len(own)), len(own) + np.arange(np.count_nonzero(carrying))
     unknowns = len(nodes) + len(shafts)
     rows = incidence(chain)[carrying]
