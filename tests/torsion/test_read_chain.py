@@ -227,6 +227,10 @@ order = 1.3
             "node.1.inertia: is missing; nothing that turns has any",
         ),
         (
+            'fixed = ["b"]\n' + TWO.replace("inertia = 1e6\n", ""),
+            "node.1.inertia: is missing; nothing that turns has any",
+        ),
+        (
             TWO.replace("stiffness = 1000", "stiffness = 1000\nlength = 3\ndiameter = 30"),
             "shaft.1: has stiffness and length; leave one of them out",
         ),

@@ -97,8 +97,9 @@ def _find_faults(
     if np.all(chain.clamped):
         yield Problem("fixed", "clamps every node; leave one free")
         return
-    heavy = chain.inertia > 0
-    for motion in [] if apart else rigid_motions(chain):
-        if not np.any(heavy[motion != 0]):
-            node = int(np.argmax(motion != 0))
+    heavy, free = chain.inertia > 0, ~chain.clamped
+    pieces = [motion != 0 for motion in rigid_motions(chain)] or [free]
+    for piece in [] if apart else pieces:
+        if not np.any(heavy[piece]):
+            node = int(np.argmax(piece))
             yield Problem(f"node.{node + 1}.inertia", "is missing; nothing that turns has any")
