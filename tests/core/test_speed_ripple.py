@@ -5,9 +5,12 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
 from support.engines import engine, refused
+from support.in_time import run_in_time
 
 from balcli.core import speed_ripple as ripple
 from balcli.core.phasors import Phasors
@@ -316,3 +319,53 @@ def test_orders_of_the_speed_are_halves_of_whole_numbers():
         said = refused(operation={"speed": 60, "speed_ripple": lines})
         assert f"operation.speed_ripple.1.order: {str(order).lower()} is {what}" in said
         assert wanted in said
+
+
+@pytest.mark.parametrize(
+    ("lines", "step"),
+    [
+        ([(2, 0.2, 30.0), (1, 0.05, 0.0)], 1.0),
+        ([(0.5, 0.1, -70.0), (2, 0.2, 30.0)], 0.5),
+        ([(1, 0.6, 200.0)], 0.5),
+    ],
+)
+def test_orders_of_the_time(lines, step):
+    """Phasors of a curve over equal steps of time: mean, halves where there are some, in both
+    senses of rotation.
+    """
+    turns = round(1 / step)
+    over_angle, orders = np.arange(0, 8 + step, step), np.arange(0, 12 + step, step)
+    rng = np.random.default_rng(5)
+    forward, backward = rng.normal(size=(2, len(over_angle), 2)) @ [1, 1j]
+    backward[0] = 0
+    phasors = Phasors.of(over_angle, forward, backward, np.zeros(1))
+    timetable = ripple.find_timetable(ripple.find_speed(list(lines), step), step, 1 << 10)
+    found = ripple.count_in_time(phasors, timetable, orders)
+
+    theta, period = run_in_time(partial(speed, lines), turns)
+    curve = phasors.values(theta)
+    ahead = np.fft.fft(curve, norm="forward")
+    rows = np.rint(orders / step).astype(int)
+    began = np.exp(1j * orders * timetable.clock[0])
+    assert timetable.turns == pytest.approx(2 * np.pi * turns / period, rel=1e-12)
+    assert found.forward * began == pytest.approx(ahead[rows], rel=1e-9, abs=1e-9)
+    astern = np.where(orders, ahead[-rows], 0)
+    assert found.backward / began == pytest.approx(astern, rel=1e-9, abs=1e-9)
+
+
+def test_no_order_beyond_reach_is_felt():
+    lines = [(2, 0.2, 30.0)]
+    timetable = ripple.find_timetable(ripple.find_speed(lines, 1.0), 1.0, 1 << 10)
+    theta, _ = run_in_time(partial(speed, lines), 1)
+    reach = ripple.find_reach(timetable, 12.0)
+
+    def find_share(order):
+        """Of an order over the angle in order 12 of the time: by steps, and as counted."""
+        one = Phasors.of(np.array([order]), np.ones(1, complex), np.zeros(1, complex), np.zeros(1))
+        found = ripple.count_in_time(one, timetable, np.array([12.0])).forward[0]
+        return [abs(np.fft.fft(one.values(theta), norm="forward")[12]), abs(found)]
+
+    assert find_share(reach + 2) == pytest.approx([0, 0], abs=2e-13)
+    own, found = find_share(reach / 2)
+    assert found == pytest.approx(own, rel=1e-6)
+    assert found > 1e-6

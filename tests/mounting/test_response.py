@@ -12,6 +12,7 @@ from support.mounts import ENGINE, RandomBody, block
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
+from balcli.forces.in_time import compute_spectra_in_time
 from balcli.forces.spectrum import compute_spectra
 from balcli.mounting.motions import name_motions
 from balcli.mounting.read import read_mounted
@@ -253,6 +254,61 @@ def test_the_mean_torque_leans_on_the_mounts(report):
     arms = np.array(body.at) - body.centre
     about = np.cross(arms, result.modes.settled.forces).sum(axis=0)
     assert about == pytest.approx([0, 0, -mean], rel=1e-6, abs=1e-6)
+
+
+def find_constant_load_speed(gas, inertia, mean):
+    """Crank speed (rad/s) at equal steps over two turns under a load that is always alike: energy is
+    what the gas has done beyond the mean; at the first step that of `mean`.
+    """
+    waves, n = np.fft.fft(gas), np.fft.fftfreq(len(gas), 2 / len(gas))
+    waves[0] = 0
+    work = np.fft.ifft(np.where(n, waves / (1j * np.where(n, n, 1)), 0)).real
+    return np.sqrt((inertia[0] * mean**2 + 2 * (work - work[0])) / inertia)
+
+
+def find_inertia(theta):
+    """Of the four slider-cranks of ENGINE with next to no flywheel, kg m2, by velocities."""
+    total, pistons = np.full(len(theta), 0.004), (0.5, 0.55, 0.5, 0.5)
+    for throw, piston in zip(np.radians([0, 180, 180, 0]), pistons, strict=True):
+        angle = theta + throw
+        sine = 0.045 / 0.15 * np.sin(angle)
+        tilt = 0.3 * np.cos(angle) / np.sqrt(1 - sine**2)  # of the rod, rad per rad
+        slide = 0.045 * np.sin(angle) + 0.15 * sine * tilt
+        share = 42 / 150  # from the crank pin
+        along = (1 - share) * 0.045 * np.sin(angle) + share * slide
+        across = (1 - share) * 0.045 * np.cos(angle)
+        total += piston * slide**2 + 0.6 * (along**2 + across**2) + 2.5e-3 * tilt**2
+    return total
+
+
+def test_under_a_constant_load_its_torque_leans_on_the_mounts(report):
+    """At the uneven speed that gas, inertia and a constant load make, gas and inertia have means of
+    their own over the time; their sum is the load, which is the mean of the gas over the angle.
+    """
+    steps = 1 << 10
+    theta, orders = np.arange(steps) * (4 * np.pi / steps), np.arange(0, 24.5, 0.5)
+    torque = compute_spectra(build(parse(GAS)), orders, ["gas"])["gas"]
+    gas = torque.values(theta).real
+    omega = find_constant_load_speed(gas, find_inertia(theta), 300)
+    waves = np.fft.fft(omega, norm="forward")[:49]
+    assert omega.max() / omega.min() > 1.3
+    lines = ", ".join(
+        f"{{ order = {k / 2}, amplitude = {2 * abs(wave) / waves[0].real}, "
+        f"angle = {-np.degrees(np.angle(wave))} }}"
+        for k, wave in enumerate(waves)
+        if k
+    )
+    speed = f"speed = {waves[0].real * 30 / np.pi}\nspeed_ripple = [{lines}]"
+    text = GAS.replace("speed = 3000", speed)
+    found, _ = compute_spectra_in_time(build(parse(text)), np.zeros(1), ["gas", "roll"])
+    of_gas, of_inertia = -found["gas"].x[0].real, found["roll"].x[0].real
+
+    own = np.sum(gas / omega) / np.sum(1 / omega)
+    assert of_gas == pytest.approx(-own, rel=1e-5)
+    mean = report(text + RandomBody(6, 4).text).response.loads.mean
+    assert mean == pytest.approx(-gas.mean(), rel=1e-9)
+    assert abs(of_inertia) > 0.004 * abs(mean)
+    assert mean == pytest.approx(of_gas + of_inertia, rel=1e-5)
 
 
 def test_orders_meet_modes_where_their_frequencies_agree(report):

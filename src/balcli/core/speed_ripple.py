@@ -21,6 +21,7 @@ from .phasors import EPS, Array, Complex, Figure, Phasors, unit
 
 Line: TypeAlias = tuple[float, Figure, Figure]  # order, amplitude, angle in degrees
 Number = TypeVar("Number", np.float64, np.complex128)
+_FELT = 1e-13  # share of an order over the angle below which an order of the time does not feel it
 
 
 def find_step(orders: Iterable[float]) -> float:
@@ -58,14 +59,14 @@ def find_slowest(lines: Sequence[tuple[float, float, float]]) -> Peak:
     return Peak(1 + size - top.value, top.theta)
 
 
-class Course(NamedTuple):
-    """How uneven speed passes equally spaced crank angles of a cycle.
+class Timetable(NamedTuple):
+    """When uneven speed passes the crank angles of a cycle, and how long each takes.
 
     Attributes:
-        clock: (samples,) what a steady crank of as many turns has reached by then, rad; where it
-            began is nobody's matter.
+        clock: (samples,) of equally spaced angles of the cycle, from 0 on: what a steady crank of
+            as many turns has reached by then, rad; where it began is nobody's matter.
         stay: (samples,) time that an angle takes, over its mean.
-        step: 1, or 1/2 for a cycle of two turns.
+        step: of the orders: 1 for a cycle of one turn, 1/2 for one of two.
         turns: revolutions in a time, over those that the mean over the angle would make of it.
     """
 
@@ -75,8 +76,13 @@ class Course(NamedTuple):
     turns: float
 
 
-def find_course(w: Complex, step: float, samples: int) -> Course:
-    """The course of W, of which `find_speed` gave the coefficients with this step."""
+def find_timetable(w: Complex, step: float, samples: int) -> Timetable:
+    """The timetable of a speed W.
+
+    Args:
+        w: (2 k + 1,) from `find_speed` with this step, without trailing axes.
+        samples: of a cycle of 1 / step turns; many more than 2 k.
+    """
     reach, k = len(w) // 2, np.fft.fftfreq(samples, 1 / samples)
     speed = np.zeros(samples, complex)
     speed[np.arange(-reach, reach + 1)] = w
@@ -87,10 +93,19 @@ def find_course(w: Complex, step: float, samples: int) -> Course:
     )
     angle = np.arange(samples) * (2 * np.pi / (step * samples))
     clock = angle + np.fft.ifft(waves, norm="forward").real
-    return Course(clock, slow / mean, step, float(1 / mean))
+    return Timetable(clock, slow / mean, step, float(1 / mean))
 
 
-def count_in_time(phasors: Phasors, course: Course, orders: Array) -> Phasors:
+def find_reach(timetable: Timetable, order: float) -> float:
+    """The highest order over the crank angle that is felt in this order of the time, or a lower
+    one, by more than _FELT of itself.
+    """
+    wave = timetable.stay * np.exp(1j * order * timetable.clock)
+    felt = np.flatnonzero(np.abs(np.fft.fft(wave, norm="forward")) > _FELT)
+    return float(np.minimum(felt, len(wave) - felt).max() * timetable.step)
+
+
+def count_in_time(phasors: Phasors, timetable: Timetable, orders: Array) -> Phasors:
     """The curve of phasors over the crank angle by orders of the time: how often something happens
     while the crank turns once on an average.
 
@@ -98,12 +113,12 @@ def count_in_time(phasors: Phasors, course: Course, orders: Array) -> Phasors:
         phasors: without trailing axes, of all orders that count.
         orders: (orders,) wanted, whole steps.
     """
-    series = np.zeros(len(course.clock), complex)
-    rows = np.rint(phasors.orders / course.step).astype(int)
+    series = np.zeros(len(timetable.clock), complex)
+    rows = np.rint(phasors.orders / timetable.step).astype(int)
     np.add.at(series, rows, phasors.forward)
     np.add.at(series, -rows, phasors.backward)
-    curve = np.fft.ifft(series, norm="forward") * course.stay
-    waves = (np.exp(1j * order * course.clock) for order in orders)
+    curve = np.fft.ifft(series, norm="forward") * timetable.stay
+    waves = (np.exp(1j * order * timetable.clock) for order in orders)
     both = np.array([(np.mean(curve * wave.conj()), np.mean(curve * wave)) for wave in waves])
     forward, backward = both[:, 0], np.where(orders, both[:, 1], 0)
     size = np.sum(np.abs(phasors.forward) + np.abs(phasors.backward))

@@ -10,10 +10,18 @@ import math
 from collections.abc import Collection
 
 from ..core.phasors import Array
-from ..core.speed_ripple import Course, count_in_time, find_course, find_slowest, find_speed
+from ..core.speed_ripple import (
+    Timetable,
+    count_in_time,
+    find_reach,
+    find_slowest,
+    find_speed,
+    find_timetable,
+)
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import MOST_SAMPLES
+from .kinds import GAS_KINDS
 from .orders import find_relevant_orders
 from .spectrum import Spectra, compute_spectra, dense_orders
 
@@ -28,18 +36,23 @@ def compute_spectra_in_time(
         make of it.
 
     Raises:
-        BalcliError: a crank that all but stops.
+        BalcliError: a crank that all but stops; a kind of gas is asked of an engine without.
     """
     mixed = [*(line.order for line in engine.ripple), *orders]
-    highest = max(find_relevant_orders(engine).max(), 2 * orders.max(initial=0))
-    over_angle = dense_orders(highest, mixed)
-    course = _find_course(engine, float(over_angle[1]), 2 * len(over_angle))
-    found = compute_spectra(engine, over_angle, kinds)
-    in_time = {kind.name: count_in_time(p, course, orders) for kind, p in found.items()}
-    return Spectra(orders, **in_time), course.turns
+    of_inertia, highest = find_relevant_orders(engine).max(), orders.max(initial=0)
+    fastest = dense_orders(max(of_inertia, 2 * highest), mixed)
+    timetable = _find_timetable(engine, float(fastest[1]), 2 * len(fastest))
+    in_time = {}
+    # Gas has orders without end: all that are felt in those of the time.
+    of_gas = [name for name in kinds if name in GAS_KINDS]
+    reach = max(of_inertia, find_reach(timetable, highest)) if of_gas else 0
+    for some, most in ((set(kinds) - set(of_gas), of_inertia), (of_gas, reach)):
+        found = compute_spectra(engine, dense_orders(most, mixed), some)
+        in_time |= {kind.name: count_in_time(p, timetable, orders) for kind, p in found.items()}
+    return Spectra(orders, **in_time), timetable.turns
 
 
-def _find_course(engine: Engine, step: float, waves: int) -> Course:
+def _find_timetable(engine: Engine, step: float, waves: int) -> Timetable:
     """Of so many samples that the fastest of so many waves in a cycle is followed where the crank
     is slowest, and the clock runs fastest.
     """
@@ -52,4 +65,4 @@ def _find_course(engine: Engine, step: float, waves: int) -> Course:
             "what vibrates there in time takes more samples than are computed; give a smaller "
             "amplitude"
         )
-    return find_course(find_speed(lines, step), step, samples)
+    return find_timetable(find_speed(lines, step), step, samples)

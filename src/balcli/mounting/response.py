@@ -58,7 +58,8 @@ class Loads:
         omega: rad/s, mean over the time, as all speeds here are.
         gas: (orders, 6), the same at every speed: what the gas torque leaves as roll; None where
             the file says nothing of gas.
-        mean: N m about the crankshaft's axis on the body, steady: the gas torque's reaction.
+        mean: N m about the crankshaft's axis on the body, steady: the reaction to a constant load,
+            which takes the mean of the gas torque over the crank angle, at uneven speed too.
     """
 
     orders: Real
