@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 
-from ..core.phasors import Array
+from ..core.phasors import Array, Phasors
 from ..core.speed_ripple import (
     Timetable,
     count_in_time,
@@ -42,7 +42,7 @@ def compute_spectra_in_time(
     of_inertia, highest = find_relevant_orders(engine).max(), orders.max(initial=0)
     fastest = dense_orders(max(of_inertia, 2 * highest), mixed)
     timetable = _find_timetable(engine, float(fastest[1]), 2 * len(fastest))
-    in_time = {}
+    in_time: dict[str, Phasors] = {}
     # Gas has orders without end: all that are felt in those of the time.
     of_gas = [name for name in kinds if name in GAS_KINDS]
     reach = max(of_inertia, find_reach(timetable, highest)) if of_gas else 0
