@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..enginefile.units import RPM
+from ..core.speeds import RPM
 from ..errors import BalcliError, warn
 from .amounts import read_inertia
 from .declare import optional

@@ -56,7 +56,6 @@ POUND = Fraction(45_359_237, 100_000_000)  # kg
 _GRAVITY = Fraction(980_665, 100_000)  # m/s2
 STANDARD_GRAVITY = float(_GRAVITY)
 POUND_FORCE = float(POUND) * STANDARD_GRAVITY  # N
-RPM = math.pi / 30  # rad/s
 BAR = 1e5  # Pa
 
 _BASE = {

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core.piecewise import PiecewiseCurve
 from ..core.speed_variation import Surplus
-from ..enginefile.units import RPM
+from ..core.speeds import RPM
 from ..forces.kinds import TORQUE_TOTAL
 from ..torque.analysis import TorqueAnalysis, degrees_in_cycle
 from ..torque.flywheel import Flywheel

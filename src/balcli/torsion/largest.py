@@ -14,7 +14,7 @@ from ..core.close_peaks import find_highest
 from ..core.cycle_peaks import find_swing, sum_amplitudes
 from ..core.singular_values import Complex, Real
 from ..core.sorted_sets import sort_distinct
-from ..enginefile.units import RPM
+from ..core.speeds import RPM
 from .modes import find_poles
 from .motion import (
     UNDAMPED,
