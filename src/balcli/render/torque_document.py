@@ -193,6 +193,8 @@ def _load_entries(result: TorqueAnalysis) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for kind, bearer, loads in _list_loads(result):
         found[kind] = [_load_entry(bearer, load, result.cycle_deg) for load in loads]
+    if result.loads.obstacle:
+        found["obstacle"] = result.loads.obstacle
     return {"loads": found} if found else {}
 
 
@@ -245,3 +247,5 @@ def _load_rows(result: TorqueAnalysis, system: System) -> Iterator[FigureRow]:
             yield FigureRow(*at, "mean", unit.of(load.mean), unit.name)
             if load.pressure is not None:
                 yield FigureRow(*at, "pressure", clean(load.pressure), "Pa")
+    if result.loads.obstacle:
+        yield FigureRow(0, "main", None, "obstacle", result.loads.obstacle, "")
