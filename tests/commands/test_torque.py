@@ -278,12 +278,16 @@ def test_knuckle_pins_are_told_beside_the_crank_pin(tmp_path):
     rows = torque(str(path), "--loads", "pin", "-f", "csv").splitlines()
     assert any(row.startswith("3,knuckle,,max,") for row in rows)
     status, _, err = run_here("torque", str(path), "--loads", "main")
-    told = "balcli: main bearings: a crank with one throw does not say where its bearings stand\n"
-    assert (status, err) == (2, told)
+    why = "a crank with one throw does not say where its bearings stand"
+    assert (status, err) == (2, f"balcli: main bearings: {why}\n")
     status, out, err = run_here("torque", str(path), "--loads", "pin,main")
-    assert (status, err) == (0, told.replace("balcli:", "warning:"))
+    assert (status, err) == (0, f"warning: {path}: main bearings: {why}\n")
     assert "Knuckle pins" in out
     assert "Main bearings" not in out
+    both = json.loads(run_here("torque", str(path), "--loads", "pin,main", "-f", "json").out)
+    assert both["loads"] == loads | {"obstacle": why}
+    rows = run_here("torque", str(path), "--loads", "pin,main", "-f", "csv").out.splitlines()
+    assert f"0,main,,obstacle,{why}," in rows
     curves = run_here("curves", str(path), "--cylinder", "3", "--step", "90").out
     assert curves.splitlines()[0].endswith("side_thrust_N,rod_force_N,pin_x_N,pin_y_N,torque_Nm")
 

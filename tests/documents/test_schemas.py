@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 from support.commands import refusal, run_here
+from support.gas_engines import WIEBE
 from support.paths import ENGINES
 
 from balcli import __version__
@@ -124,9 +125,17 @@ RESULTS = {
     "pendulum": ("torsion", ENGINES / "i6_diesel.toml", *SPEEDS, "--damper", "pendulum"),
     "torque": ("torque", V8, "--loads", "pin,main"),
     "misfire": ("torque", V8, "--misfire", "1", "--fluctuation", "2%"),
+    "stall": ("torque", ENGINES / "i4_wiebe.toml", "--speed", "100", "--fluctuation", "2%"),
+    "bearings not known": ("torque", "-", "--loads", "pin,main"),
     "given torque": ("torque", "--curve", "curve.csv", "--speed", "1000"),
 }
-NO_PLACES = "crank.stroke = 90\ncrank.throws = [0, 180]\nrod.length = 160\npiston.mass = 0.5\n"
+NO_PLACES = f"""\
+crank = {{ stroke = 90, throws = [0, 180] }}
+rod.length = 160
+piston = {{ bore = 80, mass = 0.5 }}
+layout.firing_order = [1, 2]
+operation.speed = 3000
+{WIEBE}"""
 
 
 @pytest.mark.parametrize("what", RESULTS)

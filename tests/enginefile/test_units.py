@@ -168,7 +168,9 @@ def test_rarer_units(text, dimension, expected):
         ("5 deg", PLAIN, "is an angle, but a plain number is wanted, without quotes"),
         ("0.25", PLAIN, "has no unit; a plain number is wanted, without quotes"),
         ("1 lb 16 oz", MASS, 'has "16 oz" after "1 lb", which is not less than "1 lb"'),
-        ("1 lb 4 in", MASS, f"is a length, but {A_MASS}"),
+        ("1 lb 4 in", MASS, f'has "4 in", which is a length, but {A_MASS}'),
+        ("1 in 4 oz", MASS, f'has "1 in", which is a length, but {A_MASS}'),
+        ("6000 rpm 20 Hz", SPEED, 'has "20 Hz" after "6000 rpm", which is not less than "1 rpm"'),
         ("1 lb 4", MASS, f"is not a number followed by a unit; {A_MASS}"),
         ("1.5 lb 4 oz", MASS, f"is not a number followed by a unit; {A_MASS}"),
         (
@@ -398,6 +400,8 @@ def test_no_name_has_two_meanings():
         ("lb in s/rad", "lbf in s/rad", TORSIONAL_DAMPING),
         ("ft lb", "lbf ft", TORQUE),
         ("lb/in", "lbf/in", STIFFNESS),
+        ("LB/IN", "lbf/in", STIFFNESS),
+        ("FT-LBS", "ft lbf", TORQUE),
         ("lb/in^2", "psi", PRESSURE),
     ],
 )

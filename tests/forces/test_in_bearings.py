@@ -227,7 +227,9 @@ def test_where_it_is_not_known_the_reason_stands_there(tmp_path, change, why):
     (tmp_path / "h.csv").write_text("order,cos,sin\n0,2,0\n0.5,1,3\n")
     out = analyze(path)
     assert f"Inside, it is not known: {why}" in " ".join(out.split())
-    assert "with_gas" not in json.loads(analyze(path, "-f", "json"))["inner"]
+    inner = json.loads(analyze(path, "-f", "json"))["inner"]
+    assert "with_gas" not in inner
+    assert inner["obstacle"].startswith(why)
 
 
 def test_engines_with_gas_are_compared_by_it():

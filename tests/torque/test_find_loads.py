@@ -213,4 +213,4 @@ def test_loads_that_are_not_known():
     both = analyze_loads(bare)
     assert both.pin == analyze_loads(bare, ("pin",)).pin
     assert both.main is None
-    assert both.obstacle.startswith("main bearings: crank.spacing is missing")
+    assert both.obstacle.startswith("crank.spacing is missing")

@@ -145,6 +145,28 @@ def test_what_it_costs_is_the_power_lost_in_it():
     assert damper["heat_W"] == pytest.approx(max(fine["heat_W"]), rel=1e-6)
 
 
+def test_heat_of_a_narrow_resonance_is_the_highest_of_it():
+    """Its top lies beside that of the damped mode, since other orders heat the damper, too."""
+    inertias = {"a": 106e3, "b": 114e3, "c": 33.3e3, "d": 86.6e3}
+    stiffnesses = {"ab": 186.4e3, "bc": 38.6e3, "cd": 44.75e3}
+    cosines = {4.5: 83.8, 5.5: 20.6, 0.5: 117, 4: 60}
+    nodes = (f'[[node]]\nname = "{name}"\ninertia = {own}\n' for name, own in inertias.items())
+    shafts = (
+        f'[[shaft]]\nfrom = "{a}"\nto = "{b}"\nstiffness = {own}\n'
+        for (a, b), own in stiffnesses.items()
+    )
+    orders = (
+        f'[[excitation]]\nnode = "c"\norder = {order}\ncos = {cos}\n'
+        for order, cos in cosines.items()
+    )
+    ring = 'damper = { kind = "viscous", inertia = 18800, damping = 0.0541 }\n'
+    text = "".join(["loss = 0.0172\n", *nodes, *shafts, *orders])
+    text = text.replace('name = "a"\n', f'name = "a"\n{ring}')
+    (coarse,) = ask(text, "--speeds", "600:3000:100")["response"]["dampers"]
+    (fine,) = ask(text, "--speeds", "1180:1190:0.01")["response"]["dampers"]
+    assert coarse["worst"]["heat_W"] == pytest.approx(max(fine["heat_W"]), rel=1e-6)
+
+
 LOSSY = """loss = 0.05
 [[excitation]]"""
 # A nose of 0.001 kg m2 on a stiff shaft before the disc: room for little

@@ -37,12 +37,14 @@ def read_lengths(
         BalcliError: anything else; lengths of which only some have a unit.
     """
     parts = [part.strip() for part in text.split(",")]
-    if not all(parts) or (count is not None and len(parts) != count):
+    if not all(any(map(str.isdigit, part)) for part in parts) or (
+        count is not None and len(parts) != count
+    ):
         raise BalcliError(f"{_shown(option, text)}: give {needed}")
     bare = [_as_bare(part) for part in parts]
     if None in bare and any(bare):  # 0 is 0 in every unit
         raise BalcliError(f"{_shown(option, text)}: give every number its unit, or none")
-    found = tuple(_read(option, part, LENGTH, units, needed) / 1e3 for part in parts)
+    found = tuple(_read(option, part, LENGTH, units) / 1e3 for part in parts)
     if not all(map(math.isfinite, found)):
         raise BalcliError(f"{_shown(option, text)}: give {needed}")
     return found
@@ -118,11 +120,11 @@ def read_share(option: str, text: str, needed: str) -> float:
     return value / 100 if percent else value
 
 
-def _read(option: str, text: str, dimension: Dimension, units: Units, needed: str = "") -> float:
+def _read(option: str, text: str, dimension: Dimension, units: Units) -> float:
     """In the dimension's bare unit; whether it is finite is for the caller to judge."""
     value = _as_bare(text)
     if value is None:
-        return _convert(option, text, dimension, needed)
+        return _convert(option, text, dimension)
     if units is Units.IMPERIAL and value and dimension in _IMPERIAL_AND_SI:
         ways = " or ".join(f'"{text.strip()} {name}"' for name in _IMPERIAL_AND_SI[dimension])
         raise BalcliError(
@@ -131,9 +133,7 @@ def _read(option: str, text: str, dimension: Dimension, units: Units, needed: st
     return value
 
 
-def _convert(option: str, text: str, dimension: Dimension, needed: str) -> float:
-    if needed and not any(map(str.isdigit, text)):
-        raise BalcliError(f"{_shown(option, text)}: give {needed}")
+def _convert(option: str, text: str, dimension: Dimension) -> float:
     try:
         return convert(text, dimension)
     except ValueError as error:

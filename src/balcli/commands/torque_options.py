@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..enginefile.units import RPM
+from ..core.speeds import RPM
+from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, warn
 from .amounts import read_inertia
 from .declare import optional
@@ -136,7 +137,7 @@ def analyze_file(
         engine, asked, cylinder=cylinder, fluctuation=allowed, loads=parse_loads(loads)
     )
     if found.loads.obstacle:
-        warn(found.loads.obstacle)
+        warn(f"{name_file(path)}: main bearings: {found.loads.obstacle}")
     return source.text, found
 
 

@@ -7,11 +7,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-from .singular_values import Real
-
-Indices = NDArray[np.intp]
+from .singular_values import Indices, Real
 
 _PARTS = 8  # of an interval, before the two beside the highest place are the next interval
 _ROUNDS = 4

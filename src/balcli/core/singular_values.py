@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 Real = NDArray[np.floating]
 Complex = NDArray[np.complexfloating]
+Indices = NDArray[np.intp]
 
 _ORTHOGONAL = 1e-15  # cosine between two columns that counts as none, times sqrt(rows)
 _SWEEPS = 60  # convergence is quadratic; 3 to 6 are usual

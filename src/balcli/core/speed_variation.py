@@ -15,6 +15,7 @@ import numpy as np
 
 from .phasors import Array
 from .piecewise import Extreme, Function, PiecewiseCurve, quadrature, resolved, with_break
+from .speeds import RPM
 
 _ROUNDS, _REFINEMENTS = 100, 8
 _ENOUGH = 1e-14  # relative, where a secant has arrived
@@ -27,7 +28,7 @@ class StallError(ValueError):
         self.angle, self.least = angle, least
         super().__init__(
             f"the shaft stalls at {math.degrees(angle):.1f}°: with this inertia it needs a mean "
-            f"speed above {least * 30 / math.pi:.4g} rpm"
+            f"speed above {least / RPM:.4g} rpm"
         )
 
 

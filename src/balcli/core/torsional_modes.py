@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from .singular_values import Complex, Real
+from .singular_values import Complex, Indices, Real
 from .sorted_sets import find_middle
 from .torsional_chain import (
     Chain,
     Damping,
-    Indices,
     follow_gears,
     grow_branches,
     incidence,

@@ -81,10 +81,11 @@ class WithGas(TypedDict):
 
 
 class Inner(Bent):
-    """Loads along the crankshaft."""
+    """Loads along the crankshaft; obstacle: why those with gas are not known."""
 
     bearings: NotRequired[list[BearingLoad]]
     with_gas: NotRequired[WithGas]
+    obstacle: NotRequired[str]
 
 
 class GuideOrder(TypedDict):

@@ -35,7 +35,9 @@ class Energy(TypedDict):
 
 
 class Flywheel(TypedDict):
-    """What keeps the speed even, and how even that is, as far as it is known."""
+    """What keeps the speed even, and how even that is, as far as it is known; stall: why
+    nothing of its speed is.
+    """
 
     inertia_kg_m2: NotRequired[float]
     moving_parts_kg_m2: NotRequired[float]
@@ -44,6 +46,7 @@ class Flywheel(TypedDict):
     needed_kg_m2: NotRequired[float]
     speed_max_rpm: NotRequired[float]
     speed_min_rpm: NotRequired[float]
+    stall: NotRequired[str]
 
 
 class PinLoad(TypedDict):
@@ -68,11 +71,12 @@ class MainLoad(TypedDict):
 
 
 class Loads(TypedDict):
-    """Of pins and bearings, as asked for."""
+    """Of pins and bearings, as asked for; obstacle: why those of main bearings are not known."""
 
     pin: NotRequired[list[PinLoad]]
     knuckle: NotRequired[list[PinLoad]]
     main: NotRequired[list[MainLoad]]
+    obstacle: NotRequired[str]
 
 
 class Torque(Document):

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..core.cylinders import Cylinders, Device
 from ..core.phasors import Array, Figure, Phasors
+from ..core.speeds import RPM
 from ..enginefile.model import EngineFile
 from ..enginefile.plain_tables import list_tables
-from ..enginefile.units import RPM
 from ..errors import BalcliError, InputError, check_type, wrong_type
 from .assembly import Assembly, Ripple
 from .devices import build_devices

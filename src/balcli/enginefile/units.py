@@ -7,7 +7,6 @@ is read as far as a figure needs it.
 
 from __future__ import annotations
 
-import math
 import re
 from fractions import Fraction
 from functools import cache
@@ -56,7 +55,6 @@ POUND = Fraction(45_359_237, 100_000_000)  # kg
 _GRAVITY = Fraction(980_665, 100_000)  # m/s2
 STANDARD_GRAVITY = float(_GRAVITY)
 POUND_FORCE = float(POUND) * STANDARD_GRAVITY  # N
-RPM = math.pi / 30  # rad/s
 BAR = 1e5  # Pa
 
 _BASE = {
@@ -133,7 +131,7 @@ _PER_MINUTE = r"(\d\.?)(?:(?:\s+1)?\s*/\s*min|\s*min(?:\^|\*\*)?-1|\s*min⁻¹)\
 _HERTZ = r"(\d\.?)\s*(k?)(?:Hz|hertz)\s*$"
 # pi/2, -3*pi/4 rad
 _PI = rf"\s*([+-]?)(?:({_NUMBER})\s*[*·⋅]?)?\s*(?:pi|π)(?:\s*/\s*({_NUMBER}))?(?:\s+rad)?\s*"
-_POUND = r"\b(?:lbs?|pounds?)\b"  # a force where only that fits: 24 lb in/rad, 0.3 lb in s2
+_POUND = r"(?i)\b(?:lbs?|pounds?)\b"  # a force where only that fits: 24 lb in/rad, 0.3 lb in s2
 _PART = r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([²³23]))?"
 _RAISED = {"²": 2, "³": 3, "2": 2, "3": 3}
 
@@ -145,10 +143,6 @@ def convert(text: str, dimension: Dimension) -> float:
     if len(text) > LONGEST_FIGURE:
         raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
     figure = re.sub(_INCH_MARK, r"\1 in", text)
-    if dimension is SPEED:
-        figure = _count_turns(figure)
-    elif dimension is ANGLE:
-        figure = _name_pi(figure)
     try:
         return float(_measure(figure, dimension) / read_unit(dimension.unit, dimension).scale)
     except ZeroDivisionError:
@@ -159,11 +153,11 @@ def convert(text: str, dimension: Dimension) -> float:
 
 def _measure(figure: str, dimension: Dimension) -> Fraction:
     """The figure in m, kg, s and turns; a large unit and a small one add up ("1 lb 4 oz")."""
-    found = _split(figure)
+    found = _split(_spell_out(figure, dimension))
     both = None if found else re.fullmatch(_LARGE_AND_SMALL, figure, re.ASCII)
     if both:
         sign, large, small = both.groups()
-        whole, rest = _measure(large, dimension), _measure(small, dimension)
+        whole, rest = _measure_part(large, dimension), _measure_part(small, dimension)
         one = re.sub(r"\d+", "1", large)
         if rest >= _measure(one, dimension):
             raise ValueError(f'has "{small}" after "{large}", which is not less than "{one}"')
@@ -181,6 +175,21 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
         name = _NAMES.get(unit.powers, "of another dimension")
         raise ValueError(f"is {name}, but {wanted(dimension)}")
     return number * unit.scale
+
+
+def _measure_part(part: str, dimension: Dimension) -> Fraction:
+    """As `_measure`, of one figure of two, which errors name."""
+    try:
+        return _measure(part, dimension)
+    except ValueError as error:
+        raise ValueError(f'has "{part}", which {error}') from None
+
+
+def _spell_out(figure: str, dimension: Dimension) -> str:
+    """A speed or an angle with its turns said."""
+    if dimension is SPEED:
+        return _count_turns(figure)
+    return _name_pi(figure) if dimension is ANGLE else figure
 
 
 def _split(figure: str) -> tuple[Fraction, str] | None:

@@ -4,7 +4,7 @@ mass, mm/s, so `e = G / angular speed` and `U = mass * e`.
 
 from __future__ import annotations
 
-from ..enginefile.units import RPM
+from ..core.speeds import RPM
 
 
 def find_permitted_eccentricity(grade: float, speed_rpm: float) -> float:

@@ -69,6 +69,14 @@ class _Sums(NamedTuple):
     factor: complex = 1.0
 
 
+class BearingsUnknownError(BalcliError):
+    """It is not known where the main bearings stand, for a reason."""
+
+    def __init__(self, reason: str) -> None:
+        self.reason = reason
+        super().__init__(f"main bearings: {reason}")
+
+
 def add_gas(inner: InnerLoads, engine: Engine, orders: Array | None = None) -> InnerLoads:
     """The inner loads of an engine with gas, with what gas does inside as far as it is known;
     arguments and errors else as of `compute_loads_with_gas`.
@@ -76,6 +84,8 @@ def add_gas(inner: InnerLoads, engine: Engine, orders: Array | None = None) -> I
     try:
         place_main_bearings(engine)
         compute_rod_forces(engine, np.zeros(1))
+    except BearingsUnknownError as error:
+        return replace(inner, obstacle=error.reason)
     except BalcliError as error:
         return replace(inner, obstacle=str(error))
     return replace(inner, with_gas=compute_loads_with_gas(engine, orders))
@@ -123,8 +133,8 @@ def place_main_bearings(engine: Engine) -> Array:
     """Places of the main bearings, m: half-way between throws and as far outside the end ones.
 
     Raises:
-        BalcliError: it is not known where the throws stand, there is one alone, or the crank stands
-            still.
+        BearingsUnknownError: it is not known where the throws stand, there is one alone, or the
+            crank stands still.
     """
     why, span = "", None
     if engine.rotary:
@@ -134,7 +144,7 @@ def place_main_bearings(engine: Engine) -> Array:
     elif (span := place_bearings(engine.throws_m)) is None:
         why = "a crank with one throw does not say where its bearings stand"
     if span is None:
-        raise BalcliError(f"main bearings: {why}")
+        raise BearingsUnknownError(why)
     return span
 
 

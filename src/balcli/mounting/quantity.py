@@ -8,10 +8,10 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from ..core.speeds import RPM
 from ..engine.variants import EngineVariants
 from ..enginefile.model import EngineFile, Table, label_table
 from ..enginefile.mounting_tables import Body, find_tensor_faults
-from ..enginefile.units import RPM
 from ..errors import BalcliError, InputError, Problem
 from ..forces.target_quantity import (
     Subject,

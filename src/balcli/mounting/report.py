@@ -10,10 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.singular_values import Real
+from ..core.speeds import RPM
 from ..core.telling import Tell, tell_nobody
 from ..engine.build import Engine
 from ..enginefile.model import EngineFile
-from ..enginefile.units import RPM
 from ..errors import BalcliError
 from ..forces.orders import check_orders
 from ..result import Result

@@ -22,11 +22,11 @@ from ..core.rigid_body import (
 )
 from ..core.singular_values import Complex, Real
 from ..core.sorted_sets import sort_others
+from ..core.speeds import RPM
 from ..core.telling import Tell, tell_nobody
 from ..core.vibration import UNDAMPED, find_resonances, frequencies
 from ..engine.build import Engine
 from ..engine.positions import MOMENTS_UNKNOWN
-from ..enginefile.units import RPM
 from ..errors import BalcliError
 from ..forces.in_time import compute_spectra_in_time
 from ..forces.orders import (

@@ -10,7 +10,7 @@ from ..core.mechanisms import slidercrank
 from ..core.phasors import Array
 from ..core.piecewise import PiecewiseCurve, polyline, resolved
 from ..core.speed_variation import surplus
-from ..enginefile.units import RPM
+from ..core.speeds import RPM
 from .printed import Print
 from .ranges import Ranges
 from .recomputed import Explanation, Table

@@ -52,8 +52,7 @@ def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Te
         facts.append(("in the block", _largest_bending(found.block_bending, system)))
     yield Facts(tuple(facts))
     if inner.obstacle:
-        reason = inner.obstacle.removeprefix("main bearings: ")
-        yield Text("", (f"{_TOGETHER} Inside, it is not known: {reason}.",))
+        yield Text("", (f"{_TOGETHER} Inside, it is not known: {inner.obstacle}.",))
 
 
 def _gas_grids(found: LoadsWithGas, system: System) -> Iterator[Grid]:
@@ -80,6 +79,8 @@ def document(inner: InnerLoads) -> dict[str, Any]:
             "bearings": _bearing_entries(gas.bearings),
             "block": _bent_entries(gas.block_shear, gas.block_bending),
         }
+    if inner.obstacle:
+        found["obstacle"] = inner.obstacle
     return found
 
 

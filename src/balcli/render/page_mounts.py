@@ -22,7 +22,7 @@ def rocking(result: MountReport) -> dict[str, Any] | None:
         return None
     body = result.mounted.body
     count = len(response.omega)
-    rows = np.unique(np.linspace(0, count - 1, min(count, _SPEEDS)).round().astype(int))
+    rows = np.linspace(0, count - 1, min(count, _SPEEDS)).round().astype(int)
     motion = np.moveaxis(response.body[:, rows], 1, 0) * np.repeat([1e3, 1.0], 3)
     parts = np.concatenate([motion.real, -motion.imag], axis=-1)
     return {

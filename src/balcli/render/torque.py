@@ -8,7 +8,8 @@ import numpy as np
 
 from ..core.piecewise import PiecewiseCurve
 from ..core.speed_variation import Surplus
-from ..enginefile.units import BAR, RPM
+from ..core.speeds import RPM
+from ..enginefile.units import BAR
 from ..forces.spectrum import Spectra
 from ..torque.analysis import KINDS_OF_TORQUE, TorqueAnalysis, degrees_in_cycle
 from ..torque.flywheel import Flywheel, Speed

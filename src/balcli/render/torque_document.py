@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core.piecewise import PiecewiseCurve
 from ..core.speed_variation import Surplus
-from ..enginefile.units import RPM
+from ..core.speeds import RPM
 from ..forces.kinds import TORQUE_TOTAL
 from ..torque.analysis import TorqueAnalysis, degrees_in_cycle
 from ..torque.flywheel import Flywheel
@@ -193,6 +193,8 @@ def _load_entries(result: TorqueAnalysis) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for kind, bearer, loads in _list_loads(result):
         found[kind] = [_load_entry(bearer, load, result.cycle_deg) for load in loads]
+    if result.loads.obstacle:
+        found["obstacle"] = result.loads.obstacle
     return {"loads": found} if found else {}
 
 
@@ -245,3 +247,5 @@ def _load_rows(result: TorqueAnalysis, system: System) -> Iterator[FigureRow]:
             yield FigureRow(*at, "mean", unit.of(load.mean), unit.name)
             if load.pressure is not None:
                 yield FigureRow(*at, "pressure", clean(load.pressure), "Pa")
+    if result.loads.obstacle:
+        yield FigureRow(0, "main", None, "obstacle", result.loads.obstacle, "")

@@ -11,9 +11,9 @@ from ..core.phasors import Array, Complex
 from ..core.piecewise import Extreme
 from ..core.vectors_over_cycle import Vectors, find_panels
 from ..engine.build import Engine
-from ..errors import BalcliError
 from ..forces.in_bearings import (
     NOTHING,
+    BearingsUnknownError,
     compute_bearing_loads,
     compute_in_pieces,
     find_breaks,
@@ -48,10 +48,10 @@ def analyze_loads(engine: Engine, asked: tuple[str, ...] = KINDS_OF_LOAD) -> Loa
         area = None if sizes is None else sizes.main_m2
         try:
             places, vectors = find_bearing_loads(steady)
-        except BalcliError as error:
+        except BearingsUnknownError as error:
             if pin is None:
                 raise
-            obstacle = str(error)
+            obstacle = error.reason
         else:
             main = tuple(_measure(steady, vectors, range(1, len(places) + 1), places, area))
     return Loads(pin, knuckle, main, obstacle)

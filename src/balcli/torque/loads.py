@@ -36,7 +36,7 @@ class Loads(NamedTuple):
         knuckle: of the knuckle pins in master rods, by their articulated cylinders; None where
             there are none.
         main: of main bearings.
-        obstacle: why these are not known, though asked for beside others.
+        obstacle: why these are not known, though asked for beside others; else empty.
     """
 
     pin: tuple[Load, ...] | None = None

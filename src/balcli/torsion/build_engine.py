@@ -12,13 +12,13 @@ import numpy as np
 
 from ..core.loads import find_inertia, find_needed_series
 from ..core.singular_values import Real
+from ..core.speeds import RPM
 from ..core.torsional_chain import Shaft
 from ..engine.build import Engine
 from ..enginefile.fields import counted, nearest, printable, shorten
 from ..enginefile.model import EngineFile
 from ..enginefile.shafting import find_stiffness
 from ..enginefile.torsion_tables import Part, Torsion
-from ..enginefile.units import RPM
 from ..errors import InputError, Problem
 from ..forces.orders import list_gas_orders
 from ..forces.spectrum import compute_each_cylinder

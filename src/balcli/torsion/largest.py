@@ -14,7 +14,7 @@ from ..core.close_peaks import find_highest
 from ..core.cycle_peaks import find_swing, sum_amplitudes
 from ..core.singular_values import Complex, Real
 from ..core.sorted_sets import sort_distinct
-from ..enginefile.units import RPM
+from ..core.speeds import RPM
 from .modes import find_poles
 from .motion import (
     UNDAMPED,
@@ -210,13 +210,18 @@ def _approach_largest(curves: _Curves, rpm: Real, swings: Real) -> tuple[Real, R
     tops = _find_large_swings(curves, at, swings.max(axis=0))
     largest = curves.level(np.concatenate([swings, tops]).max(axis=0))
     high = np.any(tops >= _NEAR * largest, axis=1)
-    sides = (at[high] + width[high] * _SIDES).ravel()
-    sides = sides[(sides > rpm[0]) & (sides < rpm[-1])]
+    sides = _look_beside(at[high], width[high], rpm)
     beside = _find_large_swings(curves, sides, largest)
     speeds = np.concatenate([rpm, at, sides])
     rising = np.argsort(speeds, kind="stable")
     speeds, swings = speeds[rising], np.concatenate([swings, tops, beside])[rising]
     return find_highest(curves.swing, speeds, swings, curves.level(swings.max(axis=0)), _NEAR)
+
+
+def _look_beside(at: Real, width: Real, rpm: Real) -> Real:
+    """Speeds at both sides of resonances, as far as they lie between the first and last speed."""
+    sides = (at + width * _SIDES).ravel()
+    return sides[(sides > rpm[0]) & (sides < rpm[-1])]
 
 
 def _find_large_swings(curves: _Curves, rpm: Real, largest: Real) -> Real:
@@ -245,14 +250,17 @@ def _find_large_swings(curves: _Curves, rpm: Real, largest: Real) -> Real:
 def _approach_hottest(
     system: TorsionalSystem, excitation: Excitation, rpm: Real, heat: Real
 ) -> tuple[Real, Real]:
-    """The same of the heat of dampers, which is known at these speeds, (speeds, dampers)."""
+    """Where each damper turns most to heat, rpm, and how much, W, (dampers,) each, with the heat at
+    these speeds (speeds, dampers). Narrow resonances are looked at, and their sides.
+    """
     if not heat.shape[1]:
         return np.zeros(0), np.zeros(0)
-    at, _ = find_resonant_speeds(system, excitation, rpm, _WIDE)
-    speeds = np.concatenate([rpm, at])
+    at, width = find_resonant_speeds(system, excitation, rpm, _WIDE)
+    more = np.concatenate([at, _look_beside(at, width, rpm)])
+    speeds = np.concatenate([rpm, more])
     rising = np.argsort(speeds, kind="stable")
     speeds = speeds[rising]
-    heat = np.concatenate([heat, _find_heat(system, excitation, at)])[rising]
+    heat = np.concatenate([heat, _find_heat(system, excitation, more)])[rising]
 
     def judge(rpm: Real, damper: NDArray[np.intp]) -> Real:
         few = sort_distinct(rpm)

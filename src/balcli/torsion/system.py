@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.cached_property import cached_property
-from ..core.singular_values import Complex, Real
+from ..core.singular_values import Complex, Indices, Real
 from ..core.sorted_sets import are_among
-from ..core.torsional_chain import Chain, Damping, Indices, find_pieces
+from ..core.torsional_chain import Chain, Damping, find_pieces
 from ..core.torsional_dampers import pendulum_inertia, viscous_inertia
 
 

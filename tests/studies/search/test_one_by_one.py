@@ -236,6 +236,13 @@ def test_the_place_of_a_minimum_is_the_round_number_that_it_is(function, place):
     assert one_by_one.find_best_numbers(function, 13.0, 160.0)[0] == place
 
 
+def test_a_pole_elsewhere_in_the_range_makes_no_number_as_good():
+    (place,) = one_by_one.find_best_numbers(
+        lambda x: 1e20 if x < 0.02 else (x - math.pi) ** 2, 0.0, 10.0
+    )
+    assert place == pytest.approx(math.pi, abs=1e-6)
+
+
 def test_where_no_round_number_is_as_good_the_place_is_as_exact_as_the_function():
     (kink,) = one_by_one.find_best_numbers(lambda x: abs(x - math.e), 0.0, 10.0)
     assert kink == pytest.approx(math.e, abs=1e-9)

@@ -28,8 +28,8 @@ from .throws import count_from
 
 _GRID = 32  # parts of a range, in which minima are looked for
 _MINIMA = 3  # of these, the lowest, are followed
-_ROUNDS = 50  # of golden section: to 1e-10 of a part of the range, where there is a kink
-_AS_GOOD = 1e-13  # of the function's largest value: a smooth minimum is flat to this
+_ROUNDS = 44  # of golden section: to 1e-9 of a part of the range, where there is a kink
+_AS_GOOD = 1e-13  # of the largest value thereabouts: a smooth minimum is flat to this
 _DECIMALS = 11  # fewer than a part of the range is large, and more
 
 
@@ -119,12 +119,13 @@ def find_best_numbers(
         if enough:
             break
     followed = _find_bottoms(values)
-    slack = _AS_GOOD * np.abs(values[np.isfinite(values)]).max(initial=0)
     found = [(float(values[k]), float(grid[k])) for k in followed]
     for n, k in enumerate(followed):
         if enough:
             break
-        ends = float(grid[max(k - 1, 0)]), float(grid[min(k + 1, len(grid) - 1)])
+        around = slice(max(k - 1, 0), k + 2)
+        ends = float(grid[around][0]), float(grid[around][-1])
+        slack = _AS_GOOD * np.abs(values[around][np.isfinite(values[around])]).max()
         near = find_least(evaluate, *ends, _ROUNDS)
         value = evaluate(near)
         if value < found[n][0]:

@@ -28,7 +28,7 @@ from .angles import neaten
 from .objective import Objective
 from .throw_contributions import Key, tabulate_contributions
 
-Indices = NDArray[np.int8]
+Arrangements = NDArray[np.int8]  # (arrangements, throws): indices of angles
 Allowed = Callable[[Array], NDArray[np.bool_]]
 Left = tuple[int, ...]  # how often each angle is still to be given
 _DECIMALS = 9  # of angles that are equal, deg
@@ -182,11 +182,11 @@ class _Tree:
         levels = (level for level, times in enumerate(left) if times)
         return all(self.grow((*prefix, level), _take_one(left, level)) for level in levels)
 
-    def _find_angles(self, rows: Indices) -> Array:
+    def _find_angles(self, rows: Arrangements) -> Array:
         """Angles of all throws by the indices of the free ones, deg, shape (candidates, throws)."""
         return np.insert(self._places.levels[rows], self._places.fixed, 0.0, axis=1)
 
-    def _add(self, rows: Indices) -> dict[Key, tuple[Complex, Complex]]:
+    def _add(self, rows: Arrangements) -> dict[Key, tuple[Complex, Complex]]:
         """Forward and backward vectors of cranks that begin with these rows, shape (candidates,)
         each.
         """
@@ -211,7 +211,7 @@ class _Tree:
 
         return float(self._objective.evaluate(bound))
 
-    def _try(self, rows: Indices) -> None:
+    def _try(self, rows: Arrangements) -> None:
         """Keep what is good enough of whole cranks, shape (candidates, free throws)."""
         sums = self._add(rows)
 
@@ -232,12 +232,12 @@ def _take_one(left: Left, level: int) -> Left:
     return (*left[:level], left[level] - 1, *left[level + 1 :])
 
 
-def _prepend(prefix: tuple[int, ...], rest: Indices) -> Indices:
+def _prepend(prefix: tuple[int, ...], rest: Arrangements) -> Arrangements:
     return np.concatenate([np.tile(np.array(prefix, np.int8), (len(rest), 1)), rest], axis=1)
 
 
 @lru_cache(maxsize=4096)
-def _list_arrangements(left: Left) -> Indices:
+def _list_arrangements(left: Left) -> Arrangements:
     """All distinct sequences with each index that often, shape (sequences, length)."""
     if not sum(left):
         return np.empty((1, 0), np.int8)
