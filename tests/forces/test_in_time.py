@@ -60,11 +60,15 @@ def test_force_roll_and_gas(name):
         assert found[kind].backward / turned == pytest.approx(astern, rel=0, abs=1e-9 * largest)
 
 
-def test_a_crank_that_all_but_stops_is_refused():
-    engine = build(parse(make_uneven([(2, 0.9999, 0.0)])))
+@pytest.mark.parametrize(
+    ("line", "slowest"), [((2, 0.9999, 0.0), "0.0001"), ((256, 0.8, 0.0), "0.2")]
+)
+def test_a_crank_that_all_but_stops_or_trembles_is_refused(line, slowest):
+    engine = build(parse(make_uneven([line])))
     said = (
-        "operation.speed_ripple: the crank slows down to 0.0001 of its mean speed; what vibrates "
-        "there in time takes more samples than are computed; give a smaller amplitude"
+        f"operation.speed_ripple: the crank slows down to {slowest} of its mean speed; what "
+        "vibrates there in time takes more samples than are computed; give a smaller amplitude or "
+        "lower orders"
     )
     with pytest.raises(BalcliError, match=re.escape(said)):
-        compute_spectra_in_time(engine, np.array([1.0, 2.0]), ["force"])
+        compute_spectra_in_time(engine, np.arange(1.0, 501), ["force"])

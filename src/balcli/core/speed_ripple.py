@@ -105,24 +105,32 @@ def find_reach(timetable: Timetable, order: float) -> float:
     return float(np.minimum(felt, len(wave) - felt).max() * timetable.step)
 
 
-def count_in_time(phasors: Phasors, timetable: Timetable, orders: Array) -> Phasors:
-    """The curve of phasors over the crank angle by orders of the time: how often something happens
-    while the crank turns once on an average.
+def count_in_time(curves: Sequence[Phasors], timetable: Timetable, orders: Array) -> list[Phasors]:
+    """Curves over the crank angle by orders of the time: how often something happens while the
+    crank turns once on an average.
 
     Args:
-        phasors: without trailing axes, of all orders that count.
+        curves: without trailing axes, each of all orders that count.
         orders: (orders,) wanted, whole steps.
     """
+    felt = np.stack([_sample(curve, timetable) * timetable.stay for curve in curves])
+    found = np.empty((2, len(orders), len(curves)), complex)
+    for k, order in enumerate(orders):
+        wave = np.exp(1j * order * timetable.clock)
+        found[0, k] = np.mean(felt * wave.conj(), axis=1)
+        found[1, k] = np.mean(felt * wave, axis=1) if order else 0
+    sizes = [np.sum(np.abs(curve.vectors)) for curve in curves]
+    noises = [np.full(orders.shape, 8 * EPS * size) for size in sizes]
+    return [Phasors(orders, found[:, :, k], noise).drop_noise() for k, noise in enumerate(noises)]
+
+
+def _sample(curve: Phasors, timetable: Timetable) -> Complex:
+    """Values (samples,) at the crank angles of a timetable."""
     series = np.zeros(len(timetable.clock), complex)
-    rows = np.rint(phasors.orders / timetable.step).astype(int)
-    np.add.at(series, rows, phasors.forward)
-    np.add.at(series, -rows, phasors.backward)
-    curve = np.fft.ifft(series, norm="forward") * timetable.stay
-    waves = (np.exp(1j * order * timetable.clock) for order in orders)
-    both = np.array([(np.mean(curve * wave.conj()), np.mean(curve * wave)) for wave in waves])
-    forward, backward = both[:, 0], np.where(orders, both[:, 1], 0)
-    size = np.sum(np.abs(phasors.forward) + np.abs(phasors.backward))
-    return Phasors.of(orders, forward, backward, np.full(orders.shape, 8 * EPS * size)).drop_noise()
+    rows = np.rint(curve.orders / timetable.step).astype(int)
+    np.add.at(series, rows, curve.forward)
+    np.add.at(series, -rows, curve.backward)
+    return np.fft.ifft(series, norm="forward")
 
 
 def apply_to_force(steady: Phasors, w: Complex, mean: Figure = 0.0) -> Phasors:
