@@ -137,7 +137,8 @@ def climb_peaks(curve: Phasors, theta: Array, step: float) -> Array:
     """Newton's method for the maxima of |F|^2 beside the given angles, in steps of at most
     `step`.
     """
-    curves = (curve, curve.derivative, curve.derivative.derivative)
+    first = curve.derivative
+    curves = (curve, first, first.derivative)
     for _ in range(_CLIMBS):
         ahead: Complex = np.exp(1j * np.multiply.outer(theta, curve.orders))
         against = np.conj(ahead)

@@ -171,7 +171,8 @@ def _binomials(count: int) -> tuple[Array, Array]:
 
 
 def _gauss(m: Array, z: Figure) -> Array:
-    """Gauss's `F(-1/2, m-1/2; m+1; z)` for m as a column, shape (m, *z.shape), by Horner's rule.
+    """Gauss's `F(-1/2, m-1/2; m+1; z)` for m as a column, shape (m, *z.shape): of one z as
+    the sum of its terms, of several by Horner's rule.
 
     All terms after the first have one sign, and each is less than z times the one before.
     """
@@ -181,7 +182,7 @@ def _gauss(m: Array, z: Figure) -> Array:
     total: Figure = 1.0
     for last in range(terms, 0, -step):
         ratios = _ratios(last, max(last - step, 0), m.shape)
-        if isinstance(z, float):  # its products at once: a few calls instead of two a term
+        if isinstance(z, float):  # all terms at once: a few calls instead of two a term
             products = np.multiply.accumulate(ratios[::-1] * z)
             products[-1] *= total
             total = np.add.reduce(products[::-1]) + 1.0  # the smallest first
