@@ -113,7 +113,7 @@ def analyze_torque(
         loads: any of KINDS_OF_LOAD.
 
     Raises:
-        BalcliError: no gas; no such cylinder; the crank stalls; loads that are not known.
+        BalcliError: no gas; no such cylinder; loads that are not known.
         TypeError: what is no engine.
 
     Example:
