@@ -242,12 +242,14 @@ def test_what_a_single_plane_leaves_is_said(place):
     engine = build(parse(SMALL["vee"]))
     remedy = size(engine, "counterweights", SchemeOptions(planes=(place,)))
     after = compute_spectra(fit_devices(engine, remedy), [1], ("force", "moment"))
-    assert figures(remedy)["left force"] == pytest.approx(
+    assert figures(remedy)["force with crank left"] == pytest.approx(
         abs(after.force.forward[0]), rel=1e-9, abs=1e-9
     )
-    assert (figures(remedy)["left force"] > 1) == (place != 0)
-    assert figures(remedy)["left moment"] == pytest.approx(abs(after.moment.forward[0]), rel=1e-12)
-    assert figures(remedy)["left moment"] > 1
+    assert (figures(remedy)["force with crank left"] > 1) == (place != 0)
+    assert figures(remedy)["moment with crank left"] == pytest.approx(
+        abs(after.moment.forward[0]), rel=1e-12
+    )
+    assert figures(remedy)["moment with crank left"] > 1
     assert remedy.note.startswith("one plane, or planes at the same z, cannot take a moment")
 
 

@@ -60,7 +60,7 @@ def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Reme
     )
     left = fitting.find_residual(1)
     fitting = fitting.add_details(
-        Detail("left force", "force", left.size(FORWARD_FORCE)),
-        Detail("left moment", "moment", left.size(FORWARD_MOMENT)),
+        Detail("force with crank left", "force", left.size(FORWARD_FORCE)),
+        Detail("moment with crank left", "moment", left.size(FORWARD_MOMENT)),
     )
     return fitting.remedy._replace(note=SAME_PLACE if left.moment(1) else "")
