@@ -100,7 +100,8 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
         f"Permitted residual unbalance, ISO 21940-11, G {result.permitted.grade:g}",
         (head, f"{what}, {unit.name}", f"permitted, {unit.name}", last),
         rows,
-        f"A crankshaft of {result.permitted.mass:g} kg at {rpm:g} rpm; all share alike.",
+        f"A crankshaft of {number(system.mass.of(result.permitted.mass))} {system.mass.name} at "
+        f"{rpm:g} rpm; all share alike.",
     )
 
 

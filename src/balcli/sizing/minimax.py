@@ -43,17 +43,16 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
     noise = fitting.find_residual(1).noise[FORWARD_FORCE] * newtons_per_kg_m
     centred = abs(circle.centre) <= max(noise, circle.noise)
     nothing_gained = (
-        "no counterweight makes the largest force smaller than it is: "
-        f"{circle.radius:.5g} N, which has no part of order 1 turning with the crank"
+        "no counterweight makes the largest force smaller than it is: it has no part of order 1 "
+        "turning with the crank"
     )
     if centred and options.planes is None:
         raise NothingToBalanceError(nothing_gained)
     unbalance = 0j if centred else -circle.centre / newtons_per_kg_m
     slots, unbalances = _split(engine, options, fitting, unbalance)
     reason = (
-        f"The largest force over a revolution, all orders, becomes {circle.radius:.5g} N: no "
-        "weight on the crankshaft can make it smaller (smallest circle around the force as seen "
-        "from the crank)"
+        "The largest force over a revolution, all orders, becomes as small as a weight on the "
+        "crankshaft can make it (smallest circle around the force as seen from the crank)"
     )
     fitting = fitting.add(slots, unbalances, reason)
     half = _find_peak_of_half(fitting.engine)
