@@ -13,7 +13,7 @@ from ..torsion.damper_sizing import SizedDamper
 from ..torsion.response import Response
 from .sheet import Facts, Grid, Sheet, Text, number, order_name, size_text
 from .torsion_document import document, rows
-from .units import POWER, SI, STRESS, System, Unit
+from .units import HEAT_FLOW, SI, System, Unit
 
 __all__ = ["document", "rows", "sheet"]
 
@@ -52,7 +52,8 @@ _DAMPER_KEYS = {
 def _damper(sized: SizedDamper) -> Facts:
     """What to make, and what it does."""
     finite = [value for value in (sized.before, sized.after) if not math.isinf(value)]
-    unit = STRESS if sized.measure == "stress" else SI.moment.fit(max(finite))
+    kind = SI.stress if sized.measure == "stress" else SI.moment
+    unit = kind.fit(max(finite))
     before = "without bound" if math.isinf(sized.before) else _tell_swings(sized.before, unit)
     pairs = [("on", sized.node)]
     for key, value in sized.damper.model_dump(exclude={"kind"}, exclude_none=True).items():
@@ -65,7 +66,7 @@ def _damper(sized: SizedDamper) -> Facts:
     pairs.append((f"largest {sized.measure} with it", _tell_swings(sized.after, unit)))
     if sized.heat:
         pairs.append(
-            ("heat", f"up to {size_text(sized.heat, POWER)}, at {number(sized.heat_rpm)} rpm")
+            ("heat", f"up to {size_text(sized.heat, HEAT_FLOW)}, at {number(sized.heat_rpm)} rpm")
         )
     return Facts(tuple(pairs), f"Sized: a {sized.damper.kind} damper")
 

@@ -18,7 +18,7 @@ class Unit(NamedTuple):
         name: as it is written.
         size: how many SI units it is.
         larger: the unit in which people read large values.
-        most: value in this unit from which on they do.
+        most: value in this unit from which on they do; 0: always, and this one is for programs.
     """
 
     name: str
@@ -46,10 +46,20 @@ class System(NamedTuple):
     mass: Unit
     length: Unit
     volume: Unit
+    pressure: Unit
+    stress: Unit
+    energy: Unit
+    power: Unit
+    inertia: Unit
 
     def unit(self, kind: Kind) -> Unit:
         """The unit of a kind of force or moment."""
         return self.force if kind.dimension == "force" else self.moment
+
+    def instead_of(self, name: str) -> Unit:
+        """The unit that stands for the SI unit of this name; for rpm or degrees they themselves."""
+        pairs = zip(SI, self, strict=True)
+        return next((ours for si, ours in pairs if si.name == name), Unit(name, 1))
 
 
 SI = System(
@@ -59,18 +69,28 @@ SI = System(
     Unit("kg", 1),
     Unit("mm", 1e-3),
     Unit("cm³", 1e-6, Unit("litres", 1e-3), 10_000),
+    pressure=Unit("Pa", 1, Unit("bar", 1e5), 0),
+    stress=Unit("Pa", 1, Unit("N/mm²", 1e6), 0),
+    energy=Unit("J", 1, Unit("kJ", 1e3, Unit("MJ", 1e6), 5000), 5000),
+    power=Unit("W", 1, Unit("kW", 1e3), 0),
+    inertia=Unit("kg·m²", 1),
 )
+_LBF_FT = units.POUND_FORCE * 12 * INCH
+_PSI = Unit("psi", units.POUND_FORCE / INCH**2)
 IMPERIAL = System(
     Unit("lbf", units.POUND_FORCE),
-    Unit("lbf·ft", units.POUND_FORCE * 12 * INCH),
+    Unit("lbf·ft", _LBF_FT),
     Unit("oz·in", POUND / 16 * INCH),
     Unit("lb", POUND),
     Unit("in", INCH),
     Unit("in³", INCH**3),
+    pressure=_PSI,
+    stress=_PSI,
+    energy=Unit("lbf·ft", _LBF_FT),
+    power=Unit("hp", 550 * _LBF_FT),
+    inertia=Unit("lb·in²", POUND * INCH**2),
 )
-ENERGY = Unit("J", 1, Unit("kJ", 1e3, Unit("MJ", 1e6), 5000), 5000)
-POWER = Unit("W", 1, Unit("kW", 1e3, Unit("MW", 1e6), 5000), 5000)
-STRESS = Unit("N/mm²", 1e6)
+HEAT_FLOW = Unit("W", 1, Unit("kW", 1e3, Unit("MW", 1e6), 5000), 5000)
 SYSTEMS = {"si": SI, "imperial": IMPERIAL}
 
 

@@ -21,6 +21,7 @@ def draw_along(
     now_and_before: Sequence[AlongCrank],
     titles: tuple[str, str],
     unit: Unit,
+    length: Unit,
     steps: str = "default",
     over: str = "a revolution",
 ) -> None:
@@ -29,12 +30,14 @@ def draw_along(
     Args:
         now_and_before: one curve, or two to compare.
         titles: of the picture, and what is measured.
+        length: of the places.
         steps: how matplotlib joins the places; empty: columns.
         over: what the values are the largest of.
     """
     title, what = titles
     curves = [
-        (found.z_m * 1e3, np.array([p.value for p in found.peaks])) for found in now_and_before
+        (found.z_m / length.size, np.array([p.value for p in found.peaks]))
+        for found in now_and_before
     ]
     s = unit.fit(max((float(values.max()) for _, values in curves), default=0.0))
     looks: Any = (

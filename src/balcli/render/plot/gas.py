@@ -8,9 +8,8 @@ import numpy as np
 
 from ...core.phasors import Array, Complex
 from ...core.speed_variation import Surplus
-from ...enginefile.units import BAR
 from ...torque.pictures import MainLoads, PinLoads, Pressures, Torques
-from ..units import Unit
+from ..units import System, Unit
 from .axes import overlap
 from .legends import put_legend_above
 from .style import BLUE, FAINT, GREEN, INK, RED, SOFT
@@ -23,9 +22,10 @@ _MARKS = 8  # crank angles that are told along a locus, in a revolution
 _COLUMNS = 7  # of polar diagrams side by side
 
 
-def draw_pressure(ax: Axes, found: Pressures) -> None:
+def draw_pressure(ax: Axes, found: Pressures, unit: Unit) -> None:
     """Draw pressure over the cycle angle."""
-    ax.plot(found.cycle_deg, found.pressure / BAR, color=BLUE)
+    s = unit.fit(float(found.pressure.max()))
+    ax.plot(found.cycle_deg, found.pressure / s.size, color=BLUE)
     ax.axvline(0, color=SOFT, linewidth=0.7)
     first, last = (round(float(v)) for v in found.cycle_deg[[0, -1]])
     ax.set(
@@ -33,17 +33,19 @@ def draw_pressure(ax: Axes, found: Pressures) -> None:
         xticks=np.arange(first, last + 1, (last - first) // 8),
         ylim=(0, None),
         xlabel="cycle angle from the firing dead centre, deg",
-        ylabel="pressure, bar",
+        ylabel=f"pressure, {s.name}",
     )
     ax.set_title("Pressure in cylinder 1")
 
 
-def draw_p_v(ax: Axes, found: Pressures) -> None:
+def draw_p_v(ax: Axes, found: Pressures, system: System) -> None:
     """Draw pressure over volume."""
-    ax.plot(found.volume * 1e6, found.pressure / BAR, color=BLUE)
+    s = system.pressure.fit(float(found.pressure.max()))
+    v = system.volume.fit(float(found.volume.max()))
+    ax.plot(found.volume / v.size, found.pressure / s.size, color=BLUE)
     beside = "" if found.clearance_known else " above the smallest"
-    ax.set(xlim=(0, None), ylim=(0, None), ylabel="pressure, bar")
-    ax.set_xlabel(f"volume{beside}, cm³")
+    ax.set(xlim=(0, None), ylim=(0, None), ylabel=f"pressure, {s.name}")
+    ax.set_xlabel(f"volume{beside}, {v.name}")
     ax.set_title("Indicator diagram of cylinder 1")
 
 

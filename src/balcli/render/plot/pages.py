@@ -230,6 +230,7 @@ def _lay_out_inner(fig: Figure, subject: Subject) -> None:
         [b.shear for b in subject.bent],
         ("Shear force along the crankshaft", "force"),
         subject.system.force,
+        subject.system.length,
         "steps-post",
     )
     draw_along(
@@ -237,41 +238,47 @@ def _lay_out_inner(fig: Figure, subject: Subject) -> None:
         [b.bending for b in subject.bent],
         ("Bending moment", "moment"),
         subject.system.moment,
+        subject.system.length,
     )
     draw_along(
         bearings,
         [b.bearings for b in subject.bent if b.bearings],
         ("Inertia load of each main bearing", "force"),
         subject.system.force,
+        subject.system.length,
         "",
     )
-    bearings.set_xlabel("z, mm (free end on the left)")
+    bearings.set_xlabel(_name_places(subject.system))
     for ax in (shear, bending):
         ax.label_outer()
+
+
+def _name_places(system: System) -> str:
+    return f"z, {system.length.name} (free end on the left)"
 
 
 def _lay_out_inner_with_gas(fig: Figure, loads: Sequence[LoadsWithGas], system: System) -> None:
     shaft, block, bearings = fig.subplots(3, 1, sharex=True)
     titles = "Bending moment in the crankshaft, with gas", "moment"
-    over = "the cycle"
-    draw_along(shaft, [found.bending for found in loads], titles, system.moment, over=over)
+    over, z = "the cycle", system.length
+    draw_along(shaft, [found.bending for found in loads], titles, system.moment, z, over=over)
     titles = "Bending moment in the block, with gas", "moment"
-    draw_along(block, [found.block_bending for found in loads], titles, system.moment, over=over)
+    draw_along(block, [found.block_bending for found in loads], titles, system.moment, z, over=over)
     titles = "Load of each main bearing, with gas", "force"
-    draw_along(bearings, [found.bearings for found in loads], titles, system.force, "", over)
-    bearings.set_xlabel("z, mm (free end on the left)")
+    draw_along(bearings, [found.bearings for found in loads], titles, system.force, z, "", over)
+    bearings.set_xlabel(_name_places(system))
     for ax in (shaft, block):
         ax.label_outer()
 
 
 def _lay_out_pressure(fig: Figure, subject: Subject) -> None:
     if subject.gas is not None and subject.gas.pressures is not None:
-        draw_pressure(fig.subplots(), subject.gas.pressures)
+        draw_pressure(fig.subplots(), subject.gas.pressures, subject.system.pressure)
 
 
 def _lay_out_p_v(fig: Figure, subject: Subject) -> None:
     if subject.gas is not None and subject.gas.pressures is not None:
-        draw_p_v(fig.subplots(), subject.gas.pressures)
+        draw_p_v(fig.subplots(), subject.gas.pressures, subject.system)
 
 
 def _lay_out_torque(fig: Figure, subject: Subject) -> None:
