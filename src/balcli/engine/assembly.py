@@ -7,13 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from itertools import chain
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..core.cached_property import cached_property
 from ..core.cylinders import Cylinders
 from ..core.phasors import Array, Figure
+from ..core.speed_ripple import RippleLine
 from ..enginefile.model import EngineFile
 from . import firing
 from .arrays import column, shared_column
@@ -36,16 +37,6 @@ if TYPE_CHECKING:
     from .gas import EngineGas
 
 PISTON_PARTS = ("mass", "piston", "pin", "rings", "locks")  # keys of [piston] that are masses
-
-
-class Ripple(NamedTuple):
-    """One line of an uneven crank speed: `omega = mean (1 + sum amplitude cos(order theta -
-    angle))`.
-    """
-
-    order: float
-    amplitude: Figure
-    angle_deg: Figure
 
 
 class Assembly:
@@ -295,11 +286,11 @@ class Assembly:
 
     # ------------------------------------------------------------------ speed
     @cached_property
-    def ripple(self) -> tuple[Ripple, ...]:
+    def ripple(self) -> tuple[RippleLine, ...]:
         """Lines of the uneven speed; empty for a steady one."""
         take, path = self.figures.take, "operation.speed_ripple"
         return tuple(
-            Ripple(
+            RippleLine(
                 line.order,
                 take(f"{path}.{k}.amplitude", line.amplitude),
                 take(f"{path}.{k}.angle", line.angle),

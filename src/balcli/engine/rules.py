@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core import speed_ripple
 from ..core.mechanisms import harmonics
+from ..core.speed_ripple import RippleLine, find_slowest
 from ..errors import InputError, Problem
 from ..limits import MOST_SAMPLES
 from .assembly import Assembly
@@ -158,7 +158,7 @@ def check_speed(parts: Assembly) -> Iterator[Problem]:
         amplitudes, angles = variant[::2], variant[1::2]
         if sum(map(abs, amplitudes)) < 1 - STANDSTILL:
             continue
-        slowest = speed_ripple.find_slowest(list(zip(orders, amplitudes, angles, strict=True)))
+        slowest = find_slowest(list(map(RippleLine, orders, amplitudes, angles)))
         if slowest.value <= STANDSTILL:
             told = _describe_standstill(slowest.value, slowest.theta)
             yield Problem("operation.speed_ripple", told)
