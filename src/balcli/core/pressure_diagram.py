@@ -82,7 +82,7 @@ def pressure_diagram(
     )
 
 
-def mistakes(
+def find_diagram_mistakes(
     angle_deg: ArrayLike, pressure: ArrayLike, *, strokes: int = 4
 ) -> Iterator[DiagramMistake]:
     """All that is wrong with the rows of a diagram; arguments as of `pressure_diagram`."""

@@ -20,7 +20,7 @@ from . import firing
 from .arrays import column, shared_column
 from .figures import (
     NOTHING,
-    Figures,
+    FileFigures,
     OwnFigures,
     RodFigures,
     either,
@@ -62,7 +62,7 @@ class Assembly:
         known_gas: EngineGas | None = None,
     ) -> None:
         self.model, self._known_gas = model, known_gas
-        self.figures = Figures(varied or {}, model)
+        self.figures = FileFigures(varied or {}, model)
         self.rank = max(rank, *map(np.ndim, (varied or {}).values()), 0)
         self.legible = frozenset(legible)
         self._gears: dict[tuple[int, bool], RunningGear] = {}
@@ -390,14 +390,14 @@ class Assembly:
         table, masters, axes = self.model.articulation, self.masters, self.axes_deg
         if table is None:
             return None
-        from .articulation import Knuckles, build_linkage
+        from .articulation import KnucklePins, build_linkage
 
         angles = {n: axes[n] - axes[master] for n, master in masters.items()}
         if (given := self.knuckle_angles_deg) is not None:
             angles = {c.number: given[c.bank] for c in self.plan.cells if c.number in masters}
         radius_mm = self.figures.take("articulation.knuckle_radius", table.knuckle_radius)
         stroke_mm = self.figures.take("crank.stroke", self.model.crank.stroke)
-        knuckles = Knuckles(radius_mm / (stroke_mm / 2), angles, masters)
+        knuckles = KnucklePins(radius_mm / (stroke_mm / 2), angles, masters)
         big_ends = [self.gears[n].big_end for n in self.numbers]
         return build_linkage(knuckles, self.numbers, axes, big_ends, self.sense, self.rank)
 

@@ -22,7 +22,7 @@ from .rods import (
     RodPlace,
     RunningGear,
     check_ends,
-    check_inertia,
+    check_rod_inertia,
     check_turning,
     weigh_rod,
 )
@@ -121,7 +121,7 @@ def _check_rod(parts: Assembly, place: RodPlace) -> Iterator[Problem]:
     if gear is None:
         return
     if not one_end:
-        yield from check_inertia(place, gear)
+        yield from check_rod_inertia(place, gear)
     if "crank" in parts.legible and not place.articulated:
         yield from check_turning(place, gear, parts.radius)
 

@@ -144,7 +144,7 @@ def refuse_too_many_loads(engine: Engine, orders: int, loads: int) -> None:
         )
 
 
-def count_samples(engine: Engine) -> int:
+def count_engine_samples(engine: Engine) -> int:
     """About how many samples of revolutions the mechanisms of an engine, or of variants, take."""
     c = engine.cylinders
     sampled = c.linkage is not None or np.count_nonzero(c.eps)

@@ -14,12 +14,12 @@ from ..forces.spectrum import Spectra
 from ..torque.analysis import KINDS_OF_TORQUE, TorqueAnalysis, degrees_in_cycle
 from ..torque.flywheel import Flywheel, Speed
 from ..torque.given_curve import CurveAnalysis
-from ..torque.loads import Load
+from ..torque.loads import CycleLoad
 from .engine_facts import list_silent, tell_strokes
 from .figures import peak_deg
 from .sheet import NAMELESS, Facts, Grid, Sheet, degrees, number, order_name
 from .torque_document import Result, document, round_angle, rows
-from .units import ENERGY, System, Unit
+from .units import ENERGY, ShownUnit, System
 
 __all__ = ["document", "rows", "sheet"]
 
@@ -63,12 +63,12 @@ def _load_tables(result: TorqueAnalysis, system: System) -> Iterator[Grid]:
 
 
 def _load_table(
-    title: str, word: str, loads: tuple[Load, ...], cycle_deg: float, system: System
+    title: str, word: str, loads: tuple[CycleLoad, ...], cycle_deg: float, system: System
 ) -> Grid:
     unit = system.force.fit(max(load.largest.value for load in loads))
     pressed = all(load.pressure is not None for load in loads)
 
-    def row(load: Load) -> Iterator[str]:
+    def row(load: CycleLoad) -> Iterator[str]:
         yield str(load.name)
         yield number(unit.of(load.largest.value))
         yield tenths(degrees_in_cycle(load.largest.angle, cycle_deg))
@@ -219,7 +219,7 @@ def _nothing(spectra: Spectra, k: int) -> bool:
     return all(phasors.balanced[k] for _, phasors in spectra.items())
 
 
-def _amplitude(c: complex, order: float, unit: Unit) -> tuple[str, str]:
+def _amplitude(c: complex, order: float, unit: ShownUnit) -> tuple[str, str]:
     at = peak_deg(c, order)
     return (number(unit.of(abs(c)), 5), "–" if at is None else degrees(at)) if c else ("0", "")
 

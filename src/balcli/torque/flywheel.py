@@ -56,7 +56,7 @@ class Flywheel(NamedTuple):
     stall: str = ""
 
 
-class Question(NamedTuple):
+class FlywheelQuestion(NamedTuple):
     """What is asked of a shaft.
 
     Attributes:
@@ -76,7 +76,7 @@ class Question(NamedTuple):
     fluctuation: float | None
 
 
-def find_flywheel(question: Question) -> Flywheel | None:
+def find_flywheel(question: FlywheelQuestion) -> Flywheel | None:
     """What inertia does for the speed; None where nothing of it is known or asked.
 
     Raises:
@@ -107,7 +107,7 @@ def find_flywheel(question: Question) -> Flywheel | None:
         return Flywheel(mean, moving, None, needed, f"{error}")
 
 
-def _find_speed(q: Question, mean_speed: float, mean_inertia: float) -> Speed:
+def _find_speed(q: FlywheelQuestion, mean_speed: float, mean_inertia: float) -> Speed:
     found = speed_variation(q.torque, _inertia(q.constant or 0.0, q.moving), mean_speed)
     return Speed(
         found.fluctuation,
