@@ -294,6 +294,7 @@ OF_THE_SAME_THING = [
         r"(mounting|torque|torsion|forces)/\w*quantity\.py",  # chapters, as sweeps call them
         r"Variants|evaluate_engine|list_names|parse_quantity|refuse_unknown",
     ),
+    (r"\w+/starting_file\.py", r"read_starting_file"),  # one of each kind, for `new`
     (r"core/mechanisms/\w+\.py", r".*"),  # the same figure by another method
 ]
 

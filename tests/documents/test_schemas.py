@@ -16,8 +16,8 @@ from support.paths import ENGINES
 from balcli import __version__
 from balcli.documents.names import DOCUMENTS
 from balcli.documents.schema import describe_document
-from balcli.field_balancing.starting_file import read_starting_runs as read_runs
-from balcli.torsion.starting_file import read_starting_runs as read_chain
+from balcli.field_balancing.starting_file import read_starting_file as read_runs
+from balcli.torsion.starting_file import read_starting_file as read_chain
 
 FILES = sorted(path for path in ENGINES.rglob("*.toml"))
 I4, V8, SINGLE = ENGINES / "i4.toml", ENGINES / "v8_wiebe.toml", ENGINES / "single.toml"

@@ -11,7 +11,7 @@ from support.engines import GOOD, changed
 
 from balcli.core.phasors import EPS
 from balcli.engine.build import build
-from balcli.engine.load import parse_parameter as load
+from balcli.engine.load import parse as load
 from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
 from balcli.render.sweep import sweep_csv, sweep_json

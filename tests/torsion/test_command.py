@@ -13,7 +13,7 @@ from support import chains
 from support.commands import refusal, run_here, run_in_terminal
 from support.paths import ENGINES
 
-from balcli.torsion.starting_file import read_starting_chain
+from balcli.torsion.starting_file import read_starting_file
 
 
 def node(name, inertia_kg_m2, more=""):
@@ -85,7 +85,7 @@ def test_forced_vibration_against_50_digits(kind):
 
 
 def test_the_starting_file_shows_every_part():
-    text = read_starting_chain()
+    text = read_starting_file()
     assert text == run_here("new", "torsion").out
     status, out, err = run_here(
         "torsion", "-", "--speeds", "1000:2500:25", "--holzer", "1", stdin=text
@@ -98,7 +98,7 @@ def test_the_starting_file_shows_every_part():
 
 def test_a_terminal_of_80_columns_shows_all(tmp_path):
     path = tmp_path / "chain.toml"
-    path.write_text(read_starting_chain(), encoding="utf-8")
+    path.write_text(read_starting_file(), encoding="utf-8")
     out = run_in_terminal("torsion", path, "--speeds", "1000:2500:25", "--holzer", "1").out
     plain = re.sub(r"\x1b\[[0-9;]*m", "", out)
     assert max(map(len, plain.splitlines())) <= 80
@@ -107,8 +107,8 @@ def test_a_terminal_of_80_columns_shows_all(tmp_path):
 
 def test_csv_lists_the_figures_of_json():
     options = ("--speeds", "1000:1100:50", "--holzer", "2")
-    said = ask(read_starting_chain(), *options)
-    table = run_here("torsion", "-", *options, "-f", "csv", stdin=read_starting_chain()).out
+    said = ask(read_starting_file(), *options)
+    table = run_here("torsion", "-", *options, "-f", "csv", stdin=read_starting_file()).out
     lines = list(csv.DictReader(StringIO(table)))
     found = [float(x["value"]) for x in lines if x["part"] == "mode" and x["figure"] == "frequency"]
     assert found == [mode["frequency_Hz"] for mode in said["modes"]]
@@ -126,7 +126,7 @@ def test_csv_lists_the_figures_of_json():
 
 def test_limits_bar_speeds_between_the_steps():
     """The ends of a barred range do not depend on the step; at both the limit is just met."""
-    text = read_starting_chain().replace("limit = 40", "limit = 12", 1)
+    text = read_starting_file().replace("limit = 40", "limit = 12", 1)
     coarse, fine = (ask(text, "--speeds", f"2000:2600:{step}") for step in (600, 10))
     assert len(fine["barred_rpm"]) == 1
     assert coarse["barred_rpm"][0] == pytest.approx(fine["barred_rpm"][0], abs=0.01)
@@ -137,7 +137,7 @@ def test_limits_bar_speeds_between_the_steps():
 
 
 def test_a_swing_can_be_the_limit():
-    text = read_starting_chain().replace("limit = 40", "angle_limit = 0.1", 1)
+    text = read_starting_file().replace("limit = 40", "angle_limit = 0.1", 1)
     said = ask(text, "--speeds", "800:1600:20")
     (span,) = said["barred_rpm"]
     assert span[0] == 800
@@ -145,7 +145,7 @@ def test_a_swing_can_be_the_limit():
 
 
 def test_what_nothing_damps_is_told_with_its_speed():
-    text = read_starting_chain().replace("loss = 0.02", "loss = 0").replace("loss = 0.03", "")
+    text = read_starting_file().replace("loss = 0.02", "loss = 0").replace("loss = 0.03", "")
     text = text.replace("damping = 1.5", "")
     assert refusal("torsion", "-", "--speeds", "1000:2500", stdin=text) == (
         "pump drive: the natural frequency of 77.1782 Hz is excited by order 2 at 2315.35 rpm and "
@@ -294,12 +294,12 @@ def test_a_tuned_pendulum_holds_its_node_still():
     ],
 )
 def test_options_that_cannot_be(options, message):
-    assert refusal("torsion", "-", *options, stdin=read_starting_chain()) == message
+    assert refusal("torsion", "-", *options, stdin=read_starting_file()) == message
 
 
 def test_trial_frequencies_have_units():
     tables = ask(
-        read_starting_chain(),
+        read_starting_file(),
         *(
             "--holzer",
             "20 rad/s",
@@ -313,7 +313,7 @@ def test_trial_frequencies_have_units():
 
 
 def test_orders_are_those_asked_for():
-    said = ask(read_starting_chain(), "--speeds", "2315", "--orders", "3-8")
+    said = ask(read_starting_file(), "--speeds", "2315", "--orders", "3-8")
     assert said["criticals"] == []  # order 4 meets no mode at this speed
     assert [x["order"] for x in said["response"]["shafts"][0]["worst"]["orders"]] == [4]
 
@@ -361,20 +361,20 @@ def test_loops_have_no_holzer_table():
 
 
 def test_markdown_has_the_same_tables():
-    out = run_here("torsion", "-", "-f", "markdown", stdin=read_starting_chain()).out
+    out = run_here("torsion", "-", "-f", "markdown", stdin=read_starting_file()).out
     assert "| mode | Hz | 1/min | nodes | node in |" in out
 
 
 def test_progress_says_nothing_where_nobody_looks():
     status, _, err = run_here(
-        "torsion", "-", "--speeds", "1000:1100", "--progress", stdin=read_starting_chain()
+        "torsion", "-", "--speeds", "1000:1100", "--progress", stdin=read_starting_file()
     )
     assert (status, err.strip()) == (0, "")
 
 
 def test_more_torques_than_are_kept_are_refused_with_the_number(monkeypatch):
     monkeypatch.setattr("balcli.torsion.motion.MOST_TORSION_TORQUES", 800)
-    assert refusal("torsion", "-", "--speeds", "1000:2000", stdin=read_starting_chain()) == (
+    assert refusal("torsion", "-", "--speeds", "1000:2000", stdin=read_starting_file()) == (
         "2 orders at 101 speeds in 4 shafts are 808 torques, and at most 800 are kept: take fewer "
         "speeds or orders"
     )

@@ -11,7 +11,7 @@ import pytest
 from support.commands import refusal, run_here
 from support.diesel import write_diesel
 
-from balcli.torsion.starting_file import read_starting_chain
+from balcli.torsion.starting_file import read_starting_file
 
 RANGE = ("--speeds", "850:1150:0.5")
 # 1 kg m2 on a spring with a natural frequency of 1000 rpm, excited by 100 N m
@@ -220,7 +220,7 @@ def test_dampers_of_unlikely_size(options, told):
 
 def test_a_damper_that_cannot_be_is_told_in_words():
     """A shaft as thin as a few atoms asks for next to no damping."""
-    thin = read_starting_chain().replace("diameter = 55", "diameter = 5.5e-8")
+    thin = read_starting_file().replace("diameter = 55", "diameter = 5.5e-8")
     told = run_here(
         "torsion", "-", *RANGE, "--damper", "viscous", "--damper-at", "pump", stdin=thin
     )
@@ -236,7 +236,7 @@ def test_a_damper_that_cannot_be_is_told_in_words():
 @pytest.mark.parametrize("line_end", ["\n", "\r\n"])
 def test_what_is_written_does_what_was_said(tmp_path, line_end):
     chain, fitted = tmp_path / "chain.toml", tmp_path / "fitted.toml"
-    text = read_starting_chain()
+    text = read_starting_file()
     chain.write_bytes(text.replace("\n", line_end).encode())
     options = ("--speeds", "1500:2600:20", "--format", "json")
     sized = run_here("torsion", chain, *options, "--damper", "viscous", "--write", fitted)
@@ -360,7 +360,7 @@ def test_pictures_show_what_is_asked_and_are_the_same_for_the_same_question(tmp_
 
 def test_pictures_without_a_range_show_modes_and_criticals(tmp_path):
     picture = tmp_path / "chain.svg"
-    status, *_ = run_here("torsion", "-", "--plot", picture, stdin=read_starting_chain())
+    status, *_ = run_here("torsion", "-", "--plot", picture, stdin=read_starting_file())
     assert status == 0
     text = picture.read_text()
     assert "Shapes of modes" in text

@@ -102,7 +102,7 @@ def gas_cycle(piston: GasPiston, process: Process, burn: Burn, goal: Goal) -> Ga
     """The cycle that has what `goal` asks for.
 
     Raises:
-        GasError: the first of `mistakes`, or a goal that no heat can reach.
+        GasError: the first that `find_cycle_mistakes` finds, or a goal that no heat can reach.
     """
     for mistake in find_cycle_mistakes(piston, process, burn, goal):
         raise mistake

@@ -182,7 +182,7 @@ class Engine:
     def _repr_html_(self) -> str:
         from importlib import import_module
 
-        return import_module("balcli.render.notebook").show(self)
+        return import_module("balcli.render.notebook").show_in_notebook(self)
 
     @property
     def omega(self) -> Figure:

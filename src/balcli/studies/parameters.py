@@ -131,10 +131,11 @@ def parse_parameter(text: str, model: EngineFile) -> Parameter:
 
 def choose_values(path: str, values: Any, model: EngineFile) -> Parameter:
     """A number of the file by its name, and its values: numbers in the unit of the file, or texts
-    with units; one, or a list or array of them; or a text as of `parse` ("0.24:0.32:0.01").
+    with units; one, or a list or array of them; or a text as of `parse_parameter`, such as
+    "0.24:0.32:0.01".
 
     Raises:
-        BalcliError: as of `parse`.
+        BalcliError: as of `parse_parameter`.
         TypeError: what is none of these.
     """
     if isinstance(values, str):

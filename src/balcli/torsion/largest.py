@@ -148,7 +148,7 @@ def find_largest_of_all(
     shafts: Sequence[int],
     weights: Real,
 ) -> float:
-    """The highest that `find_largest` finds of some shafts, each multiplied by its weight
+    """The highest that `find_largest_torques` finds of some shafts, each multiplied by its weight
     (shafts,); in less time.
     """
     return float(

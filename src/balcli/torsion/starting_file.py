@@ -7,6 +7,6 @@ from pathlib import Path
 KIND = "torsion"  # what `balcli new` and `balcli schema` call such a file
 
 
-def read_starting_chain() -> str:
+def read_starting_file() -> str:
     """Its text, TOML."""
     return Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")
