@@ -152,10 +152,10 @@ def analyze_given(
     units: Units,
 ) -> CurveAnalysis:
     """A torque from a file."""
-    from ..torque.given_curve import Shaft, analyze_curve, read_curve
+    from ..torque.given_curve import DrivenShaft, analyze_curve, read_curve
 
     rpm = parse_speed(speed)
-    shaft = Shaft(
+    shaft = DrivenShaft(
         None if rpm is None else rpm * RPM,
         None if inertia is None else read_inertia("--inertia", inertia, units),
     )

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, Problem
-from .model import EngineFile, Table, label_table
+from .model import EngineFile, FileTable, label_table
 
 
 def normalize_tables(tables: Mapping[Any, Any], name: str = "") -> dict[str, Any]:
@@ -56,7 +56,7 @@ def list_tables(model: EngineFile) -> dict[str, Any]:
 
 
 def _write(value: Any) -> Any:
-    if isinstance(value, Table):
+    if isinstance(value, FileTable):
         fields = type(value).model_fields
         given = [(key, getattr(value, key)) for key in fields if key in value.model_fields_set]
         return {fields[key].alias or key: _write(part) for key, part in given if part is not None}
@@ -112,7 +112,8 @@ def _descend(place: Any, given: Any, keys: Sequence[str], path: str) -> tuple[An
 def _find_member(place: Sequence[Any], given: Any, key: str, path: str) -> int:
     """Which member of a list a number (from 1) or a name means."""
     labels = [
-        label_table(one, k) if isinstance(one, Table) else str(k) for k, one in enumerate(given, 1)
+        label_table(one, k) if isinstance(one, FileTable) else str(k)
+        for k, one in enumerate(given, 1)
     ]
     if key in labels:
         return labels.index(key)
@@ -122,5 +123,5 @@ def _find_member(place: Sequence[Any], given: Any, key: str, path: str) -> int:
 
 
 def _find_rivals(given: Any, key: str) -> tuple[str, ...]:
-    choices = given.choices if isinstance(given, Table) else ()
+    choices = given.choices if isinstance(given, FileTable) else ()
     return tuple(rival for choice in choices for rival in choice.rivals(key))

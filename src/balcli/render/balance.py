@@ -41,7 +41,7 @@ from .sheet import (
     number,
     order_name,
 )
-from .units import SI, System, Unit
+from .units import SI, ShownUnit, System
 
 
 def sheet(result: Balance, system: System) -> Sheet:
@@ -150,7 +150,7 @@ def _orders(result: Balance, system: System) -> Grid:
     )
 
 
-def _fit(result: Balance, kind: Kind, system: System) -> Unit:
+def _fit(result: Balance, kind: Kind, system: System) -> ShownUnit:
     """The unit for the largest value of the kind."""
     both = (result.before.spectra[kind.name], result.after.spectra[kind.name])
     return system.unit(kind).fit(max(float(p.major.max(initial=0)) for p in both))
@@ -176,7 +176,7 @@ def _peaks(result: Balance, system: System) -> Grid:
     )
 
 
-def _peak(peak: Peak, unit: Unit) -> tuple[str, str]:
+def _peak(peak: Peak, unit: ShownUnit) -> tuple[str, str]:
     if not peak.value:
         return NOTHING, ""
     return number(unit.of(peak.value)), degrees(float(np.degrees(peak.theta)))

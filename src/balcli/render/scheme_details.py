@@ -13,7 +13,7 @@ from ..sizing.scheme_figures import Bobweight, FactorPeaks, Optima, PlaneNeed
 from .bobweights import group_equal_pins, multiply, name_pins, percent
 from .scheme_details_document import list_optimum
 from .sheet import NEGLIGIBLE, Facts, Grid, degrees, number, size_text
-from .units import System, Unit
+from .units import ShownUnit, System
 
 # Labels of the roll without and with shafts.
 ROLLS = ("roll before", "roll left")
@@ -99,7 +99,7 @@ def _figure(value: float, dimension: Dimension, system: System) -> str:
         return f"{number(1e3 * value)} g"
     if dimension == "angle":
         return f"{value + 0.0:.3f} deg".replace("-0.000", "0.000")
-    unit: Unit = getattr(system, dimension)
+    unit: ShownUnit = getattr(system, dimension)
     return f"{number(unit.of(value))} {unit.name}"
 
 

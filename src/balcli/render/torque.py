@@ -13,12 +13,12 @@ from ..forces.spectrum import Spectra
 from ..torque.analysis import KINDS_OF_TORQUE, TorqueAnalysis, degrees_in_cycle
 from ..torque.flywheel import Flywheel, Speed
 from ..torque.given_curve import CurveAnalysis
-from ..torque.loads import Load
+from ..torque.loads import CycleLoad
 from .engine_facts import list_silent, tell_strokes
 from .figures import peak_deg
-from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number, order_name
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number, order_name, size_text
 from .torque_document import Result, document, round_angle, rows
-from .units import System, Unit
+from .units import ShownUnit, System
 
 __all__ = ["document", "rows", "sheet"]
 
@@ -48,10 +48,9 @@ def tenths(angle_deg: float) -> str:
     return f"{round(angle_deg, 6) + 0.0:.1f}"
 
 
-def _size(value: float, unit: Unit) -> str:
-    """A value (SI) in the unit that fits it, with its name."""
-    fitting = unit.fit(value)
-    return f"{number(fitting.of(value))} {fitting.name}"
+def _size(value: float, unit: ShownUnit) -> str:
+    """As `size_text`, with as many digits as most figures."""
+    return size_text(value, unit, None)
 
 
 def _load_tables(result: TorqueAnalysis, system: System) -> Iterator[Grid | Text]:
@@ -70,14 +69,14 @@ def _load_tables(result: TorqueAnalysis, system: System) -> Iterator[Grid | Text
 
 
 def _load_table(
-    title: str, word: str, loads: tuple[Load, ...], cycle_deg: float, system: System
+    title: str, word: str, loads: tuple[CycleLoad, ...], cycle_deg: float, system: System
 ) -> Grid:
     unit = system.force.fit(max(load.largest.value for load in loads))
     pressures = [load.pressure for load in loads if load.pressure is not None]
     pressed = len(pressures) == len(loads)
     stress = system.stress.fit(max(pressures, default=0.0))
 
-    def row(load: Load) -> Iterator[str]:
+    def row(load: CycleLoad) -> Iterator[str]:
         yield str(load.name)
         yield number(unit.of(load.largest.value))
         yield tenths(degrees_in_cycle(load.largest.angle, cycle_deg))
@@ -115,11 +114,10 @@ def _mean_pairs(
 ) -> Iterator[tuple[str, str]]:
     """Mean torque and power, with the share of them that each kind is, such as " brake"."""
 
-    def told(value: float, unit: Unit) -> str:
-        fitting = unit.fit(value)
-        name = fitting.name
-        figure = fitting.of(value)
-        return ", ".join(f"{number(figure * share)} {name}{kind}" for kind, share in kinds.items())
+    def told(value: float, unit: ShownUnit) -> str:
+        of_all = unit.fit(value)
+        sizes = ((number(of_all.of(share * value)), kind) for kind, share in kinds.items())
+        return ", ".join(f"{size} {of_all.name}{kind}" for size, kind in sizes)
 
     yield "mean torque", told(mean, system.moment)
     if power is not None:
@@ -231,7 +229,7 @@ def _nothing(spectra: Spectra, k: int) -> bool:
     return all(phasors.balanced[k] for _, phasors in spectra.items())
 
 
-def _amplitude(c: complex, order: float, unit: Unit) -> tuple[str, str]:
+def _amplitude(c: complex, order: float, unit: ShownUnit) -> tuple[str, str]:
     at = peak_deg(c, order)
     return (number(unit.of(abs(c)), 5), "–" if at is None else degrees(at)) if c else ("0", "")
 

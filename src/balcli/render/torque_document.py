@@ -17,7 +17,7 @@ from ..forces.kinds import TORQUE_TOTAL
 from ..torque.analysis import TorqueAnalysis, degrees_in_cycle
 from ..torque.flywheel import Flywheel
 from ..torque.given_curve import CurveAnalysis
-from ..torque.loads import Load
+from ..torque.loads import CycleLoad
 from .csv import Rows
 from .figures import Entry, FigureRow, clean, kind_entries, order_entries, order_rows, peak_deg
 from .sheet import order_number
@@ -180,7 +180,7 @@ def _curve_orders(result: CurveAnalysis) -> Iterator[tuple[float, Entry]]:
         )
 
 
-def _list_loads(result: TorqueAnalysis) -> Iterator[tuple[str, str, tuple[Load, ...]]]:
+def _list_loads(result: TorqueAnalysis) -> Iterator[tuple[str, str, tuple[CycleLoad, ...]]]:
     """Kinds of loads that were asked for and are known, and what bears each of them."""
     told = result.loads
     pins = ("pin", "cylinder", told.pin), ("knuckle", "cylinder", told.knuckle)
@@ -198,7 +198,7 @@ def _load_entries(result: TorqueAnalysis) -> dict[str, Any]:
     return {"loads": found} if found else {}
 
 
-def _load_entry(bearer: str, load: Load, cycle_deg: float) -> dict[str, Any]:
+def _load_entry(bearer: str, load: CycleLoad, cycle_deg: float) -> dict[str, Any]:
     entry: dict[str, Any] = {bearer: load.name}
     if bearer == "bearing":
         entry["position_mm"] = clean(load.z_m * 1e3)

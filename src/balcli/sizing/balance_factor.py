@@ -38,7 +38,7 @@ OWN_PLACES = (
 )
 
 
-class PinLoad(NamedTuple):
+class PinUnbalance(NamedTuple):
     """What one crank pin asks for.
 
     Attributes:
@@ -286,7 +286,7 @@ def _find_counterweights(engine: Engine) -> tuple[Array, Complex]:
     return places, np.array([complex(device.forward) for device in own], complex)
 
 
-def _list_loads(engine: Engine, factor: float) -> list[PinLoad]:
+def _list_loads(engine: Engine, factor: float) -> list[PinUnbalance]:
     """What each crank pin asks for; pins that carry nothing are left out."""
     loads = []
     for rows in engine.rows_by_pin:
@@ -298,7 +298,9 @@ def _list_loads(engine: Engine, factor: float) -> list[PinLoad]:
         pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
         cylinders = tuple(engine.numbers[row] for row in rows)
         unbalance = total * float(engine.cylinders.radius) * pin
-        loads.append(PinLoad(cylinders, unbalance, _find_centre(masses, engine.cylinders.z[rows])))
+        loads.append(
+            PinUnbalance(cylinders, unbalance, _find_centre(masses, engine.cylinders.z[rows]))
+        )
     return loads
 
 

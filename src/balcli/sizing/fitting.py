@@ -13,7 +13,7 @@ from .details import Detail
 from .effects import LEFT, Slot, solve_exactly
 from .planes import SAME_PLACE
 from .remedy import Remedy, fit_devices
-from .residual import Part, Residual, find_residual, hold_steady
+from .residual import Residual, ResidualPart, find_residual, hold_steady
 
 
 class Fitting(NamedTuple):
@@ -55,7 +55,7 @@ class Fitting(NamedTuple):
     def cancel(
         self,
         slots: Sequence[Slot],
-        parts: Sequence[Part],
+        parts: Sequence[ResidualPart],
         reason: str,
         residual: Residual | None = None,
     ) -> Fitting:

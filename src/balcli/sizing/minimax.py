@@ -16,10 +16,10 @@ from ..engine.build import Engine
 from ..errors import BalcliError
 from .balance_factor import find_curve, find_factor_peaks
 from .details import Detail
-from .effects import Slot, solve
+from .effects import Slot, size_unbalances
 from .fitting import Fitting
 from .options import SchemeOptions
-from .planes import SAME_PLACE, find_middle, read_planes
+from .planes import SAME_PLACE, find_crank_middle, read_planes
 from .remedy import Remedy
 from .residual import FORWARD, FORWARD_FORCE, NothingToBalanceError
 
@@ -73,12 +73,12 @@ def _split(
     such that no moment of order 1 turning with the crank is left.
     """
     if options.planes is None:
-        z = find_middle(engine) if options.position is None else options.position
+        z = find_crank_middle(engine) if options.position is None else options.position
         return [Slot("counterweight", 1, 1, z)], [unbalance]
     slots = [Slot("counterweight", 1, 1, z) for z in read_planes(engine, options)]
     residual = fitting.find_residual(1)
     wanted = residual._replace(parts={**residual.parts, FORWARD_FORCE: -unbalance})
-    fit = solve(slots, wanted, FORWARD)
+    fit = size_unbalances(slots, wanted, FORWARD)
     if fit.left > _LEFT:
         raise BalcliError(f"--planes: {SAME_PLACE}")
     return slots, fit.unbalances

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...forces.crankshaft import AlongCrank
-from ..units import Unit
+from ..units import ShownUnit
 from .legends import put_legend_above
 from .style import BLUE, SOFT
 
@@ -20,8 +20,8 @@ def draw_along(
     ax: Axes,
     now_and_before: Sequence[AlongCrank],
     titles: tuple[str, str],
-    unit: Unit,
-    length: Unit,
+    unit: ShownUnit,
+    length: ShownUnit,
     steps: str = "default",
     over: str = "a revolution",
 ) -> None:

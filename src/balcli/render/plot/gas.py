@@ -9,7 +9,7 @@ import numpy as np
 from ...core.phasors import Array, Complex
 from ...core.speed_variation import Surplus
 from ...torque.pictures import MainLoads, PinLoads, Pressures, Torques
-from ..units import System, Unit
+from ..units import ShownUnit, System
 from .axes import overlap
 from .legends import put_legend_above
 from .style import BLUE, FAINT, GREEN, INK, RED, SOFT
@@ -22,7 +22,7 @@ _MARKS = 8  # crank angles that are told along a locus, in a revolution
 _COLUMNS = 7  # of polar diagrams side by side
 
 
-def draw_pressure(ax: Axes, found: Pressures, unit: Unit) -> None:
+def draw_pressure(ax: Axes, found: Pressures, unit: ShownUnit) -> None:
     """Draw pressure over the cycle angle."""
     s = unit.fit(float(found.pressure.max()))
     ax.plot(found.cycle_deg, found.pressure / s.size, color=BLUE)
@@ -49,7 +49,7 @@ def draw_p_v(ax: Axes, found: Pressures, system: System) -> None:
     ax.set_title("Indicator diagram of cylinder 1")
 
 
-def draw_torque(ax: Axes, found: Torques, unit: Unit) -> None:
+def draw_torque(ax: Axes, found: Torques, unit: ShownUnit) -> None:
     """Draw gas, inertia and total torque, the surplus areas above and below the mean, and where the
     crank is slowest and fastest.
     """
@@ -89,7 +89,7 @@ def _mark_speeds(ax: Axes, surplus: Surplus, cycle: int, mean: float) -> None:
         )
 
 
-def draw_pin(fig: Figure, found: PinLoads, unit: Unit) -> None:
+def draw_pin(fig: Figure, found: PinLoads, unit: ShownUnit) -> None:
     """Draw the load of crank pin 1 as the crank feels it, and as the rod does."""
     left, right = fig.subplots(1, 2)
     _draw_polar(left, found.in_crank, found.crank_deg, unit)
@@ -100,7 +100,7 @@ def draw_pin(fig: Figure, found: PinLoads, unit: Unit) -> None:
     right.set(xlabel="across the rod", ylabel="along the rod, to the piston")
 
 
-def draw_main(fig: Figure, found: MainLoads, unit: Unit) -> None:
+def draw_main(fig: Figure, found: MainLoads, unit: ShownUnit) -> None:
     """Draw the load of every main bearing as the block feels it, and as the shaft does."""
     count = len(found.in_block)
     columns = min(count, _COLUMNS)
@@ -119,7 +119,7 @@ def draw_main(fig: Figure, found: MainLoads, unit: Unit) -> None:
 
 
 def _draw_polar(
-    ax: Axes, force: Complex, crank_deg: Array, unit: Unit, limit: float | None = None
+    ax: Axes, force: Complex, crank_deg: Array, unit: ShownUnit, limit: float | None = None
 ) -> None:
     """Draw the way of a force's tip, x up and y to the right, with crank angles along it."""
     half = 1.1 * float(np.abs(force).max()) if limit is None else limit
